@@ -92,7 +92,7 @@ fn pieces_in_unit_ball(rng: &mut Pcg64) -> Vec<(String, Pieces, Pieces)> {
         DVec3::new(-0.5, 0.8, 0.0),
         DVec3::new(-0.5, -0.8, 0.1),
     ];
-    let triangle = Pieces::triangles(&triangle, &[[0, 1, 2]], &[0]).expect("a triangle");
+    let triangle = Pieces::from_triangles(&triangle, &[[0, 1, 2]], &[0]).expect("a triangle");
     let mut shapes = vec![
         ("triangle".to_owned(), triangle.clone(), triangle),
         ("cube".to_owned(), cube.clone(), cube),

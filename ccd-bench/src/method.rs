@@ -61,7 +61,7 @@ impl Method {
         let kind = |schedule, oracle| SolverKind {
             schedule,
             oracle,
-            bound: BoundKind::Sound,
+            motion_bound: BoundKind::Sound,
         };
         let (best, fast) = (ScheduleKind::BestFirst, ScheduleKind::Fast);
         let ours = [
@@ -90,7 +90,7 @@ impl Method {
         let published = SolverKind {
             schedule: ScheduleKind::Fast,
             oracle: OracleKind::Vmarch,
-            bound: BoundKind::Published,
+            motion_bound: BoundKind::Published,
         };
         let mut methods = Method::built_in_methods();
         // After its variants with a sound bound.
@@ -242,7 +242,7 @@ impl fmt::Display for Method {
         match self {
             Method::ThisProject(kind, pieces) => {
                 write!(f, "{} {}", kind.schedule, kind.oracle)?;
-                if kind.bound == BoundKind::Published {
+                if kind.motion_bound == BoundKind::Published {
                     f.write_str(" published")?;
                 }
                 match (pieces, kind.schedule.uses_hull_trees()) {

@@ -93,7 +93,7 @@ impl PieceKind {
 #[derive(Debug, Default)]
 pub struct ModelBodyCache {
     directory: Option<PathBuf>,
-    bodies: HashMap<Model, SceneBody>,
+    body_by_model: HashMap<Model, SceneBody>,
 }
 
 impl Scene {
@@ -124,7 +124,7 @@ impl ModelBodyCache {
     pub fn new(directory: Option<PathBuf>) -> Self {
         ModelBodyCache {
             directory,
-            bodies: HashMap::new(),
+            body_by_model: HashMap::new(),
         }
     }
 
@@ -132,8 +132,8 @@ impl ModelBodyCache {
     ///
     /// # Errors
     /// If the model's file is no mesh that a body can be made of.
-    pub fn body(&mut self, model: Model) -> Result<SceneBody> {
-        if let Some(body) = self.bodies.get(&model) {
+    pub fn model_body(&mut self, model: Model) -> Result<SceneBody> {
+        if let Some(body) = self.body_by_model.get(&model) {
             return Ok(body.clone());
         }
         let of_model = || format!("model {}", model.name());
@@ -145,7 +145,7 @@ impl ModelBodyCache {
             mesh: Arc::new(mesh),
             bodies_by_piece_kind: Arc::default(),
         };
-        self.bodies.insert(model, body.clone());
+        self.body_by_model.insert(model, body.clone());
         Ok(body)
     }
 }

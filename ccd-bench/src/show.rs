@@ -11,7 +11,7 @@ use rigid_ccd_cli::OutputError;
 use std::path::Path;
 
 /// Writes a text into a file, or returns an error that names the file.
-pub(crate) fn write(path: &Path, text: &str) -> Result<(), OutputError> {
+pub(crate) fn write_text_file(path: &Path, text: &str) -> Result<(), OutputError> {
     ccd_file::write(path, |out| out.write_all(text.as_bytes())).map_err(|source| OutputError {
         file_or_stream: path.display().to_string(),
         source,

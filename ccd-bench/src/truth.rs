@@ -63,22 +63,22 @@ pub enum Truth {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistanceBounds {
     /// The lower bound of the distance, which is not negative.
-    pub lower: f64,
+    pub distance_lower_bound: f64,
     /// The upper bound of the distance; infinite if a body has no triangles.
-    pub upper: f64,
+    pub upper_distance: f64,
 }
 
 /// Brackets the first contact and the distance of two moving surfaces with proven bounds.
 #[derive(Clone, Copy, Debug)]
-pub struct Referee<'a> {
+pub struct TruthSolver<'a> {
     a: &'a Surface,
     b: &'a Surface,
 }
 
-impl<'a> Referee<'a> {
+impl<'a> TruthSolver<'a> {
     /// Creates a referee for the surfaces of body A and body B, which may be the same surface.
     pub fn new(a: &'a Surface, b: &'a Surface) -> Self {
-        Referee { a, b }
+        TruthSolver { a, b }
     }
 
     /// Brackets the time at which the surfaces first share a point.
@@ -104,7 +104,7 @@ impl<'a> Referee<'a> {
     /// Returns bounds on the distance of the surfaces at a time.
     ///
     /// # Guarantee
-    /// The exact distance, for the motion of [`Referee::first_contact`], lies in the bracket. It is
+    /// The exact distance, for the motion of [`TruthSolver::first_contact`], lies in the bracket. It is
     /// 0 if the surfaces intersect, within the width of the bracket, and infinite for a body
     /// without triangles.
     pub fn distance_bounds(&self, query: &Motions, time: f64) -> DistanceBounds {

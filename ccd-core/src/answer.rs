@@ -256,7 +256,7 @@ impl Outcome {
     }
 
     /// Creates the outcome for a contact at a time: [`Outcome::Touching`] at time 0, else [`Outcome::Contact`].
-    pub(crate) fn contact_at(time: f64, contact: Contact) -> Self {
+    pub(crate) fn from_contact(time: f64, contact: Contact) -> Self {
         if time > 0.0 {
             Outcome::Contact { time, contact }
         } else {
@@ -274,7 +274,7 @@ impl Outcome {
 
     /// Creates the outcome for bodies whose distance is least at a contact, with a lower bound that is at most the upper
     /// bound.
-    pub(crate) fn least_distance(lower: f64, time: f64, contact: Contact) -> Self {
+    pub(crate) fn from_least_distance(lower: f64, time: f64, contact: Contact) -> Self {
         let lower = lesser(lower, contact.separation.upper);
         Outcome::LeastDistance {
             lower,

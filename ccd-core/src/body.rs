@@ -46,17 +46,17 @@ use tree::{Tree, TreeLayout};
 /// immutable, and can be shared between queries.
 ///
 /// ```
-/// use ccd_core::{glam::DVec3, Body, Pieces, Volume};
+/// use ccd_core::{glam::DVec3, Body, Pieces, Solidity};
 /// let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
-/// let pieces = Pieces::triangles(&triangle, &[[0, 1, 2]], &[0]).unwrap();
-/// let body = Body::new(&pieces, Volume::Surface).unwrap();
+/// let pieces = Pieces::from_triangles(&triangle, &[[0, 1, 2]], &[0]).unwrap();
+/// let body = Body::new(&pieces, Solidity::Surface).unwrap();
 /// assert_eq!(body.pieces().len(), 1);
 /// ```
 #[derive(Clone, Debug)]
 pub struct Body {
     pieces: Pieces,
     tree: Tree,
-    volume: Volume,
+    solidity: Solidity,
     part_extreme_points: Vec<ExtremePoints>,
     /// The tree of convex hulls, if one was given; its leaves refer to the pieces by their index in `pieces`.
     #[cfg(feature = "hull-tree")]
@@ -77,7 +77,7 @@ struct Surface {
 /// Whether another body that is completely inside this one counts as touching.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Volume {
+pub enum Solidity {
     /// The body's triangles bound a solid. They are the pieces, or the [mesh's triangles](crate::Piece::mesh_triangles)
     /// on the pieces, and together they are closed. The solid consists of the points about which they wind, in either
     /// direction. Of nested shells, each has to be wound opposite to the one around it. A body inside the solid
@@ -92,7 +92,7 @@ impl Body {
     ///
     /// # Errors
     /// [`InputError::TooManyPieces`].
-    pub fn new(pieces: &Pieces, volume: Volume) -> Result<Self, InputError> {
+    pub fn new(pieces: &Pieces, volume: Solidity) -> Result<Self, InputError> {
         let hierarchy = Hierarchy::median_split(pieces);
         Body::with_hierarchy(pieces, &hierarchy, volume)
     }
@@ -105,7 +105,7 @@ impl Body {
     pub fn with_hierarchy(
         pieces: &Pieces,
         hierarchy: &Hierarchy,
-        volume: Volume,
+        volume: Solidity,
     ) -> Result<Self, InputError> {
         let (layout, pieces) = TreeLayout::from_hierarchy(pieces, hierarchy)?;
         let (shells, tree) = join(
@@ -124,7 +124,7 @@ impl Body {
             part_extreme_points: shells,
             pieces,
             tree,
-            volume,
+            solidity: volume,
             #[cfg(feature = "hull-tree")]
             hull_tree: None,
             surface: None,
@@ -143,7 +143,7 @@ impl Body {
     /// [`InputError::BadSurface`] unless the body is a solid of one piece without rounding, and the
     /// surface is a solid of triangles.
     pub fn with_surface(mut self, surface: Body) -> Result<Self, InputError> {
-        let solid = |body: &Body| body.volume == Volume::Solid;
+        let solid = |body: &Body| body.solidity == Solidity::Solid;
         let whole = self.pieces.len() == 1 && self.pieces.get(0).radius == 0.0;
         if !(whole && solid(&self) && solid(&surface) && surface.pieces.are_all_triangles()) {
             return Err(InputError::BadSurface);
@@ -231,8 +231,8 @@ impl Body {
     }
 
     /// Returns whether the body is a solid or a surface, so whether a body inside it counts as touching.
-    pub fn volume(&self) -> Volume {
-        self.volume
+    pub fn solidity(&self) -> Solidity {
+        self.solidity
     }
 
     /// Returns the body to use in a query against `other`: the triangulated surface, if there is one and `other` has
@@ -291,7 +291,8 @@ impl Body {
 
     /// Returns whether the body is a solid with a possibly empty space between its pieces, where another body might be.
     pub(crate) fn may_be_hollow(&self) -> bool {
-        self.volume == Volume::Solid && (self.pieces.are_all_triangles() || self.pieces.len() > 1)
+        self.solidity == Solidity::Solid
+            && (self.pieces.are_all_triangles() || self.pieces.len() > 1)
     }
 
     /// Returns the bounding volume tree over the pieces.

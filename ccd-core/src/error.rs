@@ -28,7 +28,7 @@ pub enum InputError {
         /// The index of the joint in its chain, if it is in one.
         joint: Option<usize>,
         /// The requested position of the joint.
-        position: f64,
+        joint_position: f64,
         /// The least and the greatest accepted position.
         limits: [f64; 2],
     },
@@ -135,7 +135,7 @@ impl fmt::Display for InputError {
             }
             Self::JointOutOfLimits {
                 joint,
-                position,
+                joint_position: position,
                 limits: [least, greatest],
             } => {
                 match joint {

@@ -19,7 +19,7 @@
 //!     type Cache = ();
 //!     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
 //!         let axis = pair.b_to_a.transform_point(pair.b.points[0]) - pair.a.points[0];
-//!         Ok(Claim { axis, a: ConvexCombination::point(0), b: ConvexCombination::point(0) })
+//!         Ok(Claim { axis, a: ConvexCombination::from_single_point(0), b: ConvexCombination::from_single_point(0) })
 //!     }
 //! }
 //!
@@ -116,12 +116,12 @@ pub use body::hull_tree::{
 pub use body::piece::ConvexCombination;
 pub use body::piece::Piece;
 pub use body::pieces::Pieces;
-pub use body::polytope::{Face, Facet, FacetOrigin, Polytope};
-pub use body::round::{Enclosure, SolidOfRevolution};
+pub use body::polytope::{Facet, FacetOrigin, MeshFace, Polytope};
+pub use body::round::{EnclosingPolytope, SolidOfRevolution};
 pub use body::support::{
     SupportMap, SupportScan, SupportTable, SupportTree, TABLE_DIRECTION_COUNT,
 };
-pub use body::{Body, Volume};
+pub use body::{Body, Solidity};
 pub use contacts::ContactsError;
 pub use distance::oracle::{Claim, DistanceOracle, Effort, GiveUpReason, OrElse, PiecePair};
 pub use error::InputError;

@@ -35,7 +35,7 @@ pub(crate) struct Problem<'a> {
     pub(crate) margin: f64,
     /// The distance with which the query compares the closest approach, if it does.
     pub(crate) clearance: Option<f64>,
-    pub(crate) start: StartPolicy,
+    pub(crate) start_policy: StartPolicy,
     /// The plane of the contact at the start, if that contact is to be ignored.
     pub(crate) touching_plane: Option<TouchingPlane>,
     pub(crate) budget: u64,
@@ -45,7 +45,7 @@ pub(crate) struct Problem<'a> {
     /// A bound of the rounding of distances in f64, from [`rounding::distance_rounding`].
     pub(crate) rounding: f64,
     /// The vector instructions with which bounds of nodes are computed.
-    pub(crate) level: Level,
+    pub(crate) simd_level: Level,
     pub(crate) shortcuts: Shortcuts,
 }
 
@@ -124,7 +124,7 @@ impl<'a> Problem<'a> {
         }
         let rounding = rounding::distance_rounding(
             [a.extent_with_centre(), b.extent_with_centre()],
-            [a.path.rate, b.path.rate],
+            [a.path.angular_speed, b.path.angular_speed],
             distance(a.path.centre_at(0.0), b.path.centre_at(0.0))
                 + a.path.speed_bound()
                 + b.path.speed_bound()
@@ -139,19 +139,19 @@ impl<'a> Problem<'a> {
             tolerance: greater(terms.tolerance, rounding::least_tolerance(rounding)),
             margin: terms.margin,
             clearance: terms.clearance,
-            start: terms.start,
+            start_policy: terms.start,
             touching_plane: None,
             budget: terms.budget,
             deadline: terms.deadline,
             stop_flag: terms.stop,
             rounding,
-            level: terms.level,
+            simd_level: terms.simd_level,
             shortcuts: terms.shortcuts,
         })
     }
 
     /// Returns the distance by which the caller's bodies may exceed their shapes.
-    pub(crate) fn excess(&self) -> ExcessSum {
+    pub(crate) fn body_excess_sum(&self) -> ExcessSum {
         let given = |side: &BodyWithPath<'a>| side.given_body.unwrap_or(side.body);
         ExcessSum::sum_of_bodies(given(&self.a), given(&self.b))
     }
@@ -165,7 +165,7 @@ impl<'a> Problem<'a> {
     /// Returns whether a body turns at least twice.
     #[inline]
     pub(crate) fn turns_at_least_twice(&self) -> bool {
-        let turns = |side: &BodyWithPath<'_>| side.path.rate >= 2.0 * TAU;
+        let turns = |side: &BodyWithPath<'_>| side.path.angular_speed >= 2.0 * TAU;
         turns(&self.a) || turns(&self.b)
     }
 
@@ -182,7 +182,7 @@ impl<'a> Problem<'a> {
 
     /// Returns the gap that every clock proves: the margin plus half the tolerance. A pair of pieces whose clock has
     /// run out is well within the tolerance.
-    pub(crate) fn gap(&self) -> f64 {
+    pub(crate) fn kept_gap(&self) -> f64 {
         self.margin + 0.5 * self.tolerance
     }
 
@@ -193,7 +193,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Converts a time of the motions to a clock, up to rounding.
-    pub(crate) fn clock(&self, time: f64) -> f64 {
+    pub(crate) fn clock_of_time(&self, time: f64) -> f64 {
         if self.duration > 0.0 {
             (time - self.start_time) / self.duration
         } else {
@@ -220,7 +220,7 @@ impl<'a> Problem<'a> {
     /// Returns the problem with the policy that a contact at the start is the answer.
     pub(crate) fn reporting_start_contact(&self) -> Self {
         Problem {
-            start: StartPolicy::Report,
+            start_policy: StartPolicy::Report,
             ..self.clone()
         }
     }
@@ -236,7 +236,7 @@ impl<'a> Problem<'a> {
             (least, StartPolicy::Leave, touching)
         };
         Problem {
-            start,
+            start_policy: start,
             touching_plane,
             tolerance: lesser(tolerance, self.tolerance),
             ..self.clone()
@@ -297,8 +297,8 @@ impl<'a> Problem<'a> {
 
     /// Returns the distance that the bodies are proven to keep up to the least clock of all pairs.
     pub(crate) fn proven_gap(&self) -> f64 {
-        match self.start {
-            StartPolicy::Report => self.gap(),
+        match self.start_policy {
+            StartPolicy::Report => self.kept_gap(),
             // Pieces that rest on each other keep no gap.
             StartPolicy::Leave => 0.0,
         }
@@ -346,7 +346,7 @@ impl BodyWithPath<'_> {
             travel <= MAX_COORDINATE,
             "at most 1e12 from the other body",
         )?;
-        let turn = self.path.rate;
+        let turn = self.path.angular_speed;
         check(
             "turn",
             turn,

@@ -85,10 +85,10 @@ impl Trajectory for Movement<'_> {
         }
     }
 
-    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+    fn velocity_jump_time(&self, from: f64, to: f64) -> Option<f64> {
         match self {
-            Movement::Motion(motion) => Trajectory::corner(motion, from, to),
-            Movement::Trajectory(trajectory) => trajectory.corner(from, to),
+            Movement::Motion(motion) => Trajectory::velocity_jump_time(motion, from, to),
+            Movement::Trajectory(trajectory) => trajectory.velocity_jump_time(from, to),
         }
     }
 
@@ -141,7 +141,7 @@ pub struct Query<'a> {
     pub(crate) duration: f64,
     pub(crate) settings: QuerySettings<'a>,
     /// The normalised problem, if both bodies move at constant velocities.
-    pub(crate) problem: Option<Problem<'a>>,
+    pub(crate) constant_velocity_problem: Option<Problem<'a>>,
 }
 
 impl<'a> Query<'a> {
@@ -170,7 +170,7 @@ impl<'a> Query<'a> {
                 b,
                 duration,
                 settings: terms,
-                problem: Some(problem),
+                constant_velocity_problem: Some(problem),
             });
         }
         terms.check(duration)?;
@@ -185,7 +185,7 @@ impl<'a> Query<'a> {
             b,
             duration,
             settings: terms,
-            problem: None,
+            constant_velocity_problem: None,
         })
     }
 
@@ -193,7 +193,7 @@ impl<'a> Query<'a> {
     #[must_use]
     pub fn with_deadline(mut self, deadline: Option<Duration>) -> Self {
         self.settings.deadline = deadline;
-        if let Some(problem) = &mut self.problem {
+        if let Some(problem) = &mut self.constant_velocity_problem {
             problem.deadline = deadline;
         }
         self
@@ -202,7 +202,7 @@ impl<'a> Query<'a> {
     /// Returns the tolerance of the answer: the requested one, or the least that can be certified in f64 at the
     /// coordinates of the two motions. Along trajectories it may be larger.
     pub fn tolerance(&self) -> f64 {
-        let problem = self.problem.as_ref();
+        let problem = self.constant_velocity_problem.as_ref();
         problem.map_or(self.settings.tolerance, |problem| problem.tolerance)
     }
 
@@ -262,8 +262,8 @@ impl<'a> Query<'a> {
             let duration = self.duration;
             return Err(ContactsError::NotInDuration { time, duration });
         }
-        if let Some(problem) = &self.problem {
-            return problem.contacts_at(problem.clock(time));
+        if let Some(problem) = &self.constant_velocity_problem {
+            return problem.contacts_at(problem.clock_of_time(time));
         }
         let still = |moving: &MovingBody<'a>| {
             let stretch = moving.movement.stretch_between(time, time)?;

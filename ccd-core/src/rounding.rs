@@ -258,7 +258,7 @@ pub const WEIGHT_RANGE: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
 /// The least distance from a surface at which a point is certainly inside or outside, in units of the rounding of
 /// distances. The positions of both are rounded.
-pub const SIDE_DISTANCE_PER_ROUNDING: f64 = 4.0;
+pub const CERTAIN_SIDE_DISTANCE_PER_ROUNDING: f64 = 4.0;
 
 /// The distance beside an edge at which points of a flat piece are tested, in units of the length of the edge's part on
 /// the piece. It is far above rounding, and below the distance to other features.

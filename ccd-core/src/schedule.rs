@@ -25,7 +25,7 @@ pub use crate::shortcuts::{Shortcut, Shortcuts};
 /// #     type Cache = ();
 /// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
 /// #         let axis = pair.b_to_a.transform_point(pair.b.points[0]) - pair.a.points[0];
-/// #         Ok(Claim { axis, a: ConvexCombination::point(0), b: ConvexCombination::point(0) })
+/// #         Ok(Claim { axis, a: ConvexCombination::from_single_point(0), b: ConvexCombination::from_single_point(0) })
 /// #     }
 /// # }
 /// fn outcome(mut schedule: impl Schedule<Balls>, query: &Query<'_>) -> Result<Outcome, InputError> {
@@ -53,7 +53,7 @@ pub trait Schedule<O: DistanceOracle> {
 
 impl<O: DistanceOracle, S: EngineSchedule<O>> Schedule<O> for S {
     fn first_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError> {
-        match &query.problem {
+        match &query.constant_velocity_problem {
             Some(problem) => Ok(self.answer_first_contact(problem, oracle)),
             None => first_contact(self, query, oracle),
         }

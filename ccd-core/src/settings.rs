@@ -30,12 +30,12 @@ pub struct Settings {
     /// use the margin.
     pub clearance: Option<f64>,
     /// The policy for bodies that are in contact at the start: report the contact, or ignore it until they approach.
-    pub start: StartPolicy,
+    pub start_policy: StartPolicy,
     /// The largest amount of [work](crate::Stats::budgeted_work) before the query is left unresolved. It counts iterations over
     /// pairs of nodes, and other steps of the same cost. Each takes about a microsecond or less, and up to about 150
     /// bytes.
     ///
-    /// Along [trajectories](crate::Trajectory) it is for each part between two [corners](crate::Trajectory::corner),
+    /// Along [trajectories](crate::Trajectory) it is for each part between two [corners](crate::Trajectory::velocity_jump_time),
     /// such as two poses of a path, and so grows with the path: a path of `n` poses takes at most `2 n` budgets, of
     /// which those for many poses at once are hardly used. The closest approach takes up to half as much again for
     /// early bounds. No path takes more than 65,536. The search for the [last
@@ -70,7 +70,7 @@ impl Settings {
         tolerance: limits::DEFAULT_TOLERANCE,
         margin: 0.0,
         clearance: None,
-        start: StartPolicy::Report,
+        start_policy: StartPolicy::Report,
         budget: limits::DEFAULT_BUDGET,
         deadline: None,
         vector_instructions: VectorInstructions::Best,
@@ -98,10 +98,10 @@ impl Settings {
             tolerance: self.tolerance,
             margin: self.margin,
             clearance: self.clearance,
-            start: self.start,
+            start: self.start_policy,
             budget: self.budget,
             deadline: self.deadline,
-            level: self.vector_instructions.simd_level(),
+            simd_level: self.vector_instructions.simd_level(),
             shortcuts: self.shortcuts,
             stop: self.stop.as_deref(),
         }
@@ -123,7 +123,7 @@ pub(crate) struct QuerySettings<'a> {
     pub(crate) start: StartPolicy,
     pub(crate) budget: u64,
     pub(crate) deadline: Option<Duration>,
-    pub(crate) level: Level,
+    pub(crate) simd_level: Level,
     pub(crate) shortcuts: Shortcuts,
     pub(crate) stop: Option<&'a AtomicBool>,
 }
@@ -171,14 +171,14 @@ pub enum VectorInstructions {
 /// #     type Cache = ();
 /// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
 /// #         let axis = pair.b_to_a.transform_point(pair.b.points[0]) - pair.a.points[0];
-/// #         Ok(Claim { axis, a: ConvexCombination::point(0), b: ConvexCombination::point(0) })
+/// #         Ok(Claim { axis, a: ConvexCombination::from_single_point(0), b: ConvexCombination::from_single_point(0) })
 /// #     }
 /// # }
 /// let ball = Body::sphere(0.5)?;
 /// // Two balls touch, and fly apart.
 /// let leaving = Motion::new(Pose::at(DVec3::X)?, DVec3::X, DVec3::ZERO)?;
-/// let outcome = |start| -> Result<Outcome, InputError> {
-///     let settings = Settings { start, ..Settings::DEFAULT };
+/// let outcome = |start_policy| -> Result<Outcome, InputError> {
+///     let settings = Settings { start_policy, ..Settings::DEFAULT };
 ///     let query = Query::new((&ball, Motion::STILL), (&ball, leaving), 1.0, &settings)?;
 ///     Ok(BestFirst::default().first_contact(&query, &mut Balls)?.outcome)
 /// };

@@ -85,7 +85,7 @@ fn swept_box_of_stretches(
         };
         // A stretch that ends at a corner has a better bound. If one part has many corners, some are left out.
         let corner = trajectory
-            .corner(from, to)
+            .velocity_jump_time(from, to)
             .filter(|&at| at > from && at < to);
         for end in corner.into_iter().chain([to]) {
             let part = swept_box_of_stretch(
@@ -118,7 +118,7 @@ fn swept_box_of_stretch(
     let swept = swept_box_of_motion(body, &stretch.motion, time, terms)?;
     let reach = body.tree().max_distance_from(stretch.motion.centre());
     let moved = 0.5 * (time * (time * length(stretch.acceleration)));
-    let room = (moved + stretch.deviation_bound.at(reach)) * (1.0 + RETIMED_POSE_ERROR_F64);
+    let room = (moved + stretch.deviation_bound.at_reach(reach)) * (1.0 + RETIMED_POSE_ERROR_F64);
     // A value that is no bound is NaN. Then the body may be anywhere.
     let room = DVec3::splat(if room >= 0.0 { room } else { f64::INFINITY });
     let rounding =
@@ -147,7 +147,7 @@ fn swept_box_of_motion(
     let (low, high) = box_of_all_orientations(&side);
     // As seen from the centre of rotation, which moves straight, the body only turns.
     let way = path.velocity;
-    let room = DVec3::splat(box_growth(&side, terms));
+    let room = DVec3::splat(box_padding(&side, terms));
     Ok(SweptBox {
         min: low + componentwise_min(way, DVec3::ZERO) - room,
         max: high + componentwise_max(way, DVec3::ZERO) + room,
@@ -171,7 +171,7 @@ fn box_of_all_orientations(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
     });
     // No point is farther from the centre of rotation.
     let arm = distance(whole.centre, path.centre) + whole.radius;
-    let swing = lesser(path.rate, 2.0) * arm;
+    let swing = lesser(path.angular_speed, 2.0) * arm;
     let reach = DVec3::from_array(reach) + swing;
     let (pivot, arm) = (path.centre_at(0.0), DVec3::splat(arm));
     (
@@ -182,10 +182,10 @@ fn box_of_all_orientations(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
 
 /// Returns the length by which a box is grown: half the contact distance plus a bound of the rounding of the box. The
 /// contact distance is the margin plus the tolerance, which may be raised to the least that can be certified.
-fn box_growth(side: &BodyWithPath<'_>, terms: &QuerySettings<'_>) -> f64 {
+fn box_padding(side: &BodyWithPath<'_>, terms: &QuerySettings<'_>) -> f64 {
     let path = &side.path;
     let way = length(path.centre_at(0.0)) + path.speed_bound() + terms.margin;
-    let rounding = body_distance_rounding(side.extent_with_centre(), path.rate, way);
+    let rounding = body_distance_rounding(side.extent_with_centre(), path.angular_speed, way);
     // The box takes no more operations than a distance, and its sums round by a few units of the greatest number.
     0.5 * (terms.margin + terms.tolerance) + least_tolerance(rounding) + 2.0 * rounding
 }

@@ -9,5 +9,5 @@ pub(crate) struct TouchingPlane {
     pub(crate) normals: [DVec3; 2],
     /// The least gap along the normal that pieces have to keep for their contact to be ignored: the gap at the start,
     /// minus rounding.
-    pub(crate) least_gap: f64,
+    pub(crate) required_gap: f64,
 }

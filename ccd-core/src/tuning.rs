@@ -17,7 +17,7 @@ pub const WORK_BETWEEN_CLOCK_READS: u64 = 256;
 /// the tolerance, for bodies that turn many times. A contact in the searched period is then a contact of the bodies.
 /// The rest of the tolerance suffices for the search. Twice this share is reserved, for rounding and for the change
 /// together.
-pub const MAX_DISTANCE_CHANGE_SHARE: f64 = 0.25;
+pub const MAX_PERIOD_DISTANCE_CHANGE_SHARE: f64 = 0.25;
 
 /// The largest share of the duration that the searched periods of repeating motions may take together. If they take
 /// more, the whole duration is searched at once.
@@ -31,7 +31,7 @@ pub const MIN_ROTATION_GAP_SHARE: f64 = 0.5;
 /// The number of alternating projections between the boxes of two bodies, which approximate the nearest points of the
 /// boxes. Any axis is sound. Measured on 283 pairs of falling bodies: 1, 2, 3, 6 and 12 projections prove 19, 20, 22,
 /// 24 and 24 of them apart.
-pub const BOX_PROJECTION_COUNT: usize = 3;
+pub const ALTERNATING_PROJECTION_COUNT: usize = 3;
 
 /// The largest number of Newton steps towards the time at which a gap closes along one axis; after them the oracle is
 /// called again. A step cannot overshoot, so a few suffice.
@@ -62,7 +62,7 @@ pub const CUT_DEVIATION_RATIO: f64 = 16.0;
 /// The length above which a stretch of time is halved without a measurement of the distance, as a share of the
 /// duration. Measured: over 90 scenes of curves and links the closest approach takes 0.77 of the visits of halves
 /// alone. With measurements in long stretches as well it takes 1.02 of them, and in the worst scene 51 times as many.
-pub const MIN_UNMEASURED_LENGTH_SHARE: f64 = 0.125;
+pub const UNMEASURED_HALVING_LENGTH_SHARE: f64 = 0.125;
 
 /// The estimated length below which a stretch of time is cut to that length before it is searched, as a share of the
 /// stretch.
@@ -167,7 +167,7 @@ pub const MAX_PLATEAU_POINTS: usize = 32;
 /// The distance from a facet up to which a nearest point counts as on the facet, in units of the piece's size. It only
 /// decides which feature a contact names. Nearest points are combinations of corners, off by a few
 /// [`UNIT_ROUNDOFF_F64`](crate::rounding::UNIT_ROUNDOFF_F64) of that size, which a flat piece magnifies.
-pub const FACET_TOLERANCE: f64 = 1e-9;
+pub const POINT_ON_FACET_TOLERANCE: f64 = 1e-9;
 
 /// The angle below which a Jacobi rotation is skipped when principal axes are computed, in radians.
 ///
@@ -181,7 +181,7 @@ pub const MAX_FLAT_THICKNESS: f64 = 1e-9;
 
 /// The rounding of a gap of nodes in f32 above which the gap is computed in f64 instead, in units of the gap at which
 /// clocks of nodes stop. Below it f32 proves as much as f64.
-pub const MIN_ROUNDING_FOR_F64: f64 = 1.0;
+pub const F64_FALLBACK_ROUNDING: f64 = 1.0;
 
 /// The largest sideways displacement of a screw's axis during the query at which nodes are compared along the screw, in
 /// units of the smaller body's radius. Surfaces that turn with the screw prove nothing for long beyond it.

@@ -4,10 +4,10 @@ pub(crate) mod error;
 mod frame;
 pub(crate) mod obj;
 use crate::mesh::remark::Remarks;
-use crate::prepare::model::Model;
+use crate::prepare::model::StoredBodyContent;
 use crate::prepare::report::Report;
 use ccd_core::limits::MAX_COORDINATE;
-use ccd_core::{Hierarchy, HullNode, HullTree, Pieces, Volume};
+use ccd_core::{Hierarchy, HullNode, HullTree, Pieces, Solidity};
 use error::{StoreError, StoreFault};
 use std::fs::File;
 use std::io::{self, BufReader, Read, Write};
@@ -27,13 +27,13 @@ pub(crate) fn has_stored_body_extension(path: &Path) -> bool {
 type StoredFields = (
     Pieces,
     Hierarchy,
-    Volume,
+    Solidity,
     Option<Vec<HullNode>>,
     Option<(Pieces, Hierarchy)>,
     Report,
 );
 
-impl Model {
+impl StoredBodyContent {
     /// Stores the model in a file, by convention called `NAME.ccd`.
     ///
     /// It is written to a temporary file (`.part`) first: an interrupted write does not damage an older file. Links are
@@ -47,7 +47,7 @@ impl Model {
             .map_err(|error| StoreError::new(path, StoreFault::Unwritable(error)))
     }
 
-    /// Loads a model that [`Model::save`] stored.
+    /// Loads a model that [`StoredBodyContent::save`] stored.
     ///
     /// # Guarantee
     /// The body gives the same answers as the stored one, bit by bit. No bytes panic: a modified file is an error or,
@@ -58,11 +58,11 @@ impl Model {
     pub fn load(path: impl AsRef<Path>) -> Result<Self, StoreError> {
         let path = path.as_ref();
         let file = File::open(path).map_err(StoreFault::Unreadable);
-        file.and_then(|file| Model::read_stored_body(BufReader::new(file)))
+        file.and_then(|file| StoredBodyContent::read_stored_body(BufReader::new(file)))
             .map_err(|fault| StoreError::new(path, fault))
     }
 
-    /// Writes the model to any writer, in the format of [`Model::save`].
+    /// Writes the model to any writer, in the format of [`StoredBodyContent::save`].
     ///
     /// # Errors
     /// [`StoreFault::Unwritable`] if the writer fails.
@@ -72,19 +72,19 @@ impl Model {
             .map_err(StoreFault::Unwritable)?)
     }
 
-    /// Reads a model from any reader, to the end, with the guarantee of [`Model::load`].
+    /// Reads a model from any reader, to the end, with the guarantee of [`StoredBodyContent::load`].
     ///
     /// # Errors
     /// [`StoreError`], without the name of a file.
     pub fn read(reader: impl Read) -> Result<Self, StoreError> {
-        Ok(Model::read_stored_body(reader)?)
+        Ok(StoredBodyContent::read_stored_body(reader)?)
     }
 
     fn write_stored_body(&self, writer: impl Write) -> io::Result<()> {
-        let Model {
+        let StoredBodyContent {
             pieces,
             hierarchy,
-            volume,
+            solidity: volume,
             hull_tree,
             surface,
             report,
@@ -114,11 +114,11 @@ impl Model {
         }
         let tree = |nodes: Vec<HullNode>| HullTree::new(&pieces, &nodes);
         let hull_tree = nodes.map(tree).transpose();
-        let model = Model {
+        let model = StoredBodyContent {
             hull_tree: hull_tree.map_err(|error| StoreFault::invalid_content(&error))?,
             pieces,
             hierarchy,
-            volume,
+            solidity: volume,
             surface,
             report,
         };
@@ -141,7 +141,7 @@ impl Model {
             return Err("the hierarchy is over another number of pieces");
         }
         let whole = || {
-            let solid = self.volume == Volume::Solid;
+            let solid = self.solidity == Solidity::Solid;
             solid && pieces == 1 && self.pieces.get(0).radius == 0.0
         };
         if surface.is_some_and(|(pieces, _)| !(whole() && pieces.are_all_triangles())) {

@@ -10,7 +10,7 @@ mod flat;
 pub(crate) mod polygons;
 
 use crate::exact::predicates::{
-    compare_lexicographically, first_inexact_point_index, first_out_of_range_index,
+    compare_lexicographically, first_inexact_point_index, first_point_out_of_range,
 };
 use crate::hull::exact_hull::ExactHull;
 use crate::hull::polygons::merged_polygons;
@@ -20,10 +20,10 @@ use ccd_core::{Hull, PolygonList};
 /// The error of a hull that cannot be computed: a coordinate of a point is too near to 0 for exact predicates, too
 /// large, or not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("point {point} has a coordinate that is out of range for exact predicates")]
+#[error("point {point_index} has a coordinate that is out of range for exact predicates")]
 pub struct HullError {
     /// The index of the first point that is out of range.
-    pub point: u32,
+    pub point_index: u32,
 }
 
 /// Computes the convex hull of points. Several points may be equal.
@@ -38,10 +38,10 @@ pub struct HullError {
 /// O(n log n) time, and O(n) memory.
 pub fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
     if let Some(point) =
-        first_out_of_range_index(points).or_else(|| first_inexact_point_index(points))
+        first_point_out_of_range(points).or_else(|| first_inexact_point_index(points))
     {
         let point = point as u32;
-        return Err(HullError { point });
+        return Err(HullError { point_index: point });
     }
     let points = distinct_points(points);
     Ok(match ExactHull::facets_of(&points) {

@@ -8,7 +8,7 @@
 //! | find the faults of a mesh, and skipped content | [`Repairs`], [`Remarks`], [`Topology`], [`MeshFault`] |
 //! | make a body of a mesh | [`body_from_mesh`], [`Detail`], [`Report`] |
 //! | decompose its surface exactly | [`decompose`], [`Decomposition`] |
-//! | store a prepared body, and load it | [`prepare`](fn@prepare), [`Model::save`], [`Model::load`] |
+//! | store a prepared body, and load it | [`prepare`](fn@prepare), [`StoredBodyContent::save`], [`StoredBodyContent::load`] |
 //! | take a body from a command line | [`parse_body`], [`BodySource`] |
 //! | build a hierarchy, or a tree of hulls, over pieces of any kind | [`build_hierarchy`], [`build_hull_tree`] |
 //!
@@ -103,7 +103,7 @@ pub use mesh::unit::{Unit, UnknownUnit};
 pub use messages::FileError;
 pub use pieces::patches::{Decomposition, Patch, PatchOrder, decompose};
 pub use prepare::error::PrepareError;
-pub use prepare::model::{Model, PreparedBody};
+pub use prepare::model::{PreparedBody, StoredBodyContent};
 pub use prepare::report::{PieceReason, PiecesKind, QueryTimes, Report};
 pub use prepare::{Detail, body_from_mesh, prepare};
 pub use solid::error::{Crossing, DecomposeError};

@@ -14,9 +14,9 @@ use crate::solid::solid_surface;
 use crate::solid::topology::Topology;
 use crate::tolerance::AUTO_WORK_BUDGET;
 use crate::work::WorkBudget;
-use ccd_core::Volume;
+use ccd_core::Solidity;
 use error::PrepareError;
-use model::{Model, PreparedBody};
+use model::{PreparedBody, StoredBodyContent};
 use parts::{PiecesChoice, PiecesOfOneKind, triangle_tree};
 use report::PieceReason;
 
@@ -41,7 +41,7 @@ pub enum Detail {
     OuterHull,
 }
 
-/// Creates a body from a mesh: calls [`prepare`], then [`Model::into_prepared_body`].
+/// Creates a body from a mesh: calls [`prepare`], then [`StoredBodyContent::into_prepared_body`].
 ///
 /// ```
 /// use ccd_core::glam::dvec3;
@@ -89,7 +89,7 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<PreparedBod
 /// # Errors
 /// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Hull`] if its
 /// hull cannot be computed, [`PrepareError::Input`] if there are too many pieces.
-pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<Model, PrepareError> {
+pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<StoredBodyContent, PrepareError> {
     let may_need_triangles = !matches!(detail, Detail::Patches(_) | Detail::OuterHull);
     // Both take equally long, and the triangles are nearly always needed.
     let (choice, triangles) = rayon::join(
@@ -120,14 +120,14 @@ impl PiecesChoice {
             }
         };
         let volume = if topology.is_solid() && detail != Detail::Surface {
-            Volume::Solid
+            Solidity::Solid
         } else {
-            Volume::Surface
+            Solidity::Surface
         };
         Ok(PiecesChoice {
-            volume,
+            solidity: volume,
             pieces,
-            reason,
+            choice_reason: reason,
             topology,
             reoriented_mesh: turned,
         })

@@ -8,7 +8,7 @@ use crate::mesh::adjustments::Adjustments;
 use crate::mesh::mesh_file::source_paths;
 use crate::mesh::unit::Unit;
 use crate::prepare::error::PrepareError;
-use crate::prepare::model::{Model, PreparedBody};
+use crate::prepare::model::{PreparedBody, StoredBodyContent};
 use crate::prepare::{Detail, body_from_mesh};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
@@ -50,7 +50,7 @@ pub enum BodySource {
         /// The half length of the segment along z that the capsule surrounds.
         half_height: f64,
     },
-    /// A cylinder along z, `cylinder:r,h` or `cylinder:r,h,excess`; see [`Body::cylinder`] and [`SolidOfRevolution::enclose`].
+    /// A cylinder along z, `cylinder:r,h` or `cylinder:r,h,excess`; see [`Body::cylinder`] and [`SolidOfRevolution::enclosing_polytope`].
     Cylinder {
         /// The radius of the cylinder.
         radius: f64,
@@ -58,9 +58,9 @@ pub enum BodySource {
         half_height: f64,
         /// The maximum excess of the cylinder's polytope; `None` for the [usual](SolidOfRevolution::default_excess)
         /// excess.
-        excess: Option<f64>,
+        max_excess: Option<f64>,
     },
-    /// A cone along z, `cone:r,h` or `cone:r,h,excess`; see [`Body::cone`] and [`SolidOfRevolution::enclose`].
+    /// A cone along z, `cone:r,h` or `cone:r,h,excess`; see [`Body::cone`] and [`SolidOfRevolution::enclosing_polytope`].
     Cone {
         /// The radius of the cone's base.
         radius: f64,
@@ -69,7 +69,7 @@ pub enum BodySource {
         /// The maximum excess of the cone's polytope; `None` for the [usual](SolidOfRevolution::default_excess) excess.
         excess: Option<f64>,
     },
-    /// A [stored](crate::Model::save) body, by the path of a file that ends in `.ccd`.
+    /// A [stored](crate::StoredBodyContent::save) body, by the path of a file that ends in `.ccd`.
     StoredBody(PathBuf),
     /// A mesh file or a part of a mesh file, with adjustments: any text that describes no other kind of body. All parts
     /// of a file are one body.
@@ -127,7 +127,7 @@ impl BodySource {
             BodySource::Cylinder {
                 radius,
                 half_height,
-                excess,
+                max_excess: excess,
             } => PreparedBody::from_solid_of_revolution(
                 &SolidOfRevolution::cylinder(radius, half_height)?,
                 excess,
@@ -144,7 +144,7 @@ impl BodySource {
                 return Err(SourceError::AdjustedStoredBody { file: path.clone() }.into());
             }
             BodySource::StoredBody(ref path) => {
-                add_file_path_to_error(path, Model::load(path)?.into_prepared_body())?
+                add_file_path_to_error(path, StoredBodyContent::load(path)?.into_prepared_body())?
             }
             BodySource::Mesh(ref source) => {
                 let source = MeshSource {
@@ -269,7 +269,7 @@ fn parse_shape(
         "cylinder" => BodySource::Cylinder {
             radius,
             half_height: lengths[1],
-            excess,
+            max_excess: excess,
         },
         _ => BodySource::Cone {
             radius,

@@ -19,7 +19,7 @@ pub(crate) const ADJACENT_ONLY_PASSES: usize = 2;
 /// The search distance along the Morton curve for the best neighbour of a node, in later passes of agglomeration.
 ///
 /// Unit: places. Larger: better trees by less than a percent, but slower to build.
-pub(crate) const NEIGHBOUR_SEARCH_DISTANCE: usize = 6;
+pub(crate) const MORTON_SEARCH_RADIUS: usize = 6;
 
 /// The fraction of the nodes, largest first, that are candidates for reinsertion.
 ///
@@ -111,7 +111,7 @@ pub(crate) const PATCH_QUERY_COST: QueryCost = QueryCost {
 
 /// The assumed fraction of queries in which bodies rest flat on each other, so that all pieces of a plane are
 /// examined. It is a guess: with it, patches are chosen from about three hundred triangles in one plane on.
-pub(crate) const RESTING_QUERY_SHARE: f64 = 1.0 / 50.0;
+pub(crate) const RESTING_QUERY_FREQUENCY: f64 = 1.0 / 50.0;
 
 /// The number of bins per doubling of the length, into which edges are sorted by length. Edges in one bin count as
 /// equally long, so that rounding does not separate the edges of a grid.
@@ -166,7 +166,7 @@ pub(crate) const EXPANSION_LIMIT_PER_BYTE: u64 = 1 << 8;
 
 /// The largest limit on what a file of any size may expand to: about ten million triangles, which take up to 3 GB to
 /// prepare.
-pub(crate) const MAX_EXPANSION_LIMIT: u64 = 1 << 25;
+pub(crate) const MAX_FILE_EXPANSION: u64 = 1 << 25;
 
 #[cfg(test)]
 mod tests;

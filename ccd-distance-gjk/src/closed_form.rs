@@ -48,14 +48,14 @@ use nearest::{Corners, NearestPoints, nearest_points, support_gap};
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct ClosedForm {
-    level: Level,
+    simd_level: Level,
 }
 
 impl ClosedForm {
     /// Creates the oracle for a choice of vector instructions. All choices give the same claims, to the last bit.
     pub fn new(instructions: VectorInstructions) -> Self {
         ClosedForm {
-            level: instructions.simd_level(),
+            simd_level: instructions.simd_level(),
         }
     }
 }
@@ -73,13 +73,13 @@ impl DistanceOracle for ClosedForm {
     #[inline]
     fn separation(&mut self, pair: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUpReason> {
         let (p, q) = corners_in_local_frame(pair).ok_or(GiveUpReason::TooManyPoints)?;
-        let near = nearest_points(self.level, &p, &q);
+        let near = nearest_points(self.simd_level, &p, &q);
         let w = near.separation_vector(&p, &q);
         let separated = support_gap(&p, &q, w) >= MIN_CERTIFIED_SHARE * w.length_squared();
         let (axis, near) = if separated && w.length_squared().is_normal() {
             (w, near)
         } else {
-            best_axis_and_points(self.level, &p, &q, near)
+            best_axis_and_points(self.simd_level, &p, &q, near)
         };
         Ok(Claim {
             axis,

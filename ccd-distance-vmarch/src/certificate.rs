@@ -70,7 +70,7 @@ fn gap_upper_bound(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
 /// also tried: the normals of adjacent faces, cross products of edges, the vector across each edge; and for coplanar or
 /// collinear features, directions within the plane or line.
 pub(crate) fn best_axis(placed: &PlacedPair<'_>, pair: Pair, witness: &Witness) -> Axis {
-    let (distance, offset) = (witness.distance(), witness.offset());
+    let (distance, offset) = (witness.distance(), witness.separation_vector());
     let mut best = Axis::from_direction(placed, witness.claim.axis);
     if best.certifies(distance, placed) {
         return best;

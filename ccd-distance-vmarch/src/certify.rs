@@ -134,7 +134,7 @@ fn certify_tie(placed: &PlacedPair<'_>, start: Pair) -> CertificationResult {
         if axis.certifies(distance, placed) || distance <= placed.scale.rounding() {
             return certified_with_axis(pair, &witness, axis.direction);
         }
-        match neighbourhood::nearer_pair(placed, pair, distance) {
+        match neighbourhood::nearer_neighbour_pair(placed, pair, distance) {
             Some(nearer) => pair = nearer,
             // No pair is nearer: only the axis is uncertain.
             None if axis.gap >= 0.5 * distance => {

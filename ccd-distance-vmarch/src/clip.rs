@@ -26,7 +26,10 @@ pub(crate) fn clip_to_prism<Y: PlacedPolytope>(
     };
     let (mut from, mut to) = (uncut(0.0), uncut(line.length));
     for side in y.shape().sides_of(face) {
-        let (start, inward) = (y.point(side.start), y.vector(side.inward_direction));
+        let (start, inward) = (
+            y.transform_point(side.start),
+            y.vector(side.inward_direction),
+        );
         let at_start = (line.start - start).dot(inward);
         let at_end = (end - start).dot(inward);
         if at_start < 0.0 && at_end < 0.0 {

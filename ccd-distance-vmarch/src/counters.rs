@@ -8,7 +8,7 @@ pub struct Counters {
     /// The number of tested pairs of features.
     pub steps: u64,
     /// The number of detected cycles.
-    pub cycles: u64,
+    pub detected_cycles: u64,
     /// The number of local minima: a feature was found behind a face, and all faces were examined.
     pub local_minima: u64,
     /// The number of marches that were restarted from other features.

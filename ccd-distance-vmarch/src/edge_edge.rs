@@ -176,7 +176,7 @@ impl NearestVector {
         let minimum = LocalMinimum {
             feature,
             point,
-            face,
+            other_face: face,
         };
         Some(MarchStep::LocalMinimum(WhichPolytope::Y, minimum))
     }

@@ -32,7 +32,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     };
     // The same product, to the bit, as the slope of the corner's edges in `vertex_face`.
     let slope = line.direction.dot(normal);
-    let base = normal.dot(line.start - y.point(side.start));
+    let base = normal.dot(line.start - y.transform_point(side.start));
     let rounding = scale.rounding();
     let falls = slope < 0.0;
     let (low, high) = if falls { (to, from) } else { (from, to) };
@@ -43,7 +43,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
             LocalMinimum {
                 feature: Feature::Edge(e),
                 point: line.point_at(high.parameter),
-                face: f,
+                other_face: f,
             },
         );
     }

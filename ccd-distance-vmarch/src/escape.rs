@@ -16,7 +16,7 @@ pub(crate) fn escape_local_minimum<X: PlacedPolytope, Y: PlacedPolytope>(
 ) -> MarchStep {
     if let Some((face, height)) = face_farthest_below(minimum.point, y)
         && height > scale.rounding()
-        && face != minimum.face
+        && face != minimum.other_face
     {
         return MarchStep::Continue(minimum.feature, Feature::Face(face));
     }
@@ -42,7 +42,7 @@ fn face_farthest_below<Y: PlacedPolytope>(point: DVec3, y: &Y) -> Option<(u32, f
     let heights = faces.filter_map(|f| {
         let start = y.shape().sides_of(f).first()?.start;
         let normal = y.vector(y.shape().face(f).normal);
-        Some((f, normal.dot(point - y.point(start))))
+        Some((f, normal.dot(point - y.transform_point(start))))
     });
     heights.reduce(|best, here| if here.1 > best.1 { here } else { best })
 }

@@ -29,7 +29,7 @@ pub(crate) enum MarchStep {
     /// [escape](crate::escape).
     LocalMinimum(WhichPolytope, LocalMinimum),
     /// An edge of one polytope goes through a face of the other.
-    CommonPoint(WhichPolytope, Crossing),
+    CommonPoint(WhichPolytope, CommonPoint),
 }
 
 /// The first or the second polytope of a tested pair.
@@ -83,12 +83,12 @@ pub(crate) struct LocalMinimum {
     /// The point of the feature that projects onto the face, and is the least deep behind it.
     pub(crate) point: DVec3,
     /// The index of the other polytope's face that the feature is behind.
-    pub(crate) face: u32,
+    pub(crate) other_face: u32,
 }
 
 /// A common point of two polytopes, on an edge or a corner of one of them, proven by exact signs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Crossing {
+pub(crate) struct CommonPoint {
     /// The ends of the edge with their weights; if the common point is a corner, that corner twice.
     pub(crate) edge_ends: WeightedCorners<2>,
     /// Three corners of the face with their weights, and a fourth corner if the common point is inside the polytope.

@@ -32,7 +32,7 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
             MarchStep::LocalMinimum(..) => return MarchEnd::Unclear(pair),
         };
         if brent.record_and_detect(pair) {
-            counters.cycles += 1;
+            counters.detected_cycles += 1;
             return MarchEnd::Cycle(pair);
         }
     }

@@ -13,7 +13,11 @@ use ccd_core::glam::DVec3;
 /// Every local minimum of the distance of convex sets is global: if no neighbouring pair is nearer, no pair is. Unlike
 /// a march, this does not compare directions of decreasing distance, which are rounding at a tie, but distances, which
 /// are accurate.
-pub(crate) fn nearer_pair(placed: &PlacedPair<'_>, pair: Pair, distance: f64) -> Option<Pair> {
+pub(crate) fn nearer_neighbour_pair(
+    placed: &PlacedPair<'_>,
+    pair: Pair,
+    distance: f64,
+) -> Option<Pair> {
     let a = SurroundingFeatures::new(&placed.a, pair.a);
     let b = SurroundingFeatures::new(&placed.b, pair.b);
     if a.edges.len() * b.edges.len() > MAX_TIE_EDGE_PAIRS {
@@ -100,7 +104,7 @@ fn height_above_face<P: PlacedPolytope>(point: DVec3, polytope: &P, f: u32) -> f
     let mut height = f64::INFINITY;
     let normal = polytope.vector(polytope.shape().face(f).normal);
     for side in polytope.shape().sides_of(f) {
-        let from = point - polytope.point(side.start);
+        let from = point - polytope.transform_point(side.start);
         if !(polytope.vector(side.inward_direction).dot(from) >= 0.0) {
             return f64::INFINITY;
         }

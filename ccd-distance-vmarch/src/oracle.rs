@@ -120,13 +120,13 @@ impl DistanceOracle for Vmarch {
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     fn prepare(body: &Body) {
-        body.precompute_cached_values(prepare);
+        body.precompute_cached_values(prepare_piece);
     }
 
     fn effort(&self) -> Effort {
         Effort {
             steps: self.counters.steps,
-            cycle_count: self.counters.cycles,
+            cycle_count: self.counters.detected_cycles,
             fallbacks: 0,
         }
     }
@@ -135,7 +135,7 @@ impl DistanceOracle for Vmarch {
 /// A prepared piece, or the reason why its preparation failed.
 type PreparationResult = Box<Result<Polytope, GiveUpReason>>;
 
-fn prepare(piece: &Piece<'_>) -> PreparationResult {
+fn prepare_piece(piece: &Piece<'_>) -> PreparationResult {
     Box::new(Polytope::new(piece))
 }
 
@@ -146,9 +146,9 @@ fn prepared_polytope<'p>(
     piece: &Piece<'p>,
     own: &'p mut Option<PreparationResult>,
 ) -> Result<&'p Polytope, GiveUpReason> {
-    let prepared = match piece.cached_value(prepare) {
+    let prepared = match piece.cached_value(prepare_piece) {
         Some(kept) => kept,
-        None => own.insert(prepare(piece)),
+        None => own.insert(prepare_piece(piece)),
     };
     prepared.as_ref().as_ref().map_err(|why| *why)
 }

@@ -1,7 +1,7 @@
 //! Finds common points of two polytopes, and proves them by exact signs `[SHE97]`.
 
 use crate::double_double::six_times_signed_volume;
-use crate::feature::{Crossing, WeightedCorners};
+use crate::feature::{CommonPoint, WeightedCorners};
 use crate::placed::PlacedPolytope;
 use crate::tolerance::MAX_EDGE_FACE_PAIRS;
 use ccd_core::exact::side_of_plane;
@@ -17,7 +17,7 @@ pub(crate) fn edge_face_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
     e: u32,
     y: &Y,
     f: u32,
-) -> Option<Crossing> {
+) -> Option<CommonPoint> {
     let ends = x.shape().edge(e).ends;
     let edge = ends.map(|v| x.vertex(v));
     let sides = y.shape().sides_of(f);
@@ -26,7 +26,7 @@ pub(crate) fn edge_face_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
         let triangle = corners.map(|w| y.vertex(w));
         if segment_crosses_triangle(edge, triangle) {
             let (along, inside) = weights(edge, triangle);
-            return Some(Crossing {
+            return Some(CommonPoint {
                 edge_ends: WeightedCorners {
                     vertices: ends,
                     weights: along,
@@ -50,7 +50,7 @@ pub(crate) fn inner_corner_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     v: u32,
     y: &Y,
-) -> Option<Crossing> {
+) -> Option<CommonPoint> {
     let point = x.vertex(v);
     let shape = y.shape();
     if shape.faces.len() < 3 {
@@ -66,7 +66,7 @@ pub(crate) fn inner_corner_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
             let corners = [0, k, k + 1].map(|k| sides[k].vertex);
             let triangle = corners.map(|w| y.vertex(w));
             if let Some(inside) = barycentric_coordinates(point, apex, triangle) {
-                return Some(Crossing {
+                return Some(CommonPoint {
                     edge_ends: WeightedCorners {
                         vertices: [v, v],
                         weights: [1.0, 0.0],
@@ -88,7 +88,7 @@ pub(crate) fn inner_corner_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
 pub(crate) fn search_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     y: &Y,
-) -> Option<Crossing> {
+) -> Option<CommonPoint> {
     let (edges, faces) = (x.shape().edges.len() as u32, y.shape().faces.len() as u32);
     if edges as usize * faces as usize > MAX_EDGE_FACE_PAIRS {
         return None;

@@ -12,14 +12,14 @@ use ccd_core::order::{greater, lesser};
 pub(crate) trait PlacedPolytope {
     fn shape(&self) -> &Polytope;
     /// Transforms a point from the polytope's frame to A's.
-    fn point(&self, local: DVec3) -> DVec3;
+    fn transform_point(&self, local: DVec3) -> DVec3;
     /// Rotates a direction from the polytope's frame to A's.
     fn vector(&self, local: DVec3) -> DVec3;
 
     /// Returns the position of a vertex in A's frame.
     #[inline(always)]
     fn vertex(&self, v: u32) -> DVec3 {
-        self.point(self.shape().vertex(v).point)
+        self.transform_point(self.shape().vertex(v).point)
     }
 
     /// Returns the start, direction and length of an edge in A's frame.
@@ -27,7 +27,7 @@ pub(crate) trait PlacedPolytope {
     fn line(&self, e: u32) -> Line {
         let edge = self.shape().edge(e);
         Line {
-            start: self.point(edge.start),
+            start: self.transform_point(edge.start),
             direction: self.vector(edge.direction),
             length: edge.length,
         }
@@ -78,7 +78,7 @@ pub(crate) struct Line {
 
 impl<'a> PlacedPair<'a> {
     pub(crate) fn new(a: &'a Polytope, b: &'a Polytope, b_to_a: &Frame) -> Self {
-        let translation = b_to_a.transform_point(b.origin) - a.origin;
+        let translation = b_to_a.transform_point(b.origin_in_piece) - a.origin_in_piece;
         PlacedPair {
             a: PlacedA(a),
             b: PlacedB {
@@ -129,7 +129,7 @@ impl PlacedPolytope for PlacedA<'_> {
     }
 
     #[inline(always)]
-    fn point(&self, local: DVec3) -> DVec3 {
+    fn transform_point(&self, local: DVec3) -> DVec3 {
         local
     }
 
@@ -146,7 +146,7 @@ impl PlacedPolytope for PlacedB<'_> {
     }
 
     #[inline(always)]
-    fn point(&self, local: DVec3) -> DVec3 {
+    fn transform_point(&self, local: DVec3) -> DVec3 {
         self.to_a.transform_point(local)
     }
 

@@ -17,7 +17,7 @@ use ccd_core::glam::DVec3;
 
 /// A convex piece with the planes that bound the Voronoi regions of its features.
 ///
-/// Coordinates are relative to [`Polytope::origin`], so that their rounding depends on the piece's
+/// Coordinates are relative to [`Polytope::origin_in_piece`], so that their rounding depends on the piece's
 /// size, not its position. Every list is flat, and features are numbers.
 ///
 /// # Guarantee
@@ -31,7 +31,7 @@ use ccd_core::glam::DVec3;
 #[derive(Clone, Debug)]
 pub(crate) struct Polytope {
     /// The position of the polytope's origin in the piece's coordinates.
-    pub(crate) origin: DVec3,
+    pub(crate) origin_in_piece: DVec3,
     /// The distance of the farthest corner from the origin.
     pub(crate) reach: f64,
     pub(crate) vertices: Vec<Vertex>,
@@ -50,7 +50,7 @@ pub(crate) struct Vertex {
     /// The index of the corner in the piece's points.
     pub(crate) point_index: u32,
     first_outgoing_edge: u32,
-    end_outgoing_edge: u32,
+    outgoing_edges_end: u32,
 }
 
 /// An edge as seen from one of its end vertices. Its direction is the normal of a vertex-edge plane.
@@ -133,7 +133,8 @@ impl Polytope {
     #[inline]
     pub(crate) fn outgoing_edges_of(&self, v: u32) -> &[OutgoingEdge] {
         let vertex = self.vertex(v);
-        &self.outgoing_edges[vertex.first_outgoing_edge as usize..vertex.end_outgoing_edge as usize]
+        &self.outgoing_edges
+            [vertex.first_outgoing_edge as usize..vertex.outgoing_edges_end as usize]
     }
 
     /// Returns the sides of a face, counterclockwise as seen from outside.

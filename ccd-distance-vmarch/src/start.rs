@@ -65,7 +65,7 @@ impl Cache {
 #[inline]
 fn fingerprints(placed: &PlacedPair<'_>) -> [u64; 2] {
     let fingerprint = |polytope: &Polytope| {
-        let DVec3 { x, y, z } = polytope.origin;
+        let DVec3 { x, y, z } = polytope.origin_in_piece;
         let coordinates = [polytope.reach, x, y, z].map(f64::to_bits);
         coordinates.into_iter().fold(0, |fingerprint: u64, bits| {
             fingerprint.rotate_left(16) ^ bits

@@ -1,6 +1,6 @@
 //! The ends of a march, and the detection of cycles.
 
-use crate::feature::{Certainty, Crossing, Pair, WhichPolytope};
+use crate::feature::{Certainty, CommonPoint, Pair, WhichPolytope};
 
 /// Why and where a march ended.
 #[derive(Clone, Copy, Debug)]
@@ -8,7 +8,7 @@ pub(crate) enum MarchEnd {
     /// The march reached the nearest features.
     Nearest(Pair, Certainty),
     /// The march found a common point of an edge of one polytope, which is named, and of a feature of the other one.
-    CommonPoint(Pair, WhichPolytope, Crossing),
+    CommonPoint(Pair, WhichPolytope, CommonPoint),
     /// The march returned to this pair.
     Cycle(Pair),
     /// A feature of this pair is behind all faces of the other polytope, but no common point could be proven.

@@ -1,7 +1,7 @@
 //! Finds separating axes for pieces that have a common point, but possibly only touch there.
 
 use crate::certificate::{Axis, best_axis};
-use crate::feature::{Crossing, Feature, Pair, WhichPolytope};
+use crate::feature::{CommonPoint, Feature, Pair, WhichPolytope};
 use crate::placed::{PlacedPair, PlacedPolytope, RoundingScale};
 use crate::polytope::Polytope;
 use crate::witness::{self, Witness};
@@ -14,7 +14,7 @@ use ccd_core::Claim;
 pub(crate) fn common_point_claim(
     placed: &PlacedPair<'_>,
     which: WhichPolytope,
-    crossing: &Crossing,
+    crossing: &CommonPoint,
 ) -> Claim {
     let claim = witness::claim_along_crossed_face(placed, which, crossing);
     let Some(pair) = touching_features(placed, which, crossing) else {
@@ -37,7 +37,7 @@ pub(crate) fn common_point_claim(
 fn touching_features(
     placed: &PlacedPair<'_>,
     which: WhichPolytope,
-    crossing: &Crossing,
+    crossing: &CommonPoint,
 ) -> Option<Pair> {
     let PlacedPair { a, b, scale } = placed;
     let found = match which {
@@ -50,7 +50,7 @@ fn touching_features(
 fn features<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     y: &Y,
-    crossing: &Crossing,
+    crossing: &CommonPoint,
     scale: RoundingScale,
 ) -> Option<(Feature, Feature)> {
     let (on_edge, on_face) = (&crossing.edge_ends, &crossing.face_corners);

@@ -23,7 +23,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     let mut height = 0.0;
     let normal = y.vector(y.shape().face(f).normal);
     for side in y.shape().sides_of(f) {
-        let from = corner - y.point(side.start);
+        let from = corner - y.transform_point(side.start);
         let inside = y.vector(side.inward_direction).dot(from);
         if inside < least {
             (least, outside) = (inside, Some(side.edge));
@@ -40,7 +40,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
             LocalMinimum {
                 feature: Feature::Vertex(v),
                 point: corner,
-                face: f,
+                other_face: f,
             },
         );
     }

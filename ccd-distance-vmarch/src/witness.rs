@@ -1,7 +1,7 @@
 //! The nearest points of a pair of features, clamped to the features, and the axis between them.
 
 use crate::edge_edge;
-use crate::feature::{Crossing, Feature, Pair, WeightedCorners, WhichPolytope};
+use crate::feature::{CommonPoint, Feature, Pair, WeightedCorners, WhichPolytope};
 use crate::placed::{Line, PlacedPair, PlacedPolytope, RoundingScale, clamp_parameter};
 use crate::polytope::Polytope;
 use ccd_core::glam::DVec3;
@@ -34,12 +34,12 @@ impl Witness {
         }
     }
 
-    pub(crate) fn offset(&self) -> DVec3 {
+    pub(crate) fn separation_vector(&self) -> DVec3 {
         self.points[1] - self.points[0]
     }
 
     pub(crate) fn distance(&self) -> f64 {
-        self.offset().length()
+        self.separation_vector().length()
     }
 
     #[inline]
@@ -60,7 +60,7 @@ impl Witness {
 pub(crate) fn claim_along_crossed_face(
     placed: &PlacedPair<'_>,
     which: WhichPolytope,
-    crossing: &Crossing,
+    crossing: &CommonPoint,
 ) -> Claim {
     let (a, b) = (&placed.a, &placed.b);
     let (edge_ends, face_corners) = (&crossing.edge_ends, &crossing.face_corners);
@@ -192,7 +192,7 @@ fn combination<const N: usize>(
 
 #[inline]
 fn corner<P: PlacedPolytope>(polytope: &P, v: u32) -> ConvexCombination {
-    ConvexCombination::point(polytope.shape().vertex(v).point_index)
+    ConvexCombination::from_single_point(polytope.shape().vertex(v).point_index)
 }
 
 #[inline]
@@ -204,7 +204,7 @@ fn combination_on_edge<P: PlacedPolytope>(
     let shape = polytope.shape();
     let edge = shape.edge(e);
     let numbers = edge.ends.map(|v| shape.vertex(v).point_index);
-    ConvexCombination::segment(numbers, parameter / edge.length)
+    ConvexCombination::of_two_points(numbers, parameter / edge.length)
 }
 
 /// Projects a point onto a face, and returns the projection, clamped to a triangle of the face, with its weights.

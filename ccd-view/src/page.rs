@@ -29,7 +29,7 @@ pub struct Page<'a> {
 pub enum PageError {
     /// The views cannot be serialised as JSON.
     #[error("the page's data: {0}")]
-    Json(#[from] serde_json::Error),
+    NotSerializable(#[from] serde_json::Error),
     /// The file of the page cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
@@ -58,7 +58,7 @@ impl Page<'_> {
     /// Returns the page as HTML text.
     ///
     /// # Errors
-    /// [`PageError::Json`].
+    /// [`PageError::NotSerializable`].
     pub fn html(&self) -> Result<String, PageError> {
         let parts = [
             ("title", escape(self.title)),

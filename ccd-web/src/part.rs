@@ -28,16 +28,16 @@ pub enum WebError {
     Format(#[from] MeshFault),
     /// The file cannot be read as a mesh.
     #[error(transparent)]
-    Mesh(#[from] MeshError),
+    BadMesh(#[from] MeshError),
     /// No body can be made of the mesh.
     #[error(transparent)]
     Prepare(#[from] PrepareError),
     /// A number of the part or the throw is out of range.
     #[error(transparent)]
-    Input(#[from] InputError),
+    BadInput(#[from] InputError),
     /// The engine refuses the query that the throw makes.
     #[error(transparent)]
-    Query(#[from] rigid_ccd::Error),
+    RefusedQuery(#[from] rigid_ccd::Error),
     /// A throw is given by a list that has more or fewer than nine numbers.
     #[error("a throw is nine numbers, not {0}")]
     WrongNumberCount(usize),
@@ -70,7 +70,7 @@ impl Part {
             "ball" => Part::capsule(0.12, 0.0),
             "knot" => Part::from_mesh(shapes::knot(0.3, 0.05)?),
             "sheet" => Part::cuboid([0.001, 0.4, 0.4]),
-            "slot" => Part::from_mesh(shapes::slot([0.02, 0.4, 0.45], [0.06, 0.36])?),
+            "slot" => Part::from_mesh(shapes::slotted_plate([0.02, 0.4, 0.45], [0.06, 0.36])?),
             "post" => Part::capsule(0.015, 0.45),
             _ => Err(WebError::UnknownPart(name.to_owned())),
         }
@@ -85,7 +85,10 @@ impl Part {
         let [low, high] = mesh.bounding_box();
         let scale = size / (high - low).length();
         let middle = 0.5 * low + 0.5 * high;
-        Part::from_mesh(mesh.transformed(AffineMap::scaled(scale, Pose::at(-middle * scale)?))?)
+        Part::from_mesh(mesh.transformed(AffineMap::from_scale_and_pose(
+            scale,
+            Pose::at(-middle * scale)?,
+        ))?)
     }
 
     /// Returns the drawn vertices, three numbers each.

@@ -23,7 +23,7 @@ pub(crate) fn faces(body: &Body) -> Result<TriangleMesh, MeshError> {
 pub(crate) fn capsule(radius: f64, half: f64) -> Result<TriangleMesh, MeshError> {
     const DIVISIONS_AROUND: u32 = 32;
     const DIVISIONS_ALONG: u32 = 17;
-    sheet(
+    tubular_grid(
         [DIVISIONS_AROUND, DIVISIONS_ALONG, DIVISIONS_ALONG + 1],
         |[around, along]| {
             let (sine, cosine) = (TAU * around).sin_cos();
@@ -46,7 +46,7 @@ pub(crate) fn knot(size: f64, radius: f64) -> Result<TriangleMesh, MeshError> {
                 (3.0 * t).sin(),
             )
     };
-    sheet([16, 180, 180], |[around, along]| {
+    tubular_grid([16, 180, 180], |[around, along]| {
         let t = TAU * along;
         let ahead = (curve(t + 1e-4) - curve(t - 1e-4)).normalize();
         let out = ahead.cross(DVec3::Z).normalize();
@@ -56,7 +56,7 @@ pub(crate) fn knot(size: f64, radius: f64) -> Result<TriangleMesh, MeshError> {
 }
 
 /// Returns a plate across x with a slot through it; `hole` has the half extents of the slot along y and z.
-pub(crate) fn slot(half: [f64; 3], hole: [f64; 2]) -> Result<TriangleMesh, MeshError> {
+pub(crate) fn slotted_plate(half: [f64; 3], hole: [f64; 2]) -> Result<TriangleMesh, MeshError> {
     let ring =
         |x: f64, y: f64, z: f64| [(-y, -z), (y, -z), (y, z), (-y, z)].map(|(y, z)| dvec3(x, y, z));
     let [depth, wide, tall] = half;
@@ -82,7 +82,7 @@ pub(crate) fn slot(half: [f64; 3], hole: [f64; 2]) -> Result<TriangleMesh, MeshE
 
 /// Returns a tubular grid of quadrilaterals, each split into two triangles. `point` maps the fractions around and along
 /// to a point. The ends are joined if there are as many rows of points as cells along.
-fn sheet(
+fn tubular_grid(
     [around, along, rows]: [u32; 3],
     point: impl Fn([f64; 2]) -> DVec3,
 ) -> Result<TriangleMesh, MeshError> {

@@ -18,9 +18,9 @@ pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, Py
         .call1((
             hit.time,
             Status::from(&hit.kind).name(),
-            to_tuple(hit.witness_a()),
-            to_tuple(hit.witness_b()),
-            separation.map(|separation| to_tuple(separation.normal)),
+            vec3_to_tuple(hit.witness_a()),
+            vec3_to_tuple(hit.witness_b()),
+            separation.map(|separation| vec3_to_tuple(separation.normal)),
             separation.map(|separation| (separation.lower, separation.upper)),
             contact.map(|contact| contact.feature_a.to_string()),
             contact.map(|contact| contact.feature_b.to_string()),
@@ -28,7 +28,7 @@ pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, Py
 }
 
 /// Makes a Python `Distance`, including its comparison with a clearance.
-pub(crate) fn distance<'py>(
+pub(crate) fn make_distance<'py>(
     py: Python<'py>,
     found: &Outcome,
     clearance: Option<f64>,
@@ -45,12 +45,12 @@ pub(crate) fn distance<'py>(
             found.upper(),
             found.time(),
             matches!(found, Outcome::Overlapping { .. }),
-            nearest.map(|nearest| to_tuple(nearest.witness_a)),
-            nearest.map(|nearest| to_tuple(nearest.witness_b)),
+            nearest.map(|nearest| vec3_to_tuple(nearest.witness_a)),
+            nearest.map(|nearest| vec3_to_tuple(nearest.witness_b)),
             compared,
         ))
 }
 
-fn to_tuple(v: DVec3) -> (f64, f64, f64) {
+fn vec3_to_tuple(v: DVec3) -> (f64, f64, f64) {
     v.into()
 }

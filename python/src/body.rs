@@ -5,10 +5,10 @@ use crate::errors::{InputError, file_error, input_error, warn, wrong_type_error}
 use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
-use rigid_ccd::body::{SolidOfRevolution, Volume};
+use rigid_ccd::body::{SolidOfRevolution, Solidity};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::mesh::{
-    Adjustments, Axis, Detail, MeshSource, Model, STORED_BODY_EXTENSION, SourceError, StoreFault,
+    Adjustments, Axis, Detail, MeshSource, StoredBodyContent, STORED_BODY_EXTENSION, SourceError, StoreFault,
     TriangleMesh, Unit, prepare,
 };
 use rigid_ccd::{Body, Remark};
@@ -46,7 +46,7 @@ pub(crate) struct PyBody {
 /// The data from which pickle makes the body again.
 enum PickleData {
     Shape(ConstructorCall),
-    Mesh(Box<Model>),
+    Mesh(Box<StoredBodyContent>),
 }
 
 /// Extracts a `Body` from a Python argument; `what` names it in errors.
@@ -155,7 +155,7 @@ impl PyBody {
                 let (mesh, _) = source.read().map_err(input_error)?;
                 prepare(&mesh, detail).map_err(|error| input_error(format!("{source}: {error}")))?
             } else if as_prepared {
-                Model::load(&path).map_err(input_error)?
+                StoredBodyContent::load(&path).map_err(input_error)?
             } else {
                 let error = SourceError::AdjustedStoredBody { file: path };
                 return Err(input_error(error));
@@ -249,7 +249,7 @@ impl PyBody {
         excess: Option<f64>,
     ) -> PyResult<Self> {
         let round = SolidOfRevolution::cylinder(radius, half_height).map_err(input_error)?;
-        PyBody::round(
+        PyBody::solid_of_revolution(
             class.py(),
             "cylinder",
             &round,
@@ -273,13 +273,13 @@ impl PyBody {
         excess: Option<f64>,
     ) -> PyResult<Self> {
         let round = SolidOfRevolution::cone(radius, half_height).map_err(input_error)?;
-        PyBody::round(class.py(), "cone", &round, [radius, half_height], excess)
+        PyBody::solid_of_revolution(class.py(), "cone", &round, [radius, half_height], excess)
     }
 
     /// Whether the body fills its inside, so that another body inside it overlaps it.
     #[getter]
     fn is_solid(&self) -> bool {
-        self.body.volume() == Volume::Solid
+        self.body.solidity() == Solidity::Solid
     }
 
     /// How far the body may exceed the shape that it was made of, as a length. Contacts may be early because of it, but
@@ -327,7 +327,7 @@ impl PyBody {
     fn _from_bytes(class: &Bound<'_, PyType>, stored: &[u8]) -> PyResult<Self> {
         class
             .py()
-            .detach(|| PyBody::from_model(Model::read(stored).map_err(input_error)?))
+            .detach(|| PyBody::from_model(StoredBodyContent::read(stored).map_err(input_error)?))
     }
 
     fn __repr__(&self) -> String {
@@ -336,8 +336,8 @@ impl PyBody {
 }
 
 impl PyBody {
-    fn from_parts(body: Body, pickle_data: PickleData, report: String) -> Self {
-        let size = Remark::size(&body);
+    fn with_pickle_data(body: Body, pickle_data: PickleData, report: String) -> Self {
+        let size = Remark::body_size(&body);
         PyBody {
             body,
             size,
@@ -346,10 +346,10 @@ impl PyBody {
         }
     }
 
-    fn from_model(model: Model) -> PyResult<Self> {
+    fn from_model(model: StoredBodyContent) -> PyResult<Self> {
         let (body, report) = (model.body().map_err(input_error)?, model.report.to_string());
         let pickle_data = PickleData::Mesh(Box::new(model));
-        Ok(PyBody::from_parts(body, pickle_data, report))
+        Ok(PyBody::with_pickle_data(body, pickle_data, report))
     }
 
     fn from_shape(
@@ -358,17 +358,17 @@ impl PyBody {
         report: String,
     ) -> PyResult<Self> {
         let body = body.map_err(input_error)?;
-        Ok(PyBody::from_parts(body, PickleData::Shape(recipe), report))
+        Ok(PyBody::with_pickle_data(body, PickleData::Shape(recipe), report))
     }
 
-    fn round(
+    fn solid_of_revolution(
         py: Python<'_>,
         name: &'static str,
         round: &SolidOfRevolution,
         [radius, half_height]: [f64; 2],
         excess: Option<f64>,
     ) -> PyResult<Self> {
-        let enclosure = round.enclose(excess.unwrap_or(round.default_excess()));
+        let enclosure = round.enclosing_polytope(excess.unwrap_or(round.default_excess()));
         let body = enclosure.and_then(|enclosure| enclosure.body());
         let body = body.map_err(input_error)?;
         let report = format!(
@@ -379,11 +379,11 @@ impl PyBody {
         PyBody::from_shape(Ok(body), recipe, report)
     }
 
-    fn model(&self) -> PyResult<Cow<'_, Model>> {
+    fn model(&self) -> PyResult<Cow<'_, StoredBodyContent>> {
         match &self.pickle_data {
             PickleData::Mesh(model) => Ok(Cow::Borrowed(model)),
             PickleData::Shape(_) => Ok(Cow::Owned(
-                Model::from_body(&self.body).map_err(input_error)?,
+                StoredBodyContent::from_body(&self.body).map_err(input_error)?,
             )),
         }
     }

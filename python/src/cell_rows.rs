@@ -1,7 +1,7 @@
 //! Answers about paths in a cell: as objects, and as rows of a table.
 
 use crate::errors::input_error;
-use crate::settings::{CONTACT_SETTING_NAMES, DISTANCE_SETTING_NAMES};
+use crate::settings::{CONTACT_SETTING_NAMES, DISTANCE_QUERY_SETTING_NAMES};
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray, UInt64Array};
 use arrow_schema::ArrowError;
 use pyo3::prelude::*;
@@ -50,7 +50,7 @@ impl PathQuestion {
     pub(crate) fn allowed_setting_names(self) -> &'static [&'static str] {
         match self {
             PathQuestion::IsFree | PathQuestion::FirstContact => CONTACT_SETTING_NAMES,
-            PathQuestion::ClosestApproach => DISTANCE_SETTING_NAMES,
+            PathQuestion::ClosestApproach => DISTANCE_QUERY_SETTING_NAMES,
         }
     }
 
@@ -143,7 +143,7 @@ impl PathRow {
     fn with_pair(self, contact: &PathContact<'_>) -> Self {
         PathRow {
             at: Some((contact.at.segment, contact.at.share)),
-            between: Some(contact.between.map(|item| item.name().to_owned())),
+            between: Some(contact.items.map(|item| item.name().to_owned())),
             witnesses: Some(contact.witnesses),
             ..self
         }

@@ -80,7 +80,7 @@ pub(crate) fn answer_paths<T: Send>(
     question: impl Fn(&mut CellSolver<'_>, &[&[f64]]) -> T + Sync,
 ) -> Vec<T> {
     let solver = || cell.solver().with_settings(settings.clone());
-    let tasks: Vec<&[f64]> = paths.task_positions().collect();
+    let tasks: Vec<&[f64]> = paths.position_chunks().collect();
     let count = threads.and_then(|threads| NonZeroUsize::new(usize::from(threads)));
     let mut solvers = match count {
         Some(count) => ParallelSolver::with_threads(count, solver),
@@ -89,9 +89,9 @@ pub(crate) fn answer_paths<T: Send>(
     let answers = solvers.map(&tasks, |solver, task| {
         let mut path = Vec::with_capacity(paths.length);
         let mut answers = Vec::with_capacity(PATHS_PER_TASK);
-        for positions in task.chunks_exact(paths.length * paths.joints) {
+        for positions in task.chunks_exact(paths.length * paths.joint_count) {
             path.clear();
-            path.extend(positions.chunks_exact(paths.joints));
+            path.extend(positions.chunks_exact(paths.joint_count));
             answers.push(question(solver, &path));
         }
         answers
@@ -106,12 +106,12 @@ pub(crate) struct Paths<'a> {
     /// The number of configurations of a path, at least 1.
     pub(crate) length: usize,
     /// The number of positions of a configuration, at least 1.
-    pub(crate) joints: usize,
+    pub(crate) joint_count: usize,
 }
 
 impl<'a> Paths<'a> {
-    fn task_positions(&self) -> impl Iterator<Item = &'a [f64]> {
+    fn position_chunks(&self) -> impl Iterator<Item = &'a [f64]> {
         self.positions
-            .chunks(PATHS_PER_TASK * self.length * self.joints)
+            .chunks(PATHS_PER_TASK * self.length * self.joint_count)
     }
 }

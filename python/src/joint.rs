@@ -103,7 +103,7 @@ impl PyJoint {
         let joint = trajectory::Joint::fixed(origin.pose("origin")?);
         let names = [name, parent, child];
         Ok(PyJoint {
-            joint: named_joint(names, joint, None),
+            joint: build_joint(names, joint, None),
             kind: "fixed",
             constructor_call: ConstructorCall::new(
                 class.py(),
@@ -122,7 +122,7 @@ impl PyJoint {
     /// The least and the greatest allowed position of the joint.
     #[getter]
     fn limits(&self) -> (f64, f64) {
-        let limits = self.joint.joint.limits();
+        let limits = self.joint.axis_and_limits.limits();
         (*limits.start(), *limits.end())
     }
 
@@ -166,7 +166,7 @@ impl PyJoint {
         let [name, parent, child] = names;
         let arguments = (name, parent, child, origin, axis, limits, mimic.clone());
         Ok(PyJoint {
-            joint: named_joint(names, joint, mimic),
+            joint: build_joint(names, joint, mimic),
             kind,
             constructor_call: ConstructorCall::new(py, Some(kind), arguments)?,
         })
@@ -179,7 +179,7 @@ fn read_origin(origin: Option<&Bound<'_, PyAny>>) -> PyResult<GivenPose> {
     })
 }
 
-fn named_joint(names: [&str; 3], joint: trajectory::Joint, mimic: Option<Mimic>) -> Joint {
+fn build_joint(names: [&str; 3], joint: trajectory::Joint, mimic: Option<Mimic>) -> Joint {
     let [name, parent, child] = names.map(str::to_owned);
     let position = match mimic {
         Some((joint, multiplier, offset)) => PositionRule::Follows {
@@ -193,7 +193,7 @@ fn named_joint(names: [&str; 3], joint: trajectory::Joint, mimic: Option<Mimic>)
         name,
         parent,
         child,
-        joint,
-        position,
+        axis_and_limits: joint,
+        position_rule: position,
     }
 }

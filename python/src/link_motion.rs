@@ -6,7 +6,7 @@ use crate::motion::pose_matrix;
 use crate::pickle::Reduced;
 use pyo3::prelude::*;
 use rigid_ccd::Remark;
-use rigid_ccd::trajectory::{JointKind, Link, Trajectory};
+use rigid_ccd::trajectory::{JointKind, LinkTrajectory, Trajectory};
 use rigid_ccd_robot::{ChainBetween, Robot};
 
 /// The motion of a link of a `Robot` while all joints move at constant rates; `Robot.motion` makes it.
@@ -97,7 +97,7 @@ impl PyLinkMotion {
     }
 
     /// Returns the link's trajectory.
-    pub(crate) fn link(&self) -> PyResult<Link<'_>> {
+    pub(crate) fn link(&self) -> PyResult<LinkTrajectory<'_>> {
         let [start, end] = &self.ends;
         let link = self
             .chain

@@ -173,7 +173,7 @@ pub(crate) fn pose_matrix<'py>(py: Python<'py>, pose: &Pose) -> Bound<'py, numpy
 /// Reads a rotation from a quaternion, a matrix or a SciPy rotation.
 fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
     if value.hasattr("as_matrix")? {
-        return matrix(&value.call_method0("as_matrix")?, "rotation");
+        return rotation_from_matrix(&value.call_method0("as_matrix")?, "rotation");
     }
     match shape(value, "rotation")?[..] {
         [4] => {
@@ -183,18 +183,18 @@ fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
             warn(value.py(), remark, 1)?;
             Ok(DQuat::from_xyzw(x, y, z, w))
         }
-        [3, 3] => matrix(value, "rotation"),
+        [3, 3] => rotation_from_matrix(value, "rotation"),
         _ => Err(input_error(
             "rotation: a matrix of shape (3, 3), four numbers (w, x, y, z) or a scipy Rotation is needed",
         )),
     }
 }
 
-fn matrix(value: &Bound<'_, PyAny>, what: &str) -> PyResult<DQuat> {
-    rotation(finite_numbers(value, what)?, what)
+fn rotation_from_matrix(value: &Bound<'_, PyAny>, what: &str) -> PyResult<DQuat> {
+    quaternion_from_rows(finite_numbers(value, what)?, what)
 }
 
-fn rotation(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
+fn quaternion_from_rows(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
     let matrix = DMat3::from_cols_array(&rows).transpose();
     let off = (matrix * matrix.transpose() - DMat3::IDENTITY).to_cols_array();
     let error = off.iter().map(|entry| entry.abs());
@@ -238,5 +238,5 @@ pub(crate) fn read_given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<
         )));
     }
     let rows = [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]];
-    Ok(GivenPose([m[3], m[7], m[11]], rotation(rows, what)?))
+    Ok(GivenPose([m[3], m[7], m[11]], quaternion_from_rows(rows, what)?))
 }

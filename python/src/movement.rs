@@ -5,13 +5,13 @@ use crate::link_motion::PyLinkMotion;
 use crate::motion::PyMotion;
 use crate::path::PyPath;
 use pyo3::prelude::*;
-use rigid_ccd::trajectory::{Link, MovingBody, Poses, Trajectory};
+use rigid_ccd::trajectory::{LinkTrajectory, MovingBody, Poses, Trajectory};
 use rigid_ccd::{Body, Motion, Remark};
 
 /// The movement of a body as a Python argument gives it.
 pub(crate) enum GivenMovement<'c> {
     Motion(Motion),
-    Link(Link<'c>, f64),
+    Link(LinkTrajectory<'c>, f64),
     Path(&'c Poses),
 }
 
@@ -41,11 +41,11 @@ impl<'c> GivenMovement<'c> {
     }
 
     /// Returns the time at which the movement ends; `None` for a motion, which has no end.
-    fn end(&self) -> Option<f64> {
+    fn end_time(&self) -> Option<f64> {
         match self {
             GivenMovement::Motion(_) => None,
             GivenMovement::Link(_, duration) => Some(*duration),
-            GivenMovement::Path(poses) => Some(poses.end()),
+            GivenMovement::Path(poses) => Some(poses.end_time()),
         }
     }
 
@@ -69,7 +69,7 @@ impl Pair<'_> {
     /// which must be equal for both, or 1.
     pub(crate) fn duration(&self, given: Option<f64>) -> PyResult<f64> {
         let courses = [&self.a.1, &self.b.1];
-        let ends = courses.iter().filter_map(|course| course.end());
+        let ends = courses.iter().filter_map(|course| course.end_time());
         let duration = match given {
             Some(given) => given,
             None => {

@@ -80,7 +80,7 @@ impl PyPath {
     /// The time of the last pose of the path.
     #[getter]
     fn end(&self) -> f64 {
-        self.poses.end()
+        self.poses.end_time()
     }
 
     /// Returns the pose of the body at a time, as a matrix of shape (4, 4).
@@ -95,7 +95,7 @@ impl PyPath {
     }
 
     fn __repr__(&self) -> String {
-        let (poses, end) = (self.poses.times().count(), self.poses.end());
+        let (poses, end) = (self.poses.times().count(), self.poses.end_time());
         format!("Path({poses} poses, until {end})")
     }
 }

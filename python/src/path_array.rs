@@ -34,12 +34,12 @@ impl PathArray {
 
     /// Returns the configurations of one path; an array of one dimension is one configuration.
     pub(crate) fn configurations(&self) -> Vec<&[f64]> {
-        self.positions.chunks_exact(self.joints()).collect()
+        self.positions.chunks_exact(self.joint_count()).collect()
     }
 
     /// Refuses an array of another shape than (paths, configurations, `joints`).
     pub(crate) fn check_shape_of_paths(&self, joints: usize) -> PyResult<()> {
-        if self.shape.len() == 3 && self.joints() == joints {
+        if self.shape.len() == 3 && self.joint_count() == joints {
             return Ok(());
         }
         Err(input_error(format!(
@@ -53,11 +53,11 @@ impl PathArray {
         Paths {
             positions: &self.positions,
             length: self.shape[1],
-            joints: self.joints(),
+            joint_count: self.joint_count(),
         }
     }
 
-    fn joints(&self) -> usize {
+    fn joint_count(&self) -> usize {
         self.shape[self.shape.len() - 1]
     }
 }

@@ -7,7 +7,7 @@ use crate::interruptible::run_interruptibly;
 use crate::motion::read_pose;
 use crate::movement::{GivenMovement, Pair};
 use crate::settings::{
-    APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES, DISTANCE_SETTING_NAMES, read,
+    APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES, DISTANCE_QUERY_SETTING_NAMES, read,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -107,13 +107,13 @@ impl PairQuestion<'_> {
 }
 
 /// A body and its motion, as a Python caller passes them.
-type Given<'a, 'py> = (&'a Bound<'py, PyAny>, Option<&'a Bound<'py, PyAny>>);
+type GivenBody<'a, 'py> = (&'a Bound<'py, PyAny>, Option<&'a Bound<'py, PyAny>>);
 
 /// Checks the arguments of a question about two moving bodies, warns of likely mistakes, and answers the question.
 fn ask(
     py: Python<'_>,
     question: Question,
-    [(a, motion_a), (b, motion_b)]: [Given<'_, '_>; 2],
+    [(a, motion_a), (b, motion_b)]: [GivenBody<'_, '_>; 2],
     duration: Option<f64>,
     settings: &Settings,
 ) -> PyResult<Answer> {
@@ -140,7 +140,7 @@ fn ask(
 }
 
 /// Returns the contact in an answer; `None` if the bodies stay apart.
-fn hit(py: Python<'_>, answer: Answer) -> PyResult<Option<Hit>> {
+fn hit_of_answer(py: Python<'_>, answer: Answer) -> PyResult<Option<Hit>> {
     answer.hit().map_err(|known| unresolved_error(py, &known))
 }
 
@@ -152,7 +152,7 @@ fn distance_of_answer<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     match &answer.outcome {
         Outcome::Unresolved(known) => Err(unresolved_distance_error(py, known)),
-        outcome => answers::distance(py, outcome, settings.clearance),
+        outcome => answers::make_distance(py, outcome, settings.clearance),
     }
 }
 
@@ -194,7 +194,7 @@ pub(crate) fn first_contact<'py>(
     let settings = read(settings, CONTACT_SETTING_NAMES)?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::FirstContact, bodies, duration, &settings)?;
-    let hit = hit(py, answer)?;
+    let hit = hit_of_answer(py, answer)?;
     hit.map(|hit| answers::contact(py, &hit)).transpose()
 }
 
@@ -216,7 +216,7 @@ pub(crate) fn is_free(
     let settings = read(settings, CONTACT_SETTING_NAMES)?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::IsFree, bodies, duration, &settings)?;
-    Ok(hit(py, answer)?.is_none())
+    Ok(hit_of_answer(py, answer)?.is_none())
 }
 
 /// Brackets the least distance of two moving bodies, to within the tolerance.
@@ -271,7 +271,7 @@ pub(crate) fn distance<'py>(
         None => Ok(rigid_ccd::Pose::IDENTITY),
     };
     let (pose_a, pose_b) = (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?);
-    let settings = read(settings, DISTANCE_SETTING_NAMES)?;
+    let settings = read(settings, DISTANCE_QUERY_SETTING_NAMES)?;
     warn_of_large_tolerance([a, b], settings.tolerance, 1)?;
     let (a, b) = (extract_body(a, "a")?, extract_body(b, "b")?);
     let asked = PairQuestion {

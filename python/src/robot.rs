@@ -14,7 +14,7 @@ use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyType};
 use rigid_ccd_robot::{
-    BodyElements, Joint, Link, LinkBody, LinkContactClass, LinkPairs, MeshModel, Robot, SkipReason,
+    BodyElements, Joint, Link, LinkBody, LinkContactClass, LinkPairs, MeshConversion, Robot, SkipReason,
     Urdf,
 };
 use std::path::PathBuf;
@@ -136,13 +136,13 @@ impl PyRobot {
             }
         };
         let meshes = match meshes {
-            "exact" => MeshModel::Exact,
-            "hull" => MeshModel::OuterHull,
+            "exact" => MeshConversion::Exact,
+            "hull" => MeshConversion::OuterHull,
             _ => return Err(unknown_name_error("meshes", meshes, "exact or hull")),
         };
-        let mut urdf = Urdf::at(path)
+        let mut urdf = Urdf::from_path(path)
             .with_body_elements(geometry)
-            .with_mesh_model(meshes);
+            .with_mesh_conversion(meshes);
         // The first folder is searched first.
         for folder in packages.into_iter().flatten().rev() {
             urdf = urdf.with_package_folder(folder);
@@ -258,7 +258,7 @@ impl PyRobot {
         let meetings = py.detach(|| self.robot.classify_link_contacts(max_boxes));
         let meetings = meetings.map_err(input_error)?;
         if let Some(path) = srdf {
-            let text = self.robot.srdf(name, &meetings);
+            let text = self.robot.to_srdf(name, &meetings);
             std::fs::write(&path, text).map_err(|error| file_error(&error, &path))?;
         }
         let batch = link_contact_table(&self.robot, &meetings).map_err(input_error)?;

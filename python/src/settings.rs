@@ -11,7 +11,7 @@ use std::time::Duration;
 pub(crate) const CONTACT_SETTING_NAMES: &[&str] = &["tolerance", "margin", "budget", "deadline"];
 
 /// The names of the settings of a query about the distance of bodies at rest.
-pub(crate) const DISTANCE_SETTING_NAMES: &[&str] = &["tolerance", "budget", "deadline"];
+pub(crate) const DISTANCE_QUERY_SETTING_NAMES: &[&str] = &["tolerance", "budget", "deadline"];
 
 /// The names of the settings of a query about the least distance of moving bodies.
 pub(crate) const APPROACH_SETTING_NAMES: &[&str] =

@@ -26,6 +26,6 @@ pub(super) fn run(args: &CompletionsArgs) -> Result<RunOutcome> {
     let mut script = Vec::new();
     generate(args.shell, &mut Cli::command(), "ccd", &mut script);
     let written = io::stdout().write_all(&script);
-    written.map_err(OutputError::for_standard_output)?;
+    written.map_err(OutputError::standard_output_error)?;
     Ok(RunOutcome::AllAnswered)
 }

@@ -21,7 +21,7 @@ pub(crate) fn columns() -> Vec<Column> {
 pub(crate) enum ContactListError {
     /// The query is not valid.
     #[error("{0}")]
-    Input(#[from] InputError),
+    InvalidQuery(#[from] InputError),
     /// The contacts cannot be listed.
     #[error("{0}; raise --budget, or reduce --tolerance")]
     ContactsNotListable(#[from] ContactsError),
@@ -40,7 +40,7 @@ pub(crate) fn contact_rows(
     let Some(time) = time_of_contact(question, &answer.outcome) else {
         return Ok(Vec::new());
     };
-    let query = bodies.query(question, course, settings)?;
+    let query = bodies.build_query(question, course, settings)?;
     let pairs = query.contacts_at(time)?;
     let row = |pair: &Contact| {
         ResultRow::from_feature_pair(course.id(), course.table_time_rounded_down(time), pair)
@@ -51,7 +51,7 @@ pub(crate) fn contact_rows(
 /// Returns the time of a contact or of touching, if the question is about a contact.
 fn time_of_contact(question: Question, outcome: &Outcome) -> Option<f64> {
     match *outcome {
-        Outcome::Contact { time, .. } if question.is_for_one_contact() => Some(time),
+        Outcome::Contact { time, .. } if question.has_single_contact_time() => Some(time),
         Outcome::Touching { .. } => Some(0.0),
         _ => None,
     }

@@ -3,16 +3,16 @@
 mod statistics;
 
 use super::RunOutcome;
-use super::files::refuse_overwriting;
+use super::files::refuse_overwriting_input;
 use super::meshes::MeshArgs;
-use super::named::{ORDERS, named_value_parser};
+use super::named::{PATCH_ORDERS, named_value_parser};
 use super::output::{Output, OutputError};
 use crate::progress::Progress;
 use anyhow::{Context, Result, bail};
 use ccd_core::Body;
 use ccd_decomp::{
-    Detail, MeshSource, Model, PatchOrder, PrepareError, STORED_BODY_EXTENSION, StoreFault,
-    TriangleMesh, build_hull_tree, prepare, write_obj_pieces,
+    Detail, MeshSource, PatchOrder, PrepareError, STORED_BODY_EXTENSION, StoreFault,
+    StoredBodyContent, TriangleMesh, build_hull_tree, prepare, write_obj_pieces,
 };
 use clap::{Args, ValueEnum};
 use statistics::Statistics;
@@ -32,7 +32,7 @@ pub(super) struct DecomposeArgs {
     #[command(flatten)]
     meshes: MeshArgs,
     /// Order in which --pieces patches grow [default: cresting]
-    #[arg(long, value_parser = named_value_parser(ORDERS))]
+    #[arg(long, value_parser = named_value_parser(PATCH_ORDERS))]
     order: Option<PatchOrder>,
     /// Also build the tree of convex hulls, for `ccd query --schedule fast`
     #[arg(long)]
@@ -130,7 +130,7 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<RunOutcome> {
         FormatArg::Text => writeln!(io::stdout(), "{statistics}"),
         FormatArg::Json => writeln!(io::stdout(), "{}", serde_json::to_string(&statistics)?),
     };
-    printed.map_err(OutputError::for_standard_output)?;
+    printed.map_err(OutputError::standard_output_error)?;
     Ok(RunOutcome::AllAnswered)
 }
 
@@ -138,7 +138,7 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<RunOutcome> {
 /// the long work.
 fn claim(out: &Path, mesh: &Path) -> Result<(OutputKind, Output)> {
     let form = OutputKind::from_path(out)?;
-    refuse_overwriting(("the mesh", mesh), ("--out", out))?;
+    refuse_overwriting_input(("the mesh", mesh), ("--out", out))?;
     Ok((form, Output::claim(out)?))
 }
 
@@ -161,7 +161,11 @@ impl DecomposeArgs {
         }
     }
 
-    fn build(&self, mesh: &TriangleMesh, detail: Detail) -> Result<(Model, Body), PrepareError> {
+    fn build(
+        &self,
+        mesh: &TriangleMesh,
+        detail: Detail,
+    ) -> Result<(StoredBodyContent, Body), PrepareError> {
         let mut model = prepare(mesh, detail)?;
         if !self.hull_tree {
             let body = model.body()?;
@@ -190,7 +194,7 @@ impl OutputKind {
         }
     }
 
-    fn write(self, model: &Model, out: Output) -> Result<(), OutputError> {
+    fn write(self, model: &StoredBodyContent, out: Output) -> Result<(), OutputError> {
         out.write(|writer| match self {
             OutputKind::Pieces => write_obj_pieces(&model.pieces, writer),
             OutputKind::Body => model.write(writer).map_err(|error| match error.fault {

@@ -12,7 +12,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// Returns an error if an output, or a temporary file of the output, would overwrite an input.
-pub fn refuse_overwriting(
+pub fn refuse_overwriting_input(
     (read, source): (&str, &Path),
     (written, target): (&str, &Path),
 ) -> Result<()> {

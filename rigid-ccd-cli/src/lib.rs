@@ -28,7 +28,7 @@ mod timed;
 mod view;
 
 pub use bad_rows::BadRowCounter;
-pub use files::{input_name, is_same_file, open_motions, refuse_overwriting};
+pub use files::{input_name, is_same_file, open_motions, refuse_overwriting_input};
 pub use numbers::{parse_seconds, tolerance};
 pub use output::OutputError;
 pub use progress::{Progress, TotalWork};

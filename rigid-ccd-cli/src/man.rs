@@ -36,5 +36,5 @@ fn write(command: Command, folder: &Path) -> Result<(), OutputError> {
     let page = Man::new(command);
     let path = folder.join(page.get_filename());
     ccd_file::write(&path, |out| page.render(out))
-        .map_err(|error| OutputError::for_path(&path, error))
+        .map_err(|error| OutputError::error_for_path(&path, error))
 }

@@ -43,7 +43,7 @@ pub(super) const UNITS: &Named<Unit> = &[
 ];
 
 /// The orders in which patches grow, for `--order`.
-pub(super) const ORDERS: &Named<PatchOrder> = &[
+pub(super) const PATCH_ORDERS: &Named<PatchOrder> = &[
     (
         "cresting",
         PatchOrder::Cresting,
@@ -144,7 +144,7 @@ pub(super) const SHORTCUTS: &Named<Shortcut> = &[
 ];
 
 /// The sets of vector instructions of `--instructions`.
-pub(super) const VECTOR_INSTRUCTIONS: &Named<VectorInstructions> = &[
+pub(super) const SIMD_INSTRUCTION_SETS: &Named<VectorInstructions> = &[
     ("best", VectorInstructions::Best, "The best of this machine"),
     (
         "baseline",

@@ -16,15 +16,15 @@ pub struct OutputError {
 }
 
 impl OutputError {
-    pub(super) fn for_path(path: &Path, source: io::Error) -> Self {
+    pub(super) fn error_for_path(path: &Path, source: io::Error) -> Self {
         OutputError {
             file_or_stream: output_name(path),
             source,
         }
     }
 
-    pub(super) fn for_standard_output(source: io::Error) -> Self {
-        OutputError::for_path(Path::new("-"), source)
+    pub(super) fn standard_output_error(source: io::Error) -> Self {
+        OutputError::error_for_path(Path::new("-"), source)
     }
 }
 
@@ -51,7 +51,7 @@ impl Output {
         };
         Ok(Output {
             path: path.to_owned(),
-            claim: claim.map_err(|source| OutputError::for_path(path, source))?,
+            claim: claim.map_err(|source| OutputError::error_for_path(path, source))?,
         })
     }
 
@@ -82,7 +82,7 @@ impl Output {
     }
 
     pub(super) fn error(&self, source: io::Error) -> OutputError {
-        OutputError::for_path(&self.path, source)
+        OutputError::error_for_path(&self.path, source)
     }
 
     /// Opens the output for writing; a file is written from its current position.
@@ -104,7 +104,7 @@ impl Output {
             None if is_standard_output(&self.path) => fill(&mut io::stdout().lock()),
             None => ccd_file::write(&self.path, fill),
         };
-        written.map_err(|source| OutputError::for_path(&self.path, source))
+        written.map_err(|source| OutputError::error_for_path(&self.path, source))
     }
 }
 

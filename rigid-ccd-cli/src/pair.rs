@@ -92,7 +92,7 @@ impl BodiesArgs {
             unit,
         } = loaded.with_context(|| option.to_owned())?;
         if method.schedule.uses_hull_trees() && body.hull_tree().is_none() {
-            body = with_hull_tree(body).with_context(|| format!("{option} {text}"))?;
+            body = attach_hull_tree(body).with_context(|| format!("{option} {text}"))?;
         }
         method.prepare(&body);
         drop(progress);
@@ -121,7 +121,7 @@ impl Pair {
     /// body.
     pub(super) fn print_remarks(&self, tolerance: f64, rows: &Rows) {
         let BodyPair { a, b } = self.bodies();
-        let remark = Remark::remark_on_tolerance(tolerance, [a, b].map(Remark::size));
+        let remark = Remark::remark_on_tolerance(tolerance, [a, b].map(Remark::body_size));
         print_remarks(remark.into_iter().chain(rows.remarks()));
     }
 
@@ -158,7 +158,7 @@ fn is_from_file(source: &BodySource) -> bool {
     matches!(source, BodySource::Mesh(_) | BodySource::StoredBody(_))
 }
 
-fn with_hull_tree(body: Body) -> Result<Body> {
+fn attach_hull_tree(body: Body) -> Result<Body> {
     let tree = build_hull_tree(body.pieces())?;
     Ok(body.with_hull_tree(tree)?)
 }

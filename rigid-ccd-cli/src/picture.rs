@@ -13,7 +13,7 @@ mod verdict;
 pub use ccd_view::{AnimationGroup, Page, PageError};
 pub use course::shown_motions;
 pub use drawn::drawn_mesh;
-pub use gap::{GapOverTime, gap};
+pub use gap::{GapOverTime, gap_over_time};
 pub(crate) use scene::{DrawnBody, scene_verdict, scene_view};
 pub use verdict::{QueryContext, TimeMeaning};
 
@@ -46,14 +46,14 @@ pub enum ViewError {
     Input(#[from] InputError),
     /// The bodies are farther apart than the row says, so the row is about other bodies or other motions.
     #[error(
-        "at {time} the bodies are at least {least_distance} apart, but the row says at most {reported_distance_upper}: it is the answer about \
+        "at {time} the bodies are at least {distance_lower_bound} apart, but the row says at most {reported_distance_upper}: it is the answer about \
          other bodies, or other motions"
     )]
     BodiesMismatch {
         /// The time at which the distances are compared.
         time: f64,
         /// A lower bound of the distance of the given bodies at that time.
-        least_distance: f64,
+        distance_lower_bound: f64,
         /// The upper bound of the distance according to the row.
         reported_distance_upper: f64,
     },
@@ -87,8 +87,12 @@ impl<'a> Painter<'a> {
     ///
     /// # Errors
     /// [`ViewError`].
-    pub fn view(&mut self, query: &Movements, row: &ResultRow) -> Result<Animation, ViewError> {
-        let start = query.start();
+    pub fn animate_row(
+        &mut self,
+        query: &Movements,
+        row: &ResultRow,
+    ) -> Result<Animation, ViewError> {
+        let start = query.start_time();
         let duration = query.duration();
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
         let [a, b] = query.poses(time.unwrap_or(0.0))?;
@@ -111,7 +115,7 @@ impl<'a> Painter<'a> {
                 }
                 _ => 0.0,
             };
-            let found = gap(&mut self.solver, self.bodies, query, floor)?;
+            let found = gap_over_time(&mut self.solver, self.bodies, query, floor)?;
             view.ghost_times = found.ghost_times(duration);
             proven = found.least_proven_gap();
             nearest = found.least_distance_time();
@@ -149,7 +153,7 @@ impl<'a> Painter<'a> {
         if measured > told + found.tolerance {
             return Err(ViewError::BodiesMismatch {
                 time,
-                least_distance: measured,
+                distance_lower_bound: measured,
                 reported_distance_upper: told,
             });
         }
@@ -169,7 +173,7 @@ impl<'a> Painter<'a> {
         };
         Some(ShownContact {
             time,
-            words: verdict::contact(row),
+            words: verdict::describe_contact(row),
             witnesses: Some(witnesses),
             normal: point(row.normal),
             highlight_a: feature_corners(0, self.bodies.a, &row.feature_a),

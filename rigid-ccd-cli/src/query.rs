@@ -11,7 +11,7 @@ mod summary;
 
 pub(super) use args::QueryArgs;
 
-use super::files::{Rows, input_name, open_movement_rows, refuse_overwriting};
+use super::files::{Rows, input_name, open_movement_rows, refuse_overwriting_input};
 use super::output::{Output, is_standard_output};
 use super::view::{ChosenRows, title, write_rows_page};
 use super::{RunOutcome, print_error};
@@ -56,7 +56,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     let start = resume::skip_rows(args, &mut rows, earlier)?;
     outputs.save(start)?;
     let timing = timed_question(args);
-    if timing.method.bound == BoundKind::Published {
+    if timing.method.motion_bound == BoundKind::Published {
         print_error("--bound published: times are not certified, contacts may be late or missed");
     }
     let solver = parallel_solver(args.threads, || timing.method.solver(args.instructions));
@@ -69,7 +69,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
         bad_rows: BadRowCounter::new(input_name(&args.motions)),
         progress: Progress::for_rows(length, args.quiet),
         outputs,
-        page_rows: args
+        html_rows: args
             .html
             .as_ref()
             .map(|_| ChosenRows::new(args.html_ids.clone())),
@@ -79,7 +79,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     run.outputs.finish(end)?;
     drop(run.progress);
     run.bad_rows.print_total();
-    let shown = write_page(args, &pair, run.page_rows.zip(html))?;
+    let shown = write_page(args, &pair, run.html_rows.zip(html))?;
     if run.summary.counts.row_count() == 0 && earlier.is_none() {
         warn_of_no_rows(args, start.rows);
     }
@@ -99,12 +99,12 @@ fn write_page(
     let Some((chosen, html)) = page else {
         return Ok(RunOutcome::AllAnswered);
     };
-    let painter = Painter::new(pair.bodies(), query_context(args));
+    let painter = Painter::new(pair.bodies(), page_context(args));
     write_rows_page((&title(&args.bodies), painter), chosen, html, args.quiet)
 }
 
 /// Returns what a page needs to describe the answers: the meaning of times, the margin and the clearance.
-fn query_context(args: &QueryArgs) -> QueryContext {
+fn page_context(args: &QueryArgs) -> QueryContext {
     let claim = match (args.bound, args.ask) {
         (Some(BoundKind::Published), _) => TimeMeaning::UncertifiedFirstContact,
         (_, Question::IsFree) => TimeMeaning::SomeContact,
@@ -130,14 +130,14 @@ fn refuse_shared_files(args: &QueryArgs) -> Result<()> {
     written.extend(args.contacts.iter().map(|path| ("--contacts", path)));
     for (k, &(option, target)) in written.iter().enumerate() {
         for (read, source) in &read {
-            refuse_overwriting((read, source), (option, target))?;
+            refuse_overwriting_input((read, source), (option, target))?;
         }
         for &(other, path) in &written[..k] {
             if is_standard_output(path) && is_standard_output(target) {
                 bail!("{option} - and {other} - are both standard output; give one of them a file");
             }
-            refuse_overwriting((other, path), (option, target))?;
-            refuse_overwriting((option, target), (other, path))?;
+            refuse_overwriting_input((other, path), (option, target))?;
+            refuse_overwriting_input((option, target), (other, path))?;
         }
     }
     Ok(())
@@ -162,13 +162,13 @@ fn refuse_options_unfit_for_each_other(args: &QueryArgs) -> Result<()> {
             "--ask {ask} measures distances without a margin; use --clearance instead of --margin"
         );
     }
-    if args.contacts.is_some() && !ask.is_for_one_contact() {
+    if args.contacts.is_some() && !ask.has_single_contact_time() {
         bail!("--contacts needs --ask first-contact or is-free");
     }
     if ask != Question::FirstContact && args.schedule != ScheduleKind::BestFirst {
         bail!("--ask {ask} needs --schedule best-first");
     }
-    if ignores_start_contacts(args) && !ask.is_for_one_contact() {
+    if ignores_start_contacts(args) && !ask.has_single_contact_time() {
         bail!("--start leave needs --ask first-contact or is-free");
     }
     if args.check && args.bound == Some(BoundKind::Published) {
@@ -214,7 +214,7 @@ fn method(args: &QueryArgs) -> SolverKind {
     SolverKind {
         schedule: args.schedule,
         oracle: args.oracle,
-        bound: args.bound.unwrap_or_default(),
+        motion_bound: args.bound.unwrap_or_default(),
     }
 }
 
@@ -226,7 +226,7 @@ fn timed_question(args: &QueryArgs) -> TimedQuestion {
             tolerance: args.tolerance,
             margin: args.margin,
             clearance: args.clearance,
-            start: args.start,
+            start_policy: args.start,
             budget: args.budget,
             deadline: args.deadline,
             vector_instructions: args.instructions,

@@ -77,7 +77,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<RunOutcome> {
     };
     let table = scene_table::read(("the scene", &args.scene), how, &args.out)?;
     if !args.quiet {
-        table.report(args.tolerance);
+        table.print_load_report(args.tolerance);
     }
     let out = Output::claim_table(&args.out)?;
     let settings = Settings {

@@ -1,6 +1,6 @@
 //! Reads the table of a scene: one row for each body.
 
-use super::files::refuse_overwriting;
+use super::files::refuse_overwriting_input;
 use super::meshes::MeshArgs;
 use super::{print_error, print_escaped_to_stderr, print_remarks};
 use crate::picture::DrawnBody;
@@ -52,7 +52,7 @@ pub(super) fn read(
     how: SceneArgs<'_>,
     out: &Path,
 ) -> Result<SceneTable> {
-    refuse_overwriting((option, path), ("--out", out))?;
+    refuse_overwriting_input((option, path), ("--out", out))?;
     let name = || path.display().to_string();
     let duration = how.duration.unwrap_or(DEFAULT_DURATION);
     let (rows, remarks) = read_rows(path, duration).with_context(name)?;
@@ -67,21 +67,21 @@ pub(super) fn read(
     };
     for (position, row) in rows {
         scene
-            .load_body_once(&row.text, how)
+            .load_body_once(&row.body_text, how)
             .with_context(|| format!("{}: line {}", name(), position.line))?;
         scene.rows.push(row);
     }
     for file in &scene.files {
-        refuse_overwriting(("a body of the scene", file), ("--out", out))?;
+        refuse_overwriting_input(("a body of the scene", file), ("--out", out))?;
     }
     Ok(scene)
 }
 
 /// A parsed row of a table, with its position for messages.
-type PlacedRow = (RowPosition, BodyRow);
+type RowWithPosition = (RowPosition, BodyRow);
 
 /// Reads the rows of a table, and returns them with remarks about probable mistakes.
-fn read_rows(path: &Path, duration: f64) -> Result<(Vec<PlacedRow>, Vec<Remark>)> {
+fn read_rows(path: &Path, duration: f64) -> Result<(Vec<RowWithPosition>, Vec<Remark>)> {
     let mut records = CsvRecords::new(File::open(path)?)?;
     let header = records.header()?;
     if !header.iter().any(|column| column == BODY_COLUMN_NAME) {
@@ -96,7 +96,7 @@ fn read_rows(path: &Path, duration: f64) -> Result<(Vec<PlacedRow>, Vec<Remark>)
         );
     }
     let columns = Columns::from_header(&header, TableKind::Scene)?;
-    let mut rows: Vec<PlacedRow> = Vec::new();
+    let mut rows: Vec<RowWithPosition> = Vec::new();
     while let Some(position) = records.advance()? {
         let row = body_row(&columns, records.current(), position.row, duration);
         let row =
@@ -125,7 +125,7 @@ fn row_problem_message(problem: &RowProblem) -> String {
 }
 
 /// Returns an error if two rows have the same id, because the table of contacts names bodies by their ids.
-fn refuse_equal_ids(rows: &[PlacedRow]) -> Result<()> {
+fn refuse_equal_ids(rows: &[RowWithPosition]) -> Result<()> {
     let mut known = HashMap::new();
     for (position, BodyRow { id, .. }) in rows {
         if let Some(first) = known.insert(id, position) {
@@ -151,7 +151,7 @@ impl SceneTable {
     }
 
     /// Prints the messages from loading, the duration if it is the default, and the remarks.
-    pub(super) fn report(&self, tolerance: f64) {
+    pub(super) fn print_load_report(&self, tolerance: f64) {
         for report in &self.load_messages {
             print_escaped_to_stderr(report);
         }
@@ -159,7 +159,7 @@ impl SceneTable {
             let end = self.duration;
             print_error(&format!("without --duration, all motions end at {end}"));
         }
-        let sizes = self.bodies.values().map(Remark::size);
+        let sizes = self.bodies.values().map(Remark::body_size);
         let least = sizes.filter(|&size| size > 0.0).fold(f64::INFINITY, lesser);
         let remarks = self.remarks.iter().copied();
         print_remarks(remarks.chain(Remark::remark_on_tolerance(tolerance, [least; 2])));
@@ -168,7 +168,11 @@ impl SceneTable {
     /// Returns the bodies to draw, in the order of their rows.
     pub(super) fn bodies_to_draw(&self) -> Vec<DrawnBody<'_>> {
         let shown = self.rows.iter().filter_map(|row| {
-            let BodyRow { id, text, motion } = row;
+            let BodyRow {
+                id,
+                body_text: text,
+                motion,
+            } = row;
             Some(DrawnBody {
                 // A number alone tells little.
                 name: match id.parse::<usize>() {

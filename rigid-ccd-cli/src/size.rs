@@ -17,7 +17,7 @@ pub(super) fn sides_text(body: &Body) -> String {
 
 /// Warns if two bodies may have different units of length.
 pub(super) fn warn_of_different_units(a: &Body, b: &Body) {
-    let [of_a, of_b] = [a, b].map(Remark::size);
+    let [of_a, of_b] = [a, b].map(Remark::body_size);
     let (large, small, ratio) = if of_a > of_b {
         ("--a", "--b", of_a / of_b)
     } else {

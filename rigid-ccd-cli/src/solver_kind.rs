@@ -21,7 +21,7 @@ pub struct SolverKind {
     /// The backend that computes distances of pieces.
     pub oracle: OracleKind,
     /// The bound on the bodies' motion over a step, for the schedules that [use one](ScheduleKind::uses_velocity_bound).
-    pub bound: BoundKind,
+    pub motion_bound: BoundKind,
 }
 
 /// The order in which a solver advances pairs of pieces in time.
@@ -99,7 +99,7 @@ impl SolverKind {
                 .map(move |&oracle| SolverKind {
                     schedule,
                     oracle,
-                    bound: BoundKind::Sound,
+                    motion_bound: BoundKind::Sound,
                 })
         })
     }
@@ -131,12 +131,14 @@ impl SolverKind {
     {
         match self.schedule {
             ScheduleKind::BestFirst => Box::new(CachePadded(Solver::with_oracle(oracle))),
-            ScheduleKind::Fast => {
-                Box::new(CachePadded((Fast::<O>::new(self.bound.into()), oracle)))
-            }
-            ScheduleKind::Naive => {
-                Box::new(CachePadded((Naive::<O>::new(self.bound.into()), oracle)))
-            }
+            ScheduleKind::Fast => Box::new(CachePadded((
+                Fast::<O>::new(self.motion_bound.into()),
+                oracle,
+            ))),
+            ScheduleKind::Naive => Box::new(CachePadded((
+                Naive::<O>::new(self.motion_bound.into()),
+                oracle,
+            ))),
         }
     }
 }

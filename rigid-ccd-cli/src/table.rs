@@ -44,7 +44,7 @@ impl TableWriter {
         let opened = emptied.and_then(|()| output.open());
         let to = opened.map_err(|source| output.error(source))?;
         let mut table = TableWriter::new(output, MeasuringWriter::new(to));
-        table.write(|writer| writer.write_record(header))?;
+        table.write_row(|writer| writer.write_record(header))?;
         Ok(table)
     }
 
@@ -81,7 +81,7 @@ impl TableWriter {
     }
 
     /// Adds a row, which the function `row` writes.
-    pub fn write(
+    pub fn write_row(
         &mut self,
         row: impl FnOnce(&mut csv::Writer<MeasuringWriter>) -> Result<(), csv::Error>,
     ) -> Result<(), OutputError> {
@@ -90,7 +90,7 @@ impl TableWriter {
 
     /// Adds a row, given as serialisable cells.
     pub(super) fn row(&mut self, cells: &impl Serialize) -> Result<(), OutputError> {
-        self.write(|writer| writer.serialize(cells))
+        self.write_row(|writer| writer.serialize(cells))
     }
 
     /// Flushes all rows to the file, so that they survive an interruption.

@@ -37,7 +37,7 @@ pub(crate) fn answer_timed(
     let mut micros = Vec::with_capacity(timing.repetitions.get());
     loop {
         let start = Instant::now();
-        let query = bodies.query(timing.question, course, &timing.settings)?;
+        let query = bodies.build_query(timing.question, course, &timing.settings)?;
         let answer = solver.answer(timing.question, &query);
         let answer = answer.ok_or(RowProblem::NeedsBestFirst)??;
         micros.push(start.elapsed().as_secs_f64() * 1e6);

@@ -6,7 +6,7 @@ mod chosen;
 pub(super) use args::ViewArgs;
 pub(super) use chosen::ChosenRows;
 
-use super::files::{input_name, open_movement_rows, refuse_overwriting};
+use super::files::{input_name, open_movement_rows, refuse_overwriting_input};
 use super::output::Output;
 use super::pair::BodiesArgs;
 use super::scene_table;
@@ -30,7 +30,7 @@ const MAX_ROWS_READ: usize = 10_000;
 
 /// Runs `ccd view`: writes the page of a table of motions or of a scene.
 pub(super) fn run(args: &ViewArgs) -> Result<RunOutcome> {
-    match (&args.scene, args.rows()) {
+    match (&args.scene, args.bodies_and_motions()) {
         (Some(scene), _) => view_scene(args, scene),
         (None, Some((bodies, motions))) => view_rows(args, &bodies, motions),
         // The parser prevents this.
@@ -43,7 +43,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
     read.push(("--motions", motions.to_owned()));
     read.extend(args.results.iter().map(|path| ("--results", path.clone())));
     for (option, path) in &read {
-        refuse_overwriting((option, path), ("--out", &args.out))?;
+        refuse_overwriting_input((option, path), ("--out", &args.out))?;
     }
     let (mut rows, _) = open_movement_rows(motions, Question::FirstContact.path_grouping())?;
     let out = Output::claim(&args.out)?;
@@ -80,7 +80,10 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
             None => {
                 let answer = answer_timed(pair.bodies(), &course, &timing, solver.as_mut());
                 let (question, settings) = (timing.question, &timing.settings);
-                Some(pair.bodies().row(question, settings, &course, &answer))
+                Some(
+                    pair.bodies()
+                        .result_row(question, settings, &course, &answer),
+                )
             }
         };
         if let Some(row) = row {
@@ -125,7 +128,7 @@ pub(super) fn write_rows_page(
     }
     let mut views = Vec::new();
     for (course, row) in chosen.take_rows() {
-        match painter.view(&course, &row) {
+        match painter.animate_row(&course, &row) {
             Ok(view) => views.push(view),
             Err(error) => chosen.count_undrawable(format!("row {}: {error}", row.id)),
         }
@@ -178,7 +181,7 @@ fn settings(args: &ViewArgs) -> Settings {
 fn view_scene(args: &ViewArgs, path: &Path) -> Result<RunOutcome> {
     let table = scene_table::read(("--scene", path), args.scene_args(), &args.out)?;
     if !args.quiet {
-        table.report(args.tolerance);
+        table.print_load_report(args.tolerance);
     }
     let out = Output::claim(&args.out)?;
     let shown = table.bodies_to_draw();

@@ -7,7 +7,7 @@ use crate::leaving::first_contact_unless_parting;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, CastStatus, Scene};
 use crate::tolerance::{
-    ENLARGEMENT_FACTOR, MAX_TOLERANCE_RADIUS_RATIO, VELOCITY_DIFFERENCE_ROUNDING,
+    MAX_TOLERANCE_RADIUS_RATIO, ROUNDING_ENLARGEMENT, VELOCITY_DIFFERENCE_ROUNDING,
 };
 use crate::{BodyOfShape, CastError, Options};
 use ccd_core::glam::DVec3;
@@ -100,7 +100,7 @@ impl Cast {
             frames,
             horizon: QueryDuration::new(sides, within, self.interval.length()),
             interval: self.interval,
-            target: self.target,
+            target_distance: self.target,
             settings,
         })
     }
@@ -129,7 +129,7 @@ impl Cast {
         // The box deviates by the motion's deviation at its farthest point, which the bound covers.
         let reach = reach(horizon);
         let away = length(of_plane.about - of_plane.motion.centre());
-        let off = shifted[index].deviation_bound.at(4.0 * reach + away);
+        let off = shifted[index].deviation_bound.at_reach(4.0 * reach + away);
         let slack = body.slack()
             + max_point_deviation(stray, &side)
             + off
@@ -153,7 +153,7 @@ impl Cast {
             frames,
             horizon,
             interval: self.interval,
-            target: self.target,
+            target_distance: self.target,
             settings,
         })
     }
@@ -216,7 +216,7 @@ impl Cast {
         Ok(Settings {
             tolerance: self.tolerance(bodies),
             margin,
-            start: self.start_policy,
+            start_policy: self.start_policy,
             budget: self.options.budget,
             deadline: self.options.deadline,
             ..Settings::DEFAULT
@@ -252,7 +252,7 @@ impl MotionFromCastStart {
         MotionWithExtent {
             motion: self.motion,
             about,
-            reach: (length(middle - about) + radius) * ENLARGEMENT_FACTOR,
+            max_radius: (length(middle - about) + radius) * ROUNDING_ENLARGEMENT,
         }
     }
 
@@ -272,7 +272,7 @@ impl MotionFromCastStart {
         MotionWithExtent {
             motion: self.motion,
             about: self.rotation_centre_or(beside),
-            reach: 0.0,
+            max_radius: 0.0,
         }
     }
 
@@ -292,7 +292,7 @@ impl MotionFromCastStart {
 
 /// Returns a bound on the deviation of any point of a body, as a length.
 fn max_point_deviation(stray: DeviationBound, side: &MotionWithExtent) -> f64 {
-    stray.at(side.reach + length(side.about - side.motion.centre()))
+    stray.at_reach(side.max_radius + length(side.about - side.motion.centre()))
 }
 
 #[cfg(test)]

@@ -113,13 +113,13 @@ pub enum ShapeError {
     SolidOfRevolutionRefused,
     /// An oriented mesh that should be a solid is not closed.
     #[error(
-        "the mesh is oriented, but has an edge without a neighbour, from vertex {from} to {to}"
+        "the mesh is oriented, but has an edge without a neighbour, from vertex {from} to {other_end_index}"
     )]
     OpenMesh {
         /// The index of one end of the edge.
         from: u32,
         /// The index of the other end.
-        to: u32,
+        other_end_index: u32,
     },
     /// Voxels have sizes or positions that parry itself cannot distinguish.
     #[error("its voxels are too far from the origin, or of a size that is not positive")]

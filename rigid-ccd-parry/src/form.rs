@@ -6,8 +6,8 @@ use crate::tolerance::POSE_ROUNDING;
 use crate::{Excess, ShapeError};
 use ccd_core::glam::DVec3;
 use ccd_core::{
-    Body, ConvexCombination, Enclosure, Facet, FacetOrigin, Feature, InputError, Pieces, Polytope,
-    Pose, SolidOfRevolution, Volume,
+    Body, ConvexCombination, EnclosingPolytope, Facet, FacetOrigin, Feature, InputError, Pieces,
+    Polytope, Pose, SolidOfRevolution, Solidity,
 };
 use std::borrow::Cow;
 use std::iter::repeat;
@@ -25,7 +25,7 @@ pub(crate) struct ShapeGeometry {
     /// A cylinder or a cone, the radius by which it is grown, and the allowed excess, if the geometry is that shape
     /// alone.
     grown_solid_of_revolution: Option<(SolidOfRevolution, f64, Excess)>,
-    volume: Volume,
+    volume: Solidity,
     /// A bound on the rounding error of points, as a length.
     pub(crate) slack: f64,
     /// A bound on how far polytopes extend beyond the round shapes that they enclose.
@@ -40,7 +40,7 @@ pub(crate) struct ShapeGeometry {
 struct Part {
     polytope: Polytope,
     /// The sub-shape index of the part.
-    number: u32,
+    sub_shape_index: u32,
 }
 
 impl ShapeGeometry {
@@ -51,7 +51,7 @@ impl ShapeGeometry {
         triangle_sub_shape_indices: Vec::new(),
         parts: Vec::new(),
         grown_solid_of_revolution: None,
-        volume: Volume::Surface,
+        volume: Solidity::Surface,
         slack: 0.0,
         excess: 0.0,
         surface: None,
@@ -87,7 +87,7 @@ impl ShapeGeometry {
         Ok(Cow::Owned(ShapeGeometry {
             parts: vec![Part {
                 polytope,
-                number: 0,
+                sub_shape_index: 0,
             }],
             excess: about.excess(),
             surface: has_surface.then_some((triangles, numbers)),
@@ -113,7 +113,10 @@ impl ShapeGeometry {
             facets: (0..).zip(loops).map(facet).collect(),
             ..Polytope::default()
         };
-        self.parts.push(Part { polytope, number });
+        self.parts.push(Part {
+            polytope,
+            sub_shape_index: number,
+        });
     }
 
     /// Adds the hull of points, grown by a radius, as a part with the sub-shape index `number`; it lists no facets.
@@ -159,9 +162,12 @@ impl ShapeGeometry {
     /// [`ShapeError::OpenMesh`] unless they are closed.
     pub(crate) fn into_solid(self) -> Result<Self, ShapeError> {
         match find_open_edge(&self.vertices, &self.triangles) {
-            Some([from, to]) => Err(ShapeError::OpenMesh { from, to }),
+            Some([from, to]) => Err(ShapeError::OpenMesh {
+                from,
+                other_end_index: to,
+            }),
             None => Ok(ShapeGeometry {
-                volume: Volume::Solid,
+                volume: Solidity::Solid,
                 ..self
             }),
         }
@@ -190,7 +196,10 @@ impl ShapeGeometry {
                 points,
                 ..polytope.clone()
             };
-            self.parts.push(Part { polytope, number });
+            self.parts.push(Part {
+                polytope,
+                sub_shape_index: number,
+            });
         }
         self.slack = greater(self.slack, inner.slack + moved);
         self.excess = greater(self.excess, inner.excess);
@@ -209,7 +218,7 @@ impl ShapeGeometry {
     }
 
     /// Returns an enclosing ball: its centre, and its radius rounded up.
-    pub(crate) fn ball(&self) -> (DVec3, f64) {
+    pub(crate) fn enclosing_ball(&self) -> (DVec3, f64) {
         let (low, high) = self
             .points()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
@@ -221,11 +230,11 @@ impl ShapeGeometry {
         };
         let parts = self.parts.iter().map(of_part).fold(0.0, greater);
         let radius = greater(parts, max_distance_from(self.vertices.iter(), middle));
-        (middle, radius * crate::tolerance::ENLARGEMENT_FACTOR)
+        (middle, radius * crate::tolerance::ROUNDING_ENLARGEMENT)
     }
 
     /// Returns the centre if the geometry is a single ball; `None` for other geometries.
-    pub(crate) fn point(&self) -> Option<DVec3> {
+    pub(crate) fn centre_if_ball(&self) -> Option<DVec3> {
         match &self.parts[..] {
             [part] if self.triangles.is_empty() => match part.polytope.points[..] {
                 [point] => Some(point),
@@ -247,7 +256,7 @@ impl ShapeGeometry {
     pub(crate) fn body(&self) -> Result<(Body, Vec<u32>), ShapeError> {
         let made = match (&self.parts[..], self.triangles.is_empty()) {
             (parts, true) => self.body_of_parts(parts),
-            ([], false) => Pieces::triangles(
+            ([], false) => Pieces::from_triangles(
                 &self.vertices,
                 &self.triangles,
                 &self.triangle_sub_shape_indices,
@@ -266,20 +275,20 @@ impl ShapeGeometry {
             let body = Body::polytope(part.polytope.clone())?;
             return match &self.surface {
                 Some((faces, numbers)) => {
-                    let pieces = Pieces::triangles(&part.polytope.points, faces, numbers)?;
-                    body.with_surface(Body::new(&pieces, Volume::Solid)?)
+                    let pieces = Pieces::from_triangles(&part.polytope.points, faces, numbers)?;
+                    body.with_surface(Body::new(&pieces, Solidity::Solid)?)
                 }
                 None => Ok(body),
             };
         }
         // Corners have the number of their part, which identifies pieces after reordering.
         let numbered = |part: &Part| Polytope {
-            vertex_ids: vec![part.number; part.polytope.points.len()],
+            vertex_ids: vec![part.sub_shape_index; part.polytope.points.len()],
             ..part.polytope.clone()
         };
         let pieces = Pieces::from_polytopes(&parts.iter().map(numbered).collect::<Vec<_>>())?;
         // Each piece is filled by itself.
-        Body::new(&pieces, Volume::Surface)
+        Body::new(&pieces, Solidity::Surface)
     }
 
     /// Returns the given parts, followed by the triangles, each as a part of its own.
@@ -291,7 +300,7 @@ impl ShapeGeometry {
                 points: face.iter().map(corner).collect(),
                 ..Polytope::default()
             },
-            number: *number,
+            sub_shape_index: *number,
         };
         let faces = self
             .triangles
@@ -304,13 +313,13 @@ impl ShapeGeometry {
     /// Returns the sub-shape index of a piece of the body.
     fn sub_shape_index_of_piece(&self, body: &Body, piece: usize) -> u32 {
         let inside = if body.pieces().are_all_triangles() {
-            let mut inside = ConvexCombination::segment([0, 1], 0.5);
+            let mut inside = ConvexCombination::of_two_points([0, 1], 0.5);
             inside.push(2, 0.5);
             inside
         } else if self.parts.len() == 1 && self.triangles.is_empty() {
-            return self.parts[0].number;
+            return self.parts[0].sub_shape_index;
         } else {
-            ConvexCombination::point(0)
+            ConvexCombination::from_single_point(0)
         };
         match body.pieces().feature(piece, &inside) {
             Feature::Face(number) | Feature::Vertex(number) => number,
@@ -330,7 +339,7 @@ impl ShapeGeometry {
             _ => None,
         };
         let number = |piece: usize| match self.parts.get(piece) {
-            Some(part) => Some(part.number),
+            Some(part) => Some(part.sub_shape_index),
             None => self
                 .triangle_sub_shape_indices
                 .get(piece - self.parts.len())
@@ -344,7 +353,10 @@ impl ShapeGeometry {
 }
 
 /// Returns a polytope around a cylinder or a cone, which exceeds it by at most `excess`.
-fn polytope_around(round: &SolidOfRevolution, excess: Excess) -> Result<Enclosure, ShapeError> {
+fn polytope_around(
+    round: &SolidOfRevolution,
+    excess: Excess,
+) -> Result<EnclosingPolytope, ShapeError> {
     let asked = match excess {
         Excess::DefaultRadiusFraction => round.default_excess(),
         Excess::Length(length) => length,
@@ -364,7 +376,7 @@ fn polytope_around(round: &SolidOfRevolution, excess: Excess) -> Result<Enclosur
             least_excess: least,
         })
     } else {
-        round.enclose(asked).map_err(ShapeError::Body)
+        round.enclosing_polytope(asked).map_err(ShapeError::Body)
     }
 }
 

@@ -6,7 +6,7 @@
 use crate::form::ShapeGeometry;
 use crate::horizon::{MotionWithExtent, QueryDuration, repetition_time, rotation_period};
 use crate::order::{greater, length, lesser};
-use crate::tolerance::{ENLARGEMENT_FACTOR, MAX_BOX_EXTENT_RATIO, PLANE_HEIGHT_ROUNDING};
+use crate::tolerance::{MAX_HALF_SPACE_BOX_EXTENT, PLANE_HEIGHT_ROUNDING, ROUNDING_ENLARGEMENT};
 use crate::{BodyOfShape, ShapeError};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::unit;
@@ -47,11 +47,12 @@ impl HalfSpace {
         let needed = needed.map_or(wanted, |needed| lesser(wanted, needed));
         let horizon = QueryDuration::for_duration([plane, body], needed);
         // The box that replaces a plane is as wide as the displacement along it, and has its rounding.
-        let size = body.reach + within + length(body.start_position() - plane.start_position());
+        let size =
+            body.max_radius + within + length(body.start_position() - plane.start_position());
         let speed = length(body.motion.velocity() - plane.motion.velocity());
-        let most = MAX_BOX_EXTENT_RATIO * size / speed;
+        let most = MAX_HALF_SPACE_BOX_EXTENT * size / speed;
         if speed > 0.0 && horizon.duration() > most {
-            QueryDuration::Part(most)
+            QueryDuration::PartOfCast(most)
         } else {
             horizon
         }
@@ -85,14 +86,15 @@ impl HalfSpace {
         let rounding = PLANE_HEIGHT_ROUNDING * length(velocity);
         let spread = plane.position_magnitude_sum() + body.position_magnitude_sum();
         let height = normal.dot(to - from);
-        let reach = (body.reach + within + PLANE_HEIGHT_ROUNDING * spread) * ENLARGEMENT_FACTOR;
+        let reach =
+            (body.max_radius + within + PLANE_HEIGHT_ROUNDING * spread) * ROUNDING_ENLARGEMENT;
         let needed = if rate < 0.0 {
             height + reach
         } else {
             reach - height
         };
         let rate = rate.abs() - rounding;
-        (rate > 0.0).then(|| greater(0.0, needed) / rate * ENLARGEMENT_FACTOR)
+        (rate > 0.0).then(|| greater(0.0, needed) / rate * ROUNDING_ENLARGEMENT)
     }
 
     /// Returns a bound on the distance from `plane.about` to any point of the half-space that the body may touch.
@@ -106,8 +108,12 @@ impl HalfSpace {
         let [p, b] = [plane.start_position(), body.start_position()];
         let speed = length(body.motion.velocity() - plane.motion.velocity());
         let spread = plane.position_magnitude_sum() + body.position_magnitude_sum();
-        (length(b - p) + speed * duration + body.reach + within + PLANE_HEIGHT_ROUNDING * spread)
-            * ENLARGEMENT_FACTOR
+        (length(b - p)
+            + speed * duration
+            + body.max_radius
+            + within
+            + PLANE_HEIGHT_ROUNDING * spread)
+            * ROUNDING_ENLARGEMENT
     }
 
     /// Returns a box that contains all points of the half-space within the distance `reach` of `plane.about`.
@@ -124,7 +130,7 @@ impl HalfSpace {
         // The face is above the plane, whatever rounding does to the corners.
         let above = PLANE_HEIGHT_ROUNDING * (reach + length(plane.about));
         let below = -(reach + above) + lesser(height, 0.0);
-        let wide = reach * ENLARGEMENT_FACTOR + above;
+        let wide = reach * ROUNDING_ENLARGEMENT + above;
         let corner = |k: u32| {
             let side = |bit: u32| if k >> bit & 1 == 1 { wide } else { -wide };
             let high = if k & 4 == 4 { above } else { below };

@@ -4,7 +4,7 @@
 //! have passed each other, and a motion that repeats itself need be looked at once.
 
 use crate::order::{greater, length, lesser};
-use crate::tolerance::{ENLARGEMENT_FACTOR, LONGEST_DURATION, USED_SHARE_OF_LIMITS};
+use crate::tolerance::{LONGEST_DURATION, ROUNDING_ENLARGEMENT, USED_SHARE_OF_LIMITS};
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::{MAX_COORDINATE, MAX_ROTATION_ANGLE};
@@ -17,7 +17,7 @@ pub(crate) struct MotionWithExtent {
     /// A point of the body, in its frame, that moves in a straight line.
     pub(crate) about: DVec3,
     /// The largest distance of the body's points from `about`.
-    pub(crate) reach: f64,
+    pub(crate) max_radius: f64,
 }
 
 impl MotionWithExtent {
@@ -39,13 +39,13 @@ pub(crate) enum QueryDuration {
     /// time.
     WholeCast(f64),
     /// The duration is a part of the cast: the longest that the engine accepts.
-    Part(f64),
+    PartOfCast(f64),
 }
 
 impl QueryDuration {
     pub(crate) fn duration(self) -> f64 {
         match self {
-            QueryDuration::WholeCast(duration) | QueryDuration::Part(duration) => duration,
+            QueryDuration::WholeCast(duration) | QueryDuration::PartOfCast(duration) => duration,
         }
     }
 
@@ -66,7 +66,7 @@ impl QueryDuration {
         if needed <= possible {
             QueryDuration::WholeCast(needed)
         } else {
-            QueryDuration::Part(possible)
+            QueryDuration::PartOfCast(possible)
         }
     }
 }
@@ -75,14 +75,18 @@ impl QueryDuration {
 fn time_when_past_each_other(bodies: [MotionWithExtent; 2], within: f64) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion.velocity());
     let speed = length(b - a);
-    (speed > 0.0).then(|| max_relative_displacement(&bodies, within) / speed * ENLARGEMENT_FACTOR)
+    (speed > 0.0).then(|| max_relative_displacement(&bodies, within) / speed * ROUNDING_ENLARGEMENT)
 }
 
 /// Returns a bound on the relative displacement of the bodies, from the start until contact is no longer possible.
 pub(crate) fn max_relative_displacement([a, b]: &[MotionWithExtent; 2], within: f64) -> f64 {
     let rounding =
-        (ENLARGEMENT_FACTOR - 1.0) * (a.position_magnitude_sum() + b.position_magnitude_sum());
-    length(b.start_position() - a.start_position()) + rounding + a.reach + b.reach + within
+        (ROUNDING_ENLARGEMENT - 1.0) * (a.position_magnitude_sum() + b.position_magnitude_sum());
+    length(b.start_position() - a.start_position())
+        + rounding
+        + a.max_radius
+        + b.max_radius
+        + within
 }
 
 /// Returns a time after which the relative poses repeat; `None` if the velocities differ, or the bodies rotate
@@ -100,7 +104,7 @@ pub(crate) fn rotation_period(spin: DVec3) -> f64 {
     if spin == DVec3::ZERO {
         0.0
     } else {
-        TAU / length(spin) * ENLARGEMENT_FACTOR
+        TAU / length(spin) * ROUNDING_ENLARGEMENT
     }
 }
 

@@ -8,11 +8,11 @@ mod direction;
 use crate::form::ShapeGeometry;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, CastStatus, Scene};
-use crate::tolerance::{ENLARGEMENT_FACTOR, MAX_SLIDING_APPROACH_RATIO};
+use crate::tolerance::{MAX_SLIDING_APPROACH_RATIO, ROUNDING_ENLARGEMENT};
 use crate::{BodyOfShape, CastError};
 use ccd_core::Piece;
 use ccd_core::glam::DVec3;
-use direction::direction;
+use direction::least_overlap_direction;
 use rigid_ccd::Solver;
 
 /// The maximum number of pairs of pieces that are ignored because they part. Beyond it the bodies are in contact at the
@@ -108,10 +108,10 @@ fn piece_indices_near_other(scene: &Scene<'_>, k: usize) -> Vec<u32> {
         let (middle, radius) = ball(piece);
         let place = this.1.start().transform_point(middle);
         let rounding =
-            (ENLARGEMENT_FACTOR - 1.0) * (length(place) + length(from) + length(displacement));
+            (ROUNDING_ENLARGEMENT - 1.0) * (length(place) + length(from) + length(displacement));
         let apart = distance_to_segment(place - from, displacement);
         // The comparison treats NaN as near.
-        !(apart > (within + radius) * ENLARGEMENT_FACTOR + rounding)
+        !(apart > (within + radius) * ROUNDING_ENLARGEMENT + rounding)
     };
     let pieces = (0..).zip(this.0.body().pieces().iter());
     pieces
@@ -145,7 +145,8 @@ fn pieces_begin_to_part(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solve
     let velocity = scene.motions[1].velocity() - scene.motions[0].velocity();
     // The comparison is false for NaN, which does not part.
     let least = -MAX_SLIDING_APPROACH_RATIO * length(velocity);
-    direction(pieces, poses, solver).is_some_and(|normal| normal.dot(velocity) >= least)
+    least_overlap_direction(pieces, poses, solver)
+        .is_some_and(|normal| normal.dot(velocity) >= least)
 }
 
 #[cfg(test)]

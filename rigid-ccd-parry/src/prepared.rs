@@ -37,8 +37,8 @@ impl BodyOfShape {
         Ok(BodyOfShape {
             body: body.with_excess(together).map_err(ShapeError::Body)?,
             sub_shape_indices: numbers,
-            ball: form.ball(),
-            ball_centre: form.point(),
+            ball: form.enclosing_ball(),
+            ball_centre: form.centre_if_ball(),
             slack: form.slack,
             excess: form.excess,
         })

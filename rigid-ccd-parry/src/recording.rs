@@ -2,7 +2,7 @@
 
 use crate::scene::Scene;
 use ccd_core::{Body, Motion, Settings, StartPolicy};
-use rigid_ccd::mesh::{Model, PrepareError, StoreError};
+use rigid_ccd::mesh::{PrepareError, StoreError, StoredBodyContent};
 use rigid_ccd::table::motions::{Motions, write};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -26,10 +26,10 @@ pub struct Recording {
 pub enum RecordError {
     /// A body has too many pieces.
     #[error(transparent)]
-    Body(#[from] PrepareError),
+    TooManyPieces(#[from] PrepareError),
     /// A body cannot be written.
     #[error(transparent)]
-    Store(#[from] StoreError),
+    BodyNotStored(#[from] StoreError),
     /// The folder or the table cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
@@ -65,8 +65,8 @@ impl Recording {
         };
         fs::create_dir_all(folder).map_err(failed(folder))?;
         let [a, b, motions] = ["a.ccd", "b.ccd", "motions.csv"].map(|name| folder.join(name));
-        Model::from_body(&self.bodies[0])?.save(&a)?;
-        Model::from_body(&self.bodies[1])?.save(&b)?;
+        StoredBodyContent::from_body(&self.bodies[0])?.save(&a)?;
+        StoredBodyContent::from_body(&self.bodies[1])?.save(&b)?;
         let query = Motions {
             id: "cast".to_owned(),
             a: self.motions[0],
@@ -80,7 +80,7 @@ impl Recording {
         let Settings {
             tolerance, margin, ..
         } = self.settings;
-        let start = match self.settings.start {
+        let start = match self.settings.start_policy {
             StartPolicy::Leave => " --start leave",
             _ => "",
         };

@@ -6,7 +6,7 @@ use crate::order::lesser;
 use crate::tolerance::NEAREST_POINTS_BUDGET;
 use crate::{BodyOfShape, CastError};
 use ccd_core::glam::DVec3;
-use ccd_core::{Answer, Contact, Motion, Outcome, Overlap, Pose, Settings, Volume};
+use ccd_core::{Answer, Contact, Motion, Outcome, Overlap, Pose, Settings, Solidity};
 use rigid_ccd::Solver;
 
 /// Two moving bodies and the distance at which they are in contact.
@@ -20,7 +20,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) horizon: QueryDuration,
     pub(crate) interval: Interval,
     /// The distance at which the bodies are in contact, in the scene's unit of length.
-    pub(crate) target: f64,
+    pub(crate) target_distance: f64,
     pub(crate) settings: Settings,
 }
 
@@ -68,7 +68,7 @@ impl Scene<'_> {
         // Inside a solid mesh there may be no piece from which a body could part.
         let bare = |body: &&BodyOfShape| {
             let body = body.body();
-            body.pieces().len() == 1 || body.volume() == Volume::Surface
+            body.pieces().len() == 1 || body.solidity() == Solidity::Surface
         };
         self.motions.iter().all(straight) && self.bodies.iter().all(bare)
     }
@@ -79,7 +79,8 @@ impl Scene<'_> {
                 Some(self.hit_from_contact(time, &contact, CastStatus::Contact))
             }
             Outcome::Touching { contact } => {
-                let within = self.target > 0.0 && contact.separation.upper <= self.target;
+                let within =
+                    self.target_distance > 0.0 && contact.separation.upper <= self.target_distance;
                 let ending = if within {
                     CastStatus::WithinTargetAtStart
                 } else {
@@ -98,7 +99,7 @@ impl Scene<'_> {
             Outcome::Free { .. } | Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
                 match self.horizon {
                     QueryDuration::WholeCast(_) => None,
-                    QueryDuration::Part(duration) => {
+                    QueryDuration::PartOfCast(duration) => {
                         Some(self.search_hit_at_limit(duration, solver))
                     }
                 }

@@ -42,7 +42,7 @@ pub(crate) const PLANE_HEIGHT_ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF_F64;
 
 /// The maximum extent of the box that stands for a half-space, in units of the sum of the body's size and its distance
 /// at the start. At that width the box that stands for the half-space is accurate to 2e-5 of the size.
-pub(crate) const MAX_BOX_EXTENT_RATIO: f64 = (1 << 26) as f64;
+pub(crate) const MAX_HALF_SPACE_BOX_EXTENT: f64 = (1 << 26) as f64;
 
 /// A bound on the error that rounding the relative velocity adds to the bodies' relative displacement, as a fraction of
 /// that displacement. The subtraction is one operation; the displacement's own rounding adds as much.
@@ -50,7 +50,7 @@ pub(crate) const VELOCITY_DIFFERENCE_ROUNDING: f64 = 2.0 * UNIT_ROUNDOFF_F64;
 
 /// The factor by which lengths and durations are enlarged to cover their rounding errors. The sums and quotients that
 /// they come from have an error of less than a thousand `u`. A longer interval costs nothing.
-pub(crate) const ENLARGEMENT_FACTOR: f64 = 1.0 + 1024.0 * UNIT_ROUNDOFF_F64;
+pub(crate) const ROUNDING_ENLARGEMENT: f64 = 1.0 + 1024.0 * UNIT_ROUNDOFF_F64;
 
 /// The share of the engine's limits of displacement and rotation that a cast uses; the rest covers rounding.
 pub(crate) const USED_SHARE_OF_LIMITS: f64 = 0.999;

@@ -38,7 +38,7 @@ struct RobotBodyPlacement {
     /// The number of the link.
     link: usize,
     /// The pose of the body in the link's frame.
-    pose: Pose,
+    pose_in_link: Pose,
     /// How the body is attached; `None` for a body of the link itself.
     attachment: Option<Attachment>,
 }
@@ -157,7 +157,7 @@ impl Cell {
         let attachment = Some(Attachment { name, may_touch });
         let held = RobotBodyPlacement {
             link,
-            pose,
+            pose_in_link: pose,
             attachment,
         };
         self.add_robot_body(body.into(), held);
@@ -242,7 +242,7 @@ impl Cell {
 
     /// Returns the pose of one of the robot's bodies in its link.
     pub(crate) fn pose_in_link(&self, body: usize) -> Pose {
-        self.robot_body_placements[body].pose
+        self.robot_body_placements[body].pose_in_link
     }
 
     /// Returns the name of what a body belongs to.
@@ -289,7 +289,7 @@ impl Cell {
     /// Adds a body that the robot holds.
     fn add_robot_body(&mut self, body: Arc<Body>, held: RobotBodyPlacement) {
         let (frame, link_pose) = self.kinematics.link(held.link);
-        let pose = link_pose.compose(&held.pose);
+        let pose = link_pose.compose(&held.pose_in_link);
         let placed = PlacedBody::new(body, pose, frame, MAX_LINK_PARTS);
         let number = self.robot_body_placements.len();
         self.robot_body_placements.push(held);
@@ -347,7 +347,7 @@ impl RobotBodyPlacement {
     fn for_link_body(link: usize, pose: Pose) -> Self {
         RobotBodyPlacement {
             link,
-            pose,
+            pose_in_link: pose,
             attachment: None,
         }
     }

@@ -124,12 +124,12 @@ pub enum RobotError {
 pub enum PathError {
     /// The path has no configuration.
     #[error("the path has no configuration")]
-    Empty,
+    EmptyPath,
     /// A configuration does not fit the robot.
-    #[error("configuration {number} of the path: {error}")]
+    #[error("configuration {configuration_index} of the path: {error}")]
     InvalidConfiguration {
         /// The number of the configuration, from 0.
-        number: usize,
+        configuration_index: usize,
         /// The reason why it does not fit.
         error: RobotError,
     },

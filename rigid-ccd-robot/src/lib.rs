@@ -11,8 +11,8 @@
 //!     name: "hinge".into(),
 //!     parent: "base".into(),
 //!     child: "arm".into(),
-//!     joint: hinge,
-//!     position: PositionRule::Free,
+//!     axis_and_limits: hinge,
+//!     position_rule: PositionRule::Free,
 //! }];
 //! let robot = Robot::new(links, joints)?;
 //! assert_eq!(robot.free_joint_names().collect::<Vec<_>>(), ["hinge"]);
@@ -51,7 +51,7 @@ pub use robot::{ChainBetween, Joint, Link, LinkBody, PositionRule, Robot};
 pub use solver::{
     CellSolver, ClearanceRange, ClosestApproach, PathContact, PathOutcome, PathPoint, RangeSettings,
 };
-pub use urdf::{BodyElements, MeshModel, Urdf, UrdfError};
+pub use urdf::{BodyElements, MeshConversion, Urdf, UrdfError};
 
 /// The example in the README, run as a doctest.
 #[cfg(doctest)]

@@ -57,9 +57,9 @@ pub struct Joint {
     /// The name of the link that the joint moves.
     pub child: String,
     /// The axis and the limits of the joint, in the frame of the parent.
-    pub joint: trajectory::Joint,
+    pub axis_and_limits: trajectory::Joint,
     /// The source of the joint's position: the configuration, or another joint.
-    pub position: PositionRule,
+    pub position_rule: PositionRule,
 }
 
 /// The source of a joint's position: the configuration, or another joint.
@@ -83,19 +83,19 @@ pub enum PositionRule {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PositionSource {
     /// The index of a position in the configuration, from which the joint's position is computed.
-    number: usize,
+    position_index: usize,
     multiplier: f64,
     offset: f64,
     /// The sum of the absolute values of all offsets that add to `offset`.
     offset_magnitude: f64,
     /// The number of joints from the joint to the one with a position of its own.
-    follow_count: u32,
+    mimic_chain_length: u32,
 }
 
 impl PositionSource {
     /// Returns the index of the position in a configuration.
-    pub(crate) fn number(&self) -> usize {
-        self.number
+    pub(crate) fn position_index(&self) -> usize {
+        self.position_index
     }
 
     /// Returns the factor from the position in a configuration to that of the joint.
@@ -110,7 +110,7 @@ impl PositionSource {
 
     /// Returns the position of the joint in a configuration.
     pub(crate) fn position(&self, configuration: &[f64]) -> f64 {
-        let followed = configuration[self.number];
+        let followed = configuration[self.position_index];
         if self.offset == 0.0 {
             self.multiplier * followed
         } else {
@@ -121,8 +121,8 @@ impl PositionSource {
 
     /// Returns a bound of the numbers of which the position of the joint is computed, more the more often it is rounded.
     pub(crate) fn magnitude(&self, configuration: &[f64]) -> f64 {
-        let moved = (self.multiplier * configuration[self.number]).abs();
-        (moved + self.offset_magnitude) * f64::from(1 + self.follow_count)
+        let moved = (self.multiplier * configuration[self.position_index]).abs();
+        (moved + self.offset_magnitude) * f64::from(1 + self.mimic_chain_length)
     }
 }
 
@@ -152,13 +152,13 @@ impl Robot {
     /// joint is reversed.
     pub fn new(links: Vec<Link>, mut joints: Vec<Joint>) -> Result<Self, RobotError> {
         for joint in &mut joints {
-            if joint.joint.is_reversed() {
+            if joint.axis_and_limits.is_reversed() {
                 let joint = joint.name.clone();
                 return Err(RobotError::ReversedJoint { joint });
             }
-            if joint.position != PositionRule::Free {
-                joint.joint = joint
-                    .joint
+            if joint.position_rule != PositionRule::Free {
+                joint.axis_and_limits = joint
+                    .axis_and_limits
                     .clone()
                     .with_limits(f64::NEG_INFINITY..=f64::INFINITY);
             }
@@ -166,7 +166,7 @@ impl Robot {
         let tree = Tree::new(&links, &joints)?;
         let (sources, free_joints) = position_sources_and_free_joints(&joints)?;
         let mut rigid_roots: Vec<usize> = (0..links.len()).collect();
-        for (link, parent, joint) in tree.joints_from_base() {
+        for (link, parent, joint) in tree.links_parents_first() {
             if sources[joint].is_none() {
                 rigid_roots[link] = rigid_roots[parent];
             }
@@ -200,7 +200,7 @@ impl Robot {
     /// Returns the limits of the positions, in the order of a configuration.
     pub fn limits(&self) -> impl ExactSizeIterator<Item = [f64; 2]> {
         self.free_joints.iter().map(|&joint| {
-            let limits = self.joints[joint].joint.limits();
+            let limits = self.joints[joint].axis_and_limits.limits();
             [*limits.start(), *limits.end()]
         })
     }
@@ -236,7 +236,7 @@ impl Robot {
     pub fn chain_between(&self, from: usize, to: usize) -> ChainBetween {
         let steps = self.tree.path_between(from, to);
         let joints = steps.iter().map(|step| {
-            let joint = self.joints[step.joint].joint.clone();
+            let joint = self.joints[step.joint].axis_and_limits.clone();
             if step.leads_to_parent {
                 joint.reversed()
             } else {
@@ -265,7 +265,7 @@ impl Robot {
     /// Returns the links that a joint moves, each with the link that holds the joint and the joint. Links come after those
     /// nearer to the base.
     pub(crate) fn joints_from_base(&self) -> Vec<(usize, usize, usize)> {
-        self.tree.joints_from_base()
+        self.tree.links_parents_first()
     }
 
     /// Returns how the position of a joint comes from a configuration; `None` for a fixed one.
@@ -274,7 +274,7 @@ impl Robot {
     }
 
     /// Refuses a configuration with a wrong number of positions, or with a position outside of its joint's limits.
-    pub(crate) fn check(&self, configuration: &[f64]) -> Result<(), RobotError> {
+    pub(crate) fn check_configuration(&self, configuration: &[f64]) -> Result<(), RobotError> {
         let expected = self.free_joints.len();
         if configuration.len() != expected {
             return Err(RobotError::WrongPositionCount {
@@ -284,7 +284,11 @@ impl Robot {
             });
         }
         for (&joint, &position) in self.free_joints.iter().zip(configuration) {
-            let Joint { name, joint, .. } = &self.joints[joint];
+            let Joint {
+                name,
+                axis_and_limits: joint,
+                ..
+            } = &self.joints[joint];
             joint
                 .pose(position)
                 .map_err(|error| RobotError::InvalidPosition {
@@ -305,27 +309,29 @@ impl Robot {
 fn position_sources_and_free_joints(
     joints: &[Joint],
 ) -> Result<(Vec<Option<PositionSource>>, Vec<usize>), RobotError> {
-    let is_free = |joint: &Joint| joint.position == PositionRule::Free && !joint.joint.is_fixed();
+    let is_free = |joint: &Joint| {
+        joint.position_rule == PositionRule::Free && !joint.axis_and_limits.is_fixed()
+    };
     let free_joints: Vec<usize> = (0..joints.len()).filter(|&k| is_free(&joints[k])).collect();
     let sources = joints.iter().map(|joint| {
-        if joint.joint.is_fixed() {
+        if joint.axis_and_limits.is_fixed() {
             return Ok(None);
         }
         let (mut multiplier, mut offset, mut at) = (1.0, 0.0, joint);
         let mut offset_magnitude = 0.0;
         // A joint that follows another one more often than there are joints follows itself.
         for follow_count in 0..=joints.len() as u32 {
-            match &at.position {
+            match &at.position_rule {
                 PositionRule::Free => {
                     let number = free_joints.iter().position(|&k| joints[k].name == at.name);
                     return number
                         .map(|number| {
                             Some(PositionSource {
-                                number,
+                                position_index: number,
                                 multiplier,
                                 offset,
                                 offset_magnitude,
-                                follow_count,
+                                mimic_chain_length: follow_count,
                             })
                         })
                         .ok_or_else(|| unfollowable_joint_error(joint, &at.name));

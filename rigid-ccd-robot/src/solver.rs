@@ -38,7 +38,7 @@ use search::Search;
 pub struct CellSolver<'c> {
     cell: &'c Cell,
     search: Search<'c>,
-    distance: Solver,
+    distance_solver: Solver,
 }
 
 /// A pair of a cell at a point of a path, where it is in contact or nearest.
@@ -47,7 +47,7 @@ pub struct PathContact<'c> {
     /// Where on the path. Nothing touches before the first contact.
     pub at: PathPoint,
     /// The pair; a link or an attached body comes first.
-    pub between: [Item<'c>; 2],
+    pub items: [Item<'c>; 2],
     /// The nearest points of both, in the frame of the base. If both overlap they are points of two pieces that intersect.
     pub witnesses: [DVec3; 2],
 }
@@ -95,7 +95,7 @@ impl Cell {
         CellSolver {
             cell: self,
             search: Search::new(self),
-            distance: Solver::new(),
+            distance_solver: Solver::new(),
         }
     }
 }
@@ -134,7 +134,7 @@ impl<'c> CellSolver<'c> {
         path: &[Q],
     ) -> Result<Option<PathContact<'c>>, PathError> {
         let found = self.find_any_contact(path)?;
-        Ok(found.map(|found| self.contact(found)).transpose()?)
+        Ok(found.map(|found| self.measure_contact(found)).transpose()?)
     }
 
     /// Returns the first contact on a path: the last free point, and what touches there.
@@ -151,12 +151,12 @@ impl<'c> CellSolver<'c> {
     ) -> Result<PathOutcome<'c>, PathError> {
         self.answer(Question::FirstContact, path)?;
         let found = &self.search.result;
-        Ok(match (found.limit, found.nearest) {
+        Ok(match (found.limit_reached, found.nearest) {
             (Some((limit, until)), _) => PathOutcome::Unresolved {
-                free_until: PathPoint::of(until, self.search.segment_count()),
+                free_until: PathPoint::from_segment_position(until, self.search.segment_count()),
                 limit,
             },
-            (None, Some(nearest)) => PathOutcome::Contact(self.contact(nearest)?),
+            (None, Some(nearest)) => PathOutcome::Contact(self.measure_contact(nearest)?),
             (None, None) => PathOutcome::Free,
         })
     }
@@ -181,8 +181,11 @@ impl<'c> CellSolver<'c> {
         Ok(ClosestApproach {
             lower,
             upper,
-            nearest: found.nearest.map(|found| self.contact(found)).transpose()?,
-            limit: found.limit.map(|(limit, _)| limit),
+            nearest: found
+                .nearest
+                .map(|found| self.measure_contact(found))
+                .transpose()?,
+            limit: found.limit_reached.map(|(limit, _)| limit),
         })
     }
 
@@ -193,7 +196,7 @@ impl<'c> CellSolver<'c> {
         self.answer(Question::AnyContact, path)?;
         let found = &self.search.result;
         if found.nearest.is_none()
-            && let Some((limit, _)) = found.limit
+            && let Some((limit, _)) = found.limit_reached
         {
             let unresolved = Unresolved::from_safe_until(0.0, limit);
             return Err(Error::from(unresolved).into());
@@ -203,18 +206,24 @@ impl<'c> CellSolver<'c> {
 
     fn answer<Q: AsRef<[f64]>>(&mut self, question: Question, path: &[Q]) -> Result<(), PathError> {
         self.set_path(path)?;
-        let whole = self.search.whole_path();
+        let whole = self.search.whole_path_stretch();
         Ok(self.search.answer(question, whole)?)
     }
 
     /// Takes a path for the questions that follow, if it fits the robot and the settings are valid.
     fn set_path<Q: AsRef<[f64]>>(&mut self, path: &[Q]) -> Result<(), PathError> {
         if path.is_empty() {
-            return Err(PathError::Empty);
+            return Err(PathError::EmptyPath);
         }
         for (number, configuration) in path.iter().enumerate() {
-            let checked = self.cell.robot().check(configuration.as_ref());
-            checked.map_err(|error| PathError::InvalidConfiguration { number, error })?;
+            let checked = self
+                .cell
+                .robot()
+                .check_configuration(configuration.as_ref());
+            checked.map_err(|error| PathError::InvalidConfiguration {
+                configuration_index: number,
+                error,
+            })?;
         }
         self.search.settings().check().map_err(Error::from)?;
         self.search.begin(path);
@@ -222,17 +231,17 @@ impl<'c> CellSolver<'c> {
     }
 
     /// Measures a pair at a point of the path.
-    fn contact(&mut self, (at, pair): (f64, PartPair)) -> Result<PathContact<'c>, Error> {
+    fn measure_contact(&mut self, (at, pair): (f64, PartPair)) -> Result<PathContact<'c>, Error> {
         let bodies = pair.body_numbers(self.cell.parts());
         let placement = self.search.place_frames(at);
         let (a, b) = (
             placement.body(self.cell, bodies[0])?,
             placement.body(self.cell, bodies[1])?,
         );
-        let outcome = self.distance.distance(a, b)?.outcome;
+        let outcome = self.distance_solver.distance(a, b)?.outcome;
         Ok(PathContact {
-            at: PathPoint::of(at, self.search.segment_count()),
-            between: bodies.map(|body| self.cell.item(body)),
+            at: PathPoint::from_segment_position(at, self.search.segment_count()),
+            items: bodies.map(|body| self.cell.item(body)),
             witnesses: witnesses(&outcome),
         })
     }

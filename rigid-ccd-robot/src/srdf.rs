@@ -38,11 +38,11 @@ impl Robot {
     /// ```
     /// use rigid_ccd_robot::{Link, Robot};
     /// let robot = Robot::new(vec![Link::named("base")], Vec::new())?;
-    /// let srdf = robot.srdf("stone", &robot.classify_link_contacts(100)?);
+    /// let srdf = robot.to_srdf("stone", &robot.classify_link_contacts(100)?);
     /// assert!(srdf.contains("<robot name=\"stone\">"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn srdf(&self, robot_name: &str, meetings: &[([usize; 2], LinkContactClass)]) -> String {
+    pub fn to_srdf(&self, robot_name: &str, meetings: &[([usize; 2], LinkContactClass)]) -> String {
         let mut text = format!(
             "<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n",
             escape(robot_name)

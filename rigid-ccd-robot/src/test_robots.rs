@@ -4,7 +4,7 @@ use crate::robot::{Joint, Link, PositionRule, Robot};
 use ccd_core::order::lesser;
 use rand::RngExt;
 use rand_pcg::Pcg64;
-use rigid_ccd::body::{Pieces, Volume};
+use rigid_ccd::body::{Pieces, Solidity};
 use rigid_ccd::glam::{DQuat, DVec3};
 use rigid_ccd::{Body, Pose, Solver, trajectory};
 
@@ -26,8 +26,8 @@ pub(crate) fn random_body(random: &mut Pcg64) -> Body {
         _ => {
             let corners: Vec<DVec3> = (0..4).map(|_| random_vector(random, 0.2)).collect();
             let faces = [[0, 1, 2], [2, 1, 3]];
-            let pieces = Pieces::triangles(&corners, &faces, &[0, 1]).unwrap();
-            Body::new(&pieces, Volume::Surface).unwrap()
+            let pieces = Pieces::from_triangles(&corners, &faces, &[0, 1]).unwrap();
+            Body::new(&pieces, Solidity::Surface).unwrap()
         }
     }
 }
@@ -61,8 +61,8 @@ pub(crate) fn random_robot(random: &mut Pcg64) -> Robot {
             name: format!("joint{k}"),
             parent: format!("link{}", random.random_range(0..k)),
             child: format!("link{k}"),
-            joint: joint.unwrap(),
-            position,
+            axis_and_limits: joint.unwrap(),
+            position_rule: position,
         }
     });
     let joints = joints.collect();
@@ -73,8 +73,8 @@ pub(crate) fn random_robot(random: &mut Pcg64) -> Robot {
 pub(crate) fn with_symmetric_limits(robot: &Robot, limit: f64) -> Robot {
     let mut joints = robot.joints().to_vec();
     for joint in &mut joints {
-        if !joint.joint.is_fixed() {
-            joint.joint = joint.joint.clone().with_limits(-limit..=limit);
+        if !joint.axis_and_limits.is_fixed() {
+            joint.axis_and_limits = joint.axis_and_limits.clone().with_limits(-limit..=limit);
         }
     }
     Robot::new(robot.links().to_vec(), joints).unwrap()

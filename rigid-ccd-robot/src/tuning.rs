@@ -28,4 +28,4 @@ pub(crate) const MAX_LINK_PARTS: usize = 1;
 pub(crate) const MIN_PIECES_TO_SPLIT: usize = 16;
 
 /// The number of intervals between the points on a joint's axis at which two links are tried.
-pub(crate) const HINGE_INTERVALS: u32 = 128;
+pub(crate) const JOINT_AXIS_INTERVALS: u32 = 128;

@@ -4,7 +4,7 @@ mod bodies;
 mod error;
 mod packages;
 
-pub use bodies::MeshModel;
+pub use bodies::MeshConversion;
 pub use error::UrdfError;
 
 use crate::pairs::{LinkPairs, SkipReason};
@@ -21,7 +21,7 @@ use urdf_rs::JointType;
 /// A URDF file to read, with the choice of how its links become bodies.
 ///
 /// ```
-/// use rigid_ccd_robot::{MeshModel, Urdf};
+/// use rigid_ccd_robot::{MeshConversion, Urdf};
 /// # let text = "<robot name='door'><link name='frame'/><link name='leaf'><collision>
 /// #     <geometry><box size='0.8 0.04 2'/></geometry></collision></link>
 /// #     <joint name='hinge' type='revolute'><parent link='frame'/><child link='leaf'/>
@@ -29,7 +29,7 @@ use urdf_rs::JointType;
 /// # let folder = tempfile::tempdir()?;
 /// # std::fs::write(folder.path().join("door.urdf"), text)?;
 /// # std::env::set_current_dir(&folder)?;
-/// let urdf = Urdf::at("door.urdf").with_mesh_model(MeshModel::OuterHull);
+/// let urdf = Urdf::from_path("door.urdf").with_mesh_conversion(MeshConversion::OuterHull);
 /// let robot = urdf.read()?;
 /// let pairs = urdf.link_pairs(&robot, None)?;
 /// assert_eq!(robot.limits().collect::<Vec<_>>(), [[0.0, 1.5]]);
@@ -41,7 +41,7 @@ pub struct Urdf {
     path: PathBuf,
     search_folders: SearchFolders,
     body_elements: BodyElements,
-    meshes: MeshModel,
+    meshes: MeshConversion,
 }
 
 /// The kind of XML elements of a URDF's links that become bodies.
@@ -57,13 +57,13 @@ pub enum BodyElements {
 impl Urdf {
     /// Names the URDF file to read. Its links become exact bodies of the elements `collision`. Packages are searched
     /// for in the folders of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then in the folders above the file.
-    pub fn at(path: impl Into<PathBuf>) -> Self {
+    pub fn from_path(path: impl Into<PathBuf>) -> Self {
         let path = path.into();
         Urdf {
             search_folders: SearchFolders::for_urdf(&path),
             path,
             body_elements: BodyElements::default(),
-            meshes: MeshModel::default(),
+            meshes: MeshConversion::default(),
         }
     }
 
@@ -85,7 +85,7 @@ impl Urdf {
 
     /// Sets whether a mesh becomes exact pieces or its convex hull.
     #[must_use]
-    pub fn with_mesh_model(self, meshes: MeshModel) -> Self {
+    pub fn with_mesh_conversion(self, meshes: MeshConversion) -> Self {
         Urdf { meshes, ..self }
     }
 
@@ -178,7 +178,7 @@ fn convert_joint(joint: &urdf_rs::Joint) -> Result<Joint, UrdfError> {
         JointType::Prismatic => trajectory::Joint::prismatic(origin, axis)?.with_limits(limits),
         JointType::Floating | JointType::Planar | JointType::Spherical => {
             return Err(UrdfError::JointType {
-                kind: format!("{:?}", joint.joint_type).to_lowercase(),
+                joint_kind: format!("{:?}", joint.joint_type).to_lowercase(),
             });
         }
     };
@@ -194,8 +194,8 @@ fn convert_joint(joint: &urdf_rs::Joint) -> Result<Joint, UrdfError> {
         name: joint.name.clone(),
         parent: joint.parent.link.clone(),
         child: joint.child.link.clone(),
-        joint: moved,
-        position,
+        axis_and_limits: moved,
+        position_rule: position,
     })
 }
 

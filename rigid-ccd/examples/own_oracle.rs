@@ -29,8 +29,8 @@ impl DistanceOracle for SegmentOracle {
         }
         Ok(Claim {
             axis: (q + t * v) - (p + s * u),
-            a: ConvexCombination::segment([0, last[0] as u32], s),
-            b: ConvexCombination::segment([0, last[1] as u32], t),
+            a: ConvexCombination::of_two_points([0, last[0] as u32], s),
+            b: ConvexCombination::of_two_points([0, last[1] as u32], t),
         })
     }
 }

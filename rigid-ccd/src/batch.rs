@@ -31,7 +31,7 @@ impl<'q> BodyPair<'q> {
     ///
     /// # Errors
     /// Those of [`Query::new`].
-    pub fn query(
+    pub fn build_query(
         self,
         question: Question,
         course: &'q Movements,
@@ -47,7 +47,7 @@ impl<'q> BodyPair<'q> {
     }
 
     /// Returns the row of the table of results for the answer or error of a query.
-    pub fn row(
+    pub fn result_row(
         self,
         question: Question,
         settings: &Settings,

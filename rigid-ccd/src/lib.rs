@@ -28,7 +28,7 @@
 //! | set a tolerance, a margin, a budget or a deadline | [`Settings`], [`Solver::with_settings`] |
 //! | make a body | [`Body::sphere`], [`Body::capsule`], [`Body::cuboid`], [`Body::cylinder`], [`Body::cone`], [`load`] for a file |
 //! | make a body of each part of a file, convert units, scale or mirror it | [`load_parts`], [`load_in_unit`], [`load_adjusted`], [`mesh::MeshFile`] |
-//! | make a body from vertices and faces in memory | [`mesh::TriangleMesh::new`], then [`mesh::body_from_mesh`]; or [`body::Pieces::triangles`] |
+//! | make a body from vertices and faces in memory | [`mesh::TriangleMesh::new`], then [`mesh::body_from_mesh`]; or [`body::Pieces::from_triangles`] |
 //! | move a body | [`Motion::new`], [`Motion::between`] |
 //! | list all features in contact | [`Query::contacts_at`] |
 //! | read an answer's bounds, limits and cost | [`answer`] |

@@ -18,7 +18,7 @@ use std::path::Path;
 ///
 /// ```
 /// let part = rigid_ccd::load("examples/bracket.obj")?;
-/// assert_eq!(part.volume(), rigid_ccd::body::Volume::Solid);
+/// assert_eq!(part.solidity(), rigid_ccd::body::Solidity::Solid);
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {

@@ -43,10 +43,10 @@ where
 
 /// The error of one of many queries, with the index of the query.
 #[derive(Debug, thiserror::Error)]
-#[error("query {query}: {error}")]
+#[error("query {query_index}: {error}")]
 pub struct QueryError {
     /// The index of the query among the given queries, counted from 0.
-    pub query: usize,
+    pub query_index: usize,
     /// The reason why the input of the query is not valid.
     #[source]
     pub error: InputError,
@@ -138,7 +138,12 @@ where
         });
         let found = found.into_iter().enumerate();
         found
-            .map(|(query, found)| found.map_err(|error| QueryError { query, error }))
+            .map(|(query, found)| {
+                found.map_err(|error| QueryError {
+                    query_index: query,
+                    error,
+                })
+            })
             .collect()
     }
 }

@@ -16,7 +16,7 @@ use std::fmt;
 /// use rigid_ccd::{Body, Remark};
 /// // A part in metres, and a tolerance as for millimetres.
 /// let (part, wall) = (Body::sphere(0.0005)?, Body::cuboid([1.0; 3])?);
-/// let sizes = [&part, &wall].map(Remark::size);
+/// let sizes = [&part, &wall].map(Remark::body_size);
 /// let remark = Remark::remark_on_tolerance(0.001, sizes).expect("it is as large as the part");
 /// assert!(remark.to_string().starts_with("the tolerance is large against the smaller body"));
 /// assert_eq!(Remark::remark_on_tolerance(0.00001, sizes), None);
@@ -42,12 +42,12 @@ pub enum Remark {
     /// A revolute joint's position seems to be in degrees.
     JointInDegrees {
         /// The position of the joint, in radians.
-        position: f64,
+        joint_position: f64,
     },
     /// A quaternion is far from unit length.
     NonUnitQuaternion {
         /// The components w, x, y, z as given.
-        parts: [f64; 4],
+        quaternion_components: [f64; 4],
         /// The length of the quaternion, which should be 1.
         length: f64,
     },
@@ -80,7 +80,7 @@ impl Remark {
     ///
     /// # Complexity
     /// Linear in the body's points.
-    pub fn size(body: &Body) -> f64 {
+    pub fn body_size(body: &Body) -> f64 {
         Remark::sides(body).into_iter().fold(0.0, greater)
     }
 
@@ -89,11 +89,11 @@ impl Remark {
     /// # Complexity
     /// Linear in the body's points.
     pub fn sides(body: &Body) -> [f64; 3] {
-        sides(point_box_corners(body)).to_array()
+        bounding_box_sides(corners_of_boxes_around_points(body)).to_array()
     }
 
     /// Returns a remark if the tolerance is large relative to the smaller of two bodies, given their
-    /// [sizes](Remark::size). A point has none.
+    /// [sizes](Remark::body_size). A point has none.
     pub fn remark_on_tolerance(tolerance: f64, sizes: [f64; 2]) -> Option<Self> {
         let size = lesser(sizes[0], sizes[1]);
         let is_coarse = size > 0.0 && tolerance > COARSE_TOLERANCE_SHARE * size;
@@ -115,7 +115,9 @@ impl Remark {
     /// Returns a remark if a joint's position is many turns and a round number of degrees.
     pub fn remark_on_joint(position: f64) -> Option<Self> {
         let is_odd = may_be_degrees(position.abs()) && is_round_degrees(position);
-        is_odd.then_some(Remark::JointInDegrees { position })
+        is_odd.then_some(Remark::JointInDegrees {
+            joint_position: position,
+        })
     }
 
     /// Returns a remark if a quaternion w, x, y, z is far from unit length.
@@ -123,7 +125,10 @@ impl Remark {
         let [w, x, y, z] = parts;
         let length = length(DVec3::new(w, length(DVec3::new(x, y, z)), 0.0));
         let is_unit = (length - 1.0).abs() <= MAX_UNIT_LENGTH_DEVIATION;
-        (!is_unit).then_some(Remark::NonUnitQuaternion { parts, length })
+        (!is_unit).then_some(Remark::NonUnitQuaternion {
+            quaternion_components: parts,
+            length,
+        })
     }
 
     /// Returns the remark's text without numbers, the same for remarks of one kind.
@@ -154,7 +159,7 @@ impl Remark {
 }
 
 /// Returns two opposite corners of a box about each point of a body. The box holds the ball of the piece's radius.
-fn point_box_corners(body: &Body) -> impl Iterator<Item = DVec3> {
+fn corners_of_boxes_around_points(body: &Body) -> impl Iterator<Item = DVec3> {
     body.pieces().iter().flat_map(|piece| {
         let radius = DVec3::splat(piece.radius);
         let both = move |&point: &DVec3| [point - radius, point + radius];
@@ -163,7 +168,7 @@ fn point_box_corners(body: &Body) -> impl Iterator<Item = DVec3> {
 }
 
 /// Returns the side lengths of the axis-aligned bounding box of points.
-fn sides(points: impl IntoIterator<Item = DVec3>) -> DVec3 {
+fn bounding_box_sides(points: impl IntoIterator<Item = DVec3>) -> DVec3 {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for point in points {
         for (axis, x) in point.to_array().into_iter().enumerate() {
@@ -194,11 +199,13 @@ impl fmt::Display for Remark {
                 let [x, y, z] = spin.to_array();
                 write!(f, "({x}, {y}, {z}) makes {:.1} turns", turn / TAU)
             }
-            Remark::JointInDegrees { position } => {
+            Remark::JointInDegrees {
+                joint_position: position,
+            } => {
                 write!(f, "{position} is {:.1} turns", position.abs() / TAU)
             }
             Remark::NonUnitQuaternion {
-                parts: [w, x, y, z],
+                quaternion_components: [w, x, y, z],
                 length,
             } => write!(f, "({w}, {x}, {y}, {z}) has the length {length:.3}"),
         }

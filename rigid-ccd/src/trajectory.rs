@@ -10,7 +10,7 @@
 //! | follows the poses of a planner or of a simulator's log | [`Poses`], exact between two poses |
 //! | is thrown | [`Ballistic`] |
 //! | follows a Bézier curve or a B-spline | [`Spline`] of a [`Curve`] and of [`OrientationCurve`] |
-//! | is the link of an arm whose joints all move | [`Link`] of a [`Chain`] |
+//! | is the link of an arm whose joints all move | [`LinkTrajectory`] of a [`Chain`] |
 //! | moves in a way of your own | [`SmoothTrajectory`], or [`Trajectory`] |
 //!
 //! [`worst_deviation`] tests a trajectory of your own: it seeks the times and points at which it deviates by more than
@@ -38,7 +38,7 @@ pub use ccd_core::{
 pub use chain::Chain;
 pub use curve::Curve;
 pub use joint::{Joint, JointKind};
-pub use link::Link;
+pub use link::LinkTrajectory;
 pub use poses::Poses;
 pub use screw::screw;
 pub use spline::Spline;

@@ -94,7 +94,7 @@ fn motions_have_a_range() {
 #[test]
 fn faces_have_as_many_numbers() {
     let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
-    let unnumbered = Pieces::triangles(&triangle, &[[0, 1, 2]], &[]).map(drop);
+    let unnumbered = Pieces::from_triangles(&triangle, &[[0, 1, 2]], &[]).map(drop);
     assert_eq!(
         unnumbered,
         Err(InputError::FaceIdCountMismatch {

@@ -21,7 +21,7 @@ const ALLOWED_EARLINESS: f64 = 1e-9;
 
 fn settings_with_leave() -> Settings {
     Settings {
-        start: StartPolicy::Leave,
+        start_policy: StartPolicy::Leave,
         ..Settings::DEFAULT
     }
 }

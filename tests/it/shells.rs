@@ -70,7 +70,7 @@ fn solve(a: &Body, b: &Body, velocity: DVec3, start: StartPolicy) -> Outcome {
     };
     let config = Settings {
         tolerance: 1e-6,
-        start,
+        start_policy: start,
         ..Settings::DEFAULT
     };
     let (a, b) = (moving(a, DVec3::ZERO), moving(b, velocity));

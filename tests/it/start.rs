@@ -5,7 +5,7 @@ use ccd_core::rounding::MIN_APPROACH_PER_ROUNDING;
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{
     Body, Claim, DistanceOracle, GiveUpReason, Motion, Outcome, PiecePair, Pieces, Pose, Settings,
-    StartPolicy, Volume,
+    Solidity, StartPolicy,
 };
 use ccd_distance_gjk::ClosedForm;
 use ccd_tests::analytic::sliding_cube;
@@ -19,7 +19,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 fn settings_with_leave(tolerance: f64) -> Settings {
     Settings {
-        start: StartPolicy::Leave,
+        start_policy: StartPolicy::Leave,
         ..settings_with_tolerance(tolerance)
     }
 }
@@ -292,7 +292,7 @@ fn without_contact_at_the_start_both_policies_agree() {
     check_cases(120, cases(), |case| {
         let query = case.query();
         let config = Settings {
-            start: StartPolicy::Leave,
+            start_policy: StartPolicy::Leave,
             ..case.config()
         };
         let judge = Judge::new(&query, &config);
@@ -333,8 +333,8 @@ fn without_contact_at_the_start_both_policies_agree() {
 /// poses.
 fn two_triangles() -> [Body; 2] {
     let triangle = |corners: [DVec3; 3]| {
-        let pieces = Pieces::triangles(&corners, &[[0, 1, 2]], &[0]).unwrap();
-        Body::new(&pieces, Volume::Surface).unwrap()
+        let pieces = Pieces::from_triangles(&corners, &[[0, 1, 2]], &[0]).unwrap();
+        Body::new(&pieces, Solidity::Surface).unwrap()
     };
     let a = [
         dvec3(0.029279379471886524, 2.0151645759136314, 2.093708330440966),

@@ -24,7 +24,7 @@ pub struct Case {
     /// The margin of the query, for [`Settings::margin`].
     #[serde(default)]
     pub margin: f64,
-    /// The policy for contacts at the start, for [`Settings::start`].
+    /// The policy for contacts at the start, for [`Settings::start_policy`].
     #[serde(default)]
     pub start: StartPolicyText,
     /// Body A and its motion.
@@ -141,7 +141,7 @@ impl Case {
         Settings {
             tolerance: self.tolerance,
             margin: self.margin,
-            start: match self.start {
+            start_policy: match self.start {
                 StartPolicyText::Report => StartPolicy::Report,
                 StartPolicyText::Leave => StartPolicy::Leave,
             },

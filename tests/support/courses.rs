@@ -265,14 +265,14 @@ impl Trajectory for Zigzag {
         let rounding = 1e-15 * reach.fold(0.0, ccd_core::order::greater);
         Ok(Stretch {
             deviation_bound: DeviationBound {
-                shift: shift + 8.0 * rounding,
-                angle: 0.0,
+                centre_deviation: shift + 8.0 * rounding,
+                max_deviation_angle: 0.0,
             },
             ..Stretch::exact(motion)
         })
     }
 
-    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+    fn velocity_jump_time(&self, from: f64, to: f64) -> Option<f64> {
         self.inner_corner_times(from, to)
             .find(|_| self.reveals_corners)
     }

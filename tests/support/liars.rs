@@ -76,8 +76,8 @@ impl DistanceOracle for FaultyOracle {
         let (count_a, count_b) = (pair.a.points.len(), pair.b.points.len());
         let mut claim = Claim {
             axis: self.vector(),
-            a: ConvexCombination::point(self.index(count_a)),
-            b: ConvexCombination::point(self.index(count_b)),
+            a: ConvexCombination::from_single_point(self.index(count_a)),
+            b: ConvexCombination::from_single_point(self.index(count_b)),
         };
         match self.breach {
             ContractBreach::RandomClaim => {}
@@ -91,8 +91,8 @@ impl DistanceOracle for FaultyOracle {
             }
             ContractBreach::InfiniteAxis => claim.axis = DVec3::splat(f64::INFINITY),
             ContractBreach::OutOfRange => {
-                claim.a = ConvexCombination::point(count_a as u32 + 7);
-                claim.b = ConvexCombination::segment([u32::MAX, 0], 0.5);
+                claim.a = ConvexCombination::from_single_point(count_a as u32 + 7);
+                claim.b = ConvexCombination::of_two_points([u32::MAX, 0], 0.5);
             }
             ContractBreach::ReversedAxis => {
                 claim.axis = pair.a.points[0] - pair.b_to_a.transform_point(pair.b.points[0]);

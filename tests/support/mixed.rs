@@ -58,7 +58,7 @@ impl MixedBodies {
         let config = Settings {
             tolerance: 10f64.powi(-rng.random_range(2..=7)),
             margin: if rng.random_bool(0.2) { 0.05 } else { 0.0 },
-            start: if rng.random_bool(0.1) {
+            start_policy: if rng.random_bool(0.1) {
                 StartPolicy::Leave
             } else {
                 StartPolicy::Report

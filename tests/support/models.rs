@@ -24,7 +24,7 @@ pub use thread::{PITCH, nut_thread, screw};
 pub use voxels::pile;
 
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::{Body, Facet, FacetOrigin, InputError, Pieces, Polytope, Volume};
+use ccd_core::{Body, Facet, FacetOrigin, InputError, Pieces, Polytope, Solidity};
 use ccd_decomp::{Detail, PatchOrder, TriangleMesh, build_hull_tree, prepare};
 
 /// A triangle mesh, the common input of the referee and of the engine.
@@ -44,7 +44,7 @@ pub struct Shape {
     /// Convex parts whose union has the mesh as its surface; empty if none are known.
     pub parts: Vec<Polytope>,
     /// Whether the mesh bounds a solid.
-    pub volume: Volume,
+    pub volume: Solidity,
 }
 
 /// The kind of pieces of which a body is made.
@@ -81,14 +81,14 @@ impl Shape {
         Shape {
             mesh,
             parts: Vec::new(),
-            volume: Volume::Solid,
+            volume: Solidity::Solid,
         }
     }
 
     /// Creates the shape of a mesh that encloses no solid.
     pub fn from_open_mesh(mesh: Mesh) -> Self {
         Shape {
-            volume: Volume::Surface,
+            volume: Solidity::Surface,
             ..Shape::from_closed_mesh(mesh)
         }
     }
@@ -167,7 +167,7 @@ impl Shape {
 
     /// Returns true if the shape is a solid.
     pub fn is_solid(&self) -> bool {
-        self.volume == Volume::Solid
+        self.volume == Solidity::Solid
     }
 
     /// Returns true if the shape is known to be convex.
@@ -198,7 +198,7 @@ impl Shape {
         match kind {
             PieceKind::Triangles => expect_body(self.mesh.pieces(), self.volume),
             PieceKind::ConvexParts => {
-                let body = expect_body(Pieces::from_polytopes(&self.parts), Volume::Surface);
+                let body = expect_body(Pieces::from_polytopes(&self.parts), Solidity::Surface);
                 let tree = build_hull_tree(body.pieces()).expect("a hull tree");
                 body.with_hull_tree(tree).expect("its own hull tree")
             }
@@ -272,11 +272,11 @@ impl Mesh {
 
     fn pieces(&self) -> Result<Pieces, InputError> {
         let ids: Vec<u32> = (0..self.faces.len() as u32).collect();
-        Pieces::triangles(&self.vertices, &self.faces, &ids)
+        Pieces::from_triangles(&self.vertices, &self.faces, &ids)
     }
 }
 
-fn expect_body(pieces: Result<Pieces, InputError>, volume: Volume) -> Body {
+fn expect_body(pieces: Result<Pieces, InputError>, volume: Solidity) -> Body {
     Body::new(&pieces.expect("good pieces"), volume).expect("a good body")
 }
 

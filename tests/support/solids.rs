@@ -4,7 +4,7 @@ use crate::models::{Mesh, cuboid};
 use crate::referee::{Face, distance_squared};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
-use ccd_core::{Body, Pieces, Pose, Volume};
+use ccd_core::{Body, Pieces, Pose, Solidity};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
@@ -50,8 +50,8 @@ impl Solid {
     pub fn body(&self) -> Body {
         let mesh = |corners: &[DVec3], faces: &[[u32; 3]]| {
             let names: Vec<_> = (0..faces.len() as u32).collect();
-            let pieces = Pieces::triangles(corners, faces, &names).expect("a few triangles");
-            Body::new(&pieces, Volume::Solid).expect("a solid")
+            let pieces = Pieces::from_triangles(corners, faces, &names).expect("a few triangles");
+            Body::new(&pieces, Solidity::Solid).expect("a solid")
         };
         match *self {
             Solid::Ball(radius) => Body::sphere(radius).expect("a ball"),

@@ -7,7 +7,7 @@ use crate::method::guarded::MethodPrograms;
 use crate::method::peer::PeerKind;
 use crate::run::contest::MeasurementLimits;
 use crate::run::evaluation::MeasurementPlan;
-use crate::run::export::export;
+use crate::run::export::export_scenes;
 use crate::scene::scene_descriptions;
 use crate::show::presentation::write_report;
 use anyhow::{Result, ensure};
@@ -109,7 +109,7 @@ pub(super) fn run(args: &ChartArgs) -> Result<RunOutcome> {
         plan.tolerances.clone_from(&args.tolerances);
     }
     if let Some(folder) = &args.export {
-        export(&plan.scene_descriptions, plan.model_folder, folder)?;
+        export_scenes(&plan.scene_descriptions, plan.model_folder, folder)?;
         return Ok(RunOutcome::AllAnswered);
     }
     let evaluated = if args.redraw {

@@ -6,7 +6,7 @@ use crate::method::guarded::{GuardedMethod, GuardedMethodSettings, MethodProgram
 use crate::method::rival::to_screw_motions;
 use crate::method::solver::ContactClaim;
 use crate::run::contest::{judge, judge_outcome};
-use crate::truth::{Referee, Surface, TruthRow};
+use crate::truth::{Surface, TruthRow, TruthSolver};
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
 use rigid_ccd_cli::{
@@ -52,7 +52,7 @@ pub(super) fn run(args: &JudgeArgs) -> Result<RunOutcome> {
     let method = Method::from_name(name).ok_or_else(|| anyhow!("there is no method `{name}`"))?;
     let meshes = args.input.meshes.read_meshes()?;
     let surfaces = meshes.each_ref().map(Surface::new);
-    let referee = Referee::new(&surfaces[0], &surfaces[1]);
+    let referee = TruthSolver::new(&surfaces[0], &surfaces[1]);
     let setting = GuardedMethodSettings::new(method, args.tolerance);
     let guarded = GuardedMethod::start(&args.programs, setting, meshes.each_ref());
     let mut guarded = guarded.with_context(|| name.clone())?;
@@ -85,7 +85,7 @@ pub(super) fn run(args: &JudgeArgs) -> Result<RunOutcome> {
             claim.and_then(ContactClaim::contact_or_safe_time),
         );
         let truth = TruthRow::new(query.id.clone(), query.duration, truth);
-        table.write(|writer| writer.serialize((truth, verdict, answer, time)))?;
+        table.write_row(|writer| writer.serialize((truth, verdict, answer, time)))?;
     }
     table.finish()?;
     bad_rows.print_total();

@@ -6,7 +6,7 @@ use crate::method::Method;
 use crate::method::guarded::MethodPrograms;
 use crate::method::script::ScriptMethod;
 use crate::run::contest::Journal;
-use crate::show::write;
+use crate::show::write_text_file;
 use crate::stability::{
     Findings, Survey, cost_growth_heat_map, families, first_failure_table, solved_range_heat_map,
     summary,
@@ -90,7 +90,7 @@ pub(super) fn run(args: &StabilityArgs) -> Result<RunOutcome> {
         ("growth.svg", &growth),
     ];
     for (name, text) in files {
-        write(&args.out.join(name), text)?;
+        write_text_file(&args.out.join(name), text)?;
     }
     print_summary(&summary(&findings))?;
     Ok(RunOutcome::AllAnswered)

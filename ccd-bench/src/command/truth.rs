@@ -2,7 +2,7 @@
 //! brackets of the exact first contacts.
 
 use super::inputs::QueryTableArgs;
-use crate::truth::{Referee, Surface, TRUTH_COLUMNS, TRUTH_STATUSES, TruthRow};
+use crate::truth::{Surface, TRUTH_COLUMNS, TRUTH_STATUSES, TruthRow, TruthSolver};
 use anyhow::{Context, Result};
 use ccd_core::order::greater;
 use clap::Args;
@@ -10,7 +10,7 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rigid_ccd::table::motions::MotionRow;
 use rigid_ccd_cli::{
     BadRowCounter, Progress, RunOutcome, TableWriter, input_name, open_motions, print_error,
-    refuse_overwriting,
+    refuse_overwriting_input,
 };
 use std::collections::HashMap;
 use std::io::{self, Write};
@@ -66,11 +66,11 @@ pub(super) fn run(args: &TruthArgs) -> Result<RunOutcome> {
         ("--a", &input.meshes.a),
         ("--b", &input.meshes.b),
     ] {
-        refuse_overwriting((option, path), ("--out", &args.out))?;
+        refuse_overwriting_input((option, path), ("--out", &args.out))?;
     }
     let (mut rows, length) = open_motions(&input.motions)?;
     let [a, b] = input.meshes.read_meshes()?.each_ref().map(Surface::new);
-    let referee = Referee::new(&a, &b);
+    let referee = TruthSolver::new(&a, &b);
     let mut table = TableWriter::create(&args.out, &TRUTH_COLUMNS)?;
     let progress = Progress::for_rows(length, args.quiet);
     let mut bad_rows = BadRowCounter::new(input_name(&input.motions));
@@ -97,12 +97,14 @@ pub(super) fn run(args: &TruthArgs) -> Result<RunOutcome> {
                 Ok(truth) => {
                     *counts.entry(truth.status).or_default() += 1;
                     widest = greater(widest, truth.bracket_width());
-                    table.write(|writer| writer.serialize((truth, "")))?;
+                    table.write_row(|writer| writer.serialize((truth, "")))?;
                 }
                 Err(error) => {
                     bad_rows.report(error.position, &error.problem, &progress);
                     let reason = error.problem.to_string();
-                    table.write(|writer| writer.serialize((&error.id, "error", "", "", reason)))?;
+                    table.write_row(|writer| {
+                        writer.serialize((&error.id, "error", "", "", reason))
+                    })?;
                 }
             }
         }

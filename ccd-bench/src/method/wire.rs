@@ -60,13 +60,13 @@ pub fn parse_query(line: &str) -> Option<Motions> {
     let (a, b, duration): ([f64; 16], [f64; 16], f64) = serde_json::from_str(line).ok()?;
     Some(Motions {
         id: String::new(),
-        a: motion(&a)?,
-        b: motion(&b)?,
+        a: decode_motion(&a)?,
+        b: decode_motion(&b)?,
         duration,
     })
 }
 
-fn motion(numbers: &[f64; 16]) -> Option<Motion> {
+fn decode_motion(numbers: &[f64; 16]) -> Option<Motion> {
     let vector = |k: usize| DVec3::from_slice(&numbers[k..k + 3]);
     let rotation = DQuat::from_slice(&numbers[3..7]);
     let start = Pose::new(vector(0), rotation).ok()?;

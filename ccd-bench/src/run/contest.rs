@@ -16,7 +16,7 @@ use crate::method::rival::to_screw_motions;
 use crate::method::solver::ContactClaim;
 use crate::run::measured::{MeasurementCell, Trial};
 use crate::scene::Scene;
-use crate::truth::{Referee, Surface, Truth};
+use crate::truth::{Surface, Truth, TruthSolver};
 use anyhow::{Context, Result};
 use ccd_core::InputError;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
@@ -29,13 +29,13 @@ use std::time::{Duration, Instant};
 pub struct PreparedScene<'s> {
     scene: &'s Scene,
     surfaces: [Surface; 2],
-    constant_velocity_rows: Vec<Row>,
+    constant_velocity_rows: Vec<QueryWithTruth>,
     /// The queries of the scene, with each motion replaced by the screw motion between its start and end poses.
-    screw_rows: Vec<Row>,
+    screw_rows: Vec<QueryWithTruth>,
 }
 
 /// A query of a scene, with its exact answer once that is known.
-struct Row {
+struct QueryWithTruth {
     query: Motions,
     truth: OnceLock<Truth>,
 }
@@ -68,18 +68,18 @@ impl<'s> PreparedScene<'s> {
         let queries = scene.queries.iter();
         let screws = queries
             .clone()
-            .map(|query| to_screw_motions(query).map(Row::new));
+            .map(|query| to_screw_motions(query).map(QueryWithTruth::new));
         Ok(PreparedScene {
             scene,
             surfaces: [&scene.a, &scene.b].map(|body| Surface::new(body.mesh())),
             screw_rows: screws.collect::<Result<_, InputError>>()?,
-            constant_velocity_rows: queries.cloned().map(Row::new).collect(),
+            constant_velocity_rows: queries.cloned().map(QueryWithTruth::new).collect(),
         })
     }
 
     /// Judges the outcome of a query by the exact answer, which is computed when it is first needed.
-    fn judge(&self, row: &Row, outcome: &QueryOutcome, tolerance: f64) -> Judgement {
-        let referee = Referee::new(&self.surfaces[0], &self.surfaces[1]);
+    fn judge(&self, row: &QueryWithTruth, outcome: &QueryOutcome, tolerance: f64) -> Judgement {
+        let referee = TruthSolver::new(&self.surfaces[0], &self.surfaces[1]);
         judge_outcome(outcome, |reply| {
             let truth = row.truth.get_or_init(|| referee.first_contact(&row.query));
             judge(&referee, &row.query, *truth, reply.claim, tolerance)
@@ -158,9 +158,9 @@ impl<'s> PreparedScene<'s> {
     }
 }
 
-impl Row {
+impl QueryWithTruth {
     fn new(query: Motions) -> Self {
-        Row {
+        QueryWithTruth {
             query,
             truth: OnceLock::new(),
         }

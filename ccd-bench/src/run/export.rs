@@ -11,7 +11,11 @@ use std::{fs, io};
 ///
 /// # Errors
 /// If a scene cannot be made or a file cannot be written.
-pub fn export(listings: &[SceneDescription], models: Option<PathBuf>, folder: &Path) -> Result<()> {
+pub fn export_scenes(
+    listings: &[SceneDescription],
+    models: Option<PathBuf>,
+    folder: &Path,
+) -> Result<()> {
     let mut models = ModelBodyCache::new(models);
     for listing in listings {
         let scene = listing.make_scene(&mut models)?;

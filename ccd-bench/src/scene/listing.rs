@@ -63,8 +63,8 @@ impl SceneDescription {
         let motions = || format!("scene {}: {}", self.name, self.motions);
         Ok(Scene {
             name: self.name.clone(),
-            a: models.body(self.model_from_name(&self.a)?)?,
-            b: models.body(self.model_from_name(&self.b)?)?,
+            a: models.model_body(self.model_from_name(&self.a)?)?,
+            b: models.model_body(self.model_from_name(&self.b)?)?,
             queries: self.queries().with_context(motions)?,
         })
     }

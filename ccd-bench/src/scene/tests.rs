@@ -72,8 +72,8 @@ fn boards_lie_across_the_path_or_just_next_to_it() {
 #[test]
 fn models_are_made_once() {
     let mut models = ModelBodyCache::default();
-    let first = models.body(Model::Knot216).unwrap();
-    let second = models.body(Model::Knot216).unwrap();
+    let first = models.model_body(Model::Knot216).unwrap();
+    let second = models.model_body(Model::Knot216).unwrap();
     assert!(Arc::ptr_eq(&first.body, &second.body));
     assert_eq!(first.mesh().faces().len(), 216);
 }

@@ -13,7 +13,7 @@ type RowKey<'a> = (&'a str, u64, usize);
 /// The times of the reference method, by row, with which the times of other methods are compared.
 #[derive(Debug)]
 pub struct ReferenceTimes<'a> {
-    name: &'a str,
+    reference_method: &'a str,
     trials: &'a [Trial],
     times: HashMap<RowKey<'a>, f64>,
 }
@@ -23,7 +23,7 @@ impl<'a> ReferenceTimes<'a> {
     pub fn new(name: &'a str, trials: &'a [Trial]) -> Self {
         let own = trials.iter().filter(|trial| trial.method == name);
         ReferenceTimes {
-            name,
+            reference_method: name,
             trials,
             times: own.map(|trial| (row_key(trial), trial.micros)).collect(),
         }
@@ -48,7 +48,7 @@ impl<'a> ReferenceTimes<'a> {
     /// Returns the cells with every median replaced by a comparable one: the reference's median times the median ratio.
     /// A cell keeps its own where the reference was not asked.
     pub fn comparable_cells(&self, cells: &[MeasurementCell]) -> Vec<MeasurementCell> {
-        let at = |cell: &&MeasurementCell| cell.method == self.name;
+        let at = |cell: &&MeasurementCell| cell.method == self.reference_method;
         let medians: HashMap<(&str, u64), f64> = (cells.iter().filter(at))
             .map(|cell| {
                 (

@@ -7,7 +7,7 @@ use crate::show::comparable::ReferenceTimes;
 use crate::show::page;
 use crate::show::tables::{self, TextTable};
 use crate::show::views::SceneAnimations;
-use crate::show::write;
+use crate::show::write_text_file;
 use anyhow::Result;
 use std::path::{Path, PathBuf};
 
@@ -56,11 +56,11 @@ pub fn write_report(evaluated: &Evaluation, folder: &Path) -> Result<(TextTable,
         methods: &methods,
     };
     let chart = charts.draw_pareto_chart()?.unwrap_or_default();
-    write(&folder.join("pareto.svg"), &chart)?;
+    write_text_file(&folder.join("pareto.svg"), &chart)?;
     let text: Vec<String> = tables.iter().map(|table| format!("{table}\n")).collect();
-    write(&folder.join("tables.md"), &text.join("\n"))?;
+    write_text_file(&folder.join("tables.md"), &text.join("\n"))?;
     let page = folder.join("index.html");
     let views = SceneAnimations::new(&evaluated.scenes)?;
-    write(&page, &page::page_html(&chart, &views, &tables)?)?;
+    write_text_file(&page, &page::page_html(&chart, &views, &tables)?)?;
     Ok((safety, page))
 }

@@ -59,7 +59,7 @@ impl SceneAnimations {
                 let course = Movements::Motions(query.clone());
                 let answer = (Question::FirstContact, &answer);
                 let row = ResultRow::new(&course, answer, 0.0, bodies.clearance_and_excess(None));
-                let mut view = painter.view(&course, &row)?;
+                let mut view = painter.animate_row(&course, &row)?;
                 for (body, mesh) in view.bodies.iter_mut().zip(meshes) {
                     body.mesh = mesh;
                 }

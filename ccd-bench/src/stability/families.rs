@@ -8,7 +8,7 @@ mod sizes;
 mod times;
 mod turning;
 
-use super::family::{BodyMotion, Family, FamilyScene, contact_at};
+use super::family::{BodyMotion, Family, FamilyScene, expected_contact_at};
 use super::shapes::{cuboid, slab};
 use crate::truth::Truth;
 use anyhow::Result;
@@ -35,7 +35,7 @@ pub fn families() -> Vec<Family> {
 fn family(name: &'static str, make: fn(f64) -> Result<FamilyScene>) -> Family {
     Family {
         name,
-        parameter: "",
+        parameter_description: "",
         parameter_values: Vec::new(),
         make_scene: make,
     }
@@ -54,8 +54,8 @@ fn powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
 /// Returns the family step in which a body falls onto a slab, and meets it at `time`, which is known to within 1e-14.
 fn fall_onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<FamilyScene> {
     let step = FamilyScene::new(mesh, slab()?);
-    let expected = contact_at(time, 1e-14);
-    step.with_query_and_rotations(falling, BodyMotion::RESTING_SLAB, expected)
+    let expected = expected_contact_at(time, 1e-14);
+    step.with_query_and_rotations(falling, BodyMotion::RESTING_SLAB_MOTION, expected)
 }
 
 /// The half length and the half width of a rod.
@@ -67,7 +67,7 @@ fn rod() -> Result<TriangleMesh, MeshError> {
 }
 
 /// Returns the angle by which a rod at the origin turns about y until its corner is at x = `wall`.
-fn rod_angle_at_wall(wall: f64) -> f64 {
+fn rod_contact_angle(wall: f64) -> f64 {
     let (long, thin) = ROD_HALF_SIDES;
     (wall / long.hypot(thin)).asin() - thin.atan2(long)
 }

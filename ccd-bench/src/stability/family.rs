@@ -13,7 +13,7 @@ pub struct Family {
     /// The name of the family in tables.
     pub name: &'static str,
     /// What the parameter measures, in words for tables, such as "distance in sizes".
-    pub parameter: &'static str,
+    pub parameter_description: &'static str,
     /// The values of the parameter, the easiest first.
     pub parameter_values: Vec<f64>,
     /// The function that makes the scene for one value of the parameter.
@@ -49,7 +49,7 @@ impl Family {
     /// Returns the same family with the given description and values of its parameter.
     pub(super) fn with_parameter(self, parameter: &'static str, values: Vec<f64>) -> Self {
         Family {
-            parameter,
+            parameter_description: parameter,
             parameter_values: values,
             ..self
         }
@@ -77,7 +77,7 @@ const WORLD_ROTATIONS: [(DVec3, f64); 2] = [
 const TOLERANCE: f64 = 1e-6;
 
 /// Returns the exact answer for a contact at a known time, widened by `slack` for the rounding of the query's numbers.
-pub(super) fn contact_at(time: f64, slack: f64) -> Truth {
+pub(super) fn expected_contact_at(time: f64, slack: f64) -> Truth {
     Truth::Hit {
         lo: time - slack,
         hi: time + slack,
@@ -101,7 +101,7 @@ impl BodyMotion {
     };
 
     /// The motion of a slab that rests at z = −1, so that its top is at 0.
-    pub(super) const RESTING_SLAB: BodyMotion = BodyMotion {
+    pub(super) const RESTING_SLAB_MOTION: BodyMotion = BodyMotion {
         start_position: DVec3::NEG_Z,
         ..BodyMotion::STILL
     };

@@ -3,14 +3,14 @@
 use super::family::{ExactCase, FamilyScene};
 use crate::method::guarded::QueryOutcome;
 use crate::run::contest::{self, Judgement};
-use crate::truth::{Referee, Truth};
+use crate::truth::{Truth, TruthSolver};
 
 /// Judges a method's answer within the tolerance of one step of a family, or within a larger one that the method
 /// states. The referee measures distances; it is not asked for the answer.
 pub fn judge(
     step: &FamilyScene,
     case: &ExactCase,
-    referee: &Referee<'_>,
+    referee: &TruthSolver<'_>,
     outcome: &QueryOutcome,
 ) -> Judgement {
     // The families know a contact at the start, such as of a body inside another one; the referee cannot prove it.

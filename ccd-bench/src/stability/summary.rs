@@ -51,7 +51,10 @@ pub fn first_failure_table(findings: &Findings<'_>) -> TextTable {
                 format!("{value:e} {verdict}")
             }),
         };
-        let mut row = vec![family.name.to_owned(), family.parameter.to_owned()];
+        let mut row = vec![
+            family.name.to_owned(),
+            family.parameter_description.to_owned(),
+        ];
         row.extend(methods.iter().map(limit));
         table.rows.push(row);
     }
@@ -106,7 +109,7 @@ fn make_heat_map(
     let methods: Vec<String> = findings.methods.iter().map(ToString::to_string).collect();
     let row = |family: &Family| HeatRow {
         name: family.name.to_owned(),
-        parameter_description: family.parameter.to_owned(),
+        parameter_description: family.parameter_description.to_owned(),
         cells: methods.iter().map(|method| cell(family, method)).collect(),
     };
     HeatMap {

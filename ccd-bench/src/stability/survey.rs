@@ -8,7 +8,7 @@ use crate::method::guarded::{GuardedMethod, GuardedMethodSettings, MethodProgram
 use crate::method::rival::are_screw_motions;
 use crate::run::contest::{Journal, Judgement, Verdict, program_fingerprint, summarise_trials};
 use crate::run::measured::Trial;
-use crate::truth::{Referee, Surface};
+use crate::truth::{Surface, TruthSolver};
 use anyhow::{Context, Result};
 use rayon::prelude::*;
 use rigid_ccd_cli::{Progress, TotalWork};
@@ -157,8 +157,8 @@ impl PreparedFamilyScene<'_> {
                 continue;
             }
             let outcome = guarded.run_query(&case.query, QUERY_TIME_LIMIT)?;
-            let judged = judge(step, case, &Referee::new(a, b), &outcome);
-            trials.push(trial(row, &outcome, (judged, self.note(&outcome))));
+            let judged = judge(step, case, &TruthSolver::new(a, b), &outcome);
+            trials.push(trial(row, &outcome, (judged, self.reply_remark(&outcome))));
             if outcome == QueryOutcome::CutOff {
                 break;
             }
@@ -167,7 +167,7 @@ impl PreparedFamilyScene<'_> {
     }
 
     /// Returns the method's remark about its answer, such as a raised tolerance; empty if there is none.
-    fn note(&self, outcome: &QueryOutcome) -> String {
+    fn reply_remark(&self, outcome: &QueryOutcome) -> String {
         let Some(reply) = outcome.reply() else {
             return String::new();
         };

@@ -12,8 +12,8 @@ use ccd_core::order::{greater, lesser};
 /// than the nearest points known are left out.
 pub(super) fn distance_bounds(mut search: Search<'_>, time: f64) -> DistanceBounds {
     let mut bracket = DistanceBounds {
-        lower: f64::INFINITY,
-        upper: f64::INFINITY,
+        distance_lower_bound: f64::INFINITY,
+        upper_distance: f64::INFINITY,
     };
     let Some(roots) = search.root_pair() else {
         return bracket;
@@ -21,13 +21,13 @@ pub(super) fn distance_bounds(mut search: Search<'_>, time: f64) -> DistanceBoun
     let snapshot = search.linearize_motions(TimeSpan::instant(time));
     let mut stack = vec![(f64::NEG_INFINITY, roots)];
     while let Some((bound, pair)) = stack.pop() {
-        if bound >= bracket.upper {
+        if bound >= bracket.upper_distance {
             continue;
         }
         if search.remaining_budget == 0 {
             // The remaining pairs may be nearer.
             return DistanceBounds {
-                lower: 0.0,
+                distance_lower_bound: 0.0,
                 ..bracket
             };
         }
@@ -44,13 +44,19 @@ pub(super) fn distance_bounds(mut search: Search<'_>, time: f64) -> DistanceBoun
             }
             OpenedPair::Triangles(triangles) => {
                 let found = triangle_distance_bounds(&snapshot, triangles);
-                bracket.lower = lesser(bracket.lower, greater(found.lower, bound));
-                bracket.upper = lesser(bracket.upper, found.upper);
+                bracket.distance_lower_bound = lesser(
+                    bracket.distance_lower_bound,
+                    greater(found.distance_lower_bound, bound),
+                );
+                bracket.upper_distance = lesser(bracket.upper_distance, found.upper_distance);
             }
         }
     }
     // Every pair that was left out is at least `upper` apart.
-    bracket.lower = greater(0.0, lesser(bracket.lower, bracket.upper));
+    bracket.distance_lower_bound = greater(
+        0.0,
+        lesser(bracket.distance_lower_bound, bracket.upper_distance),
+    );
     bracket
 }
 
@@ -67,7 +73,8 @@ fn triangle_distance_bounds(
         .filter(|n| n.is_finite())
         .map(|n| gap_along(n, &placed, b));
     DistanceBounds {
-        lower: gaps.fold(0.0, greater) * (1.0 - FORTY_ROUNDINGS_ERROR) - snapshot.gap_error_bound,
-        upper: (p - q).length() + snapshot.gap_error_bound,
+        distance_lower_bound: gaps.fold(0.0, greater) * (1.0 - FORTY_ROUNDINGS_ERROR)
+            - snapshot.gap_error_bound,
+        upper_distance: (p - q).length() + snapshot.gap_error_bound,
     }
 }

@@ -31,7 +31,7 @@ pub(super) const fn point_interval(x: f64) -> Interval {
 
 impl Interval {
     /// The interval of all real numbers.
-    pub(super) const ENTIRE: Interval = Interval {
+    pub(super) const ALL_REALS: Interval = Interval {
         inf: f64::NEG_INFINITY,
         sup: f64::INFINITY,
     };
@@ -47,7 +47,7 @@ impl Interval {
         if inf <= sup && inf < f64::INFINITY && sup > f64::NEG_INFINITY {
             Interval { inf, sup }
         } else {
-            Interval::ENTIRE
+            Interval::ALL_REALS
         }
     }
 
@@ -206,7 +206,7 @@ impl Div for Interval {
         } else if other.sup < 0.0 {
             -self.divided_by_positive(-other)
         } else {
-            Interval::ENTIRE
+            Interval::ALL_REALS
         }
     }
 }

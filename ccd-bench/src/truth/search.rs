@@ -5,13 +5,13 @@ use super::snapshot::{IntervalMaps, LinearizedMotions, TimeSpan};
 use super::surface::{Node, NodeContent, Surface, Triangle};
 use super::track::EnclosedMotion;
 use super::triangle::{gap_along, nearest_points, separating_axis_candidates};
-use super::{Referee, Truth};
+use super::{Truth, TruthSolver};
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::table::motions::Motions;
 use std::rc::Rc;
 
 /// A pair of nodes: an index in A's tree, and an index in B's tree.
-pub(super) type Pair = [u32; 2];
+pub(super) type NodePair = [u32; 2];
 
 /// A search for the first contact in one query: the surfaces, their motions and the remaining budget.
 pub(super) struct Search<'a> {
@@ -47,7 +47,7 @@ const FACE_NORMAL_COUNT: usize = 2;
 const MAX_RELATIVE_DISTANCE_FOR_EDGE_NORMALS: f64 = 1e-3;
 
 impl<'a> Search<'a> {
-    pub(super) fn new(referee: &Referee<'a>, query: &Motions) -> Self {
+    pub(super) fn new(referee: &TruthSolver<'a>, query: &Motions) -> Self {
         let surfaces = [referee.a, referee.b];
         Search {
             surfaces,
@@ -62,7 +62,7 @@ impl<'a> Search<'a> {
     }
 
     /// Returns the pair of both trees' roots; `None` if a body has no triangles.
-    pub(super) fn root_pair(&self) -> Option<Pair> {
+    pub(super) fn root_pair(&self) -> Option<NodePair> {
         let [a, b] = self.surfaces;
         Some([a.root()?, b.root()?])
     }
@@ -82,7 +82,7 @@ impl<'a> Search<'a> {
     }
 
     /// Brackets the first contact by halving intervals of time, the earlier half first.
-    fn bisect_time(&mut self, roots: Pair) -> Truth {
+    fn bisect_time(&mut self, roots: NodePair) -> Truth {
         let whole = TimeSpan {
             start: 0.0,
             end: self.duration,
@@ -96,7 +96,7 @@ impl<'a> Search<'a> {
             };
             let snapshot = self.linearize_motions(span);
             let Some(left) = self.pairs_that_may_meet(&snapshot, &pairs) else {
-                let lo = undecided.first_time.unwrap_or(span.start);
+                let lo = undecided.first_undecided_time.unwrap_or(span.start);
                 return Truth::Undecided { lo };
             };
             if left.is_empty() {
@@ -111,7 +111,7 @@ impl<'a> Search<'a> {
                 pending.push((early, left));
                 continue;
             }
-            let lo = *undecided.first_time.get_or_insert(span.start);
+            let lo = *undecided.first_undecided_time.get_or_insert(span.start);
             if let Some(hi) =
                 self.find_contact_after(span.start, roots, &left, undecided.undecided_count)
             {
@@ -119,7 +119,7 @@ impl<'a> Search<'a> {
             }
             undecided.skip_after(span, shortest);
         }
-        match undecided.first_time {
+        match undecided.first_undecided_time {
             None => Truth::Free,
             Some(lo) => Truth::Graze { lo },
         }
@@ -135,8 +135,8 @@ impl<'a> Search<'a> {
     fn pairs_that_may_meet(
         &mut self,
         snapshot: &LinearizedMotions,
-        pairs: &[Pair],
-    ) -> Option<Vec<Pair>> {
+        pairs: &[NodePair],
+    ) -> Option<Vec<NodePair>> {
         let mut left = Vec::new();
         if snapshot.are_bodies_far_apart() {
             return Some(left);
@@ -200,8 +200,8 @@ impl<'a> Search<'a> {
     fn find_contact_after(
         &mut self,
         from: f64,
-        roots: Pair,
-        near: &[Pair],
+        roots: NodePair,
+        near: &[NodePair],
         times_met: u32,
     ) -> Option<f64> {
         let mut step = SHORTEST_SPAN_SHARE * self.duration;
@@ -228,7 +228,7 @@ impl<'a> Search<'a> {
         None
     }
 
-    fn certainly_meet_at(&mut self, pairs: &[Pair], time: f64) -> bool {
+    fn certainly_meet_at(&mut self, pairs: &[NodePair], time: f64) -> bool {
         let [a, b] = &self.motions;
         let instant = IntervalMaps::new(a, b, time);
         self.remaining_budget = self.remaining_budget.saturating_sub(pairs.len() as u64);
@@ -239,7 +239,12 @@ impl<'a> Search<'a> {
     }
 
     /// Tests whether the surfaces touch at a time, by the evidence that `proof` requires.
-    fn decide_touch_at(&mut self, roots: Pair, time: f64, proof: TouchCriterion) -> TouchDecision {
+    fn decide_touch_at(
+        &mut self,
+        roots: NodePair,
+        time: f64,
+        proof: TouchCriterion,
+    ) -> TouchDecision {
         let snapshot = self.linearize_motions(TimeSpan::instant(time));
         let [a, b] = &self.motions;
         let instant = IntervalMaps::new(a, b, time);
@@ -267,12 +272,12 @@ impl<'a> Search<'a> {
         TouchDecision::NotTouching
     }
 
-    pub(super) fn nodes(&self, [a, b]: Pair) -> [&'a Node; 2] {
+    pub(super) fn nodes(&self, [a, b]: NodePair) -> [&'a Node; 2] {
         [self.surfaces[0].node(a), self.surfaces[1].node(b)]
     }
 
     /// Opens the larger of two nodes, or the only one that is no leaf.
-    pub(super) fn open(&self, [a, b]: Pair) -> OpenedPair<'a> {
+    pub(super) fn open(&self, [a, b]: NodePair) -> OpenedPair<'a> {
         let [node_a, node_b] = self.nodes([a, b]);
         let with_b = |parts: [u32; 2]| parts.map(|part| [part, b]);
         match (node_a.content, node_b.content) {
@@ -297,7 +302,7 @@ impl<'a> Search<'a> {
 /// What is tested in place of a pair of nodes.
 pub(super) enum OpenedPair<'a> {
     /// The node that is opened, and its children, each with the other node.
-    Children(&'a Node, [Pair; 2]),
+    Children(&'a Node, [NodePair; 2]),
     /// The triangles of two leaves.
     Triangles([&'a Triangle; 2]),
 }
@@ -322,7 +327,7 @@ enum TouchDecision {
 #[derive(Debug, Default)]
 struct UndecidedTimes {
     /// The first undecided time; `None` if there is no undecided time.
-    first_time: Option<f64>,
+    first_undecided_time: Option<f64>,
     /// The time before which the search examines no further intervals.
     skipped_until: f64,
     /// The number of intervals so far in which neither a contact nor a gap was proven.

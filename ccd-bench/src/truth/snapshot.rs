@@ -133,9 +133,9 @@ impl LinearizedMotions {
     /// Returns a bound on the relative displacement of two boxes; `None` if one of their six face normals separates them
     /// over the whole interval.
     pub(super) fn travel_bound_unless_apart(&self, a: &Node, b: &Node) -> Option<f64> {
-        let apart = self.placement.apply(a.centre) - b.centre;
+        let apart = self.placement.apply(a.box_centre) - b.box_centre;
         let moved = self.half_duration
-            * (self.velocity_map_a.apply(a.centre) - self.velocity_map_b.apply(b.centre));
+            * (self.velocity_map_a.apply(a.box_centre) - self.velocity_map_b.apply(b.box_centre));
         let gaps_b = self
             .extent_matrices_along_b
             .axis_gap_lower_bounds(apart, moved, a, b);
@@ -156,7 +156,7 @@ impl LinearizedMotions {
 
     /// Returns a lower bound of the distance of two boxes at the middle time; it does not hold over the interval.
     pub(super) fn box_distance_lower_bound(&self, a: &Node, b: &Node) -> f64 {
-        let apart = self.placement.apply(a.centre) - b.centre;
+        let apart = self.placement.apply(a.box_centre) - b.box_centre;
         let none = DVec3::ZERO;
         let gaps_b = self
             .extent_matrices_along_b

@@ -18,7 +18,7 @@ pub(super) type Triangle = [DVec3; 3];
 /// A node of the tree: a box around some triangles, with its two children or its single triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    pub(super) centre: DVec3,
+    pub(super) box_centre: DVec3,
     /// Half the extents of the box, rounded so that it contains all its triangles.
     pub(super) half_extents: DVec3,
     /// Half the diagonal of the box.
@@ -75,7 +75,7 @@ impl Surface {
         let root = self
             .nodes
             .first()
-            .map(|node| (node.centre, node.half_extents));
+            .map(|node| (node.box_centre, node.half_extents));
         root.into_iter().flat_map(|(centre, half)| {
             (0..8).map(move |corner| {
                 let side = |bit| if corner & bit == 0 { -1.0 } else { 1.0 };
@@ -123,7 +123,7 @@ impl Surface {
         let centre = low.midpoint(high);
         let half = (high - centre).max(centre - low) * ROUND_UP_FACTOR;
         Node {
-            centre,
+            box_centre: centre,
             half_extents: half,
             half_diagonal: half.length(),
             content: NodeContent::Triangle(0),

@@ -5,7 +5,7 @@ mod intervals;
 mod sampled;
 mod tables;
 
-use super::{Referee, Surface, Truth};
+use super::{Surface, Truth, TruthSolver};
 use crate::scene::model;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
@@ -36,7 +36,7 @@ fn query(a: Motion, b: Motion, duration: f64) -> Motions {
 }
 
 fn judge([a, b]: [&Surface; 2], query: &Motions) -> Truth {
-    Referee::new(a, b).first_contact(query)
+    TruthSolver::new(a, b).first_contact(query)
 }
 
 fn random_vector(rng: &mut impl Rng, reach: f64) -> DVec3 {

@@ -17,7 +17,7 @@ use glam::DVec3;
 /// #     type Cache = ();
 /// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
 /// #         let axis = pair.b_to_a.transform_point(pair.b.points[0]) - pair.a.points[0];
-/// #         Ok(Claim { axis, a: ConvexCombination::point(0), b: ConvexCombination::point(0) })
+/// #         Ok(Claim { axis, a: ConvexCombination::from_single_point(0), b: ConvexCombination::from_single_point(0) })
 /// #     }
 /// # }
 /// let ball = Body::sphere(0.5)?;

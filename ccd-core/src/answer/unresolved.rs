@@ -89,7 +89,7 @@ pub enum Limit {
     OracleGaveUp,
     /// Rounding leaves it undecided whether the bodies overlap at the start. They touch then, or one may be inside the
     /// other.
-    Undecided,
+    OverlapUndecided,
 }
 
 impl fmt::Display for Limit {
@@ -100,7 +100,7 @@ impl fmt::Display for Limit {
             Limit::Stopped => "stopped",
             Limit::Stalled => "stalled",
             Limit::OracleGaveUp => "oracle gave up",
-            Limit::Undecided => "undecided",
+            Limit::OverlapUndecided => "undecided",
         })
     }
 }
@@ -124,7 +124,7 @@ impl Limit {
             Limit::Stopped => "the query was stopped",
             Limit::Stalled => "no further step can be certified: a larger tolerance may help",
             Limit::OracleGaveUp => "the distance backend gave up: try another one",
-            Limit::Undecided => {
+            Limit::OverlapUndecided => {
                 "the bodies are too close at the start to decide whether they overlap: move one of them a little"
             }
         }

@@ -7,7 +7,7 @@ use super::facets::range_from_ends;
 pub(crate) struct AdjacencyLists<V> {
     values: Vec<V>,
     /// The end of each list in `values`; each list starts where the previous one ends.
-    ends: Vec<u32>,
+    list_ends: Vec<u32>,
 }
 
 impl<V: Copy + Default> AdjacencyLists<V> {
@@ -27,14 +27,17 @@ impl<V: Copy + Default> AdjacencyLists<V> {
             values[*at as usize] = value;
             *at += 1;
         }
-        AdjacencyLists { values, ends: next }
+        AdjacencyLists {
+            values,
+            list_ends: next,
+        }
     }
 
     /// Returns the list with number `k`; empty if there is no such list.
     #[inline]
     pub(crate) fn list(&self, k: usize) -> &[V] {
-        if k < self.ends.len() {
-            &self.values[range_from_ends(&self.ends, k)]
+        if k < self.list_ends.len() {
+            &self.values[range_from_ends(&self.list_ends, k)]
         } else {
             &[]
         }
@@ -45,11 +48,12 @@ impl<V: Copy + Default> AdjacencyLists<V> {
 impl<V> AdjacencyLists<V> {
     /// Calls a function with each list, which it may change in place.
     pub(super) fn for_each_list(&mut self, mut change: impl FnMut(&mut [V])) {
-        (0..self.ends.len()).for_each(|k| change(&mut self.values[range_from_ends(&self.ends, k)]));
+        (0..self.list_ends.len())
+            .for_each(|k| change(&mut self.values[range_from_ends(&self.list_ends, k)]));
     }
 
     /// Returns the approximate memory use in bytes.
     pub(super) fn memory_usage(&self) -> usize {
-        size_of_val(self.values.as_slice()) + size_of_val(self.ends.as_slice())
+        size_of_val(self.values.as_slice()) + size_of_val(self.list_ends.as_slice())
     }
 }

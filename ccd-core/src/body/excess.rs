@@ -6,7 +6,7 @@ use crate::error::{InputError, check_shape_length};
 impl Body {
     /// Declares the body an enclosure of a shape, which it exceeds by at most `excess`.
     ///
-    /// The body of an [`Enclosure`](crate::Enclosure) states its own excess; that of all others is 0.
+    /// The body of an [`EnclosingPolytope`](crate::EnclosingPolytope) states its own excess; that of all others is 0.
     ///
     /// # Guarantee
     /// The guarantee of distances holds for the shape if the body contains the shape, and no point of the body is

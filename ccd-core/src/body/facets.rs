@@ -1,6 +1,6 @@
 //! A view of a piece's facets: their corners, the part of the mesh that each comes from, and the mesh's faces on them.
 
-use super::polytope::{Face, FacetOrigin};
+use super::polytope::{FacetOrigin, MeshFace};
 
 /// The facets of a piece as convex polygons. Each is a loop of indices into the piece's points, counterclockwise seen
 /// from outside. The mesh's faces on them are included.
@@ -11,12 +11,12 @@ pub struct Facets<'a> {
     pub(crate) ends: &'a [u32],
     pub(crate) corners: &'a [u32],
     pub(crate) corners_start_index: u32,
-    pub(crate) faces: &'a [Face],
+    pub(crate) faces: &'a [MeshFace],
 }
 
 impl<'a> Facets<'a> {
     /// An empty list of facets, for a piece whose facets are unknown.
-    pub const NONE: Facets<'static> = Facets {
+    pub const EMPTY: Facets<'static> = Facets {
         facet_origins: &[],
         ends: &[],
         corners: &[],

@@ -1,7 +1,7 @@
 //! Finds the side of a flat piece that faces out of the solid.
 
 use super::tree::ray::sum_signed_crossings;
-use super::{Body, Volume};
+use super::{Body, Solidity};
 use crate::math::order::greater;
 use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tuning::INTERIOR_PROBE_DEPTHS;
@@ -20,8 +20,8 @@ pub(crate) enum Facing {
 }
 
 /// The orientation of a flat piece and a point inside the solid near it, computed once per piece.
-struct CachedFacing {
-    facing: Facing,
+struct CachedOutwardSide {
+    outward_side: Facing,
     inside_point: Option<DVec3>,
 }
 
@@ -33,8 +33,8 @@ impl Body {
     /// examined points of the piece. They hold for its whole part that no other face passes
     /// through.
     pub(crate) fn facing(&self, piece: u32) -> Facing {
-        self.cached_facing(piece)
-            .map_or(Facing::NoOutwardSide, |kept| kept.facing)
+        self.cached_outward_side(piece)
+            .map_or(Facing::NoOutwardSide, |kept| kept.outward_side)
     }
 
     /// Returns the unit normal of a flat piece that points out of the solid; `None` if there is no such normal.
@@ -50,7 +50,7 @@ impl Body {
         if !self.pieces().get(piece as usize).is_flat() {
             return Some(self.mean_of_points(piece));
         }
-        self.cached_facing(piece)?.inside_point
+        self.cached_outward_side(piece)?.inside_point
     }
 
     /// Returns the mean of a piece's points.
@@ -61,16 +61,16 @@ impl Body {
 
     /// Returns the cached orientation of a flat piece, computed at the first call; `None` unless it is a flat piece of
     /// a solid, with a triangle that has a normal.
-    fn cached_facing(&self, piece: u32) -> Option<&CachedFacing> {
+    fn cached_outward_side(&self, piece: u32) -> Option<&CachedOutwardSide> {
         let of = self.pieces().get(piece as usize);
-        if self.volume() == Volume::Surface || !of.is_flat() {
+        if self.solidity() == Solidity::Surface || !of.is_flat() {
             return None;
         }
         of.cached_value(|_| self.compute_facing(piece))?.as_ref()
     }
 
     /// Returns the orientation of a flat piece; `None` if no triangle of the mesh with a normal is on it.
-    fn compute_facing(&self, piece: u32) -> Option<CachedFacing> {
+    fn compute_facing(&self, piece: u32) -> Option<CachedOutwardSide> {
         let triangle = self.pieces().first_mesh_triangle(piece as usize)?;
         let normal = crate::math::vector::normal(triangle)?;
         let middle = triangle.iter().sum::<DVec3>() / 3.0;
@@ -91,8 +91,8 @@ impl Body {
                 .find(|&p| self.has_nonzero_winding(p)),
             Facing::NoOutwardSide | Facing::Unclear => None,
         };
-        Some(CachedFacing {
-            facing,
+        Some(CachedOutwardSide {
+            outward_side: facing,
             inside_point: inside,
         })
     }

@@ -7,7 +7,7 @@ use super::piece::{ConvexCombination, Piece};
 use super::polytope::FacetOrigin;
 use crate::math::order::greater;
 use crate::math::vector::{normal, unit};
-use crate::tuning::{FACET_TOLERANCE, MAX_SCANNED_POINTS};
+use crate::tuning::{MAX_SCANNED_POINTS, POINT_ON_FACET_TOLERANCE};
 use glam::DVec3;
 
 /// Finds the mesh's vertex, edge or face that contains a point, given as a combination of a piece's corners.
@@ -101,7 +101,7 @@ pub(crate) fn face_at(piece: &Piece<'_>, point: DVec3) -> Option<u32> {
         return None;
     }
     let way = |p: &DVec3| p.distance(point);
-    let reach = FACET_TOLERANCE * piece.points.iter().map(way).fold(0.0, greater);
+    let reach = POINT_ON_FACET_TOLERANCE * piece.points.iter().map(way).fold(0.0, greater);
     let near = |[a, b, c]: [DVec3; 3]| {
         let (lo, hi) = (a.min(b).min(c) - reach, a.max(b).max(c) + reach);
         lo.cmple(point).all() && point.cmple(hi).all()

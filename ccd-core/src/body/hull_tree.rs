@@ -34,7 +34,7 @@ use std::sync::Arc;
 /// - The hull of an inner node is exactly that of its children's points: each of its points is one of theirs, and
 ///   each of theirs is inside it. Construction checks both with exact arithmetic `[SHE97]`. The distance of two nodes
 ///   therefore never exceeds that of any two pieces below them.
-/// - If the nearest features of two nodes are [not free](FacetClass::Free), their distance is that
+/// - If the nearest features of two nodes are [not free](FacetClass::Bridge), their distance is that
 ///   of the pieces below them.
 ///
 /// A node is grown by the largest rounding radius of the pieces below.
@@ -59,7 +59,7 @@ struct Hulls {
     /// The end of each hull's facets in `classes`.
     facet_class_ends: Vec<u32>,
     /// For each node, whether all pieces below it have the same rounding radius.
-    uniform_radius_by_node: Vec<bool>,
+    has_uniform_radius_by_node: Vec<bool>,
     /// Half the diagonal of each hull's bounding box, rounding included.
     half_diagonals: Vec<f64>,
     /// The facets that meet in each point of all hulls, as indices among the facets of the point's hull.
@@ -90,7 +90,7 @@ impl HullTree {
     /// `[SWIFT01]`.
     ///
     /// # Guarantee
-    /// Unless the class is [`FacetClass::Free`], the combination is on or in a piece below the
+    /// Unless the class is [`FacetClass::Bridge`], the combination is on or in a piece below the
     /// node.
     ///
     /// # Panics
@@ -98,8 +98,8 @@ impl HullTree {
     pub fn facet_class_at(&self, node: u32, point: &ConvexCombination) -> FacetClass {
         let at = node as usize;
         let support = point.point_indices();
-        if support.is_empty() || !self.hulls.uniform_radius_by_node[at] {
-            return FacetClass::Free;
+        if support.is_empty() || !self.hulls.has_uniform_radius_by_node[at] {
+            return FacetClass::Bridge;
         }
         if support.len() == 1 {
             return FacetClass::OnMesh;
@@ -107,7 +107,7 @@ impl HullTree {
         let inside = match self.hierarchy.nodes()[at] {
             HierarchyNode::Leaf(_) if self.facet_classes(node).is_empty() => FacetClass::OnMesh,
             HierarchyNode::Leaf(_) => FacetClass::InsideSolid,
-            HierarchyNode::Inner(..) => FacetClass::Free,
+            HierarchyNode::Inner(..) => FacetClass::Bridge,
         };
         let (first, others) = (self.hulls.facets_by_point(at, support[0]), &support[1..]);
         let holding = first.iter().filter(|facet| {

@@ -42,7 +42,7 @@ impl<'a> Piece<'a> {
         Piece {
             points,
             radius: 0.0,
-            facets: Facets::NONE,
+            facets: Facets::EMPTY,
             support_map: None,
             cache_table_row: None,
         }
@@ -63,7 +63,7 @@ impl<'a> Piece<'a> {
     /// struct Middle(DVec3);
     /// let middle = |piece: &Piece| Middle(piece.points.iter().sum::<DVec3>() / 3.0);
     /// let corners = [DVec3::ZERO, 3.0 * DVec3::X, 3.0 * DVec3::Y];
-    /// let list = Pieces::triangles(&corners, &[[0, 1, 2]], &[0]).unwrap();
+    /// let list = Pieces::from_triangles(&corners, &[[0, 1, 2]], &[0]).unwrap();
     /// let kept = list.get(0).cached_value(middle).unwrap();
     /// assert_eq!(kept.0, DVec3::new(1.0, 1.0, 0.0));
     /// assert!(std::ptr::eq(kept, list.get(0).cached_value(middle).unwrap()));
@@ -182,14 +182,14 @@ impl ConvexCombination {
     };
 
     /// Creates the combination of a single point with weight 1.
-    pub fn point(index: u32) -> Self {
+    pub fn from_single_point(index: u32) -> Self {
         let mut out = Self::EMPTY;
         out.push(index, 1.0);
         out
     }
 
     /// Creates the combination `(1 − t) p + t q` of two points.
-    pub fn segment(indices: [u32; 2], t: f64) -> Self {
+    pub fn of_two_points(indices: [u32; 2], t: f64) -> Self {
         let mut out = Self::EMPTY;
         out.push(indices[0], 1.0 - t);
         out.push(indices[1], t);

@@ -10,7 +10,7 @@ use super::facets::{Facets, range_from_ends};
 use super::feature::Feature;
 use super::feature_lookup::find_mesh_feature;
 use super::piece::{CacheTableRow, ConvexCombination, Piece};
-use super::polytope::{Face, FacetOrigin};
+use super::polytope::{FacetOrigin, MeshFace};
 use crate::error::InputError;
 use crate::limits::MAX_COORDINATE;
 use builder::{PiecesBuilder, PolytopeParts};
@@ -52,13 +52,13 @@ struct Polytopes {
     radii: Vec<f64>,
     /// The end of each piece's facets in `corner_ends` and `origins`.
     facet_ends: Vec<u32>,
-    origins: Vec<FacetOrigin>,
+    facet_origins: Vec<FacetOrigin>,
     /// The end of each facet's corners in `corners`.
     corner_ends: Vec<u32>,
     corners: Vec<u32>,
     /// The end of each piece's mesh faces in `faces`.
     face_ends: Vec<u32>,
-    faces: Vec<Face>,
+    faces: Vec<MeshFace>,
 }
 
 impl Pieces {
@@ -67,7 +67,7 @@ impl Pieces {
     /// # Errors
     /// [`InputError::VertexOutOfRange`], [`InputError::BadPoint`], [`InputError::NoPieces`],
     /// [`InputError::FaceIdCountMismatch`], [`InputError::TooManyPieces`].
-    pub fn triangles(
+    pub fn from_triangles(
         vertices: &[DVec3],
         faces: &[[u32; 3]],
         face_ids: &[u32],
@@ -145,7 +145,7 @@ impl Pieces {
         if let Some(facet) = facets.iter().position(|corners| !good(corners)) {
             return Err(InputError::FacetOutOfRange { piece, facet });
         }
-        let finite = |face: &Face| face.corners.iter().all(|p| p.is_finite());
+        let finite = |face: &MeshFace| face.corners.iter().all(|p| p.is_finite());
         match facets.faces.iter().position(|face| !finite(face)) {
             Some(face) => Err(InputError::BadFace { piece, face }),
             None => Ok(()),
@@ -292,7 +292,7 @@ impl Pieces {
     #[inline]
     fn facets(&self, piece: usize) -> Facets<'_> {
         match &self.shape {
-            PieceShapes::Triangles { .. } => Facets::NONE,
+            PieceShapes::Triangles { .. } => Facets::EMPTY,
             PieceShapes::Polytopes(polytopes) => polytopes.facets_of(piece),
         }
     }
@@ -307,7 +307,7 @@ impl Polytopes {
                 0 => 0,
                 start => self.corner_ends[start - 1],
             },
-            facet_origins: &self.origins[facets.clone()],
+            facet_origins: &self.facet_origins[facets.clone()],
             ends: &self.corner_ends[facets],
             corners: &self.corners,
             faces: &self.faces[range_from_ends(&self.face_ends, piece)],
@@ -315,7 +315,7 @@ impl Polytopes {
     }
 
     fn memory_usage(&self) -> usize {
-        size_of_val(self.origins.as_slice())
+        size_of_val(self.facet_origins.as_slice())
             + size_of_val(self.faces.as_slice())
             + 4 * (4 * self.facet_ends.len() + self.corner_ends.len() + self.corners.len())
     }

@@ -13,7 +13,7 @@ pub struct Polytope {
     /// The facets of the hull, if known; together they cover its boundary. A flat polygon has two facets.
     pub facets: Vec<Facet>,
     /// The mesh's triangles on the hull's boundary that are only a part of a facet.
-    pub faces: Vec<Face>,
+    pub faces: Vec<MeshFace>,
     /// The radius of the ball by which the hull is grown, ≥ 0.
     pub radius: f64,
 }
@@ -43,7 +43,7 @@ pub enum FacetOrigin {
 /// A triangle of a mesh on the boundary of a [`Polytope`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Face {
+pub struct MeshFace {
     /// The number of the face in the mesh.
     pub id: u32,
     /// The mesh's numbers of the triangle's vertices.

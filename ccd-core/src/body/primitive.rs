@@ -2,7 +2,7 @@
 
 use super::pieces::Pieces;
 use super::polytope::{Facet, FacetOrigin, Polytope};
-use super::{Body, Volume};
+use super::{Body, Solidity};
 use crate::error::{InputError, check_shape_length};
 use glam::DVec3;
 
@@ -82,6 +82,6 @@ impl Body {
     /// # Errors
     /// The errors of [`Pieces::from_polytopes`].
     pub fn polytope(polytope: Polytope) -> Result<Self, InputError> {
-        Body::new(&Pieces::from_polytopes(&[polytope])?, Volume::Solid)
+        Body::new(&Pieces::from_polytopes(&[polytope])?, Solidity::Solid)
     }
 }

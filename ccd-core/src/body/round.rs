@@ -3,7 +3,7 @@
 use super::facets::fan_triangles;
 use super::pieces::Pieces;
 use super::polytope::{Facet, FacetOrigin, Polytope};
-use super::{Body, Volume};
+use super::{Body, Solidity};
 use crate::error::{InputError, check, check_shape_length};
 use crate::limits::{DEFAULT_RADIUS_EXCESS_SHARE, MAX_CIRCLE_CORNERS, MAX_COORDINATE};
 use crate::math::order::{greater, lesser};
@@ -14,14 +14,14 @@ use std::f64::consts::{PI, TAU};
 /// A cylinder or a cone along z, with its centre at the origin.
 ///
 /// A circle is not the hull of finitely many points. The body is therefore a polytope about the shape, an
-/// [`Enclosure`].
+/// [`EnclosingPolytope`].
 ///
 /// ```
 /// use ccd_core::SolidOfRevolution;
 /// let wheel = SolidOfRevolution::cylinder(0.5, 0.1)?;
-/// let fine = wheel.enclose(1e-6)?;
+/// let fine = wheel.enclosing_polytope(1e-6)?;
 /// assert!(fine.excess() <= 1e-6 && fine.polytope().points.len() > 3000);
-/// let coarse = wheel.enclose(wheel.default_excess())?;
+/// let coarse = wheel.enclosing_polytope(wheel.default_excess())?;
 /// assert_eq!(coarse.polytope().points.len(), 288);
 /// # Ok::<(), ccd_core::InputError>(())
 /// ```
@@ -42,12 +42,12 @@ enum SolidKind {
 ///
 /// # Guarantee
 /// The polytope contains the shape, in exact arithmetic on the stored numbers. None of its points is farther from the
-/// shape than the [excess](Enclosure::excess): contacts may be early by that distance, and are never late. Upper
+/// shape than the [excess](EnclosingPolytope::excess): contacts may be early by that distance, and are never late. Upper
 /// bounds of distances include the excess. The polytope touches the shape in the planes of its flat ends, and along
 /// four lines in the planes x = 0 and y = 0.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Enclosure {
-    polytope: Polytope,
+pub struct EnclosingPolytope {
+    enclosing_polytope: Polytope,
     excess: f64,
     is_flat: bool,
 }
@@ -85,7 +85,7 @@ impl SolidOfRevolution {
         DEFAULT_RADIUS_EXCESS_SHARE * self.radius
     }
 
-    /// Returns the smallest excess that [`SolidOfRevolution::enclose`] accepts: a little less than 1.9e-8 of the
+    /// Returns the smallest excess that [`SolidOfRevolution::enclosing_polytope`] accepts: a little less than 1.9e-8 of the
     /// radius. It gives about [`MAX_CIRCLE_CORNERS`] corners.
     pub fn least_excess(&self) -> f64 {
         1.01 * self.radius * (1.0 / (PI / MAX_CIRCLE_CORNERS).cos() - 1.0)
@@ -96,7 +96,7 @@ impl SolidOfRevolution {
     /// # Errors
     /// [`InputError::OutOfRange`] for an excess less than the [least](SolidOfRevolution::least_excess), or a radius whose polytope
     /// reaches beyond [`MAX_COORDINATE`].
-    pub fn enclose(&self, excess: f64) -> Result<Enclosure, InputError> {
+    pub fn enclosing_polytope(&self, excess: f64) -> Result<EnclosingPolytope, InputError> {
         let ring = Ring::circumscribe(self.radius, excess)?;
         let z = self.half_height;
         let count = ring.corners.len() as u32;
@@ -120,8 +120,8 @@ impl SolidOfRevolution {
             origin: FacetOrigin::Face(id),
             corners,
         };
-        Ok(Enclosure {
-            polytope: Polytope {
+        Ok(EnclosingPolytope {
+            enclosing_polytope: Polytope {
                 points,
                 facets: (0..).zip(loops).map(facet).collect(),
                 ..Polytope::default()
@@ -132,13 +132,13 @@ impl SolidOfRevolution {
     }
 }
 
-impl Enclosure {
+impl EnclosingPolytope {
     /// Returns the polytope that encloses the shape, in the body's frame. Its facets are its exact boundary, and plane:
     /// facets that are not triangles have all corners at one height, or in pairs above each other.
     ///
     /// Facet 0 is the base, and facet 1 the other end of a cylinder. The sides follow, counterclockwise about z.
     pub fn polytope(&self) -> &Polytope {
-        &self.polytope
+        &self.enclosing_polytope
     }
 
     /// Returns an upper bound of the distance of any point of the polytope from the enclosed shape.
@@ -152,19 +152,19 @@ impl Enclosure {
     /// # Errors
     /// The errors of [`Body::polytope`].
     pub fn body(&self) -> Result<Body, InputError> {
-        let body = Body::polytope(self.polytope.clone())?.with_excess(self.excess)?;
+        let body = Body::polytope(self.enclosing_polytope.clone())?.with_excess(self.excess)?;
         let (triangles, numbers) = self.triangles();
         if triangles.is_empty() {
             return Ok(body);
         }
-        let pieces = Pieces::triangles(&self.polytope.points, &triangles, &numbers)?;
-        body.with_surface(Body::new(&pieces, Volume::Solid)?)
+        let pieces = Pieces::from_triangles(&self.enclosing_polytope.points, &triangles, &numbers)?;
+        body.with_surface(Body::new(&pieces, Solidity::Solid)?)
     }
 
     /// Returns the facets as triangles, each with the number of its facet. A flat polytope returns no triangles: they
     /// would have no advantage.
     pub fn triangles(&self) -> (Vec<[u32; 3]>, Vec<u32>) {
-        let facets = (0..).zip(&self.polytope.facets);
+        let facets = (0..).zip(&self.enclosing_polytope.facets);
         let fans = facets.flat_map(|(number, Facet { corners, .. })| {
             fan_triangles(corners).map(move |fan| (fan, number))
         });
@@ -225,10 +225,10 @@ fn corner_count(radius: f64, asked: f64) -> Result<f64, InputError> {
 
 impl Body {
     /// Creates a cylinder about the origin, from `−half_height` to `half_height` along z. The body is a polytope
-    /// about it, which exceeds it by at most [`DEFAULT_RADIUS_EXCESS_SHARE`] of the radius. [`SolidOfRevolution::enclose`] returns finer ones.
+    /// about it, which exceeds it by at most [`DEFAULT_RADIUS_EXCESS_SHARE`] of the radius. [`SolidOfRevolution::enclosing_polytope`] returns finer ones.
     ///
     /// # Guarantee
-    /// The guarantee of [`Enclosure`]: contacts may be early by the excess, and are never late.
+    /// The guarantee of [`EnclosingPolytope`]: contacts may be early by the excess, and are never late.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`].
@@ -256,7 +256,7 @@ impl Body {
 
 impl SolidOfRevolution {
     fn default_enclosing_body(&self) -> Result<Body, InputError> {
-        self.enclose(self.default_excess())?.body()
+        self.enclosing_polytope(self.default_excess())?.body()
     }
 }
 

@@ -23,7 +23,7 @@ use glam::DVec3;
 /// ```
 /// use ccd_core::{glam::DVec3, Facets, SupportMap};
 /// let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
-/// let support = SupportMap::new(&corners, Facets::NONE);
+/// let support = SupportMap::new(&corners, Facets::EMPTY);
 /// assert_eq!(support.extremal_point(DVec3::new(0.1, 1.0, 5.0)), 2);
 /// ```
 #[derive(Clone, Debug)]

@@ -38,7 +38,7 @@ fn box_on_a_square() -> Body {
         ..Polytope::default()
     };
     let pieces = Pieces::from_polytopes(&[boxed, square]).unwrap();
-    Body::new(&pieces, Volume::Surface).unwrap()
+    Body::new(&pieces, Solidity::Surface).unwrap()
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn a_virtual_facet_on_the_surface_takes_the_name_of_the_face_there() {
 fn tetrahedron_as_piece_and_as_triangles() -> [Body; 2] {
     let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
     let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
-    let triangles = Pieces::triangles(&points, &faces, &[0, 1, 2, 3]).unwrap();
+    let triangles = Pieces::from_triangles(&points, &faces, &[0, 1, 2, 3]).unwrap();
     let polytope = Polytope {
         facets: (0..)
             .zip(faces)
@@ -76,7 +76,7 @@ fn tetrahedron_as_piece_and_as_triangles() -> [Body; 2] {
         ..Polytope::default()
     };
     let one = Pieces::from_polytopes(&[polytope]).unwrap();
-    [one, triangles].map(|pieces| Body::new(&pieces, Volume::Solid).unwrap())
+    [one, triangles].map(|pieces| Body::new(&pieces, Solidity::Solid).unwrap())
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn a_surface_is_taken_against_many_triangles_only() {
 #[test]
 fn invalid_surfaces_are_refused() {
     let [one, triangles] = tetrahedron_as_piece_and_as_triangles();
-    let open = Body::new(triangles.pieces(), Volume::Surface).unwrap();
+    let open = Body::new(triangles.pieces(), Solidity::Surface).unwrap();
     let refused = [
         one.clone().with_surface(open),
         one.clone().with_surface(one.clone()),

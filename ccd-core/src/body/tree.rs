@@ -81,7 +81,7 @@ impl Tree {
     }
 
     /// Returns the slab around a flat node; `None` for other nodes.
-    pub(crate) fn slab(&self, id: NodeId) -> Option<&Slab> {
+    pub(crate) fn flat_node_slab(&self, id: NodeId) -> Option<&Slab> {
         let place = self.slabs.binary_search_by_key(&id, |&(id, _)| id).ok()?;
         Some(&self.slabs[place].1)
     }

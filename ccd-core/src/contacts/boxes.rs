@@ -30,7 +30,7 @@ enum FaceBoxContent {
 
 /// The pairs of near faces found so far, with the remaining budget of the search.
 pub(super) struct NearFacePairSearch {
-    pub(super) pairs: Vec<[u32; 2]>,
+    pub(super) face_pairs: Vec<[u32; 2]>,
     pub(super) remaining_budget: u64,
     pub(super) reach: f64,
 }
@@ -52,7 +52,7 @@ impl NearFacePairSearch {
             self.remaining_budget = self.remaining_budget.checked_sub(1)?;
             match (a.content, b.content) {
                 (FaceBoxContent::Face(face_a), FaceBoxContent::Face(face_b)) => {
-                    self.pairs.push([face_a, face_b]);
+                    self.face_pairs.push([face_a, face_b]);
                 }
                 (FaceBoxContent::Inner(right), FaceBoxContent::Face(_)) => {
                     stack.extend([[right, at_b], [at_a + 1, at_b]]);

@@ -39,7 +39,7 @@ pub(crate) fn contact_for_given_bodies<O: DistanceOracle>(
     within: f64,
     time: f64,
 ) -> Contact {
-    let s = problem.clock(time);
+    let s = problem.clock_of_time(time);
     match problem.with_given_bodies() {
         Some(given) => {
             let contact = remeasure_contact(&given, oracle, meter, contact, within, s);

@@ -29,7 +29,7 @@ pub(super) fn measure_feature_pair(
     common_normals: impl Fn([DVec3; 2]) -> CommonNormals,
 ) -> Contact {
     let face = |k: usize| skins[k].face(candidate.faces[k]);
-    let points = [0, 1].map(|k| skins[k].points(spots[k], candidate.faces[k]));
+    let points = [0, 1].map(|k| skins[k].part_points(spots[k], candidate.faces[k]));
     let [a, b] = candidate.points;
     let (distance, radii) = (vector::distance(a, b), face(0).radius + face(1).radius);
     let towards = if distance > problem.rounding {

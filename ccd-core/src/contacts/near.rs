@@ -20,7 +20,7 @@ pub(super) fn near_face_pairs(
 ) -> Option<Vec<[u32; 2]>> {
     let mut trees = <[FaceTrees; 2]>::default();
     let mut near = NearFacePairSearch {
-        pairs: Vec::new(),
+        face_pairs: Vec::new(),
         remaining_budget: problem.budget,
         reach,
     };
@@ -30,7 +30,7 @@ pub(super) fn near_face_pairs(
             near.add_pairs_below_roots(&trees, [a, b])?;
         }
     }
-    Some(near.pairs)
+    Some(near.face_pairs)
 }
 
 /// Returns the pairs of pieces that may be nearer than `reach`; `None` if the search exceeds the budget.

@@ -142,7 +142,7 @@ impl<'a> NearSurface<'a> {
     }
 
     /// Returns three points, possibly equal, whose convex hull is the given corner, edge or face.
-    pub(super) fn points(&self, spot: SurfacePart, face: u32) -> [DVec3; 3] {
+    pub(super) fn part_points(&self, spot: SurfacePart, face: u32) -> [DVec3; 3] {
         match spot {
             SurfacePart::Corner(corner) => [self.corner_position(corner); 3],
             SurfacePart::Edge([v, w]) => [v, w, w].map(|end| self.corner_position(end)),

@@ -2,7 +2,7 @@ use super::*;
 use crate::answer::Separation;
 use crate::body::feature::Feature;
 use crate::body::polytope::{Facet, FacetOrigin, Polytope};
-use crate::body::{Body, Volume};
+use crate::body::{Body, Solidity};
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
@@ -71,7 +71,7 @@ fn count_pair_kinds(pairs: &[Contact]) -> [usize; 3] {
 /// Creates a box as two bodies: one of 12 triangles that share 8 vertices, and one of a single piece.
 fn cuboid_as_triangles_and_as_piece(half: DVec3) -> [Body; 2] {
     let solid = Body::cuboid(half).unwrap();
-    [Mesh::cuboid(half).body(Volume::Solid), solid]
+    [Mesh::cuboid(half).body(Solidity::Solid), solid]
 }
 
 fn check_separations(pairs: &[Contact], distance: f64, normal: DVec3) {
@@ -153,7 +153,7 @@ fn flush_squares_cross_along_their_outlines() {
         check_separations(&pairs, 5e-4, -DVec3::Z);
     }
     let bars = [DVec3::new(2.0, 0.5, 0.2), DVec3::new(0.5, 2.0, 0.2)];
-    let [a, b] = bars.map(|half| Mesh::cuboid(half).body(Volume::Solid));
+    let [a, b] = bars.map(|half| Mesh::cuboid(half).body(Solidity::Solid));
     let pairs = contacts(&a, &b, pose_at(0.1, 0.0, 0.4), 1e-3);
     assert_eq!(
         count_pair_kinds(&pairs),
@@ -249,7 +249,7 @@ fn features_without_a_number_are_named_by_their_piece() {
 /// Tests that contacts are reported up to the margin plus the tolerance, and not beyond.
 #[test]
 fn a_margin_is_reached_across() {
-    let cube = Mesh::cuboid(DVec3::splat(0.5)).body(Volume::Solid);
+    let cube = Mesh::cuboid(DVec3::splat(0.5)).body(Solidity::Solid);
     let config = Settings {
         margin: 0.25,
         ..Settings::DEFAULT
@@ -337,7 +337,7 @@ fn compare_with_brute_force(
     found: &mut [usize; 3],
     round: usize,
 ) {
-    let (body_a, body_b) = (a.body(Volume::Surface), b.body(Volume::Surface));
+    let (body_a, body_b) = (a.body(Solidity::Surface), b.body(Solidity::Surface));
     let config = Settings {
         tolerance,
         ..Settings::DEFAULT
@@ -405,7 +405,7 @@ fn compare_with_brute_force(
 fn fine_plates_face_to_face_are_no_trouble() {
     let rng = &mut rng(73);
     let plate = Mesh::terrain(rng, 60, 3.0, 0.0);
-    let body = plate.body(Volume::Surface);
+    let body = plate.body(Solidity::Surface);
     // The plate is shifted by half a cell: every vertex is over a face, except those beyond the other plate.
     let cell = 6.0 / 60.0;
     let pairs = contacts(&body, &body, pose_at(0.3 * cell, 0.2 * cell, 5e-4), 1e-3);
@@ -422,7 +422,7 @@ fn fine_plates_face_to_face_are_no_trouble() {
 
 #[test]
 fn times_beyond_the_duration_and_budgets_are_refused() {
-    let cube = Mesh::cuboid(DVec3::ONE).body(Volume::Solid);
+    let cube = Mesh::cuboid(DVec3::ONE).body(Solidity::Solid);
     let problem = problem_of_still_bodies(&cube, &cube, pose_at(0.0, 0.0, 2.0), &Settings::DEFAULT);
     let (place, settings) = (Pose::at([0.0, 0.0, 2.0]).unwrap(), Settings::DEFAULT);
     let query = Query::new((&cube, place), (&cube, Pose::IDENTITY), 1.0, &settings).unwrap();

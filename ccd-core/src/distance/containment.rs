@@ -10,7 +10,7 @@ use crate::body::tree::ray::sum_signed_crossings;
 use crate::math::vector::{unit_or_any, vector_perpendicular_to_both};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
-use crate::rounding::SIDE_DISTANCE_PER_ROUNDING;
+use crate::rounding::CERTAIN_SIDE_DISTANCE_PER_ROUNDING;
 use beside::points_beside_edges;
 use glam::DVec3;
 
@@ -45,12 +45,12 @@ pub(crate) fn containment_at_start(
         body: side.body,
         frame: side.path.frame(0.0),
     });
-    let reach = SIDE_DISTANCE_PER_ROUNDING * problem.rounding;
+    let reach = CERTAIN_SIDE_DISTANCE_PER_ROUNDING * problem.rounding;
     let mut look = |outer: &PlacedBody<'_>, inner: &PlacedBody<'_>, side: usize| {
         let search = Search {
             outer_body: outer,
             inner_body: inner,
-            reach,
+            undecided_distance: reach,
         };
         if outer.body.may_be_hollow() {
             let pairs = touching.iter().map(|pair| [pair[side], pair[1 - side]]);
@@ -65,7 +65,7 @@ pub(crate) fn containment_at_start(
         [ContainmentResult::Inside(p), _] => inside(Overlap::AInsideB(problem.to_world_point(p))),
         [_, ContainmentResult::Inside(p)] => inside(Overlap::BInsideA(problem.to_world_point(p))),
         [ContainmentResult::NotInside, ContainmentResult::NotInside] => None,
-        _ => Some(Outcome::unresolved(0.0, Limit::Undecided)),
+        _ => Some(Outcome::unresolved(0.0, Limit::OverlapUndecided)),
     }
 }
 
@@ -80,7 +80,7 @@ struct Search<'a> {
     outer_body: &'a PlacedBody<'a>,
     inner_body: &'a PlacedBody<'a>,
     /// The distance from the outer surface below which a point counts as neither inside nor outside.
-    reach: f64,
+    undecided_distance: f64,
 }
 
 /// Whether a test found a point inside the outer body; the point is in the problem's coordinates.
@@ -133,7 +133,7 @@ impl Search<'_> {
     fn classify_point(&self, point: DVec3) -> ContainmentResult {
         let placed = self.inner_body.frame.transform_point(point);
         let there = self.outer_body.frame.inverse_transform_point(placed);
-        match contains(self.outer_body.body, there, self.reach) {
+        match contains(self.outer_body.body, there, self.undecided_distance) {
             Some(true) => ContainmentResult::Inside(placed),
             Some(false) => ContainmentResult::NotInside,
             None => ContainmentResult::Undecided,
@@ -203,7 +203,7 @@ impl Search<'_> {
             unit_or_any(vector_perpendicular_to_both(b - a, c - a))
                 .dot(a - middle)
                 .abs()
-                > self.reach
+                > self.undecided_distance
         };
         piece.facets.len() > 2 && piece.facets.iter().all(is_above)
     }
@@ -218,7 +218,7 @@ impl Search<'_> {
                 .frame
                 .inverse_transform_point(self.outer_body.frame.transform_point(p))
         };
-        let points = points_beside_edges(&piece, &other, place, self.reach);
+        let points = points_beside_edges(&piece, &other, place, self.undecided_distance);
         let mut result = points.map(|p| self.classify_point(p));
         result
             .find(ContainmentResult::is_inside)

@@ -61,7 +61,7 @@ pub trait DistanceOracle {
         Self: Sized,
     {
         OrElse {
-            first: self,
+            first_oracle: self,
             fallback_oracle: other,
             fallbacks: 0,
         }
@@ -81,7 +81,7 @@ pub struct PiecePair<'a> {
 
 impl PiecePair<'_> {
     /// Returns the number of points that a search for an extremal point evaluates, summed over both pieces.
-    pub(crate) fn evaluations_per_search(&self) -> u64 {
+    pub(crate) fn points_per_support_search(&self) -> u64 {
         self.a.evaluations_per_search() + self.b.evaluations_per_search()
     }
 }
@@ -153,7 +153,7 @@ pub enum GiveUpReason {
 /// it.
 #[derive(Clone, Debug, Default)]
 pub struct OrElse<First, Second> {
-    first: First,
+    first_oracle: First,
     fallback_oracle: Second,
     fallbacks: u64,
 }
@@ -174,11 +174,13 @@ impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<Fi
         pair: &PiecePair<'_>,
         cache: &mut Self::Cache,
     ) -> Result<Claim, GiveUpReason> {
-        self.first.separation(pair, &mut cache.0).or_else(|_| {
-            self.fallbacks += 1;
-            self.fallback_oracle
-                .separation(pair, cache.1.get_or_insert_default())
-        })
+        self.first_oracle
+            .separation(pair, &mut cache.0)
+            .or_else(|_| {
+                self.fallbacks += 1;
+                self.fallback_oracle
+                    .separation(pair, cache.1.get_or_insert_default())
+            })
     }
 
     fn prepare(body: &Body) {
@@ -191,7 +193,7 @@ impl<First: DistanceOracle, Second: DistanceOracle> DistanceOracle for OrElse<Fi
             fallbacks: self.fallbacks,
             ..Effort::default()
         };
-        own + self.first.effort() + self.fallback_oracle.effort()
+        own + self.first_oracle.effort() + self.fallback_oracle.effort()
     }
 }
 

@@ -52,14 +52,14 @@ pub(crate) fn decide_intersection(
         let Some(&face) = inner.shallowest_face() else {
             return Intersection::Undecided;
         };
-        if face.depth > rounding {
+        if face.min_height > rounding {
             return Intersection::Certain;
         }
         let corner = minkowski_support_point(pair, face.normal);
         match face.normal.dot(corner) {
             height if height <= rounding => return Intersection::None,
             // The farthest difference is no farther than the face: rounding prevents progress.
-            height if !(height > face.height) => return Intersection::Undecided,
+            height if !(height > face.max_corner_height) => return Intersection::Undecided,
             _ => inner.add(corner, face.corners),
         }
     }
@@ -95,9 +95,9 @@ struct Face {
     /// The outward unit normal.
     normal: DVec3,
     /// The least height of the face's corners above the origin, along the normal.
-    depth: f64,
+    min_height: f64,
     /// The greatest height of the face's corners above the origin, along the normal.
-    height: f64,
+    max_corner_height: f64,
 }
 
 impl ExpandingPolytope {
@@ -111,27 +111,29 @@ impl ExpandingPolytope {
         };
         self.corners.extend(corners);
         for face in [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]] {
-            self.push(face);
+            self.push_face(face);
         }
         true
     }
 
-    fn push(&mut self, corners: [usize; 3]) {
+    fn push_face(&mut self, corners: [usize; 3]) {
         let [a, b, c] = corners.map(|k| self.corners[k]);
-        let normal = normal([a, b, c]);
+        let normal = triangle_normal([a, b, c]);
         let heights = [a, b, c].map(|p| normal.dot(p));
         self.faces.push(Face {
             corners,
             normal,
-            depth: heights.into_iter().fold(f64::INFINITY, lesser),
-            height: heights.into_iter().fold(f64::NEG_INFINITY, greater),
+            min_height: heights.into_iter().fold(f64::INFINITY, lesser),
+            max_corner_height: heights.into_iter().fold(f64::NEG_INFINITY, greater),
         });
     }
 
     /// Returns the face with the least height above the origin; the height is negative if the origin is in front of the
     /// face.
     fn shallowest_face(&self) -> Option<&Face> {
-        self.faces.iter().min_by(|f, g| f.depth.total_cmp(&g.depth))
+        self.faces
+            .iter()
+            .min_by(|f, g| f.min_height.total_cmp(&g.min_height))
     }
 
     /// Adds a corner, which is in front of the face `seen`, and replaces every face that the corner is in front of by
@@ -142,7 +144,7 @@ impl ExpandingPolytope {
         let horizon_edges = &mut self.horizon_edges;
         horizon_edges.clear();
         self.faces.retain(|face| {
-            let sees = face.corners == seen || face.normal.dot(corner) > face.height;
+            let sees = face.corners == seen || face.normal.dot(corner) > face.max_corner_height;
             for k in (0..3).filter(|_| sees) {
                 let [from, to] = [face.corners[k], face.corners[(k + 1) % 3]];
                 // An edge of two removed faces is not part of the rim.
@@ -155,7 +157,7 @@ impl ExpandingPolytope {
         });
         for k in 0..self.horizon_edges.len() {
             let [from, to] = self.horizon_edges[k];
-            self.push([from, to, new]);
+            self.push_face([from, to, new]);
         }
     }
 }
@@ -191,7 +193,7 @@ fn find_start_tetrahedron(pair: &PiecePair<'_>, rounding: f64) -> Option<[DVec3;
 
 /// Returns the unit normal of a triangle, computed so that even the corners of a needle have equal heights along it.
 /// The part of the cross product's rounding that lies along the needle would tilt the normal.
-fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+fn triangle_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     let edges = [b - a, c - b, a - c];
     let longest = |e: DVec3, f: DVec3| {
         if f.length_squared() > e.length_squared() {

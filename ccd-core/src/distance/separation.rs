@@ -112,7 +112,7 @@ fn valid_combination_and_position(
 ) -> (ConvexCombination, DVec3) {
     match combination.position(points) {
         Some(point) => (combination, point),
-        None => (ConvexCombination::point(0), points[0]),
+        None => (ConvexCombination::from_single_point(0), points[0]),
     }
 }
 

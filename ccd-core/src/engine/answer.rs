@@ -54,7 +54,7 @@ fn answer_under_start_policy<O: DistanceOracle>(
     mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
     run_metered(problem, oracle, scratch, |oracle, meter| {
-        let outcome = match problem.start {
+        let outcome = match problem.start_policy {
             StartPolicy::Report => search(problem, oracle, meter),
             StartPolicy::Leave => {
                 let problem = problem.reporting_start_contact();
@@ -63,7 +63,7 @@ fn answer_under_start_policy<O: DistanceOracle>(
             }
         };
         let parting =
-            problem_ignoring_start_contact(problem, problem.start, &outcome, oracle, meter);
+            problem_ignoring_start_contact(problem, problem.start_policy, &outcome, oracle, meter);
         let (outcome, tolerance) = match parting {
             Some(problem) => {
                 let outcome = search(&problem, oracle, meter);

@@ -28,7 +28,7 @@ use std::ops::ControlFlow;
 /// #     type Cache = ();
 /// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
 /// #         let axis = pair.b_to_a.transform_point(pair.b.points[0]) - pair.a.points[0];
-/// #         Ok(Claim { axis, a: ConvexCombination::point(0), b: ConvexCombination::point(0) })
+/// #         Ok(Claim { axis, a: ConvexCombination::from_single_point(0), b: ConvexCombination::from_single_point(0) })
 /// #     }
 /// # }
 /// let ball = Body::sphere(0.5)?;
@@ -113,7 +113,11 @@ impl<O: DistanceOracle> SearchHandler<O> for ProvenFacts {
         meter: &mut Meter,
         advance: AdvanceResult,
     ) -> ControlFlow<Outcome, f64> {
-        let AdvanceResult { clock, step, .. } = advance;
+        let AdvanceResult {
+            clock,
+            pair_step: step,
+            ..
+        } = advance;
         ProvenFacts::on_advance(self, problem, oracle, meter, step, clock)
     }
 

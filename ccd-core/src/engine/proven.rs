@@ -33,7 +33,7 @@ impl ProvenFacts {
         let unresolved = |reason| Outcome::unresolved(problem.time_of_clock(s), reason);
         ControlFlow::Break(match step {
             PairStep::FreeUntil(clock) => return ControlFlow::Continue(clock),
-            PairStep::Contact(contact) if s > 0.0 => self.contact(problem, contact, s),
+            PairStep::Contact(contact) if s > 0.0 => self.contact_outcome(problem, contact, s),
             PairStep::Contact(contact) => classify_start_contact(problem, oracle, meter, contact),
             PairStep::Overlap(contact) => overlap_outcome(contact),
             PairStep::Stalled => unresolved(Limit::Stalled),
@@ -43,7 +43,12 @@ impl ProvenFacts {
 
     /// Returns the outcome of a query that ends with a pair in contact at clock `s`. Other pairs may be nearer: only
     /// their clocks bound their distances.
-    pub(crate) fn contact(&self, problem: &Problem<'_>, contact: Contact, s: f64) -> Outcome {
+    pub(crate) fn contact_outcome(
+        &self,
+        problem: &Problem<'_>,
+        contact: Contact,
+        s: f64,
+    ) -> Outcome {
         Outcome::Contact {
             time: problem.time_of_clock(s),
             contact: contact.cap_lower_bound(problem.proven_gap()),
@@ -59,7 +64,7 @@ impl ProvenFacts {
             return None;
         }
         // Bodies that are let go were examined when their contact was found.
-        match problem.start {
+        match problem.start_policy {
             StartPolicy::Leave => None,
             StartPolicy::Report => containment_at_start(problem, &[], &mut Vec::new()),
         }

@@ -14,9 +14,9 @@ pub(crate) struct Queue<T> {
     /// A tournament tree: the keys of the items, then the least of every four keys of the level before, up to a single
     /// four. The steps are the same for every change, so that no branch is mispredicted. In a heap, each step down has
     /// an unpredictable branch.
-    levels: Vec<Vec<[Key; 4]>>,
+    tournament_levels: Vec<Vec<[Key; 4]>>,
     /// The number of levels in use.
-    depth: usize,
+    level_count: usize,
     last_serial: u32,
 }
 
@@ -37,8 +37,8 @@ impl<T> Default for Queue<T> {
             items: Vec::new(),
             vacant_slots: Vec::new(),
             least_key: VACANT_KEY,
-            levels: Vec::new(),
-            depth: 0,
+            tournament_levels: Vec::new(),
+            level_count: 0,
             last_serial: 0,
         }
     }
@@ -50,8 +50,8 @@ impl<T> Queue<T> {
         clear_and_shrink(&mut self.items);
         clear_and_shrink(&mut self.vacant_slots);
         self.least_key = VACANT_KEY;
-        self.levels.iter_mut().for_each(clear_and_shrink);
-        self.depth = 0;
+        self.tournament_levels.iter_mut().for_each(clear_and_shrink);
+        self.level_count = 0;
         self.last_serial = 0;
     }
 
@@ -74,7 +74,7 @@ impl<T> Queue<T> {
     #[inline]
     fn set_key(&mut self, place: u32, key: Key) {
         let (mut at, mut least) = (place as usize, key);
-        for level in &mut self.levels[..self.depth] {
+        for level in &mut self.tournament_levels[..self.level_count] {
             let four = &mut level[at / 4];
             four[at % 4] = least;
             least = least_of_four(four);
@@ -87,10 +87,10 @@ impl<T> Queue<T> {
     #[inline]
     fn add_slot(&mut self) {
         let mut last = self.items.len() - 1;
-        if last == 0 || last == 1 << (2 * self.depth) {
+        if last == 0 || last == 1 << (2 * self.level_count) {
             self.add_level();
         }
-        for level in &mut self.levels[..self.depth] {
+        for level in &mut self.tournament_levels[..self.level_count] {
             if !last.is_multiple_of(4) {
                 break;
             }
@@ -103,11 +103,16 @@ impl<T> Queue<T> {
 
     #[cold]
     fn add_level(&mut self) {
-        if self.levels.len() == self.depth {
-            self.levels.push(Vec::new());
+        if self.tournament_levels.len() == self.level_count {
+            self.tournament_levels.push(Vec::new());
         }
-        self.levels[self.depth].push([self.least_key, VACANT_KEY, VACANT_KEY, VACANT_KEY]);
-        self.depth += 1;
+        self.tournament_levels[self.level_count].push([
+            self.least_key,
+            VACANT_KEY,
+            VACANT_KEY,
+            VACANT_KEY,
+        ]);
+        self.level_count += 1;
     }
 }
 
@@ -134,7 +139,7 @@ impl<T> Worklist<T> for Queue<T> {
     #[inline]
     fn peek_next(&mut self) -> Option<(f64, &mut T)> {
         let item = self.items.get_mut(slot(self.least_key) as usize)?;
-        Some((clock(self.least_key), item))
+        Some((clock_of_key(self.least_key), item))
     }
 
     #[inline]
@@ -176,7 +181,7 @@ fn least_of_four(&[a, b, c, d]: &[Key; 4]) -> Key {
     if upper < lower { upper } else { lower }
 }
 
-fn clock(key: Key) -> f64 {
+fn clock_of_key(key: Key) -> f64 {
     f64::from_bits((key >> 64) as u64)
 }
 

@@ -62,7 +62,7 @@ pub(crate) struct AdvanceResult {
     /// The clock at which the pair was examined.
     pub(crate) clock: f64,
     /// The new clock, the contact, or the failure of the pair.
-    pub(crate) step: PairStep,
+    pub(crate) pair_step: PairStep,
 }
 
 /// The state of a search: the oracle, the waiting pairs and the counters.
@@ -219,7 +219,7 @@ fn advance<O: DistanceOracle>(
     AdvanceResult {
         pieces: [pair.a, pair.b],
         clock,
-        step: pair.advance(problem, oracle, meter, clock),
+        pair_step: pair.advance(problem, oracle, meter, clock),
     }
 }
 

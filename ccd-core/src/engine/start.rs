@@ -56,7 +56,9 @@ fn outcome_at_start<O: DistanceOracle>(
     let outcome = match nearest.search(oracle, meter) {
         Some(EarlyEndReason::Overlap(_, contact)) => Some(overlap_outcome(contact)),
         Some(EarlyEndReason::Limit(limit)) => Some(unresolved_outcome(limit)),
-        None if nearest.is_intersection_undecided => Some(unresolved_outcome(Limit::Undecided)),
+        None if nearest.is_intersection_undecided => {
+            Some(unresolved_outcome(Limit::OverlapUndecided))
+        }
         None => {
             let touching = contact(&nearest).map(|contact| Outcome::Touching { contact });
             let (pairs, pieces) = lists.unseparated_pairs_and_scratch();

@@ -140,7 +140,7 @@ pub(crate) fn select_vectors<L: Simd>(mask: mask32x8<L>, a: Vec3x8<L>, b: Vec3x8
 }
 
 /// Three coordinates in memory, and an unused fourth number.
-pub(crate) type Row = [f64; 4];
+pub(crate) type PaddedVec3 = [f64; 4];
 
 /// A vector of three coordinates in f64, in one register.
 #[derive(Clone, Copy, Debug)]
@@ -151,23 +151,27 @@ pub(crate) struct PackedVector<L: Simd>(f64x4<L>);
 pub(crate) struct PackedMatrix<L: Simd>([PackedVector<L>; 3]);
 
 /// Extends a vector by an unused fourth number.
-pub(crate) fn row(v: DVec3) -> Row {
+pub(crate) fn pad_vector(v: DVec3) -> PaddedVec3 {
     [v.x, v.y, v.z, 0.0]
 }
 
 /// Returns the columns of a matrix, each with an unused fourth number.
-pub(crate) fn padded_columns(m: DMat3) -> [Row; 3] {
-    [row(m.x_axis), row(m.y_axis), row(m.z_axis)]
+pub(crate) fn padded_columns(m: DMat3) -> [PaddedVec3; 3] {
+    [
+        pad_vector(m.x_axis),
+        pad_vector(m.y_axis),
+        pad_vector(m.z_axis),
+    ]
 }
 
 impl<L: Simd> PackedVector<L> {
     #[inline(always)]
     pub(crate) fn new(level: L, v: DVec3) -> Self {
-        PackedVector::load(level, &row(v))
+        PackedVector::load(level, &pad_vector(v))
     }
 
     #[inline(always)]
-    pub(crate) fn load(level: L, row: &Row) -> Self {
+    pub(crate) fn load(level: L, row: &PaddedVec3) -> Self {
         PackedVector((*row).simd_into(level))
     }
 

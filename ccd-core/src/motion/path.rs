@@ -22,7 +22,7 @@ pub(crate) struct Path {
     /// The centre of rotation, in the body's frame.
     pub(crate) centre: DVec3,
     /// The centre's position at `s = 0`.
-    start: DVec3,
+    start_position: DVec3,
     /// The centre's velocity at `s = 0`, per unit of `s`.
     pub(crate) velocity: DVec3,
     /// The centre's acceleration, which is constant; zero except on stretches of trajectories.
@@ -32,7 +32,7 @@ pub(crate) struct Path {
     /// The angular velocity per unit of `s`, in the body's frame; it is constant.
     pub(crate) local_angular_velocity: DVec3,
     /// The angular speed, `|spin|`.
-    pub(crate) rate: f64,
+    pub(crate) angular_speed: f64,
     /// The unit vector along `spin`; zero if the body does not turn.
     pub(crate) axis: DVec3,
 }
@@ -57,12 +57,12 @@ impl Path {
             sine_coefficient: sine,
             constant_part: constant,
             centre: motion.centre(),
-            start: (start.translation - origin) + start.rotation * motion.centre(),
+            start_position: (start.translation - origin) + start.rotation * motion.centre(),
             velocity,
             acceleration: DVec3::ZERO,
             spin,
             local_angular_velocity: start.inverse_transform_vector(spin),
-            rate,
+            angular_speed: rate,
             axis,
         }
     }
@@ -79,16 +79,16 @@ impl Path {
     /// Positions are off by [`position_rounding`](crate::rounding::position_rounding) at most.
     pub(crate) fn subpath(&self, [from, to]: [f64; 2]) -> Self {
         let time = to - from;
-        let (sin, cos) = sin_cos(self.rate * from);
+        let (sin, cos) = sin_cos(self.angular_speed * from);
         Path {
             cosine_coefficient: self.cosine_coefficient * cos + self.sine_coefficient * sin,
             sine_coefficient: self.sine_coefficient * cos - self.cosine_coefficient * sin,
-            start: self.centre_at(from),
+            start_position: self.centre_at(from),
             velocity: self.centre_velocity_at(from) * time,
             acceleration: self.acceleration * (time * time),
             spin: self.spin * time,
             local_angular_velocity: self.local_angular_velocity * time,
-            rate: self.rate * time,
+            angular_speed: self.angular_speed * time,
             ..*self
         }
     }
@@ -105,8 +105,8 @@ impl Path {
     /// Returns the body's frame at `s`.
     #[inline(always)]
     pub(crate) fn frame(&self, s: f64) -> Frame {
-        let rotation = if self.rate > 0.0 {
-            let (sin, cos) = sin_cos(self.rate * s);
+        let rotation = if self.angular_speed > 0.0 {
+            let (sin, cos) = sin_cos(self.angular_speed * s);
             self.cosine_coefficient * cos + self.sine_coefficient * sin + self.constant_part
         } else {
             self.constant_part
@@ -119,13 +119,13 @@ impl Path {
 
     /// Returns the position of the body's point `x` at time 0.
     pub(crate) fn point_at_start(&self, x: DVec3) -> DVec3 {
-        self.start + (self.cosine_coefficient + self.constant_part) * (x - self.centre)
+        self.start_position + (self.cosine_coefficient + self.constant_part) * (x - self.centre)
     }
 
     /// Returns the position of the centre of rotation at `s`.
     #[inline(always)]
     pub(crate) fn centre_at(&self, s: f64) -> DVec3 {
-        self.start + (self.velocity + self.acceleration * (0.5 * s)) * s
+        self.start_position + (self.velocity + self.acceleration * (0.5 * s)) * s
     }
 
     /// Returns the velocity of the centre of rotation at `s`.
@@ -168,7 +168,7 @@ impl Path {
     }
 
     pub(crate) fn is_turning(&self) -> bool {
-        self.rate > 0.0
+        self.angular_speed > 0.0
     }
 
     pub(crate) fn moves(&self) -> bool {

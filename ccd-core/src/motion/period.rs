@@ -40,17 +40,17 @@ impl Period {
         bodies: [PathWithRadius<'_>; 2],
     ) -> impl Iterator<Item = Period> {
         let [a, b] = bodies;
-        let [slow, fast] = if a.path.rate > b.path.rate {
+        let [slow, fast] = if a.path.angular_speed > b.path.angular_speed {
             [b, a]
         } else {
             [a, b]
         };
         let velocity = length(a.path.velocity - b.path.velocity);
         let speed = velocity + length(a.path.acceleration - b.path.acceleration);
-        convergents(slow.path.rate / fast.path.rate)
+        convergents(slow.path.angular_speed / fast.path.angular_speed)
             .map(move |[of_slow, of_fast]| {
-                let length = TAU * of_fast / fast.path.rate;
-                let off = (slow.path.rate * length - TAU * of_slow).abs();
+                let length = TAU * of_fast / fast.path.angular_speed;
+                let off = (slow.path.angular_speed * length - TAU * of_slow).abs();
                 Period {
                     length,
                     max_distance_change: (off * slow.reach + speed * length)

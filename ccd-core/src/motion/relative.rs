@@ -2,7 +2,7 @@
 
 use super::path::Path;
 use super::track::sin_cos;
-use crate::math::simd::{PackedMatrix, PackedVector, Row, padded_columns, row};
+use crate::math::simd::{PackedMatrix, PackedVector, PaddedVec3, pad_vector, padded_columns};
 use fearless_simd::Simd;
 use glam::{DMat3, DVec3};
 
@@ -14,36 +14,36 @@ use glam::{DMat3, DVec3};
 pub(crate) struct RelativePath {
     motion_terms: RelativeMotionTerms,
     /// The centre of rotation of the seeing body, in that body's frame.
-    centre: Row,
-    other_rotation_centre: Row,
+    centre: PaddedVec3,
+    other_rotation_centre: PaddedVec3,
 }
 
 #[derive(Clone, Debug)]
 enum RelativeMotionTerms {
     AtMostOneTurns {
-        rotation: RotatingQuantity<[Row; 3]>,
+        rotation: RotatingQuantity<[PaddedVec3; 3]>,
         /// The vector between the centres of rotation at `s = 0`, in the seeing body's frame over time.
-        offset: RotatingQuantity<Row>,
-        offset_rate: RotatingQuantity<Row>,
-        acceleration: Option<RotatingQuantity<Row>>,
-        spin: Row,
+        offset: RotatingQuantity<PaddedVec3>,
+        offset_rate: RotatingQuantity<PaddedVec3>,
+        acceleration: Option<RotatingQuantity<PaddedVec3>>,
+        spin: PaddedVec3,
     },
     /// Both bodies turn; vectors are in the world's frame. Vectors are along the axes of the world.
     BothTurn {
         /// The inverse of the seeing body's rotation.
-        inverse: RotatingQuantity<[Row; 3]>,
-        other_rotation: RotatingQuantity<[Row; 3]>,
-        offset: Row,
-        offset_rate: Row,
-        acceleration: Option<Row>,
-        spin: Row,
+        inverse: RotatingQuantity<[PaddedVec3; 3]>,
+        other_rotation: RotatingQuantity<[PaddedVec3; 3]>,
+        offset: PaddedVec3,
+        offset_rate: PaddedVec3,
+        acceleration: Option<PaddedVec3>,
+        spin: PaddedVec3,
     },
 }
 
 /// A vector or a matrix that turns at a constant rate: `cos(ω s) P + sin(ω s) Q + K`.
 #[derive(Clone, Copy, Debug)]
 struct RotatingQuantity<T> {
-    rate: f64,
+    angular_speed: f64,
     coefficients: [T; 3],
 }
 
@@ -72,12 +72,15 @@ impl RelativePath {
         let inverse = own.rotation_coefficients().map(|part| part.transpose());
         let seen = if own.is_turning() && other.is_turning() {
             RelativeMotionTerms::BothTurn {
-                inverse: RotatingQuantity::new(own.rate, inverse),
-                other_rotation: RotatingQuantity::new(other.rate, other.rotation_coefficients()),
-                offset: row(offset),
-                offset_rate: row(change),
-                acceleration: acceleration.map(row),
-                spin: row(other.spin),
+                inverse: RotatingQuantity::new(own.angular_speed, inverse),
+                other_rotation: RotatingQuantity::new(
+                    other.angular_speed,
+                    other.rotation_coefficients(),
+                ),
+                offset: pad_vector(offset),
+                offset_rate: pad_vector(change),
+                acceleration: acceleration.map(pad_vector),
+                spin: pad_vector(other.spin),
             }
         } else {
             RelativeMotionTerms::for_at_most_one_turning(
@@ -90,8 +93,8 @@ impl RelativePath {
         };
         RelativePath {
             motion_terms: seen,
-            centre: row(own.centre),
-            other_rotation_centre: row(other.centre),
+            centre: pad_vector(own.centre),
+            other_rotation_centre: pad_vector(other.centre),
         }
     }
 
@@ -105,13 +108,16 @@ impl RelativePath {
                 acceleration,
                 spin,
             } => {
-                let angle = sin_cos(rotation.rate * s);
-                let acceleration = acceleration.map(|change| change.vector(level, angle));
-                let [travel, change] =
-                    displacement_and_velocity(change.vector(level, angle), acceleration, s);
+                let angle = sin_cos(rotation.angular_speed * s);
+                let acceleration = acceleration.map(|change| change.vector_at_angle(level, angle));
+                let [travel, change] = displacement_and_velocity(
+                    change.vector_at_angle(level, angle),
+                    acceleration,
+                    s,
+                );
                 RelativeState {
                     rotation: rotation.matrix(level, angle),
-                    offset: offset.vector(level, angle) + travel,
+                    offset: offset.vector_at_angle(level, angle) + travel,
                     velocity: -change,
                     acceleration: acceleration.map(|acceleration| -acceleration),
                     spin: PackedVector::load(level, spin),
@@ -125,8 +131,8 @@ impl RelativePath {
                 acceleration,
                 spin,
             } => {
-                let inverse = inverse.matrix(level, sin_cos(inverse.rate * s));
-                let other = other.matrix(level, sin_cos(other.rate * s));
+                let inverse = inverse.matrix(level, sin_cos(inverse.angular_speed * s));
+                let other = other.matrix(level, sin_cos(other.angular_speed * s));
                 let acceleration = acceleration.map(|change| PackedVector::load(level, &change));
                 let [travel, change] =
                     displacement_and_velocity(PackedVector::load(level, change), acceleration, s);
@@ -166,9 +172,9 @@ impl RelativeMotionTerms {
     ) -> Self {
         let others = other.rotation_coefficients();
         let rate = if other.is_turning() {
-            other.rate
+            other.angular_speed
         } else {
-            own.rate
+            own.angular_speed
         };
         let rotation = [0, 1, 2].map(|k| {
             if other.is_turning() {
@@ -178,8 +184,8 @@ impl RelativeMotionTerms {
             }
         });
         let seen = |v: DVec3| RotatingQuantity {
-            rate,
-            coefficients: inverse.map(|part| row(part * v)),
+            angular_speed: rate,
+            coefficients: inverse.map(|part| pad_vector(part * v)),
         };
         let [offset, change] = offset.map(seen);
         RelativeMotionTerms::AtMostOneTurns {
@@ -187,15 +193,15 @@ impl RelativeMotionTerms {
             offset,
             offset_rate: change,
             acceleration: acceleration.map(seen),
-            spin: row(inverse[2] * other.spin),
+            spin: pad_vector(inverse[2] * other.spin),
         }
     }
 }
 
-impl RotatingQuantity<[Row; 3]> {
+impl RotatingQuantity<[PaddedVec3; 3]> {
     fn new(rate: f64, parts: [DMat3; 3]) -> Self {
         RotatingQuantity {
-            rate,
+            angular_speed: rate,
             coefficients: parts.map(padded_columns),
         }
     }
@@ -208,9 +214,9 @@ impl RotatingQuantity<[Row; 3]> {
     }
 }
 
-impl RotatingQuantity<Row> {
+impl RotatingQuantity<PaddedVec3> {
     #[inline(always)]
-    fn vector<L: Simd>(&self, level: L, angle: (f64, f64)) -> PackedVector<L> {
+    fn vector_at_angle<L: Simd>(&self, level: L, angle: (f64, f64)) -> PackedVector<L> {
         let [p, q, k] = &self.coefficients;
         rotating_vector_at(level, [p, q, k], angle)
     }
@@ -235,7 +241,7 @@ fn displacement_and_velocity<L: Simd>(
 #[inline(always)]
 fn rotating_vector_at<L: Simd>(
     level: L,
-    [p, q, k]: [&Row; 3],
+    [p, q, k]: [&PaddedVec3; 3],
     (sin, cos): (f64, f64),
 ) -> PackedVector<L> {
     PackedVector::load(level, p) * cos

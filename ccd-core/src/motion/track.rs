@@ -60,7 +60,7 @@ impl HeightFunction {
 
     /// Returns an upper bound of the second derivative due to rotation.
     #[inline]
-    pub(crate) fn second_derivative(&self) -> f64 {
+    pub(crate) fn second_derivative_bound(&self) -> f64 {
         self.angular_speed * self.angular_speed * (self.p * self.p + self.q * self.q).sqrt()
     }
 }
@@ -166,7 +166,7 @@ impl AngleSinCos {
 /// A vector that turns about an axis at a constant rate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RotatingVector {
-    start: DVec3,
+    start_vector: DVec3,
     /// The component of the vector perpendicular to the axis.
     perpendicular_part: DVec3,
     /// The cross product `u × v` of the axis and the vector.
@@ -179,7 +179,7 @@ impl RotatingVector {
     #[inline]
     pub(crate) fn new(unit: DVec3, start: DVec3) -> Self {
         RotatingVector {
-            start,
+            start_vector: start,
             perpendicular_part: start - start.dot(unit) * unit,
             cross_product: unit.cross(start),
         }
@@ -187,7 +187,9 @@ impl RotatingVector {
 
     #[inline]
     pub(crate) fn vector_at(&self, angle: AngleSinCos) -> DVec3 {
-        self.start + self.perpendicular_part * angle.cos_minus_one + self.cross_product * angle.sin
+        self.start_vector
+            + self.perpendicular_part * angle.cos_minus_one
+            + self.cross_product * angle.sin
     }
 
     /// Returns the derivative of the rotating vector with respect to its angle.

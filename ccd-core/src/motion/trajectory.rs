@@ -30,14 +30,14 @@ use glam::DVec3;
 ///             false => Motion::still(at(from)?),
 ///         };
 ///         // A chord is off by at most an eighth of the square of its time, times the acceleration.
-///         let deviation_bound = DeviationBound { shift: time * time / 8.0 + 1e-15, angle: 0.0 };
+///         let deviation_bound = DeviationBound { centre_deviation: time * time / 8.0 + 1e-15, max_deviation_angle: 0.0 };
 ///         Ok(Stretch { deviation_bound, ..Stretch::exact(motion) })
 ///     }
 /// }
 ///
 /// let stretch = Swing.stretch_between(1.0, 1.5)?;
 /// let middle = stretch.motion.pose(0.25).translation();
-/// assert!((middle.x - 1.25f64.cos()).abs() <= stretch.deviation_bound.shift);
+/// assert!((middle.x - 1.25f64.cos()).abs() <= stretch.deviation_bound.centre_deviation);
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait Trajectory: Sync {
@@ -49,7 +49,7 @@ pub trait Trajectory: Sync {
 
     /// Returns a time between two others at which a velocity jumps; `None` if there is none. Stretches that end there
     /// have better bounds. If there are several, the best one is near the middle.
-    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+    fn velocity_jump_time(&self, from: f64, to: f64) -> Option<f64> {
         let _ = (from, to);
         None
     }
@@ -88,7 +88,7 @@ impl Stretch {
         Stretch {
             motion,
             acceleration: DVec3::ZERO,
-            deviation_bound: DeviationBound::NONE,
+            deviation_bound: DeviationBound::ZERO,
         }
     }
 
@@ -134,8 +134,8 @@ impl Stretch {
         let speed = length(motion.velocity()) + length(self.acceleration) * time.abs();
         let place = length(motion.start().translation()) + 2.0 * length(motion.centre());
         DeviationBound {
-            shift: RETIMED_POSE_ERROR_F64 * (place + speed * time.abs()),
-            angle: RETIMED_POSE_ERROR_F64 * (1.0 + turned),
+            centre_deviation: RETIMED_POSE_ERROR_F64 * (place + speed * time.abs()),
+            max_deviation_angle: RETIMED_POSE_ERROR_F64 * (1.0 + turned),
         }
     }
 }
@@ -145,21 +145,24 @@ impl Stretch {
 pub struct DeviationBound {
     /// An upper bound of the distance between the centre's positions in both motions at the same time, in the scene's
     /// unit of length.
-    pub shift: f64,
+    pub centre_deviation: f64,
     /// The largest angle between the two orientations, in radians.
-    pub angle: f64,
+    pub max_deviation_angle: f64,
 }
 
 impl DeviationBound {
     /// The deviation of a motion from itself, which is zero.
-    pub const NONE: DeviationBound = DeviationBound {
-        shift: 0.0,
-        angle: 0.0,
+    pub const ZERO: DeviationBound = DeviationBound {
+        centre_deviation: 0.0,
+        max_deviation_angle: 0.0,
     };
 
     /// Returns a bound of the deviation of a point that is at most `reach` from the motion's centre.
-    pub fn at(&self, reach: f64) -> f64 {
-        let DeviationBound { shift, angle: turn } = *self;
+    pub fn at_reach(&self, reach: f64) -> f64 {
+        let DeviationBound {
+            centre_deviation: shift,
+            max_deviation_angle: turn,
+        } = *self;
         if turn > 0.0 {
             shift + turn * reach
         } else if turn == 0.0 {
@@ -177,8 +180,8 @@ impl std::ops::Add for DeviationBound {
 
     fn add(self, other: DeviationBound) -> DeviationBound {
         DeviationBound {
-            shift: self.shift + other.shift,
-            angle: self.angle + other.angle,
+            centre_deviation: self.centre_deviation + other.centre_deviation,
+            max_deviation_angle: self.max_deviation_angle + other.max_deviation_angle,
         }
     }
 }
@@ -212,8 +215,8 @@ impl std::ops::Add for DeviationBound {
 /// }
 ///
 /// let stretch = Swing.stretch_between(1.0, 1.5)?;
-/// let DeviationBound { shift, angle } = stretch.deviation_bound;
-/// assert!(shift > 0.03 && shift < 0.04 && angle < 1e-13);
+/// let DeviationBound { centre_deviation, max_deviation_angle } = stretch.deviation_bound;
+/// assert!(centre_deviation > 0.03 && centre_deviation < 0.04 && max_deviation_angle < 1e-13);
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait SmoothTrajectory: Sync {
@@ -247,7 +250,7 @@ pub trait SmoothTrajectory: Sync {
     /// the last place, of lengths and of a radian.
     fn rounding(&self, from: f64, to: f64) -> DeviationBound {
         let _ = (from, to);
-        DeviationBound::NONE
+        DeviationBound::ZERO
     }
 
     /// Returns a time between two others at which an acceleration jumps; `None` if there is none. Stretches that end
@@ -272,7 +275,7 @@ pub struct AccelerationBounds {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Acceleration {
     /// The acceleration vector, in the scene's unit of length per unit of time squared.
-    pub vector: DVec3,
+    pub acceleration_vector: DVec3,
     /// A bound of the magnitude of the acceleration's derivative, in the scene's unit of length per unit of time cubed.
     pub jerk_bound: f64,
 }
@@ -281,7 +284,7 @@ impl Acceleration {
     /// Returns a bound of the centre's deviation after a time from the motion with this constant acceleration.
     fn deviation_bound_after(self, time: f64) -> f64 {
         // The vector, the time and the products are rounded.
-        let rounding = RETIMED_POSE_ERROR_F64 * (time * (time * length(self.vector)));
+        let rounding = RETIMED_POSE_ERROR_F64 * (time * (time * length(self.acceleration_vector)));
         time * (time * (time * self.jerk_bound)) / 6.0 * (1.0 + RETIMED_POSE_ERROR_F64) + rounding
     }
 }
@@ -295,8 +298,8 @@ impl AccelerationBounds {
             0.5 * (time * (time * acceleration)) * (1.0 + RETIMED_POSE_ERROR_F64)
         };
         DeviationBound {
-            shift: deviation(self.linear_acceleration),
-            angle: deviation(self.angular_acceleration),
+            centre_deviation: deviation(self.linear_acceleration),
+            max_deviation_angle: deviation(self.angular_acceleration),
         }
     }
 }
@@ -315,10 +318,11 @@ impl<S: SmoothTrajectory + ?Sized> Trajectory for S {
                 .acceleration_bounds(from, to)
                 .deviation_bound_after(half);
             if let Some(acceleration) = acceleration
-                && acceleration.deviation_bound_after(half) < tangent.deviation_bound.shift
+                && acceleration.deviation_bound_after(half)
+                    < tangent.deviation_bound.centre_deviation
             {
-                tangent.acceleration = acceleration.vector;
-                tangent.deviation_bound.shift = acceleration.deviation_bound_after(half);
+                tangent.acceleration = acceleration.acceleration_vector;
+                tangent.deviation_bound.centre_deviation = acceleration.deviation_bound_after(half);
             }
         }
         let stretch = tangent.with_start_at(-before)?;
@@ -329,7 +333,7 @@ impl<S: SmoothTrajectory + ?Sized> Trajectory for S {
         })
     }
 
-    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+    fn velocity_jump_time(&self, from: f64, to: f64) -> Option<f64> {
         SmoothTrajectory::corner(self, from, to)
     }
 }

@@ -119,7 +119,7 @@ impl<O: DistanceOracle> Fast<O> {
             let mut descent = Descent {
                 problem,
                 hulls,
-                bound: self.bound,
+                velocity_bound: self.bound,
                 traversal_tree: &mut self.traversal_tree,
                 axis_distance_cache: &mut self.axis_distance_cache,
                 proven_facts: &proven,

@@ -27,7 +27,7 @@ use std::ops::ControlFlow;
 /// [`VelocityBound::Published`] times may be late.
 #[derive(Debug)]
 pub struct Naive<O: DistanceOracle> {
-    bound: VelocityBound,
+    velocity_bound: VelocityBound,
     pairs: Vec<Pair<O::Cache>>,
     scratch: Scratch,
 }
@@ -36,7 +36,7 @@ impl<O: DistanceOracle> Naive<O> {
     /// Creates a schedule that divides distances by the given bound of the rate of approach.
     pub fn new(bound: VelocityBound) -> Self {
         Naive {
-            bound,
+            velocity_bound: bound,
             pairs: Vec::new(),
             scratch: None,
         }
@@ -99,7 +99,7 @@ impl<O: DistanceOracle> Naive<O> {
                     oracle,
                     meter,
                     |snapshot, checked, kept| {
-                        snapshot.free_time_along_axis(checked, kept, self.bound, reaches)
+                        snapshot.free_time_along_axis(checked, kept, self.velocity_bound, reaches)
                     },
                 );
                 match proven.on_advance(problem, oracle, meter, step, s) {

@@ -30,7 +30,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
     /// # Errors
     /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
     pub fn any_contact(&mut self, query: &Query<'_>, oracle: &mut O) -> Result<Answer, InputError> {
-        match &query.problem {
+        match &query.constant_velocity_problem {
             Some(problem) => Ok(self.any_contact_of(problem, oracle)),
             None => self.any_contact_along(query, oracle),
         }
@@ -129,7 +129,11 @@ impl<O: DistanceOracle> SearchHandler<O> for AnyContactSearch {
         _: &mut Meter,
         advance: AdvanceResult,
     ) -> ControlFlow<Outcome, f64> {
-        let AdvanceResult { clock: s, step, .. } = advance;
+        let AdvanceResult {
+            clock: s,
+            pair_step: step,
+            ..
+        } = advance;
         ControlFlow::Break(match step {
             PairStep::FreeUntil(clock) => return ControlFlow::Continue(clock),
             // A pair that keeps its distance gives no bound for the other pairs.

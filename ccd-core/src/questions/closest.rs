@@ -47,7 +47,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         query: &Query<'_>,
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
-        match &query.problem {
+        match &query.constant_velocity_problem {
             Some(problem) => Ok(self.closest_approach_of(problem, oracle)),
             None => self.closest_approach_along(query, oracle),
         }
@@ -60,7 +60,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             Some(distance) => self.decide_clearance(problem, distance, oracle),
             None => self.search_least_distance_of_bodies(problem, oracle),
         };
-        answer.widened_by_excess(problem.excess())
+        answer.widened_by_excess(problem.body_excess_sum())
     }
 
     /// Computes bounds of the least distance of the bodies, without a correction for their excess over the shapes.
@@ -88,7 +88,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             tolerance: problem.tolerance,
             budget: problem.budget,
             deadline: problem.deadline,
-            excess: problem.excess(),
+            body_excess: problem.body_excess_sum(),
         };
         let answer = required.decide(|rung, deadline| {
             let mut problem = rung.problem(&problem.for_distances());
@@ -123,7 +123,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             let sample = RepresentativePeriod::for_problem(&problem);
             let searched = sample
                 .as_ref()
-                .map_or(&problem, |sample| &sample.period_problem);
+                .map_or(&problem, |sample| &sample.period_subproblem);
             self.stack.clear();
             let found = self.search(searched, beyond, oracle, meter);
             let stats = &mut meter.stats;
@@ -216,12 +216,14 @@ fn outcome_for_all_periods(
     found: Result<Outcome, FartherThanCutoff>,
 ) -> Result<Outcome, FartherThanCutoff> {
     let found = found.map_err(|FartherThanCutoff { lower }| FartherThanCutoff {
-        lower: sample.lower(lower),
+        lower: sample.whole_duration_lower_bound(lower),
     })?;
     let mut outcome = found.map_contacts(|contact, _| sample.widen_contact(contact));
     match &mut outcome {
-        Outcome::LeastDistance { lower, .. } => *lower = sample.lower(*lower),
-        Outcome::Unresolved(known) => known.lower = greater(0.0, sample.lower(known.lower)),
+        Outcome::LeastDistance { lower, .. } => *lower = sample.whole_duration_lower_bound(*lower),
+        Outcome::Unresolved(known) => {
+            known.lower = greater(0.0, sample.whole_duration_lower_bound(known.lower));
+        }
         _ => return Ok(found),
     }
     Ok(outcome)
@@ -294,7 +296,7 @@ pub(crate) fn is_contact_after_start(found: &Outcome, tolerance: f64) -> bool {
 /// The nearest two pieces found so far, with the clock at which they were measured.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearestPair {
-    clock: f64,
+    time: f64,
     /// The indices of the nearest pieces: of the problem's body A, and of its body B.
     pieces: [u32; 2],
     pub(crate) contact: Contact,
@@ -303,7 +305,7 @@ pub(crate) struct NearestPair {
 impl NearestPair {
     /// Returns the time of the measurement, and the contact with a lower bound of at most `lower`.
     fn time_and_contact(self, problem: &Problem<'_>, lower: f64) -> (f64, Contact) {
-        let time = problem.time_of_clock(self.clock);
+        let time = problem.time_of_clock(self.time);
         (time, self.contact.cap_lower_bound(lower))
     }
 }

@@ -30,7 +30,7 @@ use std::ops::ControlFlow;
 /// #     type Cache = ();
 /// #     fn separation(&mut self, pair: &PiecePair<'_>, _: &mut ()) -> Result<Claim, GiveUpReason> {
 /// #         let axis = pair.b_to_a.transform_point(pair.b.points[0]) - pair.a.points[0];
-/// #         Ok(Claim { axis, a: ConvexCombination::point(0), b: ConvexCombination::point(0) })
+/// #         Ok(Claim { axis, a: ConvexCombination::from_single_point(0), b: ConvexCombination::from_single_point(0) })
 /// #     }
 /// # }
 /// let ball = Body::sphere(0.5)?;
@@ -48,11 +48,11 @@ pub struct FirstContactSearch<'a, O: DistanceOracle>(ResumableSearchKind<'a, O>)
 #[allow(clippy::large_enum_variant, reason = "most searches go in steps")]
 enum ResumableSearchKind<'a, O: DistanceOracle> {
     /// A search for bodies with constant velocities, which is done in steps.
-    Stepped(SteppedSearch<'a, O>),
+    Stepwise(SteppedSearch<'a, O>),
     /// A search for bodies on trajectories, which is done to its end in the first step.
     Immediate {
         query: Query<'a>,
-        schedule: BestFirst<O>,
+        search_engine: BestFirst<O>,
         answer: Option<Answer>,
     },
 }
@@ -66,7 +66,7 @@ struct SteppedSearch<'a, O: DistanceOracle> {
     /// motions do not repeat.
     periodic_search_and_problem: Option<(PeriodicSearch<'a>, Problem<'a>)>,
     /// The policy for a contact at the start, until it has been applied.
-    start: StartPolicy,
+    start_policy: StartPolicy,
     schedule: BestFirst<O>,
     meter: Meter,
     /// The state of the search; `None` before the first step.
@@ -95,11 +95,11 @@ impl<'a, O: DistanceOracle> FirstContactSearch<'a, O> {
     /// Creates the search for a query, which uses the memory of the schedule `memory`. The time until the
     /// [deadline](crate::Settings::deadline) starts now.
     pub fn new(mut query: Query<'a>, memory: BestFirst<O>) -> Self {
-        FirstContactSearch(match query.problem.take() {
-            Some(problem) => ResumableSearchKind::Stepped(SteppedSearch::new(problem, memory)),
+        FirstContactSearch(match query.constant_velocity_problem.take() {
+            Some(problem) => ResumableSearchKind::Stepwise(SteppedSearch::new(problem, memory)),
             None => ResumableSearchKind::Immediate {
                 query,
-                schedule: memory,
+                search_engine: memory,
                 answer: None,
             },
         })
@@ -108,9 +108,10 @@ impl<'a, O: DistanceOracle> FirstContactSearch<'a, O> {
     /// Returns the schedule with its memory, for another search.
     pub fn into_schedule(self) -> BestFirst<O> {
         match self.0 {
-            ResumableSearchKind::Stepped(steps) => steps.into_schedule(),
+            ResumableSearchKind::Stepwise(steps) => steps.into_schedule(),
             ResumableSearchKind::Immediate {
-                schedule: memory, ..
+                search_engine: memory,
+                ..
             } => memory,
         }
     }
@@ -126,10 +127,10 @@ impl<'a, O: DistanceOracle> FirstContactSearch<'a, O> {
     /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.
     pub fn advance(&mut self, oracle: &mut O, until: f64) -> Result<Progress, InputError> {
         match &mut self.0 {
-            ResumableSearchKind::Stepped(steps) => Ok(steps.advance(oracle, until)),
+            ResumableSearchKind::Stepwise(steps) => Ok(steps.advance(oracle, until)),
             ResumableSearchKind::Immediate {
                 query,
-                schedule: memory,
+                search_engine: memory,
                 answer,
             } => {
                 if answer.is_none() {
@@ -150,7 +151,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
         SteppedSearch {
             periodic_search_and_problem: start_periodic_search(&current),
             current_problem: current,
-            start: problem.start,
+            start_policy: problem.start_policy,
             problem,
             schedule: memory,
             meter,
@@ -210,7 +211,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
                     match rounds.start_next_round_or_finish(&outcome, &mut self.meter) {
                         ControlFlow::Break(outcome) => outcome,
                         ControlFlow::Continue(()) => {
-                            *part = rounds.between_clocks();
+                            *part = rounds.problem_of_round();
                             continue;
                         }
                     }
@@ -218,7 +219,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
             };
             let parting = problem_ignoring_start_contact(
                 &self.current_problem,
-                self.start,
+                self.start_policy,
                 &outcome,
                 oracle,
                 &mut self.meter,
@@ -227,10 +228,10 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
                 Some(parting) => {
                     self.periodic_search_and_problem = start_periodic_search(&parting);
                     self.current_problem = parting;
-                    self.start = StartPolicy::Report;
+                    self.start_policy = StartPolicy::Report;
                 }
                 None => {
-                    let tolerance = if self.start == self.problem.start {
+                    let tolerance = if self.start_policy == self.problem.start_policy {
                         self.problem.tolerance
                     } else {
                         achieved_tolerance(&self.current_problem, &outcome)
@@ -249,7 +250,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
             Some((_, part)) => (part, until * (1.0 + 4.0 * f64::EPSILON)),
             None => (&self.current_problem, until.next_up()),
         };
-        let clock = problem.clock(until);
+        let clock = problem.clock_of_time(until);
         let until = (clock * (1.0 + 4.0 * f64::EPSILON)).next_up();
         let mut search = Search::new(&mut self.schedule.queue, oracle, &mut self.meter);
         let SearchState {
@@ -284,7 +285,7 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
 
 fn start_periodic_search<'a>(problem: &Problem<'a>) -> Option<(PeriodicSearch<'a>, Problem<'a>)> {
     let rounds = PeriodicSearch::for_problem(problem)?;
-    let part = rounds.between_clocks();
+    let part = rounds.problem_of_round();
     Some((rounds, part))
 }
 

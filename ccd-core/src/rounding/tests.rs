@@ -200,8 +200,8 @@ fn error_shares(
     let [i, j] = [0, 1].map(|_| rng.random_range(0..3u32));
     let claim = Claim {
         axis: random_direction(rng),
-        a: ConvexCombination::point(i),
-        b: ConvexCombination::point(j),
+        a: ConvexCombination::from_single_point(i),
+        b: ConvexCombination::from_single_point(j),
     };
     let checked = separation::check_claim(&pair, &claim, problem.rounding);
     // A bound holds along any axis: the axis of this bound is the image of the claimed one in A's rounded frame.

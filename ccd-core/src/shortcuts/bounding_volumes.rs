@@ -11,7 +11,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::RATE_ERROR_F64;
-use crate::tuning::BOX_PROJECTION_COUNT;
+use crate::tuning::ALTERNATING_PROJECTION_COUNT;
 use glam::DVec3;
 
 /// Returns the outcome if bounding balls or boxes prove the bodies apart for the whole duration.
@@ -77,7 +77,7 @@ impl MovingBall {
         let (centre, radius) = side.body.tree().bounding_ball();
         let path = &side.path;
         // The body's turning moves the centre along an arc: by at most its length, and by at most the diameter.
-        let turned = match path.rate {
+        let turned = match path.angular_speed {
             rate if rate < 2.0 => rate,
             _ => 2.0,
         };
@@ -119,7 +119,7 @@ fn boxes_keep_apart(problem: &Problem<'_>) -> bool {
     let [a, b] = [&problem.a, &problem.b].map(|side| PlacedNode::body_box(side, 0.0));
     // Repeated projection from one box to the other converges to the nearest points.
     let (mut on_a, mut on_b) = (a.centre, b.centre);
-    for _ in 0..BOX_PROJECTION_COUNT {
+    for _ in 0..ALTERNATING_PROJECTION_COUNT {
         on_a = a.nearest_point(on_b);
         on_b = b.nearest_point(on_a);
     }
@@ -155,7 +155,7 @@ fn plane_keeps_apart(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2], n: DVec3) 
     let of_centres = centre_approach_rate(problem, [a, b], n, 0.0) + lesser(0.0, n.dot(away));
     excess > 0.0
         && of_centres <= excess
-        && ApproachRateBounds::along_axis(problem, [a, b], n, 0.0).free_time(excess) >= 1.0
+        && ApproachRateBounds::bounds_along_axis(problem, [a, b], n, 0.0).free_time(excess) >= 1.0
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{GAP_ERROR_PER_RADIUS_F32, RATE_ERROR_F64};
-use crate::tuning::{CLOSED_GAP_TOLERANCE_SHARE, MIN_ROTATION_GAP_SHARE, MIN_ROUNDING_FOR_F64};
+use crate::tuning::{CLOSED_GAP_TOLERANCE_SHARE, F64_FALLBACK_ROUNDING, MIN_ROTATION_GAP_SHARE};
 use glam::DVec3;
 
 /// Returns a time, from clock `s` on, for which a flat node of A and a flat node of B certainly keep the required gap.
@@ -20,11 +20,11 @@ pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f
     if !sides.iter().all(|(side, id)| may_be_flat(side, *id)) {
         return 0.0;
     }
-    let [Some(a), Some(b)] = sides.map(|(side, id)| FlatNode::new(side, id, s)) else {
+    let [Some(a), Some(b)] = sides.map(|(side, id)| PlanarNode::new(side, id, s)) else {
         return 0.0;
     };
     let rounding = f64::from(GAP_ERROR_PER_RADIUS_F32) * (a.node.radius + b.node.radius);
-    if !(rounding > MIN_ROUNDING_FOR_F64 * problem.kept_node_gap()) {
+    if !(rounding > F64_FALLBACK_ROUNDING * problem.kept_node_gap()) {
         return 0.0;
     }
     let along = |n: DVec3| free_time_along(problem, &a, &b, n, s);
@@ -41,7 +41,7 @@ fn may_be_flat(side: &BodyWithPath<'_>, id: NodeId) -> bool {
 
 /// A flat node or a single triangle at its pose at a clock, in the problem's coordinates. All triangles of a flat node
 /// lie in one plane, up to rounding.
-struct FlatNode {
+struct PlanarNode {
     node: PlacedNode,
     /// Half the thickness of the node along its normal; `None` for a triangle, whose corners are known.
     half_thickness: Option<f64>,
@@ -49,7 +49,7 @@ struct FlatNode {
     normal: DVec3,
 }
 
-impl FlatNode {
+impl PlanarNode {
     fn new(side: &BodyWithPath<'_>, id: NodeId, s: f64) -> Option<Self> {
         let node = PlacedNode::new(side, id, s);
         let tree = side.body.tree();
@@ -58,7 +58,7 @@ impl FlatNode {
                 let &Slab {
                     normal,
                     half_thickness: half,
-                } = tree.slab(id)?;
+                } = tree.flat_node_slab(id)?;
                 (normal, Some(half))
             }
             NodeOrTriangle::Triangle(piece) => {
@@ -66,7 +66,7 @@ impl FlatNode {
                 (unit((b - a).cross(c - a))?, None)
             }
         };
-        Some(FlatNode {
+        Some(PlanarNode {
             normal: node.rotated(normal),
             node,
             half_thickness: half,
@@ -88,7 +88,7 @@ impl FlatNode {
 
 /// Returns a time for which a fixed plane perpendicular to `n` certainly keeps the nodes apart; `n` may have either
 /// sign.
-fn free_time_along(problem: &Problem<'_>, a: &FlatNode, b: &FlatNode, n: DVec3, s: f64) -> f64 {
+fn free_time_along(problem: &Problem<'_>, a: &PlanarNode, b: &PlanarNode, n: DVec3, s: f64) -> f64 {
     let way = b.node.centre - a.node.centre;
     let n = if n.dot(way) < 0.0 { -n } else { n };
     let kept = problem.rounding + problem.kept_node_gap();
@@ -97,11 +97,13 @@ fn free_time_along(problem: &Problem<'_>, a: &FlatNode, b: &FlatNode, n: DVec3, 
     if !(gap > CLOSED_GAP_TOLERANCE_SHARE * problem.tolerance) {
         return 0.0;
     }
-    let approach = ApproachRateBounds::along_axis(problem, [&a.node, &b.node], n, s);
+    let approach = ApproachRateBounds::bounds_along_axis(problem, [&a.node, &b.node], n, s);
     let free = approach.free_time(gap);
     // The share of the gap that the nodes' turning uses up shrinks as they are split. Written so that NaN gives no
     // time.
-    if free >= 1.0 - s || approach.centre_rate * free >= (1.0 - MIN_ROTATION_GAP_SHARE) * gap {
+    if free >= 1.0 - s
+        || approach.centre_approach_rate * free >= (1.0 - MIN_ROTATION_GAP_SHARE) * gap
+    {
         free
     } else {
         0.0

@@ -83,7 +83,7 @@ impl PlacedNode {
     }
 
     /// Returns the corners of a triangle, relative to the centre; `None` for a box.
-    pub(crate) fn corners(&self) -> Option<[DVec3; 3]> {
+    pub(crate) fn triangle_corners(&self) -> Option<[DVec3; 3]> {
         match self.shape {
             Shape::Triangle(corners) => Some(corners),
             Shape::Box { .. } => None,
@@ -153,7 +153,7 @@ impl PlacedNode {
 /// Upper bounds of the rate at which a node of A and a node of B approach along a direction, and of its derivative.
 pub(crate) struct ApproachRateBounds {
     /// The rate at which the nodes' centres approach each other.
-    pub(crate) centre_rate: f64,
+    pub(crate) centre_approach_rate: f64,
     /// An upper bound of the rate at which any two points of the nodes approach along the direction.
     rate_bound: f64,
     /// An upper bound of the derivative of that rate; negative if the nodes accelerate away from each other.
@@ -162,7 +162,7 @@ pub(crate) struct ApproachRateBounds {
 
 impl ApproachRateBounds {
     /// Computes the bounds along a unit vector from A to B, from clock `s` on.
-    pub(crate) fn along_axis(
+    pub(crate) fn bounds_along_axis(
         problem: &Problem<'_>,
         [a, b]: [&PlacedNode; 2],
         n: DVec3,
@@ -175,17 +175,17 @@ impl ApproachRateBounds {
             let arm = node.centre - path.centre_at(s);
             let across = n.cross(path.spin);
             // n·(ω×w) = w·(n×ω) of points at w from the centre.
-            turning +=
-                greater(0.0, node.extent_along(across)) + RATE_ERROR_F64 * path.rate * radius;
+            turning += greater(0.0, node.extent_along(across))
+                + RATE_ERROR_F64 * path.angular_speed * radius;
             let from_axis = length(path.axis.cross(arm)) + radius + RATE_ERROR_F64 * length(arm);
-            let across = length(across) + RATE_ERROR_F64 * path.rate;
-            second_derivative += across * path.rate * from_axis * (1.0 + RATE_ERROR_F64);
+            let across = length(across) + RATE_ERROR_F64 * path.angular_speed;
+            second_derivative += across * path.angular_speed * from_axis * (1.0 + RATE_ERROR_F64);
             second_derivative +=
                 n.dot(path.acceleration) + RATE_ERROR_F64 * length(path.acceleration);
-            speed += path.speed_bound() + path.rate * (length(arm) + radius);
+            speed += path.speed_bound() + path.angular_speed * (length(arm) + radius);
         }
         ApproachRateBounds {
-            centre_rate: straight,
+            centre_approach_rate: straight,
             rate_bound: straight + turning + 2.0 * RATE_ERROR_F64 * speed,
             second_derivative,
         }

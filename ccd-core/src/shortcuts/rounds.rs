@@ -17,7 +17,9 @@ use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{TURN_COUNT_WIDENING, least_tolerance, position_rounding};
 use crate::settings::StartPolicy;
 use crate::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
-use crate::tuning::{MAX_DISTANCE_CHANGE_SHARE, MAX_SCREW_DRIFT, MAX_SEARCHED_DURATION_SHARE};
+use crate::tuning::{
+    MAX_PERIOD_DISTANCE_CHANGE_SHARE, MAX_SCREW_DRIFT, MAX_SEARCHED_DURATION_SHARE,
+};
 use std::ops::ControlFlow;
 
 /// A problem with periodic motions, and the time until which the bodies are proven apart.
@@ -65,7 +67,7 @@ impl<'a> PeriodicSearch<'a> {
         mut search: impl FnMut(&Problem<'_>, &mut Meter) -> Outcome,
     ) -> Outcome {
         loop {
-            let outcome = search(&self.between_clocks(), meter);
+            let outcome = search(&self.problem_of_round(), meter);
             match self.start_next_round_or_finish(&outcome, meter) {
                 ControlFlow::Continue(()) => {}
                 ControlFlow::Break(outcome) => return outcome,
@@ -79,17 +81,17 @@ impl<'a> PeriodicSearch<'a> {
             return None;
         }
         // Bodies that rest on each other are let go pair by pair, from the start on.
-        if problem.start == StartPolicy::Leave {
+        if problem.start_policy == StartPolicy::Leave {
             return None;
         }
         let tolerance = problem.tolerance;
         let bodies = [&problem.a, &problem.b].map(path_with_radius);
         let [a, b] = bodies.map(|PathWithRadius { path, reach }| {
             let way = length(path.centre_at(0.0)) + path.speed_bound();
-            position_rounding(reach, path.rate, way)
+            position_rounding(reach, path.angular_speed, way)
         });
         let rounding = a + b;
-        let known = MAX_DISTANCE_CHANGE_SHARE * tolerance;
+        let known = MAX_PERIOD_DISTANCE_CHANGE_SHARE * tolerance;
         // Written so that NaN is too much.
         if !(rounding + least_tolerance(problem.rounding) <= 0.5 * known) {
             return None;
@@ -107,17 +109,17 @@ impl<'a> PeriodicSearch<'a> {
             full_round_period_count: 1.0,
             gap: f64::INFINITY,
         };
-        rounds.start_round(f64::INFINITY);
+        rounds.begin_round(f64::INFINITY);
         Some(rounds)
     }
 
     /// Returns the problem to search in the present round: its first period or all periods, with a raised margin.
-    pub(crate) fn between_clocks(&self) -> Problem<'a> {
+    pub(crate) fn problem_of_round(&self) -> Problem<'a> {
         let tolerance = self.whole_problem.tolerance;
         // Both tolerances have the same middle: the gap that is proven. On either side of it, twice the difference of
         // distances is lost.
-        let room = (tolerance - 2.0 * self.max_distance_change()) - 4.0 * self.rounding;
-        let left = greater(room, MAX_DISTANCE_CHANGE_SHARE * tolerance);
+        let room = (tolerance - 2.0 * self.max_distance_drift()) - 4.0 * self.rounding;
+        let left = greater(room, MAX_PERIOD_DISTANCE_CHANGE_SHARE * tolerance);
         let to = match self.round {
             Round::FirstPeriod(_) => {
                 lesser(1.0, self.proven_until + self.period.length_rounded_up())
@@ -163,7 +165,7 @@ impl<'a> PeriodicSearch<'a> {
             }
             // The bodies were proven apart until then, so an oracle contradicts itself.
             Outcome::Overlapping { .. } => {
-                return ControlFlow::Break(unresolved(self, Limit::Undecided));
+                return ControlFlow::Break(unresolved(self, Limit::OverlapUndecided));
             }
         }
         // A round counts as a visit, even if bounding balls prove the bodies apart at once.
@@ -184,11 +186,11 @@ impl<'a> PeriodicSearch<'a> {
         match self.round {
             Round::FirstPeriod(count) => {
                 self.full_round_period_count = 1.0;
-                self.start_round(2.0 * count);
+                self.begin_round(2.0 * count);
             }
             Round::AllPeriods(count) => {
                 self.full_round_period_count = 2.0 * count;
-                self.start_round(2.0);
+                self.begin_round(2.0);
             }
         }
         ControlFlow::Continue(())
@@ -208,17 +210,17 @@ impl<'a> PeriodicSearch<'a> {
                 // More periods than this would give the same contact.
                 let fewer = (upper - within) / self.period.max_distance_change;
                 match lesser(0.5 * count, fewer).floor() {
-                    fewer if fewer >= 2.0 => self.start_round(fewer),
+                    fewer if fewer >= 2.0 => self.begin_round(fewer),
                     _ => self.round = Round::AllPeriods(self.full_round_period_count),
                 }
                 ControlFlow::Continue(())
             }
-            _ => ControlFlow::Break(Outcome::contact_at(time, contact)),
+            _ => ControlFlow::Break(Outcome::from_contact(time, contact)),
         }
     }
 
     /// Starts a round of `count` periods, or of the remaining periods if fewer are left.
-    fn start_round(&mut self, count: f64) {
+    fn begin_round(&mut self, count: f64) {
         let left = ((1.0 - self.proven_until) / self.period.length).ceil();
         self.round = match lesser(count, left) {
             count if count >= 2.0 => Round::FirstPeriod(count),
@@ -240,7 +242,7 @@ impl<'a> PeriodicSearch<'a> {
 
     /// Returns a bound of the difference between distances in the searched part of the round and at the same phase of
     /// its other periods.
-    fn max_distance_change(&self) -> f64 {
+    fn max_distance_drift(&self) -> f64 {
         match self.round {
             Round::FirstPeriod(count) => count * self.period.max_distance_change,
             Round::AllPeriods(_) => 0.0,
@@ -249,7 +251,7 @@ impl<'a> PeriodicSearch<'a> {
 
     /// Returns the distance that the bodies have to keep beyond the margin in the searched part of the round.
     fn margin_increase(&self) -> f64 {
-        self.max_distance_change() + self.rounding
+        self.max_distance_drift() + self.rounding
     }
 }
 
@@ -257,7 +259,7 @@ impl<'a> PeriodicSearch<'a> {
 #[derive(Debug)]
 pub(crate) struct RepresentativePeriod<'a> {
     /// The problem restricted to this period, with a tolerance that leaves room for `change`.
-    pub(crate) period_problem: Problem<'a>,
+    pub(crate) period_subproblem: Problem<'a>,
     /// An upper bound of how much the bodies' distance differs between this period and the same moment of any other.
     pub(crate) max_distance_change: f64,
     /// The error of distances in this period, in addition to the error of distances in the whole problem.
@@ -279,21 +281,21 @@ impl<'a> RepresentativePeriod<'a> {
     #[cold]
     fn for_many_turns(problem: &Problem<'a>) -> Option<Self> {
         let rounds = PeriodicSearch::for_many_turns(problem)?;
-        let (change, rounding) = (rounds.max_distance_change(), rounds.rounding);
+        let (change, rounding) = (rounds.max_distance_drift(), rounds.rounding);
         // Written so that NaN is too much.
         let stands_for_all =
             matches!(rounds.round, Round::FirstPeriod(_)) && rounds.end_clock() >= 1.0;
-        (stands_for_all && change <= MAX_DISTANCE_CHANGE_SHARE * problem.tolerance).then(|| {
-            RepresentativePeriod {
-                period_problem: rounds.between_clocks().for_distances(),
+        (stands_for_all && change <= MAX_PERIOD_DISTANCE_CHANGE_SHARE * problem.tolerance).then(
+            || RepresentativePeriod {
+                period_subproblem: rounds.problem_of_round().for_distances(),
                 max_distance_change: change,
                 rounding,
-            }
-        })
+            },
+        )
     }
 
     /// Converts a lower bound of the distance in this period to a lower bound for the whole duration.
-    pub(crate) fn lower(&self, distance: f64) -> f64 {
+    pub(crate) fn whole_duration_lower_bound(&self, distance: f64) -> f64 {
         greater(
             0.0,
             (distance - (self.max_distance_change + self.rounding)).next_down(),

@@ -13,7 +13,7 @@ mod outline;
 mod profile;
 
 use super::placed::PlacedNode;
-use super::screw::profile::{Profile, ScrewAxis, ScrewPath, profiles_keep_apart};
+use super::screw::profile::{NodeScrewBounds, ScrewAxis, ScrewPath, profiles_keep_apart};
 use crate::body::tree::{GroupHeader, NodeChildren, NodeId, NodeOrTriangle};
 use crate::engine::capacity::clear_and_shrink;
 use crate::math::order::lesser;
@@ -43,7 +43,7 @@ struct BodyProfileCache {
     /// For each node or triangle, by its id, the index of its profile among the known ones, or a mark that it is unknown or
     /// that there is none.
     profile_indices: Vec<u32>,
-    computed_profiles: Vec<Profile>,
+    computed_profiles: Vec<NodeScrewBounds>,
 }
 
 /// The entry of `profile_indices` for a node whose profile is not computed yet.
@@ -87,14 +87,18 @@ impl Screw {
         let kept = problem.kept_node_gap()
             + 2.0 * problem.rounding
             + CLOSED_GAP_TOLERANCE_SHARE * problem.tolerance;
-        profiles.0[0].clear(&problem.a);
-        profiles.0[1].clear(&problem.b);
+        profiles.0[0].reset_cache(&problem.a);
+        profiles.0[1].reset_cache(&problem.b);
         Some(Screw {
             turning_body: turning,
-            axis: ScrewAxis::new(side.path.centre_at(0.0), unit, along / side.path.rate),
+            axis: ScrewAxis::new(
+                side.path.centre_at(0.0),
+                unit,
+                along / side.path.angular_speed,
+            ),
             path: ScrewPath {
-                pitch: TAU * (along / side.path.rate),
-                angle_range: [0.0, side.path.rate],
+                pitch: TAU * (along / side.path.angular_speed),
+                angle_range: [0.0, side.path.angular_speed],
                 needed_gap: kept + drift * (1.0 + RATE_ERROR_F64),
             },
         })
@@ -151,7 +155,7 @@ impl Screw {
 }
 
 impl BodyProfileCache {
-    fn clear(&mut self, side: &BodyWithPath<'_>) {
+    fn reset_cache(&mut self, side: &BodyWithPath<'_>) {
         let count = side.body.tree().node_count() + side.body.pieces().len();
         clear_and_shrink(&mut self.computed_profiles);
         clear_and_shrink(&mut self.profile_indices);
@@ -164,7 +168,7 @@ impl BodyProfileCache {
         side: &BodyWithPath<'_>,
         id: NodeId,
         axis: &ScrewAxis,
-    ) -> Option<&Profile> {
+    ) -> Option<&NodeScrewBounds> {
         let place = &mut self.profile_indices[id as usize];
         if *place == UNCOMPUTED_PROFILE {
             *place = match compute_profile(side, id, axis) {
@@ -181,11 +185,15 @@ impl BodyProfileCache {
 
 /// Computes the profile of a node in its pose at the start of the query; `None` if the node surrounds the axis, or
 /// nearly does. A profile of a few triangles is smaller than that of their box.
-fn compute_profile(side: &BodyWithPath<'_>, id: NodeId, axis: &ScrewAxis) -> Option<Profile> {
+fn compute_profile(
+    side: &BodyWithPath<'_>,
+    id: NodeId,
+    axis: &ScrewAxis,
+) -> Option<NodeScrewBounds> {
     let place = |id: NodeId| PlacedNode::new(side, id, 0.0);
     match triangle_ids(side, id) {
-        Some(few) => Profile::union_of(few.map(place), axis),
-        None => Profile::new(&place(id), axis),
+        Some(few) => NodeScrewBounds::union_of(few.map(place), axis),
+        None => NodeScrewBounds::new(&place(id), axis),
     }
 }
 

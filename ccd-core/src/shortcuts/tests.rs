@@ -24,7 +24,7 @@ fn solve(problem: &Problem<'_>) -> Answer {
 fn assert_apart_at_earlier_time(problem: &Problem<'_>, earlier: f64, number: usize) {
     let near = distance(problem, earlier);
     assert!(
-        near >= problem.gap() - problem.rounding,
+        near >= problem.kept_gap() - problem.rounding,
         "{number}: {near:e}"
     );
 }
@@ -67,7 +67,7 @@ fn answers_without_a_shortcut_agree_with_those_of_all() {
             }
             (Outcome::Unresolved(known), Outcome::Contact { time, .. })
             | (Outcome::Contact { time, .. }, Outcome::Unresolved(known)) => {
-                assert!(known.safe_until <= time || distance(&problem, time) >= problem.gap());
+                assert!(known.safe_until <= time || distance(&problem, time) >= problem.kept_gap());
             }
             (Outcome::Unresolved(_), Outcome::Free { .. } | Outcome::Unresolved(_))
             | (Outcome::Free { .. }, Outcome::Unresolved(_)) => {}

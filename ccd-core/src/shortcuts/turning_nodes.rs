@@ -18,7 +18,7 @@ use crate::tuning::MAX_TURNING_PLANE_TIME;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 /// The motion of a node relative to a plane that turns with the other body, for eight pairs of nodes at once.
-struct NodePastTurningPlane<L: Simd> {
+struct NodeMotionToTurningPlane<L: Simd> {
     /// An upper bound of the rate at which the node's points approach the plane. It is the rate `n·(v_S − v_O)` at the
     /// node's centre, with both velocities taken at that point, plus a bound for the points around it.
     approach_rate_bound: f32x8<L>,
@@ -38,20 +38,24 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let level = axis.n.simd_level();
         let at = Vec3x8::splat(level, other.centre());
         let velocity = Vec3x8::splat(level, motion.velocity);
-        let velocity = velocity + motion.split_rotation.rotational_velocity(at)
+        let velocity = velocity + motion.split_body_rotation.rotational_velocity(at)
             - self.other_rotational_velocity;
-        let across = motion.split_rotation.cross_angular_velocity(axis.n);
+        let across = motion.split_body_rotation.cross_angular_velocity(axis.n);
         let own = motion.other_rotation.cross_angular_velocity(axis.n);
         self.turning_plane_free_time(
             axis,
-            second_derivative_bound(across, motion.split_rotation.rate, splat(level, 1.0)),
-            motion.split_rotation.rate,
-            &NodePastTurningPlane {
+            second_derivative_bound(
+                across,
+                motion.split_body_rotation.angular_speed,
+                splat(level, 1.0),
+            ),
+            motion.split_body_rotation.angular_speed,
+            &NodeMotionToTurningPlane {
                 approach_rate_bound: axis.n.dot(velocity) + other.extent_along(own - across),
-                max_distance_from_centre: motion.split_rotation.distances_from_centre(at)
+                max_distance_from_centre: motion.split_body_rotation.distances_from_centre(at)
                     + other.radius(),
                 rotational_speed_bound: self.other_rotational_speed_bound,
-                own_angular_speed: motion.other_rotation.rate,
+                own_angular_speed: motion.other_rotation.angular_speed,
             },
         )
     }
@@ -63,20 +67,24 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let level = axis.n.simd_level();
         let at = children.centre(level);
         let velocity = Vec3x8::splat(level, motion.velocity);
-        let velocity = velocity + motion.split_rotation.rotational_velocity(at)
+        let velocity = velocity + motion.split_body_rotation.rotational_velocity(at)
             - motion.other_rotation.rotational_velocity(at);
         let across = motion.other_rotation.cross_angular_velocity(axis.n);
-        let own = motion.split_rotation.cross_angular_velocity(axis.n);
+        let own = motion.split_body_rotation.cross_angular_velocity(axis.n);
         self.turning_plane_free_time(
             axis,
-            second_derivative_bound(across, motion.other_rotation.rate, splat(level, 1.0)),
-            motion.other_rotation.rate,
-            &NodePastTurningPlane {
+            second_derivative_bound(
+                across,
+                motion.other_rotation.angular_speed,
+                splat(level, 1.0),
+            ),
+            motion.other_rotation.angular_speed,
+            &NodeMotionToTurningPlane {
                 approach_rate_bound: axis.n.dot(velocity) + children.extent_along(own - across),
                 max_distance_from_centre: motion.other_rotation.distances_from_centre(at)
                     + children.radius(level),
                 rotational_speed_bound: self.rotational_speed_bounds,
-                own_angular_speed: motion.split_rotation.rate,
+                own_angular_speed: motion.split_body_rotation.angular_speed,
             },
         )
     }
@@ -87,7 +95,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         axis: AxesX8<L>,
         across: f32x8<L>,
         spin: f32,
-        sweep: &NodePastTurningPlane<L>,
+        sweep: &NodeMotionToTurningPlane<L>,
     ) -> f32x8<L> {
         let motion = self.motion;
         let change = match motion.acceleration {

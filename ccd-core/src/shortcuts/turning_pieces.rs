@@ -25,7 +25,7 @@ pub(crate) struct MovingPiece<'p> {
     pub(crate) body_with_path: &'p BodyWithPath<'p>,
     pub(crate) frame: &'p Frame,
     pub(crate) piece: Piece<'p>,
-    pub(crate) clock: f64,
+    pub(crate) time: f64,
     /// An upper bound of the speed of any point of the piece relative to the piece's first point.
     pub(crate) rotational_speed_bound: f64,
 }
@@ -38,7 +38,7 @@ impl<'p> MovingPiece<'p> {
         clock: f64,
     ) -> Self {
         let relative_speed = if side.path.is_turning() {
-            side.path.rate * piece.max_distance_from(piece.points[0])
+            side.path.angular_speed * piece.max_distance_from(piece.points[0])
         } else {
             0.0
         };
@@ -46,7 +46,7 @@ impl<'p> MovingPiece<'p> {
             body_with_path: side,
             frame,
             piece,
-            clock,
+            time: clock,
             rotational_speed_bound: relative_speed,
         }
     }
@@ -55,7 +55,7 @@ impl<'p> MovingPiece<'p> {
     /// first point. It is at most `relative_speed`, which holds for every axis.
     pub(crate) fn rotational_speed_bound_along(&self, normal: DVec3) -> f64 {
         let path = &self.body_with_path.path;
-        self.rotational_speed_bound * path.spin.cross(normal).length() / path.rate
+        self.rotational_speed_bound * path.spin.cross(normal).length() / path.angular_speed
     }
 }
 
@@ -116,20 +116,20 @@ impl<'p> PiecePastTurningPlane<'p> {
         };
         let offset =
             other.frame.transform_point(reference) - holder.frame.transform_point(path.centre);
-        let velocity = own.centre_velocity_at(other.clock) - path.centre_velocity_at(other.clock);
+        let velocity = own.centre_velocity_at(other.time) - path.centre_velocity_at(other.time);
         let acceleration = own.acceleration - path.acceleration;
         let speed = velocity.length() + acceleration.length();
         let radius = other.piece.max_distance_from(reference);
         PiecePastTurningPlane {
             normal: RotatingVector::new(path.axis, normal),
             rotation_axis: path.axis,
-            angular_speed: path.rate,
+            angular_speed: path.angular_speed,
             offset,
             velocity,
             speed,
             acceleration,
             own_rotation_axis: own.axis,
-            own_angular_speed: own.rate,
+            own_angular_speed: own.angular_speed,
             relative_spin: path.spin - own.spin,
             piece: other.piece,
             frame: other.frame,

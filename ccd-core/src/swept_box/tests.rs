@@ -106,7 +106,7 @@ fn box_growth_of(scene: &Scene, k: usize) -> f64 {
         given_body: None,
         path: Path::new(&scene.motions[k], DVec3::ZERO, 1.0),
     };
-    box_growth(&side, &scene.settings.to_query_settings())
+    box_padding(&side, &scene.settings.to_query_settings())
 }
 
 /// Tests that bodies do not touch if their boxes are disjoint, even if the boxes are barely disjoint.
@@ -168,7 +168,7 @@ fn the_shares_of_two_bodies_are_no_less_than_the_rounding_of_their_distance() {
             .map(|(side, motion)| {
                 let path = Path::new(motion, DVec3::ZERO, 1.0);
                 let way = length(path.centre_at(0.0)) + path.speed_bound() + scene.settings.margin;
-                body_distance_rounding(side.extent_with_centre(), path.rate, way)
+                body_distance_rounding(side.extent_with_centre(), path.angular_speed, way)
             })
             .sum();
         assert!(shares * (1.0 + 1e-12) >= problem.rounding);

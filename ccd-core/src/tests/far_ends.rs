@@ -80,7 +80,7 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
                 ..Default::default()
             };
             let pieces = crate::body::pieces::Pieces::from_polytopes(&[ball]).unwrap();
-            Body::new(&pieces, crate::body::Volume::Surface).unwrap()
+            Body::new(&pieces, crate::body::Solidity::Surface).unwrap()
         });
         let duration = random_power_of_ten(&mut rng, -2.0, 2.0);
         let config = Settings {

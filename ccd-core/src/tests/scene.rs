@@ -3,7 +3,7 @@
 use super::nearest::{Triangle, nearest_points};
 use super::worst::RandomCase;
 use crate::body::pieces::Pieces;
-use crate::body::{Body, Volume};
+use crate::body::{Body, Solidity};
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
@@ -143,7 +143,7 @@ pub(crate) fn two_random_triangles(rng: &mut Pcg64) -> [Triangle; 2] {
 }
 
 pub(crate) fn body(triangles: &[Triangle]) -> Body {
-    Body::new(&pieces(triangles), Volume::Surface).unwrap()
+    Body::new(&pieces(triangles), Solidity::Surface).unwrap()
 }
 
 pub(crate) fn pieces(triangles: &[Triangle]) -> Pieces {
@@ -152,7 +152,7 @@ pub(crate) fn pieces(triangles: &[Triangle]) -> Pieces {
         .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
         .collect();
     let ids: Vec<u32> = (0..triangles.len() as u32).collect();
-    Pieces::triangles(&points, &faces, &ids).unwrap()
+    Pieces::from_triangles(&points, &faces, &ids).unwrap()
 }
 
 /// The motion of a body with constant velocities, given by its pose at the clock `clock`.
@@ -398,6 +398,8 @@ impl<'a> Problem<'a> {
         settings: &'a Settings,
     ) -> Result<Self, InputError> {
         let query = Query::new(a, b, duration, settings)?;
-        Ok(query.problem.expect("both bodies are on motions"))
+        Ok(query
+            .constant_velocity_problem
+            .expect("both bodies are on motions"))
     }
 }

@@ -86,7 +86,7 @@ impl SmoothTrajectory for SwingingTrajectory {
             jerk += along.length() * rate * rate * rate;
         }
         let acceleration = Acceleration {
-            vector,
+            acceleration_vector: vector,
             jerk_bound: jerk,
         };
         Ok((

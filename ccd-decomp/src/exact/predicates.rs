@@ -90,7 +90,7 @@ pub(crate) fn determinant_sign(columns: [DVec3; 3]) -> Ordering {
 }
 
 /// Returns the index of the first point with a coordinate that is not finite or exceeds the supported range.
-pub(crate) fn first_out_of_range_index(points: &[DVec3]) -> Option<usize> {
+pub(crate) fn first_point_out_of_range(points: &[DVec3]) -> Option<usize> {
     // Written so that NaN fails.
     let is_good = |p: &DVec3| p.abs().max_element() <= MAX_COORDINATE && p.is_finite();
     points.iter().position(|p| !is_good(p))

@@ -1,6 +1,6 @@
 use super::error::StoreFault;
 use super::frame;
-use crate::{Detail, Format, Model, PatchOrder, TriangleMesh, prepare};
+use crate::{Detail, Format, PatchOrder, StoredBodyContent, TriangleMesh, prepare};
 use proptest::prelude::*;
 use rstest::rstest;
 use std::sync::LazyLock;
@@ -12,19 +12,19 @@ const TETRAHEDRON_OBJ: &str =
 const DENTED_OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv .2 .2 .2\nv 9 9 9\n\
      f 1 3 2\nf 1 2 4\nf 3 1 4\nf 2 3 5\nf 3 4 5\nf 4 2 5\nf 4 2 5\n";
 
-fn model(file: &str, detail: Detail) -> Model {
+fn model(file: &str, detail: Detail) -> StoredBodyContent {
     let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
     prepare(&mesh, detail).unwrap()
 }
 
-fn stored_bytes(model: &Model) -> Vec<u8> {
+fn stored_bytes(model: &StoredBodyContent) -> Vec<u8> {
     let mut bytes = Vec::new();
     model.write(&mut bytes).unwrap();
     bytes
 }
 
 fn fault(bytes: &[u8]) -> StoreFault {
-    match Model::read(bytes) {
+    match StoredBodyContent::read(bytes) {
         Ok(_) => panic!("read"),
         Err(error) => error.fault,
     }
@@ -51,7 +51,7 @@ static STORED_BODIES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
 fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) {
     let model = model(file, detail);
     let bytes = stored_bytes(&model);
-    let again = Model::read(&bytes[..]).unwrap();
+    let again = StoredBodyContent::read(&bytes[..]).unwrap();
     assert_eq!(stored_bytes(&again), bytes);
     assert_eq!(again.report, model.report);
     assert_eq!(again.pieces.points(), model.pieces.points());
@@ -61,7 +61,7 @@ fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) 
     assert_eq!(bodies.0.excess(), model.report.excess);
     let is_exact = detail != Detail::OuterHull;
     assert_eq!(bodies.0.excess() == 0.0, is_exact);
-    let taken_over = Model::from_body(&bodies.0).unwrap();
+    let taken_over = StoredBodyContent::from_body(&bodies.0).unwrap();
     assert_eq!(taken_over.report.excess, bodies.0.excess());
 }
 
@@ -70,8 +70,8 @@ fn a_hull_tree_is_stored_with_its_body() {
     let model = model(DENTED_OBJ, Detail::Patches(PatchOrder::Cresting))
         .with_hull_tree()
         .unwrap();
-    let again = Model::read(&stored_bytes(&model)[..]).unwrap();
-    let nodes = |model: &Model| model.hull_tree.as_ref().unwrap().to_nodes();
+    let again = StoredBodyContent::read(&stored_bytes(&model)[..]).unwrap();
+    let nodes = |model: &StoredBodyContent| model.hull_tree.as_ref().unwrap().to_nodes();
     assert!(nodes(&model).len() >= 3);
     assert_eq!(nodes(&again), nodes(&model));
     assert!(again.body().unwrap().hull_tree().is_some());
@@ -84,14 +84,14 @@ fn files_are_named_in_errors() {
     let path = folder.join("part.ccd");
     let model = model(DENTED_OBJ, Detail::Triangles);
     model.save(&path).unwrap();
-    assert_eq!(Model::load(&path).unwrap().report, model.report);
+    assert_eq!(StoredBodyContent::load(&path).unwrap().report, model.report);
     std::fs::write(&path, &stored_bytes(&model)[..40]).unwrap();
-    let message = Model::load(&path).unwrap_err().to_string();
+    let message = StoredBodyContent::load(&path).unwrap_err().to_string();
     assert!(message.contains("part.ccd: is cut short"), "{message}");
     assert!(message.contains("ccd decompose MESH --out"), "{message}");
     let nowhere = folder.join("no/such/folder.ccd");
     let message = [
-        Model::load(&nowhere).unwrap_err().to_string(),
+        StoredBodyContent::load(&nowhere).unwrap_err().to_string(),
         model.save(&nowhere).unwrap_err().to_string(),
     ];
     assert!(
@@ -206,7 +206,7 @@ fn parts_that_do_not_belong_together_are_reported() {
 
 /// Checks that arbitrary bytes either give an error or load as a valid body.
 fn check(bytes: &[u8]) {
-    if let Ok(model) = Model::read(bytes) {
+    if let Ok(model) = StoredBodyContent::read(bytes) {
         let body = model.body().unwrap();
         assert_eq!(body.pieces().len(), model.report.pieces);
         let _ = model.report.to_string();
@@ -293,12 +293,12 @@ fn threads_save_side_by_side() {
                     let own = folder.join(format!("body.v{thread}"));
                     model.save(&own).unwrap();
                     assert_eq!(
-                        stored_bytes(&Model::load(&own).unwrap()),
+                        stored_bytes(&StoredBodyContent::load(&own).unwrap()),
                         stored_bytes(model)
                     );
                     let shared = folder.join("shared.ccd");
                     model.save(&shared).unwrap();
-                    assert!(Model::load(&shared).is_ok());
+                    assert!(StoredBodyContent::load(&shared).is_ok());
                 }
             });
         }
@@ -320,7 +320,7 @@ fn links_are_followed_and_devices_stay_what_they_are() {
     body.save(&link).unwrap();
     assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(
-        stored_bytes(&Model::load(&target).unwrap()),
+        stored_bytes(&StoredBodyContent::load(&target).unwrap()),
         stored_bytes(&body)
     );
 
@@ -341,7 +341,7 @@ fn remarks_are_stored() {
     let plain = model(TETRAHEDRON_OBJ, Detail::Triangles);
     let text = [TETRAHEDRON_OBJ, "l 1 2\nvc 1\n"].concat();
     let remarked = model(&text, Detail::Triangles);
-    let again = Model::read(&stored_bytes(&remarked)[..]).unwrap();
+    let again = StoredBodyContent::read(&stored_bytes(&remarked)[..]).unwrap();
     assert_eq!(again.report, remarked.report);
     assert_eq!(again.report.repairs.remarks.iter().count(), 2);
     assert!(

@@ -42,7 +42,7 @@ impl ExactHull {
     /// Computes the facets of the hull of all points; `None` if all points are coplanar. O(n log n).
     pub(crate) fn facets_of(points: &[DVec3]) -> Option<Vec<[u32; 3]>> {
         let simplex = ExactHull::simplex(points)?;
-        Some(conflicts::facets(points, simplex))
+        Some(conflicts::hull_facets(points, simplex))
     }
 
     /// Returns four points that span a tetrahedron: a triangle, and a point behind its plane. Returns `None` if all

@@ -244,7 +244,7 @@ fn a_hull_of_points_on_a_line_has_no_facets(#[case] points: Vec<DVec3>, #[case] 
 #[case(DVec3::splat(1e-100))]
 fn a_coordinate_out_of_range_is_an_error(#[case] bad: DVec3) {
     let points = [DVec3::ZERO, DVec3::X, bad, DVec3::Y, bad];
-    assert_eq!(hull(&points), Err(HullError { point: 2 }));
+    assert_eq!(hull(&points), Err(HullError { point_index: 2 }));
 }
 
 proptest! {

@@ -178,14 +178,14 @@ impl Adjustments {
 
 /// The error for a word after a file name that describes no adjustment.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("@{word}{}", advice(.word))]
+#[error("@{word}{}", unknown_adjustment_message(.word))]
 pub struct UnknownAdjustment {
     /// The word that was not recognised.
     pub word: String,
 }
 
 /// Returns the message for a word that describes no adjustment: what is wrong, and which words are accepted.
-fn advice(word: &str) -> String {
+fn unknown_adjustment_message(word: &str) -> String {
     match word.strip_prefix("scale=") {
         Some(factor) => format!(
             ": {factor} is no factor, which is a positive number; to mirror, use @mirror=x (or y, z)"

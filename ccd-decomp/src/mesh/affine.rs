@@ -12,7 +12,7 @@ use ccd_core::glam::{DAffine3, DVec3};
 /// use ccd_core::Pose;
 /// use ccd_core::glam::{DAffine3, DVec3, dvec3};
 /// use ccd_decomp::AffineMap;
-/// let doubled = AffineMap::scaled(2.0, Pose::at([0.0, 0.0, 5.0])?);
+/// let doubled = AffineMap::from_scale_and_pose(2.0, Pose::at([0.0, 0.0, 5.0])?);
 /// assert_eq!(doubled.apply(DVec3::ONE), dvec3(2.0, 2.0, 7.0));
 /// let mirror = AffineMap::from(DAffine3::from_scale(dvec3(-1.0, 1.0, 1.0)));
 /// assert!(mirror.reverses_orientation() && !doubled.reverses_orientation());
@@ -26,7 +26,7 @@ impl AffineMap {
     pub const IDENTITY: AffineMap = AffineMap(DAffine3::IDENTITY);
 
     /// Creates the map that scales by a factor about the origin, and then applies a pose.
-    pub fn scaled(factor: f64, pose: Pose) -> Self {
+    pub fn from_scale_and_pose(factor: f64, pose: Pose) -> Self {
         AffineMap(DAffine3::from_scale_rotation_translation(
             DVec3::splat(factor),
             pose.rotation(),

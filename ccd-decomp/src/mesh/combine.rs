@@ -29,7 +29,7 @@ impl TriangleMesh {
     /// let mesh = TriangleMesh::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]])?;
     /// let moved = mesh.transformed(Pose::at([0.0, 0.0, 2.0])?)?;
     /// assert_eq!(moved.vertices()[1], dvec3(1.0, 0.0, 2.0));
-    /// let inches = mesh.transformed(AffineMap::scaled(25.4, Pose::IDENTITY))?;
+    /// let inches = mesh.transformed(AffineMap::from_scale_and_pose(25.4, Pose::IDENTITY))?;
     /// assert_eq!(inches.vertices()[1], dvec3(25.4, 0.0, 0.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -46,7 +46,7 @@ impl TriangleMesh {
             vertices,
             (faces, self.face_ids.clone()),
             self.file_face_count,
-            self.repairs.without_zero_area_tally(),
+            self.repairs.with_zero_area_tally_cleared(),
         ))
     }
 
@@ -83,7 +83,11 @@ impl TriangleMesh {
         let (mut repairs, mut face_count) = (Repairs::default(), 0);
         for mesh in meshes {
             let first = vertices.len() as u32;
-            repairs.append(&mesh.repairs.without_zero_area_tally(), first, face_count);
+            repairs.append(
+                &mesh.repairs.with_zero_area_tally_cleared(),
+                first,
+                face_count,
+            );
             vertices.extend(&mesh.vertices);
             faces.extend(mesh.faces.iter().map(|face| face.map(|v| first + v)));
             ids.extend(mesh.face_ids.iter().map(|id| face_count + id));

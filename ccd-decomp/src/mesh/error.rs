@@ -36,18 +36,20 @@ pub enum MeshFault {
     #[error("is a STEP file, whatever its name says: {}", cad_advice("step"))]
     StepFile,
     /// The format is known, but this build has no reader for it.
-    #[error("is {format}, which this build cannot read; build it with the feature {feature:?}")]
+    #[error(
+        "is {format}, which this build cannot read; build it with the feature {cargo_feature:?}"
+    )]
     MissingFeature {
         /// The name of the format.
         format: &'static str,
         /// The Cargo feature of this crate that enables the reader.
-        feature: &'static str,
+        cargo_feature: &'static str,
     },
     /// A file that the mesh refers to, such as a buffer of a glTF, cannot be read.
-    #[error("refers to the file {name:?}, which cannot be read: {reason}")]
+    #[error("refers to the file {file_name:?}, which cannot be read: {reason}")]
     UnreadableLinkedFile {
         /// The name of the referenced file, as written in the mesh.
-        name: String,
+        file_name: String,
         /// The reason why the file cannot be read, and the remedy.
         reason: String,
     },

@@ -146,8 +146,8 @@ impl MeshFile {
         let made = || {
             let part = self.find_part(name_or_number)?;
             let separate = self.content.separate_parts(part..part + 1);
-            let mesh =
-                separate.and_then(|mut one| mesh(one.swap_remove(0), self.unit_conversion()));
+            let mesh = separate
+                .and_then(|mut one| mesh_from_polygons(one.swap_remove(0), self.unit_conversion()));
             mesh.map_err(|fault| fault.at_element(self.part_label(part)))
         };
         made().map_err(|fault| error(fault, &self.path))
@@ -163,7 +163,7 @@ impl MeshFile {
             .separate_parts(0..self.content.part_names.len());
         let parts = parts.map_err(|fault| error(fault, &self.path))?.into_iter();
         let named = parts.enumerate().map(|(part, polygons)| {
-            let mesh = mesh(polygons, self.unit_conversion())
+            let mesh = mesh_from_polygons(polygons, self.unit_conversion())
                 .map_err(|fault| error(fault.at_element(self.part_label(part)), &self.path))?;
             let name = self.content.part_names[part].clone();
             Ok(NamedMesh { name, mesh })
@@ -180,7 +180,7 @@ impl MeshFile {
     pub fn into_mesh(self) -> Result<TriangleMesh, MeshError> {
         let conversion = self.unit_conversion();
         let whole = self.content.all_faces();
-        let mesh = whole.and_then(|polygons| mesh(polygons, conversion));
+        let mesh = whole.and_then(|polygons| mesh_from_polygons(polygons, conversion));
         mesh.map_err(|fault| error(fault, &self.path))
     }
 
@@ -240,7 +240,7 @@ fn error(fault: MeshFault, path: &Option<PathBuf>) -> MeshError {
 }
 
 /// Creates a mesh from polygons, after converting their coordinates to another unit.
-fn mesh(
+fn mesh_from_polygons(
     mut polygons: Polygons,
     conversion: Option<UnitConversion>,
 ) -> Result<TriangleMesh, MeshFault> {
@@ -273,7 +273,7 @@ fn read_linked_file(folder: &Path, name: &str, bytes: u64) -> Result<Vec<u8>, Me
         Ok(content)
     };
     read().map_err(|error| MeshFault::UnreadableLinkedFile {
-        name: name.into(),
+        file_name: name.into(),
         reason: format!("{error}; put it where the mesh is"),
     })
 }
@@ -286,7 +286,7 @@ fn checked_relative_path(name: &str) -> Result<PathBuf, MeshFault> {
         Ok(path)
     } else {
         Err(MeshFault::UnreadableLinkedFile {
-            name: name.into(),
+            file_name: name.into(),
             reason: "it is not in the folder of the mesh; put it there".into(),
         })
     }

@@ -4,7 +4,7 @@ use super::error::MeshFault;
 use super::outline;
 use super::remark::Remarks;
 use super::repair::Repairs;
-use crate::exact::predicates::{first_out_of_range_index, has_zero_area};
+use crate::exact::predicates::{first_point_out_of_range, has_zero_area};
 use ccd_core::glam::DVec3;
 
 /// The vertices and faces of a file, not yet checked.
@@ -136,7 +136,7 @@ pub(super) fn check_count_fits_indices(what: &'static str, count: usize) -> Resu
 
 /// Checks that all coordinates are in the supported range.
 pub(super) fn check_coordinate_range(vertices: &[DVec3], lines: &[usize]) -> Result<(), MeshFault> {
-    let Some(vertex) = first_out_of_range_index(vertices) else {
+    let Some(vertex) = first_point_out_of_range(vertices) else {
         return Ok(());
     };
     let line = lines.get(vertex).copied();

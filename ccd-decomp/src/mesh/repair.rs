@@ -42,7 +42,7 @@ impl Repairs {
 
     /// Returns the repairs without the number of faces that have no area. Rebuilding the mesh from its triangles finds
     /// these faces again, but not the other repairs.
-    pub(crate) fn without_zero_area_tally(&self) -> Self {
+    pub(crate) fn with_zero_area_tally_cleared(&self) -> Self {
         Repairs {
             zero_area_faces: Tally::default(),
             ..self.clone()

@@ -35,8 +35,8 @@ pub(crate) fn convex_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decom
         |corners, faces| {
             facets.push(FacetWithFaces {
                 corners: corners.to_vec(),
-                faces: faces.to_vec(),
-                is_wholly_covered: true,
+                mesh_faces: faces.to_vec(),
+                is_covered_by_mesh: true,
             });
         },
     );
@@ -45,7 +45,12 @@ pub(crate) fn convex_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decom
 
 /// Returns the end vertices of the first reflex or folded edge; `None` if no edge is reflex or folded.
 fn first_non_convex_edge(manifold: &Manifold<'_>) -> Option<[u32; 2]> {
-    let is_bad = |&h: &u32| matches!(manifold.dihedral(h), Dihedral::Reflex | Dihedral::Folded);
+    let is_bad = |&h: &u32| {
+        matches!(
+            manifold.classify_dihedral(h),
+            Dihedral::Reflex | Dihedral::Folded
+        )
+    };
     (0..3 * manifold.faces().len() as u32)
         .find(is_bad)
         .map(|h| manifold.ends(h))

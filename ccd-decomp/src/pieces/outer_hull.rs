@@ -45,7 +45,7 @@ pub(crate) fn outer_hull(mesh: &TriangleMesh, topology: &Topology) -> Result<Out
     let at = |&v: &u32| mesh.vertices()[v as usize];
     let points: Vec<DVec3> = corners.iter().map(at).collect();
     let hull = hull(&points).map_err(|error| HullError {
-        point: corners[error.point as usize],
+        point_index: corners[error.point_index as usize],
     })?;
     Ok(OuterHull {
         excess_bound: excess_bound(mesh, topology, &hull),

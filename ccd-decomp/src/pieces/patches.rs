@@ -80,7 +80,7 @@ pub(crate) fn patches_from_polygons(
         manifold,
         polygons: flats,
         order,
-        work,
+        work_budget: work,
         is_polygon_in_patch: vec![false; flats.len()],
         tested_patch_by_polygon: vec![u32::MAX; flats.len()],
     };
@@ -99,7 +99,7 @@ struct PatchGrower<'a, 'm> {
     manifold: &'a Manifold<'m>,
     polygons: &'a ConvexPolygons,
     order: PatchOrder,
-    work: &'a WorkBudget,
+    work_budget: &'a WorkBudget,
     /// For each polygon, whether it belongs to a patch.
     is_polygon_in_patch: Vec<bool>,
     /// For each polygon, the number of the last patch that tried to add it. A refusal is final, because the hull only
@@ -126,8 +126,8 @@ impl PatchGrower<'_, '_> {
                 continue;
             }
             *tried = patch;
-            self.work.spend(region.hull.facets().len());
-            match region.join(self.manifold, self.polygons, next, self.work) {
+            self.work_budget.spend(region.hull.facets().len());
+            match region.join(self.manifold, self.polygons, next, self.work_budget) {
                 JoinResult::Refused => {}
                 JoinResult::Coplanar => in_plane.push(next),
                 JoinResult::Joined => {
@@ -146,7 +146,7 @@ impl PatchGrower<'_, '_> {
     /// Adds the neighbours of a polygon to the frontier, except those across a reflex edge.
     fn push_neighbours(&self, frontier: &mut VecDeque<u32>, flat: u32) {
         for &edge in &self.polygons.get(flat).rim {
-            if self.manifold.dihedral(edge) != Dihedral::Reflex {
+            if self.manifold.classify_dihedral(edge) != Dihedral::Reflex {
                 frontier.push_back(self.polygons.polygon_of_face(self.manifold.twin(edge) / 3));
             }
         }

@@ -10,7 +10,7 @@ use crate::solid::error::DecomposeError;
 use crate::solid::flats::{PlanarRegionSize, RegionMerger};
 use crate::solid::manifold::Manifold;
 use crate::solid::topology::Topology;
-use crate::tolerance::{PATCH_QUERY_COST, QueryCost, RESTING_QUERY_SHARE, TRIANGLE_QUERY_COST};
+use crate::tolerance::{PATCH_QUERY_COST, QueryCost, RESTING_QUERY_FREQUENCY, TRIANGLE_QUERY_COST};
 use crate::work::WorkBudget;
 
 /// Chooses one hull if the solid is convex, else patches or triangles, whichever is estimated to be faster.
@@ -66,7 +66,7 @@ impl PlanarRegionSize {
     /// this region is assumed to rest flat on another body.
     fn estimate_query_times(self) -> QueryTimes {
         let cost = |of: QueryCost, count: usize| {
-            of.typical_time + RESTING_QUERY_SHARE * of.time_per_resting_piece * count as f64
+            of.typical_time + RESTING_QUERY_FREQUENCY * of.time_per_resting_piece * count as f64
         };
         QueryTimes {
             triangles: cost(TRIANGLE_QUERY_COST, self.triangle_count),

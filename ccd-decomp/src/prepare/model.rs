@@ -5,17 +5,17 @@ use super::report::{PieceReason, PiecesKind, Report};
 use crate::mesh::unit::Unit;
 use crate::tree::hierarchy::build_hierarchy;
 use crate::tree::hull_tree::build_hull_tree;
-use ccd_core::{Body, Hierarchy, HullTree, InputError, Pieces, SolidOfRevolution, Volume};
+use ccd_core::{Body, Hierarchy, HullTree, InputError, Pieces, SolidOfRevolution, Solidity};
 
 /// The pieces of a body and a hierarchy over them, from which the body is built. A `.ccd` file stores a model.
 #[derive(Clone, Debug)]
-pub struct Model {
+pub struct StoredBodyContent {
     /// The convex pieces that the body is made of.
     pub pieces: Pieces,
     /// The binary hierarchy over the pieces.
     pub hierarchy: Hierarchy,
     /// Whether the body is solid. A solid is in contact with bodies inside it.
-    pub volume: Volume,
+    pub solidity: Solidity,
     /// The hull tree over the pieces, for the schedules that use a hull tree; `None` if it was not built.
     pub hull_tree: Option<HullTree>,
     /// The triangles of a convex solid and a hierarchy over them. Queries use them against bodies of many triangles.
@@ -35,7 +35,7 @@ pub struct PreparedBody {
     pub unit: Option<Unit>,
 }
 
-impl Model {
+impl StoredBodyContent {
     /// Builds the body from the pieces and the hierarchy, in O(n log n) in the number of pieces.
     ///
     /// Its [excess](Body::excess) is [`Report::excess`].
@@ -43,9 +43,9 @@ impl Model {
     /// # Errors
     /// [`PrepareError::Input`] and [`PrepareError::HullTree`] if the parts of the model do not match.
     pub fn body(&self) -> Result<Body, PrepareError> {
-        let mut body = Body::with_hierarchy(&self.pieces, &self.hierarchy, self.volume)?;
+        let mut body = Body::with_hierarchy(&self.pieces, &self.hierarchy, self.solidity)?;
         if let Some((pieces, hierarchy)) = &self.surface {
-            let surface = Body::with_hierarchy(pieces, hierarchy, Volume::Solid)?;
+            let surface = Body::with_hierarchy(pieces, hierarchy, Solidity::Solid)?;
             body = body.with_surface(surface)?;
         }
         let body = body.with_excess(self.report.excess)?;
@@ -68,12 +68,16 @@ impl Model {
         let report = Report {
             pieces: pieces.len(),
             excess: body.excess(),
-            ..Report::new(PiecesKind::Primitive, PieceReason::Requested, body.volume())
+            ..Report::new(
+                PiecesKind::Primitive,
+                PieceReason::Requested,
+                body.solidity(),
+            )
         };
-        Ok(Model {
+        Ok(StoredBodyContent {
             pieces,
             hierarchy,
-            volume: body.volume(),
+            solidity: body.solidity(),
             hull_tree: None,
             surface: None,
             report,
@@ -106,7 +110,11 @@ impl PreparedBody {
     /// Wraps a body that was not made from a mesh.
     pub(crate) fn from_primitive(body: Body) -> Self {
         PreparedBody {
-            report: Report::new(PiecesKind::Primitive, PieceReason::Requested, body.volume()),
+            report: Report::new(
+                PiecesKind::Primitive,
+                PieceReason::Requested,
+                body.solidity(),
+            ),
             body,
             unit: None,
         }
@@ -118,7 +126,7 @@ impl PreparedBody {
         round: &SolidOfRevolution,
         excess: Option<f64>,
     ) -> Result<Self, InputError> {
-        let enclosure = round.enclose(excess.unwrap_or(round.default_excess()))?;
+        let enclosure = round.enclosing_polytope(excess.unwrap_or(round.default_excess()))?;
         let mut prepared = PreparedBody::from_primitive(enclosure.body()?);
         prepared.report.excess = enclosure.excess();
         Ok(prepared)

@@ -1,14 +1,14 @@
 //! Builds a model from the pieces of a mesh.
 
 use super::error::PrepareError;
-use super::model::Model;
+use super::model::StoredBodyContent;
 use super::report::{PieceReason, PiecesKind, Report};
 use crate::mesh::TriangleMesh;
 use crate::pieces::outer_hull::OuterHull;
 use crate::pieces::patches::{Decomposition, Patch};
 use crate::solid::topology::Topology;
 use crate::tree::hierarchy::build_hierarchy;
-use ccd_core::{Hierarchy, Pieces, Polytope, Volume};
+use ccd_core::{Hierarchy, Pieces, Polytope, Solidity};
 
 /// The pieces that were made of a mesh. Each variant is one kind of pieces.
 pub(super) enum PiecesOfOneKind {
@@ -20,9 +20,9 @@ pub(super) enum PiecesOfOneKind {
 
 /// The kind of pieces chosen for a mesh, with the pieces and the mesh's topology.
 pub(super) struct PiecesChoice {
-    pub(super) volume: Volume,
+    pub(super) solidity: Solidity,
     pub(super) pieces: PiecesOfOneKind,
-    pub(super) reason: PieceReason,
+    pub(super) choice_reason: PieceReason,
     pub(super) topology: Topology,
     /// A copy of the mesh with wrongly oriented shells reversed, if there are any.
     pub(super) reoriented_mesh: Option<TriangleMesh>,
@@ -38,9 +38,9 @@ impl PiecesChoice {
         self,
         mesh: &TriangleMesh,
         triangles: Option<PieceTree>,
-    ) -> Result<Model, PrepareError> {
-        let volume = self.volume;
-        let mut report = Report::new(PiecesKind::Triangles, self.reason, volume);
+    ) -> Result<StoredBodyContent, PrepareError> {
+        let volume = self.solidity;
+        let mut report = Report::new(PiecesKind::Triangles, self.choice_reason, volume);
         let triangles = || match (triangles, &self.reoriented_mesh) {
             (Some(triangles), None) => Ok(triangles),
             (_, turned) => triangle_tree(turned.as_ref().unwrap_or(mesh)),
@@ -69,10 +69,10 @@ impl PiecesChoice {
         report.tree_nodes = hierarchy.nodes().len();
         report.topology = Some(self.topology);
         report.repairs = mesh.repairs().clone();
-        Ok(Model {
+        Ok(StoredBodyContent {
             pieces,
             hierarchy,
-            volume,
+            solidity: volume,
             hull_tree: None,
             surface,
             report,
@@ -83,7 +83,11 @@ impl PiecesChoice {
 /// Creates one piece for each triangle of a mesh, and their hierarchy.
 pub(super) fn triangle_tree(mesh: &TriangleMesh) -> Result<PieceTree, PrepareError> {
     let faces = mesh.welded_faces();
-    piece_tree(Pieces::triangles(mesh.vertices(), &faces, mesh.face_ids())?)
+    piece_tree(Pieces::from_triangles(
+        mesh.vertices(),
+        &faces,
+        mesh.face_ids(),
+    )?)
 }
 
 fn polytope_tree(polytopes: &[Polytope]) -> Result<PieceTree, PrepareError> {

@@ -3,7 +3,7 @@
 use crate::mesh::repair::Repairs;
 use crate::solid::error::DecomposeError;
 use crate::solid::topology::Topology;
-use ccd_core::Volume;
+use ccd_core::Solidity;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -26,7 +26,7 @@ pub struct Report {
     /// the [excess](ccd_core::Body::excess) of the body. Contacts may be early by it. 0 for exact kinds.
     pub excess: f64,
     /// Whether the body is solid. A closed mesh is solid unless it was made hollow.
-    pub volume: Volume,
+    pub volume: Solidity,
     /// The topology of the mesh, which shows why it is solid or not; `None` for a body without a mesh.
     pub topology: Option<Topology>,
     /// The faults of the mesh that were repaired.
@@ -79,7 +79,7 @@ pub struct QueryTimes {
 
 impl Report {
     /// Creates the report of a body that was not made from a mesh, with one exact piece.
-    pub(super) fn new(kind: PiecesKind, why: PieceReason, volume: Volume) -> Self {
+    pub(super) fn new(kind: PiecesKind, why: PieceReason, volume: Solidity) -> Self {
         Report {
             kind,
             reason: why,
@@ -122,8 +122,8 @@ impl fmt::Display for Report {
         let noun = if self.pieces == 1 { one } else { many };
         write!(f, "{} {noun}, ", self.pieces)?;
         match self.volume {
-            Volume::Solid => write!(f, "solid")?,
-            Volume::Surface => write!(f, "surface only")?,
+            Solidity::Solid => write!(f, "solid")?,
+            Solidity::Surface => write!(f, "surface only")?,
         }
         if !self.is_exact() {
             let by = self.excess;

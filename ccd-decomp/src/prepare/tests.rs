@@ -9,7 +9,7 @@ fn report(file: &str) -> String {
     let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
     let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
     assert_eq!(prepared.body.pieces().len(), prepared.report.pieces);
-    assert_eq!(prepared.body.volume(), prepared.report.volume);
+    assert_eq!(prepared.body.solidity(), prepared.report.volume);
     prepared.report.to_string()
 }
 

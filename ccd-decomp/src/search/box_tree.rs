@@ -25,7 +25,7 @@ struct Node {
     /// The range of elements of a leaf; empty for an inner node.
     elements: Range<u32>,
     /// The number of nodes of the subtree, including this node.
-    count: u32,
+    subtree_node_count: u32,
 }
 
 /// The maximum number of elements of a leaf.
@@ -76,8 +76,8 @@ impl BoxTree {
             met.set(met.get() + 1);
             met.get() > BOXES_BEFORE_ORIENTED_TESTS
                 && match &region.shape {
-                    Shape::Segment(ends) => oriented.is_separated_from(ends),
-                    Shape::Triangle(corners) => oriented.is_separated_from(corners),
+                    Shape::Segment(ends) => oriented.is_separated_from_points(ends),
+                    Shape::Triangle(corners) => oriented.is_separated_from_points(corners),
                     Shape::HullInBox(hull) => {
                         let mut planes = planes.get_or_init(|| largest_facet_planes(hull)).iter();
                         planes.any(|plane| plane.has_box_in_front(oriented))
@@ -102,7 +102,7 @@ impl BoxTree {
                 return false;
             }
             if is_far(&node.bounds, &node.oriented_box) {
-                at += node.count as usize;
+                at += node.subtree_node_count as usize;
                 continue;
             }
             let elements = &self.elements[node.elements.start as usize..node.elements.end as usize];
@@ -123,7 +123,7 @@ impl BoxTree {
         let left = at + 1;
         let below = elements
             .is_empty()
-            .then(|| [left, left + self.nodes[left].count as usize]);
+            .then(|| [left, left + self.nodes[left].subtree_node_count as usize]);
         (elements, below)
     }
 
@@ -157,7 +157,7 @@ fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
             0..0
         },
         oriented_box: oriented,
-        count: 1,
+        subtree_node_count: 1,
     });
     if !is_leaf {
         let along = nodes[at].oriented_box.axis_of_largest_spread(elements);
@@ -183,5 +183,5 @@ fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
             build(nodes, right, first + split);
         }
     }
-    nodes[at].count = (nodes.len() - at) as u32;
+    nodes[at].subtree_node_count = (nodes.len() - at) as u32;
 }

@@ -83,7 +83,7 @@ impl OrientedBox {
     }
 
     /// Returns whether an axis of the box certainly separates the box from all given points.
-    pub(super) fn is_separated_from(&self, points: &[DVec3]) -> bool {
+    pub(super) fn is_separated_from_points(&self, points: &[DVec3]) -> bool {
         let reach = points.iter().map(|p| p.abs().max_element());
         let reach = reach.fold(self.max_abs_coordinate, greater);
         (0..3).any(|k| {

@@ -59,7 +59,7 @@ pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
         Shape::Triangle(corners) => {
             let mut planes = Vec::new();
             // A hub inside the triangle is a common point.
-            if !corners.contains(&hub) && contains_point(*corners, hub) {
+            if !corners.contains(&hub) && triangle_contains_point(*corners, hub) {
                 return planes;
             }
             for k in 0..3 {
@@ -108,7 +108,7 @@ fn add_axis_parallel_planes(
 }
 
 /// Returns whether a triangle contains a point. A triangle without area counts as containing every point.
-fn contains_point(triangle: [DVec3; 3], point: DVec3) -> bool {
+fn triangle_contains_point(triangle: [DVec3; 3], point: DVec3) -> bool {
     let within = |plane: Projection| {
         let mut edges = (0..3).map(|k| (triangle[k], triangle[(k + 1) % 3]));
         edges.all(|(a, b)| plane.turn(a, b, point) != Ordering::Less)

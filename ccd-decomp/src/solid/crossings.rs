@@ -19,7 +19,7 @@ pub(crate) fn crossings(
     work: &WorkBudget,
 ) -> Result<Vec<(u32, u32)>, WorkBudgetExhausted> {
     let mut found = Vec::new();
-    let fanned = FannedPolygons::collect_from(manifold);
+    let fanned = FannedPolygons::from_manifold(manifold);
     for face in 0..manifold.faces().len() as u32 {
         let near = Region::from_triangle(manifold.triangle(face));
         let mut pair = |other: u32| {

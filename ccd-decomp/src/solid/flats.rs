@@ -67,7 +67,7 @@ pub(crate) struct RegionMerger<'a, 'm> {
     previous_by_half_edge: Vec<HalfEdge>,
     regions: DisjointSets,
     /// The connected coplanar sets of faces, each of one or more polygons.
-    planes: DisjointSets,
+    coplanar_sets: DisjointSets,
 }
 
 impl<'a, 'm> RegionMerger<'a, 'm> {
@@ -80,7 +80,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         let mut merger = RegionMerger::new(manifold);
         let mut edges = merger.flat_edges();
         for &edge in &edges {
-            merger.planes.join(edge / 3, manifold.twin(edge) / 3);
+            merger.coplanar_sets.join(edge / 3, manifold.twin(edge) / 3);
         }
         // Each round leaves fewer edges.
         loop {
@@ -98,7 +98,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         let faces = self.manifold.faces().len();
         let mut planes = vec![PlanarRegionSize::default(); faces];
         for face in 0..faces as u32 {
-            let plane = &mut planes[self.planes.root(face) as usize];
+            let plane = &mut planes[self.coplanar_sets.root(face) as usize];
             plane.triangle_count += 1;
             plane.polygon_count += usize::from(self.regions.root(face) == face);
         }
@@ -114,7 +114,7 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
             next_by_half_edge: turn(1).collect(),
             previous_by_half_edge: turn(2).collect(),
             regions: DisjointSets::new(faces as usize),
-            planes: DisjointSets::new(faces as usize),
+            coplanar_sets: DisjointSets::new(faces as usize),
         }
     }
 
@@ -132,7 +132,9 @@ impl<'a, 'm> RegionMerger<'a, 'm> {
         };
         let mut edges: Vec<HalfEdge> = (0..3 * manifold.faces().len() as u32)
             .into_par_iter()
-            .filter(|&h| h < manifold.twin(h) && manifold.dihedral(h) == Dihedral::Flat)
+            .filter(|&h| {
+                h < manifold.twin(h) && manifold.classify_dihedral(h) == Dihedral::Coplanar
+            })
             .collect();
         edges.sort_by_cached_key(|&h| rank(h));
         edges

@@ -35,7 +35,7 @@ pub(crate) enum Dihedral {
     /// The interior angle is less than half a turn.
     Convex,
     /// The faces lie in one plane, on opposite sides of the edge.
-    Flat,
+    Coplanar,
     /// The interior angle is more than half a turn.
     Reflex,
     /// The faces lie in one plane and on one side of the edge, back to back. A solid has no such edge.
@@ -121,7 +121,7 @@ impl<'m> Manifold<'m> {
     }
 
     /// Classifies the dihedral angle at an edge, exactly.
-    pub(crate) fn dihedral(&self, half_edge: HalfEdge) -> Dihedral {
+    pub(crate) fn classify_dihedral(&self, half_edge: HalfEdge) -> Dihedral {
         let twin = self.twin(half_edge);
         let far = self.faces[twin as usize / 3][(twin as usize % 3 + 2) % 3];
         let (triangle, far) = (self.triangle(half_edge / 3), self.point(far));
@@ -132,7 +132,7 @@ impl<'m> Manifold<'m> {
                 let [start, end] = self.ends(half_edge).map(|v| self.point(v));
                 let beyond = |plane: Projection| plane.turn(start, end, far) == Ordering::Less;
                 if Projection::new(triangle).is_some_and(beyond) {
-                    Dihedral::Flat
+                    Dihedral::Coplanar
                 } else {
                     Dihedral::Folded
                 }

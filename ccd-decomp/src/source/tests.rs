@@ -1,7 +1,7 @@
 use super::error::{BodyError, SourceError};
 use super::{BodySource, parse_body};
 use crate::{Adjustments, Axis, Detail, MeshFault, MeshSource, PreparedBody, Unit};
-use ccd_core::Volume;
+use ccd_core::Solidity;
 use ccd_core::glam::dvec3;
 use rstest::rstest;
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 #[case("box:1,2,3", BodySource::Box { half_extents: dvec3(1.0, 2.0, 3.0) })]
 #[case(" sphere:0.5 ", BodySource::Sphere { radius: 0.5 })]
 #[case("capsule: 1e-1 , 2", BodySource::Capsule { radius: 0.1, half_height: 2.0 })]
-#[case("cylinder:1,2", BodySource::Cylinder { radius: 1.0, half_height: 2.0, excess: None })]
+#[case("cylinder:1,2", BodySource::Cylinder { radius: 1.0, half_height: 2.0, max_excess: None })]
 #[case("cone:1,2,1e-3", BodySource::Cone { radius: 1.0, half_height: 2.0, excess: Some(1e-3) })]
 #[case("dir/part.ccd", BodySource::StoredBody("dir/part.ccd".into()))]
 #[case("dir/part.stl", mesh("dir/part.stl", None, ""))]
@@ -109,7 +109,7 @@ fn files_are_taken_as_their_adjustments_say() {
         mirrored.report.to_string(),
         file.load_with_words("").report.to_string()
     );
-    assert_eq!(mirrored.report.volume, Volume::Solid);
+    assert_eq!(mirrored.report.volume, Solidity::Solid);
     assert!(mirrored.report.topology.unwrap().signed_volume > 0.0);
     let stated = file.load_with_words("@in");
     assert_eq!(
@@ -129,13 +129,13 @@ fn files_are_taken_as_their_adjustments_say() {
 #[test]
 fn a_closed_mesh_may_be_hollow() {
     let file = TetrahedronFile::new("hollow.obj");
-    assert_eq!(file.load_with_words("").report.volume, Volume::Solid);
+    assert_eq!(file.load_with_words("").report.volume, Solidity::Solid);
     let hollow = file.load_with_words("@surface");
     assert_eq!(
         (hollow.report.volume, hollow.report.pieces),
-        (Volume::Surface, 4)
+        (Solidity::Surface, 4)
     );
-    assert_eq!(hollow.body.volume(), Volume::Surface);
+    assert_eq!(hollow.body.solidity(), Solidity::Surface);
     assert_eq!(hollow.report.to_string(), "4 triangles, surface only");
 }
 
@@ -220,7 +220,7 @@ fn primitives_are_single_solid_pieces() {
     for text in ["box:1,2,3", "sphere:0.5", "capsule:0.2,1", "box:1,1,0"] {
         let prepared = parse_body(text, Detail::Auto).unwrap();
         assert_eq!(prepared.report.to_string(), "1 primitive, solid", "{text}");
-        assert_eq!(prepared.body.volume(), Volume::Solid);
+        assert_eq!(prepared.body.solidity(), Solidity::Solid);
     }
 }
 
@@ -233,7 +233,7 @@ fn round_shapes_report_their_excess(#[case] text: &str, #[case] most: f64) {
     let PreparedBody { body, report, .. } = parse_body(text, Detail::Auto).unwrap();
     assert!((0.5 * most..=most).contains(&report.excess), "{report}");
     assert!(!report.is_exact() && report.to_string().contains("sticking out by up to"));
-    assert_eq!((body.pieces().len(), body.volume()), (1, Volume::Solid));
+    assert_eq!((body.pieces().len(), body.solidity()), (1, Solidity::Solid));
     let error = parse_body(&format!("{text},-1"), Detail::Auto);
     assert!(matches!(error, Err(BodyError::Source(_))));
 }

@@ -84,7 +84,7 @@ const PIECES_PER_TASK: usize = 4096;
 /// root first.
 fn split_and_agglomerate(leaves: &[Node]) -> Vec<Node> {
     let centres = (0..).zip(leaves).map(|(piece, leaf)| PieceCentre {
-        position: leaf.cuboid.centre().to_array(),
+        coordinates: leaf.cuboid.centre().to_array(),
         piece,
     });
     let mut nodes = vec![leaves[0]; 2 * leaves.len() - 1];
@@ -97,7 +97,7 @@ fn split_and_agglomerate(leaves: &[Node]) -> Vec<Node> {
 /// The centre of a piece's bounding box.
 #[derive(Clone, Copy)]
 struct PieceCentre {
-    position: [f32; 3],
+    coordinates: [f32; 3],
     piece: u32,
 }
 
@@ -141,12 +141,12 @@ fn build_cluster(leaves: &[Node], centres: &[PieceCentre], slot: SubtreeSlot<'_,
 /// Splits pieces at the median of their centres along the longest axis.
 fn split_at_median(centres: &mut [PieceCentre]) -> (&mut [PieceCentre], &mut [PieceCentre]) {
     let spread = centres.iter().fold(AabbF32::EMPTY, |all, centre| {
-        all.union(AabbF32::from_point(centre.position.into()))
+        all.union(AabbF32::from_point(centre.coordinates.into()))
     });
     let axis = spread.extent().max_position();
     let half = centres.len() / 2;
     centres.select_nth_unstable_by(half, |a, b| {
-        let order = a.position[axis].total_cmp(&b.position[axis]);
+        let order = a.coordinates[axis].total_cmp(&b.coordinates[axis]);
         order.then(a.piece.cmp(&b.piece))
     });
     centres.split_at_mut(half)

@@ -78,8 +78,9 @@ impl TreeBuilder<'_> {
             .flat_map(|child| corners(child, self.pieces))
             .copied()
             .collect();
-        let out_of_range =
-            |error: HullError| HullTreeBuildError::OutOfRange(points[error.point as usize]);
+        let out_of_range = |error: HullError| {
+            HullTreeBuildError::CoordinateOutOfRange(points[error.point_index as usize])
+        };
         let hull = hull(&points).map_err(out_of_range)?;
         *slot.node = HullNode::Inner(
             [slot.first_descendant_index, slot.first_descendant_index + 1],
@@ -95,10 +96,10 @@ impl TreeBuilder<'_> {
 pub enum HullTreeBuildError {
     /// A coordinate of a point is out of range for exact predicates.
     #[error("the point {0} has a coordinate that is out of range for exact predicates")]
-    OutOfRange(DVec3),
+    CoordinateOutOfRange(DVec3),
     /// The checks of `ccd_core` reject the tree.
     #[error(transparent)]
-    Tree(#[from] HullTreeError),
+    InvalidTree(#[from] HullTreeError),
 }
 
 fn corners<'a>(node: &'a HullNode, pieces: &'a Pieces) -> &'a [DVec3] {

@@ -8,7 +8,7 @@ use ccd_core::glam::DVec3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TerminationBounds {
     /// The search ends when the lower bound exceeds this distance.
-    pub lower: f64,
+    pub sufficient_lower_bound: f64,
     /// The search ends when the upper bound is at most this distance.
     pub upper: f64,
 }
@@ -42,7 +42,7 @@ pub struct DistanceBounds {
 ///     let b = if ends[1].dot(direction) < ends[0].dot(direction) { 1 } else { 0 };
 ///     Vertex { point: ends[b as usize], a: 0, b }
 /// };
-/// let required = TerminationBounds { lower: 0.5, upper: 0.0 };
+/// let required = TerminationBounds { sufficient_lower_bound: 0.5, upper: 0.0 };
 /// let bounds = bound_distance(support, DVec3::X, required);
 /// assert_eq!((bounds.lower, bounds.axis), (1.0, DVec3::X));
 /// ```
@@ -64,7 +64,7 @@ pub fn bound_distance(
         if gap > bounds.lower {
             (bounds.lower, bounds.axis) = (gap, axis);
         }
-        if bounds.lower > required.lower || !simplex.push(vertex) {
+        if bounds.lower > required.sufficient_lower_bound || !simplex.push(vertex) {
             break;
         }
         let Some(foot) = simplex.foot() else { break };

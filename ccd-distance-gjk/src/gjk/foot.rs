@@ -16,7 +16,7 @@ pub(crate) struct NearestPoint {
 
 impl NearestPoint {
     /// Creates the foot that is the vertex with the given index.
-    pub(crate) fn corner(point: DVec3, index: usize) -> Self {
+    pub(crate) fn at_vertex(point: DVec3, index: usize) -> Self {
         let mut weights = [0.0; 4];
         weights[index] = 1.0;
         NearestPoint {
@@ -28,7 +28,7 @@ impl NearestPoint {
 
     /// Converts the foot on a sub-simplex to a foot on the whole simplex. Vertex `k` of the sub-simplex is vertex
     /// `indices[k]` of the whole simplex.
-    pub(crate) fn on_whole_simplex(self, indices: &[usize]) -> Self {
+    pub(crate) fn lifted_to_whole_simplex(self, indices: &[usize]) -> Self {
         let mut weights = [0.0; 4];
         for (&index, &weight) in indices.iter().zip(&self.weights) {
             weights[index] = weight;

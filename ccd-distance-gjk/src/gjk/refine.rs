@@ -35,7 +35,7 @@ pub(crate) fn refine_witnesses(
     if square < found.squared_distance {
         found.squared_distance = square;
         (found.simplex, found.weights) = (Simplex::EMPTY, [0.0; 4]);
-        for (i, j, weight) in paired_weights(near.a, near.b) {
+        for (i, j, weight) in weights_of_point_pairs(near.a, near.b) {
             let vertex = difference.vertex(p.indices[i], q.indices[j]);
             if vertex.is_some_and(|vertex| found.simplex.push(vertex)) {
                 found.weights[found.simplex.vertices().len() - 1] = weight;
@@ -74,7 +74,7 @@ impl PaddedTriangle {
 ///
 /// `m` and `n` positive weights make at most `m + n − 1` pairs: three for corner and face, and for edge
 /// and edge.
-pub(crate) fn paired_weights(
+pub(crate) fn weights_of_point_pairs(
     mut a: [f64; 3],
     mut b: [f64; 3],
 ) -> impl Iterator<Item = (usize, usize, f64)> {

@@ -9,10 +9,10 @@ pub(crate) fn nearest_point(a: DVec3, b: DVec3) -> NearestPoint {
     let (along, square) = (-a.dot(d), d.length_squared());
     // Written so that NaN, and a segment without a length, end at a corner.
     if along >= square && square > 0.0 {
-        return NearestPoint::corner(b, 1);
+        return NearestPoint::at_vertex(b, 1);
     }
     if !(along > 0.0 && square > 0.0) {
-        return NearestPoint::corner(a, 0);
+        return NearestPoint::at_vertex(a, 0);
     }
     let t = along / square;
     let point = a + d * t;

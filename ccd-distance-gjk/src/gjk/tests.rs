@@ -4,7 +4,7 @@ use super::fan::CandidateAxisVertices;
 use super::foot::NearestPoint;
 use super::minkowski::MinkowskiDifference;
 use super::oracle::{is_certified, solve, solve_with_cache};
-use super::refine::paired_weights;
+use super::refine::weights_of_point_pairs;
 use super::search::{SearchResult, search};
 use super::simplex::{Simplex, Vertex};
 use super::start::Cache;
@@ -121,7 +121,7 @@ fn paired_weights_sum_to_both_weights(
     #[case] b: [f64; 3],
     #[case] pairs: usize,
 ) {
-    let couples: Vec<_> = paired_weights(a, b).collect();
+    let couples: Vec<_> = weights_of_point_pairs(a, b).collect();
     assert_eq!(couples.len(), pairs);
     let (mut left, mut right) = ([0.0; 3], [0.0; 3]);
     for (i, j, weight) in couples {

@@ -21,7 +21,7 @@ pub(crate) fn foot(corners: [DVec3; 4]) -> NearestPoint {
         return inside;
     }
     let feet = CORNER_WITH_OPPOSITE_FACE.map(|[_, a, b, c]| {
-        triangle::foot(corners[a], corners[b], corners[c]).on_whole_simplex(&[a, b, c])
+        triangle::foot(corners[a], corners[b], corners[c]).lifted_to_whole_simplex(&[a, b, c])
     });
     let [first, others @ ..] = feet;
     others

@@ -25,12 +25,12 @@ pub(crate) fn foot(a: DVec3, b: DVec3, c: DVec3) -> NearestPoint {
     for (opposite, &area) in areas.iter().enumerate() {
         if flat || !inside && !(area > 0.0) {
             let edge = [(opposite + 1) % 3, (opposite + 2) % 3];
-            let on_edge =
-                segment::nearest_point(corners[edge[0]], corners[edge[1]]).on_whole_simplex(&edge);
+            let on_edge = segment::nearest_point(corners[edge[0]], corners[edge[1]])
+                .lifted_to_whole_simplex(&edge);
             best = Some(on_edge.nearer_of(best));
         }
     }
-    best.unwrap_or(NearestPoint::corner(a, 0))
+    best.unwrap_or(NearestPoint::at_vertex(a, 0))
 }
 
 /// Returns the point of the face nearest to the origin. Its barycentric coordinates are in proportion to `areas`, each

@@ -16,7 +16,11 @@ use ccd_core::glam::{DQuat, DVec3};
 
 /// Checks that a march that ends in any way, at any pair of features, is certified at the distance `truth`.
 fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth: f64) {
-    let place = |p: DVec3| placed.b.point(p - placed.b.shape().origin);
+    let place = |p: DVec3| {
+        placed
+            .b
+            .transform_point(p - placed.b.shape().origin_in_piece)
+    };
     for one in features(placed.a.0) {
         for other in features(placed.b.shape()) {
             if matches!((one, other), (Feature::Face(_), Feature::Face(_))) {
@@ -36,7 +40,8 @@ fn certifies(placed: &PlacedPair<'_>, a: &shape::Shape, b: &shape::Shape, truth:
                 let mut counters = Counters::default();
                 let answer = certify_march_end(placed, end, &mut counters);
                 let (_, claim) = answer.unwrap_or_else(|why| panic!("{why:?} from {end:?}"));
-                let on_a = claim.a.position(&a.points).expect("a point of A") - placed.a.0.origin;
+                let on_a =
+                    claim.a.position(&a.points).expect("a point of A") - placed.a.0.origin_in_piece;
                 let on_b = place(claim.b.position(&b.points).expect("a point of B"));
                 let distance = on_a.distance(on_b);
                 assert!(
@@ -92,7 +97,7 @@ fn positions_that_are_not_finite_are_given_up() {
         ] {
             let mut counters = Counters::default();
             let why = certify_march_end(&placed, end, &mut counters).err();
-            assert!(why != Some(GiveUpReason::Cycle) || counters.cycles > 0);
+            assert!(why != Some(GiveUpReason::Cycle) || counters.detected_cycles > 0);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Tests that the search around a pair of features finds a nearer pair, if there is one.
 
-use super::nearer_pair;
+use super::nearer_neighbour_pair;
 use crate::feature::{Feature, Pair};
 use crate::tests::setting::{
     cube, edge_with_nearest_middle, face_along, nearest_vertex, pair_with_b_moved,
@@ -20,7 +20,7 @@ fn the_nearest_pair_has_no_nearer_pair_around() {
         b: Feature::Vertex(nearest_vertex(&cube, -DVec3::ONE)),
     };
     let distance = Witness::new(&placed, pair).distance();
-    assert_eq!(nearer_pair(&placed, pair, distance), None);
+    assert_eq!(nearer_neighbour_pair(&placed, pair, distance), None);
 }
 
 /// Tests that the nearer corner is found for two facing cubes that are tilted by 1e-10.
@@ -45,7 +45,7 @@ fn slow_approaches_are_found() {
     let [far, near] = [high, low].map(|pair| Witness::new(&placed, pair).distance());
     assert!((far - near).abs() > 1e-10);
     let (above, pair) = if far > near { (far, high) } else { (near, low) };
-    let found = nearer_pair(&placed, pair, above).expect("the other end is nearer");
+    let found = nearer_neighbour_pair(&placed, pair, above).expect("the other end is nearer");
     let distance = Witness::new(&placed, found).distance();
     assert!((distance - lesser(far, near)).abs() < 1e-15, "{found:?}");
 }
@@ -58,7 +58,7 @@ fn all_kinds_of_features_are_found() {
         b: Feature::Vertex(nearest_vertex(&cube, DVec3::new(-1.0, -1.0, -1.0))),
     };
     let placed = pair_with_b_moved(&cube, &cube, DVec3::new(0.5, 0.5, 3.0));
-    let found = nearer_pair(&placed, top, 9.0).expect("the faces are nearer");
+    let found = nearer_neighbour_pair(&placed, top, 9.0).expect("the faces are nearer");
     assert!((Witness::new(&placed, found).distance() - 1.0).abs() < 1e-15);
     let single = prepared_polytope(&shape::shape_of_points(&[DVec3::ZERO]));
     let placed = pair_with_b_moved(&cube, &single, DVec3::new(0.2, 0.1, 3.0));
@@ -66,6 +66,6 @@ fn all_kinds_of_features_are_found() {
         a: Feature::Edge(edge_with_nearest_middle(&cube, DVec3::X + DVec3::Z)),
         b: Feature::Vertex(0),
     };
-    let found = nearer_pair(&placed, pair, 2.5).expect("the top is nearer");
+    let found = nearer_neighbour_pair(&placed, pair, 2.5).expect("the top is nearer");
     assert_eq!(found.a, Feature::Face(face_along(&cube, DVec3::Z)));
 }

@@ -35,7 +35,7 @@ fn worst_placing() {
         );
         let offset = placed.b.vertex(j as u32) - placed.a.vertex(i as u32);
         let given = |of: &Polytope, k: usize, all: &[DVec3; 3]| {
-            let at = of.vertices[k].point + of.origin;
+            let at = of.vertices[k].point + of.origin_in_piece;
             let nearer = |p: &&DVec3, q: &&DVec3| p.distance(at).total_cmp(&q.distance(at));
             *all.iter().min_by(nearer).expect("three points")
         };
@@ -44,8 +44,8 @@ fn worst_placing() {
         let columns = [0, 1, 2].map(|k| Exact3::from_coordinates(frame.rotation.col(k)));
         let to = Exact3::from_coordinates(placed.b.to_a.translation);
         let [x, y] = [
-            x.minus(&Exact3::from_coordinates(a.origin)),
-            y.minus(&Exact3::from_coordinates(b.origin)),
+            x.minus(&Exact3::from_coordinates(a.origin_in_piece)),
+            y.minus(&Exact3::from_coordinates(b.origin_in_piece)),
         ];
         let truth = [0, 1, 2].map(|k| {
             let row = Exact3([0, 1, 2].map(|l| columns[l].0[k].clone()));

@@ -25,7 +25,7 @@ pub(crate) fn assemble_polytope(points: &[DVec3], ends: &[u32], loops: &[Vec<u32
     let outline = |outline: &Vec<u32>| outline.iter().map(|&v| corner(v)).collect();
     let outlines: Vec<Vec<u32>> = loops.iter().map(outline).collect();
     let mut out = Polytope {
-        origin,
+        origin_in_piece: origin,
         reach: numbers
             .iter()
             .map(|&v| local(v).length())
@@ -36,7 +36,7 @@ pub(crate) fn assemble_polytope(points: &[DVec3], ends: &[u32], loops: &[Vec<u32
                 point: local(number),
                 point_index: number,
                 first_outgoing_edge: 0,
-                end_outgoing_edge: 0,
+                outgoing_edges_end: 0,
             })
             .collect(),
         outgoing_edges: Vec::new(),
@@ -132,7 +132,7 @@ fn add_outgoing_edges(out: &mut Polytope) {
             .iter()
             .take_while(|(from, _)| *from == number)
             .count() as u32;
-        vertex.end_outgoing_edge = at;
+        vertex.outgoing_edges_end = at;
     }
     out.outgoing_edges = spokes.into_iter().map(|(_, spoke)| spoke).collect();
 }

@@ -358,8 +358,8 @@ fn other_oracles_take_over_and_counts_are_kept() {
         fn separation(&mut self, _: &PiecePair<'_>, (): &mut ()) -> Result<Claim, GiveUpReason> {
             Ok(Claim {
                 axis: DVec3::X,
-                a: ConvexCombination::point(0),
-                b: ConvexCombination::point(0),
+                a: ConvexCombination::from_single_point(0),
+                b: ConvexCombination::from_single_point(0),
             })
         }
     }

@@ -61,7 +61,7 @@ fn points_behind_the_face_are_local_minima(#[case] at: DVec3) {
     };
     let top = face_along(&cube(), DVec3::Z);
     assert_eq!(
-        (which, minimum.feature, minimum.face),
+        (which, minimum.feature, minimum.other_face),
         (WhichPolytope::X, Feature::Vertex(0), top)
     );
 }

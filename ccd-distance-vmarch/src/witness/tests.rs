@@ -23,8 +23,8 @@ fn witness(
     let on_a = claim.a.position(&a.points).expect("a point of A");
     let on_b = claim.b.position(&b.points).expect("a point of B") + at;
     // The witness is relative to the middle of A.
-    assert!((on_a - one.origin).distance(witness.points[0]) < 1e-15);
-    assert!((on_b - one.origin).distance(witness.points[1]) < 1e-15);
+    assert!((on_a - one.origin_in_piece).distance(witness.points[0]) < 1e-15);
+    assert!((on_b - one.origin_in_piece).distance(witness.points[1]) < 1e-15);
     witness
 }
 
@@ -42,13 +42,16 @@ fn features_have_nearest_points() {
         a: Feature::Edge(edge_with_nearest_middle(a, DVec3::Y + DVec3::Z)),
         b: Feature::Vertex(0),
     });
-    assert_eq!(side.offset(), DVec3::new(0.0, 2.0, 3.0));
-    assert_eq!(side.claim.axis, side.offset());
+    assert_eq!(side.separation_vector(), DVec3::new(0.0, 2.0, 3.0));
+    assert_eq!(side.claim.axis, side.separation_vector());
     let top = witness(&cuboid, &single, DVec3::new(0.25, -0.5, 4.0), |a, _| Pair {
         a: Feature::Face(face_along(a, DVec3::Z)),
         b: Feature::Vertex(0),
     });
-    assert_eq!((top.offset(), top.claim.axis), (3.0 * DVec3::Z, DVec3::Z));
+    assert_eq!(
+        (top.separation_vector(), top.claim.axis),
+        (3.0 * DVec3::Z, DVec3::Z)
+    );
     let back = witness(&single, &cuboid, DVec3::new(0.25, -0.5, -4.0), |_, b| {
         Pair {
             a: Feature::Vertex(0),
@@ -56,7 +59,7 @@ fn features_have_nearest_points() {
         }
     });
     assert_eq!(
-        (back.offset(), back.claim.axis),
+        (back.separation_vector(), back.claim.axis),
         (-3.0 * DVec3::Z, -DVec3::Z)
     );
     let across = shape::shape_of_points(&[-DVec3::Y, DVec3::Y]);
@@ -70,7 +73,7 @@ fn features_have_nearest_points() {
         },
     );
     assert_eq!(
-        (crossed.offset(), crossed.claim.axis.normalize()),
+        (crossed.separation_vector(), crossed.claim.axis.normalize()),
         (2.0 * DVec3::Z, DVec3::Z)
     );
 }

@@ -45,6 +45,6 @@ fn the_verdicts_are_those_of_the_engine() {
     let nowhere = throw([f64::NAN, 0.0, 0.0], [1.0, 0.0, 0.0]);
     assert!(matches!(
         nowhere.first_contact(&bullet, &sheet),
-        Err(WebError::Query(_) | WebError::Input(_))
+        Err(WebError::RefusedQuery(_) | WebError::BadInput(_))
     ));
 }

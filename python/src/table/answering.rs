@@ -56,12 +56,12 @@ pub(crate) fn answer(
     };
     let mut solver = parallel_solver(asked.thread_count, Solver::new);
     let (size, source) = (ChunkSize::new(solver.threads()), (reader, &columns));
-    let mut pieces = RowChunks::new(source, asked.question, IdReading::Skipped, &size, stop)?;
+    let mut pieces = RowChunks::new(source, asked.question, IdReading::IdsSkipped, &size, stop)?;
     let found = solver.map_iter(pieces.by_ref(), |solver, piece| {
         let start = Instant::now();
         let found = answer_rows(asked, &piece, &columns, solver, stop);
         done.fetch_add(found.len(), Ordering::Relaxed);
-        size.adapt(piece.row_count(), start.elapsed());
+        size.adapt_chunk_size(piece.row_count(), start.elapsed());
         let is_whole = found.len() == piece.row_count();
         let found = results::batch(asked.question, piece.ids(found.len()), &found);
         found.map(|found| (found, is_whole))
@@ -135,7 +135,7 @@ fn answer_timed(
     solver: &mut Solver,
 ) -> Result<TimedAnswer, InputError> {
     let start = Instant::now();
-    let query = asked.bodies.query(asked.question, course, asked.settings)?;
+    let query = asked.bodies.build_query(asked.question, course, asked.settings)?;
     let answer = solver.answer(asked.question, &query)?;
     let micros = start.elapsed().as_secs_f64() * 1e6;
     Ok(TimedAnswer { answer, micros })
@@ -151,7 +151,7 @@ fn result_row(asked: TableQuestion<'_>, row: &CourseRow, answer: &RowAnswer) -> 
         ..
     } = asked;
     let row = match row {
-        Ok((_, course)) => bodies.row(question, settings, course, answer),
+        Ok((_, course)) => bodies.result_row(question, settings, course, answer),
         Err(error) => ResultRow::error(&error.id, &error.problem),
     };
     ResultRow {

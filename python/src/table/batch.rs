@@ -21,7 +21,7 @@ pub(crate) struct Batch {
     pub(crate) first: usize,
     pub(crate) row_count: usize,
     /// The column `id` with the caller's own values.
-    id: Option<ArrayRef>,
+    id_column: Option<ArrayRef>,
     id_reading: IdReading,
     /// The other columns as numbers; `None` in the place of `id`.
     columns: Vec<Option<NumberColumn>>,
@@ -39,7 +39,7 @@ struct NumberColumn {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum IdReading {
     AsText,
-    Skipped,
+    IdsSkipped,
 }
 
 /// A row of a table, given by its batch and its index in the batch.
@@ -157,7 +157,7 @@ impl Batch {
         Ok(Batch {
             first,
             row_count: batch.num_rows(),
-            id,
+            id_column: id,
             id_reading: names,
             columns,
         })
@@ -165,7 +165,7 @@ impl Batch {
 
     /// Returns the ids of `rows` rows from `at` on; in a table without ids, the row indices.
     pub(crate) fn ids(&self, at: usize, rows: usize) -> ArrayRef {
-        match &self.id {
+        match &self.id_column {
             Some(id) => id.slice(at, rows),
             None => {
                 let first = self.first + at;
@@ -216,9 +216,9 @@ fn inexact_integers<T: ArrowPrimitiveType<Native: Into<i128>>>(
 
 impl Record for Row {
     fn text(&self, _: usize) -> Option<String> {
-        let id = self.batch.id.as_ref()?;
+        let id = self.batch.id_column.as_ref()?;
         let is_null = id.is_null(self.row_index) || id.data_type().is_null();
-        if self.batch.id_reading == IdReading::Skipped || is_null {
+        if self.batch.id_reading == IdReading::IdsSkipped || is_null {
             return None;
         }
         let options = FormatOptions::default();

@@ -15,7 +15,7 @@ use pyo3_arrow::buffer::PyArrowBuffer;
 /// Empty cells of float64 are NaN, and so are those of whole numbers, unless some have more digits than a float64.
 pub(crate) fn to_numpy<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     match column.data_type() {
-        DataType::Float64 => float_array(py, column.as_primitive()),
+        DataType::Float64 => floats_to_numpy(py, column.as_primitive()),
         DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => text_array(py, column),
         _ if column.null_count() > 0 => array_with_empty_cells(py, column),
         DataType::Float32 => number_view(py, column),
@@ -24,7 +24,7 @@ pub(crate) fn to_numpy<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Boun
     }
 }
 
-fn float_array<'py>(py: Python<'py>, numbers: &Float64Array) -> PyResult<Bound<'py, PyAny>> {
+fn floats_to_numpy<'py>(py: Python<'py>, numbers: &Float64Array) -> PyResult<Bound<'py, PyAny>> {
     let mut rows = 0..numbers.len();
     let is_nan = |row| numbers.is_valid(row) || numbers.value(row).is_nan();
     if numbers.null_count() == 0 || rows.all(is_nan) {
@@ -60,7 +60,7 @@ fn array_with_empty_cells<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<B
         // A float64 cannot represent all integers from 2^53 on.
         let most = (1_u64 << 53) as f64;
         if wide.iter().flatten().all(|whole| whole.abs() < most) {
-            return float_array(py, wide);
+            return floats_to_numpy(py, wide);
         }
     }
     object_array(py, column)

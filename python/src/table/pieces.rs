@@ -27,7 +27,7 @@ pub(crate) enum RowChunk {
 /// An iterator over the pieces of a table, in order, until the flag `stop` is set.
 pub(crate) struct RowChunks<'p> {
     source: RowSource,
-    size: &'p ChunkSize,
+    chunk_size: &'p ChunkSize,
     stop: &'p AtomicBool,
     /// The error of the table that ended the iteration, if any.
     pub(crate) fault: Option<TableError>,
@@ -77,7 +77,7 @@ impl ChunkSize {
     }
 
     /// Adapts the size of later pieces to the time `taken` that a piece of `rows` rows took.
-    pub(crate) fn adapt(&self, rows: usize, taken: Duration) {
+    pub(crate) fn adapt_chunk_size(&self, rows: usize, taken: Duration) {
         // A small piece at the end of a batch is no reason for smaller pieces.
         if taken < TARGET_CHUNK_DURATION / 2 {
             self.row_count
@@ -124,7 +124,7 @@ impl<'p> RowChunks<'p> {
         };
         Ok(RowChunks {
             source,
-            size,
+            chunk_size: size,
             stop,
             fault: None,
         })
@@ -148,7 +148,7 @@ impl Iterator for RowChunks<'_> {
         if self.stop.load(Ordering::Relaxed) || self.fault.is_some() {
             return None;
         }
-        let piece = self.source.next(self.size);
+        let piece = self.source.next(self.chunk_size);
         piece.unwrap_or_else(|fault| {
             self.fault = Some(fault);
             None
@@ -238,7 +238,7 @@ fn read_row(batch: &Arc<Batch>, at: usize, columns: &Columns) -> CourseRow {
         batch: Arc::clone(batch),
         row_index: at,
     };
-    match motions::query(columns, &record, row) {
+    match motions::parse_row(columns, &record, row) {
         Ok(query) => Ok((position, Movements::Motions(query))),
         Err(problem) => Err(RowError {
             position,

@@ -1,8 +1,8 @@
 //! Statistics that `ccd decompose` prints about a mesh and its pieces.
 
 use crate::printable::PrintableText;
-use ccd_core::{Body, Volume};
-use ccd_decomp::{Model, Unit};
+use ccd_core::{Body, Solidity};
+use ccd_decomp::{StoredBodyContent, Unit};
 use indicatif::HumanCount;
 use serde::Serialize;
 use std::fmt;
@@ -30,7 +30,7 @@ pub(super) struct Statistics {
 impl Statistics {
     pub(super) fn new(
         (mesh, unit): (String, Option<Unit>),
-        model: &Model,
+        model: &StoredBodyContent,
         body: &Body,
         build_ms: f64,
     ) -> Self {
@@ -54,8 +54,8 @@ impl Statistics {
             exact: report.is_exact(),
             excess: report.excess,
             volume: match report.volume {
-                Volume::Solid => "solid",
-                Volume::Surface => "surface",
+                Solidity::Solid => "solid",
+                Solidity::Surface => "surface",
             },
             remarks: report.remarks(),
         }

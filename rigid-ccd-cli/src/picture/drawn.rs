@@ -47,8 +47,9 @@ pub(super) fn feature_corners(
         Some(("v", _)) => vec![here],
         Some(("e", _)) => {
             let edges = triangles().flat_map(|(_, [a, b, c])| [[a, b], [b, c], [c, a]]);
-            let nearest =
-                edges.min_by(|one, two| distance(here, *one).total_cmp(&distance(here, *two)));
+            let nearest = edges.min_by(|one, two| {
+                distance_to_segment(here, *one).total_cmp(&distance_to_segment(here, *two))
+            });
             nearest.map_or_else(Vec::new, |edge| edge.to_vec())
         }
         Some(("f", number)) => triangles()
@@ -63,7 +64,7 @@ pub(super) fn feature_corners(
         .collect()
 }
 
-fn distance(point: DVec3, [from, to]: [DVec3; 2]) -> f64 {
+fn distance_to_segment(point: DVec3, [from, to]: [DVec3; 2]) -> f64 {
     let along = to - from;
     let share = (point - from).dot(along) / greater(along.length_squared(), f64::MIN_POSITIVE);
     point.distance(from + share.clamp(0.0, 1.0) * along)
@@ -79,7 +80,7 @@ struct MeshBuilder {
 
 impl MeshBuilder {
     fn push(&mut self, corners: [DVec3; 3]) {
-        let numbers = corners.map(|corner| self.number(corner));
+        let numbers = corners.map(|corner| self.vertex_index(corner));
         let mut sorted = numbers;
         sorted.sort_unstable();
         // Two pieces may share a face, and so may both sides of a flat piece.
@@ -88,7 +89,7 @@ impl MeshBuilder {
         }
     }
 
-    fn number(&mut self, corner: DVec3) -> u32 {
+    fn vertex_index(&mut self, corner: DVec3) -> u32 {
         let vertices = &mut self.mesh.vertices;
         let bits = corner.to_array().map(f64::to_bits);
         *self.numbers.entry(bits).or_insert_with(|| {
@@ -100,7 +101,7 @@ impl MeshBuilder {
     /// Adds the hull of a piece's points, grown by the piece's radius. A flat one without a radius is not drawn.
     fn push_hull(&mut self, piece: &Piece<'_>) {
         let around: Vec<DVec3> = if piece.radius > 0.0 {
-            directions()
+            sphere_directions()
                 .map(|direction| piece.radius * direction)
                 .collect()
         } else {
@@ -126,7 +127,7 @@ impl MeshBuilder {
 }
 
 /// Returns evenly distributed unit vectors on a spiral from pole to pole.
-fn directions() -> impl Iterator<Item = DVec3> {
+fn sphere_directions() -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5f64.sqrt());
     (0..SPHERE_POINT_COUNT).map(move |k| {
         let z = 1.0 - (2.0 * f64::from(k) + 1.0) / f64::from(SPHERE_POINT_COUNT);

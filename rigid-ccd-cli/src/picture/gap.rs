@@ -66,7 +66,7 @@ impl GapOverTime {
 ///
 /// # Errors
 /// If the motions are out of range.
-pub fn gap(
+pub fn gap_over_time(
     solver: &mut Solver,
     bodies: BodyPair<'_>,
     course: &Movements,
@@ -87,7 +87,7 @@ pub fn gap(
     survey.add_measurements(&mut points)?;
     Ok(GapOverTime {
         gap: GapCurve {
-            proven: survey.proven(&points)?,
+            proven: survey.lower_bound_curve(&points)?,
             points,
         },
         step_times: steps,
@@ -185,21 +185,22 @@ impl GapSampler<'_> {
     fn approach_bounds(&self, from: f64, to: f64) -> Result<ApproachBounds, InputError> {
         let [a, b] = self.movements.trajectories();
         let (a, b) = (a.stretch_between(from, to)?, b.stretch_between(from, to)?);
-        let [reach_a, reach_b] = [(&a, self.bodies.a), (&b, self.bodies.b)].map(extent);
+        let [reach_a, reach_b] =
+            [(&a, self.bodies.a), (&b, self.bodies.b)].map(max_distance_from_centre);
         let shift = (a.motion.velocity() - b.motion.velocity()).length();
         let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;
         let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
         Ok(ApproachBounds {
             speed: (shift + turns + gains) * ROUNDING_FACTOR,
             deviation: 2.0
-                * (a.deviation_bound.at(reach_a) + b.deviation_bound.at(reach_b))
+                * (a.deviation_bound.at_reach(reach_a) + b.deviation_bound.at_reach(reach_b))
                 * ROUNDING_FACTOR,
         })
     }
 
     /// Returns the proven lower bound of the distance as a polyline over time. It falls on both sides of each
     /// measurement, but not below what is proven for all times.
-    fn proven(&self, points: &[GapSample]) -> Result<Vec<[f64; 2]>, InputError> {
+    fn lower_bound_curve(&self, points: &[GapSample]) -> Result<Vec<[f64; 2]>, InputError> {
         let floor = self.distance_lower_bound;
         let mut line = Vec::new();
         for two in points.windows(2) {
@@ -228,6 +229,6 @@ impl GapSampler<'_> {
 }
 
 /// Bounds the distance of a body's points from the centre of rotation of a stretch's motion.
-fn extent((stretch, body): (&Stretch, &Body)) -> f64 {
+fn max_distance_from_centre((stretch, body): (&Stretch, &Body)) -> f64 {
     body.bounding_radius() + stretch.motion.centre().length()
 }

@@ -5,7 +5,7 @@ use ccd_core::{Motion, Settings};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use rigid_ccd::table::motions::Motions;
-use rigid_ccd::table::paths::Path;
+use rigid_ccd::table::paths::PathPair;
 use rigid_ccd::trajectory::Poses;
 
 fn random_vector(random: &mut impl Rng, size: f64) -> DVec3 {
@@ -53,7 +53,7 @@ fn path(random: &mut impl Rng) -> Movements {
         let timed = [0.0, 0.2, 0.9, 1.5].map(|time| (time, pose(random, 3.0)));
         Poses::new(timed.to_vec()).unwrap()
     };
-    Movements::Path(Path {
+    Movements::Path(PathPair {
         id: "visit".to_owned(),
         a: poses(),
         b: poses(),
@@ -87,7 +87,7 @@ fn the_proven_line_is_under_the_gap_at_every_time() {
             1 => random_movements(&mut random, 2.0),
             _ => random_movements(&mut random, 40.0),
         };
-        let found = gap(&mut solver, BodyPair { a, b }, &course, 0.0).unwrap();
+        let found = gap_over_time(&mut solver, BodyPair { a, b }, &course, 0.0).unwrap();
         let line = &found.gap.proven;
         assert!(
             line.windows(2).all(|two| two[0][0] <= two[1][0] + 1e-12),
@@ -128,7 +128,7 @@ fn nothing_touches_before_the_last_step() {
         };
         let [a, b] = [k % 4, (k / 4) % 4].map(|k| &bodies[k]);
         let course = Movements::Motions(query.clone());
-        let found = gap(&mut solver, BodyPair { a, b }, &course, 0.0).unwrap();
+        let found = gap_over_time(&mut solver, BodyPair { a, b }, &course, 0.0).unwrap();
         solver.set_settings(Settings::DEFAULT);
         let hit = solver
             .first_contact((a, query.a), (b, query.b), query.duration)

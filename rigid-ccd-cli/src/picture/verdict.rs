@@ -53,7 +53,7 @@ pub(super) fn verdict(
                 _ if asked.margin > 0.0 => "Within the margin",
                 _ => "In contact",
             };
-            let (contact, after) = (contact(row), describe_end_of_start_contact(row));
+            let (contact, after) = (describe_contact(row), describe_end_of_start_contact(row));
             format!("{how} at the start: {contact}.{after}")
         }
         Status::Measured if asked.time_meaning == TimeMeaning::MeasurementTime => {
@@ -121,7 +121,7 @@ fn describe_contact_after_start(row: &ResultRow, asked: QueryContext, time: &str
             "nothing touches before",
         )
     };
-    let touching = contact(row);
+    let touching = describe_contact(row);
     match (asked.time_meaning, row.last_time) {
         (TimeMeaning::FirstContact, None) => {
             format!("{first} at {time}: {touching}. Proven: {before}.")
@@ -166,7 +166,7 @@ fn describe_free_bodies(asked: QueryContext, end: f64, proven: Option<f64>) -> S
 }
 
 /// Describes in words which features touch or are nearest.
-pub(super) fn contact(row: &ResultRow) -> String {
+pub(super) fn describe_contact(row: &ResultRow) -> String {
     let features = match (&row.feature_a, &row.feature_b) {
         (Some(a), Some(b)) => format!(
             "{} of A at {} of B",

@@ -1,7 +1,9 @@
 //! The options of `ccd query`.
 
 use super::help::{AFTER_HELP, AFTER_LONG_HELP};
-use crate::named::{QUESTIONS, SHORTCUTS, START_POLICIES, VECTOR_INSTRUCTIONS, named_value_parser};
+use crate::named::{
+    QUESTIONS, SHORTCUTS, SIMD_INSTRUCTION_SETS, START_POLICIES, named_value_parser,
+};
 use crate::numbers::{parse_nonnegative, parse_seconds, tolerance};
 use crate::pair::BodiesArgs;
 use crate::solver_kind::{BoundKind, OracleKind, ScheduleKind};
@@ -63,7 +65,7 @@ pub(crate) struct QueryArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
     /// Vector instructions to compute with; they change the speed, not the answers
-    #[arg(long, value_parser = named_value_parser(VECTOR_INSTRUCTIONS), default_value = "best")]
+    #[arg(long, value_parser = named_value_parser(SIMD_INSTRUCTION_SETS), default_value = "best")]
     pub(super) instructions: VectorInstructions,
     /// Search without these shortcuts, to see what they save; times stay certified
     #[arg(long, value_name = "SHORTCUT,...", value_delimiter = ',', value_parser = named_value_parser(SHORTCUTS))]
@@ -169,12 +171,12 @@ pub(super) struct RowRange {
     /// The number of the first row of the range.
     pub(super) start: usize,
     /// The number of the row after the range; `None` for a range without an end.
-    pub(super) end: Option<usize>,
+    pub(super) end_row: Option<usize>,
 }
 
 impl RowRange {
     pub(super) fn includes_all_rows(self) -> bool {
-        self.start == 0 && self.end.is_none()
+        self.start == 0 && self.end_row.is_none()
     }
 }
 
@@ -189,10 +191,13 @@ impl FromStr for RowRange {
         let range = text.split_once("..").and_then(|(start, end)| {
             let start = bound(start, Some(0)).ok()??;
             let end = bound(end, None).ok()?;
-            Some(RowRange { start, end })
+            Some(RowRange {
+                start,
+                end_row: end,
+            })
         });
         range
-            .filter(|range| range.end.is_none_or(|end| range.start < end))
+            .filter(|range| range.end_row.is_none_or(|end| range.start < end))
             .ok_or_else(|| {
                 "give the first row and the one after the last, such as 1000..2000".into()
             })
@@ -201,7 +206,10 @@ impl FromStr for RowRange {
 
 impl fmt::Display for RowRange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let RowRange { start, end } = self;
+        let RowRange {
+            start,
+            end_row: end,
+        } = self;
         match end {
             Some(end) => write!(f, "{start}..{end}"),
             None => write!(f, "{start}.."),

@@ -71,7 +71,7 @@ impl Journal {
             ccd_file::write(&path, |out| out.write_all(text.as_bytes()))?;
             File::options().append(true).open(&path)
         };
-        let file = open().map_err(|source| OutputError::for_path(&path, source))?;
+        let file = open().map_err(|source| OutputError::error_for_path(&path, source))?;
         Ok(Journal {
             path,
             file,
@@ -83,7 +83,7 @@ impl Journal {
     pub(super) fn append(&mut self, checkpoint: Checkpoint) -> Result<(), OutputError> {
         line(&checkpoint, &mut self.checksum_hasher)
             .and_then(|line| self.file.write_all(line.as_bytes()))
-            .map_err(|source| OutputError::for_path(&self.path, source))
+            .map_err(|source| OutputError::error_for_path(&self.path, source))
     }
 }
 

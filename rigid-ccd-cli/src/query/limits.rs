@@ -23,7 +23,7 @@ pub(super) const LIMIT_ADVICE: [(Limit, &str); 5] = [
         "the distance backend gave up; try another --oracle",
     ),
     (
-        Limit::Undecided,
+        Limit::OverlapUndecided,
         "too close at the start to decide whether the bodies overlap; move one of them a little",
     ),
 ];

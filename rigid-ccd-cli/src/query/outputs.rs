@@ -152,7 +152,7 @@ fn rename_complete_table(table: Output, written: LengthAndChecksum) -> Result<bo
         let found = measure_beginning(File::open(&target)?, u64::MAX)?;
         Ok(Some(found.length_and_checksum() == written))
     };
-    match name_it().map_err(|source| OutputError::for_path(&target, source))? {
+    match name_it().map_err(|source| OutputError::error_for_path(&target, source))? {
         Some(false) => bail!(
             "--resume: {} has changed since the run finished; omit --resume to start over and \
              overwrite it",

@@ -69,7 +69,7 @@ pub(super) fn verify_and_report_finished(
     let (input, out) = (input_name(&args.motions), args.out.display());
     let skipped = rows.skip_rows(end.rows).with_context(|| input.clone())?;
     let same = (skipped, rows.checksum()) == (end.rows, end.checksum);
-    let more = args.rows.end.is_none_or(|last| end.rows < last);
+    let more = args.rows.end_row.is_none_or(|last| end.rows < last);
     if !same || more && rows.skip_rows(1).with_context(|| input.clone())? > 0 {
         bail!(
             "--resume: {input}: not the rows of the finished run; give the same table, or omit \

@@ -31,7 +31,7 @@ pub(super) struct QueryRun<'a> {
     pub(super) progress: Progress,
     pub(super) outputs: Outputs,
     /// The rows chosen for the page of `--html`; `None` without this option.
-    pub(super) page_rows: Option<ChosenRows>,
+    pub(super) html_rows: Option<ChosenRows>,
     pub(super) summary: Summary,
 }
 
@@ -44,7 +44,7 @@ impl QueryRun<'_> {
         let mut done = start;
         self.progress.begin_batch(0, rows.consumed_bytes());
         loop {
-            let end = self.args.rows.end;
+            let end = self.args.rows.end_row;
             let remaining = end.map_or(usize::MAX, |end| end.saturating_sub(done.rows));
             let (batch, broken) = read_rows(rows, self.batch_size.row_count().min(remaining));
             if batch.is_empty() && broken.is_none() {
@@ -91,9 +91,9 @@ impl QueryRun<'_> {
         for (asked, answer) in batch.iter().zip(answers) {
             let (position, course, mut row) = match asked {
                 Ok((position, course)) => {
-                    let row = self
-                        .bodies
-                        .row(timing.question, &timing.settings, course, answer);
+                    let row =
+                        self.bodies
+                            .result_row(timing.question, &timing.settings, course, answer);
                     (*position, Some(course), row)
                 }
                 Err(error) => {
@@ -109,7 +109,7 @@ impl QueryRun<'_> {
                 }
             }
             row.micros = row.micros.filter(|_| !self.args.no_micros);
-            if let (Some(shown), Some(course)) = (&mut self.page_rows, course) {
+            if let (Some(shown), Some(course)) = (&mut self.html_rows, course) {
                 shown.add_if_wanted(course, &row);
             }
             self.outputs.results.row(&Line(&columns, &row))?;

@@ -22,7 +22,7 @@ pub(super) struct Summary {
     /// The times of the queries of this run, in microseconds.
     time_histogram: TimeHistogram,
     /// The number of pairs of nodes visited in all queries.
-    pub(super) iterations: u64,
+    pub(super) visited_node_pairs: u64,
     /// The number of calls of the distance backend in all queries.
     pub(super) oracle_calls: u64,
     /// The number of steps that advanced all pairs together, in all queries.
@@ -65,7 +65,7 @@ impl Summary {
         for (count, (limit, _)) in self.limit_counts.iter_mut().zip(LIMIT_ADVICE) {
             *count += usize::from(answer.outcome.limit() == Some(limit));
         }
-        self.iterations += answer.stats.iterations;
+        self.visited_node_pairs += answer.stats.iterations;
         self.oracle_calls += answer.stats.oracle_calls;
         self.advancements += answer.stats.advancements;
         self.oracle_steps += answer.stats.oracle_effort.steps;
@@ -159,7 +159,7 @@ impl fmt::Display for Summary {
             "; median {:.1} µs, mean {:.1} µs; {} iterations, {} oracle calls",
             self.time_histogram.median(),
             self.time_histogram.mean(),
-            self.iterations,
+            self.visited_node_pairs,
             self.oracle_calls
         )?;
         for (count, (_, advice)) in self.limit_counts.iter().zip(LIMIT_ADVICE) {

@@ -70,7 +70,7 @@ fn hull_trees_give_the_answers_of_boxes() {
             let kind = SolverKind {
                 schedule,
                 oracle,
-                bound: BoundKind::Sound,
+                motion_bound: BoundKind::Sound,
             };
             first_contact(kind, &query).outcome
         };

@@ -67,7 +67,7 @@ pub(crate) struct ViewArgs {
 
 impl ViewArgs {
     /// Returns the two bodies and the table of motions; `None` if an option for them is missing.
-    pub(super) fn rows(&self) -> Option<(BodiesArgs, &Path)> {
+    pub(super) fn bodies_and_motions(&self) -> Option<(BodiesArgs, &Path)> {
         let bodies = BodiesArgs {
             a: self.a.clone()?,
             b: self.b.clone()?,

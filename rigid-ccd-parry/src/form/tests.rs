@@ -93,7 +93,7 @@ fn a_ball_is_about_all_points() {
     let mut form = ShapeGeometry::EMPTY;
     form.push_box(DVec3::ONE, 3.0 * DVec3::ONE, 0.5);
     form.push_hull_of_points([DVec3::new(9.0, 2.0, 2.0)], 1.0, 0);
-    let (middle, radius) = form.ball();
+    let (middle, radius) = form.enclosing_ball();
     let far = [1.0, 3.0].map(|x| length(DVec3::new(x, 1.0, 1.0) - middle) + 0.5);
     assert!(far.iter().all(|far| radius >= *far) && radius >= 10.0 - middle.x);
     assert!(radius < 6.0);
@@ -103,7 +103,7 @@ fn a_ball_is_about_all_points() {
 fn only_a_ball_is_a_point() {
     let mut ball = ShapeGeometry::EMPTY;
     ball.push_hull_of_points([DVec3::X], 2.0, 0);
-    assert_eq!(ball.point(), Some(DVec3::X));
+    assert_eq!(ball.centre_if_ball(), Some(DVec3::X));
     ball.push_hull_of_points([DVec3::X; 2], 0.0, 0);
-    assert_eq!(ball.point(), None);
+    assert_eq!(ball.centre_if_ball(), None);
 }

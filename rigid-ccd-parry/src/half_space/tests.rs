@@ -11,7 +11,7 @@ fn motion_with_extent(
     MotionWithExtent {
         motion: Motion::new(pose, velocity, spin).expect("a motion"),
         about: DVec3::ZERO,
-        reach,
+        max_radius: reach,
     }
 }
 
@@ -132,7 +132,7 @@ fn a_motion_that_may_be_along_a_tilted_plane_has_a_long_horizon() {
     let along = motion_with_extent([3.0, 3.0, 3.0], [5.0, -2.0, -3.0], [0.0; 3], 1.0);
     let horizon = plane.horizon(ground, along, 0.25, f64::INFINITY);
     assert!(
-        matches!(horizon, QueryDuration::Part(duration) if duration > 1e6),
+        matches!(horizon, QueryDuration::PartOfCast(duration) if duration > 1e6),
         "{horizon:?}"
     );
     assert_eq!(

@@ -12,7 +12,7 @@ fn motion_with_extent(
     MotionWithExtent {
         motion: Motion::new(pose, velocity, spin).expect("a motion"),
         about: DVec3::ZERO,
-        reach,
+        max_radius: reach,
     }
 }
 
@@ -57,14 +57,15 @@ fn the_horizon_of_periodic_motions_is_one_period() {
         assert!((PI..PI + 1e-10).contains(&duration), "{duration}");
     }
     assert!(
-        matches!(both([2.0, 0.0, 0.0], [0.0, 2.0, 0.0]), QueryDuration::Part(duration) if duration > 1e5)
+        matches!(both([2.0, 0.0, 0.0], [0.0, 2.0, 0.0]), QueryDuration::PartOfCast(duration) if duration > 1e5)
     );
 }
 
 #[test]
 fn travel_and_turn_stay_within_the_engines_limits() {
     let spins = motion_with_extent([-4.0, 0.0, 0.0], [1e-9, 0.0, 0.0], [0.0, 0.0, 1e3], 1.0);
-    let QueryDuration::Part(duration) = QueryDuration::new([spins, resting_motion(1.0)], 0.0, 1e9)
+    let QueryDuration::PartOfCast(duration) =
+        QueryDuration::new([spins, resting_motion(1.0)], 0.0, 1e9)
     else {
         panic!("it turns too often");
     };
@@ -72,7 +73,7 @@ fn travel_and_turn_stay_within_the_engines_limits() {
     // Both bodies are fast, but have almost no relative velocity.
     let [a, b] =
         [1e9, 1e9 + 1e-3].map(|v| motion_with_extent([0.0; 3], [v, 0.0, 0.0], [0.0; 3], 1e3));
-    let QueryDuration::Part(duration) = QueryDuration::new([a, b], 0.0, f64::INFINITY) else {
+    let QueryDuration::PartOfCast(duration) = QueryDuration::new([a, b], 0.0, f64::INFINITY) else {
         panic!("it flies too far");
     };
     assert!(duration * 1e9 < MAX_COORDINATE && duration * 1e9 > 0.99 * MAX_COORDINATE);

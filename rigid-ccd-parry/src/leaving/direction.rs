@@ -14,7 +14,7 @@ const MAX_EDGE_CROSS_PRODUCTS: usize = 4096;
 /// For rounded pieces whose cores are apart it is the direction between these. Otherwise it is the best of the normals
 /// of facets, the products of edges, and the direction between the middles. Where pieces have too many edges for all
 /// products, a slightly worse one may come out.
-pub(super) fn direction(
+pub(super) fn least_overlap_direction(
     pieces: [Piece<'_>; 2],
     poses: [Pose; 2],
     solver: &mut Solver,
@@ -34,9 +34,9 @@ pub(super) fn direction(
         }
     };
     consider(b.middle() - a.middle());
-    a.normals
+    a.face_normals
         .iter()
-        .chain(&b.normals)
+        .chain(&b.face_normals)
         .for_each(|normal| consider(*normal));
     if a.edges.len() * b.edges.len() <= MAX_EDGE_CROSS_PRODUCTS {
         for edge in &a.edges {
@@ -80,7 +80,7 @@ fn direction_between_ungrown_hulls(
 struct PlacedPiece {
     points: Vec<DVec3>,
     radius: f64,
-    normals: Vec<DVec3>,
+    face_normals: Vec<DVec3>,
     edges: Vec<DVec3>,
 }
 
@@ -113,7 +113,7 @@ impl PlacedPiece {
         PlacedPiece {
             points,
             radius: piece.radius,
-            normals,
+            face_normals: normals,
             edges,
         }
     }

@@ -1,7 +1,7 @@
 //! Converts parry's arguments to a cast in double precision.
 
 use super::CONTACT;
-use super::convert::{motion, point, pose};
+use super::convert::{motion, point, pose_from_parry};
 use super::hits::hit;
 use super::library::math::{Pose, Real, Vector};
 use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions};
@@ -29,8 +29,9 @@ pub(super) fn linear_cast_from_arguments(
     asked: ShapeCastOptions,
     options: &Options,
 ) -> Result<Option<Cast>, CastError> {
-    let slides =
-        |(at, velocity): (&Pose, Vector)| Motion::new(pose(at)?, point(velocity), [0.0; 3]);
+    let slides = |(at, velocity): (&Pose, Vector)| {
+        Motion::new(pose_from_parry(at)?, point(velocity), [0.0; 3])
+    };
     let motions = CastError::motions_or_error(bodies.map(slides))?;
     let interval = [0.0, f64::from(asked.max_time_of_impact)];
     let target = f64::from(asked.target_distance);
@@ -44,7 +45,7 @@ pub(super) fn linear_cast_from_arguments(
 }
 
 /// Runs a cast on two shapes, and converts the hit to parry's type; without a cast there is no hit.
-pub(super) fn answer(
+pub(super) fn run_cast(
     cast: Option<Cast>,
     shapes: [Result<PreparedShape, ShapeError>; 2],
     solver: &mut Solver,

@@ -188,7 +188,7 @@ impl Caster {
         shapes: [&SharedShape; 2],
     ) -> Result<Option<ShapeCastHit>, CastError> {
         let shapes = shapes.map(|shape| self.prepared_shape(shape));
-        ask::answer(cast, shapes, &mut self.solver)
+        ask::run_cast(cast, shapes, &mut self.solver)
     }
 }
 

@@ -138,7 +138,7 @@ fn answer(cast: Option<Cast>, shapes: [&dyn Shape; 2]) -> Result<Option<ShapeCas
     let memory = THREAD_MEMORY.try_with(Cell::take).ok().flatten();
     let mut memory = memory.unwrap_or_default();
     let shapes = shapes.map(|shape| memory.prepared_shape(shape));
-    let found = ask::answer(cast, shapes, &mut memory.solver);
+    let found = ask::run_cast(cast, shapes, &mut memory.solver);
     let _ = THREAD_MEMORY.try_with(|place| place.set(Some(memory)));
     found
 }

@@ -26,7 +26,7 @@ use ccd_core::{InputError, Motion, Pose};
 /// ```
 pub fn motion(motion: &NonlinearRigidMotion) -> Result<Motion, InputError> {
     Motion::about(
-        pose(&motion.start)?,
+        pose_from_parry(&motion.start)?,
         point(motion.linvel),
         point(motion.angvel),
         point(motion.local_center),
@@ -34,7 +34,7 @@ pub fn motion(motion: &NonlinearRigidMotion) -> Result<Motion, InputError> {
 }
 
 /// Converts parry's pose to the engine's, in double precision.
-pub(super) fn pose(pose: &ParryPose) -> Result<Pose, InputError> {
+pub(super) fn pose_from_parry(pose: &ParryPose) -> Result<Pose, InputError> {
     let q = pose.rotation;
     let [x, y, z, w] = [q.x, q.y, q.z, q.w].map(f64::from);
     Pose::new(point(pose.translation), DQuat::from_xyzw(x, y, z, w))

@@ -1,6 +1,6 @@
 //! Converts parry's shapes to bodies.
 
-use super::convert::{point, pose};
+use super::convert::{point, pose_from_parry};
 use super::library::math::{IVector, Real};
 use super::library::shape::{
     Compound, Cone, ConvexPolyhedron, Cuboid, Cylinder, HalfSpace as ParryHalfSpace, HeightField,
@@ -115,8 +115,9 @@ fn solid_of_revolution_geometry(
     shape: &TypedShape<'_>,
     options: &Options,
 ) -> Result<ShapeGeometry, ShapeError> {
-    let cylinder = |s: &Cylinder| round(SolidOfRevolution::cylinder, s.half_height, s.radius);
-    let cone = |s: &Cone| round(SolidOfRevolution::cone, s.half_height, s.radius);
+    let cylinder =
+        |s: &Cylinder| solid_of_revolution(SolidOfRevolution::cylinder, s.half_height, s.radius);
+    let cone = |s: &Cone| solid_of_revolution(SolidOfRevolution::cone, s.half_height, s.radius);
     let (made, grown) = match shape {
         TypedShape::Cylinder(s) => (cylinder(s), 0.0),
         TypedShape::Cone(s) => (cone(s), 0.0),
@@ -131,7 +132,7 @@ fn solid_of_revolution_geometry(
     ))
 }
 
-fn round(
+fn solid_of_revolution(
     make: fn(f64, f64) -> Result<SolidOfRevolution, InputError>,
     half_height: Real,
     radius: Real,
@@ -239,7 +240,7 @@ fn push_compound(
             error: Box::new(error),
         };
         let inner = geometry_at_depth(&**shape, options, depth + 1).map_err(named)?;
-        let at = pose(at).map_err(|error| named(ShapeError::Body(error)))?;
+        let at = pose_from_parry(at).map_err(|error| named(ShapeError::Body(error)))?;
         form.push_at_pose(&at, &inner, part).map_err(named)?;
     }
     Ok(())

@@ -40,7 +40,7 @@ fn replay_contact_time(folder: &Path, command: &str) -> Option<f64> {
     let config = Settings {
         tolerance: number("--tolerance"),
         margin: number("--margin"),
-        start: match option("--start") {
+        start_policy: match option("--start") {
             Some("leave") => StartPolicy::Leave,
             _ => StartPolicy::Report,
         },

@@ -4,7 +4,7 @@ use crate::double::make;
 use crate::scenes::{
     MotionSpec, ShapeSpec, number, random_motions, random_shape, random_vector, seeded_rng,
 };
-use rigid_ccd::body::{Pieces, Volume};
+use rigid_ccd::body::{Pieces, Solidity};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Motion, Pose, Settings, Solver};
 use rigid_ccd_parry::f64::cast_shapes_nonlinear;
@@ -31,8 +31,8 @@ fn body(recipe: &ShapeSpec) -> Body {
         }),
         ShapeSpec::Mesh(vertices, faces) => {
             let ids: Vec<u32> = (0..faces.len() as u32).collect();
-            let pieces = Pieces::triangles(&points(vertices), faces, &ids).expect("triangles");
-            Body::new(&pieces, Volume::Surface)
+            let pieces = Pieces::from_triangles(&points(vertices), faces, &ids).expect("triangles");
+            Body::new(&pieces, Solidity::Surface)
         }
         _ => unreachable!("made of these alone"),
     };

@@ -44,7 +44,7 @@ fn steps_are_free(
 /// Returns the arm among random obstacles. Links that nearly touch in the home position are not checked.
 fn random_cell(random: &mut Pcg64) -> Result<Cell, Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/edges");
-    let robot = Urdf::at(folder.join("arm.urdf")).read()?;
+    let robot = Urdf::from_path(folder.join("arm.urdf")).read()?;
     let pairs = pairs_apart_at_home(&robot)?;
     let mut cell = Cell::new(robot, pairs);
     while cell.obstacle_names().len() < OBSTACLE_COUNT {

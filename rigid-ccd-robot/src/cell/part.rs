@@ -3,7 +3,7 @@
 use crate::tuning::MIN_PIECES_TO_SPLIT;
 use ccd_core::fan_triangles;
 use ccd_core::order::greater;
-use ccd_core::{Body, Facet, FacetOrigin, Facets, Piece, Pieces, Polytope, SupportMap, Volume};
+use ccd_core::{Body, Facet, FacetOrigin, Facets, Piece, Pieces, Polytope, Solidity, SupportMap};
 use rigid_ccd::Pose;
 use rigid_ccd::glam::{DMat3, DVec3};
 use rigid_ccd::oracle::Frame;
@@ -27,7 +27,7 @@ pub(crate) struct Hull {
     corners: Vec<DVec3>,
     support_map: SupportMap,
     /// The radius of the ball by which the hull is grown.
-    radius: f64,
+    rounding_radius: f64,
 }
 
 /// A convex hull around some pieces of a body, in the frame in which the body rests.
@@ -55,7 +55,7 @@ pub(crate) struct Part {
     pub(crate) ball_radius: f64,
     /// A bound of the numbers from which the corners were computed, for their rounding: the body's position and its
     /// largest coordinates. Both may be far larger than the distance of the corners from the frame's origin.
-    pub(crate) reach: f64,
+    pub(crate) coordinate_bound: f64,
 }
 
 impl PlacedBody {
@@ -96,7 +96,7 @@ impl Hull {
         Hull {
             corners,
             support_map: support,
-            radius: radii.fold(0.0, greater),
+            rounding_radius: radii.fold(0.0, greater),
         }
     }
 
@@ -114,7 +114,7 @@ impl Hull {
 /// Returns the triangles of the hull of a body that is one polytope with a volume and has no surface yet; `None` for other
 /// bodies. The hull is computed anew: the facets that a polytope comes with are not checked.
 fn hull_surface_of_polytope(body: &Body) -> Option<Body> {
-    if body.pieces().len() != 1 || body.volume() != Volume::Solid || body.has_surface() {
+    if body.pieces().len() != 1 || body.solidity() != Solidity::Solid || body.has_surface() {
         return None;
     }
     let piece = body.pieces().get(0);
@@ -128,9 +128,9 @@ fn hull_surface_of_polytope(body: &Body) -> Option<Body> {
     }
     let triangles: Vec<[u32; 3]> = hull.facets.iter().flat_map(fan_triangles).collect();
     let ids: Vec<u32> = (0..triangles.len() as u32).collect();
-    let pieces = Pieces::triangles(&hull.points, &triangles, &ids).ok()?;
+    let pieces = Pieces::from_triangles(&hull.points, &triangles, &ids).ok()?;
     let hierarchy = ccd_decomp::build_hierarchy(&pieces).ok()?;
-    Body::with_hierarchy(&pieces, &hierarchy, Volume::Solid).ok()
+    Body::with_hierarchy(&pieces, &hierarchy, Solidity::Solid).ok()
 }
 
 impl Part {
@@ -139,7 +139,7 @@ impl Part {
         let points: Vec<DVec3> = corners
             .map(|&corner| placed.pose.transform_point(corner))
             .collect();
-        let radius = hull.radius;
+        let radius = hull.rounding_radius;
         let (mut min, mut max) = (points[0], points[0]);
         for &point in &points {
             (min, max) = (min.min(point), max.max(point));
@@ -163,7 +163,7 @@ impl Part {
             centre,
             half_extents: 0.5 * (max - min) + DVec3::splat(radius),
             ball_radius: farthest + radius,
-            reach: placed.pose.translation().length() + largest + radius,
+            coordinate_bound: placed.pose.translation().length() + largest + radius,
         }
     }
 
@@ -229,7 +229,7 @@ fn corners_of_hull(points: Vec<DVec3>) -> (Vec<DVec3>, SupportMap) {
             (points.to_vec(), SupportMap::new(points, facets))
         }
         None => {
-            let support = SupportMap::new(&points, Facets::NONE);
+            let support = SupportMap::new(&points, Facets::EMPTY);
             (points, support)
         }
     }

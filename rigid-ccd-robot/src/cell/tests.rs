@@ -17,9 +17,12 @@ fn cart_cell() -> Cell {
         name: name.into(),
         parent: "base".into(),
         child: child.into(),
-        joint: trajectory::Joint::prismatic(Pose::at([0.0, y, 0.0]).unwrap(), [1.0, 0.0, 0.0])
-            .unwrap(),
-        position: PositionRule::Free,
+        axis_and_limits: trajectory::Joint::prismatic(
+            Pose::at([0.0, y, 0.0]).unwrap(),
+            [1.0, 0.0, 0.0],
+        )
+        .unwrap(),
+        position_rule: PositionRule::Free,
     };
     let joints = vec![slide("rail", "cart", 0.0), slide("side", "post", 1.0)];
     let robot = Robot::new(links, joints).unwrap();
@@ -35,7 +38,7 @@ fn stop(cell: &Cell) -> Option<(f64, [Item<'_>; 2])> {
         .unwrap()
     {
         PathOutcome::Free => None,
-        PathOutcome::Contact(contact) => Some((10.0 * contact.at.share, contact.between)),
+        PathOutcome::Contact(contact) => Some((10.0 * contact.at.share, contact.items)),
         PathOutcome::Unresolved { .. } => panic!("a limit was reached"),
     }
 }

@@ -16,7 +16,7 @@ pub(crate) struct JointBox {
 impl JointBox {
     /// Returns the box of all positions of the joints that move two links against each other; `None` if a joint without
     /// limits does not come back to where it was after a turn.
-    pub(crate) fn between(cell: &Cell, links: [usize; 2]) -> Option<Self> {
+    pub(crate) fn between_links(cell: &Cell, links: [usize; 2]) -> Option<Self> {
         let robot = cell.robot();
         let limits: Vec<[f64; 2]> = robot.limits().collect();
         let mut ranges: Vec<[f64; 2]> = limits
@@ -28,12 +28,12 @@ impl JointBox {
             let Some(source) = robot.source(joint) else {
                 continue;
             };
-            let number = source.number();
+            let number = source.position_index();
             let [low, high] = limits[number];
             ranges[number] = if low.is_finite() && high.is_finite() {
                 [low, high]
             } else {
-                let kind = robot.joints()[joint].joint.kind();
+                let kind = robot.joints()[joint].axis_and_limits.kind();
                 let comes_back =
                     matches!(kind, JointKind::Revolute(_)) && source.has_integer_multiplier();
                 comes_back.then_some([-PI, PI])?
@@ -52,7 +52,7 @@ impl JointBox {
 
     /// Returns how far the position of a joint is at most from that in the middle.
     pub(crate) fn max_deviation(&self, source: PositionSource) -> f64 {
-        let range = &self.ranges[source.number()];
+        let range = &self.ranges[source.position_index()];
         let ([low, high], middle) = (*range, middle(range));
         let half = if high - middle > middle - low {
             high - middle

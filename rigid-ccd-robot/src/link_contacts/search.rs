@@ -7,7 +7,7 @@ use crate::solver::measure::{DistanceVerdict, Thresholds, measure};
 use crate::solver::part_pairs::PartPair;
 use crate::solver::placement::Placement;
 use crate::solver::violation::are_convex_parts_nearer;
-use crate::tuning::HINGE_INTERVALS;
+use crate::tuning::JOINT_AXIS_INTERVALS;
 use ccd_core::order::greater;
 use rigid_ccd::{Body, Error, Pose, Solver};
 use std::cmp::Ordering;
@@ -54,7 +54,7 @@ impl<'c> PairSearch<'c> {
             touching_configuration: touching,
             apart_configuration: apart,
         };
-        let Some(all) = JointBox::between(self.cell, links) else {
+        let Some(all) = JointBox::between_links(self.cell, links) else {
             return Ok(undecided(0.0, None, None));
         };
         if self.meet_on_hinge(links, &all)? {
@@ -106,7 +106,7 @@ impl<'c> PairSearch<'c> {
         let between = cell.robot().chain_between(links[0], links[1]);
         let joints = between.joint_numbers().iter();
         let moving: Vec<usize> = joints
-            .filter_map(|&joint| kinematics.number(joint))
+            .filter_map(|&joint| kinematics.moving_joint_index(joint))
             .collect();
         let &[number] = &*moving else {
             return Ok(false);
@@ -122,8 +122,8 @@ impl<'c> PairSearch<'c> {
         let reach = own
             .map(|part| part.centre.length() + part.ball_radius)
             .fold(0.0, greater);
-        for k in 0..=HINGE_INTERVALS {
-            let along = reach * (2.0 * f64::from(k) / f64::from(HINGE_INTERVALS) - 1.0);
+        for k in 0..=JOINT_AXIS_INTERVALS {
+            let along = reach * (2.0 * f64::from(k) / f64::from(JOINT_AXIS_INTERVALS) - 1.0);
             let parent = self.placement.frames[joint.parent];
             let at = Pose::at(parent.transform_point(joint.origin + along * joint.axis))?;
             if self.link_touches(links[0], (&point, at))?
@@ -165,7 +165,7 @@ impl<'c> PairSearch<'c> {
         };
         for pair in pairs {
             let thresholds = Thresholds {
-                free_distance: 0.0,
+                min_free_distance: 0.0,
                 near_distance: 0.0,
             };
             let found = measure(self.cell, &self.placement, pair, thresholds, false);
@@ -225,7 +225,7 @@ impl<'c> PairSearch<'c> {
         let mut weights = vec![0.0; self.cell.robot().limits().len()];
         for joint in self.cell.kinematics().joints() {
             let effect = joint.source.factor().abs() * if joint.is_prismatic { 2.0 } else { 1.0 };
-            let number = joint.source.number();
+            let number = joint.source.position_index();
             weights[number] = greater(weights[number], effect);
         }
         weights

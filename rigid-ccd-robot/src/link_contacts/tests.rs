@@ -82,8 +82,8 @@ fn limits_decide_whether_a_hinge_meets_its_stop() {
             name: "hinge".into(),
             parent: "frame".into(),
             child: "leaf".into(),
-            joint: hinge.with_limits(joint_limit..=limit),
-            position: PositionRule::Free,
+            axis_and_limits: hinge.with_limits(joint_limit..=limit),
+            position_rule: PositionRule::Free,
         }];
         let robot = Robot::new(links, joints).unwrap();
         robot.classify_link_contacts(10_000).unwrap().remove(0).1
@@ -118,8 +118,8 @@ fn links_that_hold_their_hinge_always_touch() {
             name: "hinge".into(),
             parent: "base".into(),
             child: "arm".into(),
-            joint: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
-            position: PositionRule::Free,
+            axis_and_limits: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+            position_rule: PositionRule::Free,
         }];
         let robot = Robot::new(links, joints).unwrap();
         robot.classify_link_contacts(2_000).unwrap().remove(0).1

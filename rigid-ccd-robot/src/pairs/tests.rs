@@ -13,8 +13,8 @@ fn robot() -> Robot {
         name: child.into(),
         parent: parent.into(),
         child: child.into(),
-        joint,
-        position: PositionRule::Free,
+        axis_and_limits: joint,
+        position_rule: PositionRule::Free,
     };
     let joints = vec![
         joint("base", "upper", hinge()),

@@ -9,9 +9,9 @@ use rigid_ccd::trajectory::Chain;
 /// ```
 /// # use rigid_ccd_robot::{Joint, Link, PositionRule, Robot};
 /// # use rigid_ccd::{Pose, trajectory};
-/// # let finger = |name: &str, y: f64, position| -> Result<Joint, rigid_ccd::InputError> { Ok(Joint {
+/// # let finger = |name: &str, y: f64, position_rule| -> Result<Joint, rigid_ccd::InputError> { Ok(Joint {
 /// #     name: name.into(), parent: "hand".into(), child: format!("{name} finger"),
-/// #     joint: trajectory::Joint::prismatic(Pose::at([0.0, y, 0.0])?, [0.0, y.signum(), 0.0])?, position }) };
+/// #     axis_and_limits: trajectory::Joint::prismatic(Pose::at([0.0, y, 0.0])?, [0.0, y.signum(), 0.0])?, position_rule }) };
 /// # let follows = PositionRule::Follows { joint: "left".into(), multiplier: 1.0, offset: 0.0 };
 /// # let joints = vec![finger("left", 0.1, PositionRule::Free)?, finger("right", -0.1, follows)?];
 /// # let links = ["hand", "left finger", "right finger"].map(Link::named).to_vec();
@@ -54,7 +54,7 @@ impl ChainBetween {
     /// # Errors
     /// [`RobotError::WrongPositionCount`], [`RobotError::InvalidPosition`].
     pub fn positions(&self, robot: &Robot, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
-        robot.check(configuration)?;
+        robot.check_configuration(configuration)?;
         let joints = self.joints.iter();
         Ok(joints
             .map(|&joint| robot.position(joint, configuration))

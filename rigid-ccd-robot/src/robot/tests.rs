@@ -15,8 +15,8 @@ fn joint(name: &str, parent: &str, child: &str, joint: trajectory::Joint) -> Joi
         name: name.into(),
         parent: parent.into(),
         child: child.into(),
-        joint,
-        position: PositionRule::Free,
+        axis_and_limits: joint,
+        position_rule: PositionRule::Free,
     }
 }
 
@@ -70,7 +70,7 @@ fn draw(random: &mut Pcg64) -> RandomRobot {
         // Joint 6 follows joint 3, which follows joint 0.
         let follows = if k == 3 || k == 6 { k - 3 } else { k };
         if follows != k {
-            joint.position = PositionRule::Follows {
+            joint.position_rule = PositionRule::Follows {
                 joint: format!("joint{follows}"),
                 multiplier: -2.0,
                 offset: 0.5,
@@ -186,11 +186,11 @@ fn stretches_between_branches_hold() {
                 .transform_point(centre)
                 .distance(there.transform_point(centre));
             assert!(
-                apart <= stretch.deviation_bound.shift,
+                apart <= stretch.deviation_bound.centre_deviation,
                 "{apart:e}, {stretch:?}"
             );
-            if stretch.deviation_bound.shift > 1e-9 {
-                let share = apart / stretch.deviation_bound.shift;
+            if stretch.deviation_bound.centre_deviation > 1e-9 {
+                let share = apart / stretch.deviation_bound.centre_deviation;
                 nearest = if share > nearest { share } else { nearest };
             }
         }
@@ -227,7 +227,7 @@ fn what_is_no_tree_is_refused() {
     let error = Robot::new(same, Vec::new()).unwrap_err();
     assert!(matches!(error, RobotError::LinkNameTaken { .. }));
     let mut reversed = hinge("a", "link0", "link1");
-    reversed.joint = reversed.joint.reversed();
+    reversed.axis_and_limits = reversed.axis_and_limits.reversed();
     let error = refused(2, vec![reversed]);
     assert_eq!(error, RobotError::ReversedJoint { joint: "a".into() });
     // Two links that hang on each other, beside a base.
@@ -247,7 +247,7 @@ fn joints_that_follow_nothing_are_refused() {
     };
     for followed in ["none", "b", "fixed"] {
         let mut b = hinge("b", "link1", "link2");
-        b.position = follows(followed);
+        b.position_rule = follows(followed);
         let fixed = trajectory::Joint::fixed(Pose::IDENTITY);
         let joints = vec![b, joint("fixed", "link0", "link1", fixed)];
         let error = Robot::new(links(3), joints).unwrap_err();
@@ -261,7 +261,7 @@ fn joints_that_follow_nothing_are_refused() {
 #[test]
 fn configurations_that_do_not_fit_are_refused() {
     let mut limited = hinge("elbow", "link0", "link1");
-    limited.joint = limited.joint.with_limits(-1.0..=1.0);
+    limited.axis_and_limits = limited.axis_and_limits.with_limits(-1.0..=1.0);
     let robot = Robot::new(links(2), vec![limited]).unwrap();
     let message =
         |configuration: &[f64]| robot.pose("link1", configuration).unwrap_err().to_string();
@@ -281,8 +281,8 @@ fn configurations_that_do_not_fit_are_refused() {
 #[test]
 fn limits_of_a_joint_that_follows_do_not_count() {
     let mut follower = hinge("follower", "link0", "link2");
-    follower.joint = follower.joint.with_limits(0.0..=0.1);
-    follower.position = PositionRule::Follows {
+    follower.axis_and_limits = follower.axis_and_limits.with_limits(0.0..=0.1);
+    follower.position_rule = PositionRule::Follows {
         joint: "leader".into(),
         multiplier: 3.0,
         offset: 0.0,

@@ -94,7 +94,7 @@ impl Tree {
     }
 
     /// Returns all links but the base, each with its parent and the joint between them. Parents come first.
-    pub(super) fn joints_from_base(&self) -> Vec<(usize, usize, usize)> {
+    pub(super) fn links_parents_first(&self) -> Vec<(usize, usize, usize)> {
         let mut links: Vec<(usize, usize)> = (0..self.parents.len())
             .map(|link| (self.link_and_ancestors(link).count(), link))
             .collect();

@@ -83,8 +83,8 @@ impl CellSolver<'_> {
     ///     name: "slider".into(),
     ///     parent: "rail".into(),
     ///     child: "ball".into(),
-    ///     joint: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0])?,
-    ///     position: PositionRule::Free,
+    ///     axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0])?,
+    ///     position_rule: PositionRule::Free,
     /// };
     /// let ball = Link::named("ball").with_body(Body::sphere(0.5)?, Pose::IDENTITY);
     /// let robot = Robot::new(vec![Link::named("rail"), ball], vec![slider])?;
@@ -124,11 +124,11 @@ impl CellSolver<'_> {
     ) -> Result<Vec<ClearanceRange>, PathError> {
         self.set_path(path)?;
         let mut found = Vec::new();
-        self.examine(self.search.whole_path(), resolution, &mut found)?;
+        self.examine(self.search.whole_path_stretch(), resolution, &mut found)?;
         let segments = self.search.segment_count();
         let ranges = found.iter().map(|(from, to, clearance)| ClearanceRange {
-            from: PathPoint::of(*from, segments),
-            to: PathPoint::of(*to, segments),
+            from: PathPoint::from_segment_position(*from, segments),
+            to: PathPoint::from_segment_position(*to, segments),
             clearance: *clearance,
         });
         Ok(ranges.collect())
@@ -167,7 +167,7 @@ impl CellSolver<'_> {
     fn is_clearance_kept(&mut self, stretch: Stretch) -> Result<bool, Error> {
         self.search.answer(Question::AnyContact, stretch)?;
         let found = &self.search.result;
-        Ok(found.nearest.is_none() && found.limit.is_none())
+        Ok(found.nearest.is_none() && found.limit_reached.is_none())
     }
 }
 

@@ -57,7 +57,7 @@ impl DisplacementBounds {
     }
 
     /// Returns the place of the bound for a part as the base sees it; `None` for a part that rests there.
-    pub(crate) fn displacement_index_at_base(&self, part: usize) -> Option<u32> {
+    pub(crate) fn bound_index_seen_from_base(&self, part: usize) -> Option<u32> {
         let range = self.joint_start_by_part[part]..self.joint_start_by_part[part + 1];
         (!range.is_empty()).then(|| range.end as u32 - 1)
     }

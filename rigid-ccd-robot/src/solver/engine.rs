@@ -40,7 +40,7 @@ impl Search<'_> {
             Question::FirstContact => Question::AnyContact,
             other => other,
         };
-        let open = OpenPair::at(*pair, bodies, at);
+        let open = OpenPair::open_at_point(*pair, bodies, at);
         let answer = self.ask(question, &open, None)?;
         if question == Question::ClosestApproach {
             return Ok(self.record_distance(&open, &answer.outcome));
@@ -88,7 +88,7 @@ impl Search<'_> {
         match outcome.hit() {
             Ok(None) => Continue(()),
             Ok(Some(hit)) => {
-                self.result.limit = None;
+                self.result.limit_reached = None;
                 self.keep_contact(&open.pair, open.point(hit.time))
             }
             Err(known) => {
@@ -96,7 +96,7 @@ impl Search<'_> {
                     Question::FirstContact => open.point(known.safe_until),
                     _ => 0.0,
                 };
-                self.result.limit = Some((known.limit, until));
+                self.result.limit_reached = Some((known.limit, until));
                 if self.question == Question::FirstContact {
                     self.result.end = until;
                 }
@@ -107,7 +107,7 @@ impl Search<'_> {
 
     /// Measures the least distance of an open pair, if it may be less than what is found.
     fn measure_least_distance(&mut self, open: &OpenPair) -> Step {
-        let least = self.result.upper - self.settings.tolerance;
+        let least = self.result.distance_upper_bound - self.settings.tolerance;
         // Written so that NaN is measured.
         if least <= 0.0 {
             return Ok(Break(()));
@@ -129,13 +129,13 @@ impl Search<'_> {
     /// Keeps the distance of an open pair, if it is the least.
     fn record_distance(&mut self, open: &OpenPair, outcome: &Outcome) -> ControlFlow<()> {
         if let Some(limit) = outcome.limit() {
-            self.result.limit = Some((limit, 0.0));
+            self.result.limit_reached = Some((limit, 0.0));
         }
         let rounding = 2.0 * self.placement.rounding;
         // The bounds of bodies that exceed their shapes may differ by more than the tolerance.
         self.result.lower = lesser(self.result.lower, outcome.lower() - rounding);
         let upper = outcome.upper() + rounding;
-        if upper < self.result.upper {
+        if upper < self.result.distance_upper_bound {
             let at = open.point(outcome.time().unwrap_or(0.0));
             self.keep_nearest(&open.pair, at, upper);
         }
@@ -166,7 +166,7 @@ impl Search<'_> {
                 .interpolate_in_segment(open.segment, at, positions);
         }
         let [from, to] = &self.ends;
-        self.exact
+        self.exact_chains
             .ask(&mut self.solver, question, open.bodies, from, to)
     }
 }

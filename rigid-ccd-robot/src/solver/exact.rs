@@ -90,7 +90,7 @@ fn pair_chain(cell: &Cell, a: usize, b: Option<usize>) -> PairChain {
     let unlimited = |joint: &Joint| joint.clone().with_limits(f64::NEG_INFINITY..=f64::INFINITY);
     joints.extend(between.chain().joints().iter().map(unlimited));
     let numbers = between.joint_numbers().iter();
-    moving.extend(numbers.map(|&joint| kinematics.number(joint)));
+    moving.extend(numbers.map(|&joint| kinematics.moving_joint_index(joint)));
     joints.push(Joint::fixed(cell.pose_in_link(a)));
     moving.push(None);
     PairChain {

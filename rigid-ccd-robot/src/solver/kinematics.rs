@@ -34,7 +34,7 @@ pub(crate) struct MovingJoint {
     pub(crate) axis: DVec3,
     pub(crate) is_prismatic: bool,
     /// The rotation from the joint's frame to the parent's is `fixed + sin(q) sine + cos(q) cosine`.
-    fixed: DMat3,
+    constant_term: DMat3,
     sine_coefficient: DMat3,
     cosine_coefficient: DMat3,
 }
@@ -47,10 +47,14 @@ impl Kinematics {
         let mut numbers = vec![None; robot.joints().len()];
         let mut arms = 0.0;
         for (link, parent, joint) in robot.joints_from_base() {
-            arms += robot.joints()[joint].joint.origin().translation().length();
+            arms += robot.joints()[joint]
+                .axis_and_limits
+                .origin()
+                .translation()
+                .length();
             let (frame, held) = links[parent];
-            let origin = held.compose(robot.joints()[joint].joint.origin());
-            let kind = robot.joints()[joint].joint.kind();
+            let origin = held.compose(robot.joints()[joint].axis_and_limits.origin());
+            let kind = robot.joints()[joint].axis_and_limits.kind();
             let (axis, is_prismatic, source) = match (kind, robot.source(joint)) {
                 (JointKind::Revolute(axis), Some(source)) => (axis, false, source),
                 (JointKind::Prismatic(axis), Some(source)) => (axis, true, source),
@@ -82,7 +86,7 @@ impl Kinematics {
     }
 
     /// Returns the number of a joint of the robot among those that move; `None` for a fixed one.
-    pub(crate) fn number(&self, joint: usize) -> Option<usize> {
+    pub(crate) fn moving_joint_index(&self, joint: usize) -> Option<usize> {
         self.numbers[joint]
     }
 
@@ -140,7 +144,7 @@ impl MovingJoint {
             origin: origin.translation(),
             axis: frame * axis,
             is_prismatic,
-            fixed,
+            constant_term: fixed,
             sine_coefficient: sine,
             cosine_coefficient: cosine,
         }
@@ -150,12 +154,13 @@ impl MovingJoint {
     fn place(&self, parent: &Frame, position: f64) -> Frame {
         if self.is_prismatic {
             return Frame {
-                rotation: parent.rotation * self.fixed,
+                rotation: parent.rotation * self.constant_term,
                 translation: parent.transform_point(self.origin + self.axis * position),
             };
         }
         let (sine, cosine) = position.sin_cos();
-        let turned = self.fixed + self.sine_coefficient * sine + self.cosine_coefficient * cosine;
+        let turned =
+            self.constant_term + self.sine_coefficient * sine + self.cosine_coefficient * cosine;
         Frame {
             rotation: parent.rotation * turned,
             translation: parent.transform_point(self.origin),

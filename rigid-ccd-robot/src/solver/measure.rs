@@ -13,7 +13,7 @@ use rigid_ccd::oracle::Frame;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Thresholds {
     /// A pair is free that stays farther apart than this over the whole stretch.
-    pub(crate) free_distance: f64,
+    pub(crate) min_free_distance: f64,
     /// A pair is near that is at most so far apart in the middle.
     pub(crate) near_distance: f64,
 }
@@ -49,12 +49,12 @@ pub(crate) fn measure(
         frames[1].transform_point(b.centre),
     ];
     let gap = volume_gap_at_centres([a, b], &frames[0], centres, is_obstacle);
-    let required = displacement + thresholds.free_distance + rounding;
+    let required = displacement + thresholds.min_free_distance + rounding;
     if gap > required {
         return DistanceVerdict::Free;
     }
     if skips_far && displacement > MIN_BOX_TEST_DISPLACEMENT && gap > thresholds.near_distance {
-        pair.proof_distance_share = 1.0;
+        pair.distance_to_proof_ratio = 1.0;
         return DistanceVerdict::Undecided(f64::INFINITY);
     }
     let first_axis = if pair.axis != DVec3::ZERO {
@@ -64,20 +64,20 @@ pub(crate) fn measure(
     };
     let radii = a.radius + b.radius;
     let until = TerminationBounds {
-        lower: required + radii,
+        sufficient_lower_bound: required + radii,
         upper: thresholds.near_distance - rounding + radii,
     };
     let bounds = bound_distance(
         #[inline(always)]
-        |direction: DVec3| vertex([a, b], &frames, direction),
+        |direction: DVec3| minkowski_support_vertex([a, b], &frames, direction),
         first_axis,
         until,
     );
-    if bounds.lower > until.lower {
+    if bounds.lower > until.sufficient_lower_bound {
         return DistanceVerdict::Free;
     }
     pair.axis = bounds.axis;
-    pair.proof_distance_share = (bounds.lower - radii) / required;
+    pair.distance_to_proof_ratio = (bounds.lower - radii) / required;
     // The shapes that both bodies enclose may be farther apart.
     let upper = bounds.upper - radii + rounding + a.excess + b.excess;
     if bounds.upper <= until.upper {
@@ -137,7 +137,11 @@ pub(super) fn initial_direction(
 
 /// Returns the vertex of the Minkowski difference of two hulls with the least height along a direction.
 #[inline(always)]
-pub(super) fn vertex([a, b]: [&Part; 2], frames: &[Frame; 2], direction: DVec3) -> Vertex {
+pub(super) fn minkowski_support_vertex(
+    [a, b]: [&Part; 2],
+    frames: &[Frame; 2],
+    direction: DVec3,
+) -> Vertex {
     let in_a = frames[0].inverse_transform_vector(direction);
     let in_b = -frames[1].inverse_transform_vector(direction);
     let (index_a, corner_a) = a.extremal_corner(in_a);

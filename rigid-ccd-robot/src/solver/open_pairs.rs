@@ -22,7 +22,7 @@ pub(crate) struct UndecidedPairs(Vec<OpenPair>);
 
 impl OpenPair {
     /// Creates a pair that is undecided at one point of the path.
-    pub(crate) fn at(pair: PartPair, bodies: [usize; 2], at: f64) -> Self {
+    pub(crate) fn open_at_point(pair: PartPair, bodies: [usize; 2], at: f64) -> Self {
         OpenPair {
             pair,
             bodies,
@@ -45,7 +45,7 @@ impl UndecidedPairs {
     }
 
     /// Returns the start of the earliest stretch; infinite without open pairs.
-    pub(crate) fn start(&self) -> f64 {
+    pub(crate) fn earliest_start(&self) -> f64 {
         let starts = self.0.iter().map(|open| open.from);
         starts.fold(f64::INFINITY, lesser)
     }
@@ -60,8 +60,10 @@ impl UndecidedPairs {
             Some(open) => {
                 open.from = lesser(open.from, from);
                 open.to = greater(open.to, to);
-                open.pair.proof_distance_share =
-                    lesser(open.pair.proof_distance_share, pair.proof_distance_share);
+                open.pair.distance_to_proof_ratio = lesser(
+                    open.pair.distance_to_proof_ratio,
+                    pair.distance_to_proof_ratio,
+                );
             }
             None => self.0.push(OpenPair {
                 pair,
@@ -80,8 +82,8 @@ impl UndecidedPairs {
             Question::FirstContact => self.0.sort_unstable_by(|a, b| a.from.total_cmp(&b.from)),
             Question::AnyContact | Question::ClosestApproach => self.0.sort_unstable_by(|a, b| {
                 a.pair
-                    .proof_distance_share
-                    .total_cmp(&b.pair.proof_distance_share)
+                    .distance_to_proof_ratio
+                    .total_cmp(&b.pair.distance_to_proof_ratio)
             }),
         }
         &self.0

@@ -19,13 +19,13 @@ pub(crate) struct PartPair {
     /// The direction from A to B along which they were farthest apart so far; zero if there was none.
     pub(crate) axis: DVec3,
     /// The distance in the middle of the last stretch, as a share of what would prove it free.
-    pub(crate) proof_distance_share: f64,
+    pub(crate) distance_to_proof_ratio: f64,
 }
 
 /// All pairs of a cell's parts that are checked, and what finds those that come near each other.
 pub(crate) struct PartPairs<'c> {
     cell: &'c Cell,
-    boxes: ObstacleBoxes,
+    obstacle_boxes: ObstacleBoxes,
     /// The pairs of the robot's own parts.
     self_pairs: Vec<PartPair>,
     /// The margin of pairs without one of their own.
@@ -57,7 +57,7 @@ impl PartPair {
             displacement_indices: slots,
             margin,
             axis: DVec3::ZERO,
-            proof_distance_share: 0.0,
+            distance_to_proof_ratio: 0.0,
         }
     }
 
@@ -88,7 +88,7 @@ impl<'c> PartPairs<'c> {
             .checked_robot_part_pairs()
             .map(|parts| PartPair::of_robot(cell, displacements, parts));
         let mut pairs = PartPairs {
-            boxes: ObstacleBoxes::new(&cell.parts()[cell.robot_part_count()..]),
+            obstacle_boxes: ObstacleBoxes::new(&cell.parts()[cell.robot_part_count()..]),
             self_pairs: own.collect(),
             cell,
             margin: 0.0,
@@ -138,13 +138,13 @@ impl<'c> PartPairs<'c> {
             if part.frame == 0 {
                 continue;
             }
-            let slot = placement.displacement_bounds.displacement_index_at_base(a);
+            let slot = placement.displacement_bounds.bound_index_seen_from_base(a);
             let displacement = placement.displacement_bounds.bound(slot);
             let frame = &placement.frames[part.frame];
             let growth = displacement + self.largest_obstacle_margin + allowance;
             let extents = part.box_half_extents(frame) + DVec3::splat(growth);
             let centre = frame.transform_point(part.centre);
-            self.boxes
+            self.obstacle_boxes
                 .for_each_meeting(centre - extents, centre + extents, |obstacle| {
                     let b = robot_parts + obstacle;
                     let margin = cell.margin([part.owner, parts[b].owner], self.margin);
@@ -158,5 +158,8 @@ impl<'c> PartPairs<'c> {
 
 /// Sorts pairs by their share, that of the nearest first.
 pub(crate) fn sort_by_proof_distance(pairs: &mut [PartPair]) {
-    pairs.sort_unstable_by(|a, b| a.proof_distance_share.total_cmp(&b.proof_distance_share));
+    pairs.sort_unstable_by(|a, b| {
+        a.distance_to_proof_ratio
+            .total_cmp(&b.distance_to_proof_ratio)
+    });
 }

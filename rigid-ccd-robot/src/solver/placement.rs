@@ -34,14 +34,15 @@ impl Placement {
 
     /// Prepares for the stretches of a path.
     pub(crate) fn begin(&mut self, cell: &Cell, path: &Waypoints) {
-        self.rounding = point_error_bound(cell.kinematics(), cell.parts(), path.magnitudes());
+        self.rounding =
+            point_error_bound(cell.kinematics(), cell.parts(), path.max_abs_positions());
     }
 
     /// Computes the frames in the middle of a stretch, and the bounds of displacements.
     #[inline(always)]
     pub(crate) fn place(&mut self, cell: &Cell, path: &Waypoints, stretch: &Stretch) {
         self.place_frames(cell, path, stretch.middle());
-        path.deviations(stretch, &self.positions, &mut self.max_deviation_by_joint);
+        path.max_joint_deviations(stretch, &self.positions, &mut self.max_deviation_by_joint);
         self.update_displacements(cell);
     }
 

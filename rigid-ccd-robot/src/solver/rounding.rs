@@ -34,7 +34,10 @@ pub(crate) fn point_error_bound(
             angles += position;
         }
     }
-    let reach = parts.iter().map(|part| part.reach).fold(0.0, greater);
+    let reach = parts
+        .iter()
+        .map(|part| part.coordinate_bound)
+        .fold(0.0, greater);
     let turn = ROTATION_ERROR_PER_JOINT * (kinematics.total_joint_count + 2) as f64
         + POSITION_ERROR_ULPS * angles;
     U * (turn + POSITION_ERROR_ULPS) * (arms + reach)

@@ -29,7 +29,7 @@ use std::ops::Range;
 pub(crate) struct Search<'c> {
     pub(super) cell: &'c Cell,
     pub(super) pairs: PartPairs<'c>,
-    pub(super) exact: PairChains<'c>,
+    pub(super) exact_chains: PairChains<'c>,
     pub(super) path: Waypoints,
     pub(super) placement: Placement,
     /// Pairs that may touch in the stretches from the whole path down to the current one.
@@ -55,11 +55,11 @@ pub(crate) struct SearchResult {
     /// The nearest pair and where it is nearest; for a question about contacts a pair in contact.
     pub(crate) nearest: Option<(f64, PartPair)>,
     /// An upper bound of the distance of that pair there, for a question about the distance.
-    pub(crate) upper: f64,
+    pub(crate) distance_upper_bound: f64,
     /// Nothing beyond this point matters: for the first contact the point of the earliest one.
     pub(crate) end: f64,
     /// The limit that ended the search, and the point up to which everything was searched.
-    pub(crate) limit: Option<(Limit, f64)>,
+    pub(crate) limit_reached: Option<(Limit, f64)>,
     /// A lower bound of the distance of what the engine measured, and of what a limit left open.
     pub(crate) lower: f64,
 }
@@ -67,9 +67,9 @@ pub(crate) struct SearchResult {
 impl SearchResult {
     const NOTHING_FOUND: SearchResult = SearchResult {
         nearest: None,
-        upper: f64::INFINITY,
+        distance_upper_bound: f64::INFINITY,
         end: f64::INFINITY,
-        limit: None,
+        limit_reached: None,
         lower: f64::INFINITY,
     };
 }
@@ -80,7 +80,7 @@ impl<'c> Search<'c> {
         Search {
             cell,
             pairs: PartPairs::new(cell, &placement.displacement_bounds),
-            exact: PairChains::new(cell),
+            exact_chains: PairChains::new(cell),
             path: Waypoints::default(),
             placement,
             candidates: Vec::new(),
@@ -107,7 +107,11 @@ impl<'c> Search<'c> {
 
     /// Returns bounds of the least distance, after a question about it.
     pub(crate) fn distance_bounds(&self) -> (f64, f64) {
-        let SearchResult { upper, lower, .. } = self.result;
+        let SearchResult {
+            distance_upper_bound: upper,
+            lower,
+            ..
+        } = self.result;
         // Pairs are left out that stay farther apart than the upper bound at that time, less the tolerance.
         let least = upper - self.settings.tolerance - 4.0 * self.placement.rounding;
         (greater(lesser(least, lower), 0.0), upper)
@@ -138,7 +142,7 @@ impl<'c> Search<'c> {
     }
 
     /// Returns the whole path as a stretch.
-    pub(crate) fn whole_path(&self) -> Stretch {
+    pub(crate) fn whole_path_stretch(&self) -> Stretch {
         Stretch::whole_path(self.path.segment_count())
     }
 
@@ -155,7 +159,10 @@ impl<'c> Search<'c> {
             return Ok(Continue(()));
         }
         if let Some(limit) = self.stop_condition.reached_limit() {
-            self.result.limit = Some((limit, lesser(stretch.from, self.open_pairs.start())));
+            self.result.limit_reached = Some((
+                limit,
+                lesser(stretch.from, self.open_pairs.earliest_start()),
+            ));
             self.result.lower = 0.0;
             return Ok(Break(()));
         }
@@ -238,12 +245,12 @@ impl<'c> Search<'c> {
         let tolerance = self.settings.tolerance;
         match self.question {
             Question::AnyContact | Question::FirstContact => Thresholds {
-                free_distance: pair.margin,
+                min_free_distance: pair.margin,
                 near_distance: pair.margin + tolerance,
             },
             // Touching hulls end the search; others are measured exactly.
             Question::ClosestApproach => Thresholds {
-                free_distance: self.result.upper - tolerance,
+                min_free_distance: self.result.distance_upper_bound - tolerance,
                 near_distance: 0.0,
             },
         }
@@ -280,7 +287,8 @@ impl<'c> Search<'c> {
         if self.question == Question::ClosestApproach {
             // The nearest bodies first: others are then farther apart than these by their bounding volumes.
             for pair in &mut self.candidates[first..] {
-                pair.proof_distance_share = bounding_volume_gap(self.cell, &self.placement, pair);
+                pair.distance_to_proof_ratio =
+                    bounding_volume_gap(self.cell, &self.placement, pair);
             }
             sort_by_proof_distance(&mut self.candidates[first..]);
         }
@@ -289,12 +297,12 @@ impl<'c> Search<'c> {
     /// Returns whether a distance is of interest and the least so far.
     #[inline(always)]
     fn is_nearest(&self, upper: f64) -> bool {
-        self.question == Question::ClosestApproach && upper < self.result.upper
+        self.question == Question::ClosestApproach && upper < self.result.distance_upper_bound
     }
 
     /// Keeps a pair as the nearest so far, with an upper bound of its distance.
     pub(super) fn keep_nearest(&mut self, pair: &PartPair, at: f64, upper: f64) {
-        self.result.upper = upper;
+        self.result.distance_upper_bound = upper;
         self.result.nearest = Some((at, *pair));
     }
 
@@ -302,7 +310,8 @@ impl<'c> Search<'c> {
     pub(super) fn keep_contact(&mut self, pair: &PartPair, at: f64) -> ControlFlow<()> {
         self.result.nearest = Some((at, *pair));
         let parts = self.cell.parts();
-        self.result.upper = parts[pair.a as usize].excess + parts[pair.b as usize].excess;
+        self.result.distance_upper_bound =
+            parts[pair.a as usize].excess + parts[pair.b as usize].excess;
         self.result.lower = 0.0;
         self.result.end = at;
         match self.question {

@@ -24,7 +24,7 @@ pub(crate) struct Stretch {
 
 impl PathPoint {
     /// Converts a number of segments; the end of a path belongs to its last segment.
-    pub(crate) fn of(at: f64, segments: usize) -> Self {
+    pub(crate) fn from_segment_position(at: f64, segments: usize) -> Self {
         let segment = (at as usize).min(segments.saturating_sub(1));
         PathPoint {
             segment,

@@ -11,7 +11,7 @@ use crate::test_robots::{random_body, random_pose, random_robot};
 use ccd_core::order::{greater, lesser};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rigid_ccd::body::{Pieces, Volume};
+use rigid_ccd::body::{Pieces, Solidity};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Pose, Solver, trajectory};
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 //! It is if both bodies are nearer in the middle by more than they move from there.
 
 use super::Question;
-use super::measure::{initial_direction, vertex};
+use super::measure::{initial_direction, minkowski_support_vertex};
 use super::part_pairs::PartPair;
 use super::placement::Placement;
 use super::search::Search;
@@ -87,10 +87,10 @@ pub(crate) fn are_convex_parts_nearer(
     ];
     let is_obstacle = pair.b as usize >= cell.robot_part_count();
     let axis = initial_direction(b, centres, is_obstacle);
-    let vertex = |direction: DVec3| vertex(parts, &frames, direction);
+    let vertex = |direction: DVec3| minkowski_support_vertex(parts, &frames, direction);
     if distance > 0.0 {
         let until = TerminationBounds {
-            lower: distance,
+            sufficient_lower_bound: distance,
             upper: 0.5 * distance,
         };
         bound_distance(vertex, axis, until).upper < distance

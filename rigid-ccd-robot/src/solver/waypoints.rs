@@ -12,7 +12,7 @@ pub(crate) struct Waypoints {
     count: usize,
     positions: Vec<f64>,
     /// For each joint, a bound of the numbers of which its positions are computed.
-    magnitude_bound_by_joint: Vec<f64>,
+    max_abs_position_by_joint: Vec<f64>,
 }
 
 impl Waypoints {
@@ -21,14 +21,14 @@ impl Waypoints {
         self.joint_count = kinematics.joints().len();
         self.count = path.len();
         self.positions.clear();
-        self.magnitude_bound_by_joint.clear();
-        self.magnitude_bound_by_joint.resize(self.joint_count, 0.0);
+        self.max_abs_position_by_joint.clear();
+        self.max_abs_position_by_joint.resize(self.joint_count, 0.0);
         for configuration in path {
             let configuration = configuration.as_ref();
             for (joint, magnitude) in kinematics
                 .joints()
                 .iter()
-                .zip(&mut self.magnitude_bound_by_joint)
+                .zip(&mut self.max_abs_position_by_joint)
             {
                 self.positions.push(joint.source.position(configuration));
                 *magnitude = greater(*magnitude, joint.source.magnitude(configuration));
@@ -42,14 +42,14 @@ impl Waypoints {
     }
 
     /// Returns for each joint a bound of the numbers of which its positions are computed, also between configurations.
-    pub(crate) fn magnitudes(&self) -> impl Iterator<Item = f64> {
-        self.magnitude_bound_by_joint.iter().copied()
+    pub(crate) fn max_abs_positions(&self) -> impl Iterator<Item = f64> {
+        self.max_abs_position_by_joint.iter().copied()
     }
 
     /// Computes the positions of all joints at a point of the path.
     #[inline(always)]
     pub(crate) fn interpolate(&self, at: f64, positions: &mut Vec<f64>) {
-        let segment = PathPoint::of(at, self.segment_count()).segment;
+        let segment = PathPoint::from_segment_position(at, self.segment_count()).segment;
         self.interpolate_in_segment(segment, at, positions);
     }
 
@@ -69,7 +69,7 @@ impl Waypoints {
 
     /// Computes how far each joint is at most from its position in the middle of a stretch, at any point of the stretch.
     #[inline(always)]
-    pub(crate) fn deviations(
+    pub(crate) fn max_joint_deviations(
         &self,
         stretch: &Stretch,
         positions: &[f64],
@@ -81,7 +81,8 @@ impl Waypoints {
         } else if stretch.is_within_segment() {
             // The middle is at the same distance from both ends.
             let half = 0.5 * (stretch.to - stretch.from);
-            let segment = PathPoint::of(stretch.from, self.segment_count()).segment;
+            let segment =
+                PathPoint::from_segment_position(stretch.from, self.segment_count()).segment;
             let ends = self.at(segment).iter().zip(self.at(segment + 1));
             deviations.extend(ends.map(|(from, to)| half * (to - from).abs()));
         } else {

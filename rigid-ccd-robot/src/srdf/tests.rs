@@ -47,8 +47,8 @@ fn proven_pairs_are_written_and_read() {
         name: name.into(),
         parent: parent.into(),
         child: child.into(),
-        joint,
-        position: PositionRule::Free,
+        axis_and_limits: joint,
+        position_rule: PositionRule::Free,
     };
     let fixed = || trajectory::Joint::fixed(rigid_ccd::Pose::IDENTITY);
     let slide = trajectory::Joint::prismatic(rigid_ccd::Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
@@ -59,7 +59,7 @@ fn proven_pairs_are_written_and_read() {
     ];
     let robot = Robot::new(links, joints).unwrap();
     let meetings = robot.classify_link_contacts(1000).unwrap();
-    let read = disabled_pairs(&robot.srdf("<box>", &meetings)).unwrap();
+    let read = disabled_pairs(&robot.to_srdf("<box>", &meetings)).unwrap();
     let pairs: Vec<[&str; 3]> = read
         .iter()
         .map(|pair| [&*pair.link1, &*pair.link2, &*pair.reason])

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// How a mesh of a robot becomes a body: exactly, or as its convex hull.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum MeshModel {
+pub enum MeshConversion {
     /// The fewest convex pieces that represent the mesh exactly: [`Detail::Auto`].
     #[default]
     Exact,
@@ -24,7 +24,7 @@ pub enum MeshModel {
 /// Makes bodies of shapes and meshes; a mesh that occurs several times becomes one shared body.
 pub(super) struct BodyReader<'p> {
     search_folders: &'p SearchFolders,
-    model: MeshModel,
+    mesh_model: MeshConversion,
     bodies_by_mesh: RefCell<HashMap<MeshKey, Arc<Body>>>,
 }
 
@@ -32,10 +32,10 @@ pub(super) struct BodyReader<'p> {
 type MeshKey = (PathBuf, [u64; 3]);
 
 impl<'p> BodyReader<'p> {
-    pub(super) fn new(packages: &'p SearchFolders, model: MeshModel) -> Self {
+    pub(super) fn new(packages: &'p SearchFolders, model: MeshConversion) -> Self {
         BodyReader {
             search_folders: packages,
-            model,
+            mesh_model: model,
             bodies_by_mesh: RefCell::default(),
         }
     }
@@ -60,15 +60,15 @@ impl<'p> BodyReader<'p> {
 
     /// Makes the body of a mesh that is scaled along its axes. Negative factors mirror it.
     fn mesh_body(&self, uri: &str, scale: DVec3) -> Result<Arc<Body>, UrdfError> {
-        let file = self.search_folders.find(uri)?;
+        let file = self.search_folders.find_file(uri)?;
         let key = (file.clone(), scale.to_array().map(f64::to_bits));
         if let Some(body) = self.bodies_by_mesh.borrow().get(&key) {
             return Ok(Arc::clone(body));
         }
         let mesh = TriangleMesh::read(&file)?.transformed(DAffine3::from_scale(scale))?;
-        let detail = match self.model {
-            MeshModel::Exact => Detail::Auto,
-            MeshModel::OuterHull => Detail::OuterHull,
+        let detail = match self.mesh_model {
+            MeshConversion::Exact => Detail::Auto,
+            MeshConversion::OuterHull => Detail::OuterHull,
         };
         let prepared =
             body_from_mesh(&mesh, detail).map_err(|error| UrdfError::Prepare { file, error })?;

@@ -42,10 +42,12 @@ pub enum UrdfError {
         error: Box<UrdfError>,
     },
     /// A joint is of a kind that is not supported.
-    #[error("a {kind} joint is not supported; use revolute, continuous, prismatic or fixed joints")]
+    #[error(
+        "a {joint_kind} joint is not supported; use revolute, continuous, prismatic or fixed joints"
+    )]
     JointType {
         /// The kind of the joint, as in the file.
-        kind: String,
+        joint_kind: String,
     },
     /// The file of a mesh was not found at any of the paths that its name may mean.
     #[error("`{uri}` is not found; looked for {}", searched_paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", "))]
@@ -68,7 +70,7 @@ pub enum UrdfError {
     },
     /// A shape, a pose or an axis is not valid.
     #[error(transparent)]
-    Input(#[from] InputError),
+    InvalidGeometry(#[from] InputError),
     /// The links and joints do not make a robot, for example because joints form a loop.
     #[error(transparent)]
     Robot(#[from] RobotError),

@@ -37,7 +37,7 @@ impl SearchFolders {
     }
 
     /// Returns the path of an existing file, given the name that the URDF has for it.
-    pub(super) fn find(&self, uri: &str) -> Result<PathBuf, UrdfError> {
+    pub(super) fn find_file(&self, uri: &str) -> Result<PathBuf, UrdfError> {
         let tried = self.possible_paths(uri);
         match tried.iter().find(|path| path.is_file()) {
             Some(path) => Ok(path.clone()),

@@ -43,7 +43,7 @@ const JOINTS_XML: &str = r#"
         <mimic joint="turns" multiplier="2"/></joint>"#;
 
 fn urdf_in_folder(folder: &TempDir) -> Urdf {
-    Urdf::at(folder.path().join("arm.urdf"))
+    Urdf::from_path(folder.path().join("arm.urdf"))
 }
 
 #[test]
@@ -81,9 +81,9 @@ fn a_mesh_is_made_once_and_mirrored_as_a_solid() {
         .unwrap();
     let bodies = &robot.links()[2].bodies;
     assert!(Arc::ptr_eq(&bodies[0].body, &bodies[1].body));
-    assert_eq!(bodies[0].body.volume(), rigid_ccd::body::Volume::Solid);
+    assert_eq!(bodies[0].body.solidity(), rigid_ccd::body::Solidity::Solid);
     let hull = urdf_in_folder(&write_robot_folder(JOINTS_XML))
-        .with_mesh_model(MeshModel::OuterHull)
+        .with_mesh_conversion(MeshConversion::OuterHull)
         .read()
         .unwrap();
     assert_eq!(hull.links()[2].bodies[0].body.pieces().len(), 1);
@@ -188,7 +188,7 @@ fn errors_name_file_link_and_joint() {
         error.starts_with("link `lower`: ") && error.contains("part.obj"),
         "{error}"
     );
-    let error = Urdf::at("none.urdf").read().unwrap_err().to_string();
+    let error = Urdf::from_path("none.urdf").read().unwrap_err().to_string();
     assert!(error.starts_with("none.urdf: "), "{error}");
     fs::write(folder.path().join("arm.urdf"), "<robot").unwrap();
     let error = urdf_in_folder(&folder).read().unwrap_err().to_string();

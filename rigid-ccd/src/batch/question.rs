@@ -46,7 +46,7 @@ impl Question {
     }
 
     /// Returns whether the answer has a single time at which all contacts can be listed.
-    pub fn is_for_one_contact(self) -> bool {
+    pub fn has_single_contact_time(self) -> bool {
         matches!(self, Question::FirstContact | Question::IsFree)
     }
 

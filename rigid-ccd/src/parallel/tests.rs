@@ -128,7 +128,7 @@ fn an_error_has_the_index_of_its_query() {
             match found {
                 Ok(answer) => assert!(answer.hit().unwrap().is_some() && index != 7 && index != 31),
                 Err(error) => {
-                    assert_eq!(error.query, index);
+                    assert_eq!(error.query_index, index);
                     assert!([7, 31].contains(&index));
                     let input = matches!(error.error, InputError::OutOfRange { .. });
                     assert!(input || index == 31, "{error}");
@@ -137,7 +137,7 @@ fn an_error_has_the_index_of_its_query() {
             }
         }
         let all: Result<Vec<_>, _> = found.into_iter().collect();
-        assert_eq!(all.unwrap_err().query, 7);
+        assert_eq!(all.unwrap_err().query_index, 7);
     }
 }
 

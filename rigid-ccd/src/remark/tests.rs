@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 #[test]
 fn a_tolerance_as_large_as_a_part_is_remarked_upon() {
-    let size = |body: Body| Remark::size(&body);
+    let size = |body: Body| Remark::body_size(&body);
     let part = size(Body::cuboid([0.0005; 3]).unwrap());
     assert!((part - 0.001).abs() < 1e-15);
     assert_eq!(size(Body::capsule(0.5, 2.0).unwrap()), 5.0);

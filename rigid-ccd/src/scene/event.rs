@@ -63,7 +63,7 @@ impl Event {
 
     /// Returns the event of a pair whose query is out of range: it is unresolved from time 0 on.
     pub(super) fn unexamined_pair(bodies: [usize; 2]) -> Self {
-        let known = Unresolved::from_safe_until(0.0, Limit::Undecided);
+        let known = Unresolved::from_safe_until(0.0, Limit::OverlapUndecided);
         Event::at_start(bodies, EventKind::Unresolved(known))
     }
 

@@ -6,25 +6,25 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Which contacts a query on a scene asks for, with the times of the earliest events so far.
 pub(super) enum Goal {
     /// The first contact of any two bodies.
-    First(EarliestTime),
+    First(SharedEarliestTime),
     /// The first contact of each body with any other one.
-    FirstOfEachBody(Vec<EarliestTime>),
+    FirstOfEachBody(Vec<SharedEarliestTime>),
     /// The first contact of each pair of bodies.
     AllPairs,
 }
 
 impl Goal {
     pub(super) fn first() -> Self {
-        Goal::First(EarliestTime::default())
+        Goal::First(SharedEarliestTime::default())
     }
 
     pub(super) fn first_of_each_body(bodies: usize) -> Self {
-        Goal::FirstOfEachBody((0..bodies).map(|_| EarliestTime::default()).collect())
+        Goal::FirstOfEachBody((0..bodies).map(|_| SharedEarliestTime::default()).collect())
     }
 
     /// Returns the time after which an event of the pair cannot change the answer.
     pub(super) fn last_useful_time(&self, pair: [usize; 2]) -> f64 {
-        let times = self.earliest_times(pair).map(EarliestTime::time);
+        let times = self.earliest_times(pair).map(SharedEarliestTime::time);
         times.reduce(greater).unwrap_or(f64::INFINITY)
     }
 
@@ -34,7 +34,7 @@ impl Goal {
     }
 
     /// Returns the times that an event of the pair may change.
-    fn earliest_times(&self, [a, b]: [usize; 2]) -> impl Iterator<Item = &EarliestTime> {
+    fn earliest_times(&self, [a, b]: [usize; 2]) -> impl Iterator<Item = &SharedEarliestTime> {
         let times = match self {
             Goal::First(earliest) => [Some(earliest), None],
             Goal::FirstOfEachBody(earliest) => [a, b].map(|k| Some(&earliest[k])),
@@ -47,9 +47,9 @@ impl Goal {
 /// The earliest time that any thread has recorded; infinite before the first record.
 ///
 /// It only saves work: what a thread does not see yet is proven further than needed.
-pub(super) struct EarliestTime(AtomicU64);
+pub(super) struct SharedEarliestTime(AtomicU64);
 
-impl EarliestTime {
+impl SharedEarliestTime {
     fn time(&self) -> f64 {
         f64::from_bits(self.0.load(Ordering::Relaxed))
     }
@@ -60,8 +60,8 @@ impl EarliestTime {
     }
 }
 
-impl Default for EarliestTime {
+impl Default for SharedEarliestTime {
     fn default() -> Self {
-        EarliestTime(AtomicU64::new(f64::INFINITY.to_bits()))
+        SharedEarliestTime(AtomicU64::new(f64::INFINITY.to_bits()))
     }
 }

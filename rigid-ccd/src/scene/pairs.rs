@@ -25,7 +25,7 @@ pub(super) fn overlapping_pairs(
         }
     });
     for (lost, leaf) in leaves.iter().enumerate() {
-        if !is_within_ancestors(&tree, lost, leaf) {
+        if !ancestor_boxes_contain(&tree, lost, leaf) {
             let others = (0..boxes.len()).filter(|&other| other != lost);
             let others = others.map(|other| in_ascending_order(lost, other));
             pairs.extend(others.filter(|&pair| asked(pair)));
@@ -39,7 +39,7 @@ pub(super) fn overlapping_pairs(
 
 /// Returns whether every ancestor of a leaf in the tree contains the leaf's box. If so, a search for the boxes that
 /// meet this box finds all of them.
-fn is_within_ancestors(tree: &Bvh, index: usize, leaf: &Aabb) -> bool {
+fn ancestor_boxes_contain(tree: &Bvh, index: usize, leaf: &Aabb) -> bool {
     let mut leaves = tree.leaves(|node| node.contains_aabb(leaf));
     leaves.any(|held| held as usize == index)
 }

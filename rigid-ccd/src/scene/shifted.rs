@@ -19,8 +19,8 @@ impl Trajectory for TimeShiftedTrajectory<'_> {
         let speed =
             length(stretch.motion.velocity()) + length(stretch.acceleration) * (last - first);
         let rounding = DeviationBound {
-            shift: speed * time_error,
-            angle: length(stretch.motion.spin()) * time_error,
+            centre_deviation: speed * time_error,
+            max_deviation_angle: length(stretch.motion.spin()) * time_error,
         };
         Ok(Stretch {
             deviation_bound: stretch.deviation_bound + rounding,
@@ -28,8 +28,10 @@ impl Trajectory for TimeShiftedTrajectory<'_> {
         })
     }
 
-    fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        let corner = self.inner.corner(self.from + from, self.from + to)?;
+    fn velocity_jump_time(&self, from: f64, to: f64) -> Option<f64> {
+        let corner = self
+            .inner
+            .velocity_jump_time(self.from + from, self.from + to)?;
         Some(corner - self.from)
     }
 }

@@ -112,7 +112,7 @@ fn stop_search_settings(given: &Settings) -> Settings {
     Settings {
         margin: lesser(given.margin + half, MAX_COORDINATE),
         tolerance: greater(half, LEAST_TOLERANCE),
-        start: StartPolicy::Leave,
+        start_policy: StartPolicy::Leave,
         ..given.clone()
     }
 }
@@ -124,7 +124,7 @@ struct StopSearch<'s, 'a> {
     partners_by_body: Vec<Vec<usize>>,
     stop_by_body: Vec<Stop>,
     time_limits: TimeLimits,
-    schedule: BestFirst<Direct>,
+    search_schedule: BestFirst<Direct>,
     oracle: Direct,
 }
 
@@ -149,7 +149,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
             partners_by_body: partners,
             stop_by_body: vec![goes_on; scene.len()],
             time_limits: clock,
-            schedule: BestFirst::default(),
+            search_schedule: BestFirst::default(),
             oracle: Direct::default(),
         }
     }
@@ -242,7 +242,8 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         let (a, b) = (a?, b?);
         let duration = self.time_limits.duration;
         let body = |k: usize| self.scene.members[bodies[k]].body;
-        let rounding = rounding(body(0), &a, duration)? + rounding(body(1), &b, duration)?;
+        let rounding = restart_position_error(body(0), &a, duration)?
+            + restart_position_error(body(1), &b, duration)?;
         let stray =
             self.deviation_bound_at_stop(bodies[0])? + self.deviation_bound_at_stop(bodies[1])?;
         let settings = Settings {
@@ -251,7 +252,7 @@ impl<'s, 'a> StopSearch<'s, 'a> {
             ..self.scene.settings.clone()
         };
         let query = Query::new((body(0), a), (body(1), b), duration - time, &settings)?;
-        self.schedule.first_contact(&query, &mut self.oracle)
+        self.search_schedule.first_contact(&query, &mut self.oracle)
     }
 
     /// Returns the motion or trajectory of a body from a given time on.
@@ -277,7 +278,9 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         }
         let (member, time) = (&self.scene.members[index], self.stop_by_body[index].time);
         let stretch = member.movement.stretch_between(time, time)?;
-        Ok(stretch.deviation_bound.at(reach(member.body, &stretch)))
+        Ok(stretch
+            .deviation_bound
+            .at_reach(reach(member.body, &stretch)))
     }
 
     fn moves(&self, index: usize) -> bool {
@@ -292,13 +295,17 @@ fn reach(body: &Body, stretch: &Stretch) -> f64 {
 }
 
 /// Bounds the error of the positions of a body's points when its movement continues from a rounded pose.
-fn rounding(body: &Body, movement: &Movement<'_>, duration: f64) -> Result<f64, InputError> {
+fn restart_position_error(
+    body: &Body,
+    movement: &Movement<'_>,
+    duration: f64,
+) -> Result<f64, InputError> {
     let stretch = movement.stretch_between(0.0, 0.0)?;
     let motion = &stretch.motion;
     let [place, centre] = [motion.start().translation(), motion.centre()].map(length);
     let [travel, turn] = [motion.velocity(), motion.spin()].map(|rate| length(rate) * duration);
     let reach = reach(body, &stretch);
-    let stray = stretch.deviation_bound.at(reach);
+    let stray = stretch.deviation_bound.at_reach(reach);
     Ok(stray + RETIMED_POSE_ERROR_F64 * (place + centre + travel + (1.0 + turn) * reach))
 }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::answer::{HitKind, Limit};
-use crate::body::{Pieces, Volume};
+use crate::body::{Pieces, Solidity};
 use crate::trajectory::Ballistic;
 use crate::{Error, Hit, Solver, StartPolicy};
 use ccd_core::Trajectory;
@@ -39,8 +39,8 @@ pub(super) fn bodies(rng: &mut Pcg64) -> Vec<Body> {
             .collect();
         let ids: Vec<u32> = (0..triangles as u32).collect();
         Body::new(
-            &Pieces::triangles(&points, &faces, &ids).unwrap(),
-            Volume::Surface,
+            &Pieces::from_triangles(&points, &faces, &ids).unwrap(),
+            Solidity::Surface,
         )
         .unwrap()
     };
@@ -184,7 +184,7 @@ fn answers_are_those_of_all_pairs_one_by_one_on_any_number_of_threads() {
         let config = Settings {
             tolerance: 1e-4,
             margin: [0.0, 0.0, 0.2][round % 3],
-            start: [StartPolicy::Report, StartPolicy::Leave][round % 2],
+            start_policy: [StartPolicy::Report, StartPolicy::Leave][round % 2],
             budget: [u64::MAX, 30][usize::from(round % 5 == 4)],
             ..Settings::DEFAULT
         };

@@ -67,7 +67,10 @@ fn a_body_that_begins_inside_is_never_said_to_be_outside() {
                     limit: reason,
                     ..
                 }) => {
-                    assert_eq!((safe_until, reason), (0.0, crate::answer::Limit::Undecided));
+                    assert_eq!(
+                        (safe_until, reason),
+                        (0.0, crate::answer::Limit::OverlapUndecided)
+                    );
                 }
                 _ => panic!("{any:?}"),
             }

@@ -131,7 +131,7 @@ pub struct Columns {
     table_kind: TableKind,
     names: Vec<String>,
     /// For each known column, the index of its cell in a row; `None` if the table does not have it.
-    cells: Vec<Option<usize>>,
+    cell_indices: Vec<Option<usize>>,
     len: usize,
     remark_collector: RemarkCollector,
 }
@@ -162,7 +162,7 @@ impl Columns {
         if let Some(number) = number_in_header(header, &names) {
             let known = form.known_columns_text();
             return Err(TableError::NoHeader {
-                number,
+                first_number: number,
                 known_columns: known,
             });
         }
@@ -180,7 +180,7 @@ impl Columns {
         let columns = Columns {
             table_kind: form,
             names,
-            cells,
+            cell_indices: cells,
             len: header.len(),
             remark_collector: RemarkCollector::default(),
         };
@@ -202,7 +202,7 @@ impl Columns {
             .map(|whole| (whole, whole))
             .into_iter()
             .chain(of_spin);
-        let is_there = |&slot: &usize| self.cells[slot].is_some();
+        let is_there = |&slot: &usize| self.cell_indices[slot].is_some();
         for side in self.table_kind.sides() {
             for (given, needed) in needs.clone() {
                 let given = self.column_range(side, given).find(is_there);
@@ -249,12 +249,15 @@ impl Columns {
 
     /// Returns the index of a known column's cell in a row; `None` if the table does not have it.
     pub(in crate::table) fn index(&self, slot: usize) -> Option<usize> {
-        self.cells[slot]
+        self.cell_indices[slot]
     }
 
     /// Returns the name of the column whose cell has a given index in the row.
     pub(in crate::table) fn name_of_column_with_cell(&self, index: usize) -> &str {
-        let slot = self.cells.iter().position(|&cell| cell == Some(index));
+        let slot = self
+            .cell_indices
+            .iter()
+            .position(|&cell| cell == Some(index));
         slot.map_or("", |slot| self.name(slot))
     }
 }
@@ -328,11 +331,11 @@ const ANGLE_COLUMN_NAMES: [&str; 27] = [
 ];
 
 /// The index of the column `id` among the known columns.
-pub(in crate::table) const ID_COLUMN: usize = 0;
+pub(in crate::table) const ID_COLUMN_INDEX: usize = 0;
 /// The index of the column `duration` among those of a table of motions.
 pub(in crate::table) const DURATION_COLUMN_INDEX: usize = 2 * BODY_COLUMNS.len() + 1;
 /// The index of the column `t` among those of a table of paths.
-pub(in crate::table) const TIME_COLUMN: usize = 1;
+pub(in crate::table) const TIME_COLUMN_INDEX: usize = 1;
 const TIME_COLUMN_NAME: &str = "t";
 /// The index of the column `body` among those of a scene's table.
 pub const BODY_COLUMN_INDEX: usize = BODY_COLUMNS.len() + 1;

@@ -4,7 +4,7 @@ use super::columns::Columns;
 use super::csv_records::CsvRecords;
 use super::error::{RowError, TableError};
 use super::motions::{MotionRows, Motions};
-use super::paths::{Grouping, Path, PathReader};
+use super::paths::{Grouping, PathPair, PathReader};
 use super::position::RowPosition;
 use super::records::Records;
 use crate::Remark;
@@ -17,14 +17,14 @@ pub enum Movements {
     /// Motions at constant velocities.
     Motions(Motions),
     /// Paths from pose to pose.
-    Path(Path),
+    Path(PathPair),
 }
 
 impl Movements {
     /// Returns the id of the row in the results.
     pub fn id(&self) -> &str {
         match self {
-            Movements::Motions(Motions { id, .. }) | Movements::Path(Path { id, .. }) => id,
+            Movements::Motions(Motions { id, .. }) | Movements::Path(PathPair { id, .. }) => id,
         }
     }
 
@@ -32,12 +32,12 @@ impl Movements {
     pub fn duration(&self) -> f64 {
         match *self {
             Movements::Motions(Motions { duration, .. })
-            | Movements::Path(Path { duration, .. }) => duration,
+            | Movements::Path(PathPair { duration, .. }) => duration,
         }
     }
 
     /// Returns the paths of both bodies; `None` for motions, whose times are those of the table.
-    fn path(&self) -> Option<&Path> {
+    fn path(&self) -> Option<&PathPair> {
         match self {
             Movements::Motions(_) => None,
             Movements::Path(path) => Some(path),
@@ -45,7 +45,7 @@ impl Movements {
     }
 
     /// Returns the table's time that corresponds to the query's time 0.
-    pub fn start(&self) -> f64 {
+    pub fn start_time(&self) -> f64 {
         self.path().map_or(0.0, |path| path.start)
     }
 
@@ -53,7 +53,7 @@ impl Movements {
     pub fn trajectories(&self) -> [&dyn Trajectory; 2] {
         match self {
             Movements::Motions(Motions { a, b, .. }) => [a, b],
-            Movements::Path(Path { a, b, .. }) => [a, b],
+            Movements::Path(PathPair { a, b, .. }) => [a, b],
         }
     }
 
@@ -64,7 +64,7 @@ impl Movements {
     pub fn poses(&self, time: f64) -> Result<[Pose; 2], InputError> {
         match self {
             Movements::Motions(query) => Ok([query.a.pose(time), query.b.pose(time)]),
-            Movements::Path(path) => path.poses(time),
+            Movements::Path(path) => path.poses_at(time),
         }
     }
 

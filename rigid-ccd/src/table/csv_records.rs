@@ -3,7 +3,7 @@
 use crate::table::columns::Columns;
 use crate::table::error::{RowProblem, TableError};
 use crate::table::foreign;
-use crate::table::lines::LineEndReader;
+use crate::table::lines::LineEndConverter;
 use crate::table::position::RowPosition;
 use crate::table::records::{Record, Records};
 use std::borrow::Cow;
@@ -22,7 +22,7 @@ pub struct CsvRecords<R> {
     checksum: crc32fast::Hasher,
 }
 
-type Reader<R> = csv::Reader<io::Chain<LineEndReader<R>, &'static [u8]>>;
+type Reader<R> = csv::Reader<io::Chain<LineEndConverter<R>, &'static [u8]>>;
 
 /// What follows the input. The line number of a row is computed from its end, so that the last row needs a line end,
 /// too. No row takes the second one, unless a quote is still open.
@@ -34,7 +34,7 @@ impl<R: Read> CsvRecords<R> {
     /// # Errors
     /// [`TableError::Unreadable`], [`TableError::UnclosedQuote`].
     pub fn new(input: R) -> Result<Self, TableError> {
-        let input = LineEndReader::new(input).map_err(csv::Error::from)?;
+        let input = LineEndConverter::new(input).map_err(csv::Error::from)?;
         let mut reader = csv::ReaderBuilder::new()
             .flexible(true)
             .has_headers(false)
@@ -85,7 +85,7 @@ impl<R: Read> Records for CsvRecords<R> {
 
     fn consumed_bytes(&self) -> u64 {
         let (input, _) = self.reader.get_ref().get_ref();
-        input.input_bytes_for(self.reader.position().byte())
+        input.input_byte_count(self.reader.position().byte())
     }
 
     fn checksum(&self) -> u32 {
@@ -120,7 +120,7 @@ impl Record for csv::ByteRecord {
         if self.len() != columns.len() {
             return Err(RowProblem::WrongCellCount {
                 cells: self.len(),
-                columns: columns.len(),
+                column_count: columns.len(),
             });
         }
         match self.iter().position(|cell| str::from_utf8(cell).is_err()) {

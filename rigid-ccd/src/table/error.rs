@@ -33,11 +33,11 @@ pub enum TableError {
     },
     /// The first line has numbers instead of names.
     #[error(
-        "header: `{number}` is a number: the first line must name the columns, such as id,a_px,a_vx; {known_columns}"
+        "header: `{first_number}` is a number: the first line must name the columns, such as id,a_px,a_vx; {known_columns}"
     )]
     NoHeader {
         /// The first number in that line.
-        number: String,
+        first_number: String,
         /// The known columns, as text.
         known_columns: &'static str,
     },
@@ -135,12 +135,12 @@ pub enum RowProblem {
         column: String,
     },
     /// The row has more or fewer cells than the header.
-    #[error("has {cells} cells, but the header has {columns} columns")]
+    #[error("has {cells} cells, but the header has {column_count} columns")]
     WrongCellCount {
         /// The number of cells of the row.
         cells: usize,
         /// The number of columns of the header.
-        columns: usize,
+        column_count: usize,
     },
     /// A cell is not a finite number.
     #[error("column {column}: `{value}` is not a finite number")]
@@ -169,12 +169,14 @@ pub enum RowProblem {
         value: [f64; 4],
     },
     /// A row gives both the end pose and a velocity of a body.
-    #[error("columns {end} and {velocity}: give either the end pose or the velocities")]
+    #[error(
+        "columns {end_pose_column} and {velocity_column}: give either the end pose or the velocities"
+    )]
     EndPoseAndVelocity {
         /// A column of the end pose.
-        end: String,
+        end_pose_column: String,
         /// A column of a velocity.
-        velocity: String,
+        velocity_column: String,
     },
     /// The duration is out of range.
     #[error("column duration: {} is not {allowed}", Number(*.value))]

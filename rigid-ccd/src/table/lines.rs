@@ -5,7 +5,7 @@ use std::io::{self, Read};
 /// A reader that converts every line end (`\n`, `\r\n`, `\r`) to `\n`, so that lines can be counted, and drops byte order
 /// marks at the start.
 #[derive(Debug)]
-pub(super) struct LineEndReader<R> {
+pub(super) struct LineEndConverter<R> {
     input: io::Chain<io::Cursor<Vec<u8>>, R>,
     is_after_carriage_return: bool,
     /// The number of bytes read from the input.
@@ -16,7 +16,7 @@ pub(super) struct LineEndReader<R> {
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-impl<R: Read> LineEndReader<R> {
+impl<R: Read> LineEndConverter<R> {
     /// Creates a reader of `input`, and reads past byte order marks at its start.
     ///
     /// # Errors
@@ -33,7 +33,7 @@ impl<R: Read> LineEndReader<R> {
             marks += most;
             start.clear();
         }
-        Ok(LineEndReader {
+        Ok(LineEndConverter {
             input: io::Cursor::new(start).chain(input),
             is_after_carriage_return: false,
             byte_count: marks,
@@ -47,12 +47,12 @@ impl<R: Read> LineEndReader<R> {
     }
 
     /// Returns the number of input bytes for the first `taken` bytes of this reader's output.
-    pub(super) fn input_bytes_for(&self, taken: u64) -> u64 {
+    pub(super) fn input_byte_count(&self, taken: u64) -> u64 {
         self.byte_count.min(taken + self.dropped_byte_count)
     }
 }
 
-impl<R: Read> Read for LineEndReader<R> {
+impl<R: Read> Read for LineEndConverter<R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         loop {
             let read = self.input.read(out)?;

@@ -7,7 +7,7 @@ mod write;
 
 pub use super::error::{RowError, RowProblem, TableError};
 pub use super::position::RowPosition;
-pub use row::query;
+pub use row::parse_row;
 pub use row::{BodyRow, body_row};
 pub use write::write;
 
@@ -127,8 +127,8 @@ impl<S: Records> Iterator for MotionRows<S> {
             Err(error) => return Some(Err(error)),
         };
         let raw = self.records.current();
-        Some(Ok(match row::query(&self.columns, raw, position.row) {
-            Ok(query) => Ok((position, query)),
+        Some(Ok(match row::parse_row(&self.columns, raw, position.row) {
+            Ok(motions) => Ok((position, motions)),
             Err(problem) => Err(RowError {
                 position,
                 id: row::id(&self.columns, raw).unwrap_or_else(|| position.row.to_string()),

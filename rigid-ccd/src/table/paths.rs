@@ -6,7 +6,7 @@ mod tests;
 use super::columns::Columns;
 use super::error::{RowError, RowProblem, TableError};
 use super::motions::MotionRows;
-use super::motions::row::{self, BodyPose, PosePair};
+use super::motions::row::{self, BodyPose, TimedBodyPoses};
 use super::position::RowPosition;
 use super::records::Records;
 use crate::trajectory;
@@ -19,7 +19,7 @@ use std::hash::{BuildHasher, RandomState};
 
 /// The paths of two bodies over the same time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Path {
+pub struct PathPair {
     /// The id of the row in the results.
     pub id: String,
     /// The path of body A, from time 0.
@@ -64,7 +64,7 @@ pub(super) struct PathReader {
 }
 
 /// The paths of both bodies of a query, with the place of their first row in the table, or the error of a bad row.
-pub(super) type PathRow = Result<(RowPosition, Path), RowError>;
+pub(super) type PathRow = Result<(RowPosition, PathPair), RowError>;
 
 impl PathReader {
     /// Starts to read the paths of a table after its header.
@@ -142,7 +142,7 @@ impl PathReader {
         &mut self,
         rows: &mut MotionRows<S>,
     ) -> Result<Option<PathRow>, TableError> {
-        let mut poses: Result<Vec<PosePair>, (RowPosition, RowProblem)> = Ok(Vec::new());
+        let mut poses: Result<Vec<TimedBodyPoses>, (RowPosition, RowProblem)> = Ok(Vec::new());
         let read = self.read(rows, |position, columns, record| {
             let Ok(before) = &mut poses else { return };
             let row = row::poses(columns, record).and_then(|row| check_row_follows(before, row));
@@ -164,7 +164,7 @@ impl PathReader {
             poses = Err((position, problem));
         }
         let path = poses
-            .and_then(|poses| Path::new(&id, &poses).map_err(|problem| (position, problem)))
+            .and_then(|poses| PathPair::new(&id, &poses).map_err(|problem| (position, problem)))
             .map_err(|(position, problem)| RowError {
                 position,
                 id,
@@ -184,7 +184,10 @@ struct FirstRow {
 
 /// Returns `row`, or an error if it cannot follow the rows before it. Its time must be later, also after the first time
 /// is subtracted; its orientation and its centre of rotation must fit the row before.
-fn check_row_follows(poses: &[PosePair], row: PosePair) -> Result<PosePair, RowProblem> {
+fn check_row_follows(
+    poses: &[TimedBodyPoses],
+    row: TimedBodyPoses,
+) -> Result<TimedBodyPoses, RowProblem> {
     let (time, Some(first), Some(before)) = (row.time, poses.first(), poses.last()) else {
         return Ok(row);
     };
@@ -233,11 +236,11 @@ fn check_orientation(
     }
 }
 
-impl Path {
+impl PathPair {
     /// Creates the paths of both bodies from at least one row.
-    fn new(id: &str, rows: &[PosePair]) -> Result<Self, RowProblem> {
+    fn new(id: &str, rows: &[TimedBodyPoses]) -> Result<Self, RowProblem> {
         let start = rows[0].time;
-        let of = |body: fn(&PosePair) -> BodyPose| {
+        let of = |body: fn(&TimedBodyPoses) -> BodyPose| {
             let timed = rows.iter().map(|row| (row.time - start, body(row).pose));
             let path = trajectory::Poses::new(timed.collect())?.about(body(&rows[0]).centre)?;
             let spins = rows[..rows.len() - 1].iter().map(|row| body(row).spin);
@@ -248,9 +251,9 @@ impl Path {
             }
         };
         let (a, b) = (of(|row| row.a)?, of(|row| row.b)?);
-        Ok(Path {
+        Ok(PathPair {
             id: id.to_owned(),
-            duration: a.end(),
+            duration: a.end_time(),
             a,
             b,
             start,
@@ -262,7 +265,7 @@ impl Path {
     ///
     /// # Errors
     /// [`InputError`]: a pose is out of range.
-    pub fn poses(&self, time: f64) -> Result<[Pose; 2], InputError> {
+    pub fn poses_at(&self, time: f64) -> Result<[Pose; 2], InputError> {
         Ok([self.a.pose(time)?, self.b.pose(time)?])
     }
 

@@ -213,8 +213,8 @@ impl ResultRow {
             Overlap::Pieces(contact) => self.with_contact(contact),
             // The common point lies in both bodies.
             Overlap::AInsideB(point) | Overlap::BInsideA(point) => ResultRow {
-                witness_a: cells(*point),
-                witness_b: cells(*point),
+                witness_a: vector_cells(*point),
+                witness_b: vector_cells(*point),
                 ..self
             },
         }
@@ -225,9 +225,9 @@ impl ResultRow {
         ResultRow {
             distance_lower: Some(separation.lower),
             distance_upper: Some(separation.upper),
-            normal: cells(separation.normal),
-            witness_a: cells(separation.witness_a),
-            witness_b: cells(separation.witness_b),
+            normal: vector_cells(separation.normal),
+            witness_a: vector_cells(separation.witness_a),
+            witness_b: vector_cells(separation.witness_b),
             feature_a: Some(contact.feature_a.to_string()),
             feature_b: Some(contact.feature_b.to_string()),
             ..self
@@ -251,6 +251,6 @@ pub fn read(input: impl io::Read) -> Result<Vec<ResultRow>, csv::Error> {
     rows.collect()
 }
 
-fn cells(v: DVec3) -> [Option<f64>; 3] {
+fn vector_cells(v: DVec3) -> [Option<f64>; 3] {
     v.to_array().map(Some)
 }

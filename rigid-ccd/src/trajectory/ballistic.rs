@@ -66,7 +66,7 @@ impl SmoothTrajectory for Ballistic {
         _: f64,
     ) -> Result<(Motion, Option<Acceleration>), InputError> {
         let acceleration = Acceleration {
-            vector: self.acceleration,
+            acceleration_vector: self.acceleration,
             jerk_bound: 0.0,
         };
         Ok((self.tangent_motion(time)?, Some(acceleration)))
@@ -79,8 +79,8 @@ impl SmoothTrajectory for Ballistic {
         let turned = length(thrown.spin()) * time;
         let way = (length(thrown.velocity()) + 0.5 * time * length(acceleration)) * time;
         DeviationBound {
-            shift: 16.0 * U * (length(thrown.start().translation()) + way),
-            angle: 8.0 * U * turned,
+            centre_deviation: 16.0 * U * (length(thrown.start().translation()) + way),
+            max_deviation_angle: 8.0 * U * turned,
         }
     }
 }

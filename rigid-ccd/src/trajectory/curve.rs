@@ -73,7 +73,7 @@ impl Curve {
 
     /// Returns the time at which the curve ends.
     pub fn duration(&self) -> f64 {
-        self.last().to
+        self.last_segment().to
     }
 
     /// Returns the point of the curve at a time.
@@ -93,17 +93,19 @@ impl Curve {
     }
 
     fn segment_at(&self, time: f64) -> &Segment {
-        self.segments.segment_at(time).unwrap_or(self.last())
+        self.segments
+            .segment_at(time)
+            .unwrap_or(self.last_segment())
     }
 
     /// Returns the last segment; there is at least one.
-    fn last(&self) -> &Segment {
+    fn last_segment(&self) -> &Segment {
         &self.segments.0[self.segments.0.len() - 1]
     }
 
     /// Bounds the magnitude of the acceleration between two times. A velocity that jumps counts as one that changes in
     /// half of the time, by which a curve strays farther.
-    pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
+    pub(super) fn acceleration_bound(&self, from: f64, to: f64) -> f64 {
         let velocity = |segment: &Segment, time| segment.derivative(1, segment.share(time));
         self.derivative_bound(2, from, to)
             + self
@@ -118,7 +120,7 @@ impl Curve {
         let mut overlapping = self.segments.overlapping_segments(from, to).iter();
         let segment = overlapping.find(|segment| from >= segment.from && to <= segment.to)?;
         Some(Acceleration {
-            vector: segment.derivative(2, segment.share(time)),
+            acceleration_vector: segment.derivative(2, segment.share(time)),
             jerk_bound: segment.derivative_bound(3, from, to),
         })
     }

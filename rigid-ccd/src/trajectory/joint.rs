@@ -51,7 +51,7 @@ pub enum JointKind {
 /// The allowed excess of a joint's position over its limits, as a fraction of the limit of greater magnitude. A
 /// position between two limits, `a + t (b − a)`, has three roundings, each of at most half an ulp of twice that
 /// magnitude.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+const LIMIT_ROUNDING_SLACK: f64 = 4.0 * f64::EPSILON;
 
 impl Joint {
     /// Creates a joint without a degree of freedom.
@@ -151,7 +151,7 @@ impl Joint {
     /// # Errors
     /// [`InputError::JointOutOfLimits`] outside of the limits, [`InputError::NotFinite`].
     pub fn pose(&self, position: f64) -> Result<Pose, InputError> {
-        self.check(position, None)?;
+        self.check_position(position, None)?;
         self.unchecked_pose(position)
     }
 
@@ -178,7 +178,7 @@ impl Joint {
     /// [`InputError::JointOutOfLimits`] outside of the limits, [`InputError::OutOfRange`] for a duration that is not
     /// positive and finite, [`InputError::NotFinite`].
     pub fn motion(&self, from: f64, to: f64, duration: f64) -> Result<Motion, InputError> {
-        self.check(to, None)?;
+        self.check_position(to, None)?;
         let start = self.pose(from)?;
         // A joint at rest may take no time.
         let least = if from == to { 0.0 } else { f64::from_bits(1) };
@@ -209,10 +209,14 @@ impl Joint {
 
     /// Returns an error for a position that is outside the joint's limits by more than rounding. The error has the
     /// number `joint` of the joint in its chain.
-    pub(super) fn check(&self, position: f64, joint: Option<usize>) -> Result<(), InputError> {
+    pub(super) fn check_position(
+        &self,
+        position: f64,
+        joint: Option<usize>,
+    ) -> Result<(), InputError> {
         let (least, greatest) = (*self.limits.start(), *self.limits.end());
         let rounding = match greater(least.abs(), greatest.abs()) {
-            scale if scale.is_finite() => ROUNDING * scale,
+            scale if scale.is_finite() => LIMIT_ROUNDING_SLACK * scale,
             _ => 0.0,
         };
         // Written so that NaN is refused.
@@ -222,7 +226,7 @@ impl Joint {
         } else {
             Err(InputError::JointOutOfLimits {
                 joint,
-                position,
+                joint_position: position,
                 limits: [least, greatest],
             })
         }

@@ -6,7 +6,7 @@ use super::U;
 use super::chain::Chain;
 use super::checks::check_duration;
 use super::joint::{Direction, Joint, JointKind};
-use bounds::{LinkBounds, PositionBounds};
+use bounds::{JointPositionBounds, LinkBounds};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::vector::length;
@@ -30,13 +30,13 @@ use ccd_core::{
 ///
 /// The rates hold at all times: before time 0 and after the duration the link moves on, without regard to limits.
 #[derive(Clone, Copy, Debug)]
-pub struct Link<'c> {
+pub struct LinkTrajectory<'c> {
     chain: &'c Chain,
     /// The link in whose frame this link is seen; `None` for the world.
     reference_link: Option<usize>,
     link: usize,
     from: &'c [f64],
-    to: &'c [f64],
+    end_positions: &'c [f64],
     duration: f64,
 }
 
@@ -66,7 +66,7 @@ impl Chain {
         from: &'c [f64],
         to: &'c [f64],
         duration: f64,
-    ) -> Result<Link<'c>, InputError> {
+    ) -> Result<LinkTrajectory<'c>, InputError> {
         let joints = self.joints();
         if link > joints.len() {
             return Err(InputError::NoSuchLink {
@@ -82,22 +82,22 @@ impl Chain {
                 });
             }
             for (k, (joint, &position)) in joints.iter().zip(positions).enumerate() {
-                joint.check(position, Some(k))?;
+                joint.check_position(position, Some(k))?;
             }
         }
         check_duration(duration)?;
-        Ok(Link {
+        Ok(LinkTrajectory {
             chain: self,
             reference_link: None,
             link,
             from,
-            to,
+            end_positions: to,
             duration,
         })
     }
 }
 
-impl<'c> Link<'c> {
+impl<'c> LinkTrajectory<'c> {
     /// Returns the trajectory in the frame of the link with the number `link`, which is this link or one nearer to the
     /// base. In a query, that link is then at rest ([`Motion::STILL`]), and the motion that both links share costs
     /// nothing.
@@ -106,7 +106,7 @@ impl<'c> Link<'c> {
     /// [`InputError::ReferenceLinkTooFar`] if the other link is farther from the base.
     pub fn seen_from(self, link: usize) -> Result<Self, InputError> {
         if link <= self.link {
-            Ok(Link {
+            Ok(LinkTrajectory {
                 reference_link: Some(link),
                 ..self
             })
@@ -122,7 +122,7 @@ impl<'c> Link<'c> {
     /// rate.
     fn joints(&self, time: f64) -> impl Iterator<Item = (&'c Joint, f64, f64)> {
         let share = time / self.duration;
-        let (from, to, duration) = (self.from, self.to, self.duration);
+        let (from, to, duration) = (self.from, self.end_positions, self.duration);
         let range = self.reference_link.unwrap_or(0)..self.link;
         range.map(move |k| {
             let joint = &self.chain.joints()[k];
@@ -151,13 +151,13 @@ impl<'c> Link<'c> {
     fn link_bounds(&self, from: f64, to: f64) -> LinkBounds {
         let mut moved = LinkBounds::default();
         let starts = self.joints(0.0);
-        for ((joint, start, rate), (first, last)) in starts.zip(self.positions(from, to)) {
+        for ((joint, start, rate), (first, last)) in starts.zip(self.joint_positions(from, to)) {
             let largest = greater(first.abs(), last.abs());
-            let positions = PositionBounds {
+            let positions = JointPositionBounds {
                 max_abs_position: largest,
                 max_abs_with_start: greater(largest, start.abs()),
-                first,
-                rate: rate.abs(),
+                first_position: first,
+                joint_speed: rate.abs(),
             };
             moved.move_past_joint(joint, &positions);
         }
@@ -165,13 +165,13 @@ impl<'c> Link<'c> {
     }
 
     /// Returns a pair of positions, at the times `from` and `to`, for each joint that moves this link in its frame.
-    fn positions(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
+    fn joint_positions(&self, from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
         let at = |time| self.joints(time).map(|(_, position, _)| position);
         at(from).zip(at(to))
     }
 }
 
-impl SmoothTrajectory for Link<'_> {
+impl SmoothTrajectory for LinkTrajectory<'_> {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
         self.state(time)?.to_motion()
     }
@@ -188,7 +188,7 @@ impl SmoothTrajectory for Link<'_> {
     ) -> Result<(Motion, Option<Acceleration>), InputError> {
         let state = self.state(time)?;
         let acceleration = Acceleration {
-            vector: state.acceleration,
+            acceleration_vector: state.acceleration,
             jerk_bound: self.link_bounds(from, to).jerk_bounds.linear_acceleration,
         };
         Ok((state.to_motion()?, Some(acceleration)))
@@ -206,8 +206,8 @@ impl SmoothTrajectory for Link<'_> {
         let base = length(self.chain.base().translation());
         let turn = U * (24.0 * joints + 4.0 * angles);
         DeviationBound {
-            shift: turn * arms + 8.0 * U * (base + arms),
-            angle: turn,
+            centre_deviation: turn * arms + 8.0 * U * (base + arms),
+            max_deviation_angle: turn,
         }
     }
 }

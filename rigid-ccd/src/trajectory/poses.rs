@@ -30,7 +30,7 @@ use segment::Segment;
 /// let poses = timed.map(|(&at, time)| Ok((time, Pose::at(at)?)));
 /// let path = Poses::new(poses.collect::<Result<_, rigid_ccd::InputError>>()?)?;
 /// assert_eq!(path.pose(2.0)?.translation().y, 0.5);
-/// assert_eq!(path.corner(0.0, 3.0), Some(1.0));
+/// assert_eq!(path.velocity_jump_time(0.0, 3.0), Some(1.0));
 /// # Ok::<(), rigid_ccd::InputError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -121,7 +121,7 @@ impl Poses {
     }
 
     /// Returns the time of the last pose.
-    pub fn end(&self) -> f64 {
+    pub fn end_time(&self) -> f64 {
         self.poses[self.poses.len() - 1].0
     }
 
@@ -188,24 +188,25 @@ impl Poses {
     }
 
     /// Returns one motion between the poses at two times, with a bound on the path's deviation from that motion.
-    fn chord(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+    fn chord_motion(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let [begin, end] = [
             self.segment_motion_at(from, to)?.0.start(),
             self.segment_motion_at(to, to)?.0.start(),
         ];
         let motion = Motion::between(begin, end, self.centre, to - from)?;
-        let mut stray = DeviationBound::NONE;
+        let mut stray = DeviationBound::ZERO;
         // The rotation by which the chord deviates at a pose, and the time of that pose.
-        let mut last = (from, DeviationBound::NONE);
+        let mut last = (from, DeviationBound::ZERO);
         for &(time, pose) in self.poses_between(from, to).iter().chain(&[(to, end)]) {
             let deviation = deviation(&motion, &pose, self.centre, time - from);
             // The motion of the segment that ends at this pose.
             let (before, acceleration) = self.segment_motion_at(time, time)?;
             let since = time - last.0;
             let change = before.spin().distance(motion.spin()) + acceleration * since;
-            let between = 0.5 * (deviation.angle + last.1.angle + change * since);
-            stray.shift = greater(stray.shift, deviation.shift);
-            stray.angle = greater(stray.angle, between);
+            let between =
+                0.5 * (deviation.max_deviation_angle + last.1.max_deviation_angle + change * since);
+            stray.centre_deviation = greater(stray.centre_deviation, deviation.centre_deviation);
+            stray.max_deviation_angle = greater(stray.max_deviation_angle, between);
             last = (time, deviation);
         }
         Ok(Stretch {
@@ -227,8 +228,8 @@ impl Poses {
         };
         let turn = given.windows(2).enumerate().map(turn).fold(1.0, greater);
         DeviationBound {
-            shift: 64.0 * U * place,
-            angle: 64.0 * U * turn,
+            centre_deviation: 64.0 * U * place,
+            max_deviation_angle: 64.0 * U * turn,
         }
     }
 }
@@ -240,11 +241,12 @@ impl Trajectory for Poses {
             let mut stretch = Stretch::exact(motion);
             // The integral of the deviation of the angular velocity is quadratic in time.
             if acceleration > 0.0 {
-                stretch.deviation_bound.angle = 0.5 * acceleration * (to - from) * (to - from);
+                stretch.deviation_bound.max_deviation_angle =
+                    0.5 * acceleration * (to - from) * (to - from);
             }
             stretch
         } else {
-            self.chord(from, to)?
+            self.chord_motion(from, to)?
         };
         Ok(Stretch {
             deviation_bound: stretch.deviation_bound + self.rounding(from, to),
@@ -252,7 +254,7 @@ impl Trajectory for Poses {
         })
     }
 
-    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+    fn velocity_jump_time(&self, from: f64, to: f64) -> Option<f64> {
         let inner = self.poses_between(from, to);
         inner.get(inner.len() / 2).map(|&(time, _)| time)
     }
@@ -264,8 +266,8 @@ fn deviation(motion: &Motion, pose: &Pose, centre: DVec3, time: f64) -> Deviatio
     let [at, true_at] = [&near, pose].map(|pose| pose.transform_point(centre));
     let turned: DQuat = near.rotation().conjugate() * pose.rotation();
     DeviationBound {
-        shift: at.distance(true_at),
+        centre_deviation: at.distance(true_at),
         // The rotation angle is twice the angle of the quaternion, whose sine is the length of its vector part.
-        angle: 2.0 * turned.xyz().length().atan2(turned.w.abs()),
+        max_deviation_angle: 2.0 * turned.xyz().length().atan2(turned.w.abs()),
     }
 }

@@ -41,7 +41,7 @@ impl<T> Segments<T> {
     }
 
     /// Returns a knot strictly between two times, preferably near the middle; `None` if no knot is between them.
-    pub(super) fn corner(&self, from: f64, to: f64) -> Option<f64> {
+    pub(super) fn knot_between(&self, from: f64, to: f64) -> Option<f64> {
         let segments = self.overlapping_segments(from, to);
         let middle = segments.get(segments.len() / 2)?.from;
         let ends = [segments.first(), segments.last()].into_iter().flatten();

@@ -54,8 +54,8 @@ impl SmoothTrajectory for Spline {
 
     fn acceleration_bounds(&self, from: f64, to: f64) -> AccelerationBounds {
         AccelerationBounds {
-            linear_acceleration: self.curve.acceleration(from, to),
-            angular_acceleration: self.orientation_curve.acceleration(from, to),
+            linear_acceleration: self.curve.acceleration_bound(from, to),
+            angular_acceleration: self.orientation_curve.angular_acceleration_bound(from, to),
         }
     }
 
@@ -71,13 +71,13 @@ impl SmoothTrajectory for Spline {
 
     fn rounding(&self, _: f64, _: f64) -> DeviationBound {
         DeviationBound {
-            shift: self.curve.rounding(),
-            angle: self.orientation_curve.rounding(),
+            centre_deviation: self.curve.rounding(),
+            max_deviation_angle: self.orientation_curve.rounding(),
         }
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {
-        let corner = self.orientation_curve.segments.corner(from, to);
-        corner.or_else(|| self.curve.segments.corner(from, to))
+        let corner = self.orientation_curve.segments.knot_between(from, to);
+        corner.or_else(|| self.curve.segments.knot_between(from, to))
     }
 }

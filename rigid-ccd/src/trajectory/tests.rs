@@ -315,8 +315,8 @@ fn reversed_joints_undo_joints() {
             ..
         } = link.stretch_between(0.7, 0.7).unwrap();
         let start = motion.start();
-        assert!(start.translation().length() <= deviation.shift);
-        assert!(2.0 * start.rotation().xyz().length() <= deviation.angle);
+        assert!(start.translation().length() <= deviation.centre_deviation);
+        assert!(2.0 * start.rotation().xyz().length() <= deviation.max_deviation_angle);
         assert!(motion.velocity().length() < 1e-12 && motion.spin().length() < 1e-12);
     }
 }
@@ -413,7 +413,7 @@ fn a_false_bound_is_found() {
     impl Trajectory for FalselyBoundedSpline {
         fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
             let mut stretch = self.0.stretch_between(from, to)?;
-            stretch.deviation_bound.shift *= 0.9;
+            stretch.deviation_bound.centre_deviation *= 0.9;
             Ok(stretch)
         }
     }

@@ -75,7 +75,7 @@ impl OrientationCurve {
 
     /// Bounds the magnitude of the angular acceleration between two times. A jump of the angular velocity counts as an
     /// acceleration that causes at least the same deviation.
-    pub(super) fn acceleration(&self, from: f64, to: f64) -> f64 {
+    pub(super) fn angular_acceleration_bound(&self, from: f64, to: f64) -> f64 {
         self.segments
             .acceleration_covering_jumps(from, to, |segment, time| {
                 segment.orientation_and_spin_at(time).1

@@ -55,7 +55,7 @@ pub fn worst_deviation(
         reach,
         state: seed,
     };
-    let mut worst: Option<(Sample, WorstDeviation)> = None;
+    let mut worst: Option<(UnitCubePoint, WorstDeviation)> = None;
     for number in 0..draws {
         let draw = match &worst {
             // Hill climbing starts at every fresh sample.
@@ -71,7 +71,7 @@ pub fn worst_deviation(
 }
 
 /// Numbers from 0 to 1 that determine a segment, a time and a point.
-type Sample = [f64; 6];
+type UnitCubePoint = [f64; 6];
 
 struct Search<'t> {
     trajectory: &'t dyn Trajectory,
@@ -90,18 +90,18 @@ impl Search<'_> {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn random_sample(&mut self) -> Sample {
+    fn random_sample(&mut self) -> UnitCubePoint {
         [(); 6].map(|()| self.random_number())
     }
 
-    fn nearby_sample(&mut self, draw: &Sample) -> Sample {
+    fn nearby_sample(&mut self, draw: &UnitCubePoint) -> UnitCubePoint {
         let step = 10f64.powf(-6.0 * self.random_number());
         draw.map(|x| (x + step * (self.random_number() - 0.5)).clamp(0.0, 1.0))
     }
 
     fn measure(
         &self,
-        &[length, from, time, arm, azimuth, height]: &Sample,
+        &[length, from, time, arm, azimuth, height]: &UnitCubePoint,
     ) -> Result<WorstDeviation, InputError> {
         // The lengths are of all orders of magnitude, down to a millionth.
         let length = self.duration * 10f64.powf(-6.0 * length);
@@ -123,7 +123,7 @@ impl Search<'_> {
         let places = pose.translation().length() + point.length();
         let rounding = 8.0 * f64::EPSILON * places;
         Ok(WorstDeviation {
-            ratio: (deviation - rounding) / stretch.deviation_bound.at(reach),
+            ratio: (deviation - rounding) / stretch.deviation_bound.at_reach(reach),
             from,
             to,
             time,

@@ -2,7 +2,7 @@
 //! --example seeds -- FOLDER`.
 #![allow(clippy::print_stderr, reason = "a program, not a library")]
 
-use ccd_decomp::{Detail, Format, Model, TriangleMesh, prepare};
+use ccd_decomp::{Detail, Format, StoredBodyContent, TriangleMesh, prepare};
 use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -55,7 +55,7 @@ fn write() -> Result<(), Box<dyn Error>> {
             detail,
         )?;
         model.save(folder.join(format!("{name}.ccd")))?;
-        let with_tree = |model: Model| model.with_hull_tree();
+        let with_tree = |model: StoredBodyContent| model.with_hull_tree();
         with_tree(model)?.save(folder.join(format!("{name}-tree.ccd")))?;
     }
     Ok(())

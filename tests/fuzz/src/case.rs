@@ -151,7 +151,7 @@ impl Case {
             tolerance,
             margin,
             budget,
-            start,
+            start_policy: start,
             ..
         } = self.config;
         let start = match start {

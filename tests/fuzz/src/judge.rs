@@ -10,7 +10,7 @@ use crate::referee::{ContactCriterion, MarginViolation, Scene};
 use crate::solid::{PointLocation, Solid, distance_to_surface};
 use crate::vector::{Number, Vector, larger, smaller};
 use ccd_core::Unresolved;
-use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, StartPolicy, Volume};
+use ccd_core::{Answer, Contact, Outcome, Overlap, Piece, Solidity, StartPolicy};
 use start::StartState;
 
 /// The allowed decrease of the distance from that at the start under `StartPolicy::Leave`, in units of the rounding
@@ -62,13 +62,13 @@ pub struct Judge<'a> {
     start: StartState,
     /// The closed surfaces of both bodies at the start.
     solids_at_start: [Solid; 2],
-    volume_kinds: [Volume; 2],
+    volume_kinds: [Solidity; 2],
 }
 
 pub type Faults = Vec<(Fault, String)>;
 
 impl<'a> Judge<'a> {
-    pub fn new(case: &'a Case, volumes: [Volume; 2], rounding: f64) -> Self {
+    pub fn new(case: &'a Case, volumes: [Solidity; 2], rounding: f64) -> Self {
         let scene = Scene::new(case);
         let placed = [0, 1].map(|side| Solid::new(scene.triangles_at(side, 0.0)));
         let start = StartState::new(&scene, &placed, volumes, rounding);
@@ -119,7 +119,7 @@ impl<'a> Judge<'a> {
             .map(|g| g.answer.tolerance)
             .fold(self.rounding, larger);
         let begun = self.start.distance <= margin + tolerance;
-        match self.case.config.start {
+        match self.case.config.start_policy {
             StartPolicy::Leave if begun && self.start.distance < margin + self.rounding => {
                 ContactCriterion {
                     distance_threshold: self.required_distance(margin),
@@ -210,7 +210,7 @@ impl<'a> Judge<'a> {
     /// Returns the distance below which the bodies are nearer than allowed: the margin, or less under
     /// `StartPolicy::Leave`. Then it is at most the distance at the start, less rounding.
     fn required_distance(&self, margin: f64) -> f64 {
-        match self.case.config.start {
+        match self.case.config.start_policy {
             StartPolicy::Leave => smaller(
                 margin,
                 self.start.distance - MAX_DISTANCE_DECREASE_FACTOR * self.rounding,
@@ -282,7 +282,7 @@ impl<'a> Judge<'a> {
             .any(|(outer, witness)| {
                 let solid = Solid::new(self.scene.triangles_at(outer, time));
                 let point = Vector::from_array(witness.to_array()) - origin;
-                self.volume_kinds[outer] == Volume::Solid
+                self.volume_kinds[outer] == Solidity::Solid
                     && solid.locate(point) == PointLocation::Inside
             })
     }
@@ -303,7 +303,7 @@ impl<'a> Judge<'a> {
             let point = Vector::from_array(witnesses[k].0) - origin;
             let off = distance_to_surface(point, &placed);
             // A piece may extend through the interior of its solid.
-            let may = self.volume_kinds[k] == Volume::Solid && off > allowed;
+            let may = self.volume_kinds[k] == Solidity::Solid && off > allowed;
             if may && Solid::new(placed).locate(point) != PointLocation::Outside {
                 0.0
             } else {
@@ -397,7 +397,7 @@ impl<'a> Judge<'a> {
     /// proves that there is none until later.
     fn disagreements(&self, given: &[MethodAnswer<'_>]) -> Vec<(usize, Fault, String)> {
         let mut faults = Vec::new();
-        if self.case.config.start == StartPolicy::Leave {
+        if self.case.config.start_policy == StartPolicy::Leave {
             return faults;
         }
         for one in given {

@@ -133,7 +133,7 @@ fn solve_by_methods<'b>(
 /// Judges the answers, and records their faults in the trial.
 fn judge(trial: &mut Trial, given: &[MethodAnswer<'_>]) {
     let Some(first) = given.first() else { return };
-    let volumes = [0, 1].map(|k| first.bodies.bodies[k].volume());
+    let volumes = [0, 1].map(|k| first.bodies.bodies[k].solidity());
     let judge = Judge::new(&trial.case, volumes, rounding(&trial.case, first.bodies));
     let (faults, proven) = judge.faults(given);
     let outcomes: String = given

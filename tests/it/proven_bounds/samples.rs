@@ -84,7 +84,7 @@ impl Scene {
 }
 
 fn collect_corner_times(way: &dyn Trajectory, [from, to]: [f64; 2], corners: &mut Vec<f64>) {
-    if let Some(corner) = way.corner(from, to)
+    if let Some(corner) = way.velocity_jump_time(from, to)
         && from < corner
         && corner < to
     {

@@ -4,7 +4,7 @@ use super::{ExpectedOutcome, Scene};
 use crate::models::{Mesh, Shape, cuboid};
 use crate::query::MovingShape;
 use ccd_core::glam::DVec3;
-use ccd_core::{Polytope, Volume};
+use ccd_core::{Polytope, Solidity};
 use std::f64::consts::PI;
 
 pub(super) fn scenes() -> Vec<Scene> {
@@ -29,7 +29,7 @@ fn rounded_hull(points: Vec<DVec3>, radius: f64) -> Shape {
             radius,
             ..Polytope::default()
         }],
-        volume: Volume::Solid,
+        volume: Solidity::Solid,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{GridExtent, Mesh, Shape, grid_faces, icosphere};
 use ccd_core::glam::DVec3;
-use ccd_core::{Face, Facet, FacetOrigin, Polytope, Volume};
+use ccd_core::{Facet, FacetOrigin, MeshFace, Polytope, Solidity};
 
 /// Returns a box around the origin, as a mesh of 12 triangles and as one convex part of six quadrilaterals.
 ///
@@ -25,7 +25,7 @@ pub fn cuboid(half: DVec3) -> Shape {
     };
     let halves = |q: &[u32; 4]| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]];
     let faces: Vec<[u32; 3]> = quads.iter().flat_map(halves).collect();
-    let named = |(id, face): (u32, &[u32; 3])| Face {
+    let named = |(id, face): (u32, &[u32; 3])| MeshFace {
         id,
         vertices: *face,
         corners: face.map(|v| points[v as usize]),
@@ -41,7 +41,7 @@ pub fn cuboid(half: DVec3) -> Shape {
             vertices: points,
             faces,
         },
-        volume: Volume::Solid,
+        volume: Solidity::Solid,
     }
 }
 

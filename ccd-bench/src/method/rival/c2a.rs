@@ -215,12 +215,12 @@ impl C2a {
     ) {
         let between = self
             .trees
-            .nearest_points(leaves, setup.placement)
+            .nearest_triangle_points(leaves, setup.placement)
             .vector_from_a_to_b();
         let distance = between.length();
         let gap = GapBound {
             distance_bound: distance,
-            direction: between / distance,
+            gap_direction: between / distance,
         };
         let step = self
             .closing_speed_bounder

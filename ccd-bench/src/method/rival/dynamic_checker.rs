@@ -61,7 +61,7 @@ struct RequiredPrecision {
 
 /// The result of computing a lower bound of the bodies' distance.
 #[derive(Clone, Copy, Debug)]
-enum DistanceBound {
+enum DistanceBoundResult {
     AtLeast(f64),
     Touching,
     /// The work limit was reached, or a computed distance was NaN.
@@ -123,21 +123,25 @@ impl DynamicChecker {
         let path = task.speed_bound * duration;
         let distance_at_from =
             match self.distance_lower_bound(0.0, RequiredPrecision::coarse_precision(path), task) {
-                DistanceBound::AtLeast(distance) => distance,
-                DistanceBound::Touching => return ContactClaim::Contact { time: 0.0 },
-                DistanceBound::LimitReached => return ContactClaim::Unresolved { safe_until: 0.0 },
+                DistanceBoundResult::AtLeast(distance) => distance,
+                DistanceBoundResult::Touching => return ContactClaim::Contact { time: 0.0 },
+                DistanceBoundResult::LimitReached => {
+                    return ContactClaim::Unresolved { safe_until: 0.0 };
+                }
             };
         let distance_at_to = match self.distance_lower_bound(
             duration,
             RequiredPrecision::coarse_precision(path - distance_at_from),
             task,
         ) {
-            DistanceBound::AtLeast(distance) => distance,
-            DistanceBound::Touching => {
+            DistanceBoundResult::AtLeast(distance) => distance,
+            DistanceBoundResult::Touching => {
                 task.earliest_touch_time = Some(duration);
                 0.0
             }
-            DistanceBound::LimitReached => return ContactClaim::Unresolved { safe_until: 0.0 },
+            DistanceBoundResult::LimitReached => {
+                return ContactClaim::Unresolved { safe_until: 0.0 };
+            }
         };
         self.segment_stack.clear();
         self.segment_stack
@@ -178,29 +182,29 @@ impl DynamicChecker {
                 RequiredPrecision::exact_precision(path - distance_at_to),
                 task,
             ) {
-                DistanceBound::AtLeast(distance) if path < distance + distance_at_to => None,
-                DistanceBound::AtLeast(_) | DistanceBound::Touching => {
+                DistanceBoundResult::AtLeast(distance) if path < distance + distance_at_to => None,
+                DistanceBoundResult::AtLeast(_) | DistanceBoundResult::Touching => {
                     Some(ContactClaim::Contact { time: from })
                 }
-                DistanceBound::LimitReached => Some(gave_up),
+                DistanceBoundResult::LimitReached => Some(gave_up),
             };
         }
         let precision = RequiredPrecision::coarse_precision(
             0.5 * path - lesser(distance_at_from, distance_at_to),
         );
         let at_middle = match self.distance_lower_bound(middle, precision, task) {
-            DistanceBound::AtLeast(distance) => {
+            DistanceBoundResult::AtLeast(distance) => {
                 self.segment_stack
                     .push([(middle, distance), (to, distance_at_to)]);
                 distance
             }
-            DistanceBound::Touching => {
+            DistanceBoundResult::Touching => {
                 // They touch by then, so nothing later can be the first contact.
                 self.segment_stack.clear();
                 task.earliest_touch_time = Some(middle);
                 0.0
             }
-            DistanceBound::LimitReached => return Some(gave_up),
+            DistanceBoundResult::LimitReached => return Some(gave_up),
         };
         self.segment_stack
             .push([(from, distance_at_from), (middle, at_middle)]);
@@ -214,10 +218,10 @@ impl DynamicChecker {
         time: f64,
         precision: RequiredPrecision,
         task: &mut QueryTask,
-    ) -> DistanceBound {
+    ) -> DistanceBoundResult {
         let placement = task.b.placement_relative_to(&task.a, time);
         let Some(roots) = self.trees.root_pair(&placement) else {
-            return DistanceBound::AtLeast(f64::INFINITY);
+            return DistanceBoundResult::AtLeast(f64::INFINITY);
         };
         self.pair_stack.clear();
         self.pair_stack
@@ -232,7 +236,7 @@ impl DynamicChecker {
                 continue;
             }
             if task.pairs_left == 0 {
-                return DistanceBound::LimitReached;
+                return DistanceBoundResult::LimitReached;
             }
             task.pairs_left -= 1;
             match self.trees.children(&pair) {
@@ -240,20 +244,20 @@ impl DynamicChecker {
                 PairChildren::Triangles(leaves) => {
                     let apart = self
                         .trees
-                        .nearest_points(leaves, &placement)
+                        .nearest_triangle_points(leaves, &placement)
                         .vector_from_a_to_b()
                         .length();
                     if apart.is_nan() {
-                        return DistanceBound::LimitReached;
+                        return DistanceBoundResult::LimitReached;
                     }
                     if apart == 0.0 {
-                        return DistanceBound::Touching;
+                        return DistanceBoundResult::Touching;
                     }
                     least = lesser(least, apart);
                 }
             }
         }
-        DistanceBound::AtLeast(least)
+        DistanceBoundResult::AtLeast(least)
     }
 
     /// Pushes two pairs onto the stack, the nearer one on top, but drops those that are not nearer than `least`.
@@ -308,7 +312,7 @@ impl BodyRadiusCache {
             Some((last, reach)) if last == centre => reach,
             _ => {
                 let reach = tree
-                    .triangle_corners()
+                    .all_triangle_corners()
                     .map(|p| p.distance(centre))
                     .fold(0.0, greater);
                 self.0 = Some((centre, reach));

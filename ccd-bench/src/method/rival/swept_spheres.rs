@@ -21,7 +21,7 @@ pub(super) struct RssTree {
     /// The nodes of the tree: the root first, two children side by side.
     nodes: Vec<Node>,
     /// The frames of the nodes' rectangles, relative to the body's frame.
-    frames_per_node: Vec<Placement>,
+    node_frames: Vec<Placement>,
     triangles: Vec<Triangle>,
 }
 
@@ -69,7 +69,7 @@ pub(super) struct GapBound {
     /// The lower bound of the distance; zero if the nodes overlap.
     pub(super) distance_bound: f64,
     /// The unit vector from A towards B in the frame of body A; zero if their rectangles meet.
-    pub(super) direction: DVec3,
+    pub(super) gap_direction: DVec3,
 }
 
 impl RssTree {
@@ -83,10 +83,7 @@ impl RssTree {
     ///
     /// It is attained at the farthest corner of the rectangle, plus the radius \[C2A09 §4\].
     pub(super) fn axis_distance_bound(&self, node: u32, centre: DVec3, axis: DVec3) -> f64 {
-        let (node, frame) = (
-            &self.nodes[node as usize],
-            &self.frames_per_node[node as usize],
-        );
+        let (node, frame) = (&self.nodes[node as usize], &self.node_frames[node as usize]);
         let corner = (frame.translation - centre).cross(axis);
         let x = node.side_lengths.x * frame.rotation.x_axis.cross(axis);
         let y = node.side_lengths.y * frame.rotation.y_axis.cross(axis);
@@ -103,7 +100,7 @@ impl RssTree {
     }
 
     /// Returns the corners of all triangles in the mesh.
-    pub(super) fn triangle_corners(&self) -> impl Iterator<Item = DVec3> + '_ {
+    pub(super) fn all_triangle_corners(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.triangles.iter().flatten().copied()
     }
 }
@@ -125,10 +122,7 @@ impl RssTreePair {
 
     /// Returns both roots, with body B placed in A's frame, or `None` if a mesh has no triangles.
     pub(super) fn root_pair(&self, placement: &Placement) -> Option<RssNodePair> {
-        let (a, b) = (
-            self.a.frames_per_node.first()?,
-            self.b.frames_per_node.first()?,
-        );
+        let (a, b) = (self.a.node_frames.first()?, self.b.node_frames.first()?);
         Some(RssNodePair {
             a: 0,
             b: 0,
@@ -158,12 +152,12 @@ impl RssTreePair {
         if !(distance > 0.0) {
             return GapBound {
                 distance_bound: 0.0,
-                direction: DVec3::ZERO,
+                gap_direction: DVec3::ZERO,
             };
         }
         GapBound {
             distance_bound: distance,
-            direction: self.a.frames_per_node[pair.a as usize].rotation * (between / length),
+            gap_direction: self.a.node_frames[pair.a as usize].rotation * (between / length),
         }
     }
 
@@ -175,7 +169,7 @@ impl RssTreePair {
 
     /// Returns the nearest points of two triangles in the frame of body A; `placement` is that of body B in this frame.
     #[inline]
-    pub(super) fn nearest_points(
+    pub(super) fn nearest_triangle_points(
         &self,
         leaves: TriangleIndexPair,
         placement: &Placement,

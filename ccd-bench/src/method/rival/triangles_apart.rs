@@ -17,7 +17,7 @@ pub(super) type Triangle = [DVec3; 3];
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NearestPoints {
     /// The nearest point on triangle A.
-    pub(super) on_a: DVec3,
+    pub(super) point_on_a: DVec3,
     /// The nearest point on triangle B.
     pub(super) on_b: DVec3,
 }
@@ -25,7 +25,7 @@ pub(super) struct NearestPoints {
 impl NearestPoints {
     /// Returns the vector from the point on A to the point on B.
     pub(super) fn vector_from_a_to_b(&self) -> DVec3 {
-        self.on_b - self.on_a
+        self.on_b - self.point_on_a
     }
 }
 
@@ -47,7 +47,7 @@ pub(super) fn nearest_points(a: &Triangle, b: &Triangle) -> NearestPoints {
             piercing_point(&face_a, over_a, b).or_else(|| piercing_point(&face_b, over_b, a));
         if let Some(point) = meeting {
             return NearestPoints {
-                on_a: point,
+                point_on_a: point,
                 on_b: point,
             };
         }
@@ -59,7 +59,7 @@ pub(super) fn nearest_points(a: &Triangle, b: &Triangle) -> NearestPoints {
     {
         squared = less;
         best = NearestPoints {
-            on_a: foot,
+            point_on_a: foot,
             on_b: b[k],
         };
     }
@@ -68,7 +68,7 @@ pub(super) fn nearest_points(a: &Triangle, b: &Triangle) -> NearestPoints {
         .filter(|f| f.0 < squared)
     {
         best = NearestPoints {
-            on_a: a[k],
+            point_on_a: a[k],
             on_b: foot,
         };
     }
@@ -117,7 +117,7 @@ fn nearest_edge_points(a: &Triangle, b: &Triangle) -> (f64, NearestPoints) {
     );
     let (i, k) = (i as usize, k % 3);
     let nearest = NearestPoints {
-        on_a: a[i] + s * edges_a[i],
+        point_on_a: a[i] + s * edges_a[i],
         on_b: b[k] + t * edges(b)[k],
     };
     (squared, nearest)

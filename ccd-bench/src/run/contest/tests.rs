@@ -56,7 +56,7 @@ fn claims_get_expected_verdicts(
     #[case] error: Option<f64>,
 ) {
     let surface = Surface::new(&cube());
-    let referee = Referee::new(&surface, &surface);
+    let referee = TruthSolver::new(&surface, &surface);
     // The distance at time t is 3 − 8 t.
     let judged = judge(&referee, &flight_query(), truth, claim, 0.05);
     assert_eq!(judged.verdict, verdict);

@@ -3,7 +3,7 @@
 use crate::method::guarded::QueryOutcome;
 use crate::method::solver::{ContactClaim, Reply};
 use crate::names::name_of;
-use crate::truth::{Referee, Truth};
+use crate::truth::{Truth, TruthSolver};
 use ccd_core::order::greater;
 use clap::ValueEnum;
 use rigid_ccd::table::motions::Motions;
@@ -82,14 +82,14 @@ pub fn judge_outcome(outcome: &QueryOutcome, judge: impl FnOnce(&Reply) -> Judge
 
 /// Judges a claim about a query by the exact answer and the tolerance.
 pub fn judge(
-    referee: &Referee<'_>,
+    referee: &TruthSolver<'_>,
     query: &Motions,
     truth: Truth,
     claim: ContactClaim,
     tolerance: f64,
 ) -> Judgement {
     let near = |time: f64| {
-        let distance = referee.distance_bounds(query, time).lower;
+        let distance = referee.distance_bounds(query, time).distance_lower_bound;
         distance <= tolerance * (1.0 + DISTANCE_ROUNDING_IN_TOLERANCES)
     };
     let lateness = MAX_LATENESS * query.duration;

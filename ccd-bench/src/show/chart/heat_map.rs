@@ -88,7 +88,7 @@ const NAME_COLUMN_WIDTH: f64 = 196.0;
 /// The height of a row, in pixels.
 const ROW_HEIGHT: f64 = 24.0;
 /// The height of the bar in a cell, in pixels.
-const BAR_HEIGHT: f64 = 5.0;
+const CELL_BAR_HEIGHT: f64 = 5.0;
 /// The distance of the first row from the top of the sheet, in pixels.
 const FIRST_ROW_TOP: f64 = 250.0;
 /// The font size of small text, in pixels.
@@ -219,8 +219,13 @@ fn draw_header(sheet: &Sheet<'_>, kind: &HeatMapTexts) -> Result<()> {
 fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCell) -> Result<()> {
     let height = ROW_HEIGHT - 1.0;
     fill_rect(sheet, (x, y), (width, height), cell.fill_colour)?;
-    let bar = (width * cell.bar_fraction, BAR_HEIGHT);
-    fill_rect(sheet, (x, y + height - BAR_HEIGHT), bar, CORRECT_COLOUR)?;
+    let bar = (width * cell.bar_fraction, CELL_BAR_HEIGHT);
+    fill_rect(
+        sheet,
+        (x, y + height - CELL_BAR_HEIGHT),
+        bar,
+        CORRECT_COLOUR,
+    )?;
     let centred = text_style(SMALLEST_FONT_SIZE)
         .color(&cell.text_colour)
         .pos(Pos::new(HPos::Center, VPos::Center));

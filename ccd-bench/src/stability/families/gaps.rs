@@ -42,7 +42,7 @@ fn contact_free_scene(
 fn ball_passing_a_box(gap: f64) -> Result<FamilyScene> {
     let step = FamilyScene::new(ball(0.5, 600)?, cuboid(1.0, 1.0, 1.0)?);
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + gap), 4.0 * DVec3::X);
-    contact_free_scene(step, gap, flying, BodyMotion::RESTING_SLAB)
+    contact_free_scene(step, gap, flying, BodyMotion::RESTING_SLAB_MOTION)
 }
 
 fn cubes_passing(gap: f64) -> Result<FamilyScene> {
@@ -60,13 +60,13 @@ fn balls_passing(gap: f64) -> Result<FamilyScene> {
 fn cube_sliding_over_slab(gap: f64) -> Result<FamilyScene> {
     let step = FamilyScene::new(cube()?, slab()?);
     let sliding = BodyMotion::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(4.0, 1.0, 0.0));
-    contact_free_scene(step, gap, sliding, BodyMotion::RESTING_SLAB)
+    contact_free_scene(step, gap, sliding, BodyMotion::RESTING_SLAB_MOTION)
 }
 
 fn cube_leaving_slab(gap: f64) -> Result<FamilyScene> {
     let step = FamilyScene::new(cube()?, slab()?);
     let rising = BodyMotion::straight(dvec3(-2.0, 0.3, 0.5 + gap), dvec3(1.0, 0.0, 0.5));
-    contact_free_scene(step, gap, rising, BodyMotion::RESTING_SLAB)
+    contact_free_scene(step, gap, rising, BodyMotion::RESTING_SLAB_MOTION)
 }
 
 /// Makes a square peg that moves through a square hole, with a gap on all four sides (case T16).
@@ -79,7 +79,7 @@ fn peg_through_a_hole(gap: f64) -> Result<FamilyScene> {
 fn spinning_top(gap: f64) -> Result<FamilyScene> {
     let spinning = BodyMotion::straight(gap * DVec3::Z, 0.5 * DVec3::X).with_spin(50.0 * DVec3::Z);
     let step = FamilyScene::new(cone(24, 0.7)?, slab()?);
-    contact_free_scene(step, gap, spinning, BodyMotion::RESTING_SLAB)
+    contact_free_scene(step, gap, spinning, BodyMotion::RESTING_SLAB_MOTION)
 }
 
 /// Makes a rod that rotates by half a turn about its middle, past a wall that its corners miss by a gap.

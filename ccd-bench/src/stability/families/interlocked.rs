@@ -1,10 +1,10 @@
 //! Scenes of bodies that hold each other: hooks, threads, rings, slits.
 
-use super::super::family::{BodyMotion, Family, FamilyScene, contact_at};
+use super::super::family::{BodyMotion, Family, FamilyScene, expected_contact_at};
 use super::super::shapes::{
     cuboid, extrude_cells, helicoid, sheet, slit_plate, stacked_squares, torus,
 };
-use super::{family, negative_powers_of_ten, rod, rod_angle_at_wall};
+use super::{family, negative_powers_of_ten, rod, rod_contact_angle};
 use crate::truth::Truth;
 use anyhow::Result;
 use ccd_core::glam::{DAffine3, DQuat, DVec3, dvec3};
@@ -47,7 +47,11 @@ fn hooks(slack: f64) -> Result<FamilyScene> {
     let holding = BodyMotion::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
         .with_orientation(DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI));
     let step = FamilyScene::new(hook.clone(), hook).with_tolerance(greater(0.1 * slack, 1e-11));
-    step.with_query_and_rotations(holding, BodyMotion::STILL, contact_at(slack, 1e-14))
+    step.with_query_and_rotations(
+        holding,
+        BodyMotion::STILL,
+        expected_contact_at(slack, 1e-14),
+    )
 }
 
 /// Makes a ring that falls flat onto an equal ring, and meets it all around.
@@ -56,7 +60,7 @@ fn ring_onto_ring(way: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
     let step = FamilyScene::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
-    step.with_query_and_rotations(falling, BodyMotion::STILL, contact_at(way, 1e-14))
+    step.with_query_and_rotations(falling, BodyMotion::STILL, expected_contact_at(way, 1e-14))
 }
 
 /// The pitch of the threads: their rise per turn.
@@ -80,7 +84,7 @@ fn screw_in_nut(turns: f64, play: f64) -> Result<FamilyScene> {
 /// Makes a sheet that slides between two other sheets, at a gap from each.
 fn sheet_between_sheets(gap: f64) -> Result<FamilyScene> {
     let sliding = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X);
-    contact_free_step(
+    with_free_query(
         FamilyScene::new(
             sheet(4)?,
             stacked_squares(&sheet(4)?, [-gap, gap].into_iter())?,
@@ -97,14 +101,14 @@ fn plate_through_slit(gap: f64) -> Result<FamilyScene> {
     let slit = long * tilt.sin() + thin * tilt.cos() + gap;
     let moving = BodyMotion::straight(-3.0 * DVec3::X, 6.0 * DVec3::X)
         .with_orientation(DQuat::from_rotation_y(tilt));
-    contact_free_step(
+    with_free_query(
         FamilyScene::new(cuboid(long, 1.0, thin)?, slit_plate(slit)?),
         gap,
         moving,
     )
 }
 
-fn contact_free_step(step: FamilyScene, gap: f64, moving: BodyMotion) -> Result<FamilyScene> {
+fn with_free_query(step: FamilyScene, gap: f64, moving: BodyMotion) -> Result<FamilyScene> {
     let step = step.with_tolerance(greater(0.25 * gap, 1e-11));
     step.with_query_and_rotations_if(gap >= 1e-12, moving, BodyMotion::STILL, Truth::Free)
 }
@@ -118,7 +122,7 @@ fn rod_in_rotated_frame(degrees: f64) -> Result<FamilyScene> {
         .with_orientation(frame)
         .with_spin(PI * DVec3::Y);
     let step = FamilyScene::new(rod, cuboid(1.0, 3.0, 3.0)?);
-    let expected = contact_at(rod_angle_at_wall(wall) / PI, 1e-14);
+    let expected = expected_contact_at(rod_contact_angle(wall) / PI, 1e-14);
     step.with_query_and_rotations(
         turning,
         BodyMotion::resting((wall + 1.0) * DVec3::X),

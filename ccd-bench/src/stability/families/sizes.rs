@@ -1,6 +1,6 @@
 //! Scenes whose sizes, distances and units are far from 1.
 
-use super::super::family::{BodyMotion, Family, FamilyScene, contact_at};
+use super::super::family::{BodyMotion, Family, FamilyScene, expected_contact_at};
 use super::super::shapes::{cone, cube, cuboid, slab};
 use super::{fall_onto_slab, family, negative_powers_of_ten, powers_of_ten};
 use crate::truth::Truth;
@@ -25,7 +25,8 @@ pub(super) fn families() -> Vec<Family> {
             .with_parameter("length against width", powers_of_ten(0..=12)),
         family("bullet and paper", bullet_and_paper)
             .with_parameter("way against thickness", powers_of_ten(0..=9)),
-        family("margin", margin).with_parameter("margin against size", margin_parameter_values()),
+        family("margin", cube_within_margin_of_slab)
+            .with_parameter("margin against size", margin_parameter_values()),
         family("one inside the other", cube_inside_cube)
             .with_parameter("size against size", negative_powers_of_ten(0..=9)),
         family("unit of time", scene_in_time_unit).with_parameter("duration", sizes(1..=9)),
@@ -51,7 +52,7 @@ fn cubes_of_unequal_size(size: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
     let step = FamilyScene::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?)
         .with_tolerance(1e-6 * way);
-    step.with_query_and_rotations(falling, BodyMotion::STILL, contact_at(0.5, 1e-14))
+    step.with_query_and_rotations(falling, BodyMotion::STILL, expected_contact_at(0.5, 1e-14))
 }
 
 /// Makes a cube that falls onto a slab, with all lengths multiplied by `size`. The scene is like T1 of
@@ -65,7 +66,7 @@ fn scene_in_length_unit(size: f64) -> Result<FamilyScene> {
     )
     .with_tolerance(1e-6 * size);
     let slab = BodyMotion::resting(-size * DVec3::Z);
-    step.with_query_and_rotations(falling, slab, contact_at(0.625, 1e-14))
+    step.with_query_and_rotations(falling, slab, expected_contact_at(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto a slab within the given duration. The scene is like T1 of `tests/it/scenes.rs`.
@@ -73,8 +74,8 @@ fn scene_in_time_unit(duration: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::FALLING;
     let step = FamilyScene::new(cube()?, slab()?);
     let step = FamilyScene { duration, ..step };
-    let slab = BodyMotion::RESTING_SLAB;
-    step.with_query_and_rotations(falling, slab, contact_at(0.625, 1e-14))
+    let slab = BodyMotion::RESTING_SLAB_MOTION;
+    step.with_query_and_rotations(falling, slab, expected_contact_at(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto another cube while both move sideways by `travel`.
@@ -82,7 +83,7 @@ fn cube_onto_moving_cube(travel: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
     let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
     let step = FamilyScene::new(cube()?, cube()?);
-    step.with_query(falling, fleeing, contact_at(0.5, 1e-14))
+    step.with_query(falling, fleeing, expected_contact_at(0.5, 1e-14))
 }
 
 /// Makes a cube that rotates about a centre far below it, so that it moves towards a wall nearly in a straight line.
@@ -97,7 +98,7 @@ fn cube_about_far_centre(distance: f64) -> Result<FamilyScene> {
     let (across, up) = (0.5f64, distance + 0.5);
     let angle = (1.0 / up.hypot(across)).asin() - across.atan2(up);
     let step = FamilyScene::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
-    let expected = contact_at(angle / spin, 1e-14);
+    let expected = expected_contact_at(angle / spin, 1e-14);
     step.with_query(turning, BodyMotion::resting(2.0 * DVec3::X), expected)
 }
 
@@ -113,7 +114,11 @@ fn cubes_far_from_origin(distance: f64) -> Result<FamilyScene> {
     let origin = distance * dvec3(1.0, -1.0, -1.0);
     let falling = BodyMotion::straight(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
     let step = FamilyScene::new(cube()?, cube()?);
-    step.with_query(falling, BodyMotion::resting(origin), contact_at(0.5, 1e-14))
+    step.with_query(
+        falling,
+        BodyMotion::resting(origin),
+        expected_contact_at(0.5, 1e-14),
+    )
 }
 
 /// Makes a long and thin box that falls onto a slab; the sides of the box are long and thin triangles.
@@ -132,19 +137,19 @@ fn bullet_and_paper(ratio: f64) -> Result<FamilyScene> {
     let flying = BodyMotion::straight(DVec3::ZERO, DVec3::X);
     let paper = BodyMotion::resting(0.5 * DVec3::X);
     let step = FamilyScene::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
-    let expected = contact_at(0.5 - half - bullet, 1e-14);
+    let expected = expected_contact_at(0.5 - half - bullet, 1e-14);
     step.with_query_and_rotations(flying, paper, expected)
 }
 
 /// Makes a cube that falls towards a slab, and is at the distance `margin` from it at half the duration.
-fn margin(margin: f64) -> Result<FamilyScene> {
+fn cube_within_margin_of_slab(margin: f64) -> Result<FamilyScene> {
     let speed = 4.0 * greater(1.0, margin);
     let height = 0.5 + margin + 0.5 * speed;
     let falling = BodyMotion::straight(height * DVec3::Z, -speed * DVec3::Z);
     let step = FamilyScene::new(cube()?, slab()?);
     let step = FamilyScene { margin, ..step };
-    let slab = BodyMotion::RESTING_SLAB;
-    step.with_query_and_rotations(falling, slab, contact_at(0.5, 1e-14))
+    let slab = BodyMotion::RESTING_SLAB_MOTION;
+    step.with_query_and_rotations(falling, slab, expected_contact_at(0.5, 1e-14))
 }
 
 /// Makes a small cube that moves inside a larger cube, so that the solids overlap but their surfaces do not meet. The

@@ -2,7 +2,7 @@
 
 use super::families;
 use crate::stability::{ExactCase, Family, FamilyScene};
-use crate::truth::{Referee, Surface, Truth};
+use crate::truth::{Surface, Truth, TruthSolver};
 use rayon::prelude::*;
 use std::collections::HashSet;
 
@@ -89,7 +89,7 @@ fn assert_referee_agrees(family: &Family, value: f64) -> usize {
         expected_truth: expected,
     } in cases
     {
-        let truth = Referee::new(&a, &b).first_contact(query);
+        let truth = TruthSolver::new(&a, &b).first_contact(query);
         // The referee places points in the world, whose origin may be far away.
         let early = 1e-12 + 1e-15 * query.a.start().translation().length();
         let at = format!(

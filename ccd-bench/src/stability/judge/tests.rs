@@ -47,7 +47,7 @@ fn claims_are_judged(#[case] family: &str, #[case] claim: ContactClaim, #[case] 
         micros: 1.0,
     });
     for case in &step.cases {
-        let judged = judge(&step, case, &Referee::new(&a, &b), &outcome);
+        let judged = judge(&step, case, &TruthSolver::new(&a, &b), &outcome);
         assert_eq!(judged.verdict, verdict, "{claim:?}");
     }
 }
@@ -75,6 +75,6 @@ fn an_answer_is_judged_by_the_tolerance_that_it_states(
         ..Reply::new(contact_claim(lo - 0.01), 1)
     };
     let outcome = QueryOutcome::Answered(TimedReply { reply, micros: 1.0 });
-    let judged = judge(&step, case, &Referee::new(&a, &b), &outcome);
+    let judged = judge(&step, case, &TruthSolver::new(&a, &b), &outcome);
     assert_eq!(judged.verdict, verdict);
 }

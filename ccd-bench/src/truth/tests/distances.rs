@@ -2,7 +2,7 @@
 //! points.
 
 use super::super::triangle::{nearest_or_common_points, nearest_points};
-use super::super::{Referee, Surface};
+use super::super::{Surface, TruthSolver};
 use super::{query, random_motion, random_vector, triangle_soup};
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
@@ -35,14 +35,15 @@ fn the_tree_finds_the_nearest_of_all_pairs() {
         let expected = pairs
             .map(|(p, q)| (p - q).length())
             .fold(f64::INFINITY, lesser);
-        let found = Referee::new(&surfaces[0], &surfaces[1]).distance_bounds(&query, time);
+        let found = TruthSolver::new(&surfaces[0], &surfaces[1]).distance_bounds(&query, time);
         let off = 1e-13;
         assert!(
-            found.lower <= expected + off && expected - off <= found.upper,
+            found.distance_lower_bound <= expected + off && expected - off <= found.upper_distance,
             "{found:?} {expected}"
         );
         assert!(
-            0.0 <= found.lower && found.upper - found.lower < 1e-12,
+            0.0 <= found.distance_lower_bound
+                && found.upper_distance - found.distance_lower_bound < 1e-12,
             "{found:?}"
         );
         if expected > 1e-9 {

@@ -61,7 +61,7 @@ fn wide_arguments_have_all_that_is_in_them() {
             );
         }
     }
-    let (sine, cosine) = sin_cos(Interval::ENTIRE);
+    let (sine, cosine) = sin_cos(Interval::ALL_REALS);
     assert_eq!([width(sine), width(cosine)], [2.0, 2.0]);
 }
 

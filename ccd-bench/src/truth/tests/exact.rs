@@ -1,6 +1,6 @@
 //! Tests that the referee brackets first contacts and distances that are known exactly.
 
-use super::super::{DistanceBounds, Referee, Surface, Truth};
+use super::super::{DistanceBounds, Surface, Truth, TruthSolver};
 use super::{cuboid, judge, pose_at, query, still_motion};
 use ccd_core::Motion;
 use ccd_core::glam::{DQuat, DVec3};
@@ -230,8 +230,11 @@ fn contact_at_the_start_is_found_and_the_inside_is_free() {
         1.0,
     );
     assert_eq!(judge([&cube, &shell], &inside), Truth::Free);
-    let distance = Referee::new(&cube, &shell).distance_bounds(&inside, 0.5);
-    let DistanceBounds { lower, upper } = distance;
+    let distance = TruthSolver::new(&cube, &shell).distance_bounds(&inside, 0.5);
+    let DistanceBounds {
+        distance_lower_bound: lower,
+        upper_distance: upper,
+    } = distance;
     assert!(
         lower <= 1.2 && 1.2 <= upper && upper - lower < 1e-12,
         "{distance:?}"

@@ -123,7 +123,7 @@ fn sums_products_and_quotients_hold_the_exact_ones_tightly() {
             &named("*"),
         );
         if contains(y, &Relaxed::ZERO) {
-            assert_eq!(x / y, Interval::ENTIRE);
+            assert_eq!(x / y, Interval::ALL_REALS);
         } else {
             quotients += 1;
             assert_tight(
@@ -156,7 +156,7 @@ fn squares_and_roots_hold_the_exact_ones_tightly_and_are_not_negative() {
         assert_eq!(x.abs(), Interval::new(least, most));
         assert_eq!(x.magnitude(), most);
         if x.sup() < 0.0 {
-            assert_eq!(x.sqrt(), Interval::ENTIRE);
+            assert_eq!(x.sqrt(), Interval::ALL_REALS);
             continue;
         }
         roots += 1;
@@ -197,7 +197,7 @@ fn middles_and_radii_reach_both_bounds() {
             "{x:?} {rad}"
         );
     }
-    for x in [Interval::ENTIRE, Interval::new(1.0, f64::INFINITY)] {
+    for x in [Interval::ALL_REALS, Interval::new(1.0, f64::INFINITY)] {
         assert_eq!([x.midpoint(), x.radius()], [0.0, f64::INFINITY]);
     }
 }
@@ -238,26 +238,26 @@ fn half_of_pi_is_between_its_bounds() {
 fn undefined_results_are_the_whole_line() {
     let infinity = f64::INFINITY;
     for x in [f64::NAN, infinity, -infinity] {
-        assert_eq!(point_interval(x), Interval::ENTIRE);
+        assert_eq!(point_interval(x), Interval::ALL_REALS);
     }
     for (inf, sup) in [(2.0, 1.0), (f64::NAN, 1.0), (0.0, f64::NAN)] {
-        assert_eq!(Interval::new(inf, sup), Interval::ENTIRE);
+        assert_eq!(Interval::new(inf, sup), Interval::ALL_REALS);
     }
     let half_line = Interval::new(1.0, infinity);
     let doubtful = [
         point_interval(0.0) * half_line,
-        point_interval(0.0) * Interval::ENTIRE,
+        point_interval(0.0) * Interval::ALL_REALS,
         half_line / point_interval(0.0),
         point_interval(1.0) / point_interval(0.0),
         point_interval(1.0) / point_interval(-0.0),
         point_interval(1.0) / Interval::new(0.0, 1.0),
         point_interval(-1.0).sqrt(),
         point_interval(1.0).intersection(point_interval(2.0)),
-        Interval::ENTIRE + point_interval(1.0),
-        Interval::ENTIRE - Interval::ENTIRE,
+        Interval::ALL_REALS + point_interval(1.0),
+        Interval::ALL_REALS - Interval::ALL_REALS,
         half_line - half_line,
     ];
-    assert_eq!(doubtful, [Interval::ENTIRE; 11]);
+    assert_eq!(doubtful, [Interval::ALL_REALS; 11]);
 }
 
 #[test]
@@ -271,9 +271,12 @@ fn half_lines_hold_what_is_beyond_every_float() {
     assert!((half_line * point_interval(-2.0)).sup() >= -2.0);
     assert_eq!(half_line.sqr().sup(), f64::INFINITY);
     assert_eq!(half_line.sqrt().sup(), f64::INFINITY);
-    assert_eq!(Interval::ENTIRE.sqr(), Interval::new(0.0, f64::INFINITY));
-    assert_eq!(Interval::ENTIRE.sqrt(), Interval::new(0.0, f64::INFINITY));
-    assert_eq!(Interval::ENTIRE.abs(), Interval::new(0.0, f64::INFINITY));
+    assert_eq!(Interval::ALL_REALS.sqr(), Interval::new(0.0, f64::INFINITY));
+    assert_eq!(
+        Interval::ALL_REALS.sqrt(),
+        Interval::new(0.0, f64::INFINITY)
+    );
+    assert_eq!(Interval::ALL_REALS.abs(), Interval::new(0.0, f64::INFINITY));
     // The quotients by ever larger numbers come near 0.
     let small = point_interval(1.0) / half_line;
     assert!(small.inf() <= 0.0 && 1.0 <= small.sup() && small.sup() < 1.1);
@@ -281,8 +284,8 @@ fn half_lines_hold_what_is_beyond_every_float() {
         assert!(quotient.inf() <= 0.0 && quotient.sup() == f64::INFINITY);
     }
     let straddling = Interval::new(-1.0, 2.0);
-    assert_eq!(straddling * half_line, Interval::ENTIRE);
-    assert_eq!(straddling * Interval::ENTIRE, Interval::ENTIRE);
-    assert_eq!(Interval::ENTIRE / half_line, Interval::ENTIRE);
+    assert_eq!(straddling * half_line, Interval::ALL_REALS);
+    assert_eq!(straddling * Interval::ALL_REALS, Interval::ALL_REALS);
+    assert_eq!(Interval::ALL_REALS / half_line, Interval::ALL_REALS);
     assert!((Interval::new(0.0, 1.0) * half_line).inf() >= 0.0);
 }

@@ -1,6 +1,6 @@
 //! Tests the referee's answers for random triangles against a test of all pairs of triangles at many times.
 
-use super::super::{Referee, Surface, Truth};
+use super::super::{Surface, Truth, TruthSolver};
 use super::{query, random_motion, random_vector, triangle_soup};
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
@@ -29,7 +29,7 @@ fn brackets_agree_with_all_pairs_at_many_times() {
         let a = random_motion(&mut rng, from, aim + DVec3::X, spin);
         let b = random_motion(&mut rng, DVec3::ZERO, DVec3::X, spin);
         let surfaces = meshes.each_ref().map(Surface::new);
-        let referee = Referee::new(&surfaces[0], &surfaces[1]);
+        let referee = TruthSolver::new(&surfaces[0], &surfaces[1]);
         let query = query(a, b, 1.0);
         let first = (0..=TIME_STEP_COUNT)
             .map(|k| f64::from(k) / f64::from(TIME_STEP_COUNT))
@@ -46,11 +46,14 @@ fn brackets_agree_with_all_pairs_at_many_times() {
                 assert!(
                     referee
                         .distance_bounds(&query, greater(0.0, lo - 1e-6))
-                        .lower
+                        .distance_lower_bound
                         > 0.0,
                     "{round}"
                 );
-                assert!(referee.distance_bounds(&query, hi).upper < 1e-10, "{round}");
+                assert!(
+                    referee.distance_bounds(&query, hi).upper_distance < 1e-10,
+                    "{round}"
+                );
                 // Contact is visible shortly afterwards in plain floats.
                 assert!((1..40).any(|k| meshes_pierce(
                     &meshes,

@@ -29,7 +29,7 @@ fn bodies_of_round_shapes_have_the_excess_of_their_enclosures() {
         SolidOfRevolution::cylinder(1.0, 2.0),
         SolidOfRevolution::cone(1.0, 2.0),
     ] {
-        let about = round.unwrap().enclose(1e-3).unwrap();
+        let about = round.unwrap().enclosing_polytope(1e-3).unwrap();
         let body = about.body().unwrap();
         assert!(body.excess() == about.excess() && body.excess() > 1e-4);
         // The triangles that replace the body represent the same shape.
@@ -69,12 +69,13 @@ fn a_sum_is_rounded_away_from_what_is_claimed() {
     // A surface that exceeds the shape makes its body exceed it.
     let about = SolidOfRevolution::cylinder(1.0, 1.0)
         .unwrap()
-        .enclose(0.1)
+        .enclosing_polytope(0.1)
         .unwrap();
     let whole = Body::polytope(about.polytope().clone()).unwrap();
     let (triangles, numbers) = about.triangles();
-    let pieces = crate::Pieces::triangles(&about.polytope().points, &triangles, &numbers).unwrap();
-    let surface = Body::new(&pieces, crate::Volume::Solid).unwrap();
+    let pieces =
+        crate::Pieces::from_triangles(&about.polytope().points, &triangles, &numbers).unwrap();
+    let surface = Body::new(&pieces, crate::Solidity::Solid).unwrap();
     let surface = surface.with_excess(about.excess()).unwrap();
     let joined = whole.with_surface(surface).unwrap();
     assert_eq!(joined.excess(), about.excess());

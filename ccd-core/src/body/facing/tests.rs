@@ -1,14 +1,14 @@
 //! Tests that the outward side of every face is found, however the shells of the solid are wound.
 
 use super::Facing;
-use crate::body::{Body, Volume};
+use crate::body::{Body, Solidity};
 use crate::tests::meshes::{cube, reversed_triangles, translated_triangles};
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::pieces;
 use glam::DVec3;
 
 fn solid_body(triangles: &[Triangle]) -> Body {
-    Body::new(&pieces(triangles), Volume::Solid).unwrap()
+    Body::new(&pieces(triangles), Solidity::Solid).unwrap()
 }
 
 /// Asserts that every face's outward normal agrees with the direction that `out_of` gives for the face's centroid.
@@ -71,7 +71,7 @@ fn faces_back_to_back_and_surfaces_face_neither_way() {
     let sheet = solid_body(&[triangle, [triangle[0], triangle[2], triangle[1]]]);
     assert_eq!(sheet.facing(0), Facing::NoOutwardSide);
     assert_eq!(sheet.interior_point(0), None);
-    let surface = Body::new(&pieces(&cube(1.0, 1)), Volume::Surface).unwrap();
+    let surface = Body::new(&pieces(&cube(1.0, 1)), Solidity::Surface).unwrap();
     assert_eq!(surface.facing(0), Facing::NoOutwardSide);
 }
 

@@ -1,7 +1,7 @@
 //! Tests that valid nodes make a balanced or a deep hierarchy, and that invalid nodes are refused.
 
 use super::{Hierarchy, HierarchyNode::Inner, HierarchyNode::Leaf};
-use crate::body::{Body, Volume};
+use crate::body::{Body, Solidity};
 use crate::error::InputError;
 use crate::tests::scene::{SoupKind, pieces, random_triangle_soup, rng};
 
@@ -62,13 +62,13 @@ fn a_hierarchy_of_other_pieces_is_refused() {
         1.0,
     ));
     for count in [1, 4, 6, 40] {
-        let made = Body::with_hierarchy(&pieces, &of(count), Volume::Surface);
+        let made = Body::with_hierarchy(&pieces, &of(count), Solidity::Surface);
         assert!(
             matches!(made, Err(InputError::BadHierarchy { .. })),
             "{count}"
         );
     }
-    assert!(Body::with_hierarchy(&pieces, &of(5), Volume::Surface).is_ok());
+    assert!(Body::with_hierarchy(&pieces, &of(5), Solidity::Surface).is_ok());
 }
 
 #[test]
@@ -119,6 +119,6 @@ fn a_chain_is_a_hierarchy_too() {
         few,
         1.0,
     ));
-    let body = Body::with_hierarchy(&pieces, &hierarchy, Volume::Surface).unwrap();
+    let body = Body::with_hierarchy(&pieces, &hierarchy, Solidity::Surface).unwrap();
     assert_eq!(body.pieces().len(), few);
 }

@@ -49,7 +49,7 @@ impl HullTree {
                 if node.has_uniform_radius {
                     facet.class
                 } else {
-                    FacetClass::Free
+                    FacetClass::Bridge
                 }
             }));
             class_ends.push(classes.len() as u32);
@@ -58,7 +58,7 @@ impl HullTree {
             facets_by_point: facets_by_point(&done),
             facet_classes: classes,
             facet_class_ends: class_ends,
-            uniform_radius_by_node: done.iter().map(|node| node.has_uniform_radius).collect(),
+            has_uniform_radius_by_node: done.iter().map(|node| node.has_uniform_radius).collect(),
             half_diagonals: done.iter().map(|node| node.half_diagonal).collect(),
             pieces: flatten_hulls(done)?,
         };
@@ -79,7 +79,7 @@ fn flatten_hulls(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
             facets: node
                 .facets
                 .iter()
-                .zip(node.facet_data.iter().map(|facet| facet.origin)),
+                .zip(node.facet_data.iter().map(|facet| facet.provenance)),
             faces: node.faces().copied(),
             radius: node.radius,
         });

@@ -45,7 +45,7 @@ fn is_convex(hull: &Piece<'_>) -> bool {
     on_facets.into_iter().all(|on| on)
         && triangles.iter().all(behind)
         && is_locally_convex(&triangles, position)
-        && covers_one_direction_once(&triangles, position, middle)
+        && middle_ray_hits_once(&triangles, position, middle)
 }
 
 /// Returns whether all corners are in the plane of the first three.
@@ -87,7 +87,7 @@ fn is_locally_convex(triangles: &[[u32; 3]], position: impl Fn(&[u32; 3]) -> [DV
 }
 
 /// Returns whether the ray from `middle` through the first triangle meets no other triangle and no edge.
-fn covers_one_direction_once(
+fn middle_ray_hits_once(
     triangles: &[[u32; 3]],
     position: impl Fn(&[u32; 3]) -> [DVec3; 3],
     middle: DVec3,

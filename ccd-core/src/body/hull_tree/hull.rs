@@ -27,7 +27,7 @@ pub struct Hull {
 
 /// The class of a hull's facet: whether it lies on the mesh, on a piece, or on neither; better classes come first.
 ///
-/// The nearest features of two nodes that are both not [`Free`](FacetClass::Free) belong to pieces:
+/// The nearest features of two nodes that are both not [`Free`](FacetClass::Bridge) belong to pieces:
 /// no pair of pieces below is nearer, or farther.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FacetClass {
@@ -36,5 +36,5 @@ pub enum FacetClass {
     /// The facet belongs to pieces but not to the mesh: it closes a piece inside the solid.
     InsideSolid,
     /// The facet bridges a gap between pieces, outside all of them.
-    Free,
+    Bridge,
 }

@@ -9,15 +9,15 @@ use super::hull::{FacetClass, Hull};
 use super::inside::{is_coplanar_and_cooriented, projectable_corners};
 use super::node::{FacetData, Node};
 use crate::body::facets::{edges_of, fan_triangles};
-use crate::body::polytope::{Face, FacetOrigin, Polytope};
+use crate::body::polytope::{FacetOrigin, MeshFace, Polytope};
 use crate::math::exact::is_degenerate;
 use crate::math::point_tree::PointTree;
 use glam::DVec3;
 
 impl FacetData {
     const VIRTUAL_FACET_DATA: FacetData = FacetData {
-        origin: FacetOrigin::Virtual,
-        class: FacetClass::Free,
+        provenance: FacetOrigin::Virtual,
+        class: FacetClass::Bridge,
         faces: Vec::new(),
     };
 
@@ -35,9 +35,9 @@ impl FacetData {
             }
             near.sort_unstable();
             let near = near.iter().map(|&k| piece.faces[k as usize]);
-            let within = |face: &Face| is_coplanar_and_cooriented(&corners, face.corners);
+            let within = |face: &MeshFace| is_coplanar_and_cooriented(&corners, face.corners);
             facet_data.push(FacetData {
-                origin: facet.origin,
+                provenance: facet.origin,
                 class: match facet.origin {
                     FacetOrigin::Face(_) | FacetOrigin::Faces => FacetClass::OnMesh,
                     FacetOrigin::Virtual => FacetClass::InsideSolid,
@@ -52,9 +52,9 @@ impl FacetData {
     fn merge_facet_data(parts: [&ChildFacet<'_>; 2]) -> FacetData {
         let class = parts[0].facet.class.max(parts[1].facet.class);
         FacetData {
-            origin: match class {
+            provenance: match class {
                 FacetClass::OnMesh => FacetOrigin::Faces,
-                FacetClass::InsideSolid | FacetClass::Free => FacetOrigin::Virtual,
+                FacetClass::InsideSolid | FacetClass::Bridge => FacetOrigin::Virtual,
             },
             class,
             faces: parts.iter().flat_map(|part| part.mesh_faces()).collect(),
@@ -115,11 +115,11 @@ impl ChildFacet<'_> {
             .zip(self.corner_numbers().cycle().skip(1))
     }
 
-    fn mesh_faces(&self) -> Vec<Face> {
+    fn mesh_faces(&self) -> Vec<MeshFace> {
         let node = self.child.node;
-        match self.facet.origin {
+        match self.facet.provenance {
             FacetOrigin::Face(id) => fan_triangles(self.corners)
-                .map(|corners| Face {
+                .map(|corners| MeshFace {
                     id,
                     vertices: corners.map(|v| vertex_id_of(node, v)),
                     corners: corners.map(|v| node.points[v as usize]),
@@ -192,7 +192,7 @@ impl<'a> ChildFacets<'a> {
 fn single_triangle_facet_data(child: &NumberedChild<'_>) -> Option<FacetData> {
     let alone = child.node.facets.is_empty() && child.node.points.len() == 3;
     alone.then(|| FacetData {
-        origin: match child.node.leaf_faces.as_deref().unwrap_or_default() {
+        provenance: match child.node.leaf_faces.as_deref().unwrap_or_default() {
             [face] => FacetOrigin::Face(face.id),
             _ => FacetOrigin::Virtual,
         },

@@ -3,7 +3,7 @@
 use super::*;
 use crate::body::feature::Feature;
 use crate::body::polytope::{Facet, FacetOrigin, Polytope};
-use crate::body::{Body, Volume};
+use crate::body::{Body, Solidity};
 use crate::error::InputError;
 use glam::DVec3;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -70,7 +70,7 @@ fn fault(pieces: &[Polytope], hull: Hull) -> HullFault {
 
 #[test]
 fn facets_are_a_childs_or_tiled_or_bridges() {
-    use FacetClass::{Free, OnMesh};
+    use FacetClass::{Bridge, OnMesh};
     // The boxes are end to end: the sides are tiled, though the corners between them are hidden.
     let whole = tree(
         &[box_between(0.0, 1.0, 0), box_between(1.0, 3.0, 6)],
@@ -83,12 +83,14 @@ fn facets_are_a_childs_or_tiled_or_bridges() {
     assert_eq!(root.facets.origins()[..2], origins);
     assert_eq!(root.facets.origins()[2..], [FacetOrigin::Faces; 4]);
     // The mesh's faces are found again on a tiled side.
-    let top = ConvexCombination::segment([4, 7], 0.25);
+    let top = ConvexCombination::of_two_points([4, 7], 0.25);
     assert_eq!(whole.hulls().feature(0, &top), Feature::Face(5));
-    let top = ConvexCombination::segment([4, 7], 0.75);
+    let top = ConvexCombination::of_two_points([4, 7], 0.75);
     assert_eq!(whole.hulls().feature(0, &top), Feature::Face(11));
     assert_eq!(
-        whole.hulls().feature(0, &ConvexCombination::point(7)),
+        whole
+            .hulls()
+            .feature(0, &ConvexCombination::from_single_point(7)),
         Feature::Vertex(67)
     );
     // The boxes are apart: the sides are bridges.
@@ -99,7 +101,7 @@ fn facets_are_a_childs_or_tiled_or_bridges() {
     .unwrap();
     assert_eq!(
         gap.facet_classes(0),
-        [OnMesh, OnMesh, Free, Free, Free, Free]
+        [OnMesh, OnMesh, Bridge, Bridge, Bridge, Bridge]
     );
     assert_eq!(gap.facet_classes(2), [OnMesh; 6]);
 }
@@ -129,16 +131,16 @@ fn features_take_the_best_class_of_their_facets() {
         support.iter().for_each(|&v| point.push(v, 1.0));
         gap.facet_class_at(node, &point)
     };
-    use FacetClass::{Free, InsideSolid, OnMesh};
-    assert_eq!(class(0, &[]), Free);
+    use FacetClass::{Bridge, InsideSolid, OnMesh};
+    assert_eq!(class(0, &[]), Bridge);
     assert_eq!(class(0, &[5]), OnMesh);
     // The points are along the end, across the end, along the bridge, and across the inside.
     assert_eq!(class(0, &[0, 2]), OnMesh);
     assert_eq!(class(0, &[0, 6]), OnMesh);
     assert_eq!(class(0, &[0, 4, 6]), OnMesh);
-    assert_eq!(class(0, &[4, 5]), Free);
-    assert_eq!(class(0, &[4, 5, 7]), Free);
-    assert_eq!(class(0, &[0, 7]), Free);
+    assert_eq!(class(0, &[4, 5]), Bridge);
+    assert_eq!(class(0, &[4, 5, 7]), Bridge);
+    assert_eq!(class(0, &[0, 7]), Bridge);
     // A point inside a piece belongs to the piece.
     assert_eq!(class(1, &[0, 7]), InsideSolid);
 }
@@ -151,10 +153,10 @@ fn thick_and_thin_pieces_are_bridged_everywhere() {
     };
     let whole = tree(&[box_between(0.0, 1.0, 0), thick], box_hull(0.0, 3.0)).unwrap();
     assert_eq!(whole.hulls().get(0).radius, 0.5);
-    assert_eq!(whole.facet_classes(0), [FacetClass::Free; 6]);
+    assert_eq!(whole.facet_classes(0), [FacetClass::Bridge; 6]);
     assert_eq!(
-        whole.facet_class_at(0, &ConvexCombination::point(0)),
-        FacetClass::Free
+        whole.facet_class_at(0, &ConvexCombination::from_single_point(0)),
+        FacetClass::Bridge
     );
     assert_eq!(whole.facet_classes(2), [FacetClass::OnMesh; 6]);
 }
@@ -169,7 +171,7 @@ fn polytope_without_facets(points: &[DVec3]) -> Polytope {
 #[test]
 fn triangles_segments_and_points_join() {
     let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
-    let pieces = Pieces::triangles(&[a, b, c, d], &[[0, 1, 2], [0, 2, 3]], &[8, 9]).unwrap();
+    let pieces = Pieces::from_triangles(&[a, b, c, d], &[[0, 1, 2], [0, 2, 3]], &[8, 9]).unwrap();
     let square = Hull {
         points: vec![a, b, c, d],
         facets: PolygonList::from_iter([[0, 1, 2, 3], [3, 2, 1, 0]]),
@@ -183,7 +185,7 @@ fn triangles_segments_and_points_join() {
     };
     let whole = HullTree::new(&pieces, &nodes(square)).unwrap();
     assert_eq!(whole.facet_classes(0), [FacetClass::OnMesh; 2]);
-    let inside = ConvexCombination::segment([1, 3], 0.25);
+    let inside = ConvexCombination::of_two_points([1, 3], 0.25);
     assert_eq!(whole.hulls().feature(0, &inside), Feature::Face(8));
 
     let along = |x: f64| x * DVec3::X;
@@ -347,7 +349,7 @@ fn bodies_take_the_trees_of_their_pieces_only() {
     ];
     let pieces = Pieces::from_polytopes(&polytopes).unwrap();
     let tree = HullTree::new(&pieces, &nodes).unwrap();
-    let body = Body::new(&pieces, Volume::Surface).unwrap();
+    let body = Body::new(&pieces, Solidity::Surface).unwrap();
     let body = body.with_hull_tree(tree.clone()).unwrap();
     // The order of the body's pieces does not matter.
     let kept = body.hull_tree().unwrap();
@@ -358,12 +360,12 @@ fn bodies_take_the_trees_of_their_pieces_only() {
         }
     }
     let others = Pieces::from_polytopes(&[polytopes[0].clone(), box_between(0.0, 2.0, 6)]).unwrap();
-    let other = Body::new(&others, Volume::Surface).unwrap();
+    let other = Body::new(&others, Solidity::Surface).unwrap();
     let refused = other.with_hull_tree(tree.clone()).unwrap_err();
     assert_eq!(refused, HullFault::NotAPiece.at_node(2));
     let single = Body::new(
         &Pieces::from_polytopes(&polytopes[..1]).unwrap(),
-        Volume::Surface,
+        Solidity::Surface,
     );
     let refused = single.unwrap().with_hull_tree(tree).unwrap_err();
     assert_eq!(refused, HullFault::NotAPiece.at_node(2));
@@ -374,7 +376,7 @@ fn values_are_made_ahead_for_pieces_and_hulls_once() {
     struct PointCount(usize);
     let polytopes = [box_between(0.0, 1.0, 0), box_between(2.0, 3.0, 6)];
     let pieces = Pieces::from_polytopes(&polytopes).unwrap();
-    let body = Body::new(&pieces, Volume::Surface).unwrap();
+    let body = Body::new(&pieces, Solidity::Surface).unwrap();
     let tree = tree(&polytopes, box_hull(0.0, 3.0)).unwrap();
     let body = body.with_hull_tree(tree).unwrap();
     let made = AtomicUsize::new(0);

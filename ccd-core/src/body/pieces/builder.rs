@@ -1,7 +1,7 @@
 //! Builds a list of pieces by adding one polytope after the other.
 
 use super::{PieceShapes, Pieces, Polytopes};
-use crate::body::polytope::{Face, FacetOrigin, Polytope};
+use crate::body::polytope::{FacetOrigin, MeshFace, Polytope};
 use crate::error::InputError;
 use glam::DVec3;
 
@@ -58,7 +58,7 @@ impl PiecesBuilder {
         polytope: PolytopeParts<
             'a,
             impl Iterator<Item = (&'a [u32], FacetOrigin)>,
-            impl Iterator<Item = Face>,
+            impl Iterator<Item = MeshFace>,
         >,
     ) {
         let count = polytope.points.len();
@@ -74,9 +74,11 @@ impl PiecesBuilder {
         for (corners, origin) in polytope.facets {
             polytopes.corners.extend_from_slice(corners);
             polytopes.corner_ends.push(polytopes.corners.len() as u32);
-            polytopes.origins.push(origin);
+            polytopes.facet_origins.push(origin);
         }
-        polytopes.facet_ends.push(polytopes.origins.len() as u32);
+        polytopes
+            .facet_ends
+            .push(polytopes.facet_origins.len() as u32);
         polytopes.faces.extend(polytope.faces);
         polytopes.face_ends.push(polytopes.faces.len() as u32);
     }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::body::Body;
-use crate::body::polytope::{Face, Facet, Polytope};
+use crate::body::polytope::{Facet, MeshFace, Polytope};
 use crate::tests::scene::rng;
 use proptest::prelude::*;
 
@@ -20,7 +20,7 @@ fn ball(radius: f64) -> Polytope {
 fn invalid_triangles_are_refused() {
     let made = |faces: &[[u32; 3]]| {
         let ids: Vec<u32> = (0..faces.len() as u32).collect();
-        Pieces::triangles(&TETRAHEDRON_CORNERS, faces, &ids).map(|pieces| pieces.len())
+        Pieces::from_triangles(&TETRAHEDRON_CORNERS, faces, &ids).map(|pieces| pieces.len())
     };
     assert_eq!(made(&[[0, 1, 2], [1, 2, 3]]), Ok(2));
     assert_eq!(made(&[]), Err(InputError::NoPieces));
@@ -40,7 +40,7 @@ fn invalid_points_are_refused_by_piece_and_point() {
         for axis in 0..3 {
             let mut points = TETRAHEDRON_CORNERS;
             points[3][axis] = bad;
-            let made = Pieces::triangles(&points, &[[0, 1, 2], [2, 3, 0]], &[0, 1]);
+            let made = Pieces::from_triangles(&points, &[[0, 1, 2], [2, 3, 0]], &[0, 1]);
             let expected = InputError::BadPoint { piece: 1, point: 1 };
             assert_eq!(made.err(), Some(expected.clone()), "{bad}");
             let made = Pieces::from_polytopes(&[
@@ -56,7 +56,7 @@ fn invalid_points_are_refused_by_piece_and_point() {
     // A vertex that no face uses may have any coordinates.
     let mut points = TETRAHEDRON_CORNERS;
     points[3].x = f64::NAN;
-    assert!(Pieces::triangles(&points, &[[0, 1, 2]], &[0]).is_ok());
+    assert!(Pieces::from_triangles(&points, &[[0, 1, 2]], &[0]).is_ok());
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn invalid_polytopes_are_refused() {
         let expected = InputError::FacetOutOfRange { piece: 1, facet: 1 };
         assert_eq!(refused(polytope), Some(expected));
     }
-    let face = |x: f64| Face {
+    let face = |x: f64| MeshFace {
         id: 0,
         vertices: [0, 1, 2],
         corners: [
@@ -109,7 +109,7 @@ fn invalid_polytopes_are_refused() {
 #[test]
 fn triangles_name_vertices_edges_and_faces_of_the_mesh() {
     let pieces =
-        Pieces::triangles(&TETRAHEDRON_CORNERS, &[[0, 1, 2], [3, 2, 1]], &[10, 20]).unwrap();
+        Pieces::from_triangles(&TETRAHEDRON_CORNERS, &[[0, 1, 2], [3, 2, 1]], &[10, 20]).unwrap();
     assert_eq!(pieces.feature(0, &mean(&[2])), Feature::Vertex(2));
     assert_eq!(pieces.feature(1, &mean(&[0])), Feature::Vertex(3));
     assert_eq!(pieces.feature(1, &mean(&[2, 0])), Feature::Edge(1, 3));
@@ -207,12 +207,12 @@ fn points_on_virtual_facets_within_a_face_are_named_by_it() {
             facet(FacetOrigin::Virtual, &[4, 5, 7, 6]),
         ],
         faces: vec![
-            Face {
+            MeshFace {
                 id: 10,
                 vertices: [0, 2, 3],
                 corners: [corner(0), corner(2), corner(3)],
             },
-            Face {
+            MeshFace {
                 id: 11,
                 vertices: [0, 3, 1],
                 corners: [corner(0), corner(3), corner(1)],

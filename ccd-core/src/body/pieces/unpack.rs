@@ -1,7 +1,7 @@
 //! Converts pieces back to polytopes.
 
 use super::{PieceShapes, Pieces};
-use crate::body::polytope::{Face, Facet, Polytope};
+use crate::body::polytope::{Facet, MeshFace, Polytope};
 
 impl Pieces {
     /// Converts a piece to a polytope, which is an input of [`Pieces::from_polytopes`]; a triangle lists its mesh face.
@@ -21,7 +21,7 @@ impl Pieces {
             facets: facets.map(facet).collect(),
             faces: match &self.shape {
                 PieceShapes::Polytopes(_) => piece.facets.faces.to_vec(),
-                PieceShapes::Triangles { face_ids } => vec![Face {
+                PieceShapes::Triangles { face_ids } => vec![MeshFace {
                     id: face_ids[index],
                     vertices: [0, 1, 2].map(|k| self.vertex_ids(index)[k]),
                     corners: self.triangle(index),

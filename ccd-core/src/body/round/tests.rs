@@ -42,7 +42,9 @@ fn enclosures_hold_their_shapes_exactly() {
         let radius = [1.0, 0.1, 3.7e5, 1e-90, 6.3e11, 1e-310][k as usize % 6];
         let half_height = 0.3 * f64::from(k % 5);
         for round in cylinder_and_cone(radius, half_height) {
-            let about = round.enclose(share * radius).expect("it can be had");
+            let about = round
+                .enclosing_polytope(share * radius)
+                .expect("it can be had");
             let points = &about.polytope().points;
             let (base, rest) = points.split_at(match round.kind {
                 SolidKind::Cylinder => points.len() / 2,
@@ -70,7 +72,9 @@ fn no_point_exceeds_the_shape_by_more_than_is_stated_and_asked() {
     for radius in [1.0, 0.03, 2e7] {
         for share in [2.0, 0.3, DEFAULT_RADIUS_EXCESS_SHARE, 1e-6] {
             for round in cylinder_and_cone(radius, 1.0) {
-                let about = round.enclose(share * radius).expect("it can be had");
+                let about = round
+                    .enclosing_polytope(share * radius)
+                    .expect("it can be had");
                 assert!(about.excess() <= share * radius, "{round:?} {share}");
                 let reach = |p: &DVec3| {
                     exact_fraction(p.x) * exact_fraction(p.x)
@@ -94,7 +98,7 @@ fn no_point_exceeds_the_shape_by_more_than_is_stated_and_asked() {
 fn enclosures_touch_their_shapes_along_the_axes() {
     for round in cylinder_and_cone(1.0, 2.0) {
         let about = round
-            .enclose(round.default_excess())
+            .enclosing_polytope(round.default_excess())
             .expect("it can be had");
         for axis in [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y] {
             let heights = about.polytope().points.iter().map(|p| p.dot(axis));
@@ -107,7 +111,7 @@ fn enclosures_touch_their_shapes_along_the_axes() {
 #[test]
 fn facets_close_the_polytope_and_point_outward() {
     for round in cylinder_and_cone(2.0, 1.0) {
-        let about = round.enclose(0.1).expect("it can be had");
+        let about = round.enclosing_polytope(0.1).expect("it can be had");
         let points = &about.polytope().points;
         let mut volume = 0.0;
         for corners in about.triangles().0 {
@@ -143,7 +147,7 @@ fn what_is_no_length_is_refused_by_its_name() {
     }
     let cylinder = SolidOfRevolution::cylinder(2.0, 1.0).expect("it is one");
     for bad in [0.0, 1e-12, 1e-8, -1.0, f64::NAN] {
-        let refused = cylinder.enclose(bad);
+        let refused = cylinder.enclosing_polytope(bad);
         assert!(
             matches!(
                 refused,
@@ -155,7 +159,7 @@ fn what_is_no_length_is_refused_by_its_name() {
             "{refused:?}"
         );
     }
-    assert!(cylinder.enclose(cylinder.least_excess()).is_ok());
+    assert!(cylinder.enclosing_polytope(cylinder.least_excess()).is_ok());
     let widest = Body::cylinder(MAX_COORDINATE, 1.0);
     assert!(matches!(
         widest,

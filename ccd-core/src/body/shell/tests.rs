@@ -92,7 +92,7 @@ fn numbers_of_any_kind_give_the_same_parts() {
             .map(|_| [(); 3].map(|()| rng.random_range(0..count)))
             .collect();
         let ids: Vec<u32> = (0..count).collect();
-        let pieces = Pieces::triangles(&vertices, &faces, &ids).unwrap();
+        let pieces = Pieces::from_triangles(&vertices, &faces, &ids).unwrap();
         assert_eq!(
             part_extreme_points(&pieces),
             part_extreme_points_by_brute_force(&pieces)

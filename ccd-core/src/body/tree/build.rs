@@ -1,7 +1,7 @@
 //! Builds the tree with eight children per node from a binary hierarchy.
 
 use super::fit::{NodePoints, PointSample, fit_node};
-use super::group::longest_length;
+use super::group::longest_vector_length;
 use super::{
     BodyBox, BoxGroup, LANES, Node, NodeChildren, NodeId, Slab, StoredTriangleGroup, Tree,
 };
@@ -20,12 +20,12 @@ pub(crate) struct TreeLayout {
     nodes: Vec<NodeLayout>,
     node_groups: Vec<ChildNodes>,
     /// The node whose pieces are the triangles of each group.
-    triangle_groups: Vec<u32>,
+    triangle_group_nodes: Vec<u32>,
 }
 
 /// Returns the largest distance of the pieces' points from the body's origin, rounding radii included.
 fn max_distance_from_origin(pieces: &Pieces) -> f64 {
-    let farthest = |points: &[DVec3]| longest_length(points.iter().copied());
+    let farthest = |points: &[DVec3]| longest_vector_length(points.iter().copied());
     if pieces.are_all_triangles() {
         return farthest(pieces.points());
     }
@@ -125,8 +125,8 @@ impl TreeLayout {
         let mut waiting = vec![(0u32, 0u32)];
         while let Some((parent, at)) = waiting.pop() {
             layout.nodes[parent as usize].children = if triangles && ranges.len(at) <= LANES {
-                layout.triangle_groups.push(parent);
-                NodeChildren::Triangles(layout.triangle_groups.len() as u32 - 1)
+                layout.triangle_group_nodes.push(parent);
+                NodeChildren::Triangles(layout.triangle_group_nodes.len() as u32 - 1)
             } else if ranges.len(at) > 1 {
                 let (members, count) = opener.choose_children(at);
                 let first = layout.nodes.len() as u32;
@@ -169,9 +169,9 @@ impl TreeLayout {
         });
         // The ids of triangles follow those of the nodes.
         let after = nodes.len() as u32;
-        let mut triangles = vec![StoredTriangleGroup::default(); self.triangle_groups.len()];
+        let mut triangles = vec![StoredTriangleGroup::default(); self.triangle_group_nodes.len()];
         parallel_for_each(&mut triangles, &(), |(), k, group| {
-            let parent = self.triangle_groups[k] as usize;
+            let parent = self.triangle_group_nodes[k] as usize;
             let triangles = &self.nodes[parent].pieces;
             let corners = pieces.points_of(triangles.clone()).as_chunks().0;
             let first = after + triangles.start as u32;
@@ -212,7 +212,7 @@ impl NodeLayout {
         let radii = self.pieces.clone().map(|k| pieces.get(k).radius);
         NodePoints {
             points: pieces.points_of(self.pieces.clone()),
-            radius: if triangles {
+            rounding_radius: if triangles {
                 0.0
             } else {
                 radii.fold(0.0, greater)

@@ -14,7 +14,7 @@ pub(crate) use sample::PointSample;
 pub(crate) struct NodePoints<'a> {
     pub(crate) points: &'a [DVec3],
     /// The largest rounding radius of the pieces.
-    pub(crate) radius: f64,
+    pub(crate) rounding_radius: f64,
     /// True if every three consecutive points are the corners of a triangle.
     pub(crate) are_triangles: bool,
 }
@@ -69,8 +69,8 @@ pub(crate) fn fit_node(
         centre,
         axes,
         half_extents: half.map(outward),
-        radius: outward(square.sqrt() + node_points.radius),
-        rounding_radius: round_up_to_f32(node_points.radius),
+        radius: outward(square.sqrt() + node_points.rounding_radius),
+        rounding_radius: round_up_to_f32(node_points.rounding_radius),
         children,
     }
 }

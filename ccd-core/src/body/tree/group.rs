@@ -122,13 +122,13 @@ impl StoredTriangleGroup {
         for (triangle, radius) in triangles.iter().zip(&mut row.radius) {
             let corners = triangle.map(|p| p - origin);
             let mean = (corners[0] + corners[1] + corners[2]) / 3.0;
-            *radius = round_up_to_f32(longest_length(
+            *radius = round_up_to_f32(longest_vector_length(
                 corners.into_iter().map(|corner| corner - mean),
             ));
         }
         let corners = triangles.as_flattened().iter();
         row.header.max_distance_from_origin =
-            round_up_to_f32(longest_length(corners.map(|&p| p - origin)));
+            round_up_to_f32(longest_vector_length(corners.map(|&p| p - origin)));
         row
     }
 }
@@ -164,7 +164,7 @@ pub(crate) fn unit_normal(corners: [DVec3; 3]) -> Vec3 {
 }
 
 /// Returns the length of the longest vector, as accurately as [`length`] computes it; 0 without vectors.
-pub(super) fn longest_length(vectors: impl Iterator<Item = DVec3> + Clone) -> f64 {
+pub(super) fn longest_vector_length(vectors: impl Iterator<Item = DVec3> + Clone) -> f64 {
     let squares = vectors.clone().map(DVec3::length_squared);
     let square = squares.fold(0.0, greater);
     // The square of a longer vector is not less, so that one root suffices for all.

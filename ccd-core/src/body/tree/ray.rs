@@ -36,7 +36,8 @@ pub(crate) fn sum_signed_crossings(
     slack: f64,
 ) -> Option<RayCrossingSums> {
     let start = RayStart { from, slack };
-    (0..MAX_RAYS).find_map(|k| sum_signed_crossings_along(tree, pieces, start, direction(k)))
+    (0..MAX_RAYS)
+        .find_map(|k| sum_signed_crossings_along(tree, pieces, start, evenly_spread_direction(k)))
 }
 
 /// The start point of a ray, and the distance up to which a triangle counts as containing it.
@@ -47,7 +48,7 @@ struct RayStart {
 }
 
 /// Returns the `k`-th direction of a sequence that is spread evenly over the sphere.
-fn direction(k: u32) -> DVec3 {
+fn evenly_spread_direction(k: u32) -> DVec3 {
     // Multiples of these two fractions are spread evenly over a square.
     let [x, y] = [0.754_877_666_246_693, 0.569_840_290_998_053].map(|f| (f64::from(k) + 0.5) * f);
     let height = 1.0 - 2.0 * x.fract();
@@ -147,7 +148,7 @@ impl RayCrossingSums {
             Sign::Unclear
         } else {
             match Sign::of_number(height, size(a) * size(b) * size(c)) {
-                Sign::Unclear => triangle_sign_along_ray(triangle, corners, sign),
+                Sign::Unclear => triangle_side_of_ray_start(triangle, corners, sign),
                 clear => clear,
             }
         };
@@ -165,7 +166,7 @@ impl RayCrossingSums {
 
 /// Returns whether a triangle is ahead of a ray's start or behind it, computed from the triangle's edges. The edges may
 /// be far shorter than the vectors to the corners.
-fn triangle_sign_along_ray(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
+fn triangle_side_of_ray_start(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
     let size = |p: DVec3| p.abs().element_sum();
     let signs = [0, 1, 2].map(|k| {
         let (next, last) = ((k + 1) % 3, (k + 2) % 3);

@@ -3,7 +3,7 @@
 use super::*;
 use crate::body::pieces::Pieces;
 use crate::body::polytope::Polytope;
-use crate::body::{Body, Volume};
+use crate::body::{Body, Solidity};
 use crate::math::order::greater;
 use crate::math::vector::length;
 use crate::tests::nearest::Triangle;
@@ -249,7 +249,7 @@ fn polytopes_balls_and_capsules_are_held_with_their_radii() {
             })
             .collect();
         let pieces = Pieces::from_polytopes(&polytopes).unwrap();
-        assert_tree_bounds_pieces(&Body::new(&pieces, Volume::Surface).unwrap());
+        assert_tree_bounds_pieces(&Body::new(&pieces, Solidity::Surface).unwrap());
     }
 }
 

@@ -51,8 +51,9 @@ impl BodyBox {
             centre,
             axes,
             half_extents: half,
-            radius: (radius + node_points.radius) * (1.0 + 8.0 * UNIT_ROUNDOFF_F64),
-            slack: node_points.radius + (3.0 * largest + 32.0 * UNIT_ROUNDOFF_F64) * radius,
+            radius: (radius + node_points.rounding_radius) * (1.0 + 8.0 * UNIT_ROUNDOFF_F64),
+            slack: node_points.rounding_radius
+                + (3.0 * largest + 32.0 * UNIT_ROUNDOFF_F64) * radius,
         }
     }
 }

@@ -110,7 +110,7 @@ impl NearSurface<'_> {
     /// Returns the mesh's number of a point of a piece; `None` if the point has none.
     fn mesh_vertex_of_point(&self, piece: u32, point: u32) -> Option<u32> {
         let pieces = self.body.pieces();
-        match pieces.feature(piece as usize, &ConvexCombination::point(point)) {
+        match pieces.feature(piece as usize, &ConvexCombination::from_single_point(point)) {
             Feature::Vertex(id) => Some(id),
             _ => None,
         }

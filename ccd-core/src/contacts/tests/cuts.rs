@@ -105,8 +105,8 @@ fn a_piece_of_many_faces_is_sorted_once() {
         points: ball.points.iter().map(|&p| 1.01 * p).collect(),
         faces: ball.faces.iter().map(|&[a, b, c]| [a, c, b]).collect(),
     };
-    let socket = socket.body(Volume::Surface);
-    let triangles = ball.body(Volume::Solid);
+    let socket = socket.body(Solidity::Surface);
+    let triangles = ball.body(Solidity::Solid);
     let config = Settings {
         budget: 50 * count,
         ..Settings::DEFAULT
@@ -152,7 +152,7 @@ fn the_rounder_of_two_pieces_that_share_a_corner_is_reported() {
     for radii in [[0.1, 0.5], [0.5, 0.1]] {
         let limbs = [limb(-1.0, 1, radii[0]), limb(1.0, 2, radii[1])];
         let pieces = Pieces::from_polytopes(&limbs).unwrap();
-        let body = Body::new(&pieces, Volume::Surface).unwrap();
+        let body = Body::new(&pieces, Solidity::Surface).unwrap();
         let pairs = contacts(&point, &body, pose_at(0.0, 0.0, 1.0), 0.6);
         assert_eq!(feature_names(&pairs), ["v0 v0"], "{radii:?}");
         check_separations(&pairs, 0.5, -DVec3::Z);

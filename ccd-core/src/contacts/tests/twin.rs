@@ -2,7 +2,7 @@
 
 use crate::body::feature::Feature;
 use crate::body::pieces::Pieces;
-use crate::body::{Body, Volume};
+use crate::body::{Body, Solidity};
 use crate::math::order::{greater, lesser};
 use crate::motion::pose::Pose;
 use crate::tests::nearest::{Triangle, nearest_points};
@@ -79,9 +79,9 @@ impl Mesh {
         }
     }
 
-    pub(super) fn body(&self, volume: Volume) -> Body {
+    pub(super) fn body(&self, volume: Solidity) -> Body {
         let ids: Vec<u32> = (0..self.faces.len() as u32).collect();
-        let pieces = Pieces::triangles(&self.points, &self.faces, &ids).unwrap();
+        let pieces = Pieces::from_triangles(&self.points, &self.faces, &ids).unwrap();
         Body::new(&pieces, volume).unwrap()
     }
 

@@ -40,7 +40,7 @@ pub(crate) fn points_beside_edges(
 /// The outline of a thin piece: its largest facet, or its points in order.
 #[derive(Clone, Copy)]
 struct FlatOutline<'a> {
-    points: &'a [DVec3],
+    outline_points: &'a [DVec3],
     /// The indices of the outline's corners; `None` if they are all points in order.
     corners: Option<&'a [u32]>,
     normal: DVec3,
@@ -61,7 +61,7 @@ impl<'a> FlatOutline<'a> {
             if is_larger { other } else { one }
         };
         let mut flat = FlatOutline {
-            points: piece.points,
+            outline_points: piece.points,
             corners: piece.facets.iter().reduce(larger),
             normal: DVec3::ZERO,
         };
@@ -74,12 +74,12 @@ impl<'a> FlatOutline<'a> {
     }
 
     fn corner_count(&self) -> usize {
-        self.corners.map_or(self.points.len(), <[u32]>::len)
+        self.corners.map_or(self.outline_points.len(), <[u32]>::len)
     }
 
     fn corner(&self, k: usize) -> DVec3 {
         let k = self.corners.map_or(k, |corners| corners[k] as usize);
-        self.points[k]
+        self.outline_points[k]
     }
 
     fn height(&self, point: DVec3) -> f64 {

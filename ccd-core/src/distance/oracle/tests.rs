@@ -17,10 +17,19 @@ fn terms_are_merged_dropped_and_capped() {
     }
     // The fifth distinct index was dropped.
     assert_eq!(out.point_indices(), [4, 7, 0, 1]);
-    assert_eq!(ConvexCombination::point(3).point_indices(), [3]);
-    assert_eq!(ConvexCombination::segment([3, 5], 0.0).point_indices(), [3]);
-    assert_eq!(ConvexCombination::segment([3, 5], 1.0).point_indices(), [5]);
-    assert_eq!(ConvexCombination::segment([3, 3], 0.5).point_indices(), [3]);
+    assert_eq!(ConvexCombination::from_single_point(3).point_indices(), [3]);
+    assert_eq!(
+        ConvexCombination::of_two_points([3, 5], 0.0).point_indices(),
+        [3]
+    );
+    assert_eq!(
+        ConvexCombination::of_two_points([3, 5], 1.0).point_indices(),
+        [5]
+    );
+    assert_eq!(
+        ConvexCombination::of_two_points([3, 3], 0.5).point_indices(),
+        [3]
+    );
 }
 
 #[test]
@@ -40,19 +49,22 @@ fn a_combination_names_a_point_of_the_hull() {
             .map(|(&p, w)| p * (w / sum))
             .sum();
         assert!(out.position(&points).unwrap().distance(exact) < 1e-8);
-        let half = ConvexCombination::segment([0, 1], 0.5)
+        let half = ConvexCombination::of_two_points([0, 1], 0.5)
             .position(&points)
             .unwrap();
         assert!(half.distance(points[0].midpoint(points[1])) < 1e-9);
     }
     let points = [DVec3::ONE];
     assert_eq!(
-        ConvexCombination::point(0).position(&points),
+        ConvexCombination::from_single_point(0).position(&points),
         Some(DVec3::ONE)
     );
-    assert_eq!(ConvexCombination::point(1).position(&points), None);
     assert_eq!(
-        ConvexCombination::segment([0, 1], 0.5).position(&points),
+        ConvexCombination::from_single_point(1).position(&points),
+        None
+    );
+    assert_eq!(
+        ConvexCombination::of_two_points([0, 1], 0.5).position(&points),
         None
     );
     assert_eq!(ConvexCombination::EMPTY.position(&points), None);
@@ -73,8 +85,8 @@ fn ask<O: DistanceOracle>(oracle: &mut O) -> Result<Claim, GiveUpReason> {
 fn the_second_oracle_is_asked_where_the_first_gives_up() {
     let claim = |axis| Claim {
         axis,
-        a: ConvexCombination::point(0),
-        b: ConvexCombination::point(0),
+        a: ConvexCombination::from_single_point(0),
+        b: ConvexCombination::from_single_point(0),
     };
     let (first, second) = (claim(DVec3::X), claim(DVec3::Y));
     let mut sure = ConstantOracle(Ok(first)).or_else(ConstantOracle(Ok(second)));

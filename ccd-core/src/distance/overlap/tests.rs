@@ -216,8 +216,8 @@ fn false_claims_do_not_change_the_decision() {
         };
         let lie = Claim {
             axis: random_point_in_ball(&mut rng, 1.0),
-            a: ConvexCombination::point(rng.random_range(0..8)),
-            b: ConvexCombination::point(rng.random_range(0..8)),
+            a: ConvexCombination::from_single_point(rng.random_range(0..8)),
+            b: ConvexCombination::from_single_point(rng.random_range(0..8)),
         };
         let exact = overlaps_by_separating_axes(&pair);
         assert_eq!(intersects_decidedly(&pair, &lie), exact, "{pose:?}");
@@ -297,8 +297,8 @@ fn a_claim_that_shows_no_depth_needs_no_polytope() {
     };
     let claim = Claim {
         axis: DVec3::Z,
-        a: ConvexCombination::point(0),
-        b: ConvexCombination::point(0),
+        a: ConvexCombination::from_single_point(0),
+        b: ConvexCombination::from_single_point(0),
     };
     let (checked, mut inner) = (
         separation::check_claim(&pair, &claim, ROUNDING),

@@ -47,7 +47,7 @@ fn axes(pair: &PiecePair<'_>, checked: &CheckedClaim) -> [DVec3; 4] {
         }
         (None, None) => DVec3::ZERO,
     };
-    [way, edges, on_a.normal, on_b.normal]
+    [way, edges, on_a.face_normal, on_b.face_normal]
 }
 
 /// The vertex, edge or face that contains a nearest point.
@@ -55,7 +55,7 @@ struct Feature {
     edge: Option<DVec3>,
     /// The normal of the feature's face, or zero if there is none. For a triangle it is that of the piece. Otherwise it
     /// is that of the facet at the feature's corners which is most perpendicular to the claimed axis.
-    normal: DVec3,
+    face_normal: DVec3,
 }
 
 impl Feature {
@@ -73,13 +73,16 @@ impl Feature {
             (_, 3) => vector_perpendicular_to_both(way(0, 1), way(0, 2)),
             (support, _) => facet_normal(piece, support, axis).unwrap_or(DVec3::ZERO),
         };
-        Feature { edge, normal }
+        Feature {
+            edge,
+            face_normal: normal,
+        }
     }
 
     fn rotated(self, turn: DMat3) -> Self {
         Feature {
             edge: self.edge.map(|e| turn * e),
-            normal: turn * self.normal,
+            face_normal: turn * self.face_normal,
         }
     }
 }

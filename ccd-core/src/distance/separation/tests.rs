@@ -159,8 +159,8 @@ fn radii_are_subtracted_and_witnesses_are_on_the_surface() {
     };
     let claim = Claim {
         axis: DVec3::X,
-        a: ConvexCombination::point(0),
-        b: ConvexCombination::point(0),
+        a: ConvexCombination::from_single_point(0),
+        b: ConvexCombination::from_single_point(0),
     };
     let checked = check_claim(&pair, &claim, 0.0);
     assert_eq!((checked.lower, checked.upper), (1.5, 1.5));
@@ -254,7 +254,7 @@ fn facets_have_better_axes_than_corners_across_them() {
         }
         let tilted = Claim {
             axis: -DVec3::Z + random_point_in_ball(&mut rng, 1e-9),
-            a: ConvexCombination::point(0),
+            a: ConvexCombination::from_single_point(0),
             b: across,
         };
         poor += usize::from(check_axis_improvement(&pair, &tilted, distance));
@@ -326,7 +326,7 @@ fn the_better_one_of_axis_and_way_counts() {
             b_to_a,
         };
         let right = ExhaustiveOracle.separation(&pair, &mut ()).unwrap();
-        let corner = ConvexCombination::point(0);
+        let corner = ConvexCombination::from_single_point(0);
         let axis = scene::random_direction(&mut rng);
         let wrong_axis = check_claim(&pair, &Claim { axis, ..right }, ROUNDING);
         let points = Claim {
@@ -361,8 +361,8 @@ fn witnesses_of_coinciding_points_are_along_the_axis() {
     };
     let claim = Claim {
         axis: 3.0 * DVec3::Y,
-        a: ConvexCombination::point(0),
-        b: ConvexCombination::point(0),
+        a: ConvexCombination::from_single_point(0),
+        b: ConvexCombination::from_single_point(0),
     };
     let checked = check_claim(&pair, &claim, ROUNDING);
     assert_eq!(checked.witness_a, 2.0 * DVec3::Y);

@@ -5,7 +5,7 @@ use crate::answer::Unresolved;
 use crate::answer::{Contact, Stats};
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::piece::ConvexCombination;
-use crate::body::{Body, Volume};
+use crate::body::{Body, Solidity};
 use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::math::order::{greater, lesser};
 use crate::motion::Motion;
@@ -249,8 +249,8 @@ fn false_claims_and_give_ups_never_make_an_answer_late() {
             .find(|&s| distance(&problem, s) <= problem.margin);
         let lie = Claim {
             axis: random_direction(&mut rng),
-            a: ConvexCombination::point(rng.random_range(0..5)),
-            b: ConvexCombination::point(rng.random_range(0..5)),
+            a: ConvexCombination::from_single_point(rng.random_range(0..5)),
+            b: ConvexCombination::from_single_point(rng.random_range(0..5)),
         };
         for oracle in [
             ConstantOracle(Ok(lie)),
@@ -289,7 +289,7 @@ fn touching_and_overlapping_at_the_start_are_reported_and_let_go() {
         let at = Pose::at(DVec3::new(0.3, 0.3, height)).unwrap();
         let moving = |body, motion| MovingBody::from((body, motion));
         let config = Settings {
-            start,
+            start_policy: start,
             ..Settings::DEFAULT
         };
         let motion = Motion::new(at, speed * DVec3::Z, DVec3::ZERO).unwrap();
@@ -353,7 +353,7 @@ fn body_of_level_plates(rng: &mut Pcg64, count: usize, lowest: f64, step: f64) -
     }
     let pieces = pieces(&(0..count).map(plate).collect::<Vec<_>>());
     let hierarchy = Hierarchy::new(nodes, count).unwrap();
-    Body::with_hierarchy(&pieces, &hierarchy, Volume::Surface).unwrap()
+    Body::with_hierarchy(&pieces, &hierarchy, Solidity::Surface).unwrap()
 }
 
 /// Tests that a search finds the first contact of two stacks with alternating plates, or reports that its budget is

@@ -52,7 +52,7 @@ pub(crate) fn bound_eight_pairs<L: Simd, C: Children, P: OtherNode>(
         .fixed_plane_free_times(widest)
         .max(pairs.fixed_plane_free_times(passing));
     let mut revisit = mask_bits(revisit.simd_gt(0.0));
-    if let Some(past) = PassingPairs::new(&pairs, widest) {
+    if let Some(past) = FlybyPairs::new(&pairs, widest) {
         free = free.max(past.turning_plane_time);
         revisit |= mask_bits(past.revisit_mask(free, widest.gap - motion.slack));
     }
@@ -64,7 +64,7 @@ pub(crate) fn bound_eight_pairs<L: Simd, C: Children, P: OtherNode>(
     EightPairBounds {
         free_times: FreeTimes::pack(free, lanes),
         revisit_mask: revisit,
-        split_child_mask: split_child & !mask_bits(children.pieces(level)),
+        split_child_mask: split_child & !mask_bits(children.single_piece_mask(level)),
         other_is_piece: other.is_piece(),
     }
 }
@@ -75,7 +75,7 @@ fn mask_bits<L: Simd>(mask: mask32x8<L>) -> u8 {
 }
 
 /// The values of eight pairs, in each of which a small node passes a much larger node of a turning body.
-struct PassingPairs<L: Simd> {
+struct FlybyPairs<L: Simd> {
     /// The time for which a plane that turns with the large node's body keeps the pair apart.
     turning_plane_time: f32x8<L>,
     /// The angular speed of the large node's body.
@@ -89,7 +89,7 @@ struct PassingPairs<L: Simd> {
     large_piece_mask: mask32x8<L>,
 }
 
-impl<L: Simd> PassingPairs<L> {
+impl<L: Simd> FlybyPairs<L> {
     /// Computes the values of eight pairs of a small and a large turning node; `None` if no body turns whose nodes are
     /// much larger than the other's.
     #[inline(always)]
@@ -105,20 +105,22 @@ impl<L: Simd> PassingPairs<L> {
         } = *pairs;
         let level = pairs.simd_level();
         match motion.larger_body? {
-            LargerBody::SplitBody => Some(PassingPairs {
+            LargerBody::BodyToSplit => Some(FlybyPairs {
                 turning_plane_time: pairs.free_times_turning_with_split_body(axis),
-                spin: motion.split_rotation.rate,
+                spin: motion.split_body_rotation.angular_speed,
                 small_node_arm_length: splat(
                     level,
-                    motion.split_rotation.distance_from_centre(other.centre()),
+                    motion
+                        .split_body_rotation
+                        .distance_from_centre(other.centre()),
                 ),
                 large_radius: children.radius(level),
                 small_radius: splat(level, other.radius()),
-                large_piece_mask: children.pieces(level),
+                large_piece_mask: children.single_piece_mask(level),
             }),
-            LargerBody::OtherBody => Some(PassingPairs {
+            LargerBody::OtherBody => Some(FlybyPairs {
                 turning_plane_time: pairs.free_times_turning_with_other_body(axis),
-                spin: motion.other_rotation.rate,
+                spin: motion.other_rotation.angular_speed,
                 small_node_arm_length: motion
                     .other_rotation
                     .distances_from_centre(children.centre(level)),

@@ -25,7 +25,7 @@ pub(crate) struct NodeContext<'p> {
     pub(crate) gap: f32,
     /// The gap `Problem::kept_node_gap` that pairs of nodes keep if rounding allows, rounded up. Until its clock, a pair of
     /// nodes keeps this gap or the sum of `gap` and the rounding, whichever is larger.
-    pub(crate) kept_node_gap: f32,
+    pub(crate) guaranteed_node_gap: f32,
     /// A bound of the rounding of distances in f64, rounded up.
     pub(crate) rounding: f32,
     /// A bound of the rounding of closing rates.
@@ -45,10 +45,10 @@ fn speed_bound(a: &BodyWithPath<'_>, b: &BodyWithPath<'_>) -> f64 {
         // An arm is the difference of two positions, each rounded at its place, as seen from a group of the other
         // body. That group is in a ball which moves straight, and turns with its body.
         let (ball, radius) = other.body.tree().bounding_ball();
-        let turned = lesser(other.path.rate, 2.0) * ball.distance(other.path.centre);
+        let turned = lesser(other.path.angular_speed, 2.0) * ball.distance(other.path.centre);
         let start = distance(other.path.point_at_start(ball), own.path.centre_at(0.0));
         let places = 2.0 * (start + straight + turned + 4.0 * radius) + reach(own);
-        own.path.rate * (reach(own) + ARM_INCREASE_PER_DISTANCE * places)
+        own.path.angular_speed * (reach(own) + ARM_INCREASE_PER_DISTANCE * places)
     };
     straight + turning(a, b) + turning(b, a)
 }
@@ -69,12 +69,12 @@ impl<'p> NodeContext<'p> {
                 path.is_turning().then(|| {
                     (
                         path.local_angular_velocity.as_vec3(),
-                        round_up_to_f32(path.rate),
+                        round_up_to_f32(path.angular_speed),
                     )
                 })
             }),
-            gap: round_up_to_f32(problem.gap()),
-            kept_node_gap: round_up_to_f32(problem.kept_node_gap()),
+            gap: round_up_to_f32(problem.kept_gap()),
+            guaranteed_node_gap: round_up_to_f32(problem.kept_node_gap()),
             rounding: round_up_to_f32(problem.rounding),
             rate_allowance: RATE_ERROR_F32 * round_up_to_f32(speed_bound(&problem.a, &problem.b)),
             closed_gap_threshold: greater(

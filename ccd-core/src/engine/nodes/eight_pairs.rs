@@ -18,7 +18,7 @@ pub(crate) struct RelativeMotionF32 {
     pub(crate) velocity: Vec3,
     /// The derivative of `velocity`; `None` if both centres accelerate equally.
     pub(crate) acceleration: Option<Vec3>,
-    pub(crate) split_rotation: BodyRotation,
+    pub(crate) split_body_rotation: BodyRotation,
     pub(crate) other_rotation: BodyRotation,
     /// The time left to the end of the duration.
     pub(crate) remaining_time: f32,
@@ -34,7 +34,7 @@ pub(crate) struct RelativeMotionF32 {
 /// The body that turns and whose nodes are much larger than the other's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LargerBody {
-    SplitBody,
+    BodyToSplit,
     OtherBody,
 }
 
@@ -69,7 +69,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         motion: &'a RelativeMotionF32,
     ) -> Self {
         let (centre, other_centre) = (children.centre(level), Vec3x8::splat(level, other.centre()));
-        let turning = motion.split_rotation.rotational_velocity(centre);
+        let turning = motion.split_body_rotation.rotational_velocity(centre);
         let other_turning = motion.other_rotation.rotational_velocity(other_centre);
         let velocity = Vec3x8::splat(level, motion.velocity);
         EightPairs {
@@ -80,11 +80,11 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
             velocity: velocity + turning - other_turning,
             // A slack on the speeds covers the rounding of the second derivatives.
             rotational_speed_bounds: turning.length()
-                + children.radius(level) * motion.split_rotation.rate
+                + children.radius(level) * motion.split_body_rotation.angular_speed
                 + motion.rate_allowance,
             other_rotational_velocity: other_turning,
             other_rotational_speed_bound: other_turning.length()
-                + motion.other_rotation.rate * other.radius()
+                + motion.other_rotation.angular_speed * other.radius()
                 + motion.rate_allowance,
         }
     }
@@ -96,12 +96,12 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         // n·(v + ω×arm) of the centres, plus the contribution of the points around them.
         let mut rate = axis.n.dot(self.velocity) + motion.rate_allowance;
         let mut second_derivative = splat(axis.n.simd_level(), LEAST_SECOND_DERIVATIVE_F32);
-        if motion.split_rotation.is_turning {
-            let m = motion.split_rotation.cross_angular_velocity(axis.n);
+        if motion.split_body_rotation.is_turning {
+            let m = motion.split_body_rotation.cross_angular_velocity(axis.n);
             rate += self.children.extent_along(m);
             second_derivative += second_derivative_bound(
                 m,
-                motion.split_rotation.rate,
+                motion.split_body_rotation.angular_speed,
                 self.rotational_speed_bounds,
             );
         }
@@ -110,7 +110,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
             rate += self.other_node.extent_along(m);
             second_derivative += second_derivative_bound(
                 m,
-                motion.other_rotation.rate,
+                motion.other_rotation.angular_speed,
                 self.other_rotational_speed_bound,
             );
         }
@@ -124,7 +124,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
                 rate,
                 second_derivative + along + rounding,
             )
-        } else if motion.split_rotation.is_turning || motion.other_rotation.is_turning {
+        } else if motion.split_body_rotation.is_turning || motion.other_rotation.is_turning {
             clock::free_time(apart, motion.closed_gap_threshold, rate, second_derivative)
         } else {
             clock::free_time_at_constant_rate(apart, motion.closed_gap_threshold, rate)
@@ -150,18 +150,18 @@ pub(crate) struct BodyRotation {
     pub(crate) is_turning: bool,
     pub(crate) spin: Vec3,
     /// The angular speed `|ω|`, rounded up.
-    pub(crate) rate: f32,
+    pub(crate) angular_speed: f32,
     /// The position of a point on the axis of rotation.
-    pub(crate) centre: Vec3,
+    pub(crate) rotation_centre: Vec3,
 }
 
 impl BodyRotation {
     /// The rotation of a body that does not turn.
-    pub(crate) const NONE: BodyRotation = BodyRotation {
+    pub(crate) const NO_ROTATION: BodyRotation = BodyRotation {
         is_turning: false,
         spin: Vec3::ZERO,
-        rate: 0.0,
-        centre: Vec3::ZERO,
+        angular_speed: 0.0,
+        rotation_centre: Vec3::ZERO,
     };
 
     /// Returns the velocities of points due to rotation, `ω × (x − centre)`.
@@ -169,7 +169,7 @@ impl BodyRotation {
     pub(crate) fn rotational_velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L> {
         let level = x.simd_level();
         if self.is_turning {
-            Vec3x8::splat(level, self.spin).cross(x - Vec3x8::splat(level, self.centre))
+            Vec3x8::splat(level, self.spin).cross(x - Vec3x8::splat(level, self.rotation_centre))
         } else {
             Vec3x8::splat(level, Vec3::ZERO)
         }
@@ -188,14 +188,14 @@ impl BodyRotation {
     /// Returns the distances of points from the centre of rotation.
     #[inline(always)]
     pub(crate) fn distances_from_centre<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
-        (x - Vec3x8::splat(x.simd_level(), self.centre)).length()
+        (x - Vec3x8::splat(x.simd_level(), self.rotation_centre)).length()
     }
 
     /// Returns the distance of a point from the centre of rotation; 0 without rotation.
     #[inline(always)]
     pub(crate) fn distance_from_centre(&self, x: Vec3) -> f32 {
         if self.is_turning {
-            (x - self.centre).length()
+            (x - self.rotation_centre).length()
         } else {
             0.0
         }

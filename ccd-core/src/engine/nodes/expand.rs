@@ -85,7 +85,7 @@ fn bound_children(
     s: f64,
     closing_rate: ClosingRate,
 ) -> Expansion {
-    vectorize!(common.problem.level, level => bound_children_at_level(level, common, split, s, closing_rate))
+    vectorize!(common.problem.simd_level, level => bound_children_at_level(level, common, split, s, closing_rate))
 }
 
 #[inline(always)]
@@ -123,7 +123,7 @@ fn bound_children_at_level<L: Simd>(
 
 /// The relative motion of the two bodies at a clock, in the frame of the body whose node is split.
 struct RelativeMotion<'p, L: Simd> {
-    level: L,
+    simd_level: L,
     node_context: &'p NodeContext<'p>,
     split: &'p Split,
     split_body: &'p BodyWithPath<'p>,
@@ -148,7 +148,7 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
     ) -> Self {
         let view = common.relative_path_from(split.body);
         RelativeMotion {
-            level,
+            simd_level: level,
             node_context: common,
             split,
             split_body: split.body.body_in_problem(common.problem),
@@ -166,13 +166,13 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
         let RelativeState {
             rotation, offset, ..
         } = self.relative_state;
-        let centre =
-            self.relative_path.centre(self.level) - PackedVector::new(self.level, members.origin);
+        let centre = self.relative_path.centre(self.simd_level)
+            - PackedVector::new(self.simd_level, members.origin);
         let other_centre = centre + offset;
         let group_view = GroupMotion {
             rotation,
             rotation_f32: rotation.narrow(),
-            centre: centre.as_vec3(),
+            rotation_centre: centre.as_vec3(),
             other_rotation_centre: other_centre,
             motion: self,
             header: members,
@@ -196,7 +196,7 @@ struct GroupMotion<'m, L: Simd> {
     /// The same rotation in f32, by columns.
     rotation_f32: [f32x4<L>; 3],
     /// The centre of rotation of the split body, relative to the group's origin.
-    centre: Vec3,
+    rotation_centre: Vec3,
     other_rotation_centre: PackedVector<L>,
 }
 
@@ -208,7 +208,7 @@ impl<L: Simd> GroupMotion<'_, L> {
             ClosingRate::UnitRate => self.motion_at_unit_rate(other.centre(), other.radius()),
         };
         let lanes = self.motion.split.lane_mask & u8::MAX >> (LANES as u32 - self.header.count);
-        bound_eight_pairs(self.motion.level, group, other, &motion, lanes)
+        bound_eight_pairs(self.motion.simd_level, group, other, &motion, lanes)
     }
 
     #[inline(always)]
@@ -224,14 +224,14 @@ impl<L: Simd> GroupMotion<'_, L> {
             half_extents: node.half_extents,
             rounding_radius: node.rounding_radius,
             radius: node.radius,
-            piece: matches!(node.children, NodeChildren::Piece(_)),
+            is_piece: matches!(node.children, NodeChildren::Piece(_)),
         }
     }
 
     /// Transforms a point of the other body to the group's coordinates.
     #[inline(always)]
     fn to_group_point(&self, point: DVec3) -> PackedVector<L> {
-        let level = self.motion.level;
+        let level = self.motion.simd_level;
         let arm = PackedVector::new(level, point)
             - self.motion.relative_path.other_rotation_centre(level);
         self.rotation * arm + self.other_rotation_centre
@@ -263,15 +263,15 @@ impl<L: Simd> GroupMotion<'_, L> {
     }
 
     #[inline(always)]
-    fn split_rotation(&self) -> BodyRotation {
+    fn split_body_rotation(&self) -> BodyRotation {
         match self.motion.node_context.spin(self.motion.split.body) {
             Some((spin, rate)) => BodyRotation {
                 is_turning: true,
                 spin,
-                rate,
-                centre: self.centre,
+                angular_speed: rate,
+                rotation_centre: self.rotation_centre,
             },
-            None => BodyRotation::NONE,
+            None => BodyRotation::NO_ROTATION,
         }
     }
 
@@ -285,22 +285,25 @@ impl<L: Simd> GroupMotion<'_, L> {
             Some((_, rate)) => BodyRotation {
                 is_turning: true,
                 spin: self.motion.relative_state.spin.as_vec3(),
-                rate,
-                centre: self.other_rotation_centre.as_vec3(),
+                angular_speed: rate,
+                rotation_centre: self.other_rotation_centre.as_vec3(),
             },
-            None => BodyRotation::NONE,
+            None => BodyRotation::NO_ROTATION,
         }
     }
 
     /// Returns the relative motion in f32, with allowances for rounding against a node of this centre and radius.
     #[inline(always)]
     fn motion_in_f32(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
-        let (split, other) = (self.split_rotation(), self.other_rotation());
+        let (split, other) = (self.split_body_rotation(), self.other_rotation());
         let reach = self.header.max_distance_from_origin;
         let common = self.motion.node_context;
         let rounding = self.rounding(centre, radius);
         // Large nodes, whose gaps have a rounding above the rest of the tolerance, keep the gap of pieces.
-        let slack = greater((common.gap + rounding).next_up(), common.kept_node_gap);
+        let slack = greater(
+            (common.gap + rounding).next_up(),
+            common.guaranteed_node_gap,
+        );
         RelativeMotionF32 {
             velocity: self.motion.relative_state.velocity.as_vec3(),
             acceleration: self
@@ -308,14 +311,14 @@ impl<L: Simd> GroupMotion<'_, L> {
                 .relative_state
                 .acceleration
                 .map(|change| change.as_vec3()),
-            split_rotation: split,
+            split_body_rotation: split,
             other_rotation: other,
             remaining_time: self.motion.horizon,
             slack,
             closed_gap_threshold: common.closed_gap_threshold,
             rate_allowance: common.rate_allowance,
             larger_body: if split.is_turning && reach > common.much_larger_ratio * radius {
-                Some(LargerBody::SplitBody)
+                Some(LargerBody::BodyToSplit)
             } else if other.is_turning && radius > common.much_larger_ratio * reach {
                 Some(LargerBody::OtherBody)
             } else {
@@ -330,8 +333,8 @@ impl<L: Simd> GroupMotion<'_, L> {
         RelativeMotionF32 {
             velocity: Vec3::ZERO,
             acceleration: None,
-            split_rotation: BodyRotation::NONE,
-            other_rotation: BodyRotation::NONE,
+            split_body_rotation: BodyRotation::NO_ROTATION,
+            other_rotation: BodyRotation::NO_ROTATION,
             remaining_time: 0.0,
             slack: self.rounding(centre, radius),
             closed_gap_threshold: 0.0,

@@ -23,7 +23,7 @@ pub(crate) trait Children {
     /// from the children's centres to the target.
     fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns which children are single pieces, and cannot be split.
-    fn pieces<L: Simd>(&self, level: L) -> mask32x8<L>;
+    fn single_piece_mask<L: Simd>(&self, level: L) -> mask32x8<L>;
 }
 
 /// The node with which all children of a group are paired.
@@ -102,7 +102,7 @@ impl Children for BoxGroup {
         load(n.simd_level(), &self.half_extents[2]) + load(n.simd_level(), &self.rounding_radius)
     }
     #[inline(always)]
-    fn pieces<L: Simd>(&self, level: L) -> mask32x8<L> {
+    fn single_piece_mask<L: Simd>(&self, level: L) -> mask32x8<L> {
         mask32x8::from_bitmask(level, self.leaf_mask.into())
     }
 }
@@ -110,14 +110,14 @@ impl Children for BoxGroup {
 impl Children for TriangleGroup {
     #[inline(always)]
     fn centre<L: Simd>(&self, level: L) -> Vec3x8<L> {
-        let [a, b, c] = self.corners(level);
+        let [a, b, c] = self.triangle_corners(level);
         (a + b + c) * splat(level, 1.0 / 3.0)
     }
     #[inline(always)]
     fn likely_separating_axis<L: Simd>(&self, level: L) -> Vec3x8<L> {
         // The products are relative to the radius: the square of a small area would be lost in f32.
         let scale = splat(level, 1.0) / self.radius(level).max(LEAST_DIVISOR);
-        let [a, b, c] = self.corners(level);
+        let [a, b, c] = self.triangle_corners(level);
         ((b - a) * scale).cross((c - a) * scale).unit()
     }
     #[inline(always)]
@@ -128,24 +128,24 @@ impl Children for TriangleGroup {
     fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
         let level = to.simd_level();
         let to = self.centre(level) + to;
-        to - nearest_on_edges(self.corners(level), to)
+        to - nearest_on_edges(self.triangle_corners(level), to)
     }
     #[inline(always)]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         let level = n.simd_level();
-        let [a, b, c] = self.corners(level);
+        let [a, b, c] = self.triangle_corners(level);
         let highest = n.dot(a).max(n.dot(b)).max(n.dot(c));
         highest - n.dot(self.centre(level))
     }
     #[inline(always)]
-    fn pieces<L: Simd>(&self, level: L) -> mask32x8<L> {
+    fn single_piece_mask<L: Simd>(&self, level: L) -> mask32x8<L> {
         mask32x8::splat(level, true)
     }
 }
 
 impl TriangleGroup {
     #[inline(always)]
-    fn corners<L: Simd>(&self, level: L) -> [Vec3x8<L>; 3] {
+    fn triangle_corners<L: Simd>(&self, level: L) -> [Vec3x8<L>; 3] {
         let [a, b, c] = &self.corners;
         [
             Vec3x8::load(level, a),
@@ -164,7 +164,7 @@ pub(crate) struct OtherBox {
     pub(crate) rounding_radius: f32,
     pub(crate) radius: f32,
     /// True if the node is a single piece.
-    pub(crate) piece: bool,
+    pub(crate) is_piece: bool,
 }
 
 impl OtherNode for OtherBox {
@@ -214,7 +214,7 @@ impl OtherNode for OtherBox {
     }
     #[inline(always)]
     fn is_piece(&self) -> bool {
-        self.piece
+        self.is_piece
     }
 }
 

@@ -21,7 +21,7 @@ pub(crate) struct Heights<'a> {
     centre: DVec3,
     normal: DVec3,
     /// The unit axis about which the body turns.
-    axis: DVec3,
+    rotation_axis: DVec3,
     motion_along_axis: MotionAlongAxis,
     angular_speed: f64,
     speed_bound: f64,
@@ -83,10 +83,15 @@ impl<'a> Heights<'a> {
             frame,
             centre: path.centre,
             normal,
-            axis: path.axis,
-            motion_along_axis: MotionAlongAxis::new(velocity, path.axis, path.rate, normal)
-                .with_acceleration(path.acceleration.dot(normal)),
-            angular_speed: path.rate,
+            rotation_axis: path.axis,
+            motion_along_axis: MotionAlongAxis::new(
+                velocity,
+                path.axis,
+                path.angular_speed,
+                normal,
+            )
+            .with_acceleration(path.acceleration.dot(normal)),
+            angular_speed: path.angular_speed,
             speed_bound: length(velocity) + length(path.acceleration),
             acceleration: length(path.acceleration),
             least_height: f64::INFINITY,
@@ -107,7 +112,7 @@ impl<'a> Heights<'a> {
             least_height = lesser(least_height, track.height_at(0.0, AngleSinCos::ZERO));
             farthest = greater(farthest, arm.length_squared());
             if let Some(rest) = few.0.get_mut(k..) {
-                rest.fill((track, track.second_derivative()));
+                rest.fill((track, track.second_derivative_bound()));
             }
         }
         (self.least_height, self.point_tracks) = (least_height, few);
@@ -126,7 +131,7 @@ impl<'a> Heights<'a> {
         self.speed_bound += self.angular_speed * farthest;
         self.second_derivative = self
             .motion_along_axis
-            .second_derivative(length(self.axis.cross(arm)) + radius)
+            .second_derivative(length(self.rotation_axis.cross(arm)) + radius)
             * (1.0 + RATE_ERROR_F64);
         self.support_error_bound = TURNED_SUPPORT_ERROR * (farthest + length(middle) + radius);
     }
@@ -226,7 +231,7 @@ impl<'a> Heights<'a> {
         self.tracks_and_arms().map(move |(track, _)| PointHeight {
             height: track.height_at(tau, angle),
             rate: track.rate_at(tau, angle),
-            second_derivative: track.second_derivative(),
+            second_derivative: track.second_derivative_bound(),
         })
     }
 
@@ -240,7 +245,7 @@ impl<'a> Heights<'a> {
             };
         }
         // The normal, as seen from the turning body.
-        let seen = RotatingVector::new(-self.axis, self.normal);
+        let seen = RotatingVector::new(-self.rotation_axis, self.normal);
         let (axis, derivative_length) = (seen.vector_at(angle), seen.derivative_at(angle));
         PointHeight {
             height: self.lowest_track(axis).height_at(tau, angle) - self.support_error_bound,

@@ -36,7 +36,7 @@ impl TouchingPlane {
         // Written so that NaN is an overlap.
         (gap >= -resting).then(|| TouchingPlane {
             normals: [frame_a, frame_b].map(|frame| frame.inverse_transform_vector(normal)),
-            least_gap: gap - resting,
+            required_gap: gap - resting,
         })
     }
 }
@@ -59,7 +59,7 @@ impl Snapshot<'_> {
             let gap = self.gap_along_normal(normal, from);
             let level = TouchingPlaneState {
                 plane_body,
-                min_gap: greater(plane.least_gap, gap - resting),
+                min_gap: greater(plane.required_gap, gap - resting),
             };
             self.is_plane_between_solids(ids, normal, from)
                 .then_some(level)
@@ -89,7 +89,10 @@ impl Snapshot<'_> {
         let slack = self.gap_along_normal(normal, from) - level.min_gap;
         // Written so that NaN counts as no slack.
         if slack > RESTING_SLACK_PER_ROUNDING * self.problem.rounding {
-            self.plane_free_time(&SeparatingPlane { normal, slack })
+            self.plane_free_time(&SeparatingPlane {
+                normal,
+                gap_excess: slack,
+            })
         } else {
             Some(0.0)
         }

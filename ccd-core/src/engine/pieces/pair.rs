@@ -144,7 +144,9 @@ impl<C: Default + Clone> Pair<C> {
             self.contact_rule = ContactRule::SeparatedAfterStart;
         }
         let (kept, is_resting) = match self.contact_rule {
-            ContactRule::ApartAtStart | ContactRule::SeparatedAfterStart => (problem.gap(), false),
+            ContactRule::ApartAtStart | ContactRule::SeparatedAfterStart => {
+                (problem.kept_gap(), false)
+            }
             ContactRule::InContactAtStart { floor } => (floor, true),
             ContactRule::TouchingPlane(level) => {
                 let free = snapshot.touching_plane_free_time(&level, checked.witness_a);
@@ -160,7 +162,7 @@ impl<C: Default + Clone> Pair<C> {
             checked
         };
         let free = if is_resting {
-            snapshot.resting_free_time(&checked, kept, ids)
+            snapshot.free_time_when_touching(&checked, kept, ids)
         } else {
             free_time(snapshot, &checked, kept)
         };
@@ -194,7 +196,7 @@ impl<C: Default + Clone> Pair<C> {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> Option<ContactRule> {
-        if problem.start == StartPolicy::Report {
+        if problem.start_policy == StartPolicy::Report {
             return None;
         }
         let snapshot = Snapshot::new(problem, self.a, self.b, 0.0);

@@ -82,7 +82,7 @@ impl<'p> Snapshot<'p> {
         let before = oracle.effort().steps;
         let claim = oracle.separation(&self.pieces, cache);
         stats.point_evaluations += match oracle.effort().steps.saturating_sub(before) {
-            0 => ASSUMED_ORACLE_STEPS * self.pieces.evaluations_per_search(),
+            0 => ASSUMED_ORACLE_STEPS * self.pieces.points_per_support_search(),
             steps => ASSUMED_ORACLE_STEPS * steps,
         };
         match claim {
@@ -102,7 +102,7 @@ impl<'p> Snapshot<'p> {
     /// axis keeps them apart for a while, no other plane is tried. Most pairs are visited only once.
     pub(crate) fn first_visit_free_time(&self, checked: &CheckedClaim, kept: f64) -> Option<f64> {
         let direct = self.plane_of_claim(checked, kept);
-        match self.fixed_plane_free_time(direct.normal, direct.slack)? {
+        match self.fixed_plane_free_time(direct.normal, direct.gap_excess)? {
             free if free >= SUFFICIENT_FIRST_FREE_TIME => Some(free),
             free => self.longest_free_time(checked, kept, &direct, free),
         }
@@ -113,7 +113,7 @@ impl<'p> Snapshot<'p> {
     /// planes are fixed, or turn with one of the bodies.
     pub(crate) fn free_time(&self, checked: &CheckedClaim, kept: f64) -> Option<f64> {
         let direct = self.plane_of_claim(checked, kept);
-        let free = self.fixed_plane_free_time(direct.normal, direct.slack)?;
+        let free = self.fixed_plane_free_time(direct.normal, direct.gap_excess)?;
         self.longest_free_time(checked, kept, &direct, free)
     }
 
@@ -130,7 +130,7 @@ impl<'p> Snapshot<'p> {
         if let Some(passing) = &passing {
             free = greater(
                 free,
-                self.fixed_plane_free_time(passing.normal, passing.slack)?,
+                self.fixed_plane_free_time(passing.normal, passing.gap_excess)?,
             );
         }
         let members = self.moving_pieces();
@@ -168,7 +168,7 @@ impl<'p> Snapshot<'p> {
                     frame.rotation * (farthest - side.path.centre)
                 }),
             };
-            speed += length(motion.linear_velocity) + side.path.rate * reach;
+            speed += length(motion.linear_velocity) + side.path.angular_speed * reach;
         }
         let gap = Gap {
             gap: checked.lower - kept,
@@ -195,7 +195,7 @@ impl<'p> Snapshot<'p> {
     ///
     /// A plane keeps triangles in it apart on either side, though they may be about to pass into each other. If one
     /// of them bounds a solid, the plane keeps them apart on the outside only.
-    pub(crate) fn resting_free_time(
+    pub(crate) fn free_time_when_touching(
         &self,
         checked: &CheckedClaim,
         kept: f64,
@@ -241,7 +241,7 @@ impl<'p> Snapshot<'p> {
     /// Returns a time for which a plane certainly keeps the pieces apart; `None` if it always does. The plane is fixed,
     /// or turns with one of the bodies.
     pub(crate) fn plane_free_time(&self, plane: &SeparatingPlane) -> Option<f64> {
-        let free = self.fixed_plane_free_time(plane.normal, plane.slack)?;
+        let free = self.fixed_plane_free_time(plane.normal, plane.gap_excess)?;
         Some(greater(
             self.turning_plane_time(&self.moving_pieces(), plane, free)?,
             free,
@@ -259,7 +259,7 @@ impl<'p> Snapshot<'p> {
     fn plane_of_claim(&self, checked: &CheckedClaim, kept: f64) -> SeparatingPlane {
         SeparatingPlane {
             normal: self.frames[0].rotation * checked.axis,
-            slack: checked.lower - kept,
+            gap_excess: checked.lower - kept,
         }
     }
 
@@ -279,7 +279,10 @@ impl<'p> Snapshot<'p> {
         let normal = unit(way)?;
         let axis = self.frames[0].inverse_transform_vector(normal);
         let slack = self.gap_along(axis, checked.witness_a) - kept;
-        (slack > 0.0).then_some(SeparatingPlane { normal, slack })
+        (slack > 0.0).then_some(SeparatingPlane {
+            normal,
+            gap_excess: slack,
+        })
     }
 
     /// Like [`Snapshot::fixed_plane_free_time`], with planes that turn with one of the bodies. Returns 0 if such a plane is
@@ -295,7 +298,7 @@ impl<'p> Snapshot<'p> {
         }
         let [a, b] = members;
         let uses_up =
-            |relative_speed: f64| relative_speed * free > MIN_ROTATION_GAP_SHARE * plane.slack;
+            |relative_speed: f64| relative_speed * free > MIN_ROTATION_GAP_SHARE * plane.gap_excess;
         let mut longest = 0.0f64;
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
             if uses_up(holder.rotational_speed_bound)
@@ -303,7 +306,7 @@ impl<'p> Snapshot<'p> {
             {
                 let sweep =
                     PiecePastTurningPlane::new(holder, other, normal, self.problem.rounding);
-                let free = sweep.free_time(plane.slack, self.time_left());
+                let free = sweep.free_time(plane.gap_excess, self.time_left());
                 self.record_evaluations(sweep.evaluations.get());
                 longest = greater(longest, free?);
             }
@@ -366,7 +369,7 @@ impl<'p> Snapshot<'p> {
             };
             gap.free_time()
         };
-        let points = self.pieces.evaluations_per_search();
+        let points = self.pieces.points_per_support_search();
         self.record_evaluations(points);
         let crossing = match (a.tracks_if_few_points(), b.tracks_if_few_points()) {
             (Some(below), Some(above)) => {
@@ -422,7 +425,7 @@ pub(crate) struct SeparatingPlane {
     /// The unit normal from A to B, in the problem's coordinates.
     pub(crate) normal: DVec3,
     /// The present excess of the gap over the required gap.
-    pub(crate) slack: f64,
+    pub(crate) gap_excess: f64,
 }
 
 /// Returns the least value of `rate τ + linear_acceleration τ²/2` for τ up to a horizon.

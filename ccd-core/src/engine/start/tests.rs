@@ -197,7 +197,7 @@ fn a_deadline_ends_every_schedule_at_a_time_that_is_safe() {
     for policy in [StartPolicy::Report, StartPolicy::Leave] {
         let config = Settings {
             margin: 5.0,
-            start: policy,
+            start_policy: policy,
             deadline: Some(Duration::ZERO),
             ..Settings::DEFAULT
         };
@@ -238,8 +238,8 @@ fn false_claims_and_give_ups_never_make_wrong_bounds() {
         let found = distance(&problem, 0.0);
         let lie = Claim {
             axis: DVec3::new(0.6, -0.8, 0.0),
-            a: ConvexCombination::point(rng.random_range(0..3)),
-            b: ConvexCombination::point(rng.random_range(0..3)),
+            a: ConvexCombination::from_single_point(rng.random_range(0..3)),
+            b: ConvexCombination::from_single_point(rng.random_range(0..3)),
         };
         for oracle in [
             ConstantOracle(Ok(lie)),

@@ -65,7 +65,7 @@ fn frames_are_the_poses_of_the_motion_less_the_origin() {
         let place = |x| path.frame(0.4).transform_point(x);
         let fastest = points.map(|x| path.velocity_at(place(x), 0.4).distance(path.velocity));
         let expected = greater(fastest[0], fastest[1]);
-        let found = path.rate * path.max_distance_from_axis(&points);
+        let found = path.angular_speed * path.max_distance_from_axis(&points);
         assert!(
             (found - expected).abs() <= 1e-13 * (1.0 + turn),
             "{found} {expected}"
@@ -83,7 +83,7 @@ fn without_a_turn_the_rotation_does_not_change_by_a_bit() {
     let motion = Motion::new(start, DVec3::X, DVec3::ZERO).unwrap();
     let path = Path::new(&motion, DVec3::ZERO, 1.0);
     assert_eq!(path.frame(0.0).rotation, path.frame(0.9).rotation);
-    assert_eq!(path.rate, 0.0);
+    assert_eq!(path.angular_speed, 0.0);
 }
 
 /// Returns the position of a body's point in double-double, from the path's stored coefficients.
@@ -93,13 +93,16 @@ fn exact_position(path: &Path, s: DoubleDouble, x: DVec3) -> DoubleDouble3 {
         let row = |k: usize| DoubleDouble3::from(m.row(k)).dot(arm);
         DoubleDouble3([row(0), row(1), row(2)])
     };
-    let (sin, cos) = (DoubleDouble::from(path.rate) * s).sin_cos();
+    let (sin, cos) = (DoubleDouble::from(path.angular_speed) * s).sin_cos();
     let turned =
         rotated(&path.cosine_coefficient).scale(cos) + rotated(&path.sine_coefficient).scale(sin);
     let half = DoubleDouble::from(0.5) * s;
     let change =
         DoubleDouble3::from(path.velocity) + DoubleDouble3::from(path.acceleration).scale(half);
-    DoubleDouble3::from(path.start) + change.scale(s) + turned + rotated(&path.constant_part)
+    DoubleDouble3::from(path.start_position)
+        + change.scale(s)
+        + turned
+        + rotated(&path.constant_part)
 }
 
 /// Tests that positions on a part of a path differ from those on the whole path by at most `position_rounding`, in the
@@ -128,7 +131,7 @@ fn worst_part() {
             let x = path.centre + arm;
             let error = exact_position(&part, share_of_time, x) - exact_position(&path, s, x);
             let way = path.centre_at(0.0).length() + path.speed_bound();
-            let allowed = position_rounding(x.distance(path.centre), path.rate, way);
+            let allowed = position_rounding(x.distance(path.centre), path.angular_speed, way);
             Some(error_share(error.length().get(), allowed))
         },
     );

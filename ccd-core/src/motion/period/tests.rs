@@ -39,7 +39,7 @@ fn distances_change_by_no_more_than_said() {
         let points = paths.map(|path| path.centre + random_point_in_ball(&mut rng, reach));
         let rounding = paths
             .iter()
-            .map(|path| position_rounding(reach, path.rate, 10.0))
+            .map(|path| position_rounding(reach, path.angular_speed, 10.0))
             .sum::<f64>();
         let distance = |s: f64| {
             let [a, b] = [0, 1].map(|k| paths[k].frame(s).transform_point(points[k]));

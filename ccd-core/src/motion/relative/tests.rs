@@ -87,8 +87,8 @@ fn each_body_sees_what_the_frames_of_both_say() {
                     frame.inverse_transform_vector(own.acceleration - other.acceleration),
                     frame.inverse_transform_vector(other.spin),
                 ];
-                let scale = 1e-14 * (30.0 + own.rate + other.rate);
-                let scales = [scale, scale, scale, scale * (1.0 + other.rate)];
+                let scale = 1e-14 * (30.0 + own.angular_speed + other.angular_speed);
+                let scales = [scale, scale, scale, scale * (1.0 + other.angular_speed)];
                 for k in 0..4 {
                     let off = best[k].distance(expected[k]);
                     assert!(off < scales[k], "{k}: {off:e} {own:?} {other:?}");

@@ -102,7 +102,7 @@ fn possible_crossing_time(track: &HeightFunction, limit: f64) -> Option<f64> {
         Gap {
             gap: limit - track.height_at(tau, angle),
             rate: track.rate_at(tau, angle),
-            second_derivative: track.second_derivative(),
+            second_derivative: track.second_derivative_bound(),
         }
         .free_time()
     })
@@ -288,7 +288,8 @@ fn a_turning_point_is_never_below_its_least_height_and_reaches_it() {
         assert!(least <= seen + rounding, "{least} {seen} {track:?}");
         // Between two samples the track deviates by this much from a straight line.
         let step = horizon / 400.0;
-        let missed = track.second_derivative() * step * step + 1e-13 * (1.0 + track.angular_speed);
+        let missed =
+            track.second_derivative_bound() * step * step + 1e-13 * (1.0 + track.angular_speed);
         assert!(seen - least <= missed, "{seen} {least} {track:?}");
         if least < track.height_after(horizon) - missed && least < track.height_after(0.0) - missed
         {
@@ -359,7 +360,7 @@ fn worst_bend() {
         };
         let [p, q, omega] = [track.p, track.q, track.angular_speed].map(DoubleDouble::from);
         let exact = omega * omega * (p * p + q * q).sqrt();
-        let lost = exact - DoubleDouble::from(track.second_derivative());
+        let lost = exact - DoubleDouble::from(track.second_derivative_bound());
         (exact.get() > 0.0).then(|| error_share(lost.get(), RATE_ERROR_F64 * exact.get()))
     });
     found.assert_tight_bound(16.0);

@@ -12,7 +12,7 @@ use glam::DVec3;
 /// bound.
 fn largest_deviation_share(trajectory: &dyn Trajectory, from: f64, to: f64, reach: f64) -> f64 {
     let stretch = trajectory.stretch_between(from, to).unwrap();
-    let bound = stretch.deviation_bound.at(reach);
+    let bound = stretch.deviation_bound.at_reach(reach);
     let centre = stretch.motion.centre();
     let mut rng = rng((1e6 * from) as u64);
     let mut worst = 0.0;
@@ -56,7 +56,7 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
         assert_eq!(whole, Stretch::exact(motion));
         let from = rng.random_range(0.0..1.0);
         let later = motion.stretch_between(from, 1.0).unwrap();
-        assert!(later.deviation_bound.at(1.0) < 1e-10);
+        assert!(later.deviation_bound.at_reach(1.0) < 1e-10);
         // The compared poses are rounded, too, by about as much.
         assert!(largest_deviation_share(&motion, from, 1.0, 1.0) <= 2.0);
     }
@@ -64,27 +64,27 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
 
 #[test]
 fn no_turn_is_no_stray_at_any_reach() {
-    assert_eq!(DeviationBound::NONE.at(f64::INFINITY), 0.0);
+    assert_eq!(DeviationBound::ZERO.at_reach(f64::INFINITY), 0.0);
     let shifted = DeviationBound {
-        shift: 2.0,
-        angle: 0.0,
+        centre_deviation: 2.0,
+        max_deviation_angle: 0.0,
     };
-    assert_eq!(shifted.at(f64::INFINITY), 2.0);
+    assert_eq!(shifted.at_reach(f64::INFINITY), 2.0);
     let turned = DeviationBound {
-        angle: 0.5,
+        max_deviation_angle: 0.5,
         ..shifted
     };
-    assert_eq!(turned.at(4.0), 4.0);
+    assert_eq!(turned.at_reach(4.0), 4.0);
 }
 
 #[test]
 fn what_is_no_bound_bounds_nothing() {
     for no_bound in [f64::NAN, -1e-300, -1.0] {
         let turned = DeviationBound {
-            shift: 1.0,
-            angle: no_bound,
+            centre_deviation: 1.0,
+            max_deviation_angle: no_bound,
         };
-        assert!(turned.at(2.0).is_nan());
+        assert!(turned.at_reach(2.0).is_nan());
     }
 }
 
@@ -114,7 +114,7 @@ fn deviations_after_times_whose_square_is_zero_are_bounded() {
         angular_acceleration: acceleration,
     }
     .deviation_bound_after(time);
-    for bound in [stray.shift, stray.angle] {
+    for bound in [stray.centre_deviation, stray.max_deviation_angle] {
         assert!((0.5e-20..0.500_001e-20).contains(&bound), "{bound:e}");
     }
 }

@@ -1,7 +1,7 @@
 //! Computes the distance of two bodies at one time, descending from where the last descent ended. This is Algorithm 3
 //! of the paper `[FAST06]`.
 
-use super::hull_pair::{FeatureOwners, HullTreePair};
+use super::hull_pair::{BridgeFeatures, HullTreePair};
 use super::reach::AxisDistanceCache;
 use super::traversal_tree::{Node, TraversalPair, TraversalTree};
 use crate::answer::{Contact, Outcome};
@@ -23,7 +23,7 @@ use std::ops::ControlFlow;
 pub(super) struct Descent<'s, 'p, O: DistanceOracle> {
     pub(super) problem: &'p Problem<'p>,
     pub(super) hulls: HullTreePair<'p>,
-    pub(super) bound: VelocityBound,
+    pub(super) velocity_bound: VelocityBound,
     pub(super) traversal_tree: &'s mut TraversalTree<O::Cache>,
     pub(super) axis_distance_cache: &'s mut AxisDistanceCache,
     pub(super) proven_facts: &'s ProvenFacts,
@@ -80,9 +80,9 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             self.measure_pair(&snapshot, first + 1, &mut found)?;
         }
         if let Some(contact) = found.contact {
-            return ControlFlow::Break(self.proven_facts.contact(self.problem, contact, s));
+            return ControlFlow::Break(self.proven_facts.contact_outcome(self.problem, contact, s));
         }
-        let next = self.traversal_tree.clock();
+        let next = self.traversal_tree.least_clock();
         self.merge_far_pairs(&snapshot, &mut found, next)?;
         ControlFlow::Continue(next)
     }
@@ -120,7 +120,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         // The search for a common point takes longer than the search for a distance, and its result is of no use
         // here.
         if depth.is_some_and(|depth| depth > MIN_OVERLAP_TO_SPLIT) {
-            self.meter.stats.point_evaluations += snapshot.pieces.evaluations_per_search();
+            self.meter.stats.point_evaluations += snapshot.pieces.points_per_support_search();
             found.open_pairs.push(node.reset_unmeasured_pair(at, s));
             return;
         }
@@ -132,16 +132,21 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         let reaches = self
             .axis_distance_cache
             .max_axis_distances(problem, node.pair, &snapshot);
-        let free = snapshot.free_time_along_axis(&checked, problem.gap(), self.bound, reaches);
-        node.lower = checked.lower;
+        let free = snapshot.free_time_along_axis(
+            &checked,
+            problem.kept_gap(),
+            self.velocity_bound,
+            reaches,
+        );
+        node.distance_lower_bound = checked.lower;
         node.feature_owners = self.hulls.feature_owners(node.pair, &checked.claim);
-        node.clock = free.map_or(f64::INFINITY, |free| (s + free).next_down());
+        node.certified_until = free.map_or(f64::INFINITY, |free| (s + free).next_down());
         let contact = problem.contact_distance();
         // Contacts at the start are found at the start, or never.
-        let reach = if s > 0.0 { problem.gap() } else { contact };
-        let apart = checked.lower > reach && node.clock > s;
+        let reach = if s > 0.0 { problem.kept_gap() } else { contact };
+        let apart = checked.lower > reach && node.certified_until > s;
         // The distance bound is that of the pieces below the nodes, which are not in contact.
-        let settled = node.feature_owners == FeatureOwners::Pieces && checked.upper > contact;
+        let settled = node.feature_owners == BridgeFeatures::Pieces && checked.upper > contact;
         if settled && apart {
             found.distance_bound = lesser(found.distance_bound, checked.upper);
         }
@@ -162,7 +167,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         at: u32,
         found: &mut DescentState,
     ) -> ControlFlow<Outcome> {
-        let (problem, bound, s) = (self.problem, self.bound, snapshot.clock);
+        let (problem, bound, s) = (self.problem, self.velocity_bound, snapshot.clock);
         let node = self.traversal_tree.node(at);
         let TraversalPair::Pieces(pair) = &mut node.traversal_pair else {
             return ControlFlow::Continue(());
@@ -172,13 +177,13 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             .axis_distance_cache
             .max_axis_distances(problem, node.pair, &snapshot);
         // Pairs that rest on each other do not count for the distance of the bodies.
-        node.lower = f64::NEG_INFINITY;
+        node.distance_lower_bound = f64::NEG_INFINITY;
         let step = pair.advance_with_free_time(
             &snapshot,
             self.oracle,
             self.meter,
             |snapshot, checked, kept| {
-                node.lower = checked.lower;
+                node.distance_lower_bound = checked.lower;
                 found.distance_bound = lesser(found.distance_bound, checked.upper);
                 snapshot.free_time_along_axis(checked, kept, bound, reaches)
             },
@@ -189,9 +194,9 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             found.record_contact(contact);
             return ControlFlow::Continue(());
         }
-        node.clock = self
-            .proven_facts
-            .on_advance(problem, self.oracle, self.meter, step, s)?;
+        node.certified_until =
+            self.proven_facts
+                .on_advance(problem, self.oracle, self.meter, step, s)?;
         ControlFlow::Continue(())
     }
 
@@ -204,21 +209,22 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         next: f64,
     ) -> ControlFlow<Outcome> {
         // Pairs that were let go at the start must not be forgotten.
-        if self.problem.start == StartPolicy::Leave {
+        if self.problem.start_policy == StartPolicy::Leave {
             return ControlFlow::Continue(());
         }
         let distance = found.distance_bound;
         for (at, first) in self.traversal_tree.joinable_pairs() {
             let far = [first, first + 1].into_iter().all(|child| {
-                self.traversal_tree.node(child).lower >= JOIN_DISTANCE_RATIO * distance
+                self.traversal_tree.node(child).distance_lower_bound
+                    >= JOIN_DISTANCE_RATIO * distance
             });
             if !far || self.traversal_tree.node(at).max_join_distance <= distance {
                 continue;
             }
             self.measure_pair(snapshot, at, found)?;
             let node = self.traversal_tree.node(at);
-            if node.lower >= distance && node.clock >= next {
-                self.traversal_tree.join_children(at);
+            if node.distance_lower_bound >= distance && node.certified_until >= next {
+                self.traversal_tree.collapse_children(at);
             } else {
                 node.max_join_distance = distance / JOIN_DISTANCE_RATIO;
             }
@@ -230,9 +236,12 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
 impl<C> Node<C> {
     /// Resets an unmeasured pair so that it is split whatever its distance, and returns its entry for the heap.
     fn reset_unmeasured_pair(&mut self, at: u32, s: f64) -> OpenPair {
-        (self.lower, self.feature_owners, self.clock) =
-            (f64::NEG_INFINITY, FeatureOwners::BothBridges, s);
-        let lower = self.lower;
+        (
+            self.distance_lower_bound,
+            self.feature_owners,
+            self.certified_until,
+        ) = (f64::NEG_INFINITY, BridgeFeatures::BothBridges, s);
+        let lower = self.distance_lower_bound;
         OpenPair {
             lower,
             front_index: at,

@@ -10,13 +10,13 @@ use crate::problem::{Problem, WhichBody};
 /// The hull trees of both bodies.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HullTreePair<'a> {
-    pub(super) a: Hulls<'a>,
-    pub(super) b: Hulls<'a>,
+    pub(super) a: HullTreeOrPiece<'a>,
+    pub(super) b: HullTreeOrPiece<'a>,
 }
 
 /// Which of the nearest features of two nodes belong to bridges, the facets of a hull that are on no piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FeatureOwners {
+pub(super) enum BridgeFeatures {
     /// Both features belong to pieces.
     Pieces,
     /// The feature of this body belongs to a bridge.
@@ -38,8 +38,8 @@ impl<'a> HullTreePair<'a> {
     /// Creates the pair of trees; `None` if a body has more than one piece and no hull tree.
     pub(super) fn from_problem(problem: &Problem<'a>) -> Option<Self> {
         Some(HullTreePair {
-            a: Hulls::for_body(problem.a.body)?,
-            b: Hulls::for_body(problem.b.body)?,
+            a: HullTreeOrPiece::for_body(problem.a.body)?,
+            b: HullTreeOrPiece::for_body(problem.b.body)?,
         })
     }
 
@@ -48,26 +48,26 @@ impl<'a> HullTreePair<'a> {
     }
 
     /// Returns which nearest features belong to bridges; `claim` has the nearest points.
-    pub(super) fn feature_owners(&self, [a, b]: [u32; 2], claim: &Claim) -> FeatureOwners {
+    pub(super) fn feature_owners(&self, [a, b]: [u32; 2], claim: &Claim) -> BridgeFeatures {
         match (
             self.a.is_on_bridge(a, &claim.a),
             self.b.is_on_bridge(b, &claim.b),
         ) {
-            (false, false) => FeatureOwners::Pieces,
-            (true, false) => FeatureOwners::OneBridge(WhichBody::A),
-            (false, true) => FeatureOwners::OneBridge(WhichBody::B),
-            (true, true) => FeatureOwners::BothBridges,
+            (false, false) => BridgeFeatures::Pieces,
+            (true, false) => BridgeFeatures::OneBridge(WhichBody::A),
+            (false, true) => BridgeFeatures::OneBridge(WhichBody::B),
+            (true, true) => BridgeFeatures::BothBridges,
         }
     }
 
     /// Returns the two pairs that replace a pair when it is split, or its pieces if both nodes are leaves. One node is
     /// replaced by its children: if only one body has a bridge, that body's node, else the larger node, or the one with
     /// children if the other has none.
-    pub(super) fn children_of_pair(&self, [a, b]: [u32; 2], near: FeatureOwners) -> PairChildren {
+    pub(super) fn children_of_pair(&self, [a, b]: [u32; 2], near: BridgeFeatures) -> PairChildren {
         use HierarchyNode::{Inner, Leaf};
         let body = match near {
-            FeatureOwners::OneBridge(body) => body,
-            FeatureOwners::Pieces | FeatureOwners::BothBridges => {
+            BridgeFeatures::OneBridge(body) => body,
+            BridgeFeatures::Pieces | BridgeFeatures::BothBridges => {
                 self.body_with_larger_node([a, b])
             }
         };
@@ -91,16 +91,16 @@ impl<'a> HullTreePair<'a> {
 
 /// The hull tree of a body, or the single piece of a body without a tree.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hulls<'a> {
+pub(super) struct HullTreeOrPiece<'a> {
     body: &'a Body,
     /// The body's hull tree; without one, the body's only piece is the only node.
     tree: Option<&'a HullTree>,
 }
 
-impl<'a> Hulls<'a> {
+impl<'a> HullTreeOrPiece<'a> {
     fn for_body(body: &'a Body) -> Option<Self> {
         let tree = body.hull_tree();
-        (tree.is_some() || body.pieces().len() == 1).then_some(Hulls { body, tree })
+        (tree.is_some() || body.pieces().len() == 1).then_some(HullTreeOrPiece { body, tree })
     }
 
     fn hull(self, node: u32) -> Piece<'a> {
@@ -118,7 +118,7 @@ impl<'a> Hulls<'a> {
 
     fn is_on_bridge(self, node: u32, point: &ConvexCombination) -> bool {
         self.tree
-            .is_some_and(|tree| tree.facet_class_at(node, point) == FacetClass::Free)
+            .is_some_and(|tree| tree.facet_class_at(node, point) == FacetClass::Bridge)
     }
 
     fn half_diagonal(self, node: u32) -> f64 {

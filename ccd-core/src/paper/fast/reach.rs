@@ -5,7 +5,7 @@ use crate::problem::Problem;
 
 #[derive(Debug, Default)]
 pub(super) struct AxisDistanceCache {
-    query: u64,
+    query_number: u64,
     /// The cached distances by body and node, each with the number of its query.
     cached_distances: [Vec<(u64, f64)>; 2],
 }
@@ -13,7 +13,7 @@ pub(super) struct AxisDistanceCache {
 impl AxisDistanceCache {
     /// Invalidates all cached distances.
     pub(super) fn invalidate(&mut self) {
-        self.query += 1;
+        self.query_number += 1;
     }
 
     /// Returns for both nodes of a pair the largest distance of their points from the axis of rotation; `snapshot` has
@@ -32,8 +32,11 @@ impl AxisDistanceCache {
                 known.resize(at + 1, (0, 0.0));
             }
             let (query, reach) = &mut known[at];
-            if *query != self.query {
-                (*query, *reach) = (self.query, paths[k].max_distance_from_axis(points[k]));
+            if *query != self.query_number {
+                (*query, *reach) = (
+                    self.query_number,
+                    paths[k].max_distance_from_axis(points[k]),
+                );
             }
             *reach
         })

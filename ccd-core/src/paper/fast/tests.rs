@@ -6,7 +6,7 @@ use crate::body::hull_tree::{Hull, HullNode, HullTree, PolygonList};
 use crate::body::piece::ConvexCombination;
 use crate::body::pieces::Pieces;
 use crate::body::polytope::Polytope;
-use crate::body::{Body, Volume};
+use crate::body::{Body, Solidity};
 use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::engine::answer::EngineSchedule;
 use crate::math::order::{greater, lesser};
@@ -64,7 +64,7 @@ fn random_ball_row(rng: &mut Pcg64, count: usize) -> Body {
     }
     let pieces = Pieces::from_polytopes(&balls).unwrap();
     let tree = HullTree::new(&pieces, &nodes).unwrap();
-    let body = Body::new(&pieces, Volume::Surface).unwrap();
+    let body = Body::new(&pieces, Solidity::Surface).unwrap();
     body.with_hull_tree(tree).unwrap()
 }
 
@@ -188,7 +188,7 @@ fn answers_are_right_and_those_of_the_other_schedules() {
             // If they differ, the bodies graze each other: within the tolerance, but not within half of it.
             if kind(other) != kind(time) {
                 let near = distance(&problem, greater(0.0, lesser(other, time)));
-                let grazed = near >= problem.gap() - problem.rounding;
+                let grazed = near >= problem.kept_gap() - problem.rounding;
                 assert!(grazed, "{number}: {time} {other} {near:e}");
             }
         }
@@ -294,8 +294,8 @@ fn false_claims_and_give_ups_never_make_it_late() {
             .find(|&s| distance(&problem, s) <= problem.margin);
         let lie = Claim {
             axis: random_direction(&mut rng),
-            a: ConvexCombination::point(rng.random_range(0..3)),
-            b: ConvexCombination::point(rng.random_range(0..3)),
+            a: ConvexCombination::from_single_point(rng.random_range(0..3)),
+            b: ConvexCombination::from_single_point(rng.random_range(0..3)),
         };
         let wrong = [
             ConstantOracle(Ok(lie)),
@@ -341,12 +341,12 @@ fn answers_do_not_depend_on_earlier_queries() {
 #[test]
 fn bodies_without_trees_are_searched_by_their_boxes() {
     let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
-    let soup = Pieces::triangles(
+    let soup = Pieces::from_triangles(
         &[triangle, triangle.map(|p| p + DVec3::Z)].concat(),
         &[[0, 1, 2], [3, 4, 5]],
         &[0, 1],
     );
-    let soup = Body::new(&soup.unwrap(), Volume::Surface).unwrap();
+    let soup = Body::new(&soup.unwrap(), Solidity::Surface).unwrap();
     let ball = Body::sphere(0.25).unwrap();
     let above = Pose::at(DVec3::new(0.25, 0.25, 2.25)).unwrap();
     let falling = Motion::new(above, -2.0 * DVec3::Z, DVec3::ZERO).unwrap();
@@ -387,7 +387,7 @@ fn contacts_at_the_start_are_reported_or_let_go() {
             MovingBody::from((&ball, Motion::new(pose, speed * way, DVec3::ZERO).unwrap()));
         let still = MovingBody::from((&bodies[0], Motion::still(Pose::IDENTITY)));
         let config = Settings {
-            start,
+            start_policy: start,
             ..Settings::DEFAULT
         };
         solve(&Problem::of_moving_bodies(moving, still, 1.0, &config).unwrap()).outcome

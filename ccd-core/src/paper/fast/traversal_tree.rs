@@ -1,6 +1,6 @@
 //! The bounding volume traversal tree with its front `[FAST06 §5.1]`.
 
-use super::hull_pair::{FeatureOwners, HullTreePair, PairChildren};
+use super::hull_pair::{BridgeFeatures, HullTreePair, PairChildren};
 use crate::engine::capacity::clear_and_shrink;
 use crate::engine::pieces::pair::Pair;
 use crate::math::order::lesser;
@@ -26,12 +26,12 @@ pub(super) struct Node<C> {
     /// The index of the first of two children; `None` for a leaf.
     pub(super) children: Option<u32>,
     /// A lower bound of the pair's distance at its last visit.
-    pub(super) lower: f64,
+    pub(super) distance_lower_bound: f64,
     /// The time until which the pair was certified apart at its last visit; infinite for a pair that stays apart to
     /// the end.
-    pub(super) clock: f64,
+    pub(super) certified_until: f64,
     /// Whether pieces or bridges own the pair's nearest features.
-    pub(super) feature_owners: FeatureOwners,
+    pub(super) feature_owners: BridgeFeatures,
     /// The children are joined only while the bodies are nearer than this; each attempt that fails lowers it.
     pub(super) max_join_distance: f64,
 }
@@ -68,8 +68,8 @@ impl<C: Clone + Default> TraversalTree<C> {
     }
 
     /// Returns the least clock among the leaves.
-    pub(super) fn clock(&self) -> f64 {
-        let clocks = self.leaves().map(|(_, node)| node.clock);
+    pub(super) fn least_clock(&self) -> f64 {
+        let clocks = self.leaves().map(|(_, node)| node.certified_until);
         clocks.fold(f64::INFINITY, lesser)
     }
 
@@ -117,7 +117,7 @@ impl<C: Clone + Default> TraversalTree<C> {
     }
 
     /// Removes the two leaves below a pair, so that the pair becomes a leaf.
-    pub(super) fn join_children(&mut self, at: u32) {
+    pub(super) fn collapse_children(&mut self, at: u32) {
         if let Some(first) = self.nodes[at as usize].children.take() {
             self.vacant_slots.push(first);
             self.leaf_count -= 1;
@@ -145,7 +145,7 @@ impl<C: Clone + Default> TraversalTree<C> {
 impl<C> Node<C> {
     /// Returns whether the pair is certified apart to the end of the query.
     pub(super) fn stays_apart(&self) -> bool {
-        self.clock == f64::INFINITY
+        self.certified_until == f64::INFINITY
     }
 }
 
@@ -153,14 +153,14 @@ impl<C: Default + Clone> Node<C> {
     fn new(hulls: HullTreePair<'_>, pair: [u32; 2], cache: C) -> Self {
         Node {
             pair,
-            traversal_pair: match hulls.children_of_pair(pair, FeatureOwners::BothBridges) {
+            traversal_pair: match hulls.children_of_pair(pair, BridgeFeatures::BothBridges) {
                 PairChildren::Pieces([a, b]) => TraversalPair::Pieces(Pair::new(a, b)),
                 PairChildren::Pairs(_) => TraversalPair::Nodes(cache),
             },
             children: None,
-            lower: f64::NEG_INFINITY,
-            clock: 0.0,
-            feature_owners: FeatureOwners::BothBridges,
+            distance_lower_bound: f64::NEG_INFINITY,
+            certified_until: 0.0,
+            feature_owners: BridgeFeatures::BothBridges,
             max_join_distance: f64::INFINITY,
         }
     }

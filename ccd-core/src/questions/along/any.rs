@@ -18,7 +18,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
         search_contact(
-            &mut AnyContactSchedule(self),
+            &mut AnyContactStrategy(self),
             WantedContact::Any,
             query,
             oracle,
@@ -27,9 +27,9 @@ impl<O: DistanceOracle> DepthFirst<O> {
 }
 
 /// The schedule that answers with any contact of a stretch's motions instead of the first one.
-struct AnyContactSchedule<'s, O: DistanceOracle>(&'s mut DepthFirst<O>);
+struct AnyContactStrategy<'s, O: DistanceOracle>(&'s mut DepthFirst<O>);
 
-impl<O: DistanceOracle> EngineSchedule<O> for AnyContactSchedule<'_, O> {
+impl<O: DistanceOracle> EngineSchedule<O> for AnyContactStrategy<'_, O> {
     fn handles_accelerations(&self) -> bool {
         true
     }

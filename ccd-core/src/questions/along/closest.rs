@@ -16,7 +16,7 @@ use crate::query::span::Span;
 use crate::questions::closest::required::RequiredClearance;
 use crate::questions::closest::{FartherThanCutoff, is_contact_after_start};
 use crate::questions::depth_first::DepthFirst;
-use crate::tuning::{MAX_DEVIATION_SHARE, MIN_UNMEASURED_LENGTH_SHARE};
+use crate::tuning::{MAX_DEVIATION_SHARE, UNMEASURED_HALVING_LENGTH_SHARE};
 use found::{LeastDistanceBounds, StretchDistanceBounds};
 use std::ops::ControlFlow;
 
@@ -30,7 +30,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> Result<Answer, InputError> {
         let answer = match query.settings.clearance {
             Some(distance) => self.decide_clearance_along(query, distance, oracle)?,
-            None => self.search_least_distance_of_bodies_along(&query.for_distances(), oracle)?,
+            None => self
+                .search_least_distance_of_bodies_along(&query.for_distance_measurement(), oracle)?,
         };
         Ok(answer.widened_by_excess(query.excess()))
     }
@@ -42,7 +43,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
         let mut closest = ClosestApproachSearch {
-            schedule: self,
+            depth_first: self,
             least_distance_so_far: LeastDistanceBounds::new(query),
         };
         search_stretches(&mut closest, query, oracle)
@@ -60,7 +61,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             tolerance: query.settings.tolerance,
             budget: query.settings.budget,
             deadline: query.settings.deadline,
-            excess: query.excess(),
+            body_excess: query.excess(),
         };
         required.decide(|rung, deadline| {
             let mut query = query.contact_query(rung);
@@ -71,13 +72,13 @@ impl<O: DistanceOracle> DepthFirst<O> {
 }
 
 struct ClosestApproachSearch<'s, O: DistanceOracle> {
-    schedule: &'s mut DepthFirst<O>,
+    depth_first: &'s mut DepthFirst<O>,
     least_distance_so_far: LeastDistanceBounds,
 }
 
 impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
     fn scratch(&mut self) -> &mut Scratch {
-        &mut self.schedule.scratch
+        &mut self.depth_first.scratch
     }
 
     /// Tries to prove a lower bound of the least distance over the whole query, if the next such attempt is due.
@@ -98,7 +99,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
         };
         let mut query = stretches.query().contact_query(rung);
         query.settings.deadline = left.deadline;
-        let answer = self.schedule.any_contact_along(&query, oracle)?;
+        let answer = self.depth_first.any_contact_along(&query, oracle)?;
         stretches.add_uncharged_work(&answer.stats);
         let proven = match answer.outcome {
             Outcome::Free { proven_gap } => Some(proven_gap),
@@ -136,7 +137,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
         // the upper bound.
         let beyond = found.upper() + motions.total_deviation_bound + 2.0 * problem.tolerance;
         let answer = self
-            .schedule
+            .depth_first
             .search_least_distance_below(problem, beyond, oracle);
         stretches.add(&answer.stats);
         let seen = match answer.result {
@@ -214,7 +215,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
         };
         let problem = pose.problem(stretches.query(), &terms)?;
         let start = self
-            .schedule
+            .depth_first
             .search_least_distance_of_bodies(&problem, oracle);
         stretches.add(&start.stats);
         Ok(Answer {
@@ -238,11 +239,11 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
         let time = motions.query_time(seen.time);
         let query = stretches.query();
         // Halves mostly suffice, and cost less than measuring the distance.
-        if motions.span.length() > MIN_UNMEASURED_LENGTH_SHARE * query.duration {
+        if motions.span.length() > UNMEASURED_HALVING_LENGTH_SHARE * query.duration {
             return Ok(stretches.cut_out_around(motions.span, time, f64::INFINITY));
         }
         // If they are nearest at an end, and still approach there, they get nearer beyond it.
-        if let Some(end) = seen.end_where_distance_decreases(motions)
+        if let Some(end) = seen.stretch_end_of_falling_distance(motions)
             && let Some(beyond) = stretches.take_adjacent_stretch(end)
         {
             let is_cut = stretches.cut_out_around(motions.span, time, f64::INFINITY);
@@ -274,14 +275,14 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
         };
         let problem = pose.problem(stretches.query(), &terms)?;
         let answer = self
-            .schedule
+            .depth_first
             .search_least_distance_of_bodies(&problem, oracle);
         stretches.stats.add(&answer.stats);
         let Outcome::LeastDistance { contact, .. } = answer.outcome else {
             return Ok(None);
         };
         let found = &mut self.least_distance_so_far;
-        found.record_contact(time, pose.contact(contact));
+        found.record_contact(time, pose.widen_contact_bounds(contact));
         let rounding = 2.0 * pose.total_deviation_bound;
         let least = greater(terms.tolerance, rounding);
         Ok(Some(DeviationLimitAndRate {

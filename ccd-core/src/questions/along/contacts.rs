@@ -89,7 +89,7 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, 
     ) -> Result<ControlFlow<Answer>, InputError> {
         if self.wanted_contact == WantedContact::First {
             // The stretches before a contact may not be examined again.
-            self.record_gap(motions, problem.proven_gap());
+            self.record_proven_gap(motions, problem.proven_gap());
         }
         let answer = self.schedule.answer_first_contact(problem, oracle);
         let seen = match self.record(stretches, motions, &answer)? {
@@ -142,7 +142,7 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, 
             return Ok(self.unresolved(
                 stretches,
                 self.undecided_containment_time,
-                Limit::Undecided,
+                Limit::OverlapUndecided,
             ));
         }
         let proven_gap = greater(self.gap, self.margin);
@@ -185,7 +185,7 @@ enum StretchResult {
 
 impl<S> ContactSearch<'_, S> {
     /// Records the gap that the motions of a stretch are proven to keep, minus the deviations.
-    fn record_gap(&mut self, motions: &StretchMotions, proven_gap: f64) {
+    fn record_proven_gap(&mut self, motions: &StretchMotions, proven_gap: f64) {
         self.gap = lesser(self.gap, motions.lower_bound_for_bodies(proven_gap));
     }
 
@@ -199,7 +199,7 @@ impl<S> ContactSearch<'_, S> {
         stretches.add(&answer.stats);
         Ok(match answer.outcome {
             Outcome::Free { proven_gap } => {
-                self.record_gap(motions, proven_gap);
+                self.record_proven_gap(motions, proven_gap);
                 stretches.record_proven_stretch(motions);
                 StretchResult::Done(ControlFlow::Continue(()))
             }
@@ -252,7 +252,8 @@ impl<S> ContactSearch<'_, S> {
         motions: &StretchMotions,
         outcome: Outcome,
     ) -> Result<Answer, InputError> {
-        let at = |time: f64, contact| Outcome::contact_at(time, motions.contact(contact));
+        let at =
+            |time: f64, contact| Outcome::from_contact(time, motions.widen_contact_bounds(contact));
         let outcome = match outcome {
             Outcome::Contact { time, contact } => at(motions.query_time(time), contact),
             Outcome::Touching { contact } => at(motions.span.from, contact),
@@ -260,7 +261,7 @@ impl<S> ContactSearch<'_, S> {
             // Bodies that were apart until then overlap by no more than their deviations.
             Outcome::Overlapping { overlap, .. } => match overlap.contact() {
                 Some(contact) => at(motions.span.from, contact),
-                None => Outcome::unresolved(motions.span.from, Limit::Undecided),
+                None => Outcome::unresolved(motions.span.from, Limit::OverlapUndecided),
             },
             _ => outcome,
         };

@@ -76,7 +76,7 @@ pub(super) fn search_stretches<O: DistanceOracle, Q: Question<O>>(
     let mut stretches = WaitingStretches::new(query, spare.pop().unwrap_or_default());
     let answer = search_waiting_stretches(question, &mut stretches, oracle);
     let spare = &mut question.scratch().get_or_insert_default().spare_span_lists;
-    spare.push(stretches.into_stretch_lists());
+    spare.push(stretches.recycle_lists());
     answer
 }
 

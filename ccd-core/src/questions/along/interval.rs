@@ -53,7 +53,7 @@ impl<O: DistanceOracle> BestFirst<O> {
         let mut back = Query {
             a: (query.a.body, Movement::Trajectory(&a)).into(),
             b: (query.b.body, Movement::Trajectory(&b)).into(),
-            problem: None,
+            constant_velocity_problem: None,
             ..*query
         };
         if let (Some(deadline), Some(begun)) = (&mut back.settings.deadline, begun) {
@@ -108,8 +108,8 @@ impl Trajectory for ReversedTrajectory<'_> {
         let [before, after] = [stretch, end].map(|stretch| length(stretch.motion.velocity()));
         let moved = DeviationBound {
             // The speed is largest at an end.
-            shift: greater(before, after) * off,
-            angle: length(stretch.motion.spin()) * off,
+            centre_deviation: greater(before, after) * off,
+            max_deviation_angle: length(stretch.motion.spin()) * off,
         };
         let rounding = end.rounding_of_moved_start(last - first);
         let Stretch { motion, .. } = end;
@@ -121,10 +121,10 @@ impl Trajectory for ReversedTrajectory<'_> {
         })
     }
 
-    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+    fn velocity_jump_time(&self, from: f64, to: f64) -> Option<f64> {
         let corner = self
             .original
-            .corner(self.reversed_time(to), self.reversed_time(from))?;
+            .velocity_jump_time(self.reversed_time(to), self.reversed_time(from))?;
         Some(self.duration - corner)
     }
 }

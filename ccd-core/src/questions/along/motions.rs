@@ -31,7 +31,7 @@ impl StretchMotions {
         let stray = |k: usize| {
             let centre = stretches[k].motion.centre();
             let reach = bodies[k].body.tree().max_distance_from(centre);
-            stretches[k].deviation_bound.at(reach)
+            stretches[k].deviation_bound.at_reach(reach)
         };
         Ok(StretchMotions {
             total_deviation_bound: rounded_up_sum(stray(0), stray(1)),
@@ -169,7 +169,7 @@ impl StretchMotions {
     }
 
     /// Widens the bounds of a contact of the motions so that they hold for the bodies.
-    pub(super) fn contact(&self, contact: Contact) -> Contact {
+    pub(super) fn widen_contact_bounds(&self, contact: Contact) -> Contact {
         let Separation { lower, upper, .. } = contact.separation;
         let upper = rounded_up_sum(upper, self.total_deviation_bound);
         contact.with_bounds(self.lower_bound_for_bodies(lower), upper)

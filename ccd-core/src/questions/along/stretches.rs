@@ -28,7 +28,7 @@ pub(super) struct WaitingStretches<'j, 'a> {
     /// The stretch that was proven last, with its deviation.
     last_proven_stretch: Option<(Span, f64)>,
     /// The time at which the query started; `None` if there is no deadline. No clock is read then.
-    started_at: Option<Instant>,
+    query_started_at: Option<Instant>,
 }
 
 impl<'j, 'a> WaitingStretches<'j, 'a> {
@@ -57,12 +57,12 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
             },
             was_start_examined: false,
             last_proven_stretch: None,
-            started_at: query.settings.deadline.map(|_| Instant::now()),
+            query_started_at: query.settings.deadline.map(|_| Instant::now()),
         }
     }
 
     /// Returns the memory for a later query.
-    pub(super) fn into_stretch_lists(self) -> SpanLists {
+    pub(super) fn recycle_lists(self) -> SpanLists {
         SpanLists {
             waiting_spans: self.waiting_spans,
             work_by_part: self.spent_work_by_part.work_by_part,
@@ -103,7 +103,11 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
             let left = deadline.checked_sub(begun.elapsed());
             left.ok_or(Limit::Deadline)
         };
-        let deadline = terms.deadline.zip(self.started_at).map(left).transpose()?;
+        let deadline = terms
+            .deadline
+            .zip(self.query_started_at)
+            .map(left)
+            .transpose()?;
         Ok(QuerySettings {
             budget: budget.filter(|&left| left > 0).ok_or(Limit::Budget)?,
             deadline,
@@ -317,7 +321,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
     pub(super) fn split_span(&mut self, span: Span, length: f64) -> Option<[Span; 2]> {
         let is_within = |&at: &f64| at > span.from && at < span.end;
         let corner = |body: &MovingBody<'_>| {
-            let corner = body.movement.corner(span.from, span.end);
+            let corner = body.movement.velocity_jump_time(span.from, span.end);
             corner.filter(is_within)
         };
         let whole = span.length();

@@ -4,7 +4,7 @@
 use super::*;
 use crate::answer::Unresolved;
 use crate::body::Body;
-use crate::body::Volume;
+use crate::body::Solidity;
 use crate::body::piece::ConvexCombination;
 use crate::distance::oracle::{Claim, GiveUpReason, PiecePair};
 use crate::engine::answer::EngineSchedule;
@@ -78,7 +78,7 @@ fn there_is_any_contact_where_there_is_a_first_one() {
                 grazes += 1;
                 let near = distance(&problem, time);
                 assert!(
-                    near >= problem.gap() - problem.rounding,
+                    near >= problem.kept_gap() - problem.rounding,
                     "{number}: {near:e}"
                 );
             }
@@ -96,7 +96,7 @@ fn bodies_that_are_let_go_have_the_verdict_of_the_first_contact() {
     let (mut free, mut contacts) = (0, 0);
     for number in 0..600 {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 4], 6);
-        scene.settings.start = StartPolicy::Leave;
+        scene.settings.start_policy = StartPolicy::Leave;
         let problem = scene.problem();
         match (any_contact_outcome(&problem), first(&problem)) {
             (Outcome::Free { .. }, Outcome::Free { .. }) => free += 1,
@@ -152,8 +152,8 @@ fn false_claims_and_give_ups_never_make_bodies_free() {
             .find(|&s| distance(&problem, s) <= 0.0);
         let lie = Claim {
             axis: random_direction(&mut rng),
-            a: ConvexCombination::point(rng.random_range(0..5)),
-            b: ConvexCombination::point(rng.random_range(0..5)),
+            a: ConvexCombination::from_single_point(rng.random_range(0..5)),
+            b: ConvexCombination::from_single_point(rng.random_range(0..5)),
         };
         for oracle in [
             ConstantOracle(Ok(lie)),
@@ -200,8 +200,8 @@ impl DistanceOracle for LimitedOracle {
 /// Tests that a search that reaches a limit certifies no time if one body starts inside a solid body.
 #[test]
 fn a_body_inside_a_solid_is_never_certified_apart() {
-    let outer = Body::new(&pieces(&cube(1.0, 1)), Volume::Solid).unwrap();
-    let inner = Body::new(&pieces(&cube(0.1, 1)), Volume::Solid).unwrap();
+    let outer = Body::new(&pieces(&cube(1.0, 1)), Solidity::Solid).unwrap();
+    let inner = Body::new(&pieces(&cube(0.1, 1)), Solidity::Solid).unwrap();
     let start = Pose::at([0.05, 0.02, 0.01]).unwrap();
     let (mut early, mut inside) = (0, 0);
     for speed in [0.1, 3.0] {

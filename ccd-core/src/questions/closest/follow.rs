@@ -24,7 +24,7 @@ pub(crate) fn follow_to_minimum<O: DistanceOracle>(
         cache: O::Cache::default(),
         nearest_pair: seen,
     };
-    if let Some([falling, other]) = descent.bracket_minimum(seen.clock) {
+    if let Some([falling, other]) = descent.bracket_minimum(seen.time) {
         descent.narrow(falling, other);
     }
     descent.nearest_pair
@@ -41,7 +41,7 @@ struct Descent<'d, O: DistanceOracle> {
 /// The distance of two pieces at one clock, and its rate of change.
 #[derive(Clone, Copy)]
 struct DistanceAndRate {
-    clock: f64,
+    time: f64,
     distance: f64,
     rate: f64,
 }
@@ -58,7 +58,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
         let checked = snapshot.query_oracle(self.oracle, &mut self.cache, self.meter)?;
         if checked.upper < self.nearest_pair.contact.separation.upper {
             self.nearest_pair = NearestPair {
-                clock,
+                time: clock,
                 pieces,
                 contact: pair::contact(&snapshot, pieces, &checked),
             };
@@ -68,7 +68,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
         let velocity = self.problem.b.path.velocity_at(on_b, clock)
             - self.problem.a.path.velocity_at(on_a, clock);
         Some(DistanceAndRate {
-            clock,
+            time: clock,
             distance: checked.upper,
             rate: (frame.rotation * checked.axis).dot(velocity),
         })
@@ -82,16 +82,16 @@ impl<O: DistanceOracle> Descent<'_, O> {
         let forward = here.rate < 0.0;
         let end = if forward { 1.0 } else { 0.0 };
         // The pieces would meet at this rate. A larger rotation may pass a valley of the distance.
-        let turning = self.problem.a.path.rate + self.problem.b.path.rate;
+        let turning = self.problem.a.path.angular_speed + self.problem.b.path.angular_speed;
         let mut step = lesser(
             (here.distance / here.rate).abs(),
             MAX_FOLLOW_ROTATION / turning,
         );
         for _ in 0..MAX_FOLLOW_MEASUREMENTS {
             let next = if forward {
-                here.clock + step
+                here.time + step
             } else {
-                here.clock - step
+                here.time - step
             };
             // Written so that NaN is beyond the end.
             let next = if (0.0..=1.0).contains(&next) {
@@ -99,7 +99,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
             } else {
                 end
             };
-            if next == here.clock {
+            if next == here.time {
                 return None;
             }
             let there = self.measure(next)?;
@@ -117,7 +117,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
     /// from `falling` towards `other`.
     fn narrow(&mut self, mut falling: DistanceAndRate, mut other: DistanceAndRate) {
         for look in 0..MAX_FOLLOW_MEASUREMENTS {
-            let width = other.clock - falling.clock;
+            let width = other.time - falling.time;
             // Written so that NaN is narrow enough.
             if !((width * falling.rate).abs() > FOLLOW_TOLERANCE_SHARE * self.problem.tolerance) {
                 return;
@@ -130,7 +130,7 @@ impl<O: DistanceOracle> Descent<'_, O> {
             } else {
                 0.5
             };
-            let Some(middle) = self.measure(falling.clock + share * width) else {
+            let Some(middle) = self.measure(falling.time + share * width) else {
                 return;
             };
             let falls = (middle.rate < 0.0) == (falling.rate < 0.0);

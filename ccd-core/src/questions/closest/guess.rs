@@ -34,7 +34,7 @@ pub(crate) fn estimate_nearest_pair<O: DistanceOracle>(
         let followed = follow_to_minimum(problem, oracle, meter, found);
         let fell = found.contact.separation.upper - followed.contact.separation.upper;
         best = Some(followed);
-        clock = followed.clock;
+        clock = followed.time;
         // Written so that NaN is no fall.
         if !(fell > FOLLOW_TOLERANCE_SHARE * problem.tolerance) {
             break;
@@ -63,7 +63,7 @@ pub(crate) fn search_nearest_pieces_at<O: DistanceOracle>(
     lists.clear();
     meter.scratch_memory().nearest_search_buffers = lists;
     let best = |(pieces, contact)| NearestPair {
-        clock,
+        time: clock,
         pieces,
         contact,
     };

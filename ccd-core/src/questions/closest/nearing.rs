@@ -147,11 +147,11 @@ impl<O: DistanceOracle> SearchHandler<O> for LeastDistanceSearch {
         meter: &mut Meter,
         advance: AdvanceResult,
     ) -> ControlFlow<Self::Conclusion, f64> {
-        match advance.step {
+        match advance.pair_step {
             PairStep::FreeUntil(clock) => ControlFlow::Continue(clock),
             PairStep::Contact(contact) => {
                 let seen = NearestPair {
-                    clock: advance.clock,
+                    time: advance.clock,
                     pieces: advance.pieces,
                     contact,
                 };

@@ -16,7 +16,7 @@ pub(crate) struct RequiredClearance {
     pub(crate) deadline: Option<Duration>,
     /// The excess of the bodies over their shapes. The shapes certainly violate the distance only if the bodies are
     /// nearer than it by the excess.
-    pub(crate) excess: ExcessSum,
+    pub(crate) body_excess: ExcessSum,
 }
 
 impl RequiredClearance {
@@ -32,7 +32,7 @@ impl RequiredClearance {
     ) -> Result<Answer, E> {
         let mut decision = ClearanceDecision {
             clearance: *self,
-            any_contact,
+            answer_any_contact: any_contact,
             start_and_time_limit: self.deadline.map(|deadline| (Instant::now(), deadline)),
             stats: Stats::default(),
             query_tolerance: 0.5 * self.tolerance,
@@ -64,7 +64,7 @@ impl RequiredClearance {
     /// Returns the distance of bodies below which their shapes are certainly nearer than the required distance. It is 0
     /// or less if there is none.
     fn violation_distance(&self) -> f64 {
-        self.excess.certain_nearness_threshold(self.distance)
+        self.body_excess.certain_nearness_threshold(self.distance)
     }
 
     /// Converts the outcome of a query whose margin is the required distance to the outcome of the decision.
@@ -75,10 +75,10 @@ impl RequiredClearance {
             },
             Outcome::Contact { time, contact } => {
                 let upper = contact.separation.upper;
-                if self.excess.shape_distance_upper_bound(upper) < self.distance {
+                if self.body_excess.shape_distance_upper_bound(upper) < self.distance {
                     found
                 } else {
-                    Outcome::least_distance(0.0, time, contact)
+                    Outcome::from_least_distance(0.0, time, contact)
                 }
             }
             Outcome::Unresolved(known) => {
@@ -92,7 +92,7 @@ impl RequiredClearance {
 /// The state of a decision about a required clearance, with the work spent so far.
 struct ClearanceDecision<F> {
     clearance: RequiredClearance,
-    any_contact: F,
+    answer_any_contact: F,
     /// The time at which the decision started, and the longest time that it may take; `None` if there is no deadline.
     start_and_time_limit: Option<(Instant, Duration)>,
     stats: Stats,
@@ -105,7 +105,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
         rung.tolerance = greater(LEAST_TOLERANCE, rung.tolerance);
         let left =
             |(begun, deadline): (Instant, Duration)| deadline.saturating_sub(begun.elapsed());
-        let answer = (self.any_contact)(rung, self.start_and_time_limit.map(left))?;
+        let answer = (self.answer_any_contact)(rung, self.start_and_time_limit.map(left))?;
         self.stats.add(&answer.stats);
         Ok(answer)
     }
@@ -136,7 +136,9 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
         };
         let found = self.run_query(rung)?.outcome;
         Ok(match (found, self.clearance.clearance_outcome(found)) {
-            (Outcome::Free { proven_gap }, _) => Outcome::least_distance(proven_gap, time, contact),
+            (Outcome::Free { proven_gap }, _) => {
+                Outcome::from_least_distance(proven_gap, time, contact)
+            }
             (_, Outcome::Unresolved(known)) => Outcome::Unresolved(Unresolved::for_least_distance(
                 known.lower,
                 Some((time, contact)),

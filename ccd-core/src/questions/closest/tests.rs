@@ -200,8 +200,8 @@ fn false_claims_and_give_ups_never_raise_the_lower_bound() {
         let found = sampled_least_distance(&problem, 64);
         let lie = Claim {
             axis: random_direction(&mut rng),
-            a: ConvexCombination::point(rng.random_range(0..5)),
-            b: ConvexCombination::point(rng.random_range(0..5)),
+            a: ConvexCombination::from_single_point(rng.random_range(0..5)),
+            b: ConvexCombination::from_single_point(rng.random_range(0..5)),
         };
         for oracle in [
             ConstantOracle(Ok(lie)),
@@ -272,7 +272,7 @@ fn bodies_at_rest_have_a_distance() {
             }
             // A corner is on a face, up to rounding.
             Outcome::Unresolved(Unresolved { limit: reason, .. }) => {
-                assert_eq!(reason, Limit::Undecided);
+                assert_eq!(reason, Limit::OverlapUndecided);
                 assert!(found <= slack, "{number}: {found:e}");
             }
             outcome => panic!("{number}: {outcome:?}"),

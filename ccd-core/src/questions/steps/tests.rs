@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::body::pieces::Pieces;
-use crate::body::{Body, Volume};
+use crate::body::{Body, Solidity};
 use crate::engine::answer::EngineSchedule;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
@@ -58,7 +58,8 @@ fn steps_do_not_change_the_answer() {
             // The bodies are in contact at the start, unless they overlap.
             scene.settings.tolerance = 2.0 * distance(&scene.problem(), 0.0) + 1e-9;
         }
-        scene.settings.start = [StartPolicy::Report, StartPolicy::Leave][rng.random_range(0..2)];
+        scene.settings.start_policy =
+            [StartPolicy::Report, StartPolicy::Leave][rng.random_range(0..2)];
         if rng.random_range(0..4) == 0 {
             scene.settings.budget = rng.random_range(0..60);
         }
@@ -178,8 +179,8 @@ fn solid_cube(half: f64) -> Body {
     ];
     let ids: Vec<u32> = (0..12).collect();
     Body::new(
-        &Pieces::triangles(&corners, &faces, &ids).unwrap(),
-        Volume::Solid,
+        &Pieces::from_triangles(&corners, &faces, &ids).unwrap(),
+        Solidity::Solid,
     )
     .unwrap()
 }

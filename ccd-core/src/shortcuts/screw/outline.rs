@@ -44,7 +44,7 @@ pub(crate) struct ZetaApproximation {
 impl HelicalProjection {
     /// Projects a triangle along the screw; `None` if the node is not a single triangle.
     pub(crate) fn new(node: &PlacedNode, linear: &ZetaApproximation) -> Option<Self> {
-        let corners = node.corners()?;
+        let corners = node.triangle_corners()?;
         let [origin, along] = linear.axis_point_and_direction;
         let across = |x: DVec3| {
             let x = x - x.dot(along) * along;
@@ -71,7 +71,7 @@ impl HelicalProjection {
     }
 
     /// Returns an interval that contains all values of `n.x r + n.y ζ` over the triangle.
-    pub(crate) fn interval(&self, n: DVec2) -> [f64; 2] {
+    pub(crate) fn projection_interval(&self, n: DVec2) -> [f64; 2] {
         let (least, most) = if n.x < 0.0 {
             (&self.max_radius_corners, &self.min_radius_corners)
         } else {
@@ -92,7 +92,7 @@ impl HelicalProjection {
     }
 
     /// Returns the surfaces `a r + b ζ = const` along the triangle's edges, as unit vectors (`a`, `b`) with `b ≥ 0`.
-    pub(crate) fn surfaces(&self) -> impl Iterator<Item = DVec2> {
+    pub(crate) fn edge_normals(&self) -> impl Iterator<Item = DVec2> {
         let [a, b, c] = self.max_radius_corners;
         let edges = [b - a, c - b, a - c];
         let across = edges.map(|edge| edge.perp() / edge.length());

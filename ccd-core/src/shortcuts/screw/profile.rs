@@ -37,7 +37,7 @@ pub(crate) struct ScrewAxis {
 /// Bounds of a node in the coordinates of a screw: for each family of surfaces `f = const`, the interval of `f` over
 /// the node, and how fast `f` changes nearby.
 #[derive(Debug)]
-pub(crate) struct Profile {
+pub(crate) struct NodeScrewBounds {
     low: [f64; SURFACE_FAMILY_COUNT],
     high: [f64; SURFACE_FAMILY_COUNT],
     /// The azimuth of the node's centre.
@@ -70,10 +70,10 @@ impl ScrewAxis {
     }
 }
 
-impl Profile {
+impl NodeScrewBounds {
     /// Computes the profile of a node; `None` if the node surrounds the axis, or nearly does.
     pub(crate) fn new(node: &PlacedNode, axis: &ScrewAxis) -> Option<Self> {
-        Profile::with_azimuth_near(node, axis, None)
+        NodeScrewBounds::with_azimuth_near(node, axis, None)
     }
 
     /// Computes the union of the profiles of one or more parts; `None` if one of them surrounds the axis, or nearly
@@ -82,10 +82,10 @@ impl Profile {
         mut parts: impl Iterator<Item = PlacedNode>,
         axis: &ScrewAxis,
     ) -> Option<Self> {
-        let mut all = Profile::new(&parts.next()?, axis)?;
+        let mut all = NodeScrewBounds::new(&parts.next()?, axis)?;
         for part in parts {
             all.triangle_projection = None;
-            let part = Profile::with_azimuth_near(&part, axis, Some(all.azimuth))?;
+            let part = NodeScrewBounds::with_azimuth_near(&part, axis, Some(all.azimuth))?;
             for k in 0..SURFACE_FAMILY_COUNT {
                 all.low[k] = lesser(all.low[k], part.low[k]);
                 all.high[k] = greater(all.high[k], part.high[k]);
@@ -122,7 +122,7 @@ impl Profile {
         let ahead = axis.direction - axis.advance / distance * onward;
         let (arm, steep) = (length(way), axis.advance / (0.5 * inner));
         let aside = greater(node.extent_along(onward), node.extent_along(-onward));
-        let mut profile = Profile {
+        let mut profile = NodeScrewBounds {
             low: [0.0; SURFACE_FAMILY_COUNT],
             high: [0.0; SURFACE_FAMILY_COUNT],
             azimuth,
@@ -156,7 +156,7 @@ impl Profile {
         profile.triangle_projection = HelicalProjection::new(node, &linear);
         if let Some(outline) = &profile.triangle_projection {
             for (k, &n) in axis.surfaces.iter().enumerate() {
-                let [low, high] = outline.interval(n);
+                let [low, high] = outline.projection_interval(n);
                 profile.low[k] = greater(profile.low[k], low);
                 profile.high[k] = lesser(profile.high[k], high);
             }
@@ -168,7 +168,7 @@ impl Profile {
     /// by more than the needed gap. The interval is empty if some surface separates them for any shift.
     fn unseparated_shift_range(
         &self,
-        other: &Profile,
+        other: &NodeScrewBounds,
         axis: &ScrewAxis,
         needed_gap: f64,
     ) -> [f64; 2] {
@@ -186,8 +186,8 @@ impl Profile {
             .iter()
             .zip(&other.triangle_projection);
         let own = outlines.flat_map(|(own, others)| {
-            let surfaces = own.surfaces().chain(others.surfaces());
-            surfaces.map(move |n| (n, own.interval(n), others.interval(n)))
+            let surfaces = own.edge_normals().chain(others.edge_normals());
+            surfaces.map(move |n| (n, own.projection_interval(n), others.projection_interval(n)))
         });
         let mut met = [f64::NEG_INFINITY, f64::INFINITY];
         for (n, [low, high], [other_low, other_high]) in common.chain(own) {
@@ -208,7 +208,7 @@ impl Profile {
 
     /// Returns the least and the greatest number of whole turns after which the turning node may pass the azimuth of
     /// the still node.
-    fn turn_range(&self, still: &Profile, way: &ScrewPath) -> [f64; 2] {
+    fn turn_count_range(&self, still: &NodeScrewBounds, way: &ScrewPath) -> [f64; 2] {
         let ahead = still.azimuth - self.azimuth;
         let width = self.azimuth_half_width
             + still.azimuth_half_width
@@ -247,8 +247,8 @@ pub(crate) struct ScrewPath {
 /// no surface separates the nodes form a single interval. The number of turns therefore does not matter, only whether
 /// a whole number of pitches lies in it. Without a pitch all turns are alike.
 pub(crate) fn profiles_keep_apart(
-    turning: &Profile,
-    still: &Profile,
+    turning: &NodeScrewBounds,
+    still: &NodeScrewBounds,
     axis: &ScrewAxis,
     way: &ScrewPath,
 ) -> bool {
@@ -274,7 +274,7 @@ pub(crate) fn profiles_keep_apart(
     } else {
         [f64::NEG_INFINITY, f64::INFINITY]
     };
-    let [least, most] = intersection(turning.turn_range(still, way), met);
+    let [least, most] = intersection(turning.turn_count_range(still, way), met);
     least > most
 }
 

@@ -105,7 +105,7 @@ fn sampled_least_distance(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64, ne
     let step = 2e-4
         * lesser(
             1.0,
-            20.0 / greater(problem.a.path.rate, problem.b.path.rate),
+            20.0 / greater(problem.a.path.angular_speed, problem.b.path.angular_speed),
         );
     let dense = (-100..=100).map(|k| near + f64::from(k) * step);
     let times = even.chain(dense).filter(|t| (s..=1.0).contains(t));

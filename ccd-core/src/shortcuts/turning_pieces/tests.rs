@@ -134,7 +134,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
             "{found:e} < {least:e} at {s} of {until} from {clock}"
         );
     }
-    let turns = own.body_with_path.path.rate + other.body_with_path.path.rate;
+    let turns = own.body_with_path.path.angular_speed + other.body_with_path.path.angular_speed;
     match free {
         None => seen.unbounded_time_count += 1,
         Some(free) if free > 0.0 => {
@@ -247,9 +247,12 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
         let problem = Problem::of_moving_bodies(a, b, 1.0, &Settings::DEFAULT).unwrap();
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let normal = if swapped { -DVec3::Z } else { DVec3::Z };
-        let plane = SeparatingPlane { normal, slack: 0.3 };
+        let plane = SeparatingPlane {
+            normal,
+            gap_excess: 0.3,
+        };
         let still = snapshot
-            .fixed_plane_free_time(plane.normal, plane.slack)
+            .fixed_plane_free_time(plane.normal, plane.gap_excess)
             .unwrap();
         assert!(still < 0.01, "{still}");
         // 0.5 (1 − cos τ) uses up 0.3 after 1.16.
@@ -257,7 +260,10 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
             snapshot.turning_plane_time(&snapshot.moving_pieces(), &plane, still),
             None
         );
-        let closer = SeparatingPlane { normal, slack: 0.1 };
+        let closer = SeparatingPlane {
+            normal,
+            gap_excess: 0.1,
+        };
         let free = snapshot
             .turning_plane_time(&snapshot.moving_pieces(), &closer, still)
             .unwrap();

@@ -12,7 +12,7 @@ fn obj_text(pieces: &Pieces) -> String {
 #[test]
 fn triangles_are_groups_of_one_face() {
     let vertices = [DVec3::ZERO, DVec3::X, DVec3::Y, dvec3(0.1, 0.2, -1e-300)];
-    let pieces = Pieces::triangles(&vertices, &[[0, 1, 2], [0, 3, 1]], &[0, 1]).unwrap();
+    let pieces = Pieces::from_triangles(&vertices, &[[0, 1, 2], [0, 3, 1]], &[0, 1]).unwrap();
     let text = obj_text(&pieces);
     let groups: Vec<&str> = text.lines().filter(|line| line.starts_with('g')).collect();
     assert_eq!(groups, ["g piece_0", "g piece_1"]);

@@ -10,9 +10,9 @@ use ccd_core::glam::DVec3;
 /// Points are inserted in rounds of about half of the remaining points, chosen pseudorandomly. The expected work is O(n
 /// log n) for any points, and the memory O(n). Within a round they keep the given order, which is likely coherent
 /// `[ACR03]`.
-pub(super) fn facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
+pub(super) fn hull_facets(points: &[DVec3], simplex: [u32; 4]) -> Vec<[u32; 3]> {
     let hull = HullBuilder::hull_of_points(points, simplex);
-    let left = hull.facets.into_iter().filter(|facet| facet.is_on_hull);
+    let left = hull.facets.into_iter().filter(|facet| facet.is_hull_facet);
     left.map(|facet| facet.corners).collect()
 }
 
@@ -37,13 +37,13 @@ struct Facet {
     adjacent_facets: [u32; 3],
     /// The points that see the facet and are not inserted into the hull yet.
     conflict_points: Vec<u32>,
-    is_on_hull: bool,
+    is_hull_facet: bool,
     /// The last point that was tested against the facet, and whether this point sees the facet.
     last_test: (u32, bool),
 }
 
 struct HullBuilder<'a> {
-    points: LocalPoints<'a>,
+    input_points: LocalPoints<'a>,
     /// Empty point lists for reuse.
     spare_lists: Vec<Vec<u32>>,
     facets: Vec<Facet>,
@@ -77,29 +77,29 @@ impl<'a> HullBuilder<'a> {
 
     fn new(points: &'a [DVec3], [a, b, c, d]: [u32; 4], order: &[u32]) -> Self {
         let mut hull = HullBuilder {
-            points: LocalPoints::new(points),
+            input_points: LocalPoints::new(points),
             spare_lists: Vec::new(),
             facets: Vec::with_capacity(4 * points.len()),
             visible_facet_by_point: vec![NONE; points.len()],
             last_facet_by_point: vec![NONE; points.len()],
             horizon_facet_by_start: vec![NONE; points.len()],
         };
-        hull.push([a, b, c], [1, 2, 3], order);
-        hull.push([b, a, d], [0, 3, 2], order);
-        hull.push([c, b, d], [0, 1, 3], order);
-        hull.push([a, c, d], [0, 2, 1], order);
+        hull.add_facet([a, b, c], [1, 2, 3], order);
+        hull.add_facet([b, a, d], [0, 3, 2], order);
+        hull.add_facet([c, b, d], [0, 1, 3], order);
+        hull.add_facet([a, c, d], [0, 2, 1], order);
         hull
     }
 
     /// Adds a facet to the hull, and records which of the candidate points see it.
-    fn push(&mut self, corners: [u32; 3], adjacent: [u32; 3], candidates: &[u32]) {
+    fn add_facet(&mut self, corners: [u32; 3], adjacent: [u32; 3], candidates: &[u32]) {
         let number = self.facets.len() as u32;
-        let plane = self.points.plane(corners);
+        let plane = self.input_points.plane(corners);
         let mut seen_by = self.spare_lists.pop().unwrap_or_default();
         for &v in candidates {
             let is_new =
                 std::mem::replace(&mut self.last_facet_by_point[v as usize], number) != number;
-            if is_new && self.points.is_in_front(&plane, corners, v) {
+            if is_new && self.input_points.is_in_front(&plane, corners, v) {
                 self.visible_facet_by_point[v as usize] = number;
                 seen_by.push(v);
             }
@@ -113,7 +113,7 @@ impl<'a> HullBuilder<'a> {
             plane,
             adjacent_facets: adjacent,
             conflict_points: seen_by,
-            is_on_hull: true,
+            is_hull_facet: true,
             last_test: (NONE, false),
         });
     }
@@ -121,7 +121,7 @@ impl<'a> HullBuilder<'a> {
     fn insert_point(&mut self, v: u32) {
         let first = self.visible_facet_by_point[v as usize];
         // A point that sees a new facet also saw one of the two facets at its rim edge, so that no conflict is lost.
-        if first == NONE || !self.facets[first as usize].is_on_hull {
+        if first == NONE || !self.facets[first as usize].is_hull_facet {
             return;
         }
         let (removed, rim) = self.remove_visible_facets(first, v);
@@ -142,7 +142,7 @@ impl<'a> HullBuilder<'a> {
                 self.horizon_facet_by_start[b as usize],
                 NONE,
             ];
-            self.push([a, b, v], adjacent, &candidates);
+            self.add_facet([a, b, v], adjacent, &candidates);
             let beyond = &mut self.facets[edge.unseen_facet as usize];
             if let Some(place) = (0..3).find(|&l| beyond.corners[l] == b) {
                 beyond.adjacent_facets[place] = k;
@@ -165,7 +165,7 @@ impl<'a> HullBuilder<'a> {
     /// search starts at the facet `first`, and crosses edges to adjacent facets that the point sees too.
     fn remove_visible_facets(&mut self, first: u32, v: u32) -> (Vec<u32>, Vec<HorizonEdge>) {
         let (mut rim, mut removed) = (Vec::new(), vec![first]);
-        self.facets[first as usize].is_on_hull = false;
+        self.facets[first as usize].is_hull_facet = false;
         let mut at = 0;
         // Every facet is removed once.
         while let Some(&seen) = removed.get(at) {
@@ -173,11 +173,11 @@ impl<'a> HullBuilder<'a> {
             let corners = self.facets[seen as usize].corners;
             for k in 0..3 {
                 let beyond = self.facets[seen as usize].adjacent_facets[k];
-                if !self.facets[beyond as usize].is_on_hull {
+                if !self.facets[beyond as usize].is_hull_facet {
                     continue;
                 }
                 if self.is_visible_from(beyond, v) {
-                    self.facets[beyond as usize].is_on_hull = false;
+                    self.facets[beyond as usize].is_hull_facet = false;
                     removed.push(beyond);
                 } else {
                     let ends = [corners[k], corners[(k + 1) % 3]];
@@ -200,7 +200,7 @@ impl<'a> HullBuilder<'a> {
             ..
         } = &mut self.facets[facet as usize];
         if last_test.0 != v {
-            *last_test = (v, self.points.is_in_front(plane, *corners, v));
+            *last_test = (v, self.input_points.is_in_front(plane, *corners, v));
         }
         last_test.1
     }

@@ -18,7 +18,7 @@ pub(super) struct LocalPoints<'a> {
 #[derive(Clone, Copy)]
 pub(super) struct Plane {
     normal: DVec3,
-    height: f64,
+    plane_offset: f64,
     /// A bound on the rounding error of the computed height of any of the points above the plane.
     rounding: f64,
 }
@@ -41,7 +41,7 @@ impl<'a> LocalPoints<'a> {
         let normal = sides[0].cross(sides[1]);
         Plane {
             normal,
-            height: normal.dot(self.relative_positions[corners[0] as usize]),
+            plane_offset: normal.dot(self.relative_positions[corners[0] as usize]),
             rounding: height_rounding(sides, self.max_abs_coordinate),
         }
     }
@@ -49,7 +49,7 @@ impl<'a> LocalPoints<'a> {
     /// Returns whether a point is in front of the plane through three corners; the result is exact.
     #[inline]
     pub(super) fn is_in_front(&self, plane: &Plane, corners: [u32; 3], v: u32) -> bool {
-        let height = plane.normal.dot(self.relative_positions[v as usize]) - plane.height;
+        let height = plane.normal.dot(self.relative_positions[v as usize]) - plane.plane_offset;
         // Written so that NaN is decided exactly.
         if height.abs() > plane.rounding {
             height > 0.0

@@ -1,7 +1,7 @@
 use crate::test_meshes::{cubes, mesh, tetrahedron};
 use crate::{AffineMap, Detail, Format, MeshFault, Topology, TriangleMesh, body_from_mesh};
 use ccd_core::glam::{DAffine3, DMat3, DQuat, DVec3, dvec3};
-use ccd_core::{Pose, Volume};
+use ccd_core::{Pose, Solidity};
 
 fn scaling_map(x: f64, y: f64, z: f64) -> AffineMap {
     DAffine3::from_scale(dvec3(x, y, z)).into()
@@ -18,7 +18,9 @@ fn volume(mesh: &TriangleMesh) -> f64 {
 #[test]
 fn a_mesh_is_moved_and_scaled() {
     let pose = Pose::new([1.0, 2.0, 3.0], DQuat::from_rotation_z(0.5)).unwrap();
-    let moved = cube().transformed(AffineMap::scaled(2.0, pose)).unwrap();
+    let moved = cube()
+        .transformed(AffineMap::from_scale_and_pose(2.0, pose))
+        .unwrap();
     for (image, &point) in moved.vertices().iter().zip(cube().vertices()) {
         assert!(image.distance(pose.transform_point(2.0 * point)) < 1e-15);
     }
@@ -114,7 +116,7 @@ fn merged_solids_are_solid() {
         .unwrap();
     let both = TriangleMesh::merge([&cube(), &apart]).unwrap();
     let body = body_from_mesh(&both, Detail::Auto).unwrap().body;
-    assert_eq!(body.volume(), Volume::Solid);
+    assert_eq!(body.solidity(), Solidity::Solid);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use crate::mesh::error::MeshFault;
 use crate::tolerance::{
-    BASE_EXPANSION_LIMIT, EXPANSION_LIMIT_PER_BYTE, MAX_EXPANSION_LIMIT, VERTEX_EXPANSION_COST,
+    BASE_EXPANSION_LIMIT, EXPANSION_LIMIT_PER_BYTE, MAX_FILE_EXPANSION, VERTEX_EXPANSION_COST,
 };
 
 /// The budget of vertices and face corners that a file may expand to. A corner costs 1, a vertex more.
@@ -28,7 +28,7 @@ impl ExpansionBudget {
         let once = bytes.saturating_mul(4);
         let repeated =
             BASE_EXPANSION_LIMIT.saturating_add(bytes.saturating_mul(EXPANSION_LIMIT_PER_BYTE));
-        let limit = once.saturating_add(repeated.min(MAX_EXPANSION_LIMIT));
+        let limit = once.saturating_add(repeated.min(MAX_FILE_EXPANSION));
         ExpansionBudget {
             remaining_budget: limit,
             limit,

@@ -60,7 +60,7 @@ pub(super) fn file_references(bytes: &[u8]) -> Result<FileReferences, MeshFault>
 }
 
 /// Returns the element of a JSON array at the index `number`, or a fault that names the elements by `kind`.
-fn element<'a, T>(list: &'a [T], kind: &str, number: usize) -> Result<&'a T, MeshFault> {
+fn element_at_index<'a, T>(list: &'a [T], kind: &str, number: usize) -> Result<&'a T, MeshFault> {
     list.get(number).ok_or_else(|| {
         let count = list.len();
         MeshFault::malformed_content(format!(

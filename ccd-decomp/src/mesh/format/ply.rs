@@ -39,7 +39,9 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
                     .for_each(|face| polygons.push_face(face.corners));
             }
             STRIPS_ELEMENT_NAME => {
-                let strips = read.iter().flat_map(|strip| triangles(&strip.corners));
+                let strips = read
+                    .iter()
+                    .flat_map(|strip| strip_triangles(&strip.corners));
                 strips.for_each(|triangle| polygons.push_face(triangle));
             }
             other => {
@@ -62,7 +64,7 @@ const STRIPS_ELEMENT_NAME: &str = "tristrips";
 
 /// Returns the triangles of a strip in a common orientation: every second triangle is reversed. An index of −1 begins
 /// another strip.
-fn triangles(strip: &[i64]) -> impl Iterator<Item = [i64; 3]> {
+fn strip_triangles(strip: &[i64]) -> impl Iterator<Item = [i64; 3]> {
     let runs = strip.split(|&corner| corner == -1);
     let triangles = runs.flat_map(|run| run.array_windows().enumerate());
     triangles.map(|(k, &[a, b, c])| if k % 2 == 0 { [a, b, c] } else { [b, a, c] })

@@ -26,7 +26,7 @@ pub(super) struct EnclosedMesh<'a> {
     /// Half the diagonal of the mesh's bounding box, to which tolerances are relative.
     pub(super) half_diagonal: f64,
     /// A bound on the rounding error of distances to the mesh.
-    pub(super) slack: f64,
+    pub(super) distance_rounding: f64,
 }
 
 /// Whether a point is in the solid, with a bound on its distance to the surface.
@@ -55,7 +55,7 @@ impl<'a> EnclosedMesh<'a> {
             orientation_sign: if topology.is_inside_out() { -1.0 } else { 1.0 },
             bounds,
             half_diagonal,
-            slack: excess_rounding_bound(half_diagonal, farthest),
+            distance_rounding: excess_rounding_bound(half_diagonal, farthest),
         }
     }
 
@@ -85,11 +85,11 @@ impl<'a> EnclosedMesh<'a> {
         let (found, reached) = self.distance_bounds(point, work);
         if self.has_nonzero_winding_number(point, work) {
             Location::Inside {
-                least_depth: greater(0.0, lesser(found, reached) - self.slack),
+                least_depth: greater(0.0, lesser(found, reached) - self.distance_rounding),
             }
         } else {
             Location::Outside {
-                distance_bound: reached + self.slack,
+                distance_bound: reached + self.distance_rounding,
             }
         }
     }

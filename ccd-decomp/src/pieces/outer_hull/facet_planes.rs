@@ -35,7 +35,7 @@ impl FacetPlanes {
         let plane = |facet: &[u32]| Plane::from_facet(hull, facet);
         FacetPlanes {
             planes: hull.facets.iter().filter_map(plane).collect(),
-            slack: target.slack,
+            slack: target.distance_rounding,
         }
     }
 

@@ -126,7 +126,7 @@ impl Search<'_> {
         let (target, hull, work) = (self.enclosed_mesh, &self.hull, &WorkBudget::unbounded());
         let [lo, hi] = bounds;
         let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
-        let reach = half.length() + target.slack;
+        let reach = half.length() + target.distance_rounding;
         work.spend(1 + planes.len() / PLANE_TESTS_PER_STEP);
         let mut examined = BoxExamination::default();
         if let Some(meeting) = hull.box_position(centre, half, planes) {

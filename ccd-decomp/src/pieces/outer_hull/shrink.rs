@@ -24,8 +24,8 @@ pub(super) fn excess_bound(target: &EnclosedMesh<'_>, hull: &Hull, centre: DVec3
     for [a, b, c] in target.triangles() {
         let plane = Plane::from_corner_and_sides(a, b - a, c - a)?;
         let above = |point: &DVec3| plane.signed_distance(*point);
-        let highest = hull.points.iter().map(above).fold(0.0, greater) + target.slack;
-        let below = -plane.signed_distance(centre) - target.slack;
+        let highest = hull.points.iter().map(above).fold(0.0, greater) + target.distance_rounding;
+        let below = -plane.signed_distance(centre) - target.distance_rounding;
         // Written so that NaN is no bound.
         if !(below > 0.0) {
             return None;
@@ -33,5 +33,5 @@ pub(super) fn excess_bound(target: &EnclosedMesh<'_>, hull: &Hull, centre: DVec3
         largest_share = greater(largest_share, highest / (below + highest));
     }
     let radii = hull.points.iter().map(|p| p.distance(centre));
-    Some(largest_share * radii.fold(0.0, greater) + target.slack)
+    Some(largest_share * radii.fold(0.0, greater) + target.distance_rounding)
 }

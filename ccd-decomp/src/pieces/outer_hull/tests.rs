@@ -305,7 +305,7 @@ fn a_coordinate_too_near_to_0_is_refused() {
     let vertices = [DVec3::ZERO, DVec3::Y, DVec3::X, DVec3::splat(1e-95)];
     let fine = mesh(&vertices, &[[0, 2, 3]]);
     let error = outer_hull(&fine, &Topology::of(&fine)).err();
-    assert_eq!(error, Some(HullError { point: 3 }));
+    assert_eq!(error, Some(HullError { point_index: 3 }));
 }
 
 /// Tests that lattice points, whose rays meet edges and corners of the meshes, are located inside or outside at the

@@ -31,17 +31,17 @@ pub(super) fn excess_bound_above_surface(
         clip_to_box(&triangle, bounds, &mut part);
         lowest = part.iter().copied().map(height).fold(lowest, lesser);
     }
-    lowest -= target.slack;
+    lowest -= target.distance_rounding;
     let deepest = centre - 3.0 * half * up.signum();
     if !(height(deepest) < lowest) || !target.has_nonzero_winding_number(deepest, work) {
         return None;
     }
     let sinks = greater(
         0.0,
-        hull_height_bound(planes, up, [centre, half], target.slack) - lowest,
+        hull_height_bound(planes, up, [centre, half], target.distance_rounding) - lowest,
     );
     let stays = (sinks * up.abs()).cmple(2.0 * half).all();
-    stays.then_some(sinks + target.slack)
+    stays.then_some(sinks + target.distance_rounding)
 }
 
 /// Returns an upper bound of the height of the hull within a box, along `up` from the box's centre. The hull is behind

@@ -39,7 +39,7 @@ fn reflex_distance_by_polygon(manifold: &Manifold<'_>, flats: &ConvexPolygons) -
         let rim = &flats.get(flat).rim;
         if rim
             .iter()
-            .any(|&h| manifold.dihedral(h) == Dihedral::Reflex)
+            .any(|&h| manifold.classify_dihedral(h) == Dihedral::Reflex)
         {
             height[flat as usize] = 0;
             queue.push_back(flat);

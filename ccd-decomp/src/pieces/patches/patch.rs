@@ -56,8 +56,8 @@ fn facet_with_faces(
     let Some(plane) = Projection::new(triangle) else {
         return FacetWithFaces {
             corners: facet.to_vec(),
-            faces: Vec::new(),
-            is_wholly_covered: false,
+            mesh_faces: Vec::new(),
+            is_covered_by_mesh: false,
         };
     };
     // Coplanar with the facet, with the same normal.
@@ -78,8 +78,8 @@ fn facet_with_faces(
             .all(|&p| plane.turn(a, b, p) != Ordering::Less)
     };
     FacetWithFaces {
-        is_wholly_covered: rims.all(|edge| ours(manifold.twin(edge) / 3) || on_outline(edge)),
-        faces: members.iter().flat_map(|f| &f.faces).copied().collect(),
+        is_covered_by_mesh: rims.all(|edge| ours(manifold.twin(edge) / 3) || on_outline(edge)),
+        mesh_faces: members.iter().flat_map(|f| &f.faces).copied().collect(),
         corners: facet.to_vec(),
     }
 }

@@ -81,7 +81,7 @@ fn largest_region_size_by_walk(manifold: &Manifold<'_>) -> PlanarRegionSize {
             let level = flat
                 .rim
                 .iter()
-                .filter(|&&h| manifold.dihedral(h) == Dihedral::Flat);
+                .filter(|&&h| manifold.classify_dihedral(h) == Dihedral::Coplanar);
             stack.extend(level.map(|&h| flats.polygon_of_face(manifold.twin(h) / 3)));
         }
         largest = largest.max(plane);

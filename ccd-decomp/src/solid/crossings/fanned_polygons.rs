@@ -37,7 +37,7 @@ struct FannedPolygon {
     rim: Vec<RimVertex>,
     bounds: BoundingBox,
     /// The search trees over the polygon's triangles, created on demand.
-    group: OnceCell<FaceGroup>,
+    triangle_trees: OnceCell<FaceGroup>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -59,7 +59,7 @@ const STEPS_PER_POLYGON: usize = 4;
 impl<'a, 'm> FannedPolygons<'a, 'm> {
     /// Finds these polygons of a surface; `None` if no polygon has a large fan, so that the boxes of all triangles
     /// suffice. O(n log n), the time of [`ConvexPolygons::new`].
-    pub(super) fn collect_from(manifold: &'a Manifold<'m>) -> Option<Self> {
+    pub(super) fn from_manifold(manifold: &'a Manifold<'m>) -> Option<Self> {
         let mut count = vec![0; manifold.mesh().vertices().len()];
         for &v in manifold.faces().iter().flatten() {
             count[v as usize] += 1;
@@ -117,7 +117,7 @@ impl<'a, 'm> FannedPolygons<'a, 'm> {
         let mut polygon_satisfies = |number: u32| {
             let polygon = &self.polygons[number as usize];
             let new_group = || FaceGroup::new(self.manifold, polygon.faces.clone());
-            let FaceGroup { faces, boxes } = polygon.group.get_or_init(new_group);
+            let FaceGroup { faces, boxes } = polygon.triangle_trees.get_or_init(new_group);
             boxes.all_near_faces_satisfy(region, work, |other| {
                 let other = faces[other as usize];
                 // Pairs of faces of two polygons are found twice.
@@ -214,7 +214,7 @@ impl FannedPolygon {
             faces: flat.faces.clone(),
             plane,
             rim,
-            group: OnceCell::new(),
+            triangle_trees: OnceCell::new(),
         })
     }
 

@@ -28,12 +28,13 @@ fn edges_of_a_step_bend_both_ways() {
     let manifold = solid_surface(&mesh).unwrap();
     let count = |bend| {
         let all = 0..3 * manifold.faces().len() as u32;
-        all.filter(|&h| manifold.dihedral(h) == bend).count()
+        all.filter(|&h| manifold.classify_dihedral(h) == bend)
+            .count()
     };
     // One reflex edge of unit length; each edge has two halves.
     assert_eq!(count(Dihedral::Reflex), 2);
     // 14 squares have 14 diagonals and 28 edges between them; 6 of these are within a plane.
-    assert_eq!(count(Dihedral::Flat), 2 * (14 + 6));
+    assert_eq!(count(Dihedral::Coplanar), 2 * (14 + 6));
     assert_eq!(count(Dihedral::Convex), 2 * (28 - 1 - 6));
 }
 
@@ -41,7 +42,7 @@ fn edges_of_a_step_bend_both_ways() {
 fn a_mesh_that_is_inside_out_is_turned() {
     let mesh = mesh_with_reversed_faces(&tetrahedron());
     let manifold = solid_surface(&mesh).unwrap();
-    assert!((0..12).all(|h| manifold.dihedral(h) == Dihedral::Convex));
+    assert!((0..12).all(|h| manifold.classify_dihedral(h) == Dihedral::Convex));
 }
 
 #[test]

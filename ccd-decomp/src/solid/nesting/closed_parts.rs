@@ -77,7 +77,10 @@ fn face_pairs_of_wedges(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -
 /// degenerate or a coordinate is too near to 0 for exact predicates.
 fn in_angular_order(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Option<Vec<EdgeUse>> {
     let [v, w] = ends.map(|v| mesh.vertices()[v as usize]);
-    let apexes: Vec<DVec3> = edge.iter().map(|&one| apex(mesh, ends, one)).collect();
+    let apexes: Vec<DVec3> = edge
+        .iter()
+        .map(|&one| opposite_corner(mesh, ends, one))
+        .collect();
     let first = *apexes.first()?;
     let is_too_fine = first_inexact_point_index(&[v, w])
         .or(first_inexact_point_index(&apexes))
@@ -104,7 +107,7 @@ fn in_angular_order(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Op
 }
 
 /// Returns the corner of a face that is opposite to the edge with the given ends.
-fn apex(mesh: &TriangleMesh, ends: [u32; 2], of: EdgeUse) -> DVec3 {
+fn opposite_corner(mesh: &TriangleMesh, ends: [u32; 2], of: EdgeUse) -> DVec3 {
     let face = of.face();
     let mut at = mesh.welded_face(face).into_iter().zip(mesh.triangle(face));
     let off = at.find(|(v, _)| !ends.contains(v));

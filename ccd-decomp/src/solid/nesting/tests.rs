@@ -6,7 +6,7 @@ use crate::test_meshes::CUBE_FACES;
 use crate::tolerance::FACE_CENTRE_ROUNDING;
 use crate::worst::{WorstCaseSearch, error_share};
 use crate::{Detail, Topology, TriangleMesh, body_from_mesh};
-use ccd_core::Volume;
+use ccd_core::Solidity;
 use ccd_core::glam::{DVec3, dvec3};
 use ccd_core::order::lesser;
 
@@ -44,7 +44,7 @@ fn shells_side_by_side_are_each_turned_outward() {
         let mesh = cubes(&[(DVec3::ZERO, 0.5, one), (10.0 * DVec3::X, 1.5, other)]);
         assert_eq!(wrong_and_unclear_shell_counts(&mesh), [wrong, 0]);
         let prepared = body_from_mesh(&mesh, Detail::Triangles).unwrap();
-        assert_eq!(prepared.body.volume(), Volume::Solid);
+        assert_eq!(prepared.body.solidity(), Solidity::Solid);
     }
     let mesh = cubes(&[(DVec3::ZERO, 0.5, true), (10.0 * DVec3::X, 1.5, false)]);
     let report = body_from_mesh(&mesh, Detail::Auto).unwrap().report;
@@ -88,7 +88,7 @@ fn nested_shells_alternate() {
         assert!((volume - exact).abs() < 1e-9, "{flips:b} {volume} {exact}");
         for detail in [Detail::Patches(crate::PatchOrder::default()), Detail::Auto] {
             let prepared = body_from_mesh(&mesh, detail).unwrap();
-            assert_eq!(prepared.body.volume(), Volume::Solid);
+            assert_eq!(prepared.body.solidity(), Solidity::Solid);
         }
     }
 }
@@ -109,7 +109,7 @@ fn shells_that_cross_are_one_solid_outside_and_unclear_within_another() {
     let mesh = cubes(&both);
     assert_eq!(wrong_and_unclear_shell_counts(&mesh)[1], 1);
     let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
-    assert_eq!(prepared.body.volume(), Volume::Surface);
+    assert_eq!(prepared.body.solidity(), Solidity::Surface);
     let said = prepared.report.to_string();
     assert!(
         said.contains("may bound a solid or a cavity, by a face: 1 (0)"),
@@ -152,7 +152,7 @@ fn shells_that_share_faces_are_distinguished() {
         let volume = topology.signed_volume.abs() - of_lattice.len() as f64;
         assert!(volume.abs() < 1e-9, "{seed}");
         let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
-        assert_eq!(prepared.body.volume(), Volume::Solid);
+        assert_eq!(prepared.body.solidity(), Solidity::Solid);
         shared += usize::from(topology.edges_shared_by_parts.count() > 4);
     }
     assert!(shared > 40, "{shared}");

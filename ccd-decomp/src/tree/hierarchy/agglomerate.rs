@@ -2,7 +2,7 @@
 //! until one node is left (`[PLOC18]`).
 
 use super::nodes::{AabbF32, Node, NodeContent};
-use crate::tolerance::{ADJACENT_ONLY_PASSES, NEIGHBOUR_SEARCH_DISTANCE};
+use crate::tolerance::{ADJACENT_ONLY_PASSES, MORTON_SEARCH_RADIUS};
 use ccd_core::glam::DVec3;
 
 /// Builds a binary tree over leaf nodes by agglomeration. The root comes first, then pairs of siblings, parents before
@@ -26,7 +26,7 @@ pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
         let reach = if pass < ADJACENT_ONLY_PASSES {
             1
         } else {
-            NEIGHBOUR_SEARCH_DISTANCE
+            MORTON_SEARCH_RADIUS
         };
         let best = best_neighbour_indices(&row, reach);
         let mut next = Vec::with_capacity(row.len());
@@ -54,7 +54,7 @@ pub(super) fn agglomerate(leaves: &[Node]) -> Vec<Node> {
 fn best_neighbour_indices(row: &[Node], reach: usize) -> Vec<usize> {
     let mut best = Vec::with_capacity(row.len());
     // The costs of pairing a node with later ones.
-    let mut prices = vec![[0.0; NEIGHBOUR_SEARCH_DISTANCE]; row.len()];
+    let mut prices = vec![[0.0; MORTON_SEARCH_RADIUS]; row.len()];
     for index in 0..row.len() {
         let (mut least, mut other) = (f32::INFINITY, index);
         for before in index.saturating_sub(reach)..index {

@@ -7,7 +7,7 @@ fn triangle_pieces(count: u32, corners: impl Fn(f64) -> [DVec3; 3]) -> Pieces {
     let points: Vec<DVec3> = (0..count).flat_map(|k| corners(f64::from(k))).collect();
     let faces: Vec<[u32; 3]> = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
     let ids: Vec<u32> = (0..count).collect();
-    Pieces::triangles(&points, &faces, &ids).unwrap()
+    Pieces::from_triangles(&points, &faces, &ids).unwrap()
 }
 
 fn corner(size: f64) -> [DVec3; 3] {

@@ -130,16 +130,16 @@ proptest! {
             let real = |combination: &ConvexCombination| {
                 let point = combination.position(hull.points).unwrap();
                 let near = |&leaf: &usize| contains_within_slack(&tree.hulls().get(leaf), point, 1e-9);
-                tree.facet_class_at(at as u32, combination) == FacetClass::Free
+                tree.facet_class_at(at as u32, combination) == FacetClass::Bridge
                     || below.iter().any(near)
                     || is_near_two_pieces(&tree, &below, point)
             };
             for corners in hull.facets.iter() {
                 for k in 0..corners.len() {
                     let next = corners[(k + 1) % corners.len()];
-                    prop_assert!(real(&ConvexCombination::point(corners[k])));
-                    prop_assert!(real(&ConvexCombination::segment([corners[k], next], weights[0])));
-                    let mut inside = ConvexCombination::segment([corners[k], next], weights[1]);
+                    prop_assert!(real(&ConvexCombination::from_single_point(corners[k])));
+                    prop_assert!(real(&ConvexCombination::of_two_points([corners[k], next], weights[0])));
+                    let mut inside = ConvexCombination::of_two_points([corners[k], next], weights[1]);
                     inside.push(corners[(k + 2) % corners.len()], weights[2]);
                     prop_assert!(real(&inside));
                 }
@@ -176,7 +176,7 @@ fn blocks_side_by_side_leave_no_bridge_and_blocks_apart_do() {
     };
     assert_eq!(classes(0.0), [FacetClass::InsideSolid; 90]);
     let apart = classes(0.25);
-    let free = apart.iter().filter(|&&class| class == FacetClass::Free);
+    let free = apart.iter().filter(|&&class| class == FacetClass::Bridge);
     // Four facets of every node along the wall: the root, its halves, and no others.
     assert_eq!(free.count(), 12);
 }
@@ -237,7 +237,7 @@ fn coordinates_too_fine_are_an_error() {
     let error = build_hull_tree(&pieces).unwrap_err();
     assert_eq!(
         error,
-        HullTreeBuildError::OutOfRange(DVec3::new(1e-300, 0.0, 0.0))
+        HullTreeBuildError::CoordinateOutOfRange(DVec3::new(1e-300, 0.0, 0.0))
     );
     let alone = Pieces::from_polytopes(&[bead(1e-300)]).unwrap();
     let error = build_hull_tree(&alone).unwrap_err();

@@ -46,7 +46,7 @@ fn bounds_contain_the_distance_and_reach_what_is_required() {
         };
         let lower = random.random_range(0.0..3.0);
         let required = TerminationBounds {
-            lower,
+            sufficient_lower_bound: lower,
             upper: lower * random.random_range(0.0..1.0),
         };
         let first = DVec3::new(1.0, random.random_range(-1.0..1.0), 0.0);
@@ -55,7 +55,7 @@ fn bounds_contain_the_distance_and_reach_what_is_required() {
             found.lower <= distance + 1e-12 && found.upper >= distance - 1e-12,
             "{found:?} {distance}"
         );
-        if found.lower > required.lower {
+        if found.lower > required.sufficient_lower_bound {
             apart += 1;
         } else if found.upper <= required.upper {
             near += 1;
@@ -81,7 +81,7 @@ fn an_axis_without_a_direction_gives_bounds_that_hold() {
             b: 0,
         };
         let required = TerminationBounds {
-            lower: 0.5,
+            sufficient_lower_bound: 0.5,
             upper: 0.0,
         };
         let found = bound_distance(support, axis, required);

@@ -46,7 +46,10 @@ fn times_and_visits_are_summed() {
         ),
         (50.5, 50.5)
     );
-    assert_eq!((summary.iterations, summary.oracle_calls), (1000, 200));
+    assert_eq!(
+        (summary.visited_node_pairs, summary.oracle_calls),
+        (1000, 200)
+    );
     assert_eq!(
         summary.to_string(),
         "100 rows: 100 free; median 50.5 µs, mean 50.5 µs; 1000 iterations, 200 oracle calls"

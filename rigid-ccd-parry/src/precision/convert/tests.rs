@@ -26,7 +26,7 @@ fn times_beyond_all_numbers_are_the_largest() {
 #[test]
 fn orientations_are_made_units() {
     let rotation = super::super::library::math::Rotation::from_xyzw(0.0, 0.0, 2.0, 2.0);
-    let turned = pose(&ParryPose::from_parts(Vector::X, rotation)).expect("a pose");
+    let turned = pose_from_parry(&ParryPose::from_parts(Vector::X, rotation)).expect("a pose");
     let point = turned.transform_point(DVec3::X);
     assert!(point.distance(DVec3::new(1.0, 1.0, 0.0)) < 1e-15, "{point}");
 }

@@ -51,7 +51,7 @@ fn sampled_distances_are_on_the_proven_side() {
             for sample in 0..=8 {
                 let there =
                     at(range.from) + f64::from(sample) / 8.0 * (at(range.to) - at(range.from));
-                let there = PathPoint::of(there, path.len() - 1);
+                let there = PathPoint::from_segment_position(there, path.len() - 1);
                 let ends = [&path[there.segment], &path[there.segment + 1]];
                 let distance =
                     least_distance(&cell, &configuration_between(ends[0], ends[1], there.share));
@@ -114,8 +114,8 @@ fn joint(
         name: name.into(),
         parent: parent.into(),
         child: child.into(),
-        joint,
-        position,
+        axis_and_limits: joint,
+        position_rule: position,
     }
 }
 

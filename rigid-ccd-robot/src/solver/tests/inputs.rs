@@ -60,8 +60,8 @@ fn an_edge_beyond_all_numbers_is_never_free() {
         name: "rail".into(),
         parent: "base".into(),
         child: "cart".into(),
-        joint: rail,
-        position: PositionRule::Free,
+        axis_and_limits: rail,
+        position_rule: PositionRule::Free,
     };
     let cart = Link::named("cart").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
     let robot = Robot::new(vec![Link::named("base"), cart], vec![joint]).unwrap();
@@ -91,13 +91,17 @@ fn wrong_facets_open_no_hole() {
         }],
         ..Polytope::default()
     };
-    let cube = Body::new(&Pieces::from_polytopes(&[polytope]).unwrap(), Volume::Solid).unwrap();
+    let cube = Body::new(
+        &Pieces::from_polytopes(&[polytope]).unwrap(),
+        Solidity::Solid,
+    )
+    .unwrap();
     let placed = PlacedBody::new(Arc::new(cube), Pose::IDENTITY, 0, 1);
     assert!(placed.body.has_surface());
     let corners = [DVec3::ZERO, 3.0 * DVec3::X, 3.0 * DVec3::Y, 3.0 * DVec3::Z];
     let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
-    let pieces = Pieces::triangles(&corners, &faces, &[0, 1, 2, 3]).unwrap();
-    let large = Body::new(&pieces, Volume::Solid).unwrap();
+    let pieces = Pieces::from_triangles(&corners, &faces, &[0, 1, 2, 3]).unwrap();
+    let large = Body::new(&pieces, Solidity::Solid).unwrap();
     // It comes near the upper side, and not the lower one.
     let start = Pose::at([-0.3, -0.3, 3.0]).unwrap();
     let falls = rigid_ccd::Motion::new(start, [0.0, 0.0, -2.6], [0.0; 3]).unwrap();
@@ -116,16 +120,16 @@ fn numbers_that_cancel_are_rounded_as_what_they_are() {
         [-801932.6652534474, -1324359.675628145, -248362.62209524855],
     ];
     let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
-    let pieces = Pieces::triangles(&far.map(DVec3::from), &faces, &[0, 1, 2, 3]).unwrap();
-    let mesh = Body::new(&pieces, Volume::Solid).unwrap();
+    let pieces = Pieces::from_triangles(&far.map(DVec3::from), &faces, &[0, 1, 2, 3]).unwrap();
+    let mesh = Body::new(&pieces, Solidity::Solid).unwrap();
     let back = [-1495925.4348739847, 399033.64946742874, 248361.62209524855];
     let back = Pose::new(back, DQuat::from_xyzw(0.0, 0.0, 0.8, 0.6)).unwrap();
     let slides = |name: &str, position| Joint {
         name: name.into(),
         parent: "base".into(),
         child: format!("{name} link"),
-        joint: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
-        position,
+        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
+        position_rule: position,
     };
     let ball = || Body::sphere(0.5).unwrap();
     let follows = PositionRule::Follows {

@@ -163,7 +163,7 @@ fn a_solver_keeps_its_memory() {
             is_free
         };
         free += usize::from(ask(&mut solver));
-        engine += usize::from(solver.search.open_pairs.start() < f64::INFINITY);
+        engine += usize::from(solver.search.open_pairs.earliest_start() < f64::INFINITY);
         let allocated = allocation_counter::measure(|| {
             ask(&mut solver);
         });
@@ -255,7 +255,7 @@ fn a_configuration_is_a_path() {
         );
         assert!(matches!(
             solver.is_free::<Vec<f64>>(&[]),
-            Err(PathError::Empty)
+            Err(PathError::EmptyPath)
         ));
     }
 }
@@ -274,8 +274,8 @@ fn bounds_hold_for_the_shapes_that_bodies_enclose() {
         name: "rail".into(),
         parent: "base".into(),
         child: "rod".into(),
-        joint: slide,
-        position: PositionRule::Free,
+        axis_and_limits: slide,
+        position_rule: PositionRule::Free,
     };
     let robot = Robot::new(links, vec![joint]).unwrap();
     let pairs = LinkPairs::from_robot(&robot);

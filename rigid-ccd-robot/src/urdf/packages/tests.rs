@@ -23,22 +23,22 @@ fn files_of_a_package_are_found_around_the_urdf_and_in_given_folders() {
     let mut packages =
         SearchFolders::for_urdf(&folder.path().join("arm_description/urdf/arm.urdf"));
     let found = packages
-        .find("package://arm_description/meshes/link.stl")
+        .find_file("package://arm_description/meshes/link.stl")
         .unwrap();
     assert!(found.is_file());
-    let beside = packages.find("../meshes/link.stl").unwrap();
+    let beside = packages.find_file("../meshes/link.stl").unwrap();
     assert_eq!(
         fs::canonicalize(beside).unwrap(),
         fs::canonicalize(&found).unwrap()
     );
     let whole = format!("file://{}", found.display());
-    assert_eq!(packages.find(&whole).unwrap(), found);
+    assert_eq!(packages.find_file(&whole).unwrap(), found);
 
     let tip = "package://arm_description/meshes/tip.stl";
     let Err(UrdfError::MeshNotFound {
         uri,
         searched_paths: tried,
-    }) = packages.find(tip)
+    }) = packages.find_file(tip)
     else {
         panic!("found");
     };
@@ -52,6 +52,6 @@ fn files_of_a_package_are_found_around_the_urdf_and_in_given_folders() {
     );
     for given in ["other", "other/arm_description"] {
         packages.prepend_folder(folder.path().join(given));
-        assert!(packages.find(tip).is_ok(), "{given}");
+        assert!(packages.find_file(tip).is_ok(), "{given}");
     }
 }

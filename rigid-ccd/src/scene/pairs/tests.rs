@@ -69,8 +69,8 @@ fn a_leaf_outside_its_tree_is_detected() {
     let leaf = |x: f64| Aabb::new(Vector::new(x, 0.0, 0.0), Vector::new(x + 0.5, 1.0, 1.0));
     let leaves: Vec<Aabb> = (0..9).map(|k| leaf(f64::from(k))).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves);
-    assert!((0..9).all(|k| is_within_ancestors(&tree, k, &leaves[k])));
+    assert!((0..9).all(|k| ancestor_boxes_contain(&tree, k, &leaves[k])));
     // This simulates a tree that lost a part.
-    assert!(!is_within_ancestors(&tree, 3, &leaf(40.0)));
-    assert!(!is_within_ancestors(&tree, 12, &leaves[3]));
+    assert!(!ancestor_boxes_contain(&tree, 3, &leaf(40.0)));
+    assert!(!ancestor_boxes_contain(&tree, 12, &leaves[3]));
 }

@@ -397,7 +397,7 @@ struct UncertainMotion {
 impl Trajectory for UncertainMotion {
     fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let mut stretch = self.motion.stretch_between(from, to)?;
-        stretch.deviation_bound.shift += self.shift;
+        stretch.deviation_bound.centre_deviation += self.shift;
         Ok(stretch)
     }
 }

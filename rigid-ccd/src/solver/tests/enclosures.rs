@@ -33,7 +33,11 @@ impl CylinderScene {
         };
         let angle = 0.037 * f64::from(number);
         CylinderScene {
-            body: round.enclose(MAX_EXCESS).unwrap().body().unwrap(),
+            body: round
+                .enclosing_polytope(MAX_EXCESS)
+                .unwrap()
+                .body()
+                .unwrap(),
             poses: [
                 turned(angle, [0.0, -1.0, 0.0]),
                 turned(angle, [0.0, 1.0, 0.0]),
@@ -183,7 +187,7 @@ fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
 #[cfg(feature = "meshes")]
 #[test]
 fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {
-    use ccd_decomp::{Detail, Format, Model, TriangleMesh, body_from_mesh};
+    use ccd_decomp::{Detail, Format, StoredBodyContent, TriangleMesh, body_from_mesh};
     let mut block = String::new();
     let outline = [
         [-2, -2],
@@ -209,7 +213,7 @@ fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {
     let prepared = body_from_mesh(&mesh, Detail::OuterHull).unwrap();
     let body = &prepared.body;
     assert!(body.excess() == prepared.report.excess && body.excess() >= 1.0);
-    let again = Model::from_body(body).unwrap().body().unwrap();
+    let again = StoredBodyContent::from_body(body).unwrap().body().unwrap();
     assert_eq!(again.excess(), body.excess());
     let radius = 0.3;
     let ball = super::ball(radius);

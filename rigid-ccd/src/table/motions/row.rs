@@ -3,7 +3,7 @@
 use super::Motions;
 use crate::table::columns::BODY_COLUMN_INDEX;
 use crate::table::columns::{
-    Columns, DURATION_COLUMN_INDEX, ID_COLUMN, Quantity, Side, TIME_COLUMN,
+    Columns, DURATION_COLUMN_INDEX, ID_COLUMN_INDEX, Quantity, Side, TIME_COLUMN_INDEX,
 };
 use crate::table::error::RowProblem;
 use crate::table::records::Record;
@@ -15,7 +15,7 @@ use std::ops::Range;
 ///
 /// # Errors
 /// What is wrong with the row.
-pub fn query<R: Record>(
+pub fn parse_row<R: Record>(
     columns: &Columns,
     record: &R,
     index: usize,
@@ -49,7 +49,7 @@ pub struct BodyRow {
     /// The id of the row; its index by default.
     pub id: String,
     /// The description of the body in the column `body_row`.
-    pub text: String,
+    pub body_text: String,
     /// The motion of the body, from time 0.
     pub motion: Motion,
 }
@@ -69,13 +69,13 @@ pub fn body_row<R: Record>(
         .and_then(|cell| record.text(cell));
     Ok(BodyRow {
         id: id(columns, record).unwrap_or_else(|| index.to_string()),
-        text: text.unwrap_or_default(),
+        body_text: text.unwrap_or_default(),
         motion,
     })
 }
 
 /// The time and the poses of both bodies in one row of a table of paths.
-pub(in crate::table) struct PosePair {
+pub(in crate::table) struct TimedBodyPoses {
     pub(in crate::table) time: f64,
     pub(in crate::table) a: BodyPose,
     pub(in crate::table) b: BodyPose,
@@ -94,15 +94,15 @@ pub(in crate::table) struct BodyPose {
 pub(in crate::table) fn poses<R: Record>(
     columns: &Columns,
     record: &R,
-) -> Result<PosePair, RowProblem> {
+) -> Result<TimedBodyPoses, RowProblem> {
     let row = Row::new(columns, record)?;
-    if columns.index(ID_COLUMN).is_some() && id(columns, record).is_none() {
+    if columns.index(ID_COLUMN_INDEX).is_some() && id(columns, record).is_none() {
         return Err(RowProblem::NoId);
     }
-    Ok(PosePair {
+    Ok(TimedBodyPoses {
         time: row
-            .number(TIME_COLUMN)?
-            .ok_or_else(|| row.empty_cell_problem(TIME_COLUMN))?,
+            .number(TIME_COLUMN_INDEX)?
+            .ok_or_else(|| row.empty_cell_problem(TIME_COLUMN_INDEX))?,
         a: row.body_pose(Side::A)?,
         b: row.body_pose(Side::B)?,
     })
@@ -110,7 +110,7 @@ pub(in crate::table) fn poses<R: Record>(
 
 /// Returns the id of a row, even if other cells are unreadable; `None` without one.
 pub(in crate::table) fn id<R: Record>(columns: &Columns, record: &R) -> Option<String> {
-    record.text(columns.index(ID_COLUMN)?)
+    record.text(columns.index(ID_COLUMN_INDEX)?)
 }
 
 struct Row<'a, R> {
@@ -179,8 +179,8 @@ impl<'a, R: Record> Row<'a, R> {
             self.column_where(side, velocities, is_given),
         ) {
             (Some(end), Some(velocity)) => Err(RowProblem::EndPoseAndVelocity {
-                end: self.columns.name(end).to_owned(),
-                velocity: self.columns.name(velocity).to_owned(),
+                end_pose_column: self.columns.name(end).to_owned(),
+                velocity_column: self.columns.name(velocity).to_owned(),
             }),
             (None, Some(_)) => Ok(MotionKind::Velocities),
             // If the table has the columns, reading reports the empty cell.

@@ -183,8 +183,8 @@ fn end_pose_and_velocity_exclude_each_other() {
     for ((columns, cells, end), velocity) in ends.into_iter().zip(["b_vx", "b_wx", "b_wz"]) {
         let problem = only_problem(&format!("{columns},{velocity}\n{cells},1\n"));
         let expected = RowProblem::EndPoseAndVelocity {
-            end: end.to_owned(),
-            velocity: velocity.to_owned(),
+            end_pose_column: end.to_owned(),
+            velocity_column: velocity.to_owned(),
         };
         assert_eq!(problem, expected);
     }

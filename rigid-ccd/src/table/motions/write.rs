@@ -1,7 +1,7 @@
 //! Writes the table of motions as CSV.
 
 use super::Motions;
-use crate::table::columns::{DURATION_COLUMN_INDEX, ID_COLUMN, Quantity, Side, TableKind};
+use crate::table::columns::{DURATION_COLUMN_INDEX, ID_COLUMN_INDEX, Quantity, Side, TableKind};
 use ccd_core::Motion;
 use std::io;
 
@@ -29,7 +29,8 @@ pub fn write(output: impl io::Write, queries: &[Motions]) -> Result<(), csv::Err
                 .map(orientation)
                 .into_iter()
                 .find(|range| range.contains(&slot));
-            slot == ID_COLUMN || whole.map_or_else(|| differs(slot), |mut range| range.any(differs))
+            slot == ID_COLUMN_INDEX
+                || whole.map_or_else(|| differs(slot), |mut range| range.any(differs))
         })
         .collect();
     let mut writer = csv::Writer::from_writer(output);
@@ -44,7 +45,7 @@ pub fn write(output: impl io::Write, queries: &[Motions]) -> Result<(), csv::Err
 /// Returns the text of a query's cell in every known column.
 fn cells(query: &Motions) -> Vec<String> {
     let mut cells = vec![String::new(); TableKind::Motions.names().len()];
-    cells[ID_COLUMN].clone_from(&query.id);
+    cells[ID_COLUMN_INDEX].clone_from(&query.id);
     cells[DURATION_COLUMN_INDEX] = query.duration.to_string();
     for (side, motion) in [(Side::A, &query.a), (Side::B, &query.b)] {
         let rotation = motion.start().rotation();

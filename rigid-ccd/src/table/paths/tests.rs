@@ -9,7 +9,7 @@ fn rows(text: &str, grouping: Grouping) -> Vec<CourseRow> {
         .collect()
 }
 
-fn paths(text: &str) -> Vec<Path> {
+fn paths(text: &str) -> Vec<PathPair> {
     let rows = rows(text, Grouping::ById).into_iter();
     rows.map(|row| match row {
         Ok((_, Movements::Path(path))) => path,
@@ -27,8 +27,8 @@ fn only_problem(text: &str) -> (usize, String) {
     (error.position.row, error.problem.to_string())
 }
 
-fn positions_of_a(path: &Path, times: &[f64]) -> Vec<[f64; 3]> {
-    let place = |&time| path.poses(time).unwrap()[0].translation().to_array();
+fn positions_of_a(path: &PathPair, times: &[f64]) -> Vec<[f64; 3]> {
+    let place = |&time| path.poses_at(time).unwrap()[0].translation().to_array();
     times.iter().map(place).collect()
 }
 
@@ -47,7 +47,7 @@ fn rows_of_an_id_are_one_path() {
     assert_eq!((one.id.as_str(), one.duration), ("one", 4.0));
     let expected = [[0.0; 3], [2.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
     assert_eq!(positions_of_a(one, &[0.0, 1.0, 2.0, 3.0]), expected);
-    assert_eq!(one.poses(3.0).unwrap()[1].translation(), 7.0 * DVec3::Y);
+    assert_eq!(one.poses_at(3.0).unwrap()[1].translation(), 7.0 * DVec3::Y);
     assert_eq!((two.id.as_str(), two.duration), ("two", 0.0));
 }
 
@@ -65,7 +65,7 @@ fn each_row_may_be_a_pose_at_rest() {
         .into_iter()
         .map(|row| match row {
             Ok((position, Movements::Path(path))) => {
-                let x = path.poses(0.0).unwrap()[0].translation().x;
+                let x = path.poses_at(0.0).unwrap()[0].translation().x;
                 (
                     position.row,
                     path.id.clone(),
@@ -178,7 +178,7 @@ fn angular_velocities_give_whole_turns_to_the_next_row() {
     let table = |spin: f64| {
         format!("t,a_qw,a_qx,a_qy,a_qz,a_wz,b_px\n0,1,0,0,0,{spin},5\n2,{w},0,0,{z},9,5\n")
     };
-    let x_axis = |path: &Path, time: f64| path.poses(time).unwrap()[0].rotation() * DVec3::X;
+    let x_axis = |path: &PathPair, time: f64| path.poses_at(time).unwrap()[0].rotation() * DVec3::X;
     for (spin, turns) in [
         (spin, 3.25),
         (spin + 0.2, 3.25),

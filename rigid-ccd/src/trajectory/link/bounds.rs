@@ -14,7 +14,7 @@ pub(super) struct LinkBounds {
     /// The bounds on the derivatives of the accelerations.
     pub(super) jerk_bounds: AccelerationBounds,
     /// The common axis of all rotations so far, in the link's frame; `None` if their axes differ.
-    axis: Option<DVec3>,
+    common_rotation_axis: Option<DVec3>,
     /// The number of joints so far; a reversed joint counts twice, because its pose is rounded once more.
     pub(super) joint_count: f64,
     /// The sum of the lengths of the arms between joints; that of a joint which is passed backward counts twice.
@@ -31,18 +31,18 @@ struct SpeedBounds {
 }
 
 /// Bounds on a joint's position and rate over an interval of time, in radians or as a length.
-pub(super) struct PositionBounds {
+pub(super) struct JointPositionBounds {
     /// The largest absolute value of the position in the interval.
     pub(super) max_abs_position: f64,
     /// The largest absolute value of the position in the interval and at time 0. All positions are computed from the
     /// one at time 0.
     pub(super) max_abs_with_start: f64,
-    pub(super) first: f64,
+    pub(super) first_position: f64,
     /// The absolute value of the joint's rate.
-    pub(super) rate: f64,
+    pub(super) joint_speed: f64,
 }
 
-impl PositionBounds {
+impl JointPositionBounds {
     /// Returns the largest distance by which a prismatic joint slides; 0 for other joints.
     fn max_slide_distance(&self, joint: &Joint) -> f64 {
         match joint.kind() {
@@ -54,7 +54,7 @@ impl PositionBounds {
 
 impl LinkBounds {
     /// Updates the bounds from the link before a joint to the link after it.
-    pub(super) fn move_past_joint(&mut self, joint: &Joint, positions: &PositionBounds) {
+    pub(super) fn move_past_joint(&mut self, joint: &Joint, positions: &JointPositionBounds) {
         let arm = length(joint.origin().translation());
         // The frame of the joint's axis as seen from the link before the joint.
         let frame = joint.origin().rotation();
@@ -63,7 +63,9 @@ impl LinkBounds {
                 self.joint_count += 1.0;
                 self.arm_length_sum += arm + positions.max_slide_distance(joint);
                 self.add_arm_motion(arm);
-                self.axis = self.axis.map(|axis| frame.conjugate() * axis);
+                self.common_rotation_axis = self
+                    .common_rotation_axis
+                    .map(|axis| frame.conjugate() * axis);
                 self.add_joint_motion(joint, positions);
             }
             Direction::Backward => {
@@ -72,15 +74,17 @@ impl LinkBounds {
                 self.arm_length_sum += 2.0 * (arm + positions.max_slide_distance(joint));
                 self.add_joint_motion(joint, positions);
                 self.add_arm_motion(arm);
-                self.axis = self.axis.map(|axis| frame * axis);
+                self.common_rotation_axis = self.common_rotation_axis.map(|axis| frame * axis);
             }
         }
     }
 
     /// Adds the bounds due to a joint's motion about or along its axis. The common axis is in the frame of the joint's
     /// axis.
-    fn add_joint_motion(&mut self, joint: &Joint, positions: &PositionBounds) {
-        let PositionBounds { rate, .. } = *positions;
+    fn add_joint_motion(&mut self, joint: &Joint, positions: &JointPositionBounds) {
+        let JointPositionBounds {
+            joint_speed: rate, ..
+        } = *positions;
         match joint.kind() {
             JointKind::Fixed => {}
             JointKind::Prismatic(_) => {
@@ -99,11 +103,12 @@ impl LinkBounds {
                     self.add_rotation(axis, rate);
                 } else {
                     let position = match joint.direction() {
-                        Direction::Forward => positions.first,
-                        Direction::Backward => -positions.first,
+                        Direction::Forward => positions.first_position,
+                        Direction::Backward => -positions.first_position,
                     };
                     let held = DQuat::from_axis_angle(axis, -position);
-                    self.axis = self.axis.map(|before| held * before);
+                    self.common_rotation_axis =
+                        self.common_rotation_axis.map(|before| held * before);
                 }
             }
         }
@@ -125,7 +130,10 @@ impl LinkBounds {
 
     /// Adds the bounds due to a rotation at a nonzero rate about an axis, which is given in the joint's frame.
     fn add_rotation(&mut self, axis: DVec3, rate: f64) {
-        let (across, common) = match (self.speed_bounds.max_angular_speed > 0.0, self.axis) {
+        let (across, common) = match (
+            self.speed_bounds.max_angular_speed > 0.0,
+            self.common_rotation_axis,
+        ) {
             (false, _) => (0.0, Some(axis)),
             (true, Some(common)) => {
                 let across = length(common.cross(axis));
@@ -141,7 +149,7 @@ impl LinkBounds {
                 + self.speed_bounds.max_angular_speed * swept);
         self.acceleration_bounds.angular_acceleration += rate * swept;
         self.speed_bounds.max_angular_speed += rate;
-        self.axis = common;
+        self.common_rotation_axis = common;
     }
 }
 

@@ -15,7 +15,8 @@ fn check_deviation_between(
         let (a, b) = if a < b { (a, b) } else { (b, a) };
         let stretch = trajectory.stretch_between(a, b).unwrap();
         assert!(
-            stretch.deviation_bound.shift >= 0.0 && stretch.deviation_bound.angle >= 0.0,
+            stretch.deviation_bound.centre_deviation >= 0.0
+                && stretch.deviation_bound.max_deviation_angle >= 0.0,
             "{name}"
         );
         let time = rng.random_range(a..=b);
@@ -29,8 +30,14 @@ fn check_deviation_between(
             .distance(there.transform_point(centre));
         let turned = near.rotation().conjugate() * there.rotation();
         let turn = 2.0 * turned.xyz().length().atan2(turned.w.abs());
-        assert!(shift <= allowed.shift, "{name}: {shift:e} {allowed:?}");
-        assert!(turn <= allowed.angle, "{name}: {turn:e} {allowed:?}");
+        assert!(
+            shift <= allowed.centre_deviation,
+            "{name}: {shift:e} {allowed:?}"
+        );
+        assert!(
+            turn <= allowed.max_deviation_angle,
+            "{name}: {turn:e} {allowed:?}"
+        );
     }
 }
 
@@ -87,7 +94,10 @@ fn trajectories_rest_after_their_end() {
             poses.stretch_between(1.0, 1.0 + time),
         ];
         for stretch in strays {
-            let DeviationBound { shift, angle: turn } = stretch.unwrap().deviation_bound;
+            let DeviationBound {
+                centre_deviation: shift,
+                max_deviation_angle: turn,
+            } = stretch.unwrap().deviation_bound;
             assert!(shift < 1e-10 && turn < 1e-10, "{time}: {shift:e} {turn:e}");
         }
     }
@@ -126,7 +136,7 @@ fn differences_that_overflow_are_unbounded() {
         let curve = Curve::bezier(&points, duration).unwrap();
         let spline = Spline::new(curve, OrientationCurve::piecewise_slerp(&keys).unwrap());
         if let Ok(stretch) = spline.stretch_between(0.0, duration) {
-            let deviation = stretch.deviation_bound.shift;
+            let deviation = stretch.deviation_bound.centre_deviation;
             assert!(deviation >= 0.5, "{duration:e}: {deviation:e}");
         }
     }

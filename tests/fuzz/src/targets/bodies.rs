@@ -3,15 +3,15 @@
 use crate::engine::Method;
 use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Body, Motion, MovingBody, Outcome, Pose, Settings};
-use ccd_decomp::Model;
+use ccd_decomp::StoredBodyContent;
 
 /// The work budget of each query, in iterations.
 const BUDGET: u64 = 4000;
 
 /// Checks that a stored model reads back to the same bytes, and that queries on its body agree.
-pub(super) fn check_storing(model: &Model) {
+pub(super) fn check_storing(model: &StoredBodyContent) {
     let bytes = stored_bytes(model);
-    let again = Model::read(&bytes[..]).expect("a model that was stored");
+    let again = StoredBodyContent::read(&bytes[..]).expect("a model that was stored");
     assert!(stored_bytes(&again) == bytes, "stored again, it differs");
     // A model that cannot be a body, for its number of pieces or their size, names the reason.
     match (model.body(), again.body()) {
@@ -21,7 +21,7 @@ pub(super) fn check_storing(model: &Model) {
     }
 }
 
-pub(super) fn stored_bytes(model: &Model) -> Vec<u8> {
+pub(super) fn stored_bytes(model: &StoredBodyContent) -> Vec<u8> {
     let mut bytes = Vec::new();
     model.write(&mut bytes).expect("memory takes all bytes");
     bytes

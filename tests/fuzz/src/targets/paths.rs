@@ -51,7 +51,7 @@ fn check_row(row: &CourseRow) {
             // Written so that NaN fails.
             assert!(first <= last, "{first} {last}");
             if let Movements::Path(path) = course {
-                assert!(path.poses(path.duration).is_ok());
+                assert!(path.poses_at(path.duration).is_ok());
             }
         }
         Err(error) => assert!(!error.to_string().is_empty()),

@@ -3,7 +3,7 @@
 
 use super::bodies;
 use crate::memory;
-use ccd_decomp::{Detail, Format, Model, TriangleMesh, prepare};
+use ccd_decomp::{Detail, Format, StoredBodyContent, TriangleMesh, prepare};
 use std::sync::LazyLock;
 
 /// The maximum size of the input, in bytes.
@@ -56,7 +56,7 @@ fn with_repaired_framing(bytes: &[u8]) -> Vec<u8> {
 }
 
 fn check(bytes: &[u8]) {
-    let model = match Model::read(bytes) {
+    let model = match StoredBodyContent::read(bytes) {
         Ok(model) => model,
         Err(error) => return assert!(!error.to_string().is_empty()),
     };

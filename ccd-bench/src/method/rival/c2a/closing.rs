@@ -22,7 +22,7 @@ pub(super) struct ClosingSpeedBounder {
 /// The rotation of a body, and the distances of its nodes from the axis.
 #[derive(Clone, Debug)]
 struct BodyRotation {
-    centre: DVec3,
+    rotation_centre: DVec3,
     /// The unit axis of rotation in the body's frame, where it is fixed.
     axis: DVec3,
     angular_speed: f64,
@@ -76,7 +76,7 @@ impl ClosingSpeedBounder {
         if !(gap.distance_bound > 0.0) {
             return 0.0;
         }
-        let n = gap.direction;
+        let n = gap.gap_direction;
         let speed = self.relative_velocity_in_a.dot(n)
             + self
                 .a
@@ -95,7 +95,7 @@ impl ClosingSpeedBounder {
 impl BodyRotation {
     fn new(tree: &RssTree) -> Self {
         BodyRotation {
-            centre: DVec3::ZERO,
+            rotation_centre: DVec3::ZERO,
             axis: DVec3::Z,
             angular_speed: 0.0,
             axis_distance_cache: vec![(0, 0.0); tree.node_count()],
@@ -106,9 +106,9 @@ impl BodyRotation {
     fn set_motion(&mut self, course: &RivalMotion) {
         let axis = course.start_orientation.transpose() * course.axis;
         self.angular_speed = course.angular_speed;
-        if self.axis_version == 0 || axis != self.axis || course.centre != self.centre {
+        if self.axis_version == 0 || axis != self.axis || course.centre != self.rotation_centre {
             self.axis = axis;
-            self.centre = course.centre;
+            self.rotation_centre = course.centre;
             self.axis_version += 1;
         }
     }
@@ -124,7 +124,7 @@ impl BodyRotation {
         if lever.0 != self.axis_version {
             *lever = (
                 self.axis_version,
-                tree.axis_distance_bound(node, self.centre, self.axis),
+                tree.axis_distance_bound(node, self.rotation_centre, self.axis),
             );
         }
         self.angular_speed * across.length() * lever.1

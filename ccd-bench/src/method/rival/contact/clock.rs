@@ -28,7 +28,7 @@ pub(super) struct MotionEncloser {
 #[derive(Clone, Copy, Debug)]
 struct CachedEnclosure {
     span: TimeSpan,
-    enclosure: MotionEnclosure,
+    motion_enclosure: MotionEnclosure,
 }
 
 impl HalvedInterval {
@@ -59,7 +59,7 @@ impl MotionEncloser {
                 start: f64::NAN,
                 end: f64::NAN,
             },
-            enclosure: relative.enclosure_over(TimeSpan {
+            motion_enclosure: relative.enclosure_over(TimeSpan {
                 start: 0.0,
                 end: 0.0,
             }),
@@ -92,7 +92,10 @@ impl MotionEncloser {
     }
 
     /// Returns the enclosure of the rates of change of the placements over an interval.
-    pub(super) fn rate_enclosure(&mut self, interval: HalvedInterval) -> &MotionEnclosure {
+    pub(super) fn placement_rate_enclosure(
+        &mut self,
+        interval: HalvedInterval,
+    ) -> &MotionEnclosure {
         self.rate_cache[interval.halving_depth].enclosure_over(interval.span, |span| {
             self.relative_motion.rate_enclosure_over(span)
         })
@@ -107,8 +110,8 @@ impl CachedEnclosure {
     ) -> &MotionEnclosure {
         if self.span != span {
             self.span = span;
-            self.enclosure = enclosure(span);
+            self.motion_enclosure = enclosure(span);
         }
-        &self.enclosure
+        &self.motion_enclosure
     }
 }

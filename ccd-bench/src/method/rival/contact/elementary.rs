@@ -12,7 +12,7 @@ pub(super) struct TriangleWithNormals {
     corners: [DVec3; 3],
     /// The edge vectors: edge k leads from corner k to the next.
     edges: [DVec3; 3],
-    normal: DVec3,
+    triangle_normal: DVec3,
     /// For each edge, a vector in the triangle's plane that is perpendicular to the edge and points into the triangle.
     inward_edge_normals: [DVec3; 3],
 }
@@ -47,7 +47,7 @@ impl TriangleWithNormals {
         TriangleWithNormals {
             corners: *corners,
             edges,
-            normal,
+            triangle_normal: normal,
             inward_edge_normals: edges.map(|edge| normal.cross(edge)),
         }
     }
@@ -55,7 +55,7 @@ impl TriangleWithNormals {
     /// Returns true for a triangle without area: nothing can hit its face, but its edges and
     /// corners are tested.
     fn is_degenerate(&self) -> bool {
-        self.normal == DVec3::ZERO
+        self.triangle_normal == DVec3::ZERO
     }
 }
 
@@ -106,9 +106,11 @@ impl TrianglePair {
     pub(super) fn contact_function(&self, test: ElementaryTest, at: &Placement) -> f64 {
         let (a, b) = (&self.a, &self.b);
         match test {
-            ElementaryTest::VertexFace(i) => (at.apply(a.corners[i]) - b.corners[0]).dot(b.normal),
+            ElementaryTest::VertexFace(i) => {
+                (at.apply(a.corners[i]) - b.corners[0]).dot(b.triangle_normal)
+            }
             ElementaryTest::FaceVertex(j) => {
-                (b.corners[j] - at.apply(a.corners[0])).dot(at.rotation * a.normal)
+                (b.corners[j] - at.apply(a.corners[0])).dot(at.rotation * a.triangle_normal)
             }
             ElementaryTest::EdgeEdge(i, j) => {
                 let axis = (at.rotation * a.edges[i]).cross(b.edges[j]);
@@ -128,14 +130,14 @@ impl TrianglePair {
         match test {
             ElementaryTest::VertexFace(i) => rates
                 .enclose_transformed_point(a.corners[i])
-                .dot_vector(b.normal),
+                .dot_vector(b.triangle_normal),
             ElementaryTest::FaceVertex(j) => {
                 let between =
                     point_minus(b.corners[j], now.enclose_transformed_point(a.corners[0]));
-                between.dot(rates.rotation * a.normal)
+                between.dot(rates.rotation * a.triangle_normal)
                     - rates
                         .enclose_transformed_point(a.corners[0])
-                        .dot(now.rotation * a.normal)
+                        .dot(now.rotation * a.triangle_normal)
             }
             ElementaryTest::EdgeEdge(i, j) => {
                 let between =
@@ -159,11 +161,11 @@ impl TrianglePair {
         let corners = a
             .corners
             .map(|corner| now.enclose_transformed_point(corner));
-        let over_b = corners.map(|x| x.minus_point(b.corners[0]).dot_vector(b.normal));
+        let over_b = corners.map(|x| x.minus_point(b.corners[0]).dot_vector(b.triangle_normal));
         if have_same_sign(over_b) {
             return ElementaryTestSet::NONE;
         }
-        let normal = now.rotation * a.normal;
+        let normal = now.rotation * a.triangle_normal;
         let over_a = b.corners.map(|x| point_minus(x, corners[0]).dot(normal));
         if have_same_sign(over_a) {
             return ElementaryTestSet::NONE;
@@ -219,11 +221,11 @@ impl TrianglePair {
             return false;
         }
         let at_s = w.cross_vector(g);
-        if is_never_fraction_of(at_s, c) {
+        if is_never_scaled_down_from(at_s, c) {
             return false;
         }
         let at_u = w.cross(e);
-        if is_never_fraction_of(at_u, c) {
+        if is_never_scaled_down_from(at_u, c) {
             return false;
         }
         let (along, of_e, of_g) = (w.dot_vector(g), e.dot_vector(g), g.length_squared());
@@ -264,6 +266,6 @@ fn have_same_sign(values: [Interval; 3]) -> bool {
 }
 
 /// Returns true if no vector in `part` can be a vector in `whole` times a factor from 0 to 1.
-fn is_never_fraction_of(part: IntervalVec, whole: IntervalVec) -> bool {
+fn is_never_scaled_down_from(part: IntervalVec, whole: IntervalVec) -> bool {
     (part.mignitude() - whole.magnitude()).max_element() > 0.0
 }

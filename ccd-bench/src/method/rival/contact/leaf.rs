@@ -90,7 +90,7 @@ fn find_root(
     interval: HalvedInterval,
     clock: &mut MotionEncloser,
 ) -> Root {
-    let rates = *clock.rate_enclosure(interval);
+    let rates = *clock.placement_rate_enclosure(interval);
     let rate = triangles.contact_function_rate_enclosure(
         test,
         clock.placement_enclosure(interval),

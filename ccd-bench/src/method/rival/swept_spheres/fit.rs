@@ -30,7 +30,7 @@ pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> RssTree {
     let (nodes, frames) = nodes.into_iter().map(node).unzip();
     RssTree {
         nodes,
-        frames_per_node: frames,
+        node_frames: frames,
         triangles,
     }
 }
@@ -68,7 +68,7 @@ fn fit_swept_rectangle(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     let mut shape = GrowingRectangle {
         low: DVec2::INFINITY,
         high: DVec2::NEG_INFINITY,
-        middle,
+        plane_z: middle,
         radius,
     };
     points().for_each(|p| shape.extend_sides(p));
@@ -94,7 +94,7 @@ fn fit_swept_rectangle(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
 struct GrowingRectangle {
     low: DVec2,
     high: DVec2,
-    middle: f64,
+    plane_z: f64,
     radius: f64,
 }
 
@@ -102,7 +102,7 @@ impl GrowingRectangle {
     /// Returns the greatest distance from a point's foot in the plane at which the rectangle may end and still have the
     /// point within the radius.
     fn reach_in_plane(&self, point: DVec3) -> f64 {
-        let up = point.z - self.middle;
+        let up = point.z - self.plane_z;
         greater(0.0, self.radius * self.radius - up * up).sqrt()
     }
 
@@ -147,6 +147,6 @@ impl GrowingRectangle {
 
     fn distance(&self, point: DVec3) -> f64 {
         let nearest = point.truncate().clamp(self.low, self.high);
-        point.distance(nearest.extend(self.middle))
+        point.distance(nearest.extend(self.plane_z))
     }
 }

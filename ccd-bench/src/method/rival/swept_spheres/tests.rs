@@ -42,7 +42,7 @@ fn nodes_hold_their_triangles_and_are_tight() {
         assert_eq!(all, (0..mesh.faces().len() as u32).collect::<Vec<_>>());
         for (k, node) in tree.nodes.iter().enumerate().take(500) {
             let below = triangle_indices_below(&tree, k as u32);
-            let inside = tree.frames_per_node[k];
+            let inside = tree.node_frames[k];
             let mut farthest = 0.0_f64;
             for point in below.iter().flat_map(|&t| tree.triangles[t as usize]) {
                 let local = inside.rotation.transpose() * (point - inside.translation);
@@ -105,7 +105,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
             let mut true_distance = f64::INFINITY;
             for &i in &a {
                 for &j in &b {
-                    let nearest = trees.nearest_points([i, j], &placement);
+                    let nearest = trees.nearest_triangle_points([i, j], &placement);
                     true_distance = lesser(true_distance, nearest.vector_from_a_to_b().length());
                 }
             }
@@ -116,7 +116,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
                 true_distance <= gap.distance_bound + trees.distance_excess_bound(&pair) + 1e-12
             );
             if gap.distance_bound > 0.0 {
-                let along = |points: &[DVec3; 3]| points.map(|p| gap.direction.dot(p));
+                let along = |points: &[DVec3; 3]| points.map(|p| gap.gap_direction.dot(p));
                 let high = a
                     .iter()
                     .flat_map(|&i| along(&trees.a.triangles[i as usize]));

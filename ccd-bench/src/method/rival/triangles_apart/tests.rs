@@ -52,7 +52,7 @@ fn the_points_are_nearest() {
         let (a, b) = random_triangle_pair(&mut rng);
         let found = nearest_points(&a, &b);
         let distance = found.vector_from_a_to_b().length();
-        for (point, triangle) in [(found.on_a, &a), (found.on_b, &b)] {
+        for (point, triangle) in [(found.point_on_a, &a), (found.on_b, &b)] {
             let off = nearest_points(&[point; 3], triangle)
                 .vector_from_a_to_b()
                 .length();
@@ -117,7 +117,7 @@ fn a_piercing_edge_is_a_meeting() {
     let upright = [low, high, DVec3::new(5.0, 5.0, 0.5)];
     for (a, b) in [(flat, upright), (upright, flat)] {
         let found = nearest_points(&a, &b);
-        assert_eq!(found.on_a, found.on_b);
-        assert!(found.on_a.z.abs() < 1e-15);
+        assert_eq!(found.point_on_a, found.on_b);
+        assert!(found.point_on_a.z.abs() < 1e-15);
     }
 }

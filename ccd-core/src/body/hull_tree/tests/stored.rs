@@ -29,9 +29,9 @@ fn stored_trees_are_read_again() {
     assert_eq!(again.facet_classes(0), tree.facet_classes(0));
     let again: Hierarchy = read(&to_bytes(tree.hierarchy())).unwrap();
     assert_eq!(again.nodes(), tree.hierarchy().nodes());
-    assert_eq!(read(&to_bytes(&Volume::Solid)), Some(Volume::Solid));
+    assert_eq!(read(&to_bytes(&Solidity::Solid)), Some(Solidity::Solid));
     let triangles = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::ONE];
-    let soup = Pieces::triangles(&triangles, &[[0, 1, 2], [3, 2, 1]], &[7, 4]).unwrap();
+    let soup = Pieces::from_triangles(&triangles, &[[0, 1, 2], [3, 2, 1]], &[7, 4]).unwrap();
     let again: Pieces = read(&to_bytes(&soup)).unwrap();
     assert!(again.are_all_triangles());
     assert!((0..2).all(|k| again.polytope(k) == soup.polytope(k)));

@@ -40,7 +40,7 @@ fn surface(frame: DMat3, points: &[DVec3]) -> f64 {
 fn node_points_of_triangles(points: &[DVec3]) -> NodePoints<'_> {
     NodePoints {
         points,
-        radius: 0.0,
+        rounding_radius: 0.0,
         are_triangles: true,
     }
 }
@@ -123,7 +123,7 @@ fn boxes_are_as_small_as_those_of_all_points() {
                 let points = sheet(&mut rng, count, size);
                 let node_points = NodePoints {
                     points: &points,
-                    radius: 0.0,
+                    rounding_radius: 0.0,
                     are_triangles: triangles,
                 };
                 let node = fit_node(&node_points, NodeChildren::Piece(0), &mut sample);
@@ -160,7 +160,7 @@ fn degenerate_points_have_a_box() {
         for triangles in [true, false] {
             let node_points = NodePoints {
                 points: &points,
-                radius: 0.0,
+                rounding_radius: 0.0,
                 are_triangles: triangles,
             };
             let node = fit_node(&node_points, NodeChildren::Piece(0), &mut sample);

@@ -19,7 +19,7 @@ fn worst_slack() {
         });
         let node_points = NodePoints {
             points: &points,
-            radius: 0.0,
+            rounding_radius: 0.0,
             are_triangles: tape.index_below(2) == 0,
         };
         let whole = BodyBox::fit_to(&node_points, &mut sample);
@@ -69,7 +69,7 @@ fn no_point_reaches_out_of_the_box_and_flat_faces_are_known_to_rounding() {
             .collect();
         let node_points = NodePoints {
             points: &points,
-            radius: 0.0,
+            rounding_radius: 0.0,
             are_triangles: rng.random_bool(0.5),
         };
         let whole = BodyBox::fit_to(&node_points, &mut sample);

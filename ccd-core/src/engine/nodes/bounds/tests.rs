@@ -185,7 +185,7 @@ fn values_along_three_axes<L: Simd, C: Children, P: OtherNode>(
     let axes = [
         widest_gap_axis(&pairs),
         closest_approach_axis(&pairs),
-        axis::axis_along(pairs.children, pairs.other_node, pairs.offset, some),
+        axis::axes_with_gaps(pairs.children, pairs.other_node, pairs.offset, some),
     ];
     axes.map(|axis| values_along_axis(&pairs, axis))
 }
@@ -212,7 +212,7 @@ fn values_along_axis<L: Simd, C: Children, P: OtherNode>(
 ) -> AxisValues {
     let motion = pairs.motion;
     let (m, o) = (
-        motion.split_rotation.cross_angular_velocity(axis.n),
+        motion.split_body_rotation.cross_angular_velocity(axis.n),
         motion.other_rotation.cross_angular_velocity(axis.n),
     );
     let rate = axis.n.dot(pairs.velocity)
@@ -287,7 +287,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
             self.record_errors(found, worst);
             self.check_fixed_plane(found, worst);
             if reach > MIN_TURNING_PLANE_RADIUS_RATIO * self.other_node.radius() {
-                self.check_turning_plane(found, LargerBody::SplitBody, worst);
+                self.check_turning_plane(found, LargerBody::BodyToSplit, worst);
             } else if self.other_node.radius() > MIN_TURNING_PLANE_RADIUS_RATIO * reach {
                 self.check_turning_plane(found, LargerBody::OtherBody, worst);
             }
@@ -348,13 +348,13 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
     ) {
         let [_, with_split, with_other] = found.free_times;
         let free = match with {
-            LargerBody::SplitBody => with_split,
+            LargerBody::BodyToSplit => with_split,
             LargerBody::OtherBody => with_other,
         };
         for (lane, child) in self.children.iter().enumerate() {
             assert!(free[lane] <= MAX_TURNING_PLANE_TIME);
             let spin = match with {
-                LargerBody::SplitBody => child.spin,
+                LargerBody::BodyToSplit => child.spin,
                 LargerBody::OtherBody => self.other_node_solid.spin,
             };
             let gap = |tau: f64| {

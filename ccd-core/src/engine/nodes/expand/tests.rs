@@ -243,14 +243,14 @@ impl SceneAudit<'_> {
     fn overlap(&self, lane: &BoundedPair) -> bool {
         let (near, far) = self.triangles_at(lane, lane.start_clock);
         near.len() * far.len() <= 64
-            && self.least_unseparated_distance(&near, &far, 0.0) <= self.problem.gap()
+            && self.least_unseparated_distance(&near, &far, 0.0) <= self.problem.kept_gap()
     }
 
     /// Checks at every sampled time that all triangles below the child stay apart from those below the other node. They
     /// have to be farther apart than the gap of all clocks.
     fn verify_lane(&self, lane: &BoundedPair, tally: &mut Tally) {
         // The error of the reference is within the rounding that the bounds allow for.
-        let kept = self.problem.gap() - self.problem.rounding;
+        let kept = self.problem.kept_gap() - self.problem.rounding;
         let mut prover = AxisSearch::default();
         for k in 0..SAMPLED_TIME_COUNT {
             let share = k as f64 / (SAMPLED_TIME_COUNT - 1) as f64;
@@ -381,7 +381,7 @@ fn expand_with_fixed_planes(
     };
     let common = NodeContext::new(problem);
     let split_all = Split::with_all_children(split, node, other);
-    vectorize!(problem.level, level => {
+    vectorize!(problem.simd_level, level => {
         let motion = RelativeMotion::new(level, &common, &split_all, s, ClosingRate::FromMotion);
         match below.children {
             NodeChildren::Boxes(group) => {

@@ -108,8 +108,8 @@ fn many_points_are_bounded_like_all_of_them() {
                 bound.height >= all.height - 4.0 * slack,
                 "{bound:?} {all:?}"
             );
-            assert!(bound.rate >= all.rate - 4.0 * slack * (1.0 + side.path.rate));
-            let turns = side.path.rate > 0.0;
+            assert!(bound.rate >= all.rate - 4.0 * slack * (1.0 + side.path.angular_speed));
+            let turns = side.path.angular_speed > 0.0;
             tight[usize::from(turns)] +=
                 usize::from(bound.second_derivative <= 2.0 * all.second_derivative);
         }

@@ -83,7 +83,7 @@ fn overlap_and_touching_are_distinguished() {
 #[test]
 fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
     let config = Settings {
-        start: StartPolicy::Leave,
+        start_policy: StartPolicy::Leave,
         ..Settings::DEFAULT
     };
     // Pairs that begin with a gap are handled by the search, which uses half of the gap.
@@ -142,7 +142,7 @@ fn a_dishonest_oracle_cannot_make_a_pair_late() {
     for axis in directions {
         let claim = Claim {
             axis,
-            a: ConvexCombination::point(7),
+            a: ConvexCombination::from_single_point(7),
             b: ConvexCombination::EMPTY,
         };
         let step = with_two_balls(4.0, 4.0, &Settings::DEFAULT, |problem| {

@@ -81,7 +81,7 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
             .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .unwrap();
         assert_eq!(meter.stats.oracle_calls, 1);
-        let kept = problem.gap();
+        let kept = problem.kept_gap();
         if checked.lower <= kept {
             continue;
         }

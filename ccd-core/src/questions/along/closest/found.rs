@@ -13,9 +13,9 @@ use crate::tuning::MIN_CUT_LENGTH_SHARE;
 
 impl Query<'_> {
     /// Returns a copy of the query for measuring distances, with a margin of 0 and no required clearance.
-    pub(in crate::questions::along) fn for_distances(&self) -> Self {
+    pub(in crate::questions::along) fn for_distance_measurement(&self) -> Self {
         let mut query = Query {
-            problem: None,
+            constant_velocity_problem: None,
             ..*self
         };
         (query.settings.margin, query.settings.clearance) = (0.0, None);
@@ -24,7 +24,7 @@ impl Query<'_> {
 
     /// Returns a copy of the query that asks for contacts with the margin, tolerance and budget of `rung`.
     pub(super) fn contact_query(&self, rung: MarginQuery) -> Self {
-        let mut query = self.for_distances();
+        let mut query = self.for_distance_measurement();
         query.settings.margin = rung.margin;
         query.settings.tolerance = rung.tolerance;
         query.settings.budget = rung.budget;
@@ -68,7 +68,7 @@ impl StretchDistanceBounds {
     /// Returns the end of the stretch beyond which the distance probably decreases further; `None` if there is no such
     /// end. The motions are nearest at about that end. At their rate of approach there, the distance would fall by more
     /// than the deviations over another stretch of this length.
-    pub(super) fn end_where_distance_decreases(&self, motions: &StretchMotions) -> Option<f64> {
+    pub(super) fn stretch_end_of_falling_distance(&self, motions: &StretchMotions) -> Option<f64> {
         let Span { from, end: to, .. } = motions.span;
         let (near, falls) = (
             MIN_CUT_LENGTH_SHARE * motions.span.length(),
@@ -129,7 +129,10 @@ impl LeastDistanceBounds {
                 time,
                 contact,
             } => {
-                self.record_contact(motions.query_time(time), motions.contact(contact));
+                self.record_contact(
+                    motions.query_time(time),
+                    motions.widen_contact_bounds(contact),
+                );
                 seen.lower = lower;
                 seen.upper = contact.separation.upper;
                 seen.time = time;
@@ -137,12 +140,15 @@ impl LeastDistanceBounds {
             }
             Outcome::Overlapping { overlap, .. } => {
                 if let Overlap::Pieces(contact) = overlap {
-                    self.record_contact(motions.span.from, motions.contact(contact));
+                    self.record_contact(motions.span.from, motions.widen_contact_bounds(contact));
                 }
             }
             Outcome::Unresolved(known) => {
                 if let Some((time, contact)) = known.nearest_contact {
-                    self.record_contact(motions.query_time(time), motions.contact(contact));
+                    self.record_contact(
+                        motions.query_time(time),
+                        motions.widen_contact_bounds(contact),
+                    );
                 }
                 return Err(known.limit);
             }
@@ -164,7 +170,7 @@ impl LeastDistanceBounds {
         };
         self.answer(
             stretches,
-            Outcome::least_distance(self.lower, time, contact),
+            Outcome::from_least_distance(self.lower, time, contact),
         )
     }
 

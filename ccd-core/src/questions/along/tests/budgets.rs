@@ -67,19 +67,22 @@ impl Trajectory for ShuttleTrajectory {
         } else {
             DVec3::ZERO
         };
-        let shift = if self.corner(from, to).is_some() {
+        let shift = if self.velocity_jump_time(from, to).is_some() {
             2.0
         } else {
             1e-14
         };
         let motion = Motion::new(crate::Pose::at(start)?, velocity, DVec3::ZERO)?;
         Ok(Stretch {
-            deviation_bound: DeviationBound { shift, angle: 0.0 },
+            deviation_bound: DeviationBound {
+                centre_deviation: shift,
+                max_deviation_angle: 0.0,
+            },
             ..Stretch::exact(motion)
         })
     }
 
-    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+    fn velocity_jump_time(&self, from: f64, to: f64) -> Option<f64> {
         let laps = f64::from(self.laps);
         let corner = (0.5 * (from + to) * laps).round() / laps;
         (from < corner && corner < to).then_some(corner)
@@ -198,7 +201,7 @@ impl Trajectory for HostileTrajectory {
         })
     }
 
-    fn corner(&self, _: f64, to: f64) -> Option<f64> {
+    fn velocity_jump_time(&self, _: f64, to: f64) -> Option<f64> {
         Some(to - self.step)
     }
 }
@@ -209,7 +212,10 @@ fn budgets_end_cuts_where_there_is_no_bound() {
     let far = Motion::still(crate::Pose::at(9.0 * DVec3::X).unwrap());
     let ask = |shift: f64, turn: f64, step: f64| {
         let hostile = HostileTrajectory {
-            deviation_bound: DeviationBound { shift, angle: turn },
+            deviation_bound: DeviationBound {
+                centre_deviation: shift,
+                max_deviation_angle: turn,
+            },
             step,
         };
         let config = Settings {

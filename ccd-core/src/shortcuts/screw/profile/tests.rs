@@ -1,6 +1,6 @@
 //! Compares the intervals of profiles with exact values at the corners of a triangle.
 
-use super::{Profile, ScrewAxis};
+use super::{NodeScrewBounds, ScrewAxis};
 use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::motion::Motion;
@@ -44,7 +44,7 @@ fn worst_error_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     let problem =
         Problem::of_moving_bodies((&body, still), (&body, still), 1.0, &Settings::DEFAULT).ok()?;
     let node = PlacedNode::new(&problem.a, body.tree().node_count() as u32, 0.0);
-    let profile = Profile::new(&node, axis)?;
+    let profile = NodeScrewBounds::new(&node, axis)?;
     let (arm, distance) = {
         let way = node.centre - axis.origin;
         let height = way.dot(axis.direction);

@@ -23,7 +23,7 @@ fn worst_advance() {
         // The advance is along the axis, and the rest of the velocity is drift, as in a screw.
         let along = path.velocity.dot(path.axis);
         let drift = length(path.velocity - along * path.axis);
-        let per_radian = along / path.rate;
+        let per_radian = along / path.angular_speed;
         let [v, w] = [velocity, spin].map(DoubleDouble3::from);
         let exact = v - w.scale(DoubleDouble::from(per_radian));
         let lost = exact.length() - DoubleDouble::from(drift);

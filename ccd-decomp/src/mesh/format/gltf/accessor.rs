@@ -1,7 +1,7 @@
 //! Reads glTF accessors: typed arrays in buffers.
 
 use super::buffers::Buffers;
-use super::element;
+use super::element_at_index;
 use super::schema::{self, Root, Sparse};
 use crate::mesh::content::allowance::{ExpansionBudget, expansion_cost};
 use crate::mesh::error::{MeshFault, element_name};
@@ -17,7 +17,7 @@ pub(super) struct AccessorReader<'a> {
 
 /// A component type of glTF accessors.
 struct ComponentType {
-    byte_count: usize,
+    bytes_per_component: usize,
     /// The largest value of an integer type, by which a normalized integer is divided; `None` for floats.
     max_integer: Option<f64>,
     /// Reads a number from the first bytes of a slice.
@@ -41,7 +41,7 @@ impl<'a> AccessorReader<'a> {
         self.with_accessor_context(accessor, |accessors, about| {
             check_accessor_type(about, "VEC3")?;
             let component = ComponentType::from_code(about.component_type)?;
-            let size = component.byte_count;
+            let size = component.bytes_per_component;
             let largest = component.max_integer.filter(|_| about.normalized);
             let point = |row: &[u8]| {
                 let numbers = [0, 1, 2].map(|k| (component.read)(&row[k * size..]));
@@ -62,7 +62,7 @@ impl<'a> AccessorReader<'a> {
             let component = ComponentType::index_type_from_code(about.component_type)?;
             let whole = |row: &[u8]| (component.read)(row) as u32;
             let price = expansion_cost(0, about.count);
-            accessors.read_elements(about, component.byte_count, price, 0, whole)
+            accessors.read_elements(about, component.bytes_per_component, price, 0, whole)
         })
     }
 
@@ -72,7 +72,7 @@ impl<'a> AccessorReader<'a> {
         accessor: usize,
         read: impl FnOnce(&mut Self, &schema::Accessor) -> Result<T, MeshFault>,
     ) -> Result<T, MeshFault> {
-        let about = element(&self.root.accessors, "accessor", accessor)?;
+        let about = element_at_index(&self.root.accessors, "accessor", accessor)?;
         read(self, about)
             .map_err(|fault| fault.at_element(element_name("accessor", accessor, None)))
     }
@@ -143,7 +143,7 @@ impl<'a> AccessorReader<'a> {
     fn sparse_indices(&mut self, sparse: &Sparse, length: usize) -> Result<Vec<usize>, MeshFault> {
         let about = &sparse.indices;
         let component = ComponentType::index_type_from_code(about.component_type)?;
-        let layout = (sparse.count, component.byte_count);
+        let layout = (sparse.count, component.bytes_per_component);
         let rows = self.element_bytes(about.buffer_view, about.byte_offset, layout, None)?;
         self.expansion_budget
             .spend(expansion_cost(0, sparse.count))?;
@@ -171,7 +171,7 @@ impl ComponentType {
         macro_rules! integer {
             ($type:ty) => {
                 ComponentType {
-                    byte_count: size_of::<$type>(),
+                    bytes_per_component: size_of::<$type>(),
                     max_integer: Some(<$type>::MAX.into()),
                     read: |bytes| <$type>::from_le_bytes(first_bytes_or_zeros(bytes)).into(),
                 }
@@ -184,7 +184,7 @@ impl ComponentType {
             5123 => integer!(u16),
             5125 => integer!(u32),
             5126 => ComponentType {
-                byte_count: 4,
+                bytes_per_component: 4,
                 max_integer: None,
                 read: |bytes| f32::from_le_bytes(first_bytes_or_zeros(bytes)).into(),
             },

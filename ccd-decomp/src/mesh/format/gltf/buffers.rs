@@ -1,7 +1,7 @@
 //! Finds the bytes of the buffers of a glTF: embedded in the JSON, in the binary chunk, or in a separate file.
 
 use super::schema::{Buffer, Root};
-use super::{element, extensions};
+use super::{element_at_index, extensions};
 use crate::mesh::error::{MeshFault, element_name, quoted};
 use crate::mesh::format::LinkedFiles;
 use base64::Engine;
@@ -11,7 +11,7 @@ use std::borrow::Cow;
 
 /// The bytes of all buffers of a glTF. A buffer that only a compression extension fills has no data and is `None`.
 pub(super) struct Buffers<'a> {
-    root: &'a Root,
+    document: &'a Root,
     bytes_by_buffer: Vec<Option<Cow<'a, [u8]>>>,
 }
 
@@ -28,20 +28,21 @@ impl<'a> Buffers<'a> {
         };
         let bytes: Result<_, _> = root.buffers.iter().enumerate().map(found).collect();
         Ok(Buffers {
-            root,
+            document: root,
             bytes_by_buffer: bytes?,
         })
     }
 
     /// Returns the bytes of a buffer view, except for the first `offset` bytes.
     pub(super) fn view_bytes(&self, view: usize, offset: u64) -> Result<&[u8], MeshFault> {
-        let about = element(&self.root.buffer_views, "buffer view", view)?;
+        let about = element_at_index(&self.document.buffer_views, "buffer view", view)?;
         let buffer = self.bytes_by_buffer.get(about.buffer);
         if about.extensions.meshopt.is_some() && buffer.is_none_or(Option::is_none) {
             return Err(extensions::meshopt_fault());
         }
         let found = || {
-            let Some(buffer) = element(&self.bytes_by_buffer, "buffer", about.buffer)? else {
+            let Some(buffer) = element_at_index(&self.bytes_by_buffer, "buffer", about.buffer)?
+            else {
                 let problem = format!("buffer {} has neither bytes nor a file", about.buffer);
                 return Err(MeshFault::malformed_content(problem));
             };
@@ -65,7 +66,7 @@ impl<'a> Buffers<'a> {
 
     /// Returns the stride of a buffer view in bytes, if the view states one.
     pub(super) fn stride(&self, view: usize) -> Option<u64> {
-        self.root.buffer_views.get(view)?.byte_stride
+        self.document.buffer_views.get(view)?.byte_stride
     }
 }
 
@@ -96,7 +97,7 @@ fn buffer_bytes<'a>(
 
 fn missing_linked_file_fault(name: String) -> MeshFault {
     MeshFault::UnreadableLinkedFile {
-        name,
+        file_name: name,
         reason: "only a file has others beside it; read the mesh from a file, or export a .glb"
             .into(),
     }

@@ -2,7 +2,7 @@
 
 use super::accessor::AccessorReader;
 use super::schema::Root;
-use super::{element, primitive, transform};
+use super::{element_at_index, primitive, transform};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::content::assembly::{Assembly, Part};
 use crate::mesh::content::{Content, Geometry};
@@ -15,7 +15,7 @@ use std::collections::HashMap;
 /// nodes, and in a file without nodes all meshes.
 pub(super) fn read_scene(root: &Root, accessors: AccessorReader<'_>) -> Result<Content, MeshFault> {
     let mut walk = SceneTraversal {
-        root,
+        document: root,
         shape_index_by_mesh: HashMap::new(),
         is_node_visited: vec![false; root.nodes.len()],
         part_names: Vec::new(),
@@ -29,7 +29,7 @@ pub(super) fn read_scene(root: &Root, accessors: AccessorReader<'_>) -> Result<C
     };
     match (root.scene, root.scenes.first()) {
         (Some(scene), _) => {
-            walk.visit_subtrees(&element(&root.scenes, "scene", scene)?.nodes)?;
+            walk.visit_subtrees(&element_at_index(&root.scenes, "scene", scene)?.nodes)?;
         }
         (None, Some(first)) => walk.visit_subtrees(&first.nodes)?,
         (None, None) if root.nodes.is_empty() => (0..root.meshes.len())
@@ -46,7 +46,7 @@ pub(super) fn read_scene(root: &Root, accessors: AccessorReader<'_>) -> Result<C
 
 /// The state of a traversal of the scene's nodes. Each mesh is read at its first use.
 struct SceneTraversal<'a> {
-    root: &'a Root,
+    document: &'a Root,
     accessor_reader: AccessorReader<'a>,
     /// The index of the shape for each mesh that has been read, by mesh index.
     shape_index_by_mesh: HashMap<usize, usize>,
@@ -61,7 +61,7 @@ impl SceneTraversal<'_> {
         let top = |&node: &usize| (node, AffineMap::IDENTITY);
         let mut waiting: Vec<(usize, AffineMap)> = tops.iter().rev().map(top).collect();
         while let Some((number, above)) = waiting.pop() {
-            let node = element(&self.root.nodes, "node", number)?;
+            let node = element_at_index(&self.document.nodes, "node", number)?;
             let place = || element_name("node", number, node.name.as_deref());
             // Nodes form a tree. The check also ends at cycles.
             if std::mem::replace(&mut self.is_node_visited[number], true) {
@@ -92,9 +92,9 @@ impl SceneTraversal<'_> {
 
     /// Visits all nodes of the file, starting at the roots.
     fn visit_all_nodes(&mut self) -> Result<(), MeshFault> {
-        let mut is_below = vec![false; self.root.nodes.len()];
-        for &child in self.root.nodes.iter().flat_map(|node| &node.children) {
-            element(&self.root.nodes, "node", child)?;
+        let mut is_below = vec![false; self.document.nodes.len()];
+        for &child in self.document.nodes.iter().flat_map(|node| &node.children) {
+            element_at_index(&self.document.nodes, "node", child)?;
             is_below[child] = true;
         }
         let tops = (0..is_below.len()).filter(|&node| !is_below[node]);
@@ -108,7 +108,7 @@ impl SceneTraversal<'_> {
 
     /// Adds remarks about content that was skipped, or that was read in its rest pose.
     fn add_remarks(&mut self) {
-        let root = self.root;
+        let root = self.document;
         let nodes = root.nodes.iter().zip(&self.is_node_visited);
         let with_mesh = nodes.filter(|(node, _)| node.mesh.is_some());
         let (shown, others): (Vec<_>, Vec<_>) = with_mesh.partition(|(_, visited)| **visited);
@@ -137,7 +137,7 @@ impl SceneTraversal<'_> {
         label: Option<String>,
         map: AffineMap,
     ) -> Result<(), MeshFault> {
-        let about = element(&self.root.meshes, "mesh", mesh)?;
+        let about = element_at_index(&self.document.meshes, "mesh", mesh)?;
         let shape = match self.shape_index_by_mesh.get(&mesh) {
             Some(&shape) => shape,
             None => {

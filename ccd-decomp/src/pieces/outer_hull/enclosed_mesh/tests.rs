@@ -70,7 +70,7 @@ fn worst_distance() {
         let error = greater(lesser(found, reached) - truth, truth - reached);
         // Query points are in hulls of the mesh's points. A mesh of one point has no hull.
         let near = truth <= 2.0 * target.half_diagonal && target.half_diagonal > 0.0;
-        near.then(|| error_share(error, target.slack))
+        near.then(|| error_share(error, target.distance_rounding))
     });
     // The search must find triangles that are barely not needles.
     found.assert_tight_bound(1e8);

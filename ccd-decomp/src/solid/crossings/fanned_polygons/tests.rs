@@ -46,7 +46,7 @@ fn whoever_meets_is_reported() {
         let Ok(manifold) = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)) else {
             continue;
         };
-        let Some(polygons) = FannedPolygons::collect_from(&manifold) else {
+        let Some(polygons) = FannedPolygons::from_manifold(&manifold) else {
             continue;
         };
         let faces = mesh.faces().len() as u32;
@@ -87,7 +87,7 @@ fn whoever_meets_is_reported() {
 fn a_comb_is_next_to_its_polygons() {
     let mesh = comb(&[5.0; 40]);
     let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
-    let polygons = FannedPolygons::collect_from(&manifold).unwrap();
+    let polygons = FannedPolygons::from_manifold(&manifold).unwrap();
     assert_eq!(polygons.polygons.len(), 2);
     assert!(
         polygons
@@ -106,6 +106,6 @@ fn a_comb_is_next_to_its_polygons() {
         polygons
             .polygons
             .iter()
-            .all(|polygon| polygon.group.get().is_none())
+            .all(|polygon| polygon.triangle_trees.get().is_none())
     );
 }

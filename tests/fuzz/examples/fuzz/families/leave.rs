@@ -26,7 +26,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
         }
     };
     let mut config = settings_with_random_tolerance(draw);
-    config.start = StartPolicy::Leave;
+    config.start_policy = StartPolicy::Leave;
     if draw.bool_with_probability(0.3) {
         config.margin = draw.log_uniform(1e-3..1.0);
     }

@@ -78,7 +78,7 @@ fn config(source: &mut NumberReader<'_>, flags: u8) -> Settings {
         tolerance,
         margin: margin.abs(),
         budget,
-        start: if flags & LEAVE_BIT > 0 {
+        start_policy: if flags & LEAVE_BIT > 0 {
             StartPolicy::Leave
         } else {
             StartPolicy::Report

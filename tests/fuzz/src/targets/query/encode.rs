@@ -15,7 +15,7 @@ pub fn encode(case: &Case, method: u8) -> Option<Vec<u8>> {
     let mut out = CaseWriter(Vec::new());
     let config = &case.config;
     let mut flags = MARGIN_BIT | DURATION_BIT | TOLERANCE_BIT;
-    if config.start == StartPolicy::Leave {
+    if config.start_policy == StartPolicy::Leave {
         flags |= LEAVE_BIT;
     }
     let budget = u8::try_from(config.budget).ok();

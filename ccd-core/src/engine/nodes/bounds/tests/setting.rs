@@ -210,7 +210,7 @@ impl PairConfiguration {
             half_extents: node.half_extents,
             rounding_radius: node.rounding_radius,
             radius: node.radius,
-            piece: false,
+            is_piece: false,
         };
         let reach = group.header.max_distance_from_origin;
         self.build_sample(group, boxed, reach, children, self.other_solid(other))
@@ -256,8 +256,8 @@ impl PairConfiguration {
         let turning = |k: usize| BodyRotation {
             is_turning: true,
             spin: self.angular_velocities[k].as_vec3(),
-            rate: round_up_to_f32(self.angular_velocities[k].length()),
-            centre: self.rotation_centres[k].as_vec3(),
+            angular_speed: round_up_to_f32(self.angular_velocities[k].length()),
+            rotation_centre: self.rotation_centres[k].as_vec3(),
         };
         let (split, turning_far) = (turning(0), turning(1));
         let velocity = self.velocity.as_vec3();
@@ -270,14 +270,14 @@ impl PairConfiguration {
         let change = self.acceleration.unwrap_or(DVec3::ZERO).as_vec3();
         let speed = velocity.length()
             + change.length()
-            + split.rate * (reach + split.distance_from_centre(Vec3::ZERO))
-            + turning_far.rate * (other.radius() + far_arm);
+            + split.angular_speed * (reach + split.distance_from_centre(Vec3::ZERO))
+            + turning_far.angular_speed * (other.radius() + far_arm);
         let kept = 1e-3 * other.radius();
         EightPairSample {
             motion: RelativeMotionF32 {
                 velocity,
                 acceleration: self.acceleration.map(|change| change.as_vec3()),
-                split_rotation: split,
+                split_body_rotation: split,
                 other_rotation: turning_far,
                 remaining_time: 1.0,
                 slack: (kept + allowed).next_up(),

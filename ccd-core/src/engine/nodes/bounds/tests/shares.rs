@@ -80,7 +80,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
             ..ErrorShares::default()
         };
         let turning = [
-            (motion.split_rotation, child),
+            (motion.split_body_rotation, child),
             (motion.other_rotation, &self.other_node_solid),
         ];
         for ((turning, body), length) in turning.iter().zip(found.cross_product_lengths) {
@@ -88,7 +88,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
             let found = length[lane] * SECOND_DERIVATIVE_FACTOR_F32;
             let of = error_share(
                 across - f64::from(found),
-                (CROSS_PRODUCT_ERROR_F32 * turning.rate).into(),
+                (CROSS_PRODUCT_ERROR_F32 * turning.angular_speed).into(),
             );
             shares.cross_product = greater(shares.cross_product, of);
         }

@@ -59,7 +59,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
                 other_extent: *axis.other_extent,
                 gap: along.gap,
                 free_times: [along.free_times[0], passing.free_times[0], along.free_times[1], along.free_times[2]],
-                piece_mask: self.group.pieces(level).to_bitmask() as u8,
+                piece_mask: self.group.single_piece_mask(level).to_bitmask() as u8,
                 computed_bounds: bounds(level, self),
             }
         })
@@ -75,7 +75,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
             reach > MIN_TURNING_PLANE_RADIUS_RATIO * other,
             other > MIN_TURNING_PLANE_RADIUS_RATIO * reach,
         ) {
-            (true, _) => Some(LargerBody::SplitBody),
+            (true, _) => Some(LargerBody::BodyToSplit),
             (_, true) => Some(LargerBody::OtherBody),
             _ => None,
         };
@@ -151,15 +151,15 @@ impl SplitChoiceInputs {
         };
         let (swept, past) = match motion.larger_body {
             None => (Some(false), Some(false)),
-            Some(LargerBody::SplitBody) => {
+            Some(LargerBody::BodyToSplit) => {
                 let arm = motion
-                    .split_rotation
+                    .split_body_rotation
                     .distance_from_centre(sample.other_node.centre());
                 let other_is_piece = self.piece_mask >> lane & 1 == 1;
                 (
                     swept(
                         greater(fixed, free(2)),
-                        motion.split_rotation.rate,
+                        motion.split_body_rotation.angular_speed,
                         arm,
                         radius,
                     ),
@@ -171,8 +171,10 @@ impl SplitChoiceInputs {
                 )
             }
             Some(LargerBody::OtherBody) => {
-                let (rate, other_is_piece) =
-                    (motion.other_rotation.rate, sample.other_node.is_piece());
+                let (rate, other_is_piece) = (
+                    motion.other_rotation.angular_speed,
+                    sample.other_node.is_piece(),
+                );
                 (
                     swept(greater(fixed, free(3)), rate, self.arm_lengths[lane], other),
                     if other_is_piece {
@@ -218,7 +220,7 @@ fn pairs_wait_and_are_split_by_their_sizes_and_gaps() {
     let mut check = |rng: &mut Pcg64| {
         let other = Shape::new(rng);
         let mut boxes = PairConfiguration::new(rng, &other).box_sample(rng, &other);
-        boxes.other_node.piece = rng.random_bool(0.3);
+        boxes.other_node.is_piece = rng.random_bool(0.3);
         decisions.check_and_count_choices(&boxes);
         decisions.check_and_count_choices(&boxes.with_larger_body());
         let other = Shape::new(rng).triangle();

@@ -63,7 +63,7 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
     let piece = body.piece(0);
     let heights = Heights::new(side, &piece, &turning.frame, normal, clock);
     let share_of = |(point, found): (&DVec3, PointHeight)| {
-        let arm = turning.rotated_arm(*point, side.path.rate * tau);
+        let arm = turning.rotated_arm(*point, side.path.angular_speed * tau);
         let velocity = DoubleDouble3::from(motion.velocity()) + turning.spin.cross(arm);
         let exact = DoubleDouble3::from(normal).dot(velocity);
         let off = (DoubleDouble::from(found.rate) - exact).get().abs();
@@ -111,7 +111,7 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let path = alone.a.path;
     let clock = tape.next_fraction();
     let (frame, normal) = (path.frame(clock), unit(tape.vector(-40..=0).into())?);
-    let turn = path.rate * tau;
+    let turn = path.angular_speed * tau;
     let angle = (AngleSinCos::new(turn), turn);
     let seen = RotatingVector::new(-path.axis, normal);
     let along = match tape.index_below(2) {
@@ -171,7 +171,7 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     assert!(heights.support_error_bound >= allowed);
     Some([
         error_share(height, allowed),
-        error_share(rate, path.rate * allowed),
+        error_share(rate, path.angular_speed * allowed),
     ])
 }
 

@@ -58,7 +58,7 @@ fn a_directed_time_is_the_gap_over_both_advances() {
         let checked = snapshot
             .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .unwrap();
-        let kept = problem.gap();
+        let kept = problem.kept_gap();
         if checked.lower <= 2.0 * kept {
             continue;
         }

@@ -60,7 +60,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
     );
     assert_eq!(
         meter.stats.point_evaluations,
-        ASSUMED_ORACLE_STEPS * snapshot.pieces.evaluations_per_search()
+        ASSUMED_ORACLE_STEPS * snapshot.pieces.points_per_support_search()
     );
     let mut meter = Meter::new(&problem);
     let mut telling = CountingOracle { steps: 7 };
@@ -102,19 +102,19 @@ fn the_plane_of_the_longest_time_counts() {
         let checked = snapshot
             .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .unwrap();
-        let kept = problem.gap();
+        let kept = problem.kept_gap();
         if checked.lower <= kept {
             continue;
         }
         let direct = SeparatingPlane {
             normal: snapshot.frames[0].rotation * checked.axis,
-            slack: checked.lower - kept,
+            gap_excess: checked.lower - kept,
         };
         let passing = snapshot.plane_of_closest_approach(&checked, kept);
         check_closest_approach_plane(&snapshot, &checked, kept, passing.as_ref());
         let planes: Vec<&SeparatingPlane> = iter::once(&direct).chain(&passing).collect();
         let along = |plane: &&SeparatingPlane| {
-            free_time_or_infinity(snapshot.fixed_plane_free_time(plane.normal, plane.slack))
+            free_time_or_infinity(snapshot.fixed_plane_free_time(plane.normal, plane.gap_excess))
         };
         let members = snapshot.moving_pieces();
         let attached = |plane: &&SeparatingPlane| {
@@ -163,7 +163,7 @@ fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
         let checked = snapshot
             .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .unwrap();
-        let kept = problem.gap();
+        let kept = problem.kept_gap();
         let plane = snapshot.plane_of_closest_approach(&checked, kept);
         check_closest_approach_plane(&snapshot, &checked, kept, plane.as_ref());
         planes += usize::from(plane.is_some());
@@ -194,7 +194,7 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
         let speed = chased.length() + velocity.length();
         let allowed = (slack / free - rate) / (RATE_ERROR_F64 * speed);
         assert!((0.4..3.0).contains(&allowed), "{allowed} {rate} {speed}");
-        let points = snapshot.pieces.evaluations_per_search();
+        let points = snapshot.pieces.points_per_support_search();
         assert_eq!(snapshot.evaluations(), 2 * points);
     }
 }
@@ -346,9 +346,9 @@ fn check_closest_approach_plane(
     let size = placed.map(DVec3::length).fold(0.0, greater);
     match plane {
         Some(plane) => assert!(
-            (plane.slack - slack).abs() <= snapshot.problem.rounding,
+            (plane.gap_excess - slack).abs() <= snapshot.problem.rounding,
             "{} {slack}",
-            plane.slack
+            plane.gap_excess
         ),
         None => assert!(slack <= 1e-6 * size, "{slack}"),
     }

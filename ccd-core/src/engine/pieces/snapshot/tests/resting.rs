@@ -1,7 +1,7 @@
 //! Tests for two triangles in one plane on which side of it each is kept, and for how long.
 
 use super::super::*;
-use crate::body::{Body, Volume};
+use crate::body::{Body, Solidity};
 use crate::distance::separation::sharp::improve_axis;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
@@ -19,7 +19,7 @@ struct RestingBody {
 }
 
 impl RestingBody {
-    fn new(triangles: &[Triangle], volume: Volume) -> Self {
+    fn new(triangles: &[Triangle], volume: Solidity) -> Self {
         let body = Body::new(&pieces(triangles), volume).unwrap();
         let in_plane = |k: &usize| {
             let points = body.pieces().get(*k).points;
@@ -37,7 +37,7 @@ impl RestingBody {
     fn solid(side: f64) -> Self {
         RestingBody::new(
             &translated_triangles(&cube(0.5, 1), 0.5 * side * DVec3::Z),
-            Volume::Solid,
+            Solidity::Solid,
         )
     }
 
@@ -50,12 +50,12 @@ impl RestingBody {
             DVec3::new(p.x, p.y, z)
         };
         let cube: Vec<Triangle> = cube(0.5, 1).iter().map(|t| t.map(level)).collect();
-        RestingBody::new(&cube, Volume::Solid)
+        RestingBody::new(&cube, Solidity::Solid)
     }
 
     fn sheet() -> Self {
         let triangle = [DVec3::ZERO, 0.4 * DVec3::X, 0.4 * DVec3::Y];
-        RestingBody::new(&[triangle], Volume::Surface)
+        RestingBody::new(&[triangle], Solidity::Surface)
     }
 
     /// Creates a shell with a figure of eight as cross section: the solid is above one half of a face, and below the
@@ -71,7 +71,7 @@ impl RestingBody {
         let caps = [[0, 2, 1], [0, 3, 2]].map(|t| t.map(|k| at(k, 0.0)));
         shell.extend(caps);
         shell.extend(caps.map(|[a, b, c]| [a, c, b].map(|p| p + DVec3::Y)));
-        RestingBody::new(&shell, Volume::Solid)
+        RestingBody::new(&shell, Solidity::Solid)
     }
 }
 
@@ -93,7 +93,8 @@ fn free_time([a, b]: [&RestingBody; 2], whole: DQuat, speed: f64, k: f64) -> Opt
         .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
         .unwrap();
     let checked = improve_axis(&snapshot.pieces, &checked, problem.rounding);
-    let free = snapshot.resting_free_time(&checked, -k * problem.rounding, [a.piece, b.piece]);
+    let free =
+        snapshot.free_time_when_touching(&checked, -k * problem.rounding, [a.piece, b.piece]);
     // The unit is the time in which B moves by a rounding.
     free.map(|free| free * speed.abs() / problem.rounding)
 }
