@@ -38,11 +38,11 @@ pub fn refuse_overwriting_input(
 }
 
 /// A reader of a table's bytes, from a file or standard input.
-type Source = Box<dyn Read>;
+pub(super) type Source = Box<dyn Read>;
 
 /// Opens a table of motions, and returns its rows and, if known, its length in bytes.
 pub fn open_motions(path: &Path) -> Result<(MotionRows<CsvRecords<Source>>, Option<u64>)> {
-    let (input, length) = open_table(path)?;
+    let (input, length) = open_table("--motions", path)?;
     let rows = MotionRows::new(input).with_context(|| input_name(path))?;
     Ok((rows, length))
 }
@@ -52,14 +52,15 @@ pub(super) type Rows = MovementRows<CsvRecords<Source>>;
 
 /// Opens a table of motions or paths, and returns its rows and, if known, its length in bytes.
 pub(super) fn open_movement_rows(path: &Path, grouping: Grouping) -> Result<(Rows, Option<u64>)> {
-    let (input, length) = open_table(path)?;
+    let (input, length) = open_table("--motions", path)?;
     let rows = MovementRows::new(input, grouping).with_context(|| input_name(path))?;
     Ok((rows, length))
 }
 
-fn open_table(path: &Path) -> Result<(Source, Option<u64>)> {
+/// Opens the table that an option names, and returns its bytes and, if known, their number.
+pub(super) fn open_table(option: &str, path: &Path) -> Result<(Source, Option<u64>)> {
     let name = || input_name(path);
-    let advice = "give --motions a CSV file, or - for standard input";
+    let advice = format!("give {option} a CSV file, or - for standard input");
     if is_dash(path) {
         return Ok((Box::new(io::stdin().lock()), None));
     }

@@ -19,11 +19,14 @@ pub mod picture;
 mod printable;
 mod progress;
 mod query;
+mod resumable;
+mod robots;
 mod scene;
 mod scene_table;
 mod size;
 mod solver_kind;
 mod table;
+mod time_histogram;
 mod timed;
 mod view;
 
@@ -42,6 +45,7 @@ use decompose::DecomposeArgs;
 use man::ManArgs;
 use query::QueryArgs;
 use rigid_ccd::Remark;
+use robots::{AcmArgs, ClearanceArgs, EdgesArgs};
 use scene::SceneCommandArgs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -63,6 +67,9 @@ Examples:
   ccd query --a gripper.stl --b shelf.stl --motions edges.csv --check
   ccd view --a knot.obj --b knot.obj --motions motions.csv --out view.html
   ccd scene scene.csv --duration 0.5 --out contacts.csv
+  ccd edges arm.urdf --cell cell.toml --edges moves.csv --out results.csv
+  ccd clearance arm.urdf --joint elbow=-30deg:60deg --require 5mm
+  ccd acm arm.urdf --out arm.srdf
   ccd decompose knot.obj --pieces patches --out knot.ccd
   ccd completions bash > ~/.local/share/bash-completion/completions/ccd
 
@@ -76,6 +83,12 @@ enum Command {
     View(Box<ViewArgs>),
     /// List which bodies of a scene touch: when, where, with which features
     Scene(SceneCommandArgs),
+    /// Certify edges or paths of a robot: free, first contact, or least distance
+    Edges(Box<EdgesArgs>),
+    /// Prove where a mechanism keeps a clearance, over a joint or along a path
+    Clearance(Box<ClearanceArgs>),
+    /// Decide which pairs of a robot's links can touch at all, and write them as SRDF
+    Acm(AcmArgs),
     /// Split a mesh into convex pieces; print statistics, write the pieces or the prepared body
     Decompose(DecomposeArgs),
     /// Print a completion script for a shell
@@ -91,6 +104,8 @@ pub enum RunOutcome {
     AllAnswered,
     /// Every row has an answer, and `--check` found rows that are not proven `free` or `kept`.
     SomeRowsUnproven,
+    /// A clearance is violated that `ccd clearance` requires.
+    ClearanceViolated,
     /// Some rows could not be read, answered or drawn; all others are done.
     SomeRowsBad,
 }
@@ -104,6 +119,9 @@ pub fn main() -> ExitCode {
         Command::Query(args) => query::run(&args, of_command),
         Command::View(args) => view::run(&args),
         Command::Scene(args) => scene::run(&args),
+        Command::Edges(args) => robots::run_edges(&args, of_command),
+        Command::Clearance(args) => robots::run_clearance(&args),
+        Command::Acm(args) => robots::run_acm(&args),
         Command::Decompose(args) => decompose::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),
@@ -115,6 +133,7 @@ pub fn main() -> ExitCode {
 pub fn print_error_and_get_exit_code(outcome: anyhow::Result<RunOutcome>) -> ExitCode {
     match outcome {
         Ok(RunOutcome::AllAnswered) => ExitCode::SUCCESS,
+        Ok(RunOutcome::ClearanceViolated) => ExitCode::FAILURE,
         Ok(RunOutcome::SomeRowsBad) => ExitCode::from(2),
         Ok(RunOutcome::SomeRowsUnproven) => ExitCode::from(3),
         Err(error) => match error.downcast_ref::<OutputError>() {

@@ -2,14 +2,13 @@
 
 mod args;
 mod help;
-mod journal;
 mod limits;
-mod outputs;
-mod resume;
 mod run;
 mod summary;
 
 pub(super) use args::QueryArgs;
+
+use args::UNRECORDED_OPTIONS;
 
 use super::files::{Rows, input_name, open_movement_rows, refuse_overwriting_input};
 use super::output::{Output, is_standard_output};
@@ -19,15 +18,18 @@ use crate::bad_rows::BadRowCounter;
 use crate::pair::Pair;
 use crate::picture::{Painter, QueryContext, TimeMeaning};
 use crate::progress::Progress;
+use crate::resumable::{
+    self, Checkpoint, ClaimedFiles, FILE_CHECKSUM_PREFIX, OpenedTables, RunFiles,
+    answer_in_batches, option_values, options_text,
+};
 use crate::solver_kind::{BoundKind, ScheduleKind, SolverKind};
 use crate::timed::TimedQuestion;
 use anyhow::{Result, bail};
 use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};
 use clap::ArgMatches;
-use journal::{Checkpoint, FILE_CHECKSUM_PREFIX, options_text};
-use outputs::{ClaimedFiles, OpenedTables};
 use rigid_ccd::batch::{BatchSize, Question, parallel_solver};
+use rigid_ccd::table::results::names;
 use run::QueryRun;
 use std::io::{self, Write};
 use std::iter::once;
@@ -40,20 +42,30 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     refuse_options_unfit_for_each_other(args)?;
     let (mut rows, length) = open_movement_rows(&args.motions, args.ask.path_grouping())?;
     refuse_options_unfit_for_paths(args, &rows)?;
-    let places = ClaimedFiles::claim(args)?;
+    let files = run_files(args);
+    let places = ClaimedFiles::claim(&files)?;
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let pair = args.bodies.load(method(args), args.quiet)?;
     let (mut outputs, earlier) =
-        match OpenedTables::new(args, places, &recorded_options(args, given, &pair))? {
+        match OpenedTables::new(&files, places, &recorded_options(args, given, &pair))? {
             OpenedTables::Unfinished(outputs, earlier) => (*outputs, earlier),
             OpenedTables::Finished(end) => {
-                return resume::verify_and_report_finished(args, &mut rows, end);
+                warn_of_partial_page(args);
+                resumable::check_finished(&files, &mut rows, end)?;
+                if !args.quiet {
+                    let summary = Summary::new(args.tolerance).with_earlier_counts(end.counts);
+                    print_summary(args, &summary);
+                }
+                return Ok(report_run_outcome(args, end));
             }
         };
     if args.resume {
-        resume::report(args, earlier);
+        if earlier.is_some() {
+            warn_of_partial_page(args);
+        }
+        resumable::report(&files, earlier);
     }
-    let start = resume::skip_rows(args, &mut rows, earlier)?;
+    let start = resumable::skip_rows(&files, &mut rows, earlier)?;
     outputs.save(start)?;
     let timing = timed_question(args);
     if timing.method.motion_bound == BoundKind::Published {
@@ -75,7 +87,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
             .map(|_| ChosenRows::new(args.html_ids.clone())),
         summary: Summary::new(args.tolerance).with_earlier_counts(start.counts),
     };
-    let end = run.answer_rows(&mut rows, start)?;
+    let end = answer_in_batches(&files, &mut rows, start, &mut run)?;
     run.outputs.finish(end)?;
     drop(run.progress);
     run.bad_rows.print_total();
@@ -88,6 +100,28 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
         pair.print_remarks(args.tolerance, &rows);
     }
     Ok(report_run_outcome(args, end).max(shown))
+}
+
+/// Returns the files of the run.
+fn run_files(args: &QueryArgs) -> RunFiles<'_> {
+    RunFiles {
+        input: &args.motions,
+        rows: args.rows,
+        out: &args.out,
+        header: names(&args.columns()),
+        contacts: args.contacts.as_deref(),
+        resume: args.resume,
+        quiet: args.quiet,
+    }
+}
+
+/// Warns, if `--html` is given, that the page of a resumed run shows only the rows answered in this run.
+fn warn_of_partial_page(args: &QueryArgs) {
+    if args.html.is_some() {
+        print_error(
+            "--html: shows the rows that this run answers; `ccd view --results` shows those of earlier ones",
+        );
+    }
 }
 
 /// Writes the HTML page of the chosen rows, if `--html` is given.
@@ -206,8 +240,9 @@ fn recorded_options(args: &QueryArgs, given: &ArgMatches, pair: &Pair) -> String
     let version = ("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
     let checksums = (pair.checksums.iter())
         .map(|(option, checksum)| (format!("{FILE_CHECKSUM_PREFIX}{option}"), checksum.clone()));
-    let options = args.recorded_options(given).into_iter();
-    options_text(once(version).chain(options).chain(checksums))
+    let options = option_values::<QueryArgs>(given, &UNRECORDED_OPTIONS).into_iter();
+    let rows = ("--rows".to_owned(), args.rows.to_string());
+    options_text(once(version).chain(options).chain([rows]).chain(checksums))
 }
 
 fn method(args: &QueryArgs) -> SolverKind {

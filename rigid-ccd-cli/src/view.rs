@@ -12,6 +12,7 @@ use super::pair::BodiesArgs;
 use super::scene_table;
 use super::{RunOutcome, print_error};
 use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
+use crate::robots::{CellArgs, RobotPainter, RobotPaths};
 use crate::solver_kind::SolverKind;
 use crate::timed::{TimedQuestion, answer_timed};
 use anyhow::{Context, Result, bail};
@@ -30,11 +31,14 @@ const MAX_ROWS_READ: usize = 10_000;
 
 /// Runs `ccd view`: writes the page of a table of motions or of a scene.
 pub(super) fn run(args: &ViewArgs) -> Result<RunOutcome> {
+    if args.cell.robot.is_given() {
+        return view_robot(args, &args.cell);
+    }
     match (&args.scene, args.bodies_and_motions()) {
         (Some(scene), _) => view_scene(args, scene),
         (None, Some((bodies, motions))) => view_rows(args, &bodies, motions),
         // The parser prevents this.
-        (None, None) => bail!("give either --a, --b and --motions, or --scene"),
+        (None, None) => bail!("give --a, --b and --motions, or --scene, or a URDF"),
     }
 }
 
@@ -148,7 +152,8 @@ pub(super) fn write_rows_page(
     })
 }
 
-fn write_page(page: &Page<'_>, out: Output, quiet: bool) -> Result<()> {
+/// Writes a page, and says so unless `quiet`.
+pub(super) fn write_page(page: &Page<'_>, out: Output, quiet: bool) -> Result<()> {
     let html = page.html()?;
     let told = (!quiet && !out.is_stream()).then(|| out.name());
     out.write(|writer| writer.write_all(html.as_bytes()))?;
@@ -176,6 +181,36 @@ fn settings(args: &ViewArgs) -> Settings {
         margin: args.margin,
         ..Settings::DEFAULT
     }
+}
+
+fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
+    robot.refuse_overwriting(&[("--out", &args.out)])?;
+    let asked = RobotPaths {
+        table: args.path.as_deref(),
+        joints: &args.joint,
+        ids: &args.ids,
+    };
+    if let Some(path) = asked.table {
+        refuse_overwriting_input(("--path", path), ("--out", &args.out))?;
+    }
+    let out = Output::claim(&args.out)?;
+    let cell = robot.load(args.quiet)?;
+    let mut solver = cell.solver().with_settings(Settings {
+        margin: robot.clearance,
+        ..settings(args)
+    });
+    let painter = RobotPainter::new(&cell)?;
+    let paths = asked.read(&cell)?;
+    let views = paths
+        .iter()
+        .map(|path| painter.animation(&mut solver, path));
+    let views = views.collect::<Result<Vec<_>>>()?;
+    if let ([view], false) = (&views[..], args.quiet) {
+        print_error(&view.verdict);
+    }
+    let title = input_name(robot.robot.path());
+    write_page(&painter.page(&title, views), out, args.quiet)?;
+    Ok(RunOutcome::AllAnswered)
 }
 
 fn view_scene(args: &ViewArgs, path: &Path) -> Result<RunOutcome> {

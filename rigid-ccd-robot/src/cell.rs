@@ -182,6 +182,11 @@ impl Cell {
         &self.robot
     }
 
+    /// Returns which pairs of links are checked.
+    pub fn link_pairs(&self) -> &LinkPairs {
+        &self.pairs
+    }
+
     /// Returns the names of the obstacles, in the order in which they were added.
     pub fn obstacle_names(&self) -> impl ExactSizeIterator<Item = &str> {
         self.obstacle_names.iter().map(String::as_str)
@@ -210,6 +215,31 @@ impl Cell {
         } else {
             Err(RobotError::NoSuchItem { name: name.into() })
         }
+    }
+
+    /// Returns the bodies of the cell in a configuration, each with what it belongs to and its pose in the frame of the base.
+    ///
+    /// # Errors
+    /// [`RobotError::WrongPositionCount`], [`RobotError::InvalidPosition`].
+    pub fn placed_bodies(
+        &self,
+        configuration: &[f64],
+    ) -> Result<Vec<(Item<'_>, &Body, Pose)>, RobotError> {
+        let robot_bodies = self.robot_body_placements.iter().map(|held| {
+            let link = self
+                .robot
+                .pose(&self.robot.links()[held.link].name, configuration)?;
+            Ok::<Pose, RobotError>(link.compose(&held.pose_in_link))
+        });
+        let obstacles = self.bodies[self.robot_body_count()..]
+            .iter()
+            .map(|placed| Ok(placed.pose));
+        let poses = robot_bodies.chain(obstacles).enumerate();
+        let placed = poses.map(|(number, pose)| {
+            let body: &Body = &self.bodies[number].body;
+            Ok((self.item(number), body, pose?))
+        });
+        placed.collect()
     }
 
     pub(crate) fn kinematics(&self) -> &Kinematics {

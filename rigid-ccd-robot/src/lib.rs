@@ -24,17 +24,21 @@
 //! |---|---|
 //! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another |
 //! | `cell` | a robot among obstacles: [`Cell`] |
-//! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/clearance_ranges` where a distance is kept |
+//! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/clearance_ranges` where a distance is kept, `solver/distance_curve` the distance over a path |
 //! | `link_contacts` | whether two links can ever touch, by branch and bound over their joints: [`Robot::classify_link_contacts`] |
 //! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
 //! | `urdf` | a robot from a URDF file with its meshes: [`Urdf`] |
 //! | `srdf` | pairs that are not checked, from an SRDF file |
+//! | `path_rows` | answers as rows of tables, for the command and the Python package |
 //! | `tuning` | numbers that only cost time |
 
 mod cell;
 mod error;
 mod link_contacts;
 mod pairs;
+#[cfg(feature = "tables")]
+#[doc(hidden)]
+pub mod path_rows;
 mod robot;
 mod solver;
 mod srdf;
@@ -49,7 +53,8 @@ pub use link_contacts::LinkContactClass;
 pub use pairs::{LinkPairs, SkipReason};
 pub use robot::{ChainBetween, Joint, Link, LinkBody, PositionRule, Robot};
 pub use solver::{
-    CellSolver, ClearanceRange, ClosestApproach, PathContact, PathOutcome, PathPoint, RangeSettings,
+    CellSolver, ClearanceRange, ClosestApproach, DistanceRange, PathContact, PathOutcome,
+    PathPoint, RangeSettings,
 };
 pub use urdf::{BodyElements, MeshConversion, Urdf, UrdfError};
 

@@ -2,6 +2,7 @@
 
 use crate::robot::Robot;
 use std::collections::BTreeMap;
+use std::fmt;
 
 /// The pairs of a robot's links that are checked for collision, with the reason for each pair that is not. Links go by
 /// their numbers.
@@ -25,6 +26,17 @@ pub enum SkipReason {
     NoMotion,
     /// The caller or a file, such as an SRDF, excludes the pair, for the reason given here.
     Disabled(String),
+}
+
+impl fmt::Display for SkipReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SkipReason::Adjacent => f.write_str("adjacent"),
+            SkipReason::NoMotion => f.write_str("no joint between them moves"),
+            SkipReason::Disabled(reason) if reason.is_empty() => f.write_str("disabled"),
+            SkipReason::Disabled(reason) => write!(f, "disabled: {reason}"),
+        }
+    }
 }
 
 impl LinkPairs {
@@ -80,6 +92,12 @@ impl LinkPairs {
     /// Returns the reason why a pair is not checked; `None` if it is checked.
     pub fn skip_reason(&self, one: usize, other: usize) -> Option<&SkipReason> {
         self.skip_reasons.get(&ordered_pair(one, other))
+    }
+
+    /// Iterates over the pairs of links with bodies that are not checked, each with the reason.
+    pub fn skipped_pairs(&self) -> impl Iterator<Item = ([usize; 2], &SkipReason)> {
+        self.all_pairs()
+            .filter_map(|pair| Some((pair, self.skip_reasons.get(&pair)?)))
     }
 
     /// Iterates over all pairs of links with bodies.

@@ -3,6 +3,7 @@
 mod boxes;
 mod clearance_ranges;
 mod displacement;
+mod distance_curve;
 mod engine;
 mod exact;
 pub(crate) mod kinematics;
@@ -18,6 +19,7 @@ pub(crate) mod violation;
 mod waypoints;
 
 pub use clearance_ranges::{ClearanceRange, RangeSettings};
+pub use distance_curve::DistanceRange;
 pub use stretch::PathPoint;
 
 use crate::cell::{Cell, Item};
@@ -176,6 +178,11 @@ impl<'c> CellSolver<'c> {
         path: &[Q],
     ) -> Result<ClosestApproach<'c>, PathError> {
         self.answer(Question::ClosestApproach, path)?;
+        Ok(self.found_approach()?)
+    }
+
+    /// Returns the bounds that the last search for a closest approach found.
+    fn found_approach(&mut self) -> Result<ClosestApproach<'c>, Error> {
         let (lower, upper) = self.search.distance_bounds();
         let found = self.search.result;
         Ok(ClosestApproach {
@@ -259,4 +266,4 @@ fn witnesses(outcome: &Outcome) -> [DVec3; 2] {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -122,7 +122,7 @@ fn is_step_file(bytes: &[u8]) -> bool {
 fn missing_gltf_feature(_: &LinkedFiles) -> MeshFault {
     MeshFault::MissingFeature {
         format: "glTF",
-        feature: "gltf",
+        cargo_feature: "gltf",
     }
 }
 

@@ -6,16 +6,15 @@ use crate::named::{
 };
 use crate::numbers::{parse_nonnegative, parse_seconds, tolerance};
 use crate::pair::BodiesArgs;
+use crate::resumable::RowRange;
 use crate::solver_kind::{BoundKind, OracleKind, ScheduleKind};
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
 use ccd_core::schedule::Shortcut;
 use ccd_core::{StartPolicy, VectorInstructions};
-use clap::{ArgMatches, Args, Command};
+use clap::Args;
 use rigid_ccd::batch::Question;
 use rigid_ccd::table::results::{self, Column};
-use std::fmt;
 use std::path::PathBuf;
-use std::str::FromStr;
 use std::time::Duration;
 
 /// Find the first contact of two bodies, or their least distance, for each row of a table of motions
@@ -122,37 +121,12 @@ impl QueryArgs {
         }
         columns
     }
-
-    /// Returns the options that determine the tables, with their values as given or by default.
-    pub(super) fn recorded_options(&self, given: &ArgMatches) -> Vec<(String, String)> {
-        let all = QueryArgs::augment_args(Command::new("query"));
-        let options = all.get_arguments().filter(|option| {
-            let id = option.get_id().as_str();
-            !UNRECORDED_OPTIONS.contains(&id)
-        });
-        let recorded = options.map(|option| {
-            let values = given
-                .get_raw(option.get_id().as_str())
-                .into_iter()
-                .flatten();
-            let values: Vec<_> = values.map(|value| value.to_string_lossy()).collect();
-            let value = match values.join(",") {
-                none if none.is_empty() => "not given".to_owned(),
-                values => values,
-            };
-            let name = option.get_long().unwrap_or_default();
-            (format!("--{name}"), value)
-        });
-        recorded
-            .chain([("--rows".to_owned(), self.rows.to_string())])
-            .collect()
-    }
 }
 
 /// The ids of the options that the journal does not record as they are given. Most of them change no byte of the
 /// tables. The journal has a checksum of the motions instead of their path, and one form of `--rows` instead of
 /// several.
-const UNRECORDED_OPTIONS: [&str; 10] = [
+pub(super) const UNRECORDED_OPTIONS: [&str; 10] = [
     "motions",
     "threads",
     "instructions",
@@ -164,55 +138,3 @@ const UNRECORDED_OPTIONS: [&str; 10] = [
     "quiet",
     "rows",
 ];
-
-/// A range of rows of a table, numbered from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct RowRange {
-    /// The number of the first row of the range.
-    pub(super) start: usize,
-    /// The number of the row after the range; `None` for a range without an end.
-    pub(super) end_row: Option<usize>,
-}
-
-impl RowRange {
-    pub(super) fn includes_all_rows(self) -> bool {
-        self.start == 0 && self.end_row.is_none()
-    }
-}
-
-impl FromStr for RowRange {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let bound = |text: &str, absent| match text {
-            "" => Ok(absent),
-            number => number.parse().map(Some).map_err(|_| ()),
-        };
-        let range = text.split_once("..").and_then(|(start, end)| {
-            let start = bound(start, Some(0)).ok()??;
-            let end = bound(end, None).ok()?;
-            Some(RowRange {
-                start,
-                end_row: end,
-            })
-        });
-        range
-            .filter(|range| range.end_row.is_none_or(|end| range.start < end))
-            .ok_or_else(|| {
-                "give the first row and the one after the last, such as 1000..2000".into()
-            })
-    }
-}
-
-impl fmt::Display for RowRange {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let RowRange {
-            start,
-            end_row: end,
-        } = self;
-        match end {
-            Some(end) => write!(f, "{start}..{end}"),
-            None => write!(f, "{start}.."),
-        }
-    }
-}

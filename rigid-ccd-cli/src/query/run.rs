@@ -1,22 +1,20 @@
 //! Answers the selected rows of a query, and writes them in order.
 
 use super::args::QueryArgs;
-use super::journal::Checkpoint;
-use super::outputs::Outputs;
 use super::summary::Summary;
 use crate::bad_rows::BadRowCounter;
 use crate::contacts;
-use crate::files::{Rows, input_name};
+use crate::counts::StatusCounts;
 use crate::output::OutputError;
 use crate::progress::Progress;
+use crate::resumable::{Batches, Checkpoint, Outputs};
 use crate::solver_kind::Solve;
 use crate::timed::{TimedQuestion, answer_timed};
 use crate::view::ChosenRows;
-use anyhow::{Context, Result};
 use rigid_ccd::ParallelSolver;
 use rigid_ccd::batch::{BatchSize, BodyPair, TimedAnswer};
 use rigid_ccd::table::courses::{CourseRow, Movements};
-use rigid_ccd::table::motions::{RowPosition, RowProblem, TableError};
+use rigid_ccd::table::motions::{RowPosition, RowProblem};
 use rigid_ccd::table::results::{Line, ResultRow, Status};
 use std::time::Instant;
 
@@ -38,36 +36,30 @@ pub(super) struct QueryRun<'a> {
 /// The answer to a row with its duration, or what is wrong with the row.
 type RowAnswer = Result<TimedAnswer, RowProblem>;
 
-impl QueryRun<'_> {
-    /// Answers the selected rows from `start` on, and returns the last checkpoint.
-    pub(super) fn answer_rows(&mut self, rows: &mut Rows, start: Checkpoint) -> Result<Checkpoint> {
-        let mut done = start;
-        self.progress.begin_batch(0, rows.consumed_bytes());
-        loop {
-            let end = self.args.rows.end_row;
-            let remaining = end.map_or(usize::MAX, |end| end.saturating_sub(done.rows));
-            let (batch, broken) = read_rows(rows, self.batch_size.row_count().min(remaining));
-            if batch.is_empty() && broken.is_none() {
-                return Ok(done);
-            }
-            self.progress
-                .begin_batch(batch.len(), rows.consumed_bytes());
-            let answers = self.answer(&batch);
-            self.write(&batch, &answers)?;
-            done = Checkpoint {
-                rows: done.rows + batch.len(),
-                checksum: rows.checksum(),
-                bad_rows: start.bad_rows + self.bad_rows.count(),
-                counts: self.summary.counts,
-                ..done
-            };
-            self.outputs.save(done)?;
-            if let Some(error) = broken {
-                return Err(error).with_context(|| input_name(&self.args.motions));
-            }
-        }
+impl Batches<CourseRow> for QueryRun<'_> {
+    fn row_count(&self) -> usize {
+        self.batch_size.row_count()
     }
 
+    fn begin(&mut self, row_count: usize, end_byte: u64) {
+        self.progress.begin_batch(row_count, end_byte);
+    }
+
+    fn answer_and_write(&mut self, rows: &[CourseRow]) -> Result<(), OutputError> {
+        let answers = self.answer(rows);
+        self.write(rows, &answers)
+    }
+
+    fn counts(&self) -> (usize, StatusCounts) {
+        (self.bad_rows.count(), self.summary.counts)
+    }
+
+    fn save(&mut self, checkpoint: Checkpoint) -> Result<(), OutputError> {
+        self.outputs.save(checkpoint)
+    }
+}
+
+impl QueryRun<'_> {
     /// Answers the rows of a batch on all threads.
     fn answer(&mut self, batch: &[CourseRow]) -> Vec<RowAnswer> {
         let (bodies, timing, progress) = (self.bodies, &self.timed_question, &self.progress);
@@ -152,15 +144,6 @@ impl QueryRun<'_> {
         }
         Ok(())
     }
-}
-
-/// Reads up to `count` rows, and returns the error that ended the table early, if any.
-fn read_rows(rows: &mut Rows, count: usize) -> (Vec<CourseRow>, Option<TableError>) {
-    let mut broken = None;
-    let read = rows
-        .take(count)
-        .map_while(|row| row.map_err(|error| broken = Some(error)).ok());
-    (read.collect(), broken)
 }
 
 /// The number of rows whose contacts are in memory at the same time.

@@ -5,10 +5,10 @@ mod tests;
 
 use super::limits::LIMIT_ADVICE;
 use crate::counts::StatusCounts;
+use crate::time_histogram::TimeHistogram;
 use ccd_core::order::greater;
 use rigid_ccd::batch::TimedAnswer;
 use rigid_ccd::table::results::Status;
-use std::collections::BTreeMap;
 use std::fmt;
 
 /// The counts of rows, the times and the counters of work that a run's summary prints. Its size does not depend on the
@@ -76,7 +76,7 @@ impl Summary {
 
     /// Returns the means of the counters as one line; `None` without answers.
     pub(super) fn describe_means(&self) -> Option<String> {
-        let count = self.time_histogram.count;
+        let count = self.time_histogram.count();
         let mean = |total: u64| total as f64 / count as f64;
         (count > 0).then(|| {
             format!(
@@ -86,52 +86,6 @@ impl Summary {
                 mean(self.oracle_steps)
             )
         })
-    }
-}
-
-/// A histogram of times with a relative resolution of a thousandth; its size does not grow with the number of times.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct TimeHistogram {
-    /// For each value of a time's leading bits, the number of times. These bits sort as the times do.
-    counts: BTreeMap<u64, u64>,
-    count: u64,
-    total_micros: f64,
-}
-
-/// The number of low bits dropped from a time: all except the leading 10 of its fraction.
-const DROPPED_LOW_BIT_COUNT: u32 = f64::MANTISSA_DIGITS - 1 - 10;
-
-impl TimeHistogram {
-    fn add(&mut self, micros: f64) {
-        *self
-            .counts
-            .entry(micros.to_bits() >> DROPPED_LOW_BIT_COUNT)
-            .or_default() += 1;
-        self.count += 1;
-        self.total_micros += micros;
-    }
-
-    /// Returns the mean time; NaN without times.
-    fn mean(&self) -> f64 {
-        self.total_micros / self.count as f64
-    }
-
-    /// Returns the median time, rounded to a thousandth; NaN without times.
-    fn median(&self) -> f64 {
-        0.5 * (self.time_at_rank(self.count.saturating_sub(1) / 2)
-            + self.time_at_rank(self.count / 2))
-    }
-
-    /// Returns the time at an index in ascending order of times.
-    fn time_at_rank(&self, index: u64) -> f64 {
-        let mut passed = 0;
-        for (&bits, &count) in &self.counts {
-            passed += count;
-            if passed > index {
-                return f64::from_bits(bits << DROPPED_LOW_BIT_COUNT);
-            }
-        }
-        f64::NAN
     }
 }
 
@@ -151,7 +105,7 @@ impl fmt::Display for Summary {
             0 => write!(f, "; 0 in this run")?,
             here => write!(f, "; {here} in this run")?,
         }
-        if self.time_histogram.count == 0 {
+        if self.time_histogram.count() == 0 {
             return Ok(());
         }
         write!(

@@ -3,15 +3,29 @@
 use crate::meshes::MeshArgs;
 use crate::numbers::{parse_nonnegative, tolerance};
 use crate::pair::BodiesArgs;
+use crate::robots::{CellArgs, JointRange};
 use crate::scene_table::SceneArgs;
 use ccd_core::limits::DEFAULT_TOLERANCE;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Write a page that shows queries, or a scene of many bodies: motions, contacts, the gap over time
+/// Write a page that shows queries, a scene of many bodies, or a robot: motions, contacts, the gap over time
 #[derive(Clone, Debug, Args)]
 #[command(after_help = AFTER_HELP, arg_required_else_help = true)]
 pub(crate) struct ViewArgs {
+    #[command(flatten)]
+    pub(super) cell: CellArgs,
+    /// Table of edges or paths of the robot, CSV, as of `ccd edges`; - reads standard input
+    #[arg(long, value_name = "CSV", requires = "urdf", conflicts_with_all = ["motions", "a", "b", "scene"])]
+    pub(super) path: Option<PathBuf>,
+    /// Range over which a joint of the robot moves, or a position at which it rests, as of `ccd clearance`
+    #[arg(
+        long,
+        value_name = "NAME=FROM:TO",
+        allow_hyphen_values = true,
+        requires = "urdf"
+    )]
+    pub(super) joint: Vec<JointRange>,
     /// Body A, in the forms of `ccd query --a`
     #[arg(long, value_name = "BODY", requires_all = ["b", "motions"])]
     a: Option<String>,
@@ -24,7 +38,7 @@ pub(crate) struct ViewArgs {
     #[arg(
         long,
         value_name = "CSV",
-        required_unless_present = "scene",
+        required_unless_present_any = ["scene", "urdf"],
         requires = "a"
     )]
     motions: Option<PathBuf>,
@@ -41,12 +55,11 @@ pub(crate) struct ViewArgs {
         long,
         value_name = "ID,...",
         value_delimiter = ',',
-        requires = "motions",
         conflicts_with = "scene"
     )]
     pub(super) ids: Vec<String>,
     /// Table of the bodies of one scene, CSV: column `body` as in --a, columns px, vx, ... as in a table of motions
-    #[arg(long, value_name = "CSV", conflicts_with_all = ["motions", "a", "b"])]
+    #[arg(long, value_name = "CSV", conflicts_with_all = ["motions", "a", "b", "urdf"])]
     pub(super) scene: Option<PathBuf>,
     /// Time at which the motions of --scene end [default: 1]
     #[arg(long, value_name = "TIME", value_parser = parse_nonnegative, allow_hyphen_values = true)]
@@ -88,12 +101,15 @@ impl ViewArgs {
 const AFTER_HELP: &str = "\
 The page is one file that needs no network. It has a view for each row shown: both bodies, a slider for the
 time, ghosts of the steps, the measured gap over time with a proven lower bound, and what touches.
+Of a robot the gap is that of the nearest pair, and the proven line is under it at every time.
 A motion is shown for its first contact. `ccd query --ask ... --html` shows the other questions.
 
 Examples:
   ccd view --a knot.obj --b knot.obj --motions motions.csv --ids 3,17
   ccd view --a knot.obj --b knot.obj --motions motions.csv --results results.csv --out knots.html
   ccd view --scene scene.csv --duration 0.5
+  ccd view arm.urdf --cell cell.toml --path moves.csv
+  ccd view arm.urdf --joint elbow=-30deg:60deg
   printf 'id,a_px,a_vx\\nhit,-3,4\\n' | ccd view --a box:.5,.5,.5 --b sphere:.3 --motions -
   printf 'body,id,px,vx\\nsphere:.5,ball,-3,4\\n\"box:.5,1,1\",wall,0,0\\n' > balls.csv; ccd view --scene balls.csv
 

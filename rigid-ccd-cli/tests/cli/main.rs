@@ -10,6 +10,7 @@ mod outputs;
 mod questions;
 mod refusals;
 mod resume;
+mod robots;
 mod scene;
 mod view;
 

@@ -112,7 +112,7 @@ fn a_run_that_is_killed_twice_ends_with_the_same_bytes() {
         let (_, rest) = message.split_once(before)?;
         rest.split_once(after)?.0.parse::<usize>().ok()
     };
-    let done = count("continues at row ", " of the motions");
+    let done = count("continues at row ", " of standard input");
     let done = done.unwrap_or_else(|| panic!("{message}"));
     // The summary counts all rows of the table, and those of this run.
     assert_contains(&message, "\n20000 rows: ");

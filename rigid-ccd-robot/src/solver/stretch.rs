@@ -23,6 +23,13 @@ pub(crate) struct Stretch {
 }
 
 impl PathPoint {
+    /// Returns the time at which a robot is at this point if each segment takes one unit of time: the number of the segment and
+    /// the share together.
+    pub fn time(self) -> f64 {
+        // Exact: the share was computed from this sum.
+        self.segment as f64 + self.share
+    }
+
     /// Converts a number of segments; the end of a path belongs to its last segment.
     pub(crate) fn from_segment_position(at: f64, segments: usize) -> Self {
         let segment = (at as usize).min(segments.saturating_sub(1));

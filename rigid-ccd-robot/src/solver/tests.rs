@@ -16,7 +16,7 @@ use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Pose, Solver, trajectory};
 use std::sync::Arc;
 
-pub(super) fn random_cell(random: &mut Pcg64) -> Cell {
+pub(crate) fn random_cell(random: &mut Pcg64) -> Cell {
     let robot = random_robot(random);
     let pairs = LinkPairs::from_robot(&robot);
     let mut cell = Cell::new(robot, pairs);
@@ -28,14 +28,14 @@ pub(super) fn random_cell(random: &mut Pcg64) -> Cell {
     cell
 }
 
-pub(super) fn random_configuration(random: &mut Pcg64, robot: &Robot) -> Vec<f64> {
+pub(crate) fn random_configuration(random: &mut Pcg64, robot: &Robot) -> Vec<f64> {
     let names = robot.free_joint_names();
     names.map(|_| random.random_range(-1.5..1.5)).collect()
 }
 
 /// Returns the least distance of all pairs that are checked at a configuration, by poses and distances of one pair after
 /// another.
-pub(super) fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
+pub(crate) fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
     let robot = cell.robot();
     let mut solver = Solver::new();
     let pose = |link: usize| {

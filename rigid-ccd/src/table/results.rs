@@ -7,7 +7,9 @@ mod columns;
 mod status;
 
 pub use columns::reordered_columns;
-pub use columns::{COLUMNS, COUNTER_COLUMNS, CellGetter, Column, Line, columns, names};
+pub use columns::{
+    COLUMNS, COUNTER_COLUMNS, CellGetter, Column, ITEM_COLUMNS, Line, columns, names,
+};
 pub use status::Status;
 
 use crate::batch::question::Question;
@@ -82,6 +84,12 @@ pub struct ResultRow {
     /// The time after which there is no contact.
     #[serde(skip)]
     pub last_time: Option<f64>,
+    /// The name of what A is in a scene or a cell: the body, the link or the object that a link holds.
+    #[serde(skip)]
+    pub item_a: Option<String>,
+    /// The name of what B is in a scene or a cell.
+    #[serde(skip)]
+    pub item_b: Option<String>,
     /// The counters of the work that the query took.
     #[serde(skip)]
     pub stats: Option<Stats>,

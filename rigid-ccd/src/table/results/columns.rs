@@ -65,6 +65,12 @@ pub const COUNTER_COLUMNS: [Column; 5] = [
     Column("front", Count(|row| Some(row.stats?.peak_front))),
 ];
 
+/// The columns of the names of A and B, in the answers about cells.
+pub const ITEM_COLUMNS: [Column; 2] = [
+    Column("a", Text(|row| row.item_a.as_deref())),
+    Column("b", Text(|row| row.item_b.as_deref())),
+];
+
 /// Returns the columns of the answers to a question, without counters.
 pub fn columns(question: Question) -> Vec<Column> {
     let last_time = (question == Question::ContactInterval).then_some(LAST_TIME_COLUMN);

@@ -3,8 +3,8 @@
 //! A [journal](super::journal) records the options and the last checkpoint. Rows after that checkpoint,
 //! a half-written one for instance, are dropped when a run continues.
 
-use super::args::QueryArgs;
 use super::journal::{Checkpoint, EarlierRun, Journal, JournalError};
+use super::run_files::RunFiles;
 use crate::contacts;
 use crate::output::{JOURNAL_EXTENSION, Output, OutputError};
 use crate::table::{LengthAndChecksum, TableWriter, measure_beginning};
@@ -14,14 +14,14 @@ use std::fs::File;
 use std::path::PathBuf;
 
 /// The open tables of results and contacts, with their journal.
-pub(super) struct Outputs {
-    pub(super) results: TableWriter,
-    pub(super) contacts: Option<TableWriter>,
+pub(crate) struct Outputs {
+    pub(crate) results: TableWriter,
+    pub(crate) contacts: Option<TableWriter>,
     journal: Option<Journal>,
 }
 
 /// The opened tables of a run; the variant says which rows are left to answer.
-pub(super) enum OpenedTables {
+pub(crate) enum OpenedTables {
     /// New tables, or those of an interrupted run with the same options: the rows after its checkpoint are left.
     Unfinished(Box<Outputs>, Option<Checkpoint>),
     /// The tables of a finished run with the same options: no row is left.
@@ -29,21 +29,21 @@ pub(super) enum OpenedTables {
 }
 
 /// The reserved files of the tables of results and contacts, before anything is written.
-pub(super) struct ClaimedFiles {
+pub(crate) struct ClaimedFiles {
     results: Output,
     contacts: Option<Output>,
 }
 
 impl ClaimedFiles {
     /// Reserves the files of the table of results and, if `--contacts` is given, of the table of contacts.
-    pub(super) fn claim(args: &QueryArgs) -> Result<Self> {
-        let contacts = args.contacts.as_deref().map(Output::claim_table);
+    pub(crate) fn claim(files: &RunFiles<'_>) -> Result<Self> {
+        let contacts = files.contacts.map(Output::claim_table);
         let places = ClaimedFiles {
-            results: Output::claim(&args.out)?,
+            results: Output::claim(files.out)?,
             contacts: contacts.transpose()?,
         };
         let streams = [Some(&places.results), places.contacts.as_ref()];
-        if args.resume && streams.into_iter().flatten().any(Output::is_stream) {
+        if files.resume && streams.into_iter().flatten().any(Output::is_stream) {
             bail!("--resume needs files; give --out (and --contacts) a file name");
         }
         Ok(places)
@@ -52,9 +52,9 @@ impl ClaimedFiles {
 
 impl OpenedTables {
     /// Creates the tables, or opens those of an earlier run with the same options.
-    pub(super) fn new(args: &QueryArgs, places: ClaimedFiles, options: &str) -> Result<Self> {
+    pub(crate) fn new(files: &RunFiles<'_>, places: ClaimedFiles, options: &str) -> Result<Self> {
         let Some(results) = &places.results.claim else {
-            let outputs = Outputs::create(args, places, options, None)?;
+            let outputs = Outputs::create(files, places, options, None)?;
             return Ok(OpenedTables::Unfinished(Box::new(outputs), None));
         };
         let journal = results.sibling(JOURNAL_EXTENSION);
@@ -69,16 +69,16 @@ impl OpenedTables {
             Err(JournalError) => None,
         };
         let mut places = places;
-        if args.resume
+        if files.resume
             && let Some(finished) = &earlier
             && finished.checkpoint.finished
         {
             if places.rename_finished_tables(finished, options)? {
                 return Ok(OpenedTables::Finished(finished.checkpoint));
             }
-            places = ClaimedFiles::claim(args)?;
+            places = ClaimedFiles::claim(files)?;
         }
-        places.create_or_resume_tables(args, options, (earlier, journal))
+        places.create_or_resume_tables(files, options, (earlier, journal))
     }
 }
 
@@ -86,7 +86,7 @@ impl ClaimedFiles {
     /// Continues the tables of an interrupted run, or creates new tables if there was no such run.
     fn create_or_resume_tables(
         self,
-        args: &QueryArgs,
+        files: &RunFiles<'_>,
         options: &str,
         (earlier, journal): (Option<EarlierRun>, PathBuf),
     ) -> Result<OpenedTables> {
@@ -96,7 +96,7 @@ impl ClaimedFiles {
             .as_ref()
             .filter(|results| results.initial_length() > 0);
         match earlier.zip(left) {
-            Some((earlier, results)) if args.resume => {
+            Some((earlier, results)) if files.resume => {
                 let rows = results.partial_path().display().to_string();
                 let advice = format!("delete {rows} to start over");
                 refuse_changed_options(&earlier, options, "interrupted", &advice)?;
@@ -113,7 +113,7 @@ impl ClaimedFiles {
                 earlier.checkpoint.counts.row_count()
             ),
             _ => {
-                let outputs = Outputs::create(args, self, options, Some(journal))?;
+                let outputs = Outputs::create(files, self, options, Some(journal))?;
                 Ok(OpenedTables::Unfinished(Box::new(outputs), None))
             }
         }
@@ -193,7 +193,7 @@ impl Outputs {
     }
 
     fn create(
-        args: &QueryArgs,
+        files: &RunFiles<'_>,
         places: ClaimedFiles,
         options: &str,
         journal: Option<PathBuf>,
@@ -202,7 +202,7 @@ impl Outputs {
         let journal = journal
             .map(|path| Journal::start(path, options, None))
             .transpose()?;
-        let results = TableWriter::start(places.results, &names(&args.columns()))?;
+        let results = TableWriter::start(places.results, &files.header)?;
         let header = names(&contacts::columns());
         let contacts = (places.contacts).map(|place| TableWriter::start(place, &header));
         Ok(Outputs {
@@ -213,7 +213,7 @@ impl Outputs {
     }
 
     /// Flushes the tables, and appends a checkpoint to the journal.
-    pub(super) fn save(&mut self, mut checkpoint: Checkpoint) -> Result<(), OutputError> {
+    pub(crate) fn save(&mut self, mut checkpoint: Checkpoint) -> Result<(), OutputError> {
         checkpoint.results = self.results.flush_and_measure()?;
         if let Some(contacts) = &mut self.contacts {
             checkpoint.contacts = contacts.flush_and_measure()?;
@@ -223,7 +223,7 @@ impl Outputs {
     }
 
     /// Renames the complete tables to their final names.
-    pub(super) fn finish(mut self, checkpoint: Checkpoint) -> Result<(), OutputError> {
+    pub(crate) fn finish(mut self, checkpoint: Checkpoint) -> Result<(), OutputError> {
         // A run that is resumed after this point only renames the tables.
         self.save(Checkpoint {
             finished: true,

@@ -1,4 +1,4 @@
-//! The journal of a run of `ccd query`: its options, and a checkpoint after each batch of rows.
+//! The journal of a run: its options, and a checkpoint after each batch of rows.
 //!
 //! The file is next to the tables. Each checkpoint ends with the checksum of all before it. The file stays when the run
 //! has finished, so that the same command with `--resume` finds nothing left to do.
@@ -6,6 +6,7 @@
 use crate::counts::StatusCounts;
 use crate::output::OutputError;
 use crate::table::LengthAndChecksum;
+use clap::{ArgMatches, Args, Command};
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
@@ -14,29 +15,29 @@ use std::path::{Path, PathBuf};
 
 /// The state of a run after a batch of rows, from which it can be continued.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) struct Checkpoint {
-    /// The number of finished rows of the table of motions, including rows skipped before the selected ones.
-    pub(super) rows: usize,
-    /// The checksum of the table of motions up to the end of the finished rows.
-    pub(super) checksum: u32,
+pub(crate) struct Checkpoint {
+    /// The number of finished rows of the input, including rows skipped before the selected ones.
+    pub(crate) rows: usize,
+    /// The checksum of the input up to the end of the finished rows.
+    pub(crate) checksum: u32,
     /// The number of finished rows without a complete answer.
-    pub(super) bad_rows: usize,
+    pub(crate) bad_rows: usize,
     /// The number of finished rows with each status.
-    pub(super) counts: StatusCounts,
+    pub(crate) counts: StatusCounts,
     /// The length and checksum of the table of results, set when it is flushed.
-    pub(super) results: LengthAndChecksum,
+    pub(crate) results: LengthAndChecksum,
     /// The length and checksum of the table of contacts, set when it is flushed.
-    pub(super) contacts: LengthAndChecksum,
+    pub(crate) contacts: LengthAndChecksum,
     /// Whether the run has answered all selected rows.
     #[serde(rename = "whole")]
-    pub(super) finished: bool,
+    pub(crate) finished: bool,
 }
 
 /// The prefix of an option's name in an entry that holds the checksum of the option's file.
-pub(super) const FILE_CHECKSUM_PREFIX: &str = "content-of:";
+pub(crate) const FILE_CHECKSUM_PREFIX: &str = "content-of:";
 
 /// The journal file: the options of the run, then a line for each checkpoint. A run continues from the last checkpoint.
-pub(super) struct Journal {
+pub(crate) struct Journal {
     path: PathBuf,
     file: File,
     /// The checksum of what has been written to the journal.
@@ -47,16 +48,40 @@ pub(super) struct Journal {
 const CHECKPOINTS_HEADING: &str = "\nmarks:\n";
 
 /// Returns options with their values as text with one line each; line ends within values are escaped.
-pub(super) fn options_text(options: impl IntoIterator<Item = (String, String)>) -> String {
+pub(crate) fn options_text(options: impl IntoIterator<Item = (String, String)>) -> String {
     let lines = options
         .into_iter()
         .map(|(option, value)| format!("{option} {}", value.escape_debug()));
     lines.collect::<Vec<_>>().join("\n")
 }
 
+/// Returns the options of a command that determine its tables, with their values as given or by default. Options without a long
+/// name, such as a file that comes first, go by their ids.
+pub(crate) fn option_values<A: Args>(
+    given: &ArgMatches,
+    unrecorded_ids: &[&str],
+) -> Vec<(String, String)> {
+    let all = A::augment_args(Command::new("ccd"));
+    let options = all
+        .get_arguments()
+        .filter(|option| !unrecorded_ids.contains(&option.get_id().as_str()));
+    let recorded = options.map(|option| {
+        let id = option.get_id().as_str();
+        let values = given.get_raw(id).into_iter().flatten();
+        let values: Vec<_> = values.map(|value| value.to_string_lossy()).collect();
+        let value = match values.join(",") {
+            none if none.is_empty() => "not given".to_owned(),
+            values => values,
+        };
+        let name = option.get_long().unwrap_or(id);
+        (format!("--{name}"), value)
+    });
+    recorded.collect()
+}
+
 impl Journal {
     /// Replaces any older journal by a new one with the run's options and, if the run is resumed, its checkpoint.
-    pub(super) fn start(
+    pub(crate) fn start(
         path: PathBuf,
         options: &str,
         from: Option<&Checkpoint>,
@@ -80,7 +105,7 @@ impl Journal {
     }
 
     /// Appends a checkpoint to the journal.
-    pub(super) fn append(&mut self, checkpoint: Checkpoint) -> Result<(), OutputError> {
+    pub(crate) fn append(&mut self, checkpoint: Checkpoint) -> Result<(), OutputError> {
         line(&checkpoint, &mut self.checksum_hasher)
             .and_then(|line| self.file.write_all(line.as_bytes()))
             .map_err(|source| OutputError::error_for_path(&self.path, source))
@@ -97,21 +122,21 @@ fn line(checkpoint: &Checkpoint, sum: &mut Hasher) -> io::Result<String> {
 }
 
 /// The options and the last checkpoint that the journal of an earlier run records.
-pub(super) struct EarlierRun {
+pub(crate) struct EarlierRun {
     options: String,
     /// The last checkpoint in the journal.
-    pub(super) checkpoint: Checkpoint,
+    pub(crate) checkpoint: Checkpoint,
 }
 
 /// The error of a journal that is missing or damaged.
-pub(super) struct JournalError;
+pub(crate) struct JournalError;
 
 impl EarlierRun {
     /// Reads the journal of an earlier run; `None` for a run that ended before its first checkpoint.
     ///
     /// # Errors
     /// [`JournalError`] when the journal is missing or damaged.
-    pub(super) fn read(journal: &Path) -> Result<Option<Self>, JournalError> {
+    pub(crate) fn read(journal: &Path) -> Result<Option<Self>, JournalError> {
         let text = fs::read_to_string(journal).map_err(|_| JournalError)?;
         let (options, checkpoints) = text.split_once(CHECKPOINTS_HEADING).ok_or(JournalError)?;
         // A line without a line end may be incomplete.
@@ -132,7 +157,7 @@ impl EarlierRun {
     }
 
     /// Describes the options that differ from those of the earlier run; `None` if all are the same.
-    pub(super) fn describe_changes(&self, now: &str) -> Option<String> {
+    pub(crate) fn describe_changes(&self, now: &str) -> Option<String> {
         if self.options == now {
             return None;
         }

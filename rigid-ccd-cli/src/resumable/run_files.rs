@@ -1,0 +1,23 @@
+//! The files of a run over the rows of a table.
+
+use super::row_range::RowRange;
+use std::path::Path;
+
+/// The files of a run, and how it uses them.
+#[derive(Clone, Debug)]
+pub(crate) struct RunFiles<'a> {
+    /// The table of what is asked, or `-`.
+    pub(crate) input: &'a Path,
+    /// The rows of the input that are answered.
+    pub(crate) rows: RowRange,
+    /// The table of results, or `-`.
+    pub(crate) out: &'a Path,
+    /// The names of the columns of the results.
+    pub(crate) header: Vec<&'static str>,
+    /// The table of contacts, if one is asked for.
+    pub(crate) contacts: Option<&'a Path>,
+    /// Whether an earlier run is continued.
+    pub(crate) resume: bool,
+    /// Whether only warnings and errors are printed.
+    pub(crate) quiet: bool,
+}

@@ -1,0 +1,158 @@
+//! `ccd acm`: decides which pairs of a robot's links can touch at all.
+
+use super::loading::RobotArgs;
+use crate::files::refuse_overwriting_input;
+use crate::output::Output;
+use crate::progress::Progress;
+use crate::table::TableWriter;
+use crate::{RunOutcome, print_escaped_to_stderr};
+use anyhow::Result;
+use clap::Args;
+use rigid_ccd_robot::{LinkContactClass, Robot};
+use std::path::PathBuf;
+
+/// Decide which pairs of a robot's links can touch at all, and write them as SRDF
+#[derive(Clone, Debug, Args)]
+#[command(mut_arg("urdf", |urdf| urdf.required(true)), after_help = AFTER_HELP)]
+pub(crate) struct AcmArgs {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// Examine at most N boxes of configurations for a pair; a larger number decides more pairs
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
+    boxes: u32,
+    /// Write the pairs that need no check to this file, SRDF; - writes to standard output
+    #[arg(long, value_name = "SRDF", default_value = "-")]
+    out: PathBuf,
+    /// Write a table of all pairs to this file, CSV
+    #[arg(long, value_name = "CSV")]
+    report: Option<PathBuf>,
+    /// Print only warnings and errors on standard error
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+const AFTER_HELP: &str = "\
+The SRDF disables neighbours, and pairs that are proven to touch never or always, over all configurations within the
+limits of the joints. MoveIt's own file samples configurations.
+
+Table of pairs (--report):
+  link1, link2       the links
+  class              never, always, sometimes or undecided
+  apart_share        share of the configurations that are proven apart
+  touching_JOINT, apart_JOINT
+                     a configuration that touches, and one that does not
+
+Exit code: 0 if the pairs are examined, also if some stay undecided; 2 for bad input, 1 if nothing can be written.
+
+Examples:
+  ccd acm arm.urdf --out arm.srdf
+  ccd acm arm.urdf --boxes 10000 --out arm.srdf --report pairs.csv";
+
+/// Runs `ccd acm`.
+pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
+    let mut outputs = vec![("--out", args.out.as_path())];
+    outputs.extend(args.report.iter().map(|path| ("--report", path.as_path())));
+    args.robot.refuse_overwriting(&outputs)?;
+    if let Some(report) = &args.report {
+        refuse_overwriting_input(("--out", &args.out), ("--report", report))?;
+    }
+    let out = Output::claim(&args.out)?;
+    let report = args
+        .report
+        .as_deref()
+        .map(Output::claim_table)
+        .transpose()?;
+    let robot = args.robot.load(args.quiet)?;
+    let progress = Progress::start_single_step("examining pairs of links", args.quiet);
+    let classes = robot.classify_link_contacts(args.boxes as usize)?;
+    drop(progress);
+    let name = args.robot.path().file_stem().unwrap_or_default();
+    let srdf = robot.to_srdf(&name.to_string_lossy(), &classes);
+    out.write(|writer| writer.write_all(srdf.as_bytes()))?;
+    if let Some(report) = report {
+        write_report(&robot, &classes, report)?;
+    }
+    if !args.quiet {
+        print_escaped_to_stderr(&summary(&classes));
+    }
+    Ok(RunOutcome::AllAnswered)
+}
+
+fn class_name(class: &LinkContactClass) -> &'static str {
+    match class {
+        LinkContactClass::Never => "never",
+        LinkContactClass::Always => "always",
+        LinkContactClass::Sometimes { .. } => "sometimes",
+        LinkContactClass::Undecided { .. } => "undecided",
+    }
+}
+
+fn summary(classes: &[([usize; 2], LinkContactClass)]) -> String {
+    let counts = ["never", "sometimes", "always", "undecided"].map(|name| {
+        let found = classes
+            .iter()
+            .filter(|(_, class)| class_name(class) == name);
+        format!("{} {name}", found.count())
+    });
+    format!(
+        "{} pairs of links touch: {}",
+        classes.len(),
+        counts.join(", ")
+    )
+}
+
+/// Writes a row for each pair.
+fn write_report(
+    robot: &Robot,
+    classes: &[([usize; 2], LinkContactClass)],
+    report: Output,
+) -> Result<()> {
+    let joints: Vec<&str> = robot.free_joint_names().collect();
+    let mut header = ["link1", "link2", "class", "apart_share"]
+        .map(str::to_owned)
+        .to_vec();
+    for prefix in ["touching", "apart"] {
+        header.extend(joints.iter().map(|joint| format!("{prefix}_{joint}")));
+    }
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    let mut table = TableWriter::start(report, &header)?;
+    for (links, class) in classes {
+        let (share, configurations) = match class {
+            LinkContactClass::Never => (1.0, [None, None]),
+            LinkContactClass::Always => (0.0, [None, None]),
+            LinkContactClass::Sometimes {
+                touching_configuration,
+                apart_configuration,
+            } => (
+                f64::NAN,
+                [Some(touching_configuration), Some(apart_configuration)],
+            ),
+            LinkContactClass::Undecided {
+                proven_apart_share,
+                touching_configuration,
+                apart_configuration,
+            } => (
+                *proven_apart_share,
+                [
+                    touching_configuration.as_ref(),
+                    apart_configuration.as_ref(),
+                ],
+            ),
+        };
+        let names = links.map(|link| robot.links()[link].name.clone());
+        let mut cells = names.to_vec();
+        cells.push(class_name(class).to_owned());
+        cells.push(if share.is_nan() {
+            String::new()
+        } else {
+            share.to_string()
+        });
+        for configuration in configurations {
+            cells.extend((0..joints.len()).map(|joint| {
+                configuration.map_or(String::new(), |positions| positions[joint].to_string())
+            }));
+        }
+        table.row(&cells)?;
+    }
+    Ok(table.finish()?)
+}

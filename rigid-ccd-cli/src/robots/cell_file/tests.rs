@@ -1,0 +1,93 @@
+use super::*;
+use rigid_ccd::trajectory;
+use rigid_ccd_robot::{Joint, Link, LinkPairs, PositionRule, Robot};
+
+fn empty_cell() -> Cell {
+    let ball = Link::named("arm").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
+    let hinge = Joint {
+        name: "hinge".into(),
+        parent: "base".into(),
+        child: "arm".into(),
+        axis_and_limits: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+        position_rule: PositionRule::Free,
+    };
+    let robot = Robot::new(vec![Link::named("base"), ball], vec![hinge]).unwrap();
+    let pairs = LinkPairs::from_robot(&robot);
+    Cell::new(robot, pairs)
+}
+
+fn read(text: &str) -> Result<Cell> {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("cell.toml");
+    fs::write(&path, text)?;
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    fs::write(folder.path().join("corner.obj"), corners)?;
+    let mut cell = empty_cell();
+    add_to(&mut cell, &path)?;
+    Ok(cell)
+}
+
+#[test]
+fn a_cell_has_what_its_file_says() {
+    let text = "
+        [[obstacle]]
+        name = 'table'
+        body = 'box:1,1,0.1'
+        position = [0, 0, -0.5]
+
+        [[obstacle]]
+        name = 'corner'
+        body = 'corner.obj@scale=0.1'
+        position = [0.15, 0, 0]
+        quaternion = [0, 0, 0, 1]
+
+        [[attached]]
+        name = 'tool'
+        body = 'sphere:0.05'
+        link = 'arm'
+        position = [0.2, 0, 0]
+        may_touch = ['arm']
+
+        [padding]
+        arm = 0.02
+
+        [[clearance]]
+        between = ['arm', 'table']
+        distance = 0.35";
+    let cell = read(text).unwrap();
+    assert_eq!(
+        cell.obstacle_names().collect::<Vec<_>>(),
+        ["table", "corner"]
+    );
+    assert_eq!(cell.attached_names().collect::<Vec<_>>(), ["tool"]);
+    // The table is 0.3 below the ball, which has to keep 0.35.
+    let contact = cell.solver().any_contact(&[[1.5]]).unwrap().unwrap();
+    assert_eq!(contact.items.map(|item| item.name()), ["arm", "table"]);
+}
+
+#[test]
+fn errors_name_what_is_wrong() {
+    for (text, expected) in [
+        ("[[obstacle]]\nname = 'a'\nbody = 'box:1'", "obstacle a"),
+        ("[[obstacle]]\nname = 'a'\nbody = 'none.obj'", "none.obj"),
+        ("[[obstacle]]\nname = 'arm'\nbody = 'sphere:1'", "arm"),
+        (
+            "[[obstacle]]\nname = 'a'\nbody = 'sphere:1'\nrpy = [0, 0, 0]\nquaternion = [1, 0, 0, 0]",
+            "rpy",
+        ),
+        ("[[obstacles]]\nname = 'a'\nbody = 'sphere:1'", "obstacles"),
+        ("[padding]\nleg = 0.1", "leg"),
+        (
+            "[[clearance]]\nbetween = ['arm', 'wall']\ndistance = 0.1",
+            "wall",
+        ),
+        (
+            "[[attached]]\nname = 'a'\nbody = 'sphere:1'\nlink = 'hand'",
+            "hand",
+        ),
+    ] {
+        let error = read(text).map(|_| ()).unwrap_err();
+        let message = crate::causes::message_with_causes(&error);
+        assert!(message.contains(expected), "{message}");
+    }
+}

@@ -1,0 +1,163 @@
+//! `ccd clearance`: proves where a mechanism keeps a clearance.
+
+mod report;
+
+use super::joint_values::{JointRange, length};
+use super::loading::CellArgs;
+use super::page::RobotPainter;
+use super::robot_paths::RobotPaths;
+use crate::files::{input_name, refuse_overwriting_input};
+use crate::numbers::tolerance;
+use crate::output::{Output, OutputError};
+use crate::view::write_page;
+use crate::{RunOutcome, print_error};
+use anyhow::Result;
+use clap::Args;
+use report::Report;
+use rigid_ccd::Settings;
+use rigid_ccd::answer::ClearanceVerdict;
+use rigid_ccd_robot::RangeSettings;
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+/// Prove where a mechanism keeps a clearance, over a joint or along a path
+#[derive(Clone, Debug, Args)]
+#[command(mut_arg("urdf", |urdf| urdf.required(true)), after_help = AFTER_HELP)]
+pub(crate) struct ClearanceArgs {
+    #[command(flatten)]
+    cell: CellArgs,
+    /// Range over which a joint moves, such as knee=-90deg:40deg, or its position; several joints move together. A joint that is
+    /// not named rests at 0, or at its limit nearest to 0
+    #[arg(
+        long,
+        value_name = "NAME=FROM:TO",
+        allow_hyphen_values = true,
+        required_unless_present = "path"
+    )]
+    joint: Vec<JointRange>,
+    /// Table with a path, CSV, as `ccd edges` reads it; in place of ranges, for closed loops of joints
+    #[arg(long, value_name = "CSV")]
+    path: Option<PathBuf>,
+    /// How far points of links may be from where the path places them, such as 0.1mm
+    #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length)]
+    pose_error: f64,
+    /// Clearance that all pairs have to keep, such as 0.3mm
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    require: Option<f64>,
+    /// Width of the bounds of a distance, such as 0.001mm
+    #[arg(long, value_name = "LENGTH", default_value = "0.000001", value_parser = tolerance_length)]
+    tolerance: f64,
+    /// Length of the shortest ranges that are examined, as a share of the path from one configuration to the next
+    #[arg(long, value_name = "SHARE", default_value_t = RangeSettings::DEFAULT.resolution)]
+    resolution: f64,
+    /// Print one JSON object, with the curve of the distance
+    #[arg(long)]
+    json: bool,
+    /// Write a page that shows the mechanism and its distances to this file, HTML
+    #[arg(long, value_name = "HTML")]
+    html: Option<PathBuf>,
+    /// Print only warnings and errors on standard error
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+const AFTER_HELP: &str = "\
+Prints bounds of the least distance of all pairs that are checked, with the pair and where it is. With --require also the
+ranges in which all pairs certainly keep the clearance, in which one certainly violates it, and the rest. The ends of kept
+ranges are limits of the joints that would keep it.
+
+Exit codes:
+  0  the clearance is kept everywhere, or none is required
+  1  it is violated somewhere, or the output cannot be written
+  2  it is unverified somewhere, or bad input
+
+Examples:
+  ccd clearance arm.urdf --joint elbow=-30deg:60deg
+  ccd clearance arm.urdf --joint elbow=-30deg:60deg --joint shoulder=20deg --cell cell.toml --require 5mm --json
+  ccd clearance arm.urdf --path path.csv --pose-error 0.1mm --html clearance.html";
+
+fn tolerance_length(text: &str) -> Result<f64, String> {
+    tolerance(&length(text)?.to_string())
+}
+
+/// Runs `ccd clearance`.
+pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
+    if let Some(html) = &args.html {
+        args.cell.refuse_overwriting(&[("--html", html)])?;
+        if let Some(path) = &args.path {
+            refuse_overwriting_input(("--path", path), ("--html", html))?;
+        }
+    }
+    let html = args.html.as_deref().map(Output::claim).transpose()?;
+    let cell = args.cell.load(args.quiet)?;
+    let asked = RobotPaths {
+        table: args.path.as_deref(),
+        joints: &args.joint,
+        ids: &[],
+    };
+    let paths = asked.read(&cell)?;
+    let path = &paths[0];
+    if paths.len() > 1 {
+        print_error(&format!(
+            "--path: only the first path, {}, is examined",
+            path.id
+        ));
+    }
+    let settings = Settings {
+        tolerance: args.tolerance,
+        ..Settings::DEFAULT
+    };
+    let mut solver = cell.solver().with_settings(settings.clone());
+    let closest = solver.closest_approach(&path.configurations)?;
+    let ranges = match args.require {
+        None => Vec::new(),
+        Some(clearance) => {
+            solver.set_settings(Settings {
+                margin: clearance,
+                ..settings.clone()
+            });
+            let how = RangeSettings {
+                resolution: args.resolution,
+                max_pose_error: args.pose_error,
+            };
+            solver.clearance_ranges(&path.configurations, how)?
+        }
+    };
+    solver.set_settings(settings);
+    let report = Report {
+        cell: &cell,
+        path,
+        pose_error: args.pose_error,
+        required: args.require,
+        closest,
+        ranges,
+    };
+    let printed = if args.json {
+        let curve = solver.distance_curve(&path.configurations, report::CURVE_HALVINGS)?;
+        writeln!(io::stdout(), "{}", report.to_json(&curve))
+    } else {
+        writeln!(io::stdout(), "{report}")
+    };
+    printed.map_err(OutputError::standard_output_error)?;
+    if let Some(html) = html {
+        let painter = RobotPainter::new(&cell)?;
+        let title = input_name(args.cell.robot.path());
+        let view = painter.animation(&mut solver, path)?;
+        write_page(&painter.page(&title, vec![view]), html, args.quiet)?;
+    }
+    Ok(outcome(&report))
+}
+
+fn outcome(report: &Report<'_>) -> RunOutcome {
+    let has = |verdict| report.ranges.iter().any(|range| range.clearance == verdict);
+    if has(ClearanceVerdict::Violated) {
+        RunOutcome::ClearanceViolated
+    } else if has(ClearanceVerdict::Unverified) {
+        print_error(
+            "the clearance is unverified in a part of the path; a smaller --resolution or --tolerance may decide",
+        );
+        RunOutcome::SomeRowsBad
+    } else {
+        RunOutcome::AllAnswered
+    }
+}

@@ -1,0 +1,209 @@
+//! What `ccd clearance` prints.
+
+use crate::robots::path_table::TablePath;
+use rigid_ccd::answer::ClearanceVerdict;
+use rigid_ccd::trajectory::JointKind;
+use rigid_ccd_robot::{
+    Cell, ClearanceRange, ClosestApproach, DistanceRange, Item, PathContact, PathPoint,
+};
+use serde_json::{Value, json};
+use std::fmt;
+
+/// The number of halvings of each segment of a path for the curve of the distance.
+pub(super) const CURVE_HALVINGS: u32 = 6;
+
+/// The distances of a mechanism along a path.
+pub(super) struct Report<'a> {
+    pub(super) cell: &'a Cell,
+    pub(super) path: &'a TablePath,
+    /// How far points may be from where the path places them.
+    pub(super) pose_error: f64,
+    /// The clearance that is required, if any.
+    pub(super) required: Option<f64>,
+    pub(super) closest: ClosestApproach<'a>,
+    pub(super) ranges: Vec<ClearanceRange>,
+}
+
+impl Report<'_> {
+    /// Returns the bounds of the least distance. Both bodies of a pair may be off by the error of poses.
+    fn distance_bounds(&self, closest: &ClosestApproach<'_>) -> [f64; 2] {
+        let error = 2.0 * self.pose_error;
+        let lower = closest.lower - error;
+        [if lower > 0.0 { lower } else { 0.0 }, closest.upper + error]
+    }
+
+    /// Returns the positions of the joints that move, at a point of the path.
+    fn moving_positions(&self, at: PathPoint) -> Vec<(&str, f64)> {
+        let configurations = &self.path.configurations;
+        let from = &configurations[at.segment];
+        let to = &configurations[(at.segment + 1).min(configurations.len() - 1)];
+        let names = self.cell.robot().free_joint_names().enumerate();
+        let moving = names.filter(|(k, _)| {
+            let first = configurations[0][*k];
+            configurations
+                .iter()
+                .any(|configuration| configuration[*k] != first)
+        });
+        moving
+            .map(|(k, name)| (name, from[k] + at.share * (to[k] - from[k])))
+            .collect()
+    }
+
+    /// Describes a point of the path by the positions of the joints that move.
+    fn place(&self, at: PathPoint) -> String {
+        let positions = self
+            .moving_positions(at)
+            .into_iter()
+            .map(|(name, position)| format!("{name} = {}", self.position_text(name, position)));
+        let positions: Vec<String> = positions.collect();
+        if positions.is_empty() {
+            "rest".to_owned()
+        } else {
+            positions.join(", ")
+        }
+    }
+
+    fn position_text(&self, name: &str, position: f64) -> String {
+        let joint = self
+            .cell
+            .robot()
+            .joints()
+            .iter()
+            .find(|joint| joint.name == name);
+        match joint.map(|joint| joint.axis_and_limits.kind()) {
+            Some(JointKind::Revolute(_)) => format!("{:.3}°", position.to_degrees()),
+            _ => format!("{:.4} mm", 1e3 * position),
+        }
+    }
+
+    fn positions_json(&self, at: PathPoint) -> Value {
+        let positions = self.moving_positions(at).into_iter();
+        Value::Object(
+            positions
+                .map(|(name, position)| (name.to_owned(), json!(position)))
+                .collect(),
+        )
+    }
+
+    fn closest_json(&self, closest: &ClosestApproach<'_>) -> Value {
+        let [lower, upper] = self.distance_bounds(closest);
+        json!({
+            "distance_lower": lower,
+            "distance_upper": Some(upper).filter(|upper| upper.is_finite()),
+            "nearest": closest.nearest.map(|nearest| self.contact_json(&nearest)),
+            "limit": closest.limit.map(|limit| limit.to_string()),
+        })
+    }
+
+    fn contact_json(&self, contact: &PathContact<'_>) -> Value {
+        let [a, b] = contact.items.map(Item::name);
+        let [witness_a, witness_b] = contact.witnesses.map(|point| point.to_array());
+        json!({
+            "time": contact.at.time(),
+            "positions": self.positions_json(contact.at),
+            "a": a,
+            "b": b,
+            "witness_a": witness_a,
+            "witness_b": witness_b,
+        })
+    }
+
+    /// Returns the report with the curve of the distance; lengths in metres, angles in radians.
+    pub(super) fn to_json(&self, curve: &[DistanceRange<'_>]) -> Value {
+        let range = |from: PathPoint, to: PathPoint| {
+            json!({
+                "from": from.time(),
+                "to": to.time(),
+                "from_positions": self.positions_json(from),
+                "to_positions": self.positions_json(to),
+            })
+        };
+        let with = |mut range: Value, more: Value| {
+            if let (Some(range), Value::Object(more)) = (range.as_object_mut(), more) {
+                range.extend(more);
+            }
+            range
+        };
+        json!({
+            "closest": self.closest_json(&self.closest),
+            "required": self.required,
+            "verdict": self.required.map(|_| verdict_name(self.verdict())),
+            "ranges": self.ranges.iter().map(|found| {
+                with(range(found.from, found.to), json!({ "clearance": verdict_name(found.clearance) }))
+            }).collect::<Vec<_>>(),
+            "curve": curve.iter().map(|found| {
+                with(range(found.from, found.to), self.closest_json(&found.closest))
+            }).collect::<Vec<_>>(),
+            "not_checked": self.pairs_not_checked().map(|([a, b], reason)| {
+                json!({ "a": a, "b": b, "reason": reason })
+            }).collect::<Vec<_>>(),
+        })
+    }
+
+    /// Returns the verdict about the whole path: the worst of its ranges.
+    fn verdict(&self) -> ClearanceVerdict {
+        let has = |verdict| self.ranges.iter().any(|range| range.clearance == verdict);
+        if has(ClearanceVerdict::Violated) {
+            ClearanceVerdict::Violated
+        } else if has(ClearanceVerdict::Unverified) {
+            ClearanceVerdict::Unverified
+        } else {
+            ClearanceVerdict::Kept
+        }
+    }
+
+    /// Iterates over the pairs of links with bodies that are not checked, with the reason.
+    fn pairs_not_checked(&self) -> impl Iterator<Item = ([&str; 2], String)> {
+        let (robot, pairs) = (self.cell.robot(), self.cell.link_pairs());
+        pairs.skipped_pairs().map(|([one, other], reason)| {
+            let names = [one, other].map(|link| robot.links()[link].name.as_str());
+            (names, reason.to_string())
+        })
+    }
+}
+
+fn verdict_name(verdict: ClearanceVerdict) -> &'static str {
+    match verdict {
+        ClearanceVerdict::Kept => "kept",
+        ClearanceVerdict::Violated => "violated",
+        ClearanceVerdict::Unverified => "unverified",
+    }
+}
+
+impl fmt::Display for Report<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [lower, upper] = self
+            .distance_bounds(&self.closest)
+            .map(|length| 1e3 * length);
+        // Rounded down and up.
+        let (lower, upper) = ((lower * 1e5).floor() / 1e5, (upper * 1e5).ceil() / 1e5);
+        write!(f, "least distance: {lower:.5} to {upper:.5} mm")?;
+        if let Some(nearest) = &self.closest.nearest {
+            let [a, b] = nearest.items.map(Item::name);
+            write!(f, ", {a} and {b} at {}", self.place(nearest.at))?;
+        }
+        if let Some(limit) = self.closest.limit {
+            write!(f, " (a limit was reached: {limit})")?;
+        }
+        if let Some(required) = self.required {
+            write!(
+                f,
+                "\n{} mm required: {}",
+                1e3 * required,
+                verdict_name(self.verdict())
+            )?;
+        }
+        for range in &self.ranges {
+            let (from, to) = (self.place(range.from), self.place(range.to));
+            write!(f, "\n  {:10} {from} to {to}", verdict_name(range.clearance))?;
+        }
+        let skipped: Vec<String> = self
+            .pairs_not_checked()
+            .map(|([a, b], reason)| format!("{a} and {b} ({reason})"))
+            .collect();
+        if !skipped.is_empty() {
+            write!(f, "\nnot checked: {}", skipped.join(", "))?;
+        }
+        Ok(())
+    }
+}

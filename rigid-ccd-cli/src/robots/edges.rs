@@ -1,0 +1,261 @@
+//! `ccd edges`: answers a question about each edge or path of a robot in a table.
+
+mod args;
+
+pub(crate) use args::EdgesArgs;
+
+use super::path_table::{PathTable, TablePath};
+use crate::bad_rows::BadRowCounter;
+use crate::counts::StatusCounts;
+use crate::files::input_name;
+use crate::output::OutputError;
+use crate::progress::Progress;
+use crate::resumable::{
+    self, Batches, Checkpoint, ClaimedFiles, FILE_CHECKSUM_PREFIX, OpenedTables, Outputs, RunFiles,
+    answer_in_batches, option_values, options_text,
+};
+use crate::time_histogram::TimeHistogram;
+use crate::{RunOutcome, print_error};
+use anyhow::{Context, Result, bail};
+use args::UNRECORDED_OPTIONS;
+use clap::ArgMatches;
+use rigid_ccd::batch::{BatchSize, parallel_solver};
+use rigid_ccd::table::motions::RowError;
+use rigid_ccd::table::results::{Column, Line, ResultRow, Status, names};
+use rigid_ccd::{ParallelSolver, Settings};
+use rigid_ccd_robot::CellSolver;
+use rigid_ccd_robot::path_rows::PathQuestion;
+use std::fs;
+use std::iter::once;
+use std::time::Instant;
+
+/// Runs `ccd edges`: answers all valid rows; an invalid row gets the status `error` and a reason.
+pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
+    args.cell.refuse_overwriting(&[("--out", &args.out)])?;
+    crate::files::refuse_overwriting_input(("--edges", &args.edges), ("--out", &args.out))?;
+    if args.check && args.ask == PathQuestion::ClosestApproach && args.cell.clearance == 0.0 {
+        bail!(
+            "--check needs --clearance with --ask closest-approach: a distance alone is neither good nor bad"
+        );
+    }
+    let columns = args.columns();
+    let files = RunFiles {
+        input: &args.edges,
+        rows: args.rows,
+        out: &args.out,
+        header: names(&columns),
+        contacts: None,
+        resume: args.resume,
+        quiet: args.quiet,
+    };
+    let claimed = ClaimedFiles::claim(&files)?;
+    let cell = args.cell.load(args.quiet)?;
+    let (mut table, length) = PathTable::open(&args.edges, cell.robot(), &args.joint)
+        .with_context(|| input_name(&args.edges))?;
+    let options = recorded_options(args, given)?;
+    let (mut outputs, earlier) = match OpenedTables::new(&files, claimed, &options)? {
+        OpenedTables::Unfinished(outputs, earlier) => (*outputs, earlier),
+        OpenedTables::Finished(end) => {
+            resumable::check_finished(&files, &mut table, end)?;
+            return Ok(report_outcome(args, end));
+        }
+    };
+    if args.resume {
+        resumable::report(&files, earlier);
+    }
+    let start = resumable::skip_rows(&files, &mut table, earlier)?;
+    outputs.save(start)?;
+    let solver = parallel_solver(args.threads, || {
+        cell.solver().with_settings(args.settings())
+    });
+    let mut run = EdgesRun {
+        args,
+        columns,
+        batch_size: BatchSize::new(solver.threads()),
+        solver,
+        bad_rows: BadRowCounter::new(input_name(&args.edges)),
+        progress: Progress::for_rows(length, args.quiet),
+        outputs,
+        counts: start.counts,
+        times: TimeHistogram::default(),
+    };
+    let end = answer_in_batches(&files, &mut table, start, &mut run)?;
+    let EdgesRun {
+        outputs,
+        progress,
+        bad_rows,
+        times,
+        ..
+    } = run;
+    outputs.finish(end)?;
+    drop(progress);
+    bad_rows.print_total();
+    if !args.quiet {
+        print_summary(end, &times);
+    }
+    Ok(report_outcome(args, end))
+}
+
+/// The state of a run while it answers rows.
+struct EdgesRun<'a> {
+    args: &'a EdgesArgs,
+    columns: Vec<Column>,
+    solver: ParallelSolver<CellSolver<'a>>,
+    batch_size: BatchSize,
+    bad_rows: BadRowCounter,
+    progress: Progress,
+    outputs: Outputs,
+    counts: StatusCounts,
+    times: TimeHistogram,
+}
+
+impl Batches<Result<TablePath, RowError>> for EdgesRun<'_> {
+    fn row_count(&self) -> usize {
+        self.batch_size.row_count()
+    }
+
+    fn begin(&mut self, row_count: usize, end_byte: u64) {
+        self.progress.begin_batch(row_count, end_byte);
+    }
+
+    fn answer_and_write(
+        &mut self,
+        paths: &[Result<TablePath, RowError>],
+    ) -> Result<(), OutputError> {
+        let (args, progress) = (self.args, &self.progress);
+        let start = Instant::now();
+        let rows = self.solver.map(paths, |solver, path| {
+            let row = match path {
+                Ok(path) => answer(args, solver, path),
+                Err(error) => ResultRow::error(&error.id, &error.problem),
+            };
+            progress.step();
+            row
+        });
+        self.batch_size.adapt(start.elapsed());
+        for (path, row) in paths.iter().zip(rows) {
+            self.write(path, row)?;
+        }
+        Ok(())
+    }
+
+    fn counts(&self) -> (usize, StatusCounts) {
+        (self.bad_rows.count(), self.counts)
+    }
+
+    fn save(&mut self, checkpoint: Checkpoint) -> Result<(), OutputError> {
+        self.outputs.save(checkpoint)
+    }
+}
+
+impl EdgesRun<'_> {
+    fn write(
+        &mut self,
+        path: &Result<TablePath, RowError>,
+        mut row: ResultRow,
+    ) -> Result<(), OutputError> {
+        self.counts.add(row.status);
+        if let Some(micros) = row.micros {
+            self.times.add(micros);
+        }
+        if row.status == Status::Error {
+            let position = match path {
+                Ok(path) => path.position,
+                Err(error) => error.position,
+            };
+            let problem = row.reason.clone().unwrap_or_default();
+            self.bad_rows.report(position, &problem, &self.progress);
+        }
+        row.micros = row.micros.filter(|_| !self.args.no_micros);
+        self.outputs.results.row(&Line(&self.columns, &row))
+    }
+}
+
+/// Answers the question about a path, and takes the time.
+fn answer(args: &EdgesArgs, solver: &mut CellSolver<'_>, path: &TablePath) -> ResultRow {
+    let start = Instant::now();
+    let clearance = Some(args.cell.clearance).filter(|&clearance| clearance > 0.0);
+    let row = args.ask.answer(solver, &path.configurations, clearance);
+    let micros = start.elapsed().as_secs_f64() * 1e6;
+    ResultRow {
+        id: path.id.clone(),
+        time: row.time.map(|time| path.table_time_rounded_down(time)),
+        micros: Some(micros).filter(|_| row.status != Status::Error),
+        ..row
+    }
+}
+
+/// Returns the version, the options and the checksums of the files that determine the table. The checksum of the edges is in each
+/// checkpoint; those of meshes are not recorded.
+fn recorded_options(args: &EdgesArgs, given: &ArgMatches) -> Result<String> {
+    let version = ("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
+    let options = option_values::<EdgesArgs>(given, &UNRECORDED_OPTIONS);
+    let rows = ("--rows".to_owned(), args.rows.to_string());
+    let mut checksums = Vec::new();
+    for (option, file) in args.cell.files() {
+        let bytes = fs::read(file).with_context(|| file.display().to_string())?;
+        let checksum = format!("{:08x}", crc32fast::hash(&bytes));
+        checksums.push((format!("{FILE_CHECKSUM_PREFIX}{option}"), checksum));
+    }
+    Ok(options_text(
+        once(version).chain(options).chain([rows]).chain(checksums),
+    ))
+}
+
+fn print_summary(end: Checkpoint, times: &TimeHistogram) {
+    let rows = end.counts.row_count();
+    let counts = end.counts.nonzero_counts();
+    let counts: Vec<String> = counts
+        .map(|(status, count)| format!("{count} {}", status.name()))
+        .collect();
+    let mut text = format!("{rows} row{}", if rows == 1 { "" } else { "s" });
+    if !counts.is_empty() {
+        text += &format!(": {}", counts.join(", "));
+    }
+    if times.count() > 0 {
+        text += &format!(
+            "; median {:.1} µs, mean {:.1} µs",
+            times.median(),
+            times.mean()
+        );
+    }
+    crate::print_escaped_to_stderr(&text);
+}
+
+/// Returns the exit status of a run, and prints how many rows fail `--check`, if it is given.
+fn report_outcome(args: &EdgesArgs, end: Checkpoint) -> RunOutcome {
+    let counts = end.counts.nonzero_counts();
+    let failed = counts.filter(|(status, _)| !status.proves_distance_kept());
+    let failed: usize = failed.map(|(_, count)| count).sum();
+    if args.check && failed > 0 {
+        let rows = end.counts.row_count();
+        print_error(&format!(
+            "--check: {failed} of {rows} rows are not proven free or kept"
+        ));
+    }
+    match (end.bad_rows, failed) {
+        (0, 1..) if args.check => RunOutcome::SomeRowsUnproven,
+        (0, _) => RunOutcome::AllAnswered,
+        _ => RunOutcome::SomeRowsBad,
+    }
+}
+
+impl EdgesArgs {
+    fn columns(&self) -> Vec<Column> {
+        self.ask.columns()
+    }
+
+    /// Returns the settings of a question. A closest approach measures distances without a margin.
+    fn settings(&self) -> Settings {
+        let margin = match self.ask {
+            PathQuestion::IsFree | PathQuestion::FirstContact => self.cell.clearance,
+            PathQuestion::ClosestApproach => 0.0,
+        };
+        Settings {
+            tolerance: self.tolerance,
+            margin,
+            deadline: self.deadline,
+            ..Settings::DEFAULT
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! The options of `ccd edges`.
+
+use crate::named::{Named, named_value_parser};
+use crate::numbers::{parse_seconds, tolerance};
+use crate::resumable::RowRange;
+use crate::robots::joint_values::JointRange;
+use crate::robots::loading::CellArgs;
+use clap::Args;
+use rigid_ccd_robot::path_rows::PathQuestion;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Certify edges or paths of a robot: free, first contact, or least distance
+#[derive(Clone, Debug, Args)]
+#[command(mut_arg("urdf", |urdf| urdf.required(true)), after_help = AFTER_HELP, after_long_help = AFTER_LONG_HELP)]
+pub(crate) struct EdgesArgs {
+    #[command(flatten)]
+    pub(super) cell: CellArgs,
+    /// Table of edges or paths, CSV; - reads standard input
+    #[arg(long, value_name = "CSV")]
+    pub(super) edges: PathBuf,
+    /// Position at which a joint rests that the table has no columns for, such as finger=0.04 or hip=30deg
+    #[arg(long, value_name = "NAME=POSITION", allow_hyphen_values = true)]
+    pub(super) joint: Vec<JointRange>,
+    /// Question that every row answers
+    #[arg(long, value_parser = named_value_parser(QUESTIONS), default_value = "is-free")]
+    pub(super) ask: PathQuestion,
+    /// Report a contact at a distance of at most clearance + tolerance, in metres
+    #[arg(long, value_name = "LENGTH", default_value_t = 1e-4, value_parser = tolerance, allow_hyphen_values = true)]
+    pub(super) tolerance: f64,
+    /// Leave a row unresolved after this time, in seconds [default: none]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_hyphen_values = true)]
+    pub(super) deadline: Option<Duration>,
+    /// Number of threads; it changes no answer [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+    /// Answer only these edges or paths, numbered from 0, TO excluded; either end may be omitted
+    #[arg(
+        long,
+        value_name = "FROM..TO",
+        default_value = "..",
+        hide_default_value = true
+    )]
+    pub(super) rows: RowRange,
+    /// Write the table of results to this file, CSV; - writes to standard output
+    #[arg(long, value_name = "CSV", default_value = "-")]
+    pub(super) out: PathBuf,
+    /// Leave column `micros` empty, so that equal answers give equal files
+    #[arg(long)]
+    pub(super) no_micros: bool,
+    /// Continue an interrupted run of the same command after its last complete row; a finished run is left unchanged
+    #[arg(long)]
+    pub(super) resume: bool,
+    /// End with exit code 3 unless every row is `free` or, with --ask closest-approach, `kept`
+    #[arg(long)]
+    pub(super) check: bool,
+    /// Print only warnings and errors on standard error
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+}
+
+/// The questions of `--ask`.
+const QUESTIONS: &Named<PathQuestion> = &[
+    ("is-free", PathQuestion::IsFree, "Does nothing touch?"),
+    (
+        "first-contact",
+        PathQuestion::FirstContact,
+        "What touches first, and where?",
+    ),
+    (
+        "closest-approach",
+        PathQuestion::ClosestApproach,
+        "How near does any pair come?",
+    ),
+];
+
+/// The ids of the options that the journal does not record, because they change no byte of the table, or are recorded otherwise.
+pub(super) const UNRECORDED_OPTIONS: [&str; 7] = [
+    "edges", "threads", "out", "resume", "check", "quiet", "rows",
+];
+
+const AFTER_HELP: &str = "\
+Examples:
+  ccd edges arm.urdf --cell cell.toml --edges moves.csv --out results.csv
+  ccd edges arm.urdf --srdf arm.srdf --cell cell.toml --edges moves.csv --clearance 5mm --ask first-contact
+  ccd edges arm.urdf --cell cell.toml --edges path.csv --ask closest-approach
+  printf 'from_shoulder,to_shoulder\\n0,1.5\\n' | ccd edges arm.urdf --joint elbow=30deg --edges -
+
+See `ccd edges --help` for the columns, the file of a cell and the exit codes.";
+
+const AFTER_LONG_HELP: &str = "\
+Table of edges: a row for each edge, on which all joints move at constant rates.
+  id                        name of the row in the results [default: its number]
+  from_JOINT, to_JOINT      position of the joint at the start and at the end: radians or metres
+Table of paths: a row for each configuration; rows of one id follow each other.
+  id                        name of the path [default: all rows are one path]
+  t                         time of the row, later than that of the row before [default: 0, 1, 2, ...]
+  JOINT                     position of the joint
+Each joint with a position of its own needs its columns, or --joint. Mimic joints have none.
+
+Cell (--cell), TOML. Bodies are those of `ccd query --a`; files are looked for next to the cell.
+  [[obstacle]]
+  name = \"table\"
+  body = \"box:0.8,0.8,0.02\"       # half extents
+  position = [0, 0, -0.05]        # in the frame of the robot's base [default: 0]
+  rpy = [0, 0, 1.57]              # or quaternion = [w, x, y, z] [default: none]
+  [[attached]]                    # an object that a link holds: as an obstacle, in the link's frame, with
+  link = \"hand\"
+  may_touch = [\"finger\"]
+  [padding]                       # distance that obstacles keep from a link, beside --clearance
+  hand = 0.01
+  [[clearance]]                   # distance that a pair keeps, instead of --clearance and padding
+  between = [\"hand\", \"table\"]
+  distance = 0.002
+A glTF is a cell, too: each of its parts is an obstacle.
+
+Table of results:
+  id
+  status    free            proven: all pairs that are checked stay farther apart than the clearance, between the
+                            configurations too
+            contact         a pair comes within clearance + tolerance
+            measured        the least distance is between distance_lower and distance_upper
+            kept, violated, unverified
+                            the same, compared with --clearance
+            unresolved      a limit was reached; free until `time`
+            error           the row is no valid question; see `reason`
+  time                      where the pair is: of an edge from 0 to 1, of a path the number of the segment and the share
+                            of it, or the time of column `t`. Of a first contact: proven, nothing touches before
+  a, b                      links, held objects or obstacles; a is of the robot
+  distance_lower, distance_upper
+                            bounds of the least distance of all pairs on the path
+  witness_a_x ... witness_b_z
+                            nearest points of both at `time`, in the frame of the base
+  micros, reason            time of this row in microseconds; why it is unresolved or an error
+is-free has the columns id, status, micros and reason.
+
+Exit codes:
+  0  every row has an answer, whatever it is
+  1  the results cannot be written
+  2  bad input, or rows of status `error`
+  3  with --check: a row is not `free` or `kept`
+
+Examples:
+  ccd edges arm.urdf --cell cell.toml --edges moves.csv --out results.csv
+  ccd edges arm.urdf --srdf arm.srdf --cell cell.toml --edges moves.csv --clearance 5mm --ask first-contact
+  ccd edges arm.urdf --cell cell.toml --edges path.csv --ask closest-approach
+  printf 'from_shoulder,to_shoulder\\n0,1.5\\n' | ccd edges arm.urdf --joint elbow=30deg --edges -";

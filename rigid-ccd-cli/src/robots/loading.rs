@@ -1,0 +1,177 @@
+//! Loads a robot from URDF and SRDF, and the cell around it.
+
+use super::cell_file;
+use super::joint_values::length;
+use crate::files::refuse_overwriting_input;
+use crate::print_escaped_to_stderr;
+use crate::progress::Progress;
+use anyhow::{Context, Result};
+use clap::{Args, ValueEnum};
+use rigid_ccd_robot::{BodyElements, Cell, MeshConversion, Robot, Urdf};
+use std::path::{Path, PathBuf};
+
+/// The options that name a robot, and say how its links become bodies.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct RobotArgs {
+    /// Robot to read, URDF; packages are found by ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and around the file
+    #[arg(value_name = "URDF")]
+    urdf: Option<PathBuf>,
+    /// Pairs of links that are not checked, SRDF
+    #[arg(long, value_name = "SRDF")]
+    pub(crate) srdf: Option<PathBuf>,
+    /// Folder of packages for `package://`, searched before all others; may be given several times
+    #[arg(long, value_name = "FOLDER")]
+    packages: Vec<PathBuf>,
+    /// Elements of the URDF that become bodies
+    #[arg(long, value_enum, default_value_t)]
+    geometry: GeometryArg,
+    /// What a mesh of a link becomes
+    #[arg(long, value_enum, default_value_t)]
+    meshes: MeshesArg,
+}
+
+/// The options that name a robot with what is around it.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct CellArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+    /// Obstacles, held objects, paddings and clearances, TOML; or obstacles alone, the parts of a glTF
+    #[arg(long, value_name = "TOML|GLTF")]
+    pub(crate) cell: Option<PathBuf>,
+    /// Distance that all pairs have to keep, such as 0.005 or 5mm
+    #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length)]
+    pub(crate) clearance: f64,
+}
+
+/// The values of `--geometry`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum GeometryArg {
+    /// The elements `collision`
+    #[default]
+    Collision,
+    /// The elements `visual`
+    Visual,
+}
+
+/// The values of `--meshes`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum MeshesArg {
+    /// Convex pieces that are exact
+    #[default]
+    Exact,
+    /// The convex hull of the mesh: contacts may be early, by an excess that is printed
+    Hull,
+}
+
+impl RobotArgs {
+    /// Returns whether a robot is given.
+    pub(crate) fn is_given(&self) -> bool {
+        self.urdf.is_some()
+    }
+
+    /// Returns the path of the URDF; empty if no robot is given, which commands about robots alone refuse.
+    pub(crate) fn path(&self) -> &Path {
+        self.urdf.as_deref().unwrap_or(Path::new(""))
+    }
+
+    fn urdf(&self) -> Urdf {
+        let elements = match self.geometry {
+            GeometryArg::Collision => BodyElements::Collision,
+            GeometryArg::Visual => BodyElements::Visual,
+        };
+        let meshes = match self.meshes {
+            MeshesArg::Exact => MeshConversion::Exact,
+            MeshesArg::Hull => MeshConversion::OuterHull,
+        };
+        let urdf = Urdf::from_path(self.path())
+            .with_body_elements(elements)
+            .with_mesh_conversion(meshes);
+        // The last folder that is added is searched first.
+        let folders = self.packages.iter().rev();
+        folders.fold(urdf, |urdf, folder| urdf.with_package_folder(folder))
+    }
+
+    /// Returns the files that are read, each with the option that names it; meshes are left out.
+    fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+        let srdf = self.srdf.iter().map(|path| ("--srdf", path.as_path()));
+        std::iter::once(("URDF", self.path())).chain(srdf)
+    }
+
+    /// Reads the robot, and prints what its links are, unless `quiet`.
+    pub(crate) fn load(&self, quiet: bool) -> Result<Robot> {
+        let progress = Progress::start_single_step("reading the robot's meshes", quiet);
+        let name = || self.path().display().to_string();
+        let robot = self.urdf().read().with_context(name)?;
+        drop(progress);
+        if !quiet {
+            let joints: Vec<&str> = robot.free_joint_names().collect();
+            print_escaped_to_stderr(&format!(
+                "{}: {} links, {} joints: {}",
+                name(),
+                robot.links().len(),
+                joints.len(),
+                joints.join(", ")
+            ));
+            for link in robot.links() {
+                let excess = link.bodies.iter().map(|held| held.body.excess());
+                let excess = excess.fold(0.0, ccd_core::order::greater);
+                if excess > 0.0 {
+                    print_escaped_to_stderr(&format!(
+                        "link {}: its bodies enclose its shapes, and exceed them by up to {excess:.3e}",
+                        link.name
+                    ));
+                }
+            }
+        }
+        Ok(robot)
+    }
+
+    /// Refuses an output that would overwrite a file that is read.
+    pub(crate) fn refuse_overwriting(&self, outputs: &[(&'static str, &Path)]) -> Result<()> {
+        for (option, file) in self.files() {
+            for &(output, path) in outputs {
+                refuse_overwriting_input((option, file), (output, path))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl CellArgs {
+    /// Reads the robot and the cell around it.
+    pub(crate) fn load(&self, quiet: bool) -> Result<Cell> {
+        let robot = self.robot.load(quiet)?;
+        let srdf = self.robot.srdf.as_deref();
+        let pairs = self.robot.urdf().link_pairs(&robot, srdf)?;
+        let mut cell = Cell::new(robot, pairs);
+        if let Some(file) = &self.cell {
+            cell_file::add_to(&mut cell, file).with_context(|| file.display().to_string())?;
+            if !quiet {
+                let obstacles: Vec<&str> = cell.obstacle_names().collect();
+                print_escaped_to_stderr(&format!(
+                    "{}: {} obstacles: {}",
+                    file.display(),
+                    obstacles.len(),
+                    obstacles.join(", ")
+                ));
+            }
+        }
+        Ok(cell)
+    }
+
+    /// Returns the files that are read, except meshes, each with the option that names it.
+    pub(crate) fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+        let cell = self.cell.iter().map(|path| ("--cell", path.as_path()));
+        self.robot.files().chain(cell)
+    }
+
+    /// Refuses an output that would overwrite a file that is read.
+    pub(crate) fn refuse_overwriting(&self, outputs: &[(&'static str, &Path)]) -> Result<()> {
+        for (option, file) in self.files() {
+            for &(output, path) in outputs {
+                refuse_overwriting_input((option, file), (output, path))?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,239 @@
+//! Draws a robot that follows a path, with the distance of the nearest pair over it.
+
+use super::path_table::TablePath;
+use crate::picture::{AnimationGroup, Page, drawn_mesh};
+use anyhow::Result;
+use ccd_view::{
+    Animation, GapCurve, GapSample, Keyframe, Meshes, ShownBody, ShownContact, ShownMotion,
+};
+use rigid_ccd::glam::DVec3;
+use rigid_ccd::{Body, Motion, Pose};
+use rigid_ccd_robot::{Cell, CellSolver, Item, PathContact, PathOutcome};
+use std::collections::HashMap;
+
+/// The greatest number of poses of a path that are drawn, and of ranges in which the distance is measured.
+const MAX_RANGES: usize = 512;
+/// The greatest number of halvings of a segment.
+const MAX_HALVINGS: u32 = 6;
+/// The step in hue from one link to the next, in degrees: the golden angle.
+const HUE_STEP: f64 = 137.508;
+/// The colour of obstacles, in CSS.
+const OBSTACLE_COLOR: &str = "#b8b8b8";
+
+/// Makes the animations of one page, on which all have the same bodies.
+pub(crate) struct RobotPainter<'c> {
+    cell: &'c Cell,
+    meshes: Meshes,
+    /// The numbers of the meshes of the cell's bodies.
+    mesh_numbers: Vec<usize>,
+}
+
+impl<'c> RobotPainter<'c> {
+    pub(crate) fn new(cell: &'c Cell) -> Result<Self> {
+        let mut meshes = Meshes::default();
+        let mut known: HashMap<*const Body, usize> = HashMap::new();
+        let at_rest: Vec<f64> = cell
+            .robot()
+            .limits()
+            .map(|[low, high]| 0f64.clamp(low, high))
+            .collect();
+        let bodies = cell.placed_bodies(&at_rest)?;
+        let numbers = bodies.into_iter().map(|(_, body, _)| {
+            *known
+                .entry(body)
+                .or_insert_with(|| meshes.add(&drawn_mesh(body)))
+        });
+        Ok(RobotPainter {
+            cell,
+            mesh_numbers: numbers.collect(),
+            meshes,
+        })
+    }
+
+    pub(crate) fn page<'t>(&self, title: &'t str, views: Vec<Animation>) -> Page<'t> {
+        Page {
+            title,
+            groups: vec![AnimationGroup {
+                name: String::new(),
+                views,
+            }],
+            meshes: self.meshes.clone(),
+        }
+    }
+
+    /// Makes the animation of a path. The solver's margin is the clearance.
+    pub(crate) fn animation(
+        &self,
+        solver: &mut CellSolver<'c>,
+        path: &TablePath,
+    ) -> Result<Animation> {
+        let configurations = &path.configurations;
+        let segments = configurations.len() - 1;
+        let halvings = halvings(segments);
+        let ranges = solver.distance_curve(configurations, halvings)?;
+        let first = solver.first_contact(configurations)?;
+        let seconds =
+            |time: f64| path.table_time_rounded_down(time) - path.table_time_rounded_down(0.0);
+        let mut gap = GapCurve::default();
+        for range in &ranges {
+            let closest = &range.closest;
+            gap.proven.push([seconds(range.from.time()), closest.lower]);
+            gap.proven.push([seconds(range.to.time()), closest.lower]);
+            if let Some(nearest) = closest.nearest {
+                gap.points.push(GapSample {
+                    time: seconds(nearest.at.time()),
+                    lower: closest.lower,
+                    upper: closest.upper,
+                });
+            }
+        }
+        let least = ranges
+            .iter()
+            .filter_map(|range| Some((range.closest.upper, range.closest.nearest?)));
+        let nearest = least.reduce(|one, other| if other.0 < one.0 { other } else { one });
+        let contact = match first {
+            PathOutcome::Contact(contact) => Some(contact),
+            PathOutcome::Free | PathOutcome::Unresolved { .. } => None,
+        };
+        let shown = contact.or(nearest.map(|(_, nearest)| nearest));
+        Ok(Animation {
+            start: path.table_time_rounded_down(0.0),
+            time: shown.map_or(0.0, |shown| seconds(shown.at.time())),
+            bodies: self.shown_bodies(path, halvings)?,
+            gap: Some(gap).filter(|gap| !gap.points.is_empty()),
+            contacts: shown
+                .iter()
+                .map(|shown| shown_contact(shown, &seconds))
+                .collect(),
+            ..Animation::new(
+                &path.id,
+                &verdict(&first, nearest),
+                seconds(segments as f64),
+            )
+        })
+    }
+
+    /// Returns the bodies of the cell with their motions along a path.
+    fn shown_bodies(&self, path: &TablePath, halvings: u32) -> Result<Vec<ShownBody>> {
+        let mut poses: Vec<Vec<(f64, Pose)>> = vec![Vec::new(); self.mesh_numbers.len()];
+        let start = path.table_time_rounded_down(0.0);
+        for (time, configuration) in samples(&path.configurations, halvings) {
+            let seconds = path.table_time_rounded_down(time) - start;
+            for (keys, (_, _, pose)) in poses
+                .iter_mut()
+                .zip(self.cell.placed_bodies(&configuration)?)
+            {
+                keys.push((seconds, pose));
+            }
+        }
+        let items = self.cell.placed_bodies(&path.configurations[0])?;
+        let shown = items.iter().zip(&self.mesh_numbers).zip(poses).enumerate();
+        let shown = shown.map(|(k, (((item, ..), mesh), keys))| {
+            let color = match item {
+                Item::Obstacle(_) => OBSTACLE_COLOR.to_owned(),
+                _ => format!(
+                    "hsl({:.0}, 55%, 52%)",
+                    (150.0 + HUE_STEP * k as f64) % 360.0
+                ),
+            };
+            ShownBody::new(item.name(), *mesh, &color, shown_motion(&keys))
+        });
+        Ok(shown.collect())
+    }
+}
+
+/// Returns the number of halvings of each segment.
+fn halvings(segments: usize) -> u32 {
+    let mut halvings = 0;
+    while halvings < MAX_HALVINGS && segments << (halvings + 1) <= MAX_RANGES {
+        halvings += 1;
+    }
+    halvings
+}
+
+/// Returns configurations along a path at equal steps, each with its time in segments.
+fn samples(configurations: &[Vec<f64>], halvings: u32) -> Vec<(f64, Vec<f64>)> {
+    let steps = 1usize << halvings;
+    let mut samples = Vec::new();
+    for (segment, two) in configurations.windows(2).enumerate() {
+        for step in 0..steps {
+            let share = step as f64 / steps as f64;
+            let between = two[0]
+                .iter()
+                .zip(&two[1])
+                .map(|(from, to)| from + share * (to - from));
+            samples.push((segment as f64 + share, between.collect()));
+        }
+    }
+    let last = configurations.len() - 1;
+    samples.push((last as f64, configurations[last].clone()));
+    samples
+}
+
+/// Returns the motion through poses, from each to the next by the shortest rotation.
+fn shown_motion(keys: &[(f64, Pose)]) -> ShownMotion {
+    let first = keys[0].1;
+    if keys.iter().all(|(_, pose)| *pose == first) {
+        return ShownMotion::from(&Motion::still(first));
+    }
+    let turns = keys.windows(2).map(|two| {
+        let turn = two[1].1.rotation() * two[0].1.rotation().conjugate();
+        // The same rotation, by less than half a turn.
+        let turn = if turn.w < 0.0 { -turn } else { turn };
+        turn.to_scaled_axis()
+    });
+    let turns = turns.chain([DVec3::ZERO]);
+    let keys = keys
+        .iter()
+        .zip(turns)
+        .map(|((time, pose), turn)| Keyframe::new(*time, pose, pose.translation(), turn));
+    ShownMotion::Keyframes {
+        centre: [0.0; 3],
+        keys: keys.collect(),
+    }
+}
+
+fn shown_contact(contact: &PathContact<'_>, seconds: &impl Fn(f64) -> f64) -> ShownContact {
+    let time = seconds(contact.at.time());
+    let [a, b] = contact.items.map(Item::name);
+    ShownContact {
+        time,
+        words: format!("{a} and {b}"),
+        witnesses: Some(contact.witnesses),
+        normal: None,
+        highlight_a: Vec::new(),
+        highlight_b: Vec::new(),
+    }
+}
+
+/// Says in words what touches, or how near anything comes.
+fn verdict(first: &PathOutcome<'_>, nearest: Option<(f64, PathContact<'_>)>) -> String {
+    let place = |contact: &PathContact<'_>| {
+        let [a, b] = contact.items.map(Item::name);
+        format!(
+            "{a} and {b} at {:.4} of segment {}",
+            contact.at.share, contact.at.segment
+        )
+    };
+    match (first, nearest) {
+        (PathOutcome::Contact(contact), _) => {
+            format!(
+                "First contact: {}. Proven: nothing touches before.",
+                place(contact)
+            )
+        }
+        (PathOutcome::Unresolved { free_until, limit }, _) => {
+            let (share, segment) = (free_until.share, free_until.segment);
+            format!(
+                "Free until {share:.4} of segment {segment}; then a limit was reached: {limit}."
+            )
+        }
+        (PathOutcome::Free, Some((distance, contact))) => {
+            format!(
+                "Free, proven. Nearest: {}, {distance:.5} apart.",
+                place(&contact)
+            )
+        }
+        (PathOutcome::Free, None) => "Free, proven.".to_owned(),
+    }
+}

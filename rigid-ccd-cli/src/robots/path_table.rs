@@ -1,0 +1,353 @@
+//! Reads a table of edges or paths of a robot: CSV with columns named like its joints.
+
+use super::joint_values::JointRange;
+use crate::files::{Source, open_table};
+use crate::resumable::RowSource;
+use anyhow::{Result, bail};
+use rigid_ccd::table::csv_records::CsvRecords;
+use rigid_ccd::table::motions::{RowError, RowPosition, RowProblem, TableError};
+use rigid_ccd::table::records::{Record, Records};
+use rigid_ccd_robot::Robot;
+use std::collections::HashSet;
+use std::path::Path;
+
+/// A path that a table asks about.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct TablePath {
+    /// The place of its first row.
+    pub(super) position: RowPosition,
+    pub(super) id: String,
+    pub(super) configurations: Vec<Vec<f64>>,
+    /// The times of the configurations, if the table has any.
+    pub(super) times: Option<Vec<f64>>,
+}
+
+/// The paths of a table, read one after another.
+///
+/// A table of edges has columns `from_JOINT` and `to_JOINT`, and a row for each edge. A table of paths has a column for each
+/// joint, and a row for each configuration; rows of one `id` follow each other.
+pub(super) struct PathTable {
+    records: CsvRecords<Source>,
+    columns: PathColumns,
+    /// The row that begins the next path.
+    next: Option<RowPosition>,
+    path_count: usize,
+    known_ids: HashSet<String>,
+    /// The checksum and the length of the input up to the end of the last path.
+    checksum: u32,
+    consumed_bytes: u64,
+}
+
+/// Where the cells of a row are.
+struct PathColumns {
+    header: Vec<String>,
+    id: Option<usize>,
+    time: Option<usize>,
+    /// The positions of the first configuration of a row, in the order of the robot's joints.
+    positions: Vec<PositionCell>,
+    /// The positions of the second configuration; `None` in a table of paths.
+    end_positions: Option<Vec<PositionCell>>,
+}
+
+/// Where the position of a joint comes from.
+#[derive(Clone, Copy)]
+enum PositionCell {
+    Cell(usize),
+    AtRest(f64),
+}
+
+impl PathTable {
+    /// Opens a table. Joints that it has no columns for rest as given.
+    ///
+    /// # Errors
+    /// If the table cannot be read, or a joint has no position.
+    pub(super) fn open(
+        path: &Path,
+        robot: &Robot,
+        at_rest: &[JointRange],
+    ) -> Result<(Self, Option<u64>)> {
+        let (input, length) = open_table("--edges", path)?;
+        let mut records = CsvRecords::new(input)?;
+        let columns = PathColumns::new(records.header()?, robot, at_rest)?;
+        let (checksum, consumed_bytes) = (records.checksum(), records.consumed_bytes());
+        let table = PathTable {
+            next: records.advance()?,
+            records,
+            columns,
+            path_count: 0,
+            known_ids: HashSet::new(),
+            checksum,
+            consumed_bytes,
+        };
+        Ok((table, length))
+    }
+
+    /// Reads the next path; `None` at the end.
+    fn read(&mut self) -> Result<Option<Result<TablePath, RowError>>, TableError> {
+        let Some(position) = self.next.take() else {
+            return Ok(None);
+        };
+        let given_id = self.columns.id(self.records.current());
+        let id = given_id
+            .clone()
+            .unwrap_or_else(|| self.path_count.to_string());
+        let mut path = Ok(TablePath {
+            position,
+            id: id.clone(),
+            configurations: Vec::new(),
+            times: self.columns.time.map(|_| Vec::new()),
+        });
+        if let Some(id) = &given_id
+            && self.columns.end_positions.is_none()
+            && !self.known_ids.insert(id.clone())
+        {
+            path = Err((position, RowProblem::PathNotConsecutive { id: id.clone() }));
+        }
+        let mut at = position;
+        loop {
+            path = path.and_then(|path| {
+                let added = self.columns.add_row(path, self.records.current());
+                added.map_err(|problem| (at, problem))
+            });
+            self.checksum = self.records.checksum();
+            self.consumed_bytes = self.records.consumed_bytes();
+            self.next = self.records.advance()?;
+            match self.next {
+                Some(next) if self.columns.continues(&given_id, self.records.current()) => {
+                    at = next;
+                }
+                _ => break,
+            }
+        }
+        self.path_count += 1;
+        Ok(Some(path.map_err(|(position, problem)| RowError {
+            position,
+            id,
+            problem,
+        })))
+    }
+}
+
+impl Iterator for PathTable {
+    type Item = Result<Result<TablePath, RowError>, TableError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.read().transpose()
+    }
+}
+
+impl RowSource for PathTable {
+    type Row = Result<TablePath, RowError>;
+
+    fn skip_rows(&mut self, count: usize) -> Result<usize, TableError> {
+        for skipped in 0..count {
+            if self.read()?.is_none() {
+                return Ok(skipped);
+            }
+        }
+        Ok(count)
+    }
+
+    fn checksum(&self) -> u32 {
+        self.checksum
+    }
+
+    fn consumed_bytes(&self) -> u64 {
+        self.consumed_bytes
+    }
+}
+
+impl PathColumns {
+    fn new(header: Vec<String>, robot: &Robot, at_rest: &[JointRange]) -> Result<Self> {
+        for (k, column) in header.iter().enumerate() {
+            if header[..k].contains(column) {
+                let column = column.clone();
+                return Err(TableError::RepeatedColumn { column }.into());
+            }
+        }
+        let find = |name: &str| header.iter().position(|column| column == name);
+        let joints: Vec<&str> = robot.free_joint_names().collect();
+        let is_of_edges = header.iter().any(|column| {
+            joints
+                .iter()
+                .any(|joint| *column == format!("from_{joint}"))
+        });
+        let prefixes: &[&str] = if is_of_edges {
+            &["from_", "to_"]
+        } else {
+            &[""]
+        };
+        let mut missing = Vec::new();
+        let mut positions = |prefix: &str| {
+            let cell = |joint: &&str| {
+                let (column, rests) = (
+                    find(&format!("{prefix}{joint}")),
+                    at_rest.iter().find(|range| range.joint == **joint),
+                );
+                match (column, rests) {
+                    (Some(_), Some(_)) => {
+                        bail!("--joint {joint}: the table has columns for this joint")
+                    }
+                    (Some(column), None) => Ok(PositionCell::Cell(column)),
+                    (None, Some(range)) if range.is_at_rest() => {
+                        Ok(PositionCell::AtRest(range.from))
+                    }
+                    (None, Some(_)) => {
+                        bail!("--joint {joint}: give one position, at which the joint rests")
+                    }
+                    (None, None) => {
+                        missing.push(format!("{prefix}{joint}"));
+                        Ok(PositionCell::AtRest(f64::NAN))
+                    }
+                }
+            };
+            joints.iter().map(cell).collect::<Result<Vec<_>>>()
+        };
+        let mut found = prefixes
+            .iter()
+            .map(|prefix| positions(prefix))
+            .collect::<Result<Vec<_>>>()?;
+        if let Some(unknown) = at_rest
+            .iter()
+            .find(|range| !joints.contains(&range.joint.as_str()))
+        {
+            bail!(
+                "--joint {}: there is no such joint with a position of its own; there are {}",
+                unknown.joint,
+                joints.join(", ")
+            );
+        }
+        if !missing.is_empty() {
+            bail!(
+                "header: no column {}; a table of edges has from_JOINT and to_JOINT, one of paths a column for each joint, and \
+                 --joint NAME=POSITION says where a joint rests",
+                missing.join(", ")
+            );
+        }
+        let end_positions = if is_of_edges { found.pop() } else { None };
+        let columns = PathColumns {
+            id: find("id"),
+            time: find("t").filter(|_| !is_of_edges),
+            positions: found.pop().unwrap_or_default(),
+            end_positions,
+            header,
+        };
+        columns.refuse_unknown_columns()?;
+        Ok(columns)
+    }
+
+    fn refuse_unknown_columns(&self) -> Result<()> {
+        let ends = self.end_positions.iter().flatten();
+        let positions = self
+            .positions
+            .iter()
+            .chain(ends)
+            .filter_map(|cell| match cell {
+                PositionCell::Cell(column) => Some(*column),
+                PositionCell::AtRest(_) => None,
+            });
+        let known: Vec<usize> = positions.chain(self.id).chain(self.time).collect();
+        match (0..self.header.len()).find(|column| !known.contains(column)) {
+            None => Ok(()),
+            Some(unknown) => bail!(
+                "header: unknown column `{}`; known are id, t and the joints: of edges from_JOINT and to_JOINT",
+                self.header[unknown]
+            ),
+        }
+    }
+
+    fn id(&self, record: &csv::ByteRecord) -> Option<String> {
+        self.id.and_then(|column| record.text(column))
+    }
+
+    /// Returns whether a row belongs to the path of the rows before it, which have an id or none.
+    fn continues(&self, id: &Option<String>, record: &csv::ByteRecord) -> bool {
+        self.end_positions.is_none() && self.id(record) == *id
+    }
+
+    fn add_row(
+        &self,
+        mut path: TablePath,
+        record: &csv::ByteRecord,
+    ) -> Result<TablePath, RowProblem> {
+        if record.len() != self.header.len() {
+            return Err(RowProblem::WrongCellCount {
+                cells: record.len(),
+                column_count: self.header.len(),
+            });
+        }
+        for positions in [Some(&self.positions), self.end_positions.as_ref()]
+            .into_iter()
+            .flatten()
+        {
+            let configuration = positions.iter().map(|cell| match *cell {
+                PositionCell::Cell(column) => self.number(record, column),
+                PositionCell::AtRest(position) => Ok(position),
+            });
+            path.configurations
+                .push(configuration.collect::<Result<_, _>>()?);
+        }
+        if let (Some(column), Some(times)) = (self.time, &mut path.times) {
+            let time = self.number(record, column)?;
+            if let Some(&previous_time) = times.last()
+                && !(time > previous_time)
+            {
+                return Err(RowProblem::TimeNotLater {
+                    time,
+                    previous_time,
+                });
+            }
+            times.push(time);
+        }
+        Ok(path)
+    }
+
+    fn number(&self, record: &csv::ByteRecord, column: usize) -> Result<f64, RowProblem> {
+        let name = || self.header[column].clone();
+        match record.number(column) {
+            Ok(Some(number)) => Ok(number),
+            Ok(None) => Err(RowProblem::EmptyCell { column: name() }),
+            Err(value) => Err(RowProblem::NotANumber {
+                column: name(),
+                value,
+            }),
+        }
+    }
+}
+
+impl TablePath {
+    /// Returns an edge that is in no table; an edge without motion is one configuration.
+    pub(super) fn between([from, to]: [Vec<f64>; 2]) -> Self {
+        let rests = from == to;
+        let mut configurations = vec![from];
+        if !rests {
+            configurations.push(to);
+        }
+        TablePath {
+            position: RowPosition { row: 0, line: 0 },
+            id: String::new(),
+            configurations,
+            times: None,
+        }
+    }
+
+    /// Converts the time of a path whose segments take one unit of time each to the time of the table, rounded down; without
+    /// times, it stays as it is.
+    pub(super) fn table_time_rounded_down(&self, time: f64) -> f64 {
+        let Some(times) = &self.times else {
+            return time;
+        };
+        let last = times.len() - 1;
+        let segment = (time as usize).min(last);
+        if segment == last {
+            return times[last];
+        }
+        let (from, to) = (times[segment], times[segment + 1]);
+        let magnitude = from.abs() + to.abs();
+        let at = from + (time - segment as f64) * (to - from) - 4.0 * f64::EPSILON * magnitude;
+        if at > from { at } else { from }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,133 @@
+use super::*;
+use crate::causes::message_with_causes;
+use rigid_ccd::{Body, Pose, trajectory};
+use rigid_ccd_robot::{Joint, Link, PositionRule};
+use std::fs;
+
+/// Returns a robot with a joint that turns and one that slides.
+fn robot() -> Robot {
+    let joint = |name: &str, parent: &str, child: &str, moves| Joint {
+        name: name.into(),
+        parent: parent.into(),
+        child: child.into(),
+        axis_and_limits: moves,
+        position_rule: PositionRule::Free,
+    };
+    let turns = trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap();
+    let slides = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
+    let joints = vec![
+        joint("hip", "base", "arm", turns),
+        joint("rail", "arm", "hand", slides),
+    ];
+    let ball = Link::named("hand").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
+    Robot::new(vec![Link::named("base"), Link::named("arm"), ball], joints).unwrap()
+}
+
+fn open(text: &str, at_rest: &[&str]) -> Result<PathTable> {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("edges.csv");
+    fs::write(&path, text)?;
+    let at_rest: Vec<JointRange> = at_rest.iter().map(|text| text.parse().unwrap()).collect();
+    Ok(PathTable::open(&path, &robot(), &at_rest)?.0)
+}
+
+fn read(text: &str, at_rest: &[&str]) -> Vec<Result<TablePath, RowError>> {
+    let table = open(text, at_rest).unwrap();
+    table.collect::<Result<_, _>>().unwrap()
+}
+
+#[test]
+fn edges_are_rows() {
+    let text = "to_hip,id,from_hip,from_rail,to_rail\n1,first,0,2,3\n0.5,first,0,0,0\n";
+    let paths = read(text, &[]);
+    let [one, two] = &paths[..] else {
+        panic!("{paths:?}");
+    };
+    let one = one.as_ref().unwrap();
+    assert_eq!((one.id.as_str(), one.position.line), ("first", 2));
+    assert_eq!(one.configurations, [[0.0, 2.0], [1.0, 3.0]]);
+    // Edges may share an id.
+    assert_eq!(
+        two.as_ref().unwrap().configurations,
+        [[0.0, 0.0], [0.5, 0.0]]
+    );
+}
+
+#[test]
+fn paths_are_rows_of_one_id() {
+    let text = "id,t,hip\na,2,0\na,4,1\nb,0,5\n";
+    let paths = read(text, &["rail=0.5"]);
+    let paths: Vec<TablePath> = paths.into_iter().map(Result::unwrap).collect();
+    assert_eq!(paths.len(), 2);
+    assert_eq!(paths[0].configurations, [[0.0, 0.5], [1.0, 0.5]]);
+    assert_eq!(paths[1].configurations, [[5.0, 0.5]]);
+    let times = [0.0, 0.5, 1.0].map(|time| paths[0].table_time_rounded_down(time));
+    assert_eq!((times[0], times[2]), (2.0, 4.0));
+    assert!(times[1] <= 3.0 && times[1] > 3.0 - 1e-13, "{}", times[1]);
+    // Without ids, all rows are one path.
+    assert_eq!(read("hip,rail\n0,1\n2,3\n", &[]).len(), 1);
+}
+
+#[test]
+fn bad_rows_are_errors_of_their_paths() {
+    let text = "id,t,hip,rail\na,0,0,0\na,0,1,1\nb,0,x,0\nc,0,,0\nd,0,0\na,5,0,0\ne,0,1,2\n";
+    let paths = read(text, &[]);
+    let words = [
+        "not later",
+        "`x` is not a finite number",
+        "no value",
+        "3 cells",
+        "a",
+    ];
+    for (path, expected) in paths.iter().zip(words) {
+        let error = path.as_ref().unwrap_err();
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+    assert!(paths[5].is_ok() && paths.len() == 6);
+}
+
+#[test]
+fn tables_that_do_not_fit_the_robot_are_refused() {
+    for (text, at_rest, expected) in [
+        ("hip\n0\n", vec![], "no column rail"),
+        ("hip,rail,knee\n0,0,0\n", vec![], "unknown column `knee`"),
+        ("hip,hip,rail\n0,0,0\n", vec![], "appears twice"),
+        (
+            "hip,rail\n0,0\n",
+            vec!["rail=1"],
+            "--joint rail: the table has columns",
+        ),
+        (
+            "hip\n0\n",
+            vec!["rail=1:2"],
+            "--joint rail: give one position",
+        ),
+        (
+            "hip,rail\n0,0\n",
+            vec!["leg=1"],
+            "--joint leg: there is no such joint",
+        ),
+        (
+            "from_hip,rail\n0,0\n",
+            vec![],
+            "no column from_rail, to_hip, to_rail",
+        ),
+    ] {
+        let error = open(text, &at_rest).map(|_| ()).unwrap_err();
+        let message = message_with_causes(&error);
+        assert!(message.contains(expected), "{text}: {message}");
+    }
+}
+
+#[test]
+fn skipped_paths_count_in_the_checksum() {
+    let text = "id,hip,rail\na,0,0\na,1,1\nb,2,2\n";
+    let mut all = open(text, &[]).unwrap();
+    all.by_ref().for_each(drop);
+    let mut skipping = open(text, &[]).unwrap();
+    assert_eq!(skipping.skip_rows(1).unwrap(), 1);
+    assert_ne!(skipping.checksum(), all.checksum());
+    assert_eq!(skipping.skip_rows(9).unwrap(), 1);
+    assert_eq!(skipping.checksum(), all.checksum());
+    assert_eq!(all.consumed_bytes(), text.len() as u64);
+}

@@ -1,0 +1,77 @@
+//! The paths that `ccd view` and `ccd clearance` show: those of a table, or joints that move over ranges.
+
+use super::joint_values::JointRange;
+use super::path_table::{PathTable, TablePath};
+use crate::files::input_name;
+use anyhow::{Context, Result, bail};
+use rigid_ccd_robot::{Cell, Robot};
+use std::path::Path;
+
+/// The options that say along which paths a robot moves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RobotPaths<'a> {
+    /// The table of edges or paths; without it, the joints move over their ranges.
+    pub(crate) table: Option<&'a Path>,
+    pub(crate) joints: &'a [JointRange],
+    /// The ids of the paths to show; the first few if there are none.
+    pub(crate) ids: &'a [String],
+}
+
+/// The greatest number of paths that are shown if no ids are given.
+const MAX_PATHS: usize = 4;
+
+impl RobotPaths<'_> {
+    /// Returns at least one path.
+    ///
+    /// # Errors
+    /// If the table cannot be read, or has no such path.
+    pub(crate) fn read(self, cell: &Cell) -> Result<Vec<TablePath>> {
+        let Some(file) = self.table else {
+            let ends = configurations(cell.robot(), self.joints)?;
+            return Ok(vec![TablePath::between(ends)]);
+        };
+        let name = || input_name(file);
+        let (table, _) = PathTable::open(file, cell.robot(), self.joints).with_context(name)?;
+        let mut paths = Vec::new();
+        for path in table {
+            let path = path.with_context(name)?.with_context(name)?;
+            if self.ids.is_empty() || self.ids.contains(&path.id) {
+                paths.push(path);
+            }
+            if self.ids.is_empty() && paths.len() == MAX_PATHS {
+                break;
+            }
+        }
+        if paths.is_empty() {
+            bail!("{}: has no path to show", name());
+        }
+        Ok(paths)
+    }
+}
+
+/// Returns the two configurations between which joints move as given. A joint that is not named rests at 0 or, if that is
+/// outside of its limits, at the nearest limit.
+///
+/// # Errors
+/// A name that no joint with a position of its own has, or that is given twice.
+fn configurations(robot: &Robot, given: &[JointRange]) -> Result<[Vec<f64>; 2]> {
+    let names: Vec<&str> = robot.free_joint_names().collect();
+    let at_rest = robot.limits().map(|[low, high]| 0f64.clamp(low, high));
+    let from: Vec<f64> = at_rest.collect();
+    let mut path = [from.clone(), from];
+    for (k, range) in given.iter().enumerate() {
+        if given[..k].iter().any(|other| other.joint == range.joint) {
+            bail!("--joint {}: is given twice", range.joint);
+        }
+        let Some(number) = names.iter().position(|name| *name == range.joint) else {
+            bail!(
+                "--joint {}: no joint has this name and a position of its own; there are {}",
+                range.joint,
+                names.join(", ")
+            );
+        };
+        path[0][number] = range.from;
+        path[1][number] = range.to;
+    }
+    Ok(path)
+}

@@ -1,0 +1,307 @@
+//! Tests `ccd edges`, `ccd clearance`, `ccd acm`, and `ccd view` of a robot.
+
+use crate::command::{CommandCall, Row, Scene, assert_contains, parse, stderr};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// Returns a folder with the arm of the examples: two links of 0.5 and 0.4 that turn about y, a ball of 0.06 as hand.
+fn folder() -> Scene {
+    let scene = Scene::new("robots");
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    for name in ["arm.urdf", "arm.srdf", "cell.toml", "moves.csv", "path.csv"] {
+        fs::copy(examples.join(name), scene.directory.join(name)).unwrap();
+    }
+    scene
+}
+
+fn call(scene: &Scene, args: &[&str]) -> CommandCall {
+    CommandCall::with_args(args).folder(&scene.directory)
+}
+
+const EDGES: [&str; 6] = [
+    "edges",
+    "arm.urdf",
+    "--cell",
+    "cell.toml",
+    "--edges",
+    "moves.csv",
+];
+
+#[test]
+fn the_hand_meets_the_table_where_it_should() {
+    let scene = folder();
+    let rows = call(&scene, &EDGES)
+        .args(&["--ask", "first-contact"])
+        .run_for_rows();
+    let [up, _, down, _] = &rows[..] else {
+        panic!("{} rows", rows.len());
+    };
+    assert_eq!(
+        (up.text("id"), up.text("status"), up.number("time")),
+        ("up", "free", 1.0)
+    );
+    assert_eq!(
+        (down.text("a"), down.text("b"), down.text("status")),
+        ("hand", "table", "contact")
+    );
+    // The shoulder is 0.2 high, the table's top at -0.1, the hand's middle 0.9 away: it touches at sin(angle) = 0.24 / 0.9.
+    let exact = (0.24f64 / 0.9).asin() / 1.5;
+    let early = exact - down.number("time");
+    // The hand closes at 0.9 · cos(0.27) · 1.5 for each unit of time.
+    assert!((0.0..=1e-4 / 1.3).contains(&early), "{early}");
+    // The same, asked in the other ways.
+    let free = call(&scene, &EDGES).run_for_rows();
+    let statuses = |rows: &[Row]| {
+        rows.iter()
+            .map(|row| row.text("status").to_owned())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(statuses(&free), statuses(&rows));
+    let message = call(&scene, &EDGES).args(&["--check"]).run_for_messages(3);
+    assert_contains(&message, "3 of 4 rows are not proven free or kept");
+    let kept = call(&scene, &EDGES)
+        .args(&["--ask", "closest-approach", "--clearance", "140mm"])
+        .run_for_rows();
+    assert_eq!(statuses(&kept)[0], "kept");
+    assert!(kept[0].number("distance_lower") >= 0.14);
+    assert_eq!(statuses(&kept)[2], "violated");
+}
+
+#[test]
+fn joints_without_columns_rest_where_they_are_told() {
+    let scene = folder();
+    let query = ["edges", "arm.urdf", "--edges", "-"];
+    let table = "from_shoulder,to_shoulder\n0,1.5\n";
+    let rows = call(&scene, &query)
+        .args(&["--joint", "elbow=30deg"])
+        .stdin(table)
+        .run_for_rows();
+    assert_eq!(rows[0].text("status"), "free");
+    let message = call(&scene, &query).stdin(table).run_for_messages(2);
+    assert_contains(&message, "no column from_elbow, to_elbow");
+}
+
+#[test]
+fn bad_rows_are_rows_and_good_ones_are_answered() {
+    let scene = folder();
+    scene.file(
+        "moves.csv",
+        "id,shoulder,elbow\na,0,x\nb,0,0\nb,9,0\nc,0,0\n",
+    );
+    let output = call(&scene, &EDGES).run_expecting_code(2);
+    let rows = parse(&output.stdout);
+    let found: Vec<_> = rows
+        .iter()
+        .map(|row| (row.text("id"), row.text("status")))
+        .collect();
+    assert_eq!(found, [("a", "error"), ("b", "error"), ("c", "free")]);
+    assert_contains(rows[0].text("reason"), "`x` is not a finite number");
+    assert_contains(
+        rows[1].text("reason"),
+        "configuration 1 of the path: joint `shoulder`",
+    );
+    assert_contains(&stderr(&output), "moves.csv, row 0 (line 2)");
+}
+
+#[test]
+fn an_interrupted_run_goes_on() {
+    let scene = folder();
+    let mut table = "from_shoulder,from_elbow,to_shoulder,to_elbow\n".to_owned();
+    for k in 0..6000 {
+        table += &format!("0,{},{},0.1\n", f64::from(k) * 1e-4, f64::from(k % 7) * 0.1);
+    }
+    scene.file("moves.csv", &table);
+    let args = ["--out", "results.csv", "--no-micros"];
+    call(&scene, &EDGES).args(&args).run_expecting_code(0);
+    let whole = fs::read(scene.directory.join("results.csv")).unwrap();
+    let message = call(&scene, &EDGES)
+        .args(&args)
+        .args(&["--resume"])
+        .run_for_messages(0);
+    assert_contains(&message, "already has all rows");
+    // As a run leaves it that ends after its first batch.
+    let journal = fs::read_to_string(scene.directory.join("results.csv.resume")).unwrap();
+    let lines: Vec<&str> = journal.split_inclusive('\n').collect();
+    let saved_bytes = |line: &str| {
+        let mark: Value = serde_json::from_str(line.rsplit_once(' ')?.0).ok()?;
+        mark["results"]["bytes"].as_u64()
+    };
+    let is_in_the_middle = |line: &&str| saved_bytes(line).is_some_and(|bytes| bytes > 1000);
+    let last = lines.iter().position(is_in_the_middle).unwrap();
+    let (first, bytes) = (
+        lines[..=last].concat(),
+        saved_bytes(lines[last]).unwrap() as usize,
+    );
+    assert!(bytes < whole.len(), "{bytes}");
+    fs::remove_file(scene.directory.join("results.csv")).unwrap();
+    fs::write(
+        scene.directory.join("results.csv.partial"),
+        &whole[..bytes + 10],
+    )
+    .unwrap();
+    fs::write(scene.directory.join("results.csv.resume"), first).unwrap();
+    let changed = call(&scene, &EDGES)
+        .args(&args)
+        .args(&["--resume", "--clearance", "1mm"])
+        .run_for_messages(2);
+    assert_contains(&changed, "--clearance was 0 and is now 1mm");
+    let message = call(&scene, &EDGES)
+        .args(&args)
+        .args(&["--resume"])
+        .run_for_messages(0);
+    assert_contains(&message, "continues at row");
+    assert!(fs::read(scene.directory.join("results.csv")).unwrap() == whole);
+}
+
+#[test]
+fn inputs_are_not_overwritten() {
+    let scene = folder();
+    for (file, option) in [
+        ("arm.urdf", "URDF"),
+        ("cell.toml", "--cell"),
+        ("moves.csv", "--edges"),
+    ] {
+        let message = call(&scene, &EDGES)
+            .args(&["--out", file])
+            .run_for_messages(2);
+        assert_contains(&message, &format!("overwrite the file of {option}"));
+    }
+    let message = call(&scene, &["acm", "arm.urdf", "--out", "arm.urdf"]).run_for_messages(2);
+    assert_contains(&message, "overwrite the file of URDF");
+    let message = call(
+        &scene,
+        &[
+            "view", "arm.urdf", "--path", "path.csv", "--out", "path.csv",
+        ],
+    )
+    .run_for_messages(2);
+    assert_contains(&message, "overwrite the file of --path");
+}
+
+#[test]
+fn a_clearance_has_exit_codes_and_ranges() {
+    let scene = folder();
+    // The hand comes near the base when the elbow folds; its least distance to the upper arm is where it is most bent.
+    let clearance = ["clearance", "arm.urdf", "--joint", "elbow=-30deg:160deg"];
+    let output = call(&scene, &clearance)
+        .args(&["--require", "5mm"])
+        .run_expecting_code(1);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_contains(&text, "5 mm required: violated");
+    assert_contains(&text, "  kept       elbow = -30.000° to elbow = 146.");
+    assert_contains(&text, "not checked: base and upper (adjacent)");
+    let half = ["clearance", "arm.urdf", "--joint", "elbow=-30deg:60deg"];
+    let output = call(&scene, &half)
+        .args(&["--require", "5mm", "--json"])
+        .run_expecting_code(0);
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["verdict"], "kept");
+    assert_eq!(report["ranges"].as_array().unwrap().len(), 1);
+    let curve = report["curve"].as_array().unwrap();
+    assert_eq!(curve.len(), 64);
+    let least = report["closest"]["distance_lower"].as_f64().unwrap();
+    for range in curve {
+        let (lower, upper) = (&range["distance_lower"], &range["distance_upper"]);
+        let (lower, upper) = (lower.as_f64().unwrap(), upper.as_f64().unwrap());
+        assert!(lower >= least - 1e-6 && upper - lower < 1.1e-6, "{range}");
+    }
+    // Unverified: the tolerance is wider than what is asked for.
+    let exact = report["closest"]["distance_upper"].as_f64().unwrap();
+    let message = call(&scene, &half)
+        .args(&[
+            "--require",
+            &format!("{}", exact - 1e-9),
+            "--tolerance",
+            "1mm",
+        ])
+        .run_for_messages(2);
+    assert_contains(&message, "unverified");
+}
+
+#[test]
+fn a_path_with_an_error_of_poses_widens_the_bounds() {
+    let scene = folder();
+    let distance = |error: &str| {
+        let args = [
+            "clearance",
+            "arm.urdf",
+            "--path",
+            "path.csv",
+            "--json",
+            "--pose-error",
+            error,
+        ];
+        let output = call(&scene, &args).run_expecting_code(0);
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        ["distance_lower", "distance_upper"].map(|bound| report["closest"][bound].as_f64().unwrap())
+    };
+    let ([lower, upper], [wide_lower, wide_upper]) = (distance("0"), distance("2mm"));
+    assert!(
+        (lower - wide_lower - 0.004).abs() < 1e-12,
+        "{lower} {wide_lower}"
+    );
+    assert!(
+        (wide_upper - upper - 0.004).abs() < 1e-12,
+        "{upper} {wide_upper}"
+    );
+}
+
+#[test]
+fn pairs_are_written_as_srdf() {
+    let scene = folder();
+    let args = [
+        "acm",
+        "arm.urdf",
+        "--out",
+        "acm.srdf",
+        "--report",
+        "pairs.csv",
+    ];
+    let message = call(&scene, &args).run_for_messages(0);
+    assert_contains(&message, "6 pairs of links touch: 1 never");
+    let srdf = fs::read_to_string(scene.directory.join("acm.srdf")).unwrap();
+    assert_contains(
+        &srdf,
+        "link1=\"upper\" link2=\"hand\" reason=\"Never (proven)\"",
+    );
+    let pairs = parse(&fs::read(scene.directory.join("pairs.csv")).unwrap());
+    let classes: Vec<_> = pairs.iter().map(|row| row.text("class")).collect();
+    assert_eq!(classes.iter().filter(|class| **class == "never").count(), 1);
+    // What it wrote is read.
+    call(&scene, &EDGES)
+        .args(&["--srdf", "acm.srdf"])
+        .run_expecting_code(0);
+}
+
+#[test]
+fn a_page_shows_the_robot() {
+    let scene = folder();
+    let args = [
+        "view",
+        "arm.urdf",
+        "--cell",
+        "cell.toml",
+        "--path",
+        "moves.csv",
+        "--ids",
+        "up,down",
+    ];
+    call(&scene, &args).run_expecting_code(0);
+    let page = fs::read_to_string(scene.directory.join("view.html")).unwrap();
+    assert_contains(&page, "First contact: hand and table");
+    assert_contains(&page, "Free, proven. Nearest: fore and post");
+    assert!(!page.contains("fold"));
+    let args = [
+        "clearance",
+        "arm.urdf",
+        "--joint",
+        "elbow=0:1",
+        "--html",
+        "clearance.html",
+    ];
+    call(&scene, &args).run_expecting_code(0);
+    assert!(scene.directory.join("clearance.html").exists());
+    let message = call(&scene, &["view", "arm.urdf", "--joint", "knee=1"]).run_for_messages(2);
+    assert_contains(&message, "--joint knee");
+}

@@ -1,0 +1,196 @@
+//! Answers about paths as rows of tables, for the command and the Python package. No stable interface.
+
+use crate::error::PathError;
+use crate::solver::{CellSolver, PathContact, PathOutcome, PathPoint};
+use rigid_ccd::Error;
+use rigid_ccd::answer::Limit;
+use rigid_ccd::batch::Question;
+use rigid_ccd::table::results::{COLUMNS, Column, ITEM_COLUMNS, ResultRow, Status};
+
+/// A question about a path, chosen at run time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PathQuestion {
+    /// Is the path free?
+    #[default]
+    IsFree,
+    /// What touches first, and where?
+    FirstContact,
+    /// How near does any pair come to touching?
+    ClosestApproach,
+}
+
+/// The answer about a path.
+#[derive(Clone, Debug)]
+pub struct PathAnswer {
+    /// The answer as a row, without an id. Its time is that of a path whose segments take one unit of time each.
+    pub row: ResultRow,
+    /// Where the pair of the row is, or up to where the path is free.
+    pub at: Option<PathPoint>,
+    /// The limit that ended the search.
+    pub limit: Option<Limit>,
+}
+
+impl PathQuestion {
+    /// All questions, in the order of the command's help.
+    pub const ALL: [PathQuestion; 3] = [
+        PathQuestion::IsFree,
+        PathQuestion::FirstContact,
+        PathQuestion::ClosestApproach,
+    ];
+
+    /// Returns the name of the question, as of the same one about two bodies.
+    pub fn name(self) -> &'static str {
+        let question = match self {
+            PathQuestion::IsFree => Question::IsFree,
+            PathQuestion::FirstContact => Question::FirstContact,
+            PathQuestion::ClosestApproach => Question::ClosestApproach,
+        };
+        question.name()
+    }
+
+    /// Returns the columns of a table of answers.
+    pub fn columns(self) -> Vec<Column> {
+        let is_in_table = |name: &str| match name {
+            "id" | "status" | "micros" | "reason" => true,
+            "time" | "witness_a_x" | "witness_a_y" | "witness_a_z" | "witness_b_x"
+            | "witness_b_y" | "witness_b_z" => self != PathQuestion::IsFree,
+            "distance_lower" | "distance_upper" => self == PathQuestion::ClosestApproach,
+            _ => false,
+        };
+        let mut columns = COLUMNS.to_vec();
+        columns.retain(|Column(name, _)| is_in_table(name));
+        if self != PathQuestion::IsFree {
+            columns.splice(3..3, ITEM_COLUMNS);
+        }
+        columns
+    }
+
+    /// Answers the question. With a clearance, a closest approach says whether it is kept.
+    ///
+    /// # Errors
+    /// [`PathError`].
+    pub fn ask<Q: AsRef<[f64]>>(
+        self,
+        solver: &mut CellSolver<'_>,
+        path: &[Q],
+        clearance: Option<f64>,
+    ) -> Result<PathAnswer, PathError> {
+        match self {
+            PathQuestion::IsFree => {
+                let is_free = solver.is_free(path)?;
+                let status = if is_free {
+                    Status::Free
+                } else {
+                    Status::Contact
+                };
+                Ok(PathAnswer::from_status(status))
+            }
+            PathQuestion::FirstContact => PathAnswer::first_contact(solver, path),
+            PathQuestion::ClosestApproach => PathAnswer::closest_approach(solver, path, clearance),
+        }
+    }
+
+    /// Answers the question; an error becomes a row.
+    pub fn answer<Q: AsRef<[f64]>>(
+        self,
+        solver: &mut CellSolver<'_>,
+        path: &[Q],
+        clearance: Option<f64>,
+    ) -> ResultRow {
+        match self.ask(solver, path, clearance) {
+            Ok(answer) => answer.row,
+            Err(PathError::Query(Error::Unresolved(known))) => {
+                PathAnswer::from_status(Status::Unresolved)
+                    .with_limit(known.limit)
+                    .row
+            }
+            Err(error) => ResultRow {
+                reason: Some(error.to_string()),
+                ..ResultRow::default()
+            },
+        }
+    }
+}
+
+impl PathAnswer {
+    fn from_status(status: Status) -> Self {
+        let row = ResultRow {
+            status,
+            ..ResultRow::default()
+        };
+        PathAnswer {
+            row,
+            at: None,
+            limit: None,
+        }
+    }
+
+    fn first_contact<Q: AsRef<[f64]>>(
+        solver: &mut CellSolver<'_>,
+        path: &[Q],
+    ) -> Result<Self, PathError> {
+        Ok(match solver.first_contact(path)? {
+            PathOutcome::Free => {
+                let mut answer = PathAnswer::from_status(Status::Free);
+                answer.row.time = Some((path.len() - 1) as f64);
+                answer
+            }
+            PathOutcome::Contact(contact) => {
+                PathAnswer::from_status(Status::Contact).with_contact(&contact)
+            }
+            PathOutcome::Unresolved { free_until, limit } => {
+                PathAnswer::from_status(Status::Unresolved)
+                    .with_limit(limit)
+                    .with_point(free_until)
+            }
+        })
+    }
+
+    fn closest_approach<Q: AsRef<[f64]>>(
+        solver: &mut CellSolver<'_>,
+        path: &[Q],
+        clearance: Option<f64>,
+    ) -> Result<Self, PathError> {
+        let found = solver.closest_approach(path)?;
+        let status = match (clearance, found.limit) {
+            (Some(clearance), _) if found.lower >= clearance => Status::Kept,
+            (Some(clearance), _) if found.upper < clearance => Status::Violated,
+            (_, Some(_)) => Status::Unresolved,
+            (Some(_), None) => Status::Unverified,
+            (None, None) => Status::Measured,
+        };
+        let mut answer = PathAnswer::from_status(status);
+        answer.row.distance_lower = Some(found.lower);
+        answer.row.distance_upper = Some(found.upper).filter(|upper| upper.is_finite());
+        if let Some(limit) = found.limit {
+            answer = answer.with_limit(limit);
+        }
+        Ok(match &found.nearest {
+            Some(nearest) => answer.with_contact(nearest),
+            None => answer,
+        })
+    }
+
+    fn with_limit(mut self, limit: Limit) -> Self {
+        self.row.reason = Some(limit.to_string());
+        self.limit = Some(limit);
+        self
+    }
+
+    fn with_point(mut self, at: PathPoint) -> Self {
+        self.row.time = Some(at.time());
+        self.at = Some(at);
+        self
+    }
+
+    fn with_contact(mut self, contact: &PathContact<'_>) -> Self {
+        let [a, b] = contact.items.map(|item| Some(item.name().to_owned()));
+        (self.row.item_a, self.row.item_b) = (a, b);
+        let [a, b] = contact.witnesses.map(|point| point.to_array().map(Some));
+        (self.row.witness_a, self.row.witness_b) = (a, b);
+        self.with_point(contact.at)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,81 @@
+use super::*;
+use crate::solver::tests::{random_cell, random_configuration};
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+use rigid_ccd::Settings;
+use rigid_ccd::table::results::names;
+use std::time::Duration;
+
+#[test]
+fn rows_are_the_answers_of_the_solver() {
+    let mut random = Pcg64::seed_from_u64(1);
+    let mut statuses = [0; 2];
+    for _ in 0..60 {
+        let cell = random_cell(&mut random);
+        let path = [(); 3].map(|()| random_configuration(&mut random, cell.robot()));
+        let mut solver = cell.solver();
+        let is_free = PathQuestion::IsFree.answer(&mut solver, &path, None);
+        let first = PathQuestion::FirstContact.answer(&mut solver, &path, None);
+        assert_eq!(is_free.status, first.status);
+        match solver.first_contact(&path).unwrap() {
+            PathOutcome::Contact(contact) => {
+                assert_eq!(first.status, Status::Contact);
+                assert_eq!(first.time, Some(contact.at.time()));
+                assert_eq!(first.item_a.as_deref(), Some(contact.items[0].name()));
+                assert_eq!(first.item_b.as_deref(), Some(contact.items[1].name()));
+            }
+            PathOutcome::Free => assert_eq!((first.status, first.time), (Status::Free, Some(2.0))),
+            PathOutcome::Unresolved { .. } => panic!("no limit is set"),
+        }
+        statuses[usize::from(first.status == Status::Free)] += 1;
+
+        let nearest = PathQuestion::ClosestApproach.answer(&mut solver, &path, None);
+        assert_eq!(nearest.status, Status::Measured);
+        let (lower, upper) = (nearest.distance_lower.unwrap(), nearest.distance_upper);
+        let mut status = |clearance| {
+            let row = PathQuestion::ClosestApproach.answer(&mut solver, &path, Some(clearance));
+            row.status
+        };
+        assert_eq!(status(lower), Status::Kept);
+        if let Some(upper) = upper {
+            assert_eq!(status(upper + 0.1), Status::Violated);
+        }
+    }
+    assert!(statuses.iter().all(|&count| count > 5), "{statuses:?}");
+}
+
+#[test]
+fn limits_and_errors_are_rows() {
+    let cell = random_cell(&mut Pcg64::seed_from_u64(2));
+    let path = [random_configuration(
+        &mut Pcg64::seed_from_u64(3),
+        cell.robot(),
+    )];
+    let settings = Settings {
+        deadline: Some(Duration::ZERO),
+        ..Settings::DEFAULT
+    };
+    let mut solver = cell.solver().with_settings(settings);
+    for question in PathQuestion::ALL {
+        let row = question.answer(&mut solver, &path, None);
+        assert_eq!(row.status, Status::Unresolved, "{}", question.name());
+        assert_eq!(row.reason.as_deref(), Some("deadline"));
+        let empty: [Vec<f64>; 0] = [];
+        let row = question.answer(&mut solver, &empty, None);
+        assert_eq!(row.status, Status::Error);
+        assert!(
+            row.reason
+                .is_some_and(|reason| reason.contains("no configuration"))
+        );
+    }
+}
+
+#[test]
+fn columns_are_those_of_the_question() {
+    let columns = |question: PathQuestion| names(&question.columns()).join(",");
+    assert_eq!(columns(PathQuestion::IsFree), "id,status,micros,reason");
+    let first = "id,status,time,a,b,witness_a_x,witness_a_y,witness_a_z,witness_b_x,witness_b_y,witness_b_z,micros,reason";
+    assert_eq!(columns(PathQuestion::FirstContact), first);
+    let nearest = first.replace("a,b,", "a,b,distance_lower,distance_upper,");
+    assert_eq!(columns(PathQuestion::ClosestApproach), nearest);
+}

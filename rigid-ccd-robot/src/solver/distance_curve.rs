@@ -1,0 +1,82 @@
+//! The least distance over each of many ranges of a path.
+
+use super::stretch::{PathPoint, Stretch};
+use super::{CellSolver, ClosestApproach, Question};
+use crate::error::PathError;
+
+/// Bounds of the least distance in a range of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DistanceRange<'c> {
+    /// The start of the range.
+    pub from: PathPoint,
+    /// The end of the range, where the next one starts.
+    pub to: PathPoint,
+    /// How near any pair that is checked comes to touching in the range.
+    pub closest: ClosestApproach<'c>,
+}
+
+/// The greatest number of halvings of a segment.
+const MAX_HALVINGS: u32 = 20;
+
+impl<'c> CellSolver<'c> {
+    /// Divides each segment of a path into 2^`halvings` equal ranges, and returns how near any pair comes to touching in each. The
+    /// lower bounds together are a curve that the distance is never below.
+    ///
+    /// # Guarantee
+    /// As of [`closest_approach`](Self::closest_approach), for each range. A deadline is for each range.
+    ///
+    /// # Errors
+    /// [`PathError`]; more than 20 halvings are refused.
+    pub fn distance_curve<Q: AsRef<[f64]>>(
+        &mut self,
+        path: &[Q],
+        halvings: u32,
+    ) -> Result<Vec<DistanceRange<'c>>, PathError> {
+        if halvings > MAX_HALVINGS {
+            return Err(PathError::InvalidRangeSetting {
+                name: "halvings",
+                value: halvings.into(),
+                allowed: "at most 20",
+            });
+        }
+        self.set_path(path)?;
+        let segments = self.search.segment_count();
+        let whole = self.search.whole_path_stretch();
+        if !self.search.placement.moves() {
+            return Ok(vec![self.distance_range(whole)?]);
+        }
+        let mut stretches = Vec::new();
+        for segment in 0..segments {
+            let (from, to) = (segment as f64, (segment + 1) as f64);
+            push_halves(Stretch { from, to, ..whole }, halvings, &mut stretches);
+        }
+        let ranges = stretches
+            .into_iter()
+            .map(|stretch| self.distance_range(stretch));
+        ranges.collect()
+    }
+
+    fn distance_range(&mut self, stretch: Stretch) -> Result<DistanceRange<'c>, PathError> {
+        self.search.answer(Question::ClosestApproach, stretch)?;
+        let segments = self.search.segment_count();
+        Ok(DistanceRange {
+            from: PathPoint::from_segment_position(stretch.from, segments),
+            to: PathPoint::from_segment_position(stretch.to, segments),
+            closest: self.found_approach()?,
+        })
+    }
+}
+
+/// Appends the parts of a stretch that is halved a number of times, in their order.
+fn push_halves(stretch: Stretch, halvings: u32, stretches: &mut Vec<Stretch>) {
+    if halvings == 0 {
+        stretches.push(stretch);
+        return;
+    }
+    for half in stretch.halves() {
+        push_halves(half, halvings - 1, stretches);
+    }
+}
+
+#[cfg(test)]
+mod tests;
