@@ -92,7 +92,7 @@ impl PieceKind {
 /// A cache of the bodies of the models, each of which is made on first use.
 #[derive(Debug, Default)]
 pub struct ModelBodyCache {
-    directory: Option<PathBuf>,
+    model_folder: Option<PathBuf>,
     body_by_model: HashMap<Model, SceneBody>,
 }
 
@@ -123,7 +123,7 @@ impl ModelBodyCache {
     /// Creates an empty cache, which reads a model from its file in the directory if there is one.
     pub fn new(directory: Option<PathBuf>) -> Self {
         ModelBodyCache {
-            directory,
+            model_folder: directory,
             body_by_model: HashMap::new(),
         }
     }
@@ -137,7 +137,7 @@ impl ModelBodyCache {
             return Ok(body.clone());
         }
         let of_model = || format!("model {}", model.name());
-        let mesh = model.load_or_generate(self.directory.as_deref());
+        let mesh = model.load_or_generate(self.model_folder.as_deref());
         let mesh = mesh.with_context(of_model)?;
         let prepared = body_from_mesh(&mesh, Detail::Auto).with_context(of_model)?;
         let body = SceneBody {

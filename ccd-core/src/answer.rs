@@ -150,7 +150,7 @@ impl Answer {
     /// Converts an answer about enclosing bodies to an answer about the enclosed shapes. It is called once for each
     /// query about a distance.
     pub(crate) fn widened_by_excess(self, excess: ExcessSum) -> Self {
-        let outcome = self.outcome.for_enclosed_shapes(excess);
+        let outcome = self.outcome.widened_by_excess(excess);
         Answer {
             outcome,
             tolerance: greater(self.tolerance, outcome.least_distance_bracket_width()),
@@ -320,10 +320,10 @@ impl Outcome {
     }
 
     /// Converts an outcome about enclosing bodies to an outcome about the enclosed shapes.
-    fn for_enclosed_shapes(self, excess: ExcessSum) -> Self {
+    fn widened_by_excess(self, excess: ExcessSum) -> Self {
         let mut outcome = self.map_contacts(|contact, _| contact.widened_by_excess(excess));
         if let Outcome::Overlapping { upper, .. } = &mut outcome {
-            *upper = excess.upper_bound_at_overlap();
+            *upper = excess.shape_distance_bound_at_overlap();
         }
         outcome
     }

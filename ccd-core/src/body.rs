@@ -142,7 +142,7 @@ impl Body {
     /// # Errors
     /// [`InputError::BadSurface`] unless the body is a solid of one piece without rounding, and the
     /// surface is a solid of triangles.
-    pub fn with_surface(mut self, surface: Body) -> Result<Self, InputError> {
+    pub fn with_surface_triangles(mut self, surface: Body) -> Result<Self, InputError> {
         let solid = |body: &Body| body.solidity == Solidity::Solid;
         let whole = self.pieces.len() == 1 && self.pieces.get(0).radius == 0.0;
         if !(whole && solid(&self) && solid(&surface) && surface.pieces.are_all_triangles()) {
@@ -249,7 +249,7 @@ impl Body {
         }
     }
 
-    /// Returns whether the body has a [surface](Body::with_surface) of triangles beside its one piece.
+    /// Returns whether the body has a [surface](Body::with_surface_triangles) of triangles beside its one piece.
     pub fn has_surface(&self) -> bool {
         self.surface.is_some()
     }

@@ -29,7 +29,7 @@ pub enum ContactsError {
     /// The time is NaN, or outside of the duration.
     NotInDuration {
         /// The requested time, in the motions' unit.
-        time: f64,
+        requested_time: f64,
         /// The duration of the query, in the motions' unit.
         duration: f64,
     },
@@ -75,7 +75,10 @@ impl fmt::Display for ContactsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Input(error) => error.fmt(f),
-            Self::NotInDuration { time, duration } => {
+            Self::NotInDuration {
+                requested_time: time,
+                duration,
+            } => {
                 write!(f, "time is {time}, but must be from 0 to {duration}")
             }
             Self::TooManyPairs { budget } => write!(

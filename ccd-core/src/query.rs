@@ -260,7 +260,10 @@ impl<'a> Query<'a> {
         // Written so that NaN is refused.
         if !(0.0..=self.duration).contains(&time) {
             let duration = self.duration;
-            return Err(ContactsError::NotInDuration { time, duration });
+            return Err(ContactsError::NotInDuration {
+                requested_time: time,
+                duration,
+            });
         }
         if let Some(problem) = &self.constant_velocity_problem {
             return problem.contacts_at(problem.clock_of_time(time));

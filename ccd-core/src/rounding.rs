@@ -313,7 +313,7 @@ pub const BOX_EXTENT_ERROR_F32: f64 = 4.0 * UNIT_ROUNDOFF_F32 as f64;
 
 /// The thickness of a node's box up to which the node counts as flat, relative to the box's radius. The box's axis is
 /// rounded to f32 ([`BOX_EXTENT_ERROR_F32`]), its size outward.
-pub const MAX_THICKNESS_RATIO_F32: f32 = 16.0 * UNIT_ROUNDOFF_F32;
+pub const MAX_FLAT_NODE_THICKNESS_F32: f32 = 16.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of the velocity along a screw axis, relative to the whole velocity. The axis is off by 4.5u, twice, and
 /// products, sums and differences by 9u; 32u are taken.

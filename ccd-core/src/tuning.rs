@@ -62,7 +62,7 @@ pub const CUT_DEVIATION_RATIO: f64 = 16.0;
 /// The length above which a stretch of time is halved without a measurement of the distance, as a share of the
 /// duration. Measured: over 90 scenes of curves and links the closest approach takes 0.77 of the visits of halves
 /// alone. With measurements in long stretches as well it takes 1.02 of them, and in the worst scene 51 times as many.
-pub const UNMEASURED_HALVING_LENGTH_SHARE: f64 = 0.125;
+pub const MIN_UNMEASURED_HALVING_LENGTH_SHARE: f64 = 0.125;
 
 /// The estimated length below which a stretch of time is cut to that length before it is searched, as a share of the
 /// stretch.
@@ -181,7 +181,7 @@ pub const MAX_FLAT_THICKNESS: f64 = 1e-9;
 
 /// The rounding of a gap of nodes in f32 above which the gap is computed in f64 instead, in units of the gap at which
 /// clocks of nodes stop. Below it f32 proves as much as f64.
-pub const F64_FALLBACK_ROUNDING: f64 = 1.0;
+pub const F64_FALLBACK_THRESHOLD: f64 = 1.0;
 
 /// The largest sideways displacement of a screw's axis during the query at which nodes are compared along the screw, in
 /// units of the smaller body's radius. Surfaces that turn with the screw prove nothing for long beyond it.

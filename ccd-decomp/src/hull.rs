@@ -10,7 +10,7 @@ mod flat;
 pub(crate) mod polygons;
 
 use crate::exact::predicates::{
-    compare_lexicographically, first_inexact_point_index, first_point_out_of_range,
+    compare_lexicographically, first_point_out_of_range, first_underflow_prone_point_index,
 };
 use crate::hull::exact_hull::ExactHull;
 use crate::hull::polygons::merged_polygons;
@@ -38,7 +38,7 @@ pub struct HullError {
 /// O(n log n) time, and O(n) memory.
 pub fn hull(points: &[DVec3]) -> Result<Hull, HullError> {
     if let Some(point) =
-        first_point_out_of_range(points).or_else(|| first_inexact_point_index(points))
+        first_point_out_of_range(points).or_else(|| first_underflow_prone_point_index(points))
     {
         let point = point as u32;
         return Err(HullError { point_index: point });

@@ -5,7 +5,7 @@
 //! | read OBJ, STL, PLY, OFF or glTF | [`TriangleMesh::read`], [`Format`] |
 //! | read the parts of a file, convert units | [`MeshFile`], [`Unit`] |
 //! | move, join and measure meshes | [`TriangleMesh::transformed`], [`TriangleMesh::merge`], [`TriangleMesh::bounding_box`] |
-//! | find the faults of a mesh, and skipped content | [`Repairs`], [`Remarks`], [`Topology`], [`MeshFault`] |
+//! | find the faults of a mesh, and skipped content | [`Repairs`], [`Remarks`], [`TopologyDefects`], [`MeshFault`] |
 //! | make a body of a mesh | [`body_from_mesh`], [`Detail`], [`Report`] |
 //! | decompose its surface exactly | [`decompose`], [`Decomposition`] |
 //! | store a prepared body, and load it | [`prepare`](fn@prepare), [`StoredBodyContent::save`], [`StoredBodyContent::load`] |
@@ -104,13 +104,13 @@ pub use messages::FileError;
 pub use pieces::patches::{Decomposition, Patch, PatchOrder, decompose};
 pub use prepare::error::PrepareError;
 pub use prepare::model::{PreparedBody, StoredBodyContent};
-pub use prepare::report::{PieceReason, PiecesKind, QueryTimes, Report};
+pub use prepare::report::{EstimatedQueryTimes, PieceReason, PiecesKind, Report};
 pub use prepare::{Detail, body_from_mesh, prepare};
 pub use solid::error::{Crossing, DecomposeError};
-pub use solid::topology::{Edge, Topology};
+pub use solid::topology::{Edge, TopologyDefects};
 pub use source::error::{BodyError, SourceError};
 pub use source::mesh_source::MeshSource;
 pub use source::{BodySource, parse_body};
-pub use tally::Tally;
+pub use tally::CountWithExamples;
 pub use tree::hierarchy::build_hierarchy;
 pub use tree::hull_tree::{HullTreeBuildError, build_hull_tree};

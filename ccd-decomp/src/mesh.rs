@@ -41,7 +41,7 @@ use std::path::Path;
 /// let mesh = TriangleMesh::from_reader(Format::Obj, square.as_bytes()).unwrap();
 /// assert_eq!(mesh.faces(), [[0, 1, 2], [0, 2, 3]]);
 /// assert_eq!(mesh.face_ids(), [0, 0]);
-/// assert_eq!(mesh.repairs().polygons.count(), 1);
+/// assert_eq!(mesh.repairs().triangulated_polygons.count(), 1);
 /// ```
 #[derive(Clone, Debug)]
 pub struct TriangleMesh {

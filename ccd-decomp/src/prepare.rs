@@ -11,7 +11,7 @@ use crate::pieces::convex::convex_polytope;
 use crate::pieces::outer_hull::outer_hull;
 use crate::pieces::patches::{PatchOrder, decompose};
 use crate::solid::solid_surface;
-use crate::solid::topology::Topology;
+use crate::solid::topology::TopologyDefects;
 use crate::tolerance::AUTO_WORK_BUDGET;
 use crate::work::WorkBudget;
 use ccd_core::Solidity;
@@ -83,7 +83,7 @@ pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<PreparedBod
 /// # Guarantee
 /// The pieces cover the mesh. Except with [`Detail::OuterHull`], they touch nothing outside the solid that it bounds.
 /// Except with [`Detail::Surface`], the body is solid exactly when the mesh is closed, neighbouring faces are oriented
-/// alike, and it is [clear](Topology::unclear_shells) which shells bound material and which a cavity. Shells that are inside
+/// alike, and it is [clear](TopologyDefects::unclear_shells) which shells bound material and which a cavity. Shells that are inside
 /// out are reversed, and the report says so. [`Detail::Auto`] and [`Detail::Triangles`] take any mesh.
 ///
 /// # Errors
@@ -101,7 +101,7 @@ pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<StoredBodyContent,
 
 impl PiecesChoice {
     fn new(mesh: &TriangleMesh, detail: Detail) -> Result<Self, PrepareError> {
-        let (topology, turned) = Topology::with_reoriented_mesh(mesh);
+        let (topology, turned) = TopologyDefects::with_reoriented_mesh(mesh);
         let mesh = turned.as_ref().unwrap_or(mesh);
         let requested = |pieces| (pieces, PieceReason::Requested);
         let (pieces, reason) = match detail {

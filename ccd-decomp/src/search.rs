@@ -27,7 +27,7 @@ pub(crate) struct TriangleBoxes {
     tree_outside_fans: BoxTree,
     fans: Vec<Fan>,
     /// The axis-aligned boxes of the fans.
-    bounds: BoundingBoxTree,
+    fan_box_tree: BoundingBoxTree,
 }
 
 impl TriangleBoxes {
@@ -36,7 +36,7 @@ impl TriangleBoxes {
         let (single, fans) = split_into_fans(points, faces);
         TriangleBoxes {
             tree_outside_fans: BoxTree::from_faces(points, faces, single),
-            bounds: BoundingBoxTree::new(fans.iter().map(Fan::bounds).collect()),
+            fan_box_tree: BoundingBoxTree::new(fans.iter().map(Fan::bounds).collect()),
             fans,
         }
     }
@@ -55,7 +55,7 @@ impl TriangleBoxes {
         let tree = &self.tree_outside_fans;
         tree.all_near_faces_satisfy(region, work, &mut holds)
             && self
-                .bounds
+                .fan_box_tree
                 .all_meeting_boxes_satisfy(&region.bounds, |fan| {
                     let fan = &self.fans[fan as usize];
                     work.spend(1) && fan.all_near_faces_satisfy(&region.shape, work, &mut holds)

@@ -16,14 +16,14 @@ pub(crate) mod star_shaped;
 pub(crate) mod topology;
 
 use crate::mesh::TriangleMesh;
-use crate::tally::Tally;
+use crate::tally::CountWithExamples;
 use crate::work::WorkBudget;
 use crossings::crossings;
 use error::{Crossing, DecomposeError};
 use manifold::Manifold;
 use shells::check_orientation;
 use star_shaped::star_centre;
-use topology::Topology;
+use topology::TopologyDefects;
 
 /// Returns the surface of the solid that a mesh bounds. Checks every edge, and every pair of nearby triangles.
 ///
@@ -32,7 +32,7 @@ use topology::Topology;
 /// # Errors
 /// [`DecomposeError`] if the mesh bounds no solid.
 pub(crate) fn solid_surface(mesh: &TriangleMesh) -> Result<Manifold<'_>, DecomposeError> {
-    let manifold = Manifold::without_intersection_check(mesh, &Topology::of(mesh))?;
+    let manifold = Manifold::without_intersection_check(mesh, &TopologyDefects::of(mesh))?;
     check_solid(&manifold, &WorkBudget::unbounded())?;
     Ok(manifold)
 }
@@ -49,7 +49,7 @@ pub(crate) fn check_solid(
     if star_centre(manifold).is_some() {
         return Ok(());
     }
-    let mut pairs = Tally::default();
+    let mut pairs = CountWithExamples::default();
     for (face, other) in crossings(manifold, work)? {
         let [face, other] = [face, other].map(|f| manifold.mesh().face_ids()[f as usize]);
         pairs.add(Crossing { face, other });

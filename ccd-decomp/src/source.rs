@@ -89,8 +89,8 @@ impl BodySource {
     /// stored body keeps its pieces.
     ///
     /// # Errors
-    /// [`BodyError::Mesh`] and [`BodyError::Store`] if the file cannot be read, [`BodyError::FileContent`] if its content
-    /// cannot be made into a body, [`BodyError::Input`] if a length is out of range.
+    /// [`BodyError::Mesh`] and [`BodyError::UnloadableStoredBody`] if the file cannot be read, [`BodyError::FileContent`] if its content
+    /// cannot be made into a body, [`BodyError::InvalidShape`] if a length is out of range.
     pub fn load(&self, detail: Detail) -> Result<PreparedBody, BodyError> {
         self.load_adjusted(&Adjustments::NONE, detail)
     }

@@ -5,7 +5,7 @@ use std::fmt;
 
 /// The number of elements of some kind, and the first few of them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Tally<T> {
+pub struct CountWithExamples<T> {
     count: usize,
     first: Vec<T>,
 }
@@ -13,14 +13,14 @@ pub struct Tally<T> {
 /// The maximum number of stored elements, to keep reports short.
 const MAX_STORED_ELEMENTS: usize = 8;
 
-impl<T> Tally<T> {
+impl<T> CountWithExamples<T> {
     /// Returns the number of elements that were counted.
     pub fn count(&self) -> usize {
         self.count
     }
 
     /// Returns the first counted elements, at most eight.
-    pub fn first(&self) -> &[T] {
+    pub fn first_elements(&self) -> &[T] {
         &self.first
     }
 
@@ -37,7 +37,7 @@ impl<T> Tally<T> {
     }
 }
 
-impl Tally<u32> {
+impl CountWithExamples<u32> {
     /// Adds the element numbers of another tally, each increased by `first`.
     pub(crate) fn append(&mut self, other: &Self, first: u32) {
         let room = MAX_STORED_ELEMENTS - self.first.len();
@@ -47,16 +47,16 @@ impl Tally<u32> {
     }
 }
 
-impl<T> Default for Tally<T> {
+impl<T> Default for CountWithExamples<T> {
     fn default() -> Self {
-        Tally {
+        CountWithExamples {
             count: 0,
             first: Vec::new(),
         }
     }
 }
 
-impl<T: fmt::Display> fmt::Display for Tally<T> {
+impl<T: fmt::Display> fmt::Display for CountWithExamples<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut named: Vec<String> = self.first.iter().map(T::to_string).collect();
         named.extend((named.len() < self.count).then(|| "…".into()));

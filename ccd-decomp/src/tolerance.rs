@@ -84,7 +84,7 @@ pub(crate) const MAX_NEARBY_TRIANGLES: usize = 64;
 pub(crate) struct QueryCost {
     /// The median time of a query against a body of many triangles, in µs. The same time is assumed for any number of
     /// pieces.
-    pub(crate) typical_time: f64,
+    pub(crate) median_query_time: f64,
     /// The time that a query takes for each piece of a plane that rests flat on another body, in µs.
     pub(crate) time_per_resting_piece: f64,
 }
@@ -95,7 +95,7 @@ pub(crate) struct QueryCost {
 /// triangles against a ring of 10,000: medians of 22, 23, 24, 20, 38 µs. Laid flat on themselves, to a
 /// tolerance of 1e-9, about 1 to 13 µs for every triangle of the plane.
 pub(crate) const TRIANGLE_QUERY_COST: QueryCost = QueryCost {
-    typical_time: 23.0,
+    median_query_time: 23.0,
     time_per_resting_piece: 5.0,
 };
 
@@ -105,7 +105,7 @@ pub(crate) const TRIANGLE_QUERY_COST: QueryCost = QueryCost {
 /// (`ccd-bench/scripts/pieces.py`; a third to 600 times); and about 4 to 10 µs for every patch of a plane
 /// laid flat.
 pub(crate) const PATCH_QUERY_COST: QueryCost = QueryCost {
-    typical_time: 55.0,
+    median_query_time: 55.0,
     time_per_resting_piece: 6.0,
 };
 
@@ -158,7 +158,7 @@ pub(crate) const VERTEX_EXPANSION_COST: u64 = 4;
 ///
 /// Unit: the cost of a corner, and of a part. More: a hostile file of a kilobyte takes more memory. Fewer: small
 /// files with many instances are refused.
-pub(crate) const BASE_EXPANSION_LIMIT: u64 = 1 << 20;
+pub(crate) const BASE_FILE_EXPANSION_LIMIT: u64 = 1 << 20;
 
 /// The part of the limit on what a file may expand to that is proportional to its size, per byte. An assembly of
 /// 1,000 screws of 1,000 triangles takes about 50.
@@ -166,7 +166,7 @@ pub(crate) const EXPANSION_LIMIT_PER_BYTE: u64 = 1 << 8;
 
 /// The largest limit on what a file of any size may expand to: about ten million triangles, which take up to 3 GB to
 /// prepare.
-pub(crate) const MAX_FILE_EXPANSION: u64 = 1 << 25;
+pub(crate) const MAX_EXPANDED_ELEMENT_COUNT: u64 = 1 << 25;
 
 #[cfg(test)]
 mod tests;

@@ -141,7 +141,7 @@ fn corners(piece: &Piece<'_>) -> Option<Corners> {
 fn convex_combination(weights: [f64; 3], points: usize) -> ConvexCombination {
     let mut out = ConvexCombination::EMPTY;
     for (k, weight) in weights.into_iter().enumerate() {
-        out.push(k.min(points - 1) as u32, weight);
+        out.add_weighted_point(k.min(points - 1) as u32, weight);
     }
     out
 }

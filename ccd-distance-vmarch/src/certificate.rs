@@ -2,7 +2,7 @@
 
 use crate::feature::{Feature, Pair};
 use crate::placed::{PlacedPair, PlacedPolytope};
-use crate::polytope::{Polytope, unit};
+use crate::polytope::{Polytope, unit_or_zero};
 use crate::tolerance::{
     MAX_AXIS_EDGES, MAX_CERTIFIED_GAP_DEFICIT, MAX_RELATIVE_CERTIFIED_GAP_DEFICIT,
 };
@@ -20,7 +20,7 @@ pub(crate) struct Axis {
 impl Axis {
     /// Creates the axis along a direction of any length, with its support gap; −∞ for a zero direction.
     pub(crate) fn from_direction(placed: &PlacedPair<'_>, direction: DVec3) -> Self {
-        let direction = unit(direction);
+        let direction = unit_or_zero(direction);
         let gap = if direction == DVec3::ZERO {
             f64::NEG_INFINITY
         } else {
@@ -50,7 +50,7 @@ pub(crate) fn gap(placed: &PlacedPair<'_>, n: DVec3) -> f64 {
 
 /// Returns an upper bound of the gap along a direction, from two corners that are extremal up to rounding.
 fn gap_upper_bound(placed: &PlacedPair<'_>, direction: DVec3) -> f64 {
-    let n = unit(direction);
+    let n = unit_or_zero(direction);
     let highest = placed.a.0.vertex(placed.a.0.extremal_vertex(n)).point;
     let shape = placed.b.shape();
     let own = -placed.b.to_a.inverse_transform_vector(n);

@@ -163,8 +163,9 @@ fn search_common_point(
 ) -> Option<CertifiedClaim> {
     let PlacedPair { a, b, .. } = placed;
     let of = |which| move |crossing| (which, crossing);
-    let found = penetration::search_crossing(a, b).map(of(WhichPolytope::X));
-    let found = found.or_else(|| penetration::search_crossing(b, a).map(of(WhichPolytope::Y)));
+    let found = penetration::find_edge_face_crossing(a, b).map(of(WhichPolytope::PolytopeX));
+    let found = found
+        .or_else(|| penetration::find_edge_face_crossing(b, a).map(of(WhichPolytope::PolytopeY)));
     let (which, crossing) = found?;
     counters.penetrations += 1;
     Some((pair, touching::common_point_claim(placed, which, &crossing)))

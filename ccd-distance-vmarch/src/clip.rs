@@ -59,7 +59,7 @@ pub(crate) fn clip_to_prism<Y: PlacedPolytope>(
 #[inline]
 pub(crate) fn parameter_of_overlap_middle(one: &Line, other: &Line) -> f64 {
     let start = one.nearest_parameter(other.start);
-    let end = one.nearest_parameter(other.point_at(other.length));
+    let end = one.nearest_parameter(other.point_at_parameter(other.length));
     0.5 * (start + end)
 }
 

@@ -30,7 +30,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     if (on_x, on_y) != (Feature::Edge(e), Feature::Edge(f)) {
         return MarchStep::Continue(on_x, on_y);
     }
-    let points = [one.point_at(s), other.point_at(t)];
+    let points = [one.point_at_parameter(s), other.point_at_parameter(t)];
     let offset = points[1] - points[0];
     if offset.length() <= scale.rounding() {
         return MarchStep::Stop(Tied);
@@ -93,13 +93,13 @@ pub(crate) fn nearest_parameters(one: &Line, other: &Line) -> NearestParameters 
     } else {
         clip::parameter_of_overlap_middle(one, other)
     };
-    let free = (one.point_at(s) - other.start).dot(other.direction);
+    let free = (one.point_at_parameter(s) - other.start).dot(other.direction);
     let t = clamp_parameter(free, other.length);
     // If the nearest point of the line is beyond the end of the segment, the foot of that end is nearest.
     let s = if free == t {
         s
     } else {
-        one.nearest_parameter(other.point_at(t))
+        one.nearest_parameter(other.point_at_parameter(t))
     };
     NearestParameters {
         parameters: [s, t],
@@ -176,9 +176,9 @@ impl NearestVector {
         let minimum = LocalMinimum {
             feature,
             point,
-            other_face: face,
+            other_polytope_face: face,
         };
-        Some(MarchStep::LocalMinimum(WhichPolytope::Y, minimum))
+        Some(MarchStep::LocalMinimum(WhichPolytope::PolytopeY, minimum))
     }
 }
 

@@ -39,17 +39,17 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     let height = |parameter: f64| base + slope * parameter;
     if height(high.parameter) < -rounding {
         return MarchStep::LocalMinimum(
-            WhichPolytope::X,
+            WhichPolytope::PolytopeX,
             LocalMinimum {
                 feature: Feature::Edge(e),
-                point: line.point_at(high.parameter),
-                other_face: f,
+                point: line.point_at_parameter(high.parameter),
+                other_polytope_face: f,
             },
         );
     }
     if height(low.parameter) < rounding {
         if let Some(crossing) = penetration::edge_face_crossing(x, e, y, f) {
-            return MarchStep::CommonPoint(WhichPolytope::X, crossing);
+            return MarchStep::CommonPoint(WhichPolytope::PolytopeX, crossing);
         }
         if height(low.parameter) < -rounding {
             return step_to_nearest_side(e, &line, y, f);
@@ -68,7 +68,9 @@ fn step_to_nearest_side<Y: PlacedPolytope>(e: u32, line: &Line, y: &Y, f: u32) -
     for side in sides {
         let other = y.line(side.edge);
         let [s, t] = edge_edge::nearest_parameters(line, &other).parameters;
-        let square = line.point_at(s).distance_squared(other.point_at(t));
+        let square = line
+            .point_at_parameter(s)
+            .distance_squared(other.point_at_parameter(t));
         if square < least {
             (least, nearest) = (square, side.edge);
         }

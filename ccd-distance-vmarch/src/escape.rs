@@ -16,23 +16,24 @@ pub(crate) fn escape_local_minimum<X: PlacedPolytope, Y: PlacedPolytope>(
 ) -> MarchStep {
     if let Some((face, height)) = face_farthest_below(minimum.point, y)
         && height > scale.rounding()
-        && face != minimum.other_face
+        && face != minimum.other_polytope_face
     {
         return MarchStep::Continue(minimum.feature, Feature::Face(face));
     }
     let inside = match minimum.feature {
-        Feature::Vertex(v) => penetration::inner_corner_crossing(x, v, y),
+        Feature::Vertex(v) => penetration::contained_corner_crossing(x, v, y),
         Feature::Edge(e) => {
             let mut faces = 0..y.shape().faces.len() as u32;
             let through = faces.find_map(|f| penetration::edge_face_crossing(x, e, y, f));
             // An edge with an inner point that does not cross the surface is entirely inside.
-            through.or_else(|| penetration::inner_corner_crossing(x, x.shape().edge(e).ends[0], y))
+            through
+                .or_else(|| penetration::contained_corner_crossing(x, x.shape().edge(e).ends[0], y))
         }
         Feature::Face(_) => None,
     };
     match inside {
-        Some(crossing) => MarchStep::CommonPoint(WhichPolytope::X, crossing),
-        None => MarchStep::LocalMinimum(WhichPolytope::X, minimum),
+        Some(crossing) => MarchStep::CommonPoint(WhichPolytope::PolytopeX, crossing),
+        None => MarchStep::LocalMinimum(WhichPolytope::PolytopeX, minimum),
     }
 }
 

@@ -35,8 +35,8 @@ pub(crate) enum MarchStep {
 /// The first or the second polytope of a tested pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum WhichPolytope {
-    X,
-    Y,
+    PolytopeX,
+    PolytopeY,
 }
 
 impl MarchStep {
@@ -60,8 +60,8 @@ impl WhichPolytope {
     #[inline(always)]
     fn other(self) -> WhichPolytope {
         match self {
-            WhichPolytope::X => WhichPolytope::Y,
-            WhichPolytope::Y => WhichPolytope::X,
+            WhichPolytope::PolytopeX => WhichPolytope::PolytopeY,
+            WhichPolytope::PolytopeY => WhichPolytope::PolytopeX,
         }
     }
 }
@@ -83,7 +83,7 @@ pub(crate) struct LocalMinimum {
     /// The point of the feature that projects onto the face, and is the least deep behind it.
     pub(crate) point: DVec3,
     /// The index of the other polytope's face that the feature is behind.
-    pub(crate) other_face: u32,
+    pub(crate) other_polytope_face: u32,
 }
 
 /// A common point of two polytopes, on an edge or a corner of one of them, proven by exact signs.

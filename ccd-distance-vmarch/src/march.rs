@@ -44,8 +44,8 @@ pub(crate) fn march(placed: &PlacedPair<'_>, start: Pair, counters: &mut Counter
 fn escape(placed: &PlacedPair<'_>, which: WhichPolytope, minimum: LocalMinimum) -> MarchStep {
     let PlacedPair { a, b, scale } = placed;
     match which {
-        WhichPolytope::X => escape_local_minimum(a, minimum, b, *scale),
-        WhichPolytope::Y => escape_local_minimum(b, minimum, a, *scale).swapped(),
+        WhichPolytope::PolytopeX => escape_local_minimum(a, minimum, b, *scale),
+        WhichPolytope::PolytopeY => escape_local_minimum(b, minimum, a, *scale).swapped(),
     }
 }
 

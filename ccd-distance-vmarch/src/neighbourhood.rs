@@ -34,7 +34,9 @@ pub(crate) fn nearer_neighbour_pair(
         for &f in &b.edges {
             let other = placed.b.line(f);
             let [s, t] = edge_edge::nearest_parameters(&one, &other).parameters;
-            let distance = one.point_at(s).distance(other.point_at(t));
+            let distance = one
+                .point_at_parameter(s)
+                .distance(other.point_at_parameter(t));
             let on_a = vertex_or_edge_at(&placed.a, e, s);
             keep_if_nearer(distance, on_a, vertex_or_edge_at(&placed.b, f, t));
         }
@@ -60,7 +62,11 @@ fn visit_vertex_feature_pairs<X: PlacedPolytope, Y: PlacedPolytope>(
             let line = y.line(e);
             let t = line.nearest_parameter(point);
             let end = vertex_or_edge_at(y, e, t);
-            offer(line.point_at(t).distance(point), Feature::Vertex(v), end);
+            offer(
+                line.point_at_parameter(t).distance(point),
+                Feature::Vertex(v),
+                end,
+            );
         }
         for &f in &around.faces {
             let height = height_above_face(point, y, f);

@@ -46,7 +46,7 @@ pub(crate) fn edge_face_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
 ///
 /// # Guarantee
 /// Like [`edge_face_crossing`].
-pub(crate) fn inner_corner_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
+pub(crate) fn contained_corner_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     v: u32,
     y: &Y,
@@ -85,7 +85,7 @@ pub(crate) fn inner_corner_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
 
 /// Searches for an edge of X that passes through a face of Y, or a corner of X inside Y, unless the polytopes are too
 /// large.
-pub(crate) fn search_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
+pub(crate) fn find_edge_face_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
     x: &X,
     y: &Y,
 ) -> Option<CommonPoint> {
@@ -95,7 +95,7 @@ pub(crate) fn search_crossing<X: PlacedPolytope, Y: PlacedPolytope>(
     }
     let through = (0..faces).find_map(|f| (0..edges).find_map(|e| edge_face_crossing(x, e, y, f)));
     // If no edge goes through the surface, X is either entirely inside or entirely outside.
-    through.or_else(|| inner_corner_crossing(x, 0, y))
+    through.or_else(|| contained_corner_crossing(x, 0, y))
 }
 
 /// Returns whether a segment and a triangle have a common point; false if they are coplanar.

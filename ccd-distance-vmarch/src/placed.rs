@@ -105,7 +105,7 @@ impl RoundingScale {
 
 impl Line {
     #[inline(always)]
-    pub(crate) fn point_at(&self, parameter: f64) -> DVec3 {
+    pub(crate) fn point_at_parameter(&self, parameter: f64) -> DVec3 {
         self.start + self.direction * parameter
     }
 

@@ -10,7 +10,7 @@ mod support;
 mod tests;
 
 use crate::feature::Feature;
-pub(crate) use facets::unit;
+pub(crate) use facets::unit_or_zero;
 use support::StartVertexTable;
 
 use ccd_core::glam::DVec3;
@@ -38,7 +38,7 @@ pub(crate) struct Polytope {
     pub(crate) outgoing_edges: Vec<OutgoingEdge>,
     pub(crate) edges: Vec<Edge>,
     pub(crate) faces: Vec<Face>,
-    pub(crate) sides: Vec<Side>,
+    pub(crate) sides: Vec<FaceEdge>,
     /// A table of corners from which hill climbing starts; `None` for polytopes of few corners, which are scanned.
     start_vertex_table: Option<Box<StartVertexTable>>,
 }
@@ -57,7 +57,7 @@ pub(crate) struct Vertex {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OutgoingEdge {
     /// The unit vector away from the vertex along the edge.
-    pub(crate) direction: DVec3,
+    pub(crate) edge_direction: DVec3,
     pub(crate) edge: u32,
     /// The vertex at the other end.
     pub(crate) end_vertex: u32,
@@ -92,7 +92,7 @@ pub(crate) struct Face {
 
 /// A side of a face; the sides of a face are ordered counterclockwise as seen from outside.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Side {
+pub(crate) struct FaceEdge {
     /// The unit vector into the face, the same as in [`Edge::inward_directions`].
     pub(crate) inward_direction: DVec3,
     /// The start of the edge, the same as [`Edge::start`], so that tests against the edge and against the face give the
@@ -139,7 +139,7 @@ impl Polytope {
 
     /// Returns the sides of a face, counterclockwise as seen from outside.
     #[inline]
-    pub(crate) fn sides_of(&self, f: u32) -> &[Side] {
+    pub(crate) fn sides_of(&self, f: u32) -> &[FaceEdge] {
         let face = self.face(f);
         &self.sides[face.first_side as usize..face.sides_end as usize]
     }

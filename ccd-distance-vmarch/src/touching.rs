@@ -16,7 +16,7 @@ pub(crate) fn common_point_claim(
     which: WhichPolytope,
     crossing: &CommonPoint,
 ) -> Claim {
-    let claim = witness::claim_along_crossed_face(placed, which, crossing);
+    let claim = witness::common_point_claim(placed, which, crossing);
     let Some(pair) = touching_features(placed, which, crossing) else {
         return claim;
     };
@@ -41,8 +41,8 @@ fn touching_features(
 ) -> Option<Pair> {
     let PlacedPair { a, b, scale } = placed;
     let found = match which {
-        WhichPolytope::X => features(a, b, crossing, *scale),
-        WhichPolytope::Y => features(b, a, crossing, *scale).map(|(x, y)| (y, x)),
+        WhichPolytope::PolytopeX => features(a, b, crossing, *scale),
+        WhichPolytope::PolytopeY => features(b, a, crossing, *scale).map(|(x, y)| (y, x)),
     };
     found.map(|(a, b)| Pair { a, b })
 }

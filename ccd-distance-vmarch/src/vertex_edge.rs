@@ -33,7 +33,7 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     if (corner - y.vertex(edge.ends[1])).dot(line.direction) > 0.0 {
         return MarchStep::Continue(Feature::Vertex(v), Feature::Vertex(edge.ends[1]));
     }
-    let offset = line.point_at(parameter) - corner;
+    let offset = line.point_at_parameter(parameter) - corner;
     let rounding = scale.rounding();
     if offset.length_squared() <= rounding * rounding {
         return MarchStep::Stop(Tied);
@@ -44,9 +44,9 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     }
     let approach = steepest_edge_towards(x, v, &line, offset, scale);
     if approach.scaled_decrease_rate > 0.0 {
-        return MarchStep::Continue(Feature::Edge(approach.edge), Feature::Edge(e));
+        return MarchStep::Continue(Feature::Edge(approach.edge_at_vertex), Feature::Edge(e));
     }
-    let clear = edge.is_outside_voronoi_planes(inward, rounding) && !approach.is_tied;
+    let clear = edge.is_outside_voronoi_planes(inward, rounding) && !approach.is_descent_uncertain;
     MarchStep::Stop(if clear { Sure } else { Tied })
 }
 
@@ -72,11 +72,11 @@ pub(crate) fn face_towards_point<Y: PlacedPolytope>(
 
 /// The edge at a corner along which the distance to a given line decreases most.
 struct ApproachingEdge {
-    edge: u32,
+    edge_at_vertex: u32,
     /// The distance times its rate of decrease along the edge, less an allowance for rounding.
     scaled_decrease_rate: f64,
     /// Whether rounding hides, for some edge at the corner, if the distance decreases along it.
-    is_tied: bool,
+    is_descent_uncertain: bool,
 }
 
 /// Finds the edge at a corner along which the distance to a line decreases most; `offset` leads from the corner to the
@@ -94,13 +94,13 @@ fn steepest_edge_towards<X: PlacedPolytope>(
     scale: RoundingScale,
 ) -> ApproachingEdge {
     let mut out = ApproachingEdge {
-        edge: 0,
+        edge_at_vertex: 0,
         scaled_decrease_rate: 0.0,
-        is_tied: false,
+        is_descent_uncertain: false,
     };
     let rounding = scale.rounding();
     for spoke in x.shape().outgoing_edges_of(v) {
-        let along = x.vector(spoke.direction);
+        let along = x.vector(spoke.edge_direction);
         let slope = along.dot(offset);
         // Written so that NaN is a tie.
         if slope < -rounding {
@@ -110,10 +110,10 @@ fn steepest_edge_towards<X: PlacedPolytope>(
         let sine = along.cross(line.direction).length();
         let slack = rounding * sine + DOT_PRODUCT_ERROR_BOUND * offset.length();
         if across - slack > out.scaled_decrease_rate {
-            out.edge = spoke.edge;
+            out.edge_at_vertex = spoke.edge;
             out.scaled_decrease_rate = across - slack;
         }
-        out.is_tied |= !(across < -slack);
+        out.is_descent_uncertain |= !(across < -slack);
     }
     out
 }

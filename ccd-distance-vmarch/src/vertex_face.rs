@@ -36,11 +36,11 @@ pub(crate) fn next<X: PlacedPolytope, Y: PlacedPolytope>(
     let rounding = scale.rounding();
     if height < -rounding {
         return MarchStep::LocalMinimum(
-            WhichPolytope::X,
+            WhichPolytope::PolytopeX,
             LocalMinimum {
                 feature: Feature::Vertex(v),
                 point: corner,
-                other_face: f,
+                other_polytope_face: f,
             },
         );
     }

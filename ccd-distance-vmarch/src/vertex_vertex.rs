@@ -53,7 +53,7 @@ pub(crate) fn steepest_edge<P: PlacedPolytope>(
         slope: f64::NEG_INFINITY,
     };
     for spoke in polytope.shape().outgoing_edges_of(v) {
-        let slope = polytope.vector(spoke.direction).dot(offset);
+        let slope = polytope.vector(spoke.edge_direction).dot(offset);
         if slope > best.slope {
             best = SteepestEdge {
                 edge: spoke.edge,

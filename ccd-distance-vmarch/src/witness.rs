@@ -57,7 +57,7 @@ impl Witness {
 }
 
 /// Returns the claim about a proven common point, along the normal of the crossed face.
-pub(crate) fn claim_along_crossed_face(
+pub(crate) fn common_point_claim(
     placed: &PlacedPair<'_>,
     which: WhichPolytope,
     crossing: &CommonPoint,
@@ -65,12 +65,12 @@ pub(crate) fn claim_along_crossed_face(
     let (a, b) = (&placed.a, &placed.b);
     let (edge_ends, face_corners) = (&crossing.edge_ends, &crossing.face_corners);
     match which {
-        WhichPolytope::X => Claim {
+        WhichPolytope::PolytopeX => Claim {
             axis: -b.vector(b.shape().face(crossing.face).normal),
             a: combination(a.shape(), edge_ends),
             b: combination(b.shape(), face_corners),
         },
-        WhichPolytope::Y => Claim {
+        WhichPolytope::PolytopeY => Claim {
             axis: a.shape().face(crossing.face).normal,
             a: combination(a.shape(), face_corners),
             b: combination(b.shape(), edge_ends),
@@ -90,8 +90,8 @@ fn vertex_vertex_witness<X: PlacedPolytope, Y: PlacedPolytope>(
         points,
         claim: Claim {
             axis: points[1] - points[0],
-            a: corner(x, v),
-            b: corner(y, w),
+            a: combination_at_corner(x, v),
+            b: combination_at_corner(y, w),
         },
     }
 }
@@ -105,13 +105,13 @@ fn vertex_edge_witness<X: PlacedPolytope, Y: PlacedPolytope>(
 ) -> Witness {
     let (point, line) = (x.vertex(v), y.line(e));
     let parameter = line.nearest_parameter(point);
-    let foot = line.point_at(parameter);
+    let foot = line.point_at_parameter(parameter);
     let offset = foot - point;
     Witness {
         points: [point, foot],
         claim: Claim {
             axis: perpendicular_part(offset, line.direction),
-            a: corner(x, v),
+            a: combination_at_corner(x, v),
             b: combination_on_edge(y, e, parameter),
         },
     }
@@ -128,7 +128,7 @@ fn edge_edge_witness<X: PlacedPolytope, Y: PlacedPolytope>(
     let (one, other) = (x.line(e), y.line(f));
     let near = edge_edge::nearest_parameters(&one, &other);
     let [s, t] = near.parameters;
-    let points = [one.point_at(s), other.point_at(t)];
+    let points = [one.point_at_parameter(s), other.point_at_parameter(t)];
     let offset = points[1] - points[0];
     let axis = near.axis(offset, scale).unwrap_or(offset);
     Witness {
@@ -156,7 +156,7 @@ fn vertex_face_witness<X: PlacedPolytope, Y: PlacedPolytope>(
         points: [point, foot],
         claim: Claim {
             axis: -normal,
-            a: corner(x, v),
+            a: combination_at_corner(x, v),
             b: spot,
         },
     }
@@ -185,13 +185,13 @@ fn combination<const N: usize>(
 ) -> ConvexCombination {
     let mut out = ConvexCombination::EMPTY;
     for (v, weight) in corners.vertices.into_iter().zip(corners.weights) {
-        out.push(shape.vertex(v).point_index, weight);
+        out.add_weighted_point(shape.vertex(v).point_index, weight);
     }
     out
 }
 
 #[inline]
-fn corner<P: PlacedPolytope>(polytope: &P, v: u32) -> ConvexCombination {
+fn combination_at_corner<P: PlacedPolytope>(polytope: &P, v: u32) -> ConvexCombination {
     ConvexCombination::from_single_point(polytope.shape().vertex(v).point_index)
 }
 

@@ -98,11 +98,11 @@ impl Claim {
     /// Writes the whole file, and renames it to its target.
     ///
     /// # Errors
-    /// Errors of `fill` and of [`Claim::place`].
+    /// Errors of `fill` and of [`Claim::rename_to_target`].
     pub fn write(mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         self.truncate(0)?;
         write_buffered(&mut self.temp_file.file, fill)?;
-        self.place()
+        self.rename_to_target()
     }
 
     /// Truncates the file to a length in bytes, so that writing continues there.
@@ -125,7 +125,7 @@ impl Claim {
     ///
     /// # Errors
     /// The file was removed or replaced, or the operating system fails.
-    pub fn place(self) -> io::Result<()> {
+    pub fn rename_to_target(self) -> io::Result<()> {
         self.temp_file.place()
     }
 }

@@ -77,7 +77,7 @@ fn a_claimed_file_is_given_to_one() {
         assert_eq!(error.kind(), io::ErrorKind::ResourceBusy, "{other}");
     }
     first.file().write_all(b"rows").unwrap();
-    first.place().unwrap();
+    first.rename_to_target().unwrap();
     assert_eq!(read_text(&target), "rows");
     assert_eq!(folder.names(), ["table"]);
 
@@ -93,7 +93,7 @@ fn a_claimed_file_is_given_to_one() {
     assert_eq!(again.initial_length(), 9);
     again.truncate(4).unwrap();
     again.file().write_all(b"over").unwrap();
-    again.place().unwrap();
+    again.rename_to_target().unwrap();
     assert_eq!(read_text(&target), "moreover");
     assert!(
         claim(target.clone())
@@ -123,7 +123,7 @@ fn a_replaced_file_is_not_placed() {
         if replaced {
             fs::write(claim.partial_path(), "of another").unwrap();
         }
-        let error = claim.place().unwrap_err();
+        let error = claim.rename_to_target().unwrap_err();
         assert!(error.to_string().contains("removed or replaced"), "{error}");
         assert!(!target.exists());
     }
@@ -150,7 +150,7 @@ fn threads_have_a_claimed_file_one_after_the_other() {
                     for _ in 0..10 {
                         claim.file().write_all(&[b'0' + number as u8]).unwrap();
                     }
-                    claim.place().unwrap();
+                    claim.rename_to_target().unwrap();
                     let there = fs::read(target).unwrap();
                     assert!(there.len() == 10 && there.iter().all(|&b| b == there[0]));
                     claims += 1;

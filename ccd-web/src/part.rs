@@ -25,7 +25,7 @@ pub enum WebError {
     UnknownPart(String),
     /// The name of the file has no known extension.
     #[error(transparent)]
-    Format(#[from] MeshFault),
+    UnknownFormat(#[from] MeshFault),
     /// The file cannot be read as a mesh.
     #[error(transparent)]
     BadMesh(#[from] MeshError),

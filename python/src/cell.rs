@@ -204,7 +204,7 @@ impl PyCell {
         let at = |point: PathPoint| point.segment as f64 + point.share;
         let ranges = ranges.map_err(|error| path_error(py, error))?;
         let ranges = ranges.iter().map(|range| {
-            let clearance = match range.clearance {
+            let clearance = match range.verdict {
                 ClearanceVerdict::Kept => "kept",
                 ClearanceVerdict::Violated => "violated",
                 ClearanceVerdict::Unverified => "unverified",

@@ -87,9 +87,9 @@ pub(crate) fn answer_paths<T: Send>(
         None => ParallelSolver::new(solver),
     };
     let answers = solvers.map(&tasks, |solver, task| {
-        let mut path = Vec::with_capacity(paths.length);
+        let mut path = Vec::with_capacity(paths.configuration_count);
         let mut answers = Vec::with_capacity(PATHS_PER_TASK);
-        for positions in task.chunks_exact(paths.length * paths.joint_count) {
+        for positions in task.chunks_exact(paths.configuration_count * paths.joint_count) {
             path.clear();
             path.extend(positions.chunks_exact(paths.joint_count));
             answers.push(question(solver, &path));
@@ -104,7 +104,7 @@ pub(crate) fn answer_paths<T: Send>(
 pub(crate) struct Paths<'a> {
     pub(crate) positions: &'a [f64],
     /// The number of configurations of a path, at least 1.
-    pub(crate) length: usize,
+    pub(crate) configuration_count: usize,
     /// The number of positions of a configuration, at least 1.
     pub(crate) joint_count: usize,
 }
@@ -112,6 +112,6 @@ pub(crate) struct Paths<'a> {
 impl<'a> Paths<'a> {
     fn position_chunks(&self) -> impl Iterator<Item = &'a [f64]> {
         self.positions
-            .chunks(PATHS_PER_TASK * self.length * self.joint_count)
+            .chunks(PATHS_PER_TASK * self.configuration_count * self.joint_count)
     }
 }

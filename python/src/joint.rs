@@ -25,7 +25,7 @@ type Mimic = (String, f64, f64);
 type MakeJoint = fn(Pose, [f64; 3]) -> Result<trajectory::Joint, InputError>;
 
 /// What joints with a degree of freedom are made of, besides their names.
-type Moving<'a, 'py> = (
+type MovingJointArgs<'a, 'py> = (
     Option<&'a Bound<'py, PyAny>>,
     Option<&'a Bound<'py, PyAny>>,
     Option<&'a Bound<'py, PyAny>>,
@@ -147,7 +147,7 @@ impl PyJoint {
         py: Python<'_>,
         (kind, make): (&'static str, MakeJoint),
         names: [&str; 3],
-        (origin, axis, limits, mimic): Moving<'_, '_>,
+        (origin, axis, limits, mimic): MovingJointArgs<'_, '_>,
     ) -> PyResult<Self> {
         let origin = read_origin(origin)?;
         let pose = origin.pose("origin")?;
@@ -187,7 +187,7 @@ fn build_joint(names: [&str; 3], joint: trajectory::Joint, mimic: Option<Mimic>)
             multiplier,
             offset,
         },
-        None => PositionRule::Free,
+        None => PositionRule::Independent,
     };
     Joint {
         name,

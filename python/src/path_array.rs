@@ -52,7 +52,7 @@ impl PathArray {
     pub(crate) fn paths(&self) -> Paths<'_> {
         Paths {
             positions: &self.positions,
-            length: self.shape[1],
+            configuration_count: self.shape[1],
             joint_count: self.joint_count(),
         }
     }

@@ -107,13 +107,13 @@ impl PairQuestion<'_> {
 }
 
 /// A body and its motion, as a Python caller passes them.
-type GivenBody<'a, 'py> = (&'a Bound<'py, PyAny>, Option<&'a Bound<'py, PyAny>>);
+type GivenBodyAndMotion<'a, 'py> = (&'a Bound<'py, PyAny>, Option<&'a Bound<'py, PyAny>>);
 
 /// Checks the arguments of a question about two moving bodies, warns of likely mistakes, and answers the question.
 fn ask(
     py: Python<'_>,
     question: Question,
-    [(a, motion_a), (b, motion_b)]: [GivenBody<'_, '_>; 2],
+    [(a, motion_a), (b, motion_b)]: [GivenBodyAndMotion<'_, '_>; 2],
     duration: Option<f64>,
     settings: &Settings,
 ) -> PyResult<Answer> {

@@ -141,7 +141,7 @@ impl PyRobot {
             _ => return Err(unknown_name_error("meshes", meshes, "exact or hull")),
         };
         let mut urdf = Urdf::from_path(path)
-            .with_body_elements(geometry)
+            .with_body_element_kind(geometry)
             .with_mesh_conversion(meshes);
         // The first folder is searched first.
         for folder in packages.into_iter().flatten().rev() {

@@ -88,7 +88,7 @@ impl PyTable {
         Ok(PyTable { batch })
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Stored<'py>)> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, PickledTable<'py>)> {
         let (py, batch) = (slf.py(), &slf.get().batch);
         let stored = run_catching_panics("table", || py.detach(|| stored::write(batch)))?;
         let make = slf.get_type().getattr("_from_bytes")?;
@@ -170,7 +170,7 @@ impl PyTable {
 }
 
 /// The pickled form of a table, with its checksum.
-type Stored<'py> = (Bound<'py, PyBytes>, u32);
+type PickledTable<'py> = (Bound<'py, PyBytes>, u32);
 
 impl PyTable {
     fn as_struct(&self) -> (Arc<Field>, StructArray) {

@@ -42,7 +42,7 @@ pub(super) struct DecomposeArgs {
     out: Option<PathBuf>,
     /// Output format of the statistics
     #[arg(long, value_enum, default_value_t)]
-    format: FormatArg,
+    format: StatisticsFormatArg,
     /// Print only warnings and errors on standard error
     #[arg(long, short)]
     quiet: bool,
@@ -90,7 +90,7 @@ Examples:
 
 /// The output format of the statistics.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum FormatArg {
+enum StatisticsFormatArg {
     /// Aligned lines
     #[default]
     Text,
@@ -127,8 +127,10 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<RunOutcome> {
     }
     let statistics = Statistics::new((name, unit), &model, &body, build_ms);
     let printed = match args.format {
-        FormatArg::Text => writeln!(io::stdout(), "{statistics}"),
-        FormatArg::Json => writeln!(io::stdout(), "{}", serde_json::to_string(&statistics)?),
+        StatisticsFormatArg::Text => writeln!(io::stdout(), "{statistics}"),
+        StatisticsFormatArg::Json => {
+            writeln!(io::stdout(), "{}", serde_json::to_string(&statistics)?)
+        }
     };
     printed.map_err(OutputError::standard_output_error)?;
     Ok(RunOutcome::AllAnswered)
@@ -137,7 +139,7 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<RunOutcome> {
 /// Reserves the output file before the decomposition. So a file that cannot be written is reported at once, not after
 /// the long work.
 fn claim(out: &Path, mesh: &Path) -> Result<(OutputKind, Output)> {
-    let form = OutputKind::from_path(out)?;
+    let form = OutputKind::from_extension_of(out)?;
     refuse_overwriting_input(("the mesh", mesh), ("--out", out))?;
     Ok((form, Output::claim(out)?))
 }
@@ -181,7 +183,7 @@ impl DecomposeArgs {
 }
 
 impl OutputKind {
-    fn from_path(path: &Path) -> Result<Self> {
+    fn from_extension_of(path: &Path) -> Result<Self> {
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         match extension.to_str() {
             Some("obj") => Ok(OutputKind::Pieces),

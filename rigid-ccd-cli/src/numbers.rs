@@ -5,7 +5,7 @@ use std::time::Duration;
 
 /// Parses the value of `--tolerance`, and refuses one out of the library's range.
 pub fn tolerance(text: &str) -> Result<f64, String> {
-    number(text)
+    parse_finite(text)
         .filter(|value| (LEAST_TOLERANCE..=MAX_COORDINATE).contains(value))
         .ok_or_else(|| {
             format!("give a number from {LEAST_TOLERANCE:e} to {MAX_COORDINATE:e}, such as 1e-3")
@@ -14,19 +14,19 @@ pub fn tolerance(text: &str) -> Result<f64, String> {
 
 /// Parses a length or a time from 0 to [`MAX_COORDINATE`].
 pub(super) fn parse_nonnegative(text: &str) -> Result<f64, String> {
-    number(text)
+    parse_finite(text)
         .filter(|value| (0.0..=MAX_COORDINATE).contains(value))
         .ok_or_else(|| format!("give a number from 0 to {MAX_COORDINATE:e}, such as 0.01"))
 }
 
 /// Parses a finite number; `None` for any other text.
-pub(super) fn number(text: &str) -> Option<f64> {
+pub(super) fn parse_finite(text: &str) -> Option<f64> {
     text.parse::<f64>().ok().filter(|value| value.is_finite())
 }
 
 /// Parses a duration in seconds.
 pub fn parse_seconds(text: &str) -> Result<Duration, String> {
-    number(text)
+    parse_finite(text)
         .and_then(|value| Duration::try_from_secs_f64(value).ok())
         .ok_or_else(|| "give a number of seconds of at least 0, such as 0.01".to_owned())
 }

@@ -37,7 +37,7 @@ pub(super) struct Output {
     path: PathBuf,
     /// The file, reserved so that no other process writes it. An older file of this name is kept until the new one is
     /// complete. `None` for standard output, a pipe, a terminal or a device.
-    pub(super) claim: Option<Claim>,
+    pub(super) reserved_file: Option<Claim>,
 }
 
 impl Output {
@@ -51,14 +51,14 @@ impl Output {
         };
         Ok(Output {
             path: path.to_owned(),
-            claim: claim.map_err(|source| OutputError::error_for_path(path, source))?,
+            reserved_file: claim.map_err(|source| OutputError::error_for_path(path, source))?,
         })
     }
 
     /// Reserves an output for a table other than a query's results; refuses to overwrite an interrupted query.
     pub(super) fn claim_table(path: &Path) -> Result<Self, OutputError> {
         let output = Output::claim(path)?;
-        match &output.claim {
+        match &output.reserved_file {
             Some(claim)
                 if claim.initial_length() > 0 && claim.sibling(JOURNAL_EXTENSION).exists() =>
             {
@@ -78,7 +78,7 @@ impl Output {
     }
 
     pub(super) fn is_stream(&self) -> bool {
-        self.claim.is_none()
+        self.reserved_file.is_none()
     }
 
     pub(super) fn error(&self, source: io::Error) -> OutputError {
@@ -87,7 +87,7 @@ impl Output {
 
     /// Opens the output for writing; a file is written from its current position.
     pub(super) fn open(&mut self) -> io::Result<Box<dyn Write>> {
-        Ok(match &mut self.claim {
+        Ok(match &mut self.reserved_file {
             Some(claim) => Box::new(claim.file().try_clone()?),
             None if is_standard_output(&self.path) => Box::new(io::stdout().lock()),
             None => Box::new(File::options().append(true).open(&self.path)?),
@@ -99,7 +99,7 @@ impl Output {
         self,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), OutputError> {
-        let written = match self.claim {
+        let written = match self.reserved_file {
             Some(claim) => claim.write(fill),
             None if is_standard_output(&self.path) => fill(&mut io::stdout().lock()),
             None => ccd_file::write(&self.path, fill),

@@ -94,7 +94,7 @@ impl BodiesArgs {
         if method.schedule.uses_hull_trees() && body.hull_tree().is_none() {
             body = attach_hull_tree(body).with_context(|| format!("{option} {text}"))?;
         }
-        method.prepare(&body);
+        method.prepare_body(&body);
         drop(progress);
         let remarks = &report.repairs.remarks;
         if !quiet {

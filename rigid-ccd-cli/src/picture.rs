@@ -13,7 +13,7 @@ mod verdict;
 pub use ccd_view::{AnimationGroup, Page, PageError};
 pub use course::shown_motions;
 pub use drawn::drawn_mesh;
-pub use gap::{GapOverTime, gap_over_time};
+pub use gap::{GapOverTime, measure_gap_over_time};
 pub(crate) use scene::{DrawnBody, scene_verdict, scene_view};
 pub use verdict::{QueryContext, TimeMeaning};
 
@@ -95,14 +95,16 @@ impl<'a> Painter<'a> {
         let start = query.start_time();
         let duration = query.duration();
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
-        let [a, b] = query.poses(time.unwrap_or(0.0))?;
+        let [a, b] = query.poses_at(time.unwrap_or(0.0))?;
         if self.query_context.time_meaning == TimeMeaning::TableTime {
             self.check_distance(row, [a, b])?;
         }
-        let contact = time.and_then(|time| self.contact(row, time, [a, b]));
+        let contact = time.and_then(|time| self.shown_contact(row, time, [a, b]));
         let measured_at = match (self.query_context.time_meaning, row.time) {
             // A path has one row for each of its poses.
-            (TimeMeaning::MeasurementTime, Some(time)) => format!(" at {}", verdict::number(time)),
+            (TimeMeaning::MeasurementTime, Some(time)) => {
+                format!(" at {}", verdict::format_rounded_down(time))
+            }
             _ => String::new(),
         };
         let name = format!("{}{measured_at} ({})", row.id, row.status.name());
@@ -111,11 +113,11 @@ impl<'a> Painter<'a> {
         if row.status != Status::Error {
             let floor = match (row.status, self.query_context.time_meaning) {
                 (Status::Free, TimeMeaning::FirstContact | TimeMeaning::SomeContact) => {
-                    self.query_context.margin
+                    self.query_context.query_margin
                 }
                 _ => 0.0,
             };
-            let found = gap_over_time(&mut self.solver, self.bodies, query, floor)?;
+            let found = measure_gap_over_time(&mut self.solver, self.bodies, query, floor)?;
             view.ghost_times = found.ghost_times(duration);
             proven = found.least_proven_gap();
             nearest = found.least_distance_time();
@@ -134,7 +136,7 @@ impl<'a> Painter<'a> {
                 Status::Free => nearest,
                 _ => time.unwrap_or(nearest),
             },
-            origin: (query.poses(0.0)?[1]
+            origin: (query.poses_at(0.0)?[1]
                 .transform_point(self.meshes.middle(self.mesh_index_by_body[1])))
             .to_array(),
             contacts: contact.into_iter().collect(),
@@ -161,7 +163,7 @@ impl<'a> Painter<'a> {
     }
 
     /// Returns the touching or nearest points of a row, with their features.
-    fn contact(&self, row: &ResultRow, time: f64, poses: [Pose; 2]) -> Option<ShownContact> {
+    fn shown_contact(&self, row: &ResultRow, time: f64, poses: [Pose; 2]) -> Option<ShownContact> {
         let point = |cells: [Option<f64>; 3]| {
             let [x, y, z] = cells;
             Some(DVec3::new(x?, y?, z?))

@@ -67,7 +67,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     }
     let start = resumable::skip_rows(&files, &mut rows, earlier)?;
     outputs.save(start)?;
-    let timing = timed_question(args);
+    let timing = timed_question_from_args(args);
     if timing.method.motion_bound == BoundKind::Published {
         print_error("--bound published: times are not certified, contacts may be late or missed");
     }
@@ -150,7 +150,7 @@ fn page_context(args: &QueryArgs) -> QueryContext {
     };
     QueryContext {
         time_meaning: claim,
-        margin: args.margin,
+        query_margin: args.margin,
         clearance: args.clearance,
     }
 }
@@ -253,7 +253,7 @@ fn method(args: &QueryArgs) -> SolverKind {
     }
 }
 
-fn timed_question(args: &QueryArgs) -> TimedQuestion {
+fn timed_question_from_args(args: &QueryArgs) -> TimedQuestion {
     TimedQuestion {
         question: args.ask,
         method: method(args),

@@ -105,7 +105,7 @@ pub(super) fn run(args: &SceneCommandArgs) -> Result<RunOutcome> {
         if row.status == Status::Error {
             exit = RunOutcome::SomeRowsBad;
         }
-        out.row(&(bodies.map(|body| ids[body]), Line(&columns, &row)))?;
+        out.add_row(&(bodies.map(|body| ids[body]), Line(&columns, &row)))?;
     }
     out.finish()?;
     Ok(exit)

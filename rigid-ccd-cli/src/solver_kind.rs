@@ -116,7 +116,7 @@ impl SolverKind {
     }
 
     /// Prepares a body for the distance backend, so that the body's first query is as fast as later ones.
-    pub fn prepare(self, body: &Body) {
+    pub fn prepare_body(self, body: &Body) {
         match self.oracle {
             OracleKind::Direct => Direct::prepare(body),
             OracleKind::Gjk => Gjk::prepare(body),

@@ -24,7 +24,7 @@ pub(super) struct LengthAndChecksum {
 
 /// A writer that counts and checksums the bytes written.
 pub struct MeasuringWriter {
-    to: Box<dyn Write>,
+    destination: Box<dyn Write>,
     bytes: u64,
     checksum: crc32fast::Hasher,
 }
@@ -38,7 +38,7 @@ impl TableWriter {
     /// Starts a table in a reserved output, and discards what an earlier run left there.
     pub(super) fn start(mut output: Output, header: &[&str]) -> Result<Self, OutputError> {
         let emptied = output
-            .claim
+            .reserved_file
             .as_mut()
             .map_or(Ok(()), |claim| claim.truncate(0));
         let opened = emptied.and_then(|()| output.open());
@@ -55,7 +55,7 @@ impl TableWriter {
         written: LengthAndChecksum,
     ) -> Result<Option<Self>, OutputError> {
         let mut open = || {
-            let Some(claim) = &mut output.claim else {
+            let Some(claim) = &mut output.reserved_file else {
                 return Ok(None);
             };
             claim.file().rewind()?;
@@ -65,7 +65,10 @@ impl TableWriter {
             }
             claim.truncate(written.bytes)?;
             let to = output.open()?;
-            Ok(Some(MeasuringWriter { to, ..found }))
+            Ok(Some(MeasuringWriter {
+                destination: to,
+                ..found
+            }))
         };
         let opened = open().map_err(|source| output.error(source))?;
         Ok(opened.map(|writer| TableWriter::new(output, writer)))
@@ -89,7 +92,7 @@ impl TableWriter {
     }
 
     /// Adds a row, given as serialisable cells.
-    pub(super) fn row(&mut self, cells: &impl Serialize) -> Result<(), OutputError> {
+    pub(super) fn add_row(&mut self, cells: &impl Serialize) -> Result<(), OutputError> {
         self.write_row(|writer| writer.serialize(cells))
     }
 
@@ -102,7 +105,7 @@ impl TableWriter {
     pub(super) fn flush_and_measure(&mut self) -> Result<LengthAndChecksum, OutputError> {
         let flushed = self.writer.flush();
         flushed.map_err(|source| self.output.error(source))?;
-        if let Some(claim) = &mut self.output.claim {
+        if let Some(claim) = &mut self.output.reserved_file {
             claim.keep_on_drop();
         }
         Ok(self.writer.get_ref().length_and_checksum())
@@ -111,7 +114,11 @@ impl TableWriter {
     /// Renames the complete table to its final name.
     pub fn finish(mut self) -> Result<(), OutputError> {
         self.flush()?;
-        let placed = self.output.claim.take().map_or(Ok(()), Claim::place);
+        let placed = self
+            .output
+            .reserved_file
+            .take()
+            .map_or(Ok(()), Claim::rename_to_target);
         placed.map_err(|source| self.output.error(source))
     }
 }
@@ -119,7 +126,7 @@ impl TableWriter {
 impl MeasuringWriter {
     fn new(to: Box<dyn Write>) -> Self {
         MeasuringWriter {
-            to,
+            destination: to,
             bytes: 0,
             checksum: crc32fast::Hasher::new(),
         }
@@ -135,14 +142,14 @@ impl MeasuringWriter {
 
 impl Write for MeasuringWriter {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let written = self.to.write(bytes)?;
+        let written = self.destination.write(bytes)?;
         self.bytes += written as u64;
         self.checksum.update(&bytes[..written]);
         Ok(written)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.to.flush()
+        self.destination.flush()
     }
 }
 

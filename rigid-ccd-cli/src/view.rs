@@ -64,7 +64,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
         time_meaning: known
             .as_ref()
             .map_or(TimeMeaning::FirstContact, |_| TimeMeaning::TableTime),
-        margin: args.margin,
+        query_margin: args.margin,
         clearance: None,
     };
     let mut solver = timing.method.solver(VectorInstructions::Best);
@@ -72,7 +72,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
         let course = match row.with_context(|| input_name(motions))? {
             Ok((_, course)) => course,
             Err(fault) => {
-                chosen.count_undrawable(fault.to_string());
+                chosen.note_undrawable_row(fault.to_string());
                 continue;
             }
         };
@@ -134,7 +134,7 @@ pub(super) fn write_rows_page(
     for (course, row) in chosen.take_rows() {
         match painter.animate_row(&course, &row) {
             Ok(view) => views.push(view),
-            Err(error) => chosen.count_undrawable(format!("row {}: {error}", row.id)),
+            Err(error) => chosen.note_undrawable_row(format!("row {}: {error}", row.id)),
         }
     }
     if let Some(faults) = chosen.describe_faults() {

@@ -51,7 +51,7 @@ impl Cast {
         shapes: [&PreparedShape; 2],
         solver: &mut Solver,
     ) -> Result<Option<CastHit>, CastError> {
-        self.with_scene(shapes, |scene| self.hit(scene, solver))
+        self.with_scene(shapes, |scene| self.first_hit(scene, solver))
     }
 
     /// Builds the engine's scene for a cast, and calls a function with it.
@@ -97,7 +97,7 @@ impl Cast {
         Ok(Scene {
             bodies,
             motions: sides.map(|side| side.motion),
-            frames,
+            frame_motions: frames,
             horizon: QueryDuration::new(sides, within, self.interval.length()),
             interval: self.interval,
             target_distance: self.target,
@@ -125,7 +125,7 @@ impl Cast {
         let wanted = self.interval.length();
         let reach =
             |horizon: QueryDuration| plane.reach(of_plane, side, within, horizon.duration());
-        let horizon = plane.horizon(of_plane, side, within, wanted);
+        let horizon = plane.query_duration(of_plane, side, within, wanted);
         // The box deviates by the motion's deviation at its farthest point, which the bound covers.
         let reach = reach(horizon);
         let away = length(of_plane.about - of_plane.motion.centre());
@@ -150,7 +150,7 @@ impl Cast {
         then(&Scene {
             bodies,
             motions,
-            frames,
+            frame_motions: frames,
             horizon,
             interval: self.interval,
             target_distance: self.target,
@@ -160,7 +160,11 @@ impl Cast {
 
     /// Returns the first contact; with [`StartPolicy::Leave`], pieces that overlap at the start and begin to part are
     /// ignored.
-    fn hit(&self, scene: &Scene<'_>, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
+    fn first_hit(
+        &self,
+        scene: &Scene<'_>,
+        solver: &mut Solver,
+    ) -> Result<Option<CastHit>, CastError> {
         let found = scene.first_contact(solver)?;
         match found {
             Some(found)
@@ -194,7 +198,7 @@ impl Cast {
 
     /// Returns the tolerance of the cast: that of the options, or a default that is smaller for tiny bodies.
     fn tolerance(&self, bodies: &[&BodyOfShape]) -> f64 {
-        let sizes = bodies.iter().map(|body| body.ball.1);
+        let sizes = bodies.iter().map(|body| body.enclosing_ball.1);
         let sizes = sizes.filter(|size| *size > 0.0);
         let by_default = sizes.fold(self.default_tolerance, |least, size| {
             lesser(least, MAX_TOLERANCE_RADIUS_RATIO * size)
@@ -247,7 +251,7 @@ impl MotionFromCastStart {
 
     /// Returns the motion with a ball that contains the body, and whose centre moves in a straight line.
     fn motion_with_extent(&self, body: &BodyOfShape) -> MotionWithExtent {
-        let (middle, radius) = body.ball;
+        let (middle, radius) = body.enclosing_ball;
         let about = self.rotation_centre_or(middle);
         MotionWithExtent {
             motion: self.motion,

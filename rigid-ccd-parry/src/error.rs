@@ -140,10 +140,10 @@ pub enum ShapeError {
         error: Box<ShapeError>,
     },
     /// The engine refuses a piece of the body: a triangle, a voxel or a part.
-    #[error("sub-shape {number}: {error}")]
+    #[error("sub-shape {element_index}: {error}")]
     Piece {
         /// The index of the triangle, segment or part; 0 for shapes without indices.
-        number: u32,
+        element_index: u32,
         /// The reason why the engine refuses the piece.
         #[source]
         error: InputError,

@@ -276,7 +276,7 @@ impl ShapeGeometry {
             return match &self.surface {
                 Some((faces, numbers)) => {
                     let pieces = Pieces::from_triangles(&part.polytope.points, faces, numbers)?;
-                    body.with_surface(Body::new(&pieces, Solidity::Solid)?)
+                    body.with_surface_triangles(Body::new(&pieces, Solidity::Solid)?)
                 }
                 None => Ok(body),
             };
@@ -314,7 +314,7 @@ impl ShapeGeometry {
     fn sub_shape_index_of_piece(&self, body: &Body, piece: usize) -> u32 {
         let inside = if body.pieces().are_all_triangles() {
             let mut inside = ConvexCombination::of_two_points([0, 1], 0.5);
-            inside.push(2, 0.5);
+            inside.add_weighted_point(2, 0.5);
             inside
         } else if self.parts.len() == 1 && self.triangles.is_empty() {
             return self.parts[0].sub_shape_index;
@@ -346,7 +346,10 @@ impl ShapeGeometry {
                 .copied(),
         };
         match piece.and_then(number) {
-            Some(number) => ShapeError::Piece { number, error },
+            Some(number) => ShapeError::Piece {
+                element_index: number,
+                error,
+            },
             None => ShapeError::Body(error),
         }
     }

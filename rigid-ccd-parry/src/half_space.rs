@@ -36,7 +36,7 @@ impl HalfSpace {
     /// `within`.
     ///
     /// `plane` is the half-space's motion, about any point of it.
-    pub(crate) fn horizon(
+    pub(crate) fn query_duration(
         &self,
         plane: MotionWithExtent,
         body: MotionWithExtent,

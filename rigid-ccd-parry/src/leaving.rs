@@ -100,12 +100,12 @@ fn piece_indices_near_other(scene: &Scene<'_>, k: usize) -> Vec<u32> {
     let [this, other] = [k, 1 - k].map(|k| (scene.bodies[k], &scene.motions[k]));
     let velocity = other.1.velocity() - this.1.velocity();
     let displacement = velocity * scene.horizon.duration();
-    let (middle, radius) = other.0.ball;
+    let (middle, radius) = other.0.enclosing_ball;
     // The position at the start, in the world.
     let from = other.1.start().transform_point(middle);
     let within = scene.settings.margin + scene.settings.tolerance + radius;
     let comes_near = |piece: &Piece<'_>| {
-        let (middle, radius) = ball(piece);
+        let (middle, radius) = bounding_ball(piece);
         let place = this.1.start().transform_point(middle);
         let rounding =
             (ROUNDING_ENLARGEMENT - 1.0) * (length(place) + length(from) + length(displacement));
@@ -132,7 +132,7 @@ fn distance_to_segment(point: DVec3, displacement: DVec3) -> f64 {
 }
 
 /// Returns a ball around a piece: its centre and its radius.
-fn ball(piece: &Piece<'_>) -> (DVec3, f64) {
+fn bounding_ball(piece: &Piece<'_>) -> (DVec3, f64) {
     let first = piece.points[0];
     let reach = piece.points.iter().map(|p| length(*p - first));
     (first, reach.fold(0.0, greater) + piece.radius)

@@ -17,7 +17,7 @@ pub struct BodyOfShape {
     body: Body,
     sub_shape_indices: Vec<u32>,
     /// An enclosing ball: its centre, in the shape's frame, and its radius.
-    pub(crate) ball: (DVec3, f64),
+    pub(crate) enclosing_ball: (DVec3, f64),
     /// The centre in the shape's frame if the body is a ball; `None` for other shapes.
     pub(crate) ball_centre: Option<DVec3>,
     slack: f64,
@@ -37,7 +37,7 @@ impl BodyOfShape {
         Ok(BodyOfShape {
             body: body.with_excess(together).map_err(ShapeError::Body)?,
             sub_shape_indices: numbers,
-            ball: form.enclosing_ball(),
+            enclosing_ball: form.enclosing_ball(),
             ball_centre: form.centre_if_ball(),
             slack: form.slack,
             excess: form.excess,

@@ -29,7 +29,7 @@ pub enum RecordError {
     TooManyPieces(#[from] PrepareError),
     /// A body cannot be written.
     #[error(transparent)]
-    BodyNotStored(#[from] StoreError),
+    BodyWriteFailed(#[from] StoreError),
     /// The folder or the table cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {

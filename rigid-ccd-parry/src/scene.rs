@@ -16,7 +16,7 @@ pub(crate) struct Scene<'a> {
     /// The motions from the start of the interval on, without rotations that have no effect.
     pub(crate) motions: [Motion; 2],
     /// The full motions, with all rotations; the points and normals of a hit are in the frames that these motions move.
-    pub(crate) frames: [Motion; 2],
+    pub(crate) frame_motions: [Motion; 2],
     pub(crate) horizon: QueryDuration,
     pub(crate) interval: Interval,
     /// The distance at which the bodies are in contact, in the scene's unit of length.
@@ -58,7 +58,7 @@ impl Scene<'_> {
         let [a, b] = [0, 1].map(|k| (self.bodies[k].body(), self.motions[k]));
         solver.set_settings(self.settings.clone());
         let answer = solver.first_contact(a, b, self.horizon.duration())?;
-        Ok(self.hit(&answer, solver))
+        Ok(self.hit_from_answer(&answer, solver))
     }
 
     /// Returns whether overlapping bodies may be ignored while they part: only if both move in straight lines, and
@@ -73,7 +73,7 @@ impl Scene<'_> {
         self.motions.iter().all(straight) && self.bodies.iter().all(bare)
     }
 
-    fn hit(&self, answer: &Answer, solver: &mut Solver) -> Option<CastHit> {
+    fn hit_from_answer(&self, answer: &Answer, solver: &mut Solver) -> Option<CastHit> {
         match answer.outcome {
             Outcome::Contact { time, contact } => {
                 Some(self.hit_from_contact(time, &contact, CastStatus::Contact))
@@ -163,7 +163,7 @@ impl Scene<'_> {
     }
 
     fn poses(&self, after: f64) -> [Pose; 2] {
-        self.frames.map(|motion| motion.pose(after))
+        self.frame_motions.map(|motion| motion.pose(after))
     }
 }
 

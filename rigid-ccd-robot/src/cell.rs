@@ -9,7 +9,7 @@ use crate::robot::Robot;
 use crate::solver::kinematics::Kinematics;
 use crate::tuning::{MAX_LINK_PARTS, MAX_OBSTACLE_PARTS};
 use margins::Margins;
-use part::{Part, PlacedBody};
+use part::{HullPart, PlacedBody};
 use rigid_ccd::{Body, Pose};
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ pub struct Cell {
     /// The bodies of the robot's links, then those attached to links, then the obstacles.
     bodies: Vec<PlacedBody>,
     /// The convex parts of all bodies, in the order of the bodies.
-    parts: Vec<Part>,
+    parts: Vec<HullPart>,
     robot_part_count: usize,
     /// Where the robot holds each of its bodies, in the order of the bodies.
     robot_body_placements: Vec<RobotBodyPlacement>,
@@ -237,7 +237,7 @@ impl Cell {
         let poses = robot_bodies.chain(obstacles).enumerate();
         let placed = poses.map(|(number, pose)| {
             let body: &Body = &self.bodies[number].body;
-            Ok((self.item(number), body, pose?))
+            Ok((self.item_of_body(number), body, pose?))
         });
         placed.collect()
     }
@@ -257,7 +257,7 @@ impl Cell {
     }
 
     /// Returns the convex parts of all bodies, in the order of the bodies.
-    pub(crate) fn parts(&self) -> &[Part] {
+    pub(crate) fn parts(&self) -> &[HullPart] {
         &self.parts
     }
 
@@ -276,7 +276,7 @@ impl Cell {
     }
 
     /// Returns the name of what a body belongs to.
-    pub(crate) fn item(&self, body: usize) -> Item<'_> {
+    pub(crate) fn item_of_body(&self, body: usize) -> Item<'_> {
         match self.robot_body_placements.get(body) {
             None => Item::Obstacle(&self.obstacle_names[body - self.robot_body_placements.len()]),
             Some(RobotBodyPlacement {
@@ -318,7 +318,7 @@ impl Cell {
 
     /// Adds a body that the robot holds.
     fn add_robot_body(&mut self, body: Arc<Body>, held: RobotBodyPlacement) {
-        let (frame, link_pose) = self.kinematics.link(held.link);
+        let (frame, link_pose) = self.kinematics.link_frame_and_pose(held.link);
         let pose = link_pose.compose(&held.pose_in_link);
         let placed = PlacedBody::new(body, pose, frame, MAX_LINK_PARTS);
         let number = self.robot_body_placements.len();

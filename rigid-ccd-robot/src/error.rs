@@ -89,21 +89,21 @@ pub enum RobotError {
     },
     /// A joint follows another joint that does not exist, has no position, or follows the first joint in turn.
     #[error("joint `{joint}` follows `{followed_joint}`, which has no position of its own")]
-    UnfollowableJoint {
+    InvalidMimicJoint {
         /// The name of the joint that was to follow another joint.
         joint: String,
         /// The name of the joint that was to be followed.
         followed_joint: String,
     },
     /// A configuration does not have exactly one position for each joint with a position of its own.
-    #[error("{given_count} positions for {expected_count} joints: {names}")]
+    #[error("{given_count} positions for {expected_count} joints: {joint_names}")]
     WrongPositionCount {
         /// The number of positions in the configuration.
         given_count: usize,
         /// The number of joints with a position of their own.
         expected_count: usize,
         /// The names of the joints with a position of their own, separated by commas.
-        names: String,
+        joint_names: String,
     },
     /// A position is outside of its joint's limits or not finite, or the rule of a joint that follows another one is not.
     #[error("joint `{joint}`: {error}")]

@@ -12,7 +12,7 @@
 //!     parent: "base".into(),
 //!     child: "arm".into(),
 //!     axis_and_limits: hinge,
-//!     position_rule: PositionRule::Free,
+//!     position_rule: PositionRule::Independent,
 //! }];
 //! let robot = Robot::new(links, joints)?;
 //! assert_eq!(robot.free_joint_names().collect::<Vec<_>>(), ["hinge"]);

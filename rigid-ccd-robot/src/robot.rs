@@ -66,7 +66,7 @@ pub struct Joint {
 #[derive(Clone, Debug, PartialEq)]
 pub enum PositionRule {
     /// The configuration has a position for the joint, unless the joint is fixed.
-    Free,
+    Independent,
     /// The joint follows another joint, as `mimic` of URDF. Its position is `multiplier · position + offset`; limits of
     /// its own do not count.
     Follows {
@@ -156,7 +156,7 @@ impl Robot {
                 let joint = joint.name.clone();
                 return Err(RobotError::ReversedJoint { joint });
             }
-            if joint.position_rule != PositionRule::Free {
+            if joint.position_rule != PositionRule::Independent {
                 joint.axis_and_limits = joint
                     .axis_and_limits
                     .clone()
@@ -264,7 +264,7 @@ impl Robot {
 
     /// Returns the links that a joint moves, each with the link that holds the joint and the joint. Links come after those
     /// nearer to the base.
-    pub(crate) fn joints_from_base(&self) -> Vec<(usize, usize, usize)> {
+    pub(crate) fn joints_parents_first(&self) -> Vec<(usize, usize, usize)> {
         self.tree.links_parents_first()
     }
 
@@ -280,7 +280,7 @@ impl Robot {
             return Err(RobotError::WrongPositionCount {
                 given_count: configuration.len(),
                 expected_count: expected,
-                names: self.free_joint_names().collect::<Vec<_>>().join(", "),
+                joint_names: self.free_joint_names().collect::<Vec<_>>().join(", "),
             });
         }
         for (&joint, &position) in self.free_joints.iter().zip(configuration) {
@@ -310,7 +310,7 @@ fn position_sources_and_free_joints(
     joints: &[Joint],
 ) -> Result<(Vec<Option<PositionSource>>, Vec<usize>), RobotError> {
     let is_free = |joint: &Joint| {
-        joint.position_rule == PositionRule::Free && !joint.axis_and_limits.is_fixed()
+        joint.position_rule == PositionRule::Independent && !joint.axis_and_limits.is_fixed()
     };
     let free_joints: Vec<usize> = (0..joints.len()).filter(|&k| is_free(&joints[k])).collect();
     let sources = joints.iter().map(|joint| {
@@ -322,7 +322,7 @@ fn position_sources_and_free_joints(
         // A joint that follows another one more often than there are joints follows itself.
         for follow_count in 0..=joints.len() as u32 {
             match &at.position_rule {
-                PositionRule::Free => {
+                PositionRule::Independent => {
                     let number = free_joints.iter().position(|&k| joints[k].name == at.name);
                     return number
                         .map(|number| {
@@ -361,7 +361,7 @@ fn position_sources_and_free_joints(
 }
 
 fn unfollowable_joint_error(joint: &Joint, followed: &str) -> RobotError {
-    RobotError::UnfollowableJoint {
+    RobotError::InvalidMimicJoint {
         joint: joint.name.clone(),
         followed_joint: followed.to_owned(),
     }

@@ -155,7 +155,7 @@ impl<'c> CellSolver<'c> {
         let found = &self.search.result;
         Ok(match (found.limit_reached, found.nearest) {
             (Some((limit, until)), _) => PathOutcome::Unresolved {
-                free_until: PathPoint::from_segment_position(until, self.search.segment_count()),
+                free_until: PathPoint::from_path_position(until, self.search.segment_count()),
                 limit,
             },
             (None, Some(nearest)) => PathOutcome::Contact(self.measure_contact(nearest)?),
@@ -214,7 +214,7 @@ impl<'c> CellSolver<'c> {
     fn answer<Q: AsRef<[f64]>>(&mut self, question: Question, path: &[Q]) -> Result<(), PathError> {
         self.set_path(path)?;
         let whole = self.search.whole_path_stretch();
-        Ok(self.search.answer(question, whole)?)
+        Ok(self.search.answer_question(question, whole)?)
     }
 
     /// Takes a path for the questions that follow, if it fits the robot and the settings are valid.
@@ -247,8 +247,8 @@ impl<'c> CellSolver<'c> {
         );
         let outcome = self.distance_solver.distance(a, b)?.outcome;
         Ok(PathContact {
-            at: PathPoint::from_segment_position(at, self.search.segment_count()),
-            items: bodies.map(|body| self.cell.item(body)),
+            at: PathPoint::from_path_position(at, self.search.segment_count()),
+            items: bodies.map(|body| self.cell.item_of_body(body)),
             witnesses: witnesses(&outcome),
         })
     }

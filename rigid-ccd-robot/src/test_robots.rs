@@ -55,7 +55,7 @@ pub(crate) fn random_robot(random: &mut Pcg64) -> Robot {
                 multiplier: -1.5,
                 offset: 0.2,
             },
-            _ => PositionRule::Free,
+            _ => PositionRule::Independent,
         };
         Joint {
             name: format!("joint{k}"),

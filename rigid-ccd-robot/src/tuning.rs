@@ -25,7 +25,7 @@ pub(crate) const MAX_OBSTACLE_PARTS: usize = 16;
 pub(crate) const MAX_LINK_PARTS: usize = 1;
 
 /// The least number of pieces that are split into two hulls.
-pub(crate) const MIN_PIECES_TO_SPLIT: usize = 16;
+pub(crate) const MIN_PIECES_FOR_TWO_HULLS: usize = 16;
 
 /// The number of intervals between the points on a joint's axis at which two links are tried.
 pub(crate) const JOINT_AXIS_INTERVALS: u32 = 128;

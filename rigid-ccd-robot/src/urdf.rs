@@ -41,7 +41,7 @@ pub struct Urdf {
     path: PathBuf,
     search_folders: SearchFolders,
     body_elements: BodyElements,
-    meshes: MeshConversion,
+    mesh_conversion: MeshConversion,
 }
 
 /// The kind of XML elements of a URDF's links that become bodies.
@@ -63,7 +63,7 @@ impl Urdf {
             search_folders: SearchFolders::for_urdf(&path),
             path,
             body_elements: BodyElements::default(),
-            meshes: MeshConversion::default(),
+            mesh_conversion: MeshConversion::default(),
         }
     }
 
@@ -76,7 +76,7 @@ impl Urdf {
 
     /// Sets whether the `collision` or the `visual` elements of links become bodies.
     #[must_use]
-    pub fn with_body_elements(self, geometry: BodyElements) -> Self {
+    pub fn with_body_element_kind(self, geometry: BodyElements) -> Self {
         Urdf {
             body_elements: geometry,
             ..self
@@ -86,7 +86,10 @@ impl Urdf {
     /// Sets whether a mesh becomes exact pieces or its convex hull.
     #[must_use]
     pub fn with_mesh_conversion(self, meshes: MeshConversion) -> Self {
-        Urdf { meshes, ..self }
+        Urdf {
+            mesh_conversion: meshes,
+            ..self
+        }
     }
 
     /// Reads the URDF file and its meshes, and builds the robot.
@@ -102,7 +105,7 @@ impl Urdf {
             file: self.path.clone(),
             error: error.to_string(),
         })?;
-        let reader = BodyReader::new(&self.search_folders, self.meshes);
+        let reader = BodyReader::new(&self.search_folders, self.mesh_conversion);
         let links = urdf.links.iter().map(|link| self.link(&reader, link));
         let joints = urdf
             .joints
@@ -183,7 +186,7 @@ fn convert_joint(joint: &urdf_rs::Joint) -> Result<Joint, UrdfError> {
         }
     };
     let position = match &joint.mimic {
-        None => PositionRule::Free,
+        None => PositionRule::Independent,
         Some(mimic) => PositionRule::Follows {
             joint: mimic.joint.clone(),
             multiplier: mimic.multiplier.unwrap_or(1.0),

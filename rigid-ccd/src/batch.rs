@@ -39,7 +39,7 @@ impl<'q> BodyPair<'q> {
     ) -> Result<Query<'q>, InputError> {
         let BodyPair { a, b } = self;
         if question == Question::Distance {
-            let [pose_a, pose_b] = course.poses(0.0)?;
+            let [pose_a, pose_b] = course.poses_at(0.0)?;
             return Query::new((a, pose_a), (b, pose_b), 0.0, settings);
         }
         let [course_a, course_b] = course.trajectories();

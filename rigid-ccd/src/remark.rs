@@ -49,7 +49,7 @@ pub enum Remark {
         /// The components w, x, y, z as given.
         quaternion_components: [f64; 4],
         /// The length of the quaternion, which should be 1.
-        length: f64,
+        quaternion_norm: f64,
     },
 }
 
@@ -62,7 +62,7 @@ const COARSE_TOLERANCE_SHARE: f64 = 0.1;
 const MIN_SUSPICIOUS_ROTATION: f64 = 4.0 * TAU;
 
 /// The largest angle, in degrees, that a mistaken input is assumed to mean: two turns. More is a shaft that spins.
-const MAX_SUSPICIOUS_DEGREES: f64 = 720.0;
+const MAX_MISTAKEN_DEGREES: f64 = 720.0;
 
 /// The step in degrees whose multiples count as round angles. None of 50, 100, 200, 500 and the multiples of π, which
 /// are typical of radians, is a multiple of it.
@@ -127,7 +127,7 @@ impl Remark {
         let is_unit = (length - 1.0).abs() <= MAX_UNIT_LENGTH_DEVIATION;
         (!is_unit).then_some(Remark::NonUnitQuaternion {
             quaternion_components: parts,
-            length,
+            quaternion_norm: length,
         })
     }
 
@@ -180,7 +180,7 @@ fn bounding_box_sides(points: impl IntoIterator<Item = DVec3>) -> DVec3 {
 }
 
 fn may_be_degrees(angle: f64) -> bool {
-    angle > MIN_SUSPICIOUS_ROTATION && angle <= MAX_SUSPICIOUS_DEGREES * (1.0 + ROUNDING)
+    angle > MIN_SUSPICIOUS_ROTATION && angle <= MAX_MISTAKEN_DEGREES * (1.0 + ROUNDING)
 }
 
 fn is_round_degrees(angle: f64) -> bool {
@@ -206,7 +206,7 @@ impl fmt::Display for Remark {
             }
             Remark::NonUnitQuaternion {
                 quaternion_components: [w, x, y, z],
-                length,
+                quaternion_norm: length,
             } => write!(f, "({w}, {x}, {y}, {z}) has the length {length:.3}"),
         }
     }

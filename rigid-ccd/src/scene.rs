@@ -53,7 +53,7 @@ pub struct Scene<'a> {
     members: Vec<SceneBody<'a>>,
     settings: Settings,
     pair_filter: Option<Box<dyn Fn(usize, usize) -> bool + 'a>>,
-    workers: ParallelSolver<WorkerMemory>,
+    parallel_solver: ParallelSolver<WorkerMemory>,
 }
 
 #[derive(Clone, Copy)]
@@ -105,7 +105,7 @@ impl<'a> Scene<'a> {
             members: Vec::new(),
             settings: Settings::DEFAULT,
             pair_filter: None,
-            workers,
+            parallel_solver: workers,
         }
     }
 
@@ -269,11 +269,11 @@ impl<'a> Scene<'a> {
         };
         let pair_queue = PairQueue::new(pairs, &query, clock.duration, goal);
         let threads = self
-            .workers
+            .parallel_solver
             .threads()
             .min(pairs.len().div_ceil(MIN_PAIRS_PER_THREAD));
         let events = self
-            .workers
+            .parallel_solver
             .map(&vec![(); threads], |worker, ()| worker.run(&pair_queue));
         events.into_iter().flatten().collect()
     }

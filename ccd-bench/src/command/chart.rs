@@ -73,7 +73,7 @@ const FULL_TOLERANCES: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-
 const QUICK_TOLERANCES: [f64; 2] = [PAPER_TOLERANCE, 1e-6];
 
 /// The limits of each measurement with `--full`, chosen so that everything takes about half an hour.
-const FULL_LIMITS: MeasurementLimits = MeasurementLimits {
+const FULL_MEASUREMENT_LIMITS: MeasurementLimits = MeasurementLimits {
     cell_time: Duration::from_millis(600),
     patience: Duration::from_secs(4),
     max_rows: usize::MAX,
@@ -136,7 +136,7 @@ fn plan_measurements(args: &ChartArgs) -> Result<MeasurementPlan> {
         );
     }
     let (allowance, tolerances) = if args.full {
-        (FULL_LIMITS, &FULL_TOLERANCES[..])
+        (FULL_MEASUREMENT_LIMITS, &FULL_TOLERANCES[..])
     } else {
         (QUICK_LIMITS, &QUICK_TOLERANCES[..])
     };

@@ -27,7 +27,7 @@ struct ScenesFile {
 }
 
 const SCENES_TOML: &str = include_str!("../../scenes/scenes.toml");
-pub(super) const MOTION_TABLES: [(&str, &str); 6] = [
+pub(super) const EMBEDDED_MOTION_CSVS: [(&str, &str); 6] = [
     ("santa.csv", include_str!("../../scenes/santa.csv")),
     ("bunnies.csv", include_str!("../../scenes/bunnies.csv")),
     ("knots.csv", include_str!("../../scenes/knots.csv")),
@@ -75,7 +75,7 @@ impl SceneDescription {
     }
 
     fn queries(&self) -> Result<Vec<Motions>> {
-        let text = MOTION_TABLES
+        let text = EMBEDDED_MOTION_CSVS
             .iter()
             .find_map(|(name, text)| (*name == self.motions).then_some(*text))
             .context("there is no such file")?;

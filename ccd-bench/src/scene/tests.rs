@@ -106,7 +106,7 @@ fn the_stored_motions_are_those_of_their_seeds() {
     for (name, queries) in drawn {
         let mut table = Vec::new();
         write(&mut table, &queries).unwrap();
-        let stored = listing::MOTION_TABLES
+        let stored = listing::EMBEDDED_MOTION_CSVS
             .into_iter()
             .find(|(stored, _)| *stored == name);
         assert!(stored.unwrap().1.as_bytes() == table, "{name}");

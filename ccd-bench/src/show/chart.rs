@@ -43,7 +43,7 @@ pub struct ChartedMethod<'a> {
     /// The name of the method in the tables.
     pub name: &'a str,
     /// Whether the method is this project's, a published one or a library.
-    pub family: MethodFamily,
+    pub method_family: MethodFamily,
 }
 
 /// Where a method comes from.
@@ -123,7 +123,10 @@ impl<'a> ChartedMethod<'a> {
             Some(Method::Rival(_)) => MethodFamily::Rival,
             Some(Method::Peer(_) | Method::Script(_)) | None => MethodFamily::Peer,
         };
-        Some(ChartedMethod { name, family })
+        Some(ChartedMethod {
+            name,
+            method_family: family,
+        })
     }
 }
 

@@ -47,7 +47,7 @@ impl<'a> ReferenceTimes<'a> {
 
     /// Returns the cells with every median replaced by a comparable one: the reference's median times the median ratio.
     /// A cell keeps its own where the reference was not asked.
-    pub fn comparable_cells(&self, cells: &[MeasurementCell]) -> Vec<MeasurementCell> {
+    pub fn cells_with_comparable_medians(&self, cells: &[MeasurementCell]) -> Vec<MeasurementCell> {
         let at = |cell: &&MeasurementCell| cell.method == self.reference_method;
         let medians: HashMap<(&str, u64), f64> = (cells.iter().filter(at))
             .map(|cell| {

@@ -32,8 +32,10 @@ pub fn write_report(evaluated: &Evaluation, folder: &Path) -> Result<(TextTable,
     let scenes = evaluated.scenes.iter().map(|scene| scene.name.as_str());
     let scenes: Vec<&str> = scenes.collect();
     let is_other = |method: &&ChartedMethod<'_>| {
-        matches!(method.family, MethodFamily::Rival | MethodFamily::Peer)
-            || method.name == PAPER_METHOD
+        matches!(
+            method.method_family,
+            MethodFamily::Rival | MethodFamily::Peer
+        ) || method.name == PAPER_METHOD
     };
     let others = methods.iter().filter(is_other).map(|method| method.name);
     let others: Vec<&str> = others.collect();
@@ -51,7 +53,7 @@ pub fn write_report(evaluated: &Evaluation, folder: &Path) -> Result<(TextTable,
         safety.clone(),
     ];
     let charts = ChartData {
-        cells: &reference.comparable_cells(cells),
+        cells: &reference.cells_with_comparable_medians(cells),
         scenes: &scenes,
         methods: &methods,
     };

@@ -44,7 +44,7 @@ impl SceneAnimations {
         let bodies = scene.bodies();
         let asked = QueryContext {
             time_meaning: TimeMeaning::FirstContact,
-            margin: Settings::DEFAULT.margin,
+            query_margin: Settings::DEFAULT.margin,
             clearance: None,
         };
         let mut painter = Painter::new(bodies, asked);

@@ -8,7 +8,7 @@ mod sizes;
 mod times;
 mod turning;
 
-use super::family::{BodyMotion, Family, FamilyScene, expected_contact_at};
+use super::family::{BodyMotion, Family, FamilyScene, truth_for_contact_time};
 use super::shapes::{cuboid, slab};
 use crate::truth::Truth;
 use anyhow::Result;
@@ -54,7 +54,7 @@ fn powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
 /// Returns the family step in which a body falls onto a slab, and meets it at `time`, which is known to within 1e-14.
 fn fall_onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<FamilyScene> {
     let step = FamilyScene::new(mesh, slab()?);
-    let expected = expected_contact_at(time, 1e-14);
+    let expected = truth_for_contact_time(time, 1e-14);
     step.with_query_and_rotations(falling, BodyMotion::RESTING_SLAB_MOTION, expected)
 }
 
@@ -75,7 +75,7 @@ fn rod_contact_angle(wall: f64) -> f64 {
 /// Returns the family step in which a rod rotates at the origin, next to a wall whose near side is at x = `wall`.
 fn rod_beside_wall(turning: BodyMotion, wall: f64, expected: Truth) -> Result<FamilyScene> {
     let step = FamilyScene::new(rod()?, cuboid(1.0, 3.0, 3.0)?);
-    let beside = BodyMotion::resting((wall + 1.0) * DVec3::X);
+    let beside = BodyMotion::motion_at_rest((wall + 1.0) * DVec3::X);
     step.with_query_and_rotations(turning, beside, expected)
 }
 

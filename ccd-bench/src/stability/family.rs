@@ -64,7 +64,7 @@ pub(super) struct BodyMotion {
     pub(super) velocity: DVec3,
     pub(super) angular_velocity: DVec3,
     /// The centre of rotation, in the body's frame.
-    pub(super) centre: DVec3,
+    pub(super) rotation_centre: DVec3,
 }
 
 /// The rotations by which a whole scene is turned to repeat its queries, as pairs of an axis and an angle in radians.
@@ -77,7 +77,7 @@ const WORLD_ROTATIONS: [(DVec3, f64); 2] = [
 const TOLERANCE: f64 = 1e-6;
 
 /// Returns the exact answer for a contact at a known time, widened by `slack` for the rounding of the query's numbers.
-pub(super) fn expected_contact_at(time: f64, slack: f64) -> Truth {
+pub(super) fn truth_for_contact_time(time: f64, slack: f64) -> Truth {
     Truth::Hit {
         lo: time - slack,
         hi: time + slack,
@@ -90,7 +90,7 @@ impl BodyMotion {
         orientation: DQuat::IDENTITY,
         velocity: DVec3::ZERO,
         angular_velocity: DVec3::ZERO,
-        centre: DVec3::ZERO,
+        rotation_centre: DVec3::ZERO,
     };
 
     /// The motion of a body that falls from z = 3 to z = −1.
@@ -107,7 +107,7 @@ impl BodyMotion {
     };
 
     /// Returns the motion of a body that rests at a position.
-    pub(super) fn resting(at: DVec3) -> Self {
+    pub(super) fn motion_at_rest(at: DVec3) -> Self {
         BodyMotion::straight(at, DVec3::ZERO)
     }
 
@@ -140,7 +140,7 @@ impl BodyMotion {
         let start = Pose::new(world * self.start_position, world * self.orientation)?;
         let velocity = world * self.velocity / duration;
         let spin = world * self.angular_velocity / duration;
-        Motion::about(start, velocity, spin, self.centre)
+        Motion::about(start, velocity, spin, self.rotation_centre)
     }
 }
 

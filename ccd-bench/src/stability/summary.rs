@@ -113,7 +113,7 @@ fn make_heat_map(
         cells: methods.iter().map(|method| cell(family, method)).collect(),
     };
     HeatMap {
-        texts: kind,
+        captions: kind,
         rows: findings.families.iter().map(row).collect(),
         methods,
     }

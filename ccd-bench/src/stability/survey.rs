@@ -89,7 +89,7 @@ impl Survey {
             let ready = PreparedFamilyScene {
                 scene: &step,
                 name: &name,
-                surfaces: step.meshes.each_ref().map(Surface::new),
+                body_surfaces: step.meshes.each_ref().map(Surface::new),
             };
             for (&method, stopped) in self.methods.iter().zip(&mut stopped) {
                 progress.set_message(&format!("{name}: {method}"));
@@ -118,7 +118,7 @@ impl Survey {
 struct PreparedFamilyScene<'s> {
     scene: &'s FamilyScene,
     name: &'s str,
-    surfaces: [Surface; 2],
+    body_surfaces: [Surface; 2],
 }
 
 impl PreparedFamilyScene<'_> {
@@ -147,7 +147,7 @@ impl PreparedFamilyScene<'_> {
                 return Ok(vec![trial(0, &QueryOutcome::Crashed, judged)]);
             }
         };
-        let [a, b] = &self.surfaces;
+        let [a, b] = &self.body_surfaces;
         let mut trials = Vec::new();
         for (row, case) in step.cases.iter().enumerate() {
             if method.moves_along_screws() && !are_screw_motions(&case.query) {

@@ -18,7 +18,7 @@ pub(super) fn distance_bounds(mut search: Search<'_>, time: f64) -> DistanceBoun
     let Some(roots) = search.root_pair() else {
         return bracket;
     };
-    let snapshot = search.linearize_motions(TimeSpan::instant(time));
+    let snapshot = search.linearize_motions(TimeSpan::span_of_instant(time));
     let mut stack = vec![(f64::NEG_INFINITY, roots)];
     while let Some((bound, pair)) = stack.pop() {
         if bound >= bracket.upper_distance {
@@ -32,10 +32,10 @@ pub(super) fn distance_bounds(mut search: Search<'_>, time: f64) -> DistanceBoun
             };
         }
         search.remaining_budget -= 1;
-        match search.open(pair) {
+        match search.expand_larger_node(pair) {
             OpenedPair::Children(_, pairs) => {
                 let bound = |[a, b]: [&Node; 2]| snapshot.box_distance_lower_bound(a, b);
-                let mut parts = pairs.map(|part| (bound(search.nodes(part)), part));
+                let mut parts = pairs.map(|part| (bound(search.node_pair(part)), part));
                 // The last one is examined first.
                 if parts[0].0 < parts[1].0 {
                     parts.swap(0, 1);

@@ -23,20 +23,20 @@ impl IntervalMaps {
 /// the ends lie on both sides of the triangle's plane, and the line passes all its edges on the same side.
 fn certainly_pierces([from, to]: [&IntervalVector; 2], [a, b, c]: &[IntervalVector; 3]) -> bool {
     let normal = (*b - *a).cross(&(*c - *a));
-    let [before, after] = [from, to].map(|end| sign(normal.dot(&(*end - *a))));
+    let [before, after] = [from, to].map(|end| interval_sign(normal.dot(&(*end - *a))));
     if before.is_none() || after != before.map(Ordering::reverse) {
         return false;
     }
     let along = *to - *from;
     let passes = |p: &IntervalVector, q: &IntervalVector| {
-        sign(along.dot(&(*p - *from).cross(&(*q - *from))))
+        interval_sign(along.dot(&(*p - *from).cross(&(*q - *from))))
     };
     let side = passes(a, b);
     side.is_some() && passes(b, c) == side && passes(c, a) == side
 }
 
 /// Returns the sign of all numbers of an interval; `None` if it contains 0.
-fn sign(x: Interval) -> Option<Ordering> {
+fn interval_sign(x: Interval) -> Option<Ordering> {
     if x.inf() > 0.0 {
         Some(Ordering::Greater)
     } else {

@@ -74,7 +74,7 @@ impl<'a> Search<'a> {
         if !(self.duration >= 0.0 && self.duration.is_finite()) {
             return Truth::Undecided { lo: 0.0 };
         }
-        match self.decide_touch_at(roots, 0.0, TouchCriterion::NotApart) {
+        match self.decide_touch_at(roots, 0.0, TouchCriterion::UnlessProvenApart) {
             TouchDecision::NotTouching => self.bisect_time(roots),
             TouchDecision::Touching => Truth::ContactAtStart,
             TouchDecision::BudgetSpent => Truth::Undecided { lo: 0.0 },
@@ -147,11 +147,11 @@ impl<'a> Search<'a> {
                 return None;
             }
             self.remaining_budget -= 1;
-            let [a, b] = self.nodes(pair);
+            let [a, b] = self.node_pair(pair);
             let Some(travel) = snapshot.travel_bound_unless_apart(a, b) else {
                 continue;
             };
-            let may_meet = match self.open(pair) {
+            let may_meet = match self.expand_larger_node(pair) {
                 OpenedPair::Children(larger, pairs)
                     if larger.half_diagonal > MAX_UNSPLIT_SIZE_PER_TRAVEL * travel =>
                 {
@@ -232,10 +232,12 @@ impl<'a> Search<'a> {
         let [a, b] = &self.motions;
         let instant = IntervalMaps::new(a, b, time);
         self.remaining_budget = self.remaining_budget.saturating_sub(pairs.len() as u64);
-        pairs.iter().any(|&pair| match self.open(pair) {
-            OpenedPair::Children(..) => false,
-            OpenedPair::Triangles([a, b]) => instant.certainly_meet(a, b),
-        })
+        pairs
+            .iter()
+            .any(|&pair| match self.expand_larger_node(pair) {
+                OpenedPair::Children(..) => false,
+                OpenedPair::Triangles([a, b]) => instant.certainly_meet(a, b),
+            })
     }
 
     /// Tests whether the surfaces touch at a time, by the evidence that `proof` requires.
@@ -245,7 +247,7 @@ impl<'a> Search<'a> {
         time: f64,
         proof: TouchCriterion,
     ) -> TouchDecision {
-        let snapshot = self.linearize_motions(TimeSpan::instant(time));
+        let snapshot = self.linearize_motions(TimeSpan::span_of_instant(time));
         let [a, b] = &self.motions;
         let instant = IntervalMaps::new(a, b, time);
         let mut stack = vec![roots];
@@ -254,15 +256,16 @@ impl<'a> Search<'a> {
                 return TouchDecision::BudgetSpent;
             }
             self.remaining_budget -= 1;
-            let [a, b] = self.nodes(pair);
+            let [a, b] = self.node_pair(pair);
             if snapshot.travel_bound_unless_apart(a, b).is_none() {
                 continue;
             }
-            match self.open(pair) {
+            match self.expand_larger_node(pair) {
                 OpenedPair::Children(_, pairs) => stack.extend(pairs),
                 OpenedPair::Triangles([a, b]) => {
                     if !Self::are_triangles_apart(&snapshot, [a, b])
-                        && (proof == TouchCriterion::NotApart || instant.certainly_meet(a, b))
+                        && (proof == TouchCriterion::UnlessProvenApart
+                            || instant.certainly_meet(a, b))
                     {
                         return TouchDecision::Touching;
                     }
@@ -272,13 +275,13 @@ impl<'a> Search<'a> {
         TouchDecision::NotTouching
     }
 
-    pub(super) fn nodes(&self, [a, b]: NodePair) -> [&'a Node; 2] {
+    pub(super) fn node_pair(&self, [a, b]: NodePair) -> [&'a Node; 2] {
         [self.surfaces[0].node(a), self.surfaces[1].node(b)]
     }
 
     /// Opens the larger of two nodes, or the only one that is no leaf.
-    pub(super) fn open(&self, [a, b]: NodePair) -> OpenedPair<'a> {
-        let [node_a, node_b] = self.nodes([a, b]);
+    pub(super) fn expand_larger_node(&self, [a, b]: NodePair) -> OpenedPair<'a> {
+        let [node_a, node_b] = self.node_pair([a, b]);
         let with_b = |parts: [u32; 2]| parts.map(|part| [part, b]);
         match (node_a.content, node_b.content) {
             (NodeContent::Children(parts), NodeContent::Children(_))
@@ -311,7 +314,7 @@ pub(super) enum OpenedPair<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum TouchCriterion {
     /// Surfaces touch if they cannot be proven to be apart.
-    NotApart,
+    UnlessProvenApart,
     /// Surfaces touch only if an edge certainly passes through a triangle.
     Piercing,
 }

@@ -47,7 +47,7 @@ pub(super) struct LinearizedMotions {
     extent_matrices_along_b: ExtentMatrices,
     extent_matrices_along_a: ExtentMatrices,
     /// The vector from B's centre of rotation to A's centre of rotation; the next field is its rate of change.
-    centre_offset: DVec3,
+    rotation_centre_b_to_a: DVec3,
     centre_offset_rate: DVec3,
     /// The sum of the bodies' greatest distances from their centres of rotation.
     radius_sum: f64,
@@ -63,7 +63,7 @@ struct ExtentMatrices {
 
 impl TimeSpan {
     /// Returns the span that has only one time.
-    pub(super) fn instant(time: f64) -> Self {
+    pub(super) fn span_of_instant(time: f64) -> Self {
         TimeSpan {
             start: time,
             end: time,
@@ -109,7 +109,7 @@ impl LinearizedMotions {
             placement,
             velocity_map_a: rate_a,
             velocity_map_b: rate_b,
-            centre_offset: exactly.centre_offset.midpoint(),
+            rotation_centre_b_to_a: exactly.centre_offset.midpoint(),
             centre_offset_rate: exactly.velocity.midpoint(),
             radius_sum: a.max_distance_from_centre + b.max_distance_from_centre,
         }
@@ -118,7 +118,7 @@ impl LinearizedMotions {
     /// Returns true if the bodies stay apart whatever their rotation, because their centres are far from each other.
     pub(super) fn are_bodies_far_apart(&self) -> bool {
         let (d, w) = (
-            self.centre_offset,
+            self.rotation_centre_b_to_a,
             self.half_duration * self.centre_offset_rate,
         );
         // The point of the segment from d − w to d + w that is nearest to 0.

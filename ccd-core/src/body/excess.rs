@@ -49,7 +49,7 @@ impl ExcessSum {
     }
 
     /// Returns an upper bound of the distance of two shapes whose enclosing bodies overlap.
-    pub(crate) fn upper_bound_at_overlap(self) -> f64 {
+    pub(crate) fn shape_distance_bound_at_overlap(self) -> f64 {
         self.0
     }
 

@@ -6,22 +6,22 @@ use super::polytope::{FacetOrigin, MeshFace};
 /// from outside. The mesh's faces on them are included.
 #[derive(Clone, Copy, Debug)]
 pub struct Facets<'a> {
-    pub(crate) facet_origins: &'a [FacetOrigin],
+    pub(crate) facet_sources: &'a [FacetOrigin],
     /// The end of each facet's corners in `corners`; the first facet starts at `corners_start_index`.
     pub(crate) ends: &'a [u32],
     pub(crate) corners: &'a [u32],
     pub(crate) corners_start_index: u32,
-    pub(crate) faces: &'a [MeshFace],
+    pub(crate) mesh_faces: &'a [MeshFace],
 }
 
 impl<'a> Facets<'a> {
     /// An empty list of facets, for a piece whose facets are unknown.
     pub const EMPTY: Facets<'static> = Facets {
-        facet_origins: &[],
+        facet_sources: &[],
         ends: &[],
         corners: &[],
         corners_start_index: 0,
-        faces: &[],
+        mesh_faces: &[],
     };
 
     /// Returns the number of facets.
@@ -51,8 +51,8 @@ impl<'a> Facets<'a> {
     }
 
     /// Returns, for each facet, its origin in the mesh: a face, several faces, or none.
-    pub fn origins(&self) -> &'a [FacetOrigin] {
-        self.facet_origins
+    pub fn origins_in_mesh(&self) -> &'a [FacetOrigin] {
+        self.facet_sources
     }
 }
 

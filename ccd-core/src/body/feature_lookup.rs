@@ -34,7 +34,7 @@ pub(crate) fn find_mesh_feature(
     let facet = |k: usize| near.map_or(k, |near| near[k] as usize);
     let whole = (0..count)
         .map(facet)
-        .filter_map(|k| match facets.origins()[k] {
+        .filter_map(|k| match facets.origins_in_mesh()[k] {
             FacetOrigin::Face(id) => Some((id, facets.get(k))),
             FacetOrigin::Faces | FacetOrigin::Virtual => None,
         });

@@ -32,7 +32,7 @@ pub struct Piece<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CacheTableRow<'a> {
     pub(crate) cache_table: &'a CacheTable,
-    pub(crate) len: usize,
+    pub(crate) row_len: usize,
     pub(crate) index: usize,
 }
 
@@ -75,7 +75,7 @@ impl<'a> Piece<'a> {
         make: impl FnOnce(&Self) -> T,
     ) -> Option<&'a T> {
         let slot = self.cache_table_row?;
-        let entry = slot.cache_table.entry(slot.len, slot.index);
+        let entry = slot.cache_table.entry(slot.row_len, slot.index);
         Some(entry.get_or_init(|| make(self)))
     }
 
@@ -96,7 +96,7 @@ impl<'a> Piece<'a> {
     /// Returns the mesh's triangles on the piece, each with the number of its face in the mesh. Polygons become fans
     /// about their first corner.
     pub fn mesh_triangles(&self) -> impl Iterator<Item = (u32, [DVec3; 3])> {
-        let facets = self.facets.facet_origins.iter().zip(self.facets.iter());
+        let facets = self.facets.facet_sources.iter().zip(self.facets.iter());
         let fans = facets.flat_map(|(origin, corners)| {
             let id = match origin {
                 FacetOrigin::Face(id) => Some(*id),
@@ -106,7 +106,7 @@ impl<'a> Piece<'a> {
             id.into_iter()
                 .flat_map(move |id| fan_triangles(corners).map(move |fan| (id, fan.map(at))))
         });
-        let faces = self.facets.faces.iter();
+        let faces = self.facets.mesh_faces.iter();
         fans.chain(faces.map(|face| (face.id, face.corners)))
     }
 
@@ -174,7 +174,7 @@ pub struct ConvexCombination {
 }
 
 impl ConvexCombination {
-    /// The empty combination, to which terms can be [added](ConvexCombination::push).
+    /// The empty combination, to which terms can be [added](ConvexCombination::add_weighted_point).
     pub const EMPTY: ConvexCombination = ConvexCombination {
         point_indices: [0; 4],
         weights: [0.0; 4],
@@ -184,21 +184,21 @@ impl ConvexCombination {
     /// Creates the combination of a single point with weight 1.
     pub fn from_single_point(index: u32) -> Self {
         let mut out = Self::EMPTY;
-        out.push(index, 1.0);
+        out.add_weighted_point(index, 1.0);
         out
     }
 
     /// Creates the combination `(1 − t) p + t q` of two points.
     pub fn of_two_points(indices: [u32; 2], t: f64) -> Self {
         let mut out = Self::EMPTY;
-        out.push(indices[0], 1.0 - t);
-        out.push(indices[1], t);
+        out.add_weighted_point(indices[0], 1.0 - t);
+        out.add_weighted_point(indices[1], t);
         out
     }
 
     /// Adds a point of the piece, by its index, with a weight. Weights that are not positive, or outside of
     /// [`WEIGHT_RANGE`], are dropped. Equal indices are merged. Terms beyond four distinct indices are dropped.
-    pub fn push(&mut self, index: u32, weight: f64) {
+    pub fn add_weighted_point(&mut self, index: u32, weight: f64) {
         // A NaN is in no range.
         if !WEIGHT_RANGE.contains(&weight) {
             return;

@@ -50,12 +50,12 @@ struct Polytopes {
     /// The end of each piece's points in the list of points.
     point_ends: Vec<u32>,
     radii: Vec<f64>,
-    /// The end of each piece's facets in `corner_ends` and `origins`.
+    /// The end of each piece's facets in `corner_ends` and `facet_source_mesh_faces`.
     facet_ends: Vec<u32>,
-    facet_origins: Vec<FacetOrigin>,
+    facet_source_mesh_faces: Vec<FacetOrigin>,
     /// The end of each facet's corners in `corners`.
-    corner_ends: Vec<u32>,
-    corners: Vec<u32>,
+    facet_corner_ends: Vec<u32>,
+    facet_corners: Vec<u32>,
     /// The end of each piece's mesh faces in `faces`.
     face_ends: Vec<u32>,
     faces: Vec<MeshFace>,
@@ -146,7 +146,7 @@ impl Pieces {
             return Err(InputError::FacetOutOfRange { piece, facet });
         }
         let finite = |face: &MeshFace| face.corners.iter().all(|p| p.is_finite());
-        match facets.faces.iter().position(|face| !finite(face)) {
+        match facets.mesh_faces.iter().position(|face| !finite(face)) {
             Some(face) => Err(InputError::BadFace { piece, face }),
             None => Ok(()),
         }
@@ -179,7 +179,7 @@ impl Pieces {
             support_map: None,
             cache_table_row: Some(CacheTableRow {
                 cache_table: &self.cache_table,
-                len: self.len(),
+                row_len: self.len(),
                 index,
             }),
         }
@@ -244,12 +244,12 @@ impl Pieces {
                 let mut builder = PiecesBuilder::default();
                 for k in order {
                     let piece = self.get(k);
-                    let origins = piece.facets.origins().iter().copied();
+                    let origins = piece.facets.origins_in_mesh().iter().copied();
                     builder.push(PolytopeParts {
                         points: piece.points,
                         vertex_ids: self.vertex_ids(k),
                         facets: piece.facets.iter().zip(origins),
-                        faces: piece.facets.faces.iter().copied(),
+                        faces: piece.facets.mesh_faces.iter().copied(),
                         radius: piece.radius,
                     });
                 }
@@ -305,19 +305,21 @@ impl Polytopes {
         Facets {
             corners_start_index: match facets.start {
                 0 => 0,
-                start => self.corner_ends[start - 1],
+                start => self.facet_corner_ends[start - 1],
             },
-            facet_origins: &self.facet_origins[facets.clone()],
-            ends: &self.corner_ends[facets],
-            corners: &self.corners,
-            faces: &self.faces[range_from_ends(&self.face_ends, piece)],
+            facet_sources: &self.facet_source_mesh_faces[facets.clone()],
+            ends: &self.facet_corner_ends[facets],
+            corners: &self.facet_corners,
+            mesh_faces: &self.faces[range_from_ends(&self.face_ends, piece)],
         }
     }
 
     fn memory_usage(&self) -> usize {
-        size_of_val(self.facet_origins.as_slice())
+        size_of_val(self.facet_source_mesh_faces.as_slice())
             + size_of_val(self.faces.as_slice())
-            + 4 * (4 * self.facet_ends.len() + self.corner_ends.len() + self.corners.len())
+            + 4 * (4 * self.facet_ends.len()
+                + self.facet_corner_ends.len()
+                + self.facet_corners.len())
     }
 }
 

@@ -147,7 +147,7 @@ impl EnclosingPolytope {
     }
 
     /// Creates a solid body of the polytope, with the [excess](Body::excess) of the enclosure. A body that is not flat
-    /// also has [triangles](Body::with_surface).
+    /// also has [triangles](Body::with_surface_triangles).
     ///
     /// # Errors
     /// The errors of [`Body::polytope`].
@@ -158,7 +158,7 @@ impl EnclosingPolytope {
             return Ok(body);
         }
         let pieces = Pieces::from_triangles(&self.enclosing_polytope.points, &triangles, &numbers)?;
-        body.with_surface(Body::new(&pieces, Solidity::Solid)?)
+        body.with_surface_triangles(Body::new(&pieces, Solidity::Solid)?)
     }
 
     /// Returns the facets as triangles, each with the number of its facet. A flat polytope returns no triangles: they
@@ -194,7 +194,7 @@ impl Ring {
                 excess: 0.0,
             });
         }
-        let count = corner_count(radius, excess)?;
+        let count = polygon_corners_for_excess(radius, excess)?;
         let step = TAU / count;
         // This is the distance of the corners from the middle; the edges are at distance `radius`.
         let reach = radius / (0.5 * step).cos() * POLYGON_ENLARGEMENT + 4.0 * LEAST_POSITIVE_F64;
@@ -212,7 +212,7 @@ impl Ring {
 }
 
 /// Returns a number of corners such that a regular polygon around a circle exceeds it by at most `asked`.
-fn corner_count(radius: f64, asked: f64) -> Result<f64, InputError> {
+fn polygon_corners_for_excess(radius: f64, asked: f64) -> Result<f64, InputError> {
     // A corner is at `radius / cos(π/n)`. The share of the excess is clamped to a range in which angles lose no
     // digits. The rounding of the corners is subtracted.
     let share = lesser(asked / radius - 4.0 * (POLYGON_ENLARGEMENT - 1.0), 1.0);

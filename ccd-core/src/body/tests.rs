@@ -49,7 +49,9 @@ fn a_virtual_facet_on_the_surface_takes_the_name_of_the_face_there() {
         .unwrap();
     let mean = |corners: &[u32]| {
         let mut mean = ConvexCombination::EMPTY;
-        corners.iter().for_each(|&corner| mean.push(corner, 1.0));
+        corners
+            .iter()
+            .for_each(|&corner| mean.add_weighted_point(corner, 1.0));
         mean
     };
     let name = |corners: &[u32]| body.feature(boxed as u32, &mean(corners));
@@ -82,7 +84,10 @@ fn tetrahedron_as_piece_and_as_triangles() -> [Body; 2] {
 #[test]
 fn a_surface_is_taken_against_many_triangles_only() {
     let [one, triangles] = tetrahedron_as_piece_and_as_triangles();
-    let both = one.clone().with_surface(triangles.clone()).unwrap();
+    let both = one
+        .clone()
+        .with_surface_triangles(triangles.clone())
+        .unwrap();
     assert_eq!(both.body_for_query_against(&triangles).pieces().len(), 4);
     assert_eq!(both.body_for_query_against(&one).pieces().len(), 1);
     assert_eq!(both.body_for_query_against(&both).pieces().len(), 1);
@@ -105,10 +110,10 @@ fn invalid_surfaces_are_refused() {
     let [one, triangles] = tetrahedron_as_piece_and_as_triangles();
     let open = Body::new(triangles.pieces(), Solidity::Surface).unwrap();
     let refused = [
-        one.clone().with_surface(open),
-        one.clone().with_surface(one.clone()),
-        triangles.clone().with_surface(triangles.clone()),
-        Body::sphere(1.0).unwrap().with_surface(triangles),
+        one.clone().with_surface_triangles(open),
+        one.clone().with_surface_triangles(one.clone()),
+        triangles.clone().with_surface_triangles(triangles.clone()),
+        Body::sphere(1.0).unwrap().with_surface_triangles(triangles),
     ];
     for body in refused {
         assert!(matches!(body, Err(InputError::BadSurface)));

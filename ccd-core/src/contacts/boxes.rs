@@ -23,7 +23,7 @@ struct FaceBox {
 
 #[derive(Clone, Copy)]
 enum FaceBoxContent {
-    Face(u32),
+    MeshFace(u32),
     /// An inner node: its first child is the next node in the list, its second child has this index.
     Inner(u32),
 }
@@ -51,10 +51,10 @@ impl NearFacePairSearch {
             }
             self.remaining_budget = self.remaining_budget.checked_sub(1)?;
             match (a.content, b.content) {
-                (FaceBoxContent::Face(face_a), FaceBoxContent::Face(face_b)) => {
+                (FaceBoxContent::MeshFace(face_a), FaceBoxContent::MeshFace(face_b)) => {
                     self.face_pairs.push([face_a, face_b]);
                 }
-                (FaceBoxContent::Inner(right), FaceBoxContent::Face(_)) => {
+                (FaceBoxContent::Inner(right), FaceBoxContent::MeshFace(_)) => {
                     stack.extend([[right, at_b], [at_a + 1, at_b]]);
                 }
                 (FaceBoxContent::Inner(right), FaceBoxContent::Inner(_))
@@ -84,7 +84,7 @@ impl FaceTrees {
         let point = FaceBox {
             low: at,
             high: at,
-            content: FaceBoxContent::Face(0),
+            content: FaceBoxContent::MeshFace(0),
         };
         let mut near = Vec::new();
         let root = (!self.nodes.is_empty()).then_some(0);
@@ -93,7 +93,7 @@ impl FaceTrees {
             let node = self.get(id);
             match node.content {
                 _ if node.is_farther_apart(&point, reach) => {}
-                FaceBoxContent::Face(face) => near.push(face),
+                FaceBoxContent::MeshFace(face) => near.push(face),
                 FaceBoxContent::Inner(right) => stack.extend([right, id + 1]),
             }
         }
@@ -114,7 +114,7 @@ impl FaceTrees {
     /// Adds a tree over a range of faces, and returns its root; `None` if the range is empty.
     fn add_tree_over(&mut self, skin: &NearSurface<'_>, faces: Range<u32>) -> Option<u32> {
         let mut boxes: Vec<FaceBox> = faces.map(|face| FaceBox::new(skin, face)).collect();
-        self.add_subtree(&mut boxes)
+        self.build_subtree(&mut boxes)
     }
 
     fn get(&self, at: u32) -> &FaceBox {
@@ -123,14 +123,14 @@ impl FaceTrees {
 
     /// Adds the subtree over some faces, and returns its root; `None` without faces. The depth is the logarithm of the
     /// number of faces.
-    fn add_subtree(&mut self, faces: &mut [FaceBox]) -> Option<u32> {
+    fn build_subtree(&mut self, faces: &mut [FaceBox]) -> Option<u32> {
         let around = faces.iter().copied().reduce(FaceBox::union)?;
         let at = self.nodes.len();
         self.nodes.push(around);
         if faces.len() > 1 {
             let (left, right) = split_at_median(faces, around.high - around.low);
-            self.add_subtree(left)?;
-            self.nodes[at].content = FaceBoxContent::Inner(self.add_subtree(right)?);
+            self.build_subtree(left)?;
+            self.nodes[at].content = FaceBoxContent::Inner(self.build_subtree(right)?);
         }
         Some(at as u32)
     }
@@ -142,7 +142,7 @@ impl FaceBox {
         FaceBox {
             low: a.min(b).min(c) - radius,
             high: a.max(b).max(c) + radius,
-            content: FaceBoxContent::Face(face),
+            content: FaceBoxContent::MeshFace(face),
         }
     }
 

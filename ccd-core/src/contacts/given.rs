@@ -16,7 +16,7 @@ use crate::rounding::{MIN_APPROACH_PER_ROUNDING, is_direction_uncertain};
 /// nearest points and the bounds of a contact are those of the pieces that it names.
 ///
 /// Here `within` returns the distance at which a contact was to be found.
-pub(crate) fn outcome_for_given_bodies<O: DistanceOracle>(
+pub(crate) fn outcome_on_original_bodies<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,
@@ -25,13 +25,13 @@ pub(crate) fn outcome_for_given_bodies<O: DistanceOracle>(
 ) -> Outcome {
     outcome.map_contacts(|contact, time| {
         let within = within(&contact);
-        contact_for_given_bodies(problem, oracle, meter, contact, within, time)
+        convert_contact_to_given_bodies(problem, oracle, meter, contact, within, time)
     })
 }
 
 /// Converts a contact at `time`, found on triangles, to one of the bodies that the caller gave; see
-/// [`outcome_for_given_bodies`].
-pub(crate) fn contact_for_given_bodies<O: DistanceOracle>(
+/// [`outcome_on_original_bodies`].
+pub(crate) fn convert_contact_to_given_bodies<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     meter: &mut Meter,

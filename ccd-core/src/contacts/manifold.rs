@@ -136,10 +136,18 @@ impl<'a> ContactManifold<'a> {
         let mut covered = HashSet::new();
         for &[of_a, of_b] in self.found_pairs.keys() {
             if let SurfacePart::Corner(_) = of_a {
-                covered.extend(b.boundary_parts(of_b).into_iter().map(|part| [of_a, part]));
+                covered.extend(
+                    b.boundary_of_part(of_b)
+                        .into_iter()
+                        .map(|part| [of_a, part]),
+                );
             }
             if let SurfacePart::Corner(_) = of_b {
-                covered.extend(a.boundary_parts(of_a).into_iter().map(|part| [part, of_b]));
+                covered.extend(
+                    a.boundary_of_part(of_a)
+                        .into_iter()
+                        .map(|part| [part, of_b]),
+                );
             }
         }
         covered

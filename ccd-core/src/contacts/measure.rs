@@ -12,7 +12,7 @@ use crate::rounding::is_direction_uncertain;
 use glam::DVec3;
 
 /// A pair of surface parts: a corner, edge or face of A, and one of B.
-pub(super) type SurfaceParts = [SurfacePart; 2];
+pub(super) type SurfacePartPair = [SurfacePart; 2];
 
 /// Creates the reported pair of two features from their nearest points, with bounds of the distance, in world
 /// coordinates. `a_to_world` is A's frame, relative to the problem's origin. If the points are too near each other to
@@ -25,7 +25,7 @@ pub(super) fn measure_feature_pair(
     problem: &Problem<'_>,
     skins: [&NearSurface<'_>; 2],
     a_to_world: &Frame,
-    (spots, candidate): &(SurfaceParts, ContactCandidate),
+    (spots, candidate): &(SurfacePartPair, ContactCandidate),
     common_normals: impl Fn([DVec3; 2]) -> CommonNormals,
 ) -> Contact {
     let face = |k: usize| skins[k].face(candidate.faces[k]);
@@ -50,7 +50,7 @@ pub(super) fn measure_feature_pair(
     }
     if is_direction_uncertain(distance, problem.rounding)
         && let Some(common) =
-            common_normals(candidate.points).nearest_normal_if_parallel(normal, b - a)
+            common_normals(candidate.points).nearest_normal_parallel_to(normal, b - a)
     {
         normal = common;
     }

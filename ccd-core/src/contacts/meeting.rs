@@ -39,5 +39,5 @@ pub(super) fn common_normal(
     normals.sort_constraints();
     meter.stats.point_evaluations += looks;
     let normals = &meter.scratch_memory().normals;
-    normals.nearest_normal_if_parallel(towards, points[1] - points[0])
+    normals.nearest_normal_parallel_to(towards, points[1] - points[0])
 }

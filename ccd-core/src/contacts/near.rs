@@ -121,7 +121,7 @@ impl BoundingVolume {
     }
 
     /// Returns the interval of the volume's projection on a direction.
-    fn projection_on(&self, n: DVec3) -> [f64; 2] {
+    fn projection_interval(&self, n: DVec3) -> [f64; 2] {
         match &self.shape {
             BoxOrTriangle::Box(half) => {
                 let reach = |k: usize| half[k] * self.axes[k].dot(n).abs();
@@ -145,7 +145,8 @@ fn are_certainly_apart([a, b]: &[BoundingVolume; 2], reach: f64) -> bool {
         return true;
     }
     let separates = |n: DVec3| {
-        let ([low_a, high_a], [low_b, high_b]) = (a.projection_on(n), b.projection_on(n));
+        let ([low_a, high_a], [low_b, high_b]) =
+            (a.projection_interval(n), b.projection_interval(n));
         greater(low_b - high_a, low_a - high_b) > reach * length(n)
     };
     let mut axes = a.axes.iter().chain(&b.axes);

@@ -206,7 +206,7 @@ impl<'a> NearSurface<'a> {
     }
 
     /// Returns the edges and corners on the boundary of an edge or face.
-    pub(super) fn boundary_parts(&self, spot: SurfacePart) -> Vec<SurfacePart> {
+    pub(super) fn boundary_of_part(&self, spot: SurfacePart) -> Vec<SurfacePart> {
         match spot {
             SurfacePart::Corner(_) => Vec::new(),
             SurfacePart::Edge(ends) => ends.map(SurfacePart::Corner).to_vec(),

@@ -31,16 +31,16 @@ impl<'a> Surface<'a> {
         let mut normals = CommonNormals::default();
         normals.reset(LEVEL_HEIGHT_PER_ROUNDING * rounding);
         surfaces[0]
-            .for_each_offset_around(points[0], reach, |way| normals.add_constraint_of_a(way));
+            .for_each_vector_to_near_face(points[0], reach, |way| normals.add_constraint_of_a(way));
         surfaces[1]
-            .for_each_offset_around(points[1], reach, |way| normals.add_constraint_of_b(way));
+            .for_each_vector_to_near_face(points[1], reach, |way| normals.add_constraint_of_b(way));
         normals.sort_constraints();
         normals
     }
 
     /// Calls `add` with the vectors from a point to the corners of the faces around it, and to points of the solid
     /// below these faces.
-    fn for_each_offset_around(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
+    fn for_each_vector_to_near_face(&self, at: DVec3, reach: f64, mut add: impl FnMut(DVec3)) {
         for face in self.tree.faces_near(at, reach) {
             let (_, nearest) = nearest_point_on_triangle(at, self.near_surface.triangle(face), 0.0);
             // Written so that NaN is near.

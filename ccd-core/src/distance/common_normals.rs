@@ -21,7 +21,7 @@ impl CommonNormals {
     /// Removes all offsets, and sets the slack.
     pub(crate) fn reset(&mut self, slack: f64) {
         self.constraint_vectors.clear();
-        self.constraint_vectors.shrink_to(MAX_KEPT_CONSTRAINTS);
+        self.constraint_vectors.shrink_to(MAX_RETAINED_CAPACITY);
         self.slack = slack;
     }
 
@@ -66,7 +66,7 @@ impl CommonNormals {
 
     /// Like [`CommonNormals::nearest_normal`], but returns `None` unless the vector `between` the two points is along
     /// the normal, up to the slack.
-    pub(crate) fn nearest_normal_if_parallel(
+    pub(crate) fn nearest_normal_parallel_to(
         &self,
         towards: DVec3,
         between: DVec3,
@@ -125,7 +125,7 @@ impl CommonNormals {
 }
 
 /// The largest number of offsets for which memory is kept between uses.
-const MAX_KEPT_CONSTRAINTS: usize = 1 << 20;
+const MAX_RETAINED_CAPACITY: usize = 1 << 20;
 
 /// Returns the unit vector along a component of a unit vector; `None` if the component is so short that it may be mere
 /// rounding.

@@ -52,11 +52,11 @@ pub(crate) fn decide_intersection(
         let Some(&face) = inner.shallowest_face() else {
             return Intersection::Undecided;
         };
-        if face.min_height > rounding {
+        if face.min_corner_height > rounding {
             return Intersection::Certain;
         }
-        let corner = minkowski_support_point(pair, face.normal);
-        match face.normal.dot(corner) {
+        let corner = minkowski_support_point(pair, face.face_normal);
+        match face.face_normal.dot(corner) {
             height if height <= rounding => return Intersection::None,
             // The farthest difference is no farther than the face: rounding prevents progress.
             height if !(height > face.max_corner_height) => return Intersection::Undecided,
@@ -93,9 +93,9 @@ struct Face {
     /// The indices of the corners, counterclockwise as seen from outside.
     corners: [usize; 3],
     /// The outward unit normal.
-    normal: DVec3,
+    face_normal: DVec3,
     /// The least height of the face's corners above the origin, along the normal.
-    min_height: f64,
+    min_corner_height: f64,
     /// The greatest height of the face's corners above the origin, along the normal.
     max_corner_height: f64,
 }
@@ -122,8 +122,8 @@ impl ExpandingPolytope {
         let heights = [a, b, c].map(|p| normal.dot(p));
         self.faces.push(Face {
             corners,
-            normal,
-            min_height: heights.into_iter().fold(f64::INFINITY, lesser),
+            face_normal: normal,
+            min_corner_height: heights.into_iter().fold(f64::INFINITY, lesser),
             max_corner_height: heights.into_iter().fold(f64::NEG_INFINITY, greater),
         });
     }
@@ -133,7 +133,7 @@ impl ExpandingPolytope {
     fn shallowest_face(&self) -> Option<&Face> {
         self.faces
             .iter()
-            .min_by(|f, g| f.min_height.total_cmp(&g.min_height))
+            .min_by(|f, g| f.min_corner_height.total_cmp(&g.min_corner_height))
     }
 
     /// Adds a corner, which is in front of the face `seen`, and replaces every face that the corner is in front of by
@@ -144,7 +144,8 @@ impl ExpandingPolytope {
         let horizon_edges = &mut self.horizon_edges;
         horizon_edges.clear();
         self.faces.retain(|face| {
-            let sees = face.corners == seen || face.normal.dot(corner) > face.max_corner_height;
+            let sees =
+                face.corners == seen || face.face_normal.dot(corner) > face.max_corner_height;
             for k in (0..3).filter(|_| sees) {
                 let [from, to] = [face.corners[k], face.corners[(k + 1) % 3]];
                 // An edge of two removed faces is not part of the rim.

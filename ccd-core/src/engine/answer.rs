@@ -4,7 +4,7 @@ use super::meter::Meter;
 use super::scratch::Scratch;
 use super::start::search_contact_at_start;
 use crate::answer::{Answer, Outcome, Stats};
-use crate::contacts::given::{contact_for_given_bodies, outcome_for_given_bodies};
+use crate::contacts::given::{convert_contact_to_given_bodies, outcome_on_original_bodies};
 use crate::distance::oracle::DistanceOracle;
 use crate::math::order::greater;
 use crate::problem::Problem;
@@ -73,7 +73,7 @@ fn answer_under_start_policy<O: DistanceOracle>(
         };
         let within = problem.margin + tolerance;
         (
-            outcome_for_given_bodies(problem, oracle, meter, outcome, |_| within),
+            outcome_on_original_bodies(problem, oracle, meter, outcome, |_| within),
             tolerance,
         )
     })
@@ -107,7 +107,7 @@ pub(crate) fn problem_ignoring_start_contact<'a, O: DistanceOracle>(
             let (within, at_start) = (problem.contact_distance(), problem.time_of_clock(0.0));
             // The normal is needed here. That of two pieces alone may be arbitrary.
             let contact =
-                contact_for_given_bodies(problem, oracle, meter, *contact, within, at_start);
+                convert_contact_to_given_bodies(problem, oracle, meter, *contact, within, at_start);
             let gap = contact.separation.lower - problem.margin;
             Some(
                 problem.ignoring_start_contact(gap, TouchingPlane::from_contact(problem, &contact)),

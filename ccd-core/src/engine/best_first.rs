@@ -97,7 +97,7 @@ impl<O: DistanceOracle> SearchHandler<O> for ProvenFacts {
     type Conclusion = Outcome;
 
     #[inline]
-    fn on_next_clock(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
+    fn stop_before_clock(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
         if s > 0.0 {
             self.check_containment_once_apart(problem)
                 .map_or(ControlFlow::Continue(()), ControlFlow::Break)
@@ -115,10 +115,10 @@ impl<O: DistanceOracle> SearchHandler<O> for ProvenFacts {
     ) -> ControlFlow<Outcome, f64> {
         let AdvanceResult {
             clock,
-            pair_step: step,
+            step_outcome: step,
             ..
         } = advance;
-        ProvenFacts::on_advance(self, problem, oracle, meter, step, clock)
+        ProvenFacts::next_clock_or_outcome(self, problem, oracle, meter, step, clock)
     }
 
     fn on_limit(&mut self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {

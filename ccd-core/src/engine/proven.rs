@@ -22,7 +22,7 @@ impl ProvenFacts {
     /// query.
     ///
     /// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
-    pub(crate) fn on_advance<O: DistanceOracle>(
+    pub(crate) fn next_clock_or_outcome<O: DistanceOracle>(
         &self,
         problem: &Problem<'_>,
         oracle: &mut O,

@@ -35,7 +35,11 @@ pub(crate) trait SearchHandler<O: DistanceOracle> {
 
     /// Decides from the clock of the next pair whether the search ends before the pair is examined.
     #[inline]
-    fn on_next_clock(&mut self, _problem: &Problem<'_>, _s: f64) -> ControlFlow<Self::Conclusion> {
+    fn stop_before_clock(
+        &mut self,
+        _problem: &Problem<'_>,
+        _s: f64,
+    ) -> ControlFlow<Self::Conclusion> {
         ControlFlow::Continue(())
     }
 
@@ -58,11 +62,11 @@ pub(crate) trait SearchHandler<O: DistanceOracle> {
 /// The result of looking at a pair of pieces at its clock, the time until which it is proven apart.
 pub(crate) struct AdvanceResult {
     /// The indices of the pieces in the problem.
-    pub(crate) pieces: [u32; 2],
+    pub(crate) piece_pair: [u32; 2],
     /// The clock at which the pair was examined.
     pub(crate) clock: f64,
     /// The new clock, the contact, or the failure of the pair.
-    pub(crate) pair_step: PairStep,
+    pub(crate) step_outcome: PairStep,
 }
 
 /// The state of a search: the oracle, the waiting pairs and the counters.
@@ -111,7 +115,7 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
         let common = NodeContext::new(problem);
         loop {
             if let Some((s, _)) = self.worklist.peek_next().filter(|&(s, _)| s >= until) {
-                question.on_next_clock(problem, s)?;
+                question.stop_before_clock(problem, s)?;
                 return ControlFlow::Continue(s);
             }
             self.visit_next_pair(&common, look, question)?;
@@ -144,7 +148,7 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
         let Some((s, item)) = waiting.peek_next() else {
             return ControlFlow::Break(question.on_end(problem));
         };
-        question.on_next_clock(problem, s)?;
+        question.stop_before_clock(problem, s)?;
         if let Err(limit) = meter.count_visit_and_check_limits(problem) {
             return ControlFlow::Break(question.on_limit(problem, s, limit));
         }
@@ -217,9 +221,9 @@ fn advance<O: DistanceOracle>(
     clock: f64,
 ) -> AdvanceResult {
     AdvanceResult {
-        pieces: [pair.a, pair.b],
+        piece_pair: [pair.a, pair.b],
         clock,
-        pair_step: pair.advance(problem, oracle, meter, clock),
+        step_outcome: pair.advance(problem, oracle, meter, clock),
     }
 }
 

@@ -13,7 +13,7 @@ use std::cmp::Ordering;
 /// for a triangle without area.
 ///
 /// # Guarantee
-/// Exact, unless a coordinate is [too fine](first_inexact_point_index).
+/// Exact, unless a coordinate is [too fine](first_underflow_prone_point_index).
 ///
 /// ```
 /// use ccd_core::{exact, glam::DVec3};
@@ -54,7 +54,7 @@ pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
 
 /// Returns the index of the first point with a coordinate that is [too near to 0](LEAST_NONZERO_COORDINATE) for exact
 /// predicates.
-pub fn first_inexact_point_index(points: &[DVec3]) -> Option<usize> {
+pub fn first_underflow_prone_point_index(points: &[DVec3]) -> Option<usize> {
     let fine = |x: f64| x != 0.0 && x.abs() < LEAST_NONZERO_COORDINATE;
     points
         .iter()

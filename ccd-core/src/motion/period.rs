@@ -36,7 +36,7 @@ pub(crate) struct PathWithRadius<'p> {
 impl Period {
     /// Returns the periods that fit twice into the whole time, in ascending order. After longer periods, distances
     /// change less.
-    pub(crate) fn within_half_duration(
+    pub(crate) fn periods_up_to_half_duration(
         bodies: [PathWithRadius<'_>; 2],
     ) -> impl Iterator<Item = Period> {
         let [a, b] = bodies;

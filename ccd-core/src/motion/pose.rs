@@ -40,7 +40,7 @@ impl Pose {
         let rotation = DQuat::from_array(rotation.into());
         check_finite("position", translation.is_finite())?;
         check_finite("quaternion", rotation.is_finite())?;
-        match unit(rotation) {
+        match unit_quaternion(rotation) {
             Some(rotation) => Ok(Pose::from_unit_quaternion(translation, rotation)),
             None => Err(InputError::ZeroQuaternion),
         }
@@ -107,7 +107,7 @@ impl Pose {
 }
 
 /// Normalises a finite quaternion of any length; `None` for zero.
-fn unit(rotation: DQuat) -> Option<DQuat> {
+fn unit_quaternion(rotation: DQuat) -> Option<DQuat> {
     let (scale, _) = scale_and_inverse(rotation.length_squared());
     let scaled = rotation * scale;
     let length = scaled.length();

@@ -149,7 +149,7 @@ impl RelativePath {
 
     /// Returns the centre of rotation of the body in whose frame the motion is seen.
     #[inline(always)]
-    pub(crate) fn centre<L: Simd>(&self, level: L) -> PackedVector<L> {
+    pub(crate) fn rotation_centre<L: Simd>(&self, level: L) -> PackedVector<L> {
         PackedVector::load(level, &self.centre)
     }
 

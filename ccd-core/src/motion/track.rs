@@ -71,9 +71,9 @@ pub(crate) struct MotionAlongAxis {
     linear_rate: f64,
     linear_acceleration: f64,
     /// The component of `n` perpendicular to the axis of rotation.
-    normal_perpendicular_part: DVec3,
+    normal_part_across_axis: DVec3,
     /// The cross product `n × u`, with the direction `u` of the axis of rotation.
-    cross_product: DVec3,
+    normal_cross_axis: DVec3,
     angular_speed: f64,
 }
 
@@ -84,8 +84,8 @@ impl MotionAlongAxis {
         MotionAlongAxis {
             linear_rate: linear.dot(n),
             linear_acceleration: 0.0,
-            normal_perpendicular_part: n - n.dot(unit) * unit,
-            cross_product: n.cross(unit),
+            normal_part_across_axis: n - n.dot(unit) * unit,
+            normal_cross_axis: n.cross(unit),
             angular_speed: omega,
         }
     }
@@ -120,7 +120,7 @@ impl MotionAlongAxis {
     /// the axis of rotation.
     #[inline]
     pub(crate) fn second_derivative(&self, distance: f64) -> f64 {
-        self.angular_speed * self.angular_speed * length(self.normal_perpendicular_part) * distance
+        self.angular_speed * self.angular_speed * length(self.normal_part_across_axis) * distance
     }
 
     #[inline]
@@ -129,8 +129,8 @@ impl MotionAlongAxis {
             height,
             linear_rate: self.linear_rate,
             linear_acceleration: self.linear_acceleration,
-            p: self.normal_perpendicular_part.dot(arm),
-            q: self.cross_product.dot(arm),
+            p: self.normal_part_across_axis.dot(arm),
+            q: self.normal_cross_axis.dot(arm),
             angular_speed: self.angular_speed,
         }
     }
@@ -194,7 +194,7 @@ impl RotatingVector {
 
     /// Returns the derivative of the rotating vector with respect to its angle.
     #[inline]
-    pub(crate) fn derivative_at(&self, angle: AngleSinCos) -> DVec3 {
+    pub(crate) fn derivative_at_angle(&self, angle: AngleSinCos) -> DVec3 {
         self.cross_product * angle.cos - self.perpendicular_part * angle.sin
     }
 

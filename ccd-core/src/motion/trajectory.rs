@@ -115,7 +115,7 @@ impl Stretch {
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
-    pub(crate) fn with_start_at(&self, at: f64) -> Result<Stretch, InputError> {
+    pub(crate) fn with_time_origin(&self, at: f64) -> Result<Stretch, InputError> {
         let pose = self.pose(at);
         // The pose is checked, and its quaternion normalised once more.
         let start = Pose::new(pose.translation(), pose.rotation())?;
@@ -127,7 +127,7 @@ impl Stretch {
         })
     }
 
-    /// Returns a bound of the rounding error of the pose when [`Stretch::with_start_at`] moves the start by a time.
+    /// Returns a bound of the rounding error of the pose when [`Stretch::with_time_origin`] moves the start by a time.
     pub(crate) fn rounding_of_moved_start(&self, time: f64) -> DeviationBound {
         let Stretch { motion, .. } = self;
         let turned = length(motion.spin()) * time.abs();
@@ -255,7 +255,7 @@ pub trait SmoothTrajectory: Sync {
 
     /// Returns a time between two others at which an acceleration jumps; `None` if there is none. Stretches that end
     /// there have better bounds.
-    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+    fn acceleration_jump_time(&self, from: f64, to: f64) -> Option<f64> {
         let _ = (from, to);
         None
     }
@@ -325,7 +325,7 @@ impl<S: SmoothTrajectory + ?Sized> Trajectory for S {
                 tangent.deviation_bound.centre_deviation = acceleration.deviation_bound_after(half);
             }
         }
-        let stretch = tangent.with_start_at(-before)?;
+        let stretch = tangent.with_time_origin(-before)?;
         let rounding = stretch.rounding_of_moved_start(half) + self.rounding(from, to);
         Ok(Stretch {
             deviation_bound: stretch.deviation_bound + rounding,
@@ -334,7 +334,7 @@ impl<S: SmoothTrajectory + ?Sized> Trajectory for S {
     }
 
     fn velocity_jump_time(&self, from: f64, to: f64) -> Option<f64> {
-        SmoothTrajectory::corner(self, from, to)
+        SmoothTrajectory::acceleration_jump_time(self, from, to)
     }
 }
 
@@ -349,7 +349,7 @@ impl Trajectory for Motion {
         if from == 0.0 {
             return Ok(Stretch::exact(*self));
         }
-        let stretch = Stretch::exact(*self).with_start_at(from)?;
+        let stretch = Stretch::exact(*self).with_time_origin(from)?;
         let stray = stretch.rounding_of_moved_start(from);
         Ok(Stretch {
             deviation_bound: stray,

@@ -48,7 +48,7 @@ use traversal_tree::TraversalTree;
 /// flush contact and turn may cost the whole budget, where [`BestFirst`] follows the points' paths.
 #[derive(Debug)]
 pub struct Fast<O: DistanceOracle> {
-    bound: VelocityBound,
+    velocity_bound: VelocityBound,
     traversal_tree: TraversalTree<O::Cache>,
     axis_distance_cache: AxisDistanceCache,
     best_first_schedule: BestFirst<O>,
@@ -59,7 +59,7 @@ impl<O: DistanceOracle> Fast<O> {
     /// Creates a schedule whose steps are distances divided by the given bound of the velocity.
     pub fn new(bound: VelocityBound) -> Self {
         Fast {
-            bound,
+            velocity_bound: bound,
             traversal_tree: TraversalTree::default(),
             axis_distance_cache: AxisDistanceCache::default(),
             best_first_schedule: BestFirst::default(),
@@ -119,7 +119,7 @@ impl<O: DistanceOracle> Fast<O> {
             let mut descent = Descent {
                 problem,
                 hulls,
-                velocity_bound: self.bound,
+                velocity_bound: self.velocity_bound,
                 traversal_tree: &mut self.traversal_tree,
                 axis_distance_cache: &mut self.axis_distance_cache,
                 proven_facts: &proven,

@@ -102,7 +102,7 @@ impl<O: DistanceOracle> Naive<O> {
                         snapshot.free_time_along_axis(checked, kept, self.velocity_bound, reaches)
                     },
                 );
-                match proven.on_advance(problem, oracle, meter, step, s) {
+                match proven.next_clock_or_outcome(problem, oracle, meter, step, s) {
                     ControlFlow::Continue(clock) => next = lesser(next, clock),
                     ControlFlow::Break(outcome) => return outcome,
                 }

@@ -11,7 +11,7 @@ pub(crate) struct Span {
 
 impl Span {
     /// Returns the stretch of length 0 at the start of this stretch.
-    pub(crate) fn start_span(self) -> Self {
+    pub(crate) fn empty_span_at_start(self) -> Self {
         Span {
             end: self.from,
             ..self

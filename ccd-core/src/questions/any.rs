@@ -100,21 +100,23 @@ pub(crate) fn touching_as_contact(mut answer: Answer) -> Answer {
 struct AnyContactSearch {
     proven_facts: ProvenFacts,
     /// The earliest clock of a pair that could not be proven apart to the end, and the limit that stopped the proof.
-    first_failure: Option<(f64, Limit)>,
+    first_unproven_clock: Option<(f64, Limit)>,
 }
 
 impl AnyContactSearch {
     /// Drops a pair that cannot be proven apart any further, and records its clock; the search goes on, since another
     /// pair may be in contact.
     fn give_up_pair(&mut self, s: f64, limit: Limit) -> ControlFlow<Outcome, f64> {
-        if self.first_failure.is_none_or(|(first, _)| s < first) {
-            self.first_failure = Some((s, limit));
+        if self.first_unproven_clock.is_none_or(|(first, _)| s < first) {
+            self.first_unproven_clock = Some((s, limit));
         }
         ControlFlow::Continue(f64::INFINITY)
     }
 
     fn unresolved_outcome(&self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
-        let first_failure = self.first_failure.map_or(f64::INFINITY, |(first, _)| first);
+        let first_failure = self
+            .first_unproven_clock
+            .map_or(f64::INFINITY, |(first, _)| first);
         Outcome::unresolved(problem.time_of_clock(lesser(s, first_failure)), reason)
     }
 }
@@ -131,7 +133,7 @@ impl<O: DistanceOracle> SearchHandler<O> for AnyContactSearch {
     ) -> ControlFlow<Outcome, f64> {
         let AdvanceResult {
             clock: s,
-            pair_step: step,
+            step_outcome: step,
             ..
         } = advance;
         ControlFlow::Break(match step {
@@ -152,7 +154,7 @@ impl<O: DistanceOracle> SearchHandler<O> for AnyContactSearch {
     }
 
     fn on_end(&mut self, problem: &Problem<'_>) -> Outcome {
-        match self.first_failure {
+        match self.first_unproven_clock {
             Some((s, limit)) => self.unresolved_outcome(problem, s, limit),
             None => self.proven_facts.final_outcome(problem),
         }

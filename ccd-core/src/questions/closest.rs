@@ -7,7 +7,7 @@ mod nearing;
 pub(crate) mod required;
 
 use crate::answer::{Answer, Contact, Limit, Outcome, Unresolved};
-use crate::contacts::given::outcome_for_given_bodies;
+use crate::contacts::given::outcome_on_original_bodies;
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::{SearchResult, run_metered};
 use crate::engine::meter::Meter;
@@ -135,7 +135,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
             };
             let told = found.map(|found| {
                 let found = last_look(&problem, oracle, meter, found);
-                outcome_for_given_bodies(&problem, oracle, meter, found, |contact| {
+                outcome_on_original_bodies(&problem, oracle, meter, found, |contact| {
                     contact.separation.upper
                 })
             });
@@ -218,7 +218,7 @@ fn outcome_for_all_periods(
     let found = found.map_err(|FartherThanCutoff { lower }| FartherThanCutoff {
         lower: sample.whole_duration_lower_bound(lower),
     })?;
-    let mut outcome = found.map_contacts(|contact, _| sample.widen_contact(contact));
+    let mut outcome = found.map_contacts(|contact, _| sample.widen_distance_bounds(contact));
     match &mut outcome {
         Outcome::LeastDistance { lower, .. } => *lower = sample.whole_duration_lower_bound(*lower),
         Outcome::Unresolved(known) => {

@@ -2,7 +2,7 @@
 
 use super::along::contacts::first_contact;
 use crate::answer::{Answer, Limit, Outcome};
-use crate::contacts::given::outcome_for_given_bodies;
+use crate::contacts::given::outcome_on_original_bodies;
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::{achieved_tolerance, problem_ignoring_start_contact};
 use crate::engine::best_first::BestFirst;
@@ -48,9 +48,9 @@ pub struct FirstContactSearch<'a, O: DistanceOracle>(ResumableSearchKind<'a, O>)
 #[allow(clippy::large_enum_variant, reason = "most searches go in steps")]
 enum ResumableSearchKind<'a, O: DistanceOracle> {
     /// A search for bodies with constant velocities, which is done in steps.
-    Stepwise(SteppedSearch<'a, O>),
+    Stepwise(IncrementalSearch<'a, O>),
     /// A search for bodies on trajectories, which is done to its end in the first step.
-    Immediate {
+    SingleStep {
         query: Query<'a>,
         search_engine: BestFirst<O>,
         answer: Option<Answer>,
@@ -58,7 +58,7 @@ enum ResumableSearchKind<'a, O: DistanceOracle> {
 }
 
 /// A search in steps, about two bodies with constant velocities.
-struct SteppedSearch<'a, O: DistanceOracle> {
+struct IncrementalSearch<'a, O: DistanceOracle> {
     problem: Problem<'a>,
     /// The problem that is searched at present: it reports a contact at the start, or ignores it.
     current_problem: Problem<'a>,
@@ -96,8 +96,8 @@ impl<'a, O: DistanceOracle> FirstContactSearch<'a, O> {
     /// [deadline](crate::Settings::deadline) starts now.
     pub fn new(mut query: Query<'a>, memory: BestFirst<O>) -> Self {
         FirstContactSearch(match query.constant_velocity_problem.take() {
-            Some(problem) => ResumableSearchKind::Stepwise(SteppedSearch::new(problem, memory)),
-            None => ResumableSearchKind::Immediate {
+            Some(problem) => ResumableSearchKind::Stepwise(IncrementalSearch::new(problem, memory)),
+            None => ResumableSearchKind::SingleStep {
                 query,
                 search_engine: memory,
                 answer: None,
@@ -109,7 +109,7 @@ impl<'a, O: DistanceOracle> FirstContactSearch<'a, O> {
     pub fn into_schedule(self) -> BestFirst<O> {
         match self.0 {
             ResumableSearchKind::Stepwise(steps) => steps.into_schedule(),
-            ResumableSearchKind::Immediate {
+            ResumableSearchKind::SingleStep {
                 search_engine: memory,
                 ..
             } => memory,
@@ -128,7 +128,7 @@ impl<'a, O: DistanceOracle> FirstContactSearch<'a, O> {
     pub fn advance(&mut self, oracle: &mut O, until: f64) -> Result<Progress, InputError> {
         match &mut self.0 {
             ResumableSearchKind::Stepwise(steps) => Ok(steps.advance(oracle, until)),
-            ResumableSearchKind::Immediate {
+            ResumableSearchKind::SingleStep {
                 query,
                 search_engine: memory,
                 answer,
@@ -142,13 +142,13 @@ impl<'a, O: DistanceOracle> FirstContactSearch<'a, O> {
     }
 }
 
-impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
+impl<'a, O: DistanceOracle> IncrementalSearch<'a, O> {
     fn new(problem: Problem<'a>, mut memory: BestFirst<O>) -> Self {
         let mut meter = Meter::new(&problem);
         meter.scratch = memory.scratch.take();
         memory.queue.clear();
         let current = problem.reporting_start_contact();
-        SteppedSearch {
+        IncrementalSearch {
             periodic_search_and_problem: start_periodic_search(&current),
             current_problem: current,
             start_policy: problem.start_policy,
@@ -176,7 +176,8 @@ impl<'a, O: DistanceOracle> SteppedSearch<'a, O> {
             .map_break(|(outcome, tolerance)| {
                 let within = self.problem.margin + tolerance;
                 let (problem, meter) = (&self.problem, &mut self.meter);
-                let outcome = outcome_for_given_bodies(problem, oracle, meter, outcome, |_| within);
+                let outcome =
+                    outcome_on_original_bodies(problem, oracle, meter, outcome, |_| within);
                 (outcome, tolerance)
             });
         let stats = &mut self.meter.stats;

@@ -40,7 +40,7 @@ pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
         MovingBall::around_body(&problem.a),
         MovingBall::around_body(&problem.b),
     );
-    let distance = least_length(b.centre - a.centre, b.velocity - a.velocity)
+    let distance = origin_distance_to_segment(b.centre - a.centre, b.velocity - a.velocity)
         - deviation_from_line_bound(problem);
     // The rounding of a distance of bodies is more than that of the positions of their balls. Twice that is more than
     // the rounding of this distance, too.
@@ -90,7 +90,7 @@ impl MovingBall {
 }
 
 /// Returns the least length of `from + s · change` over `s` from 0 to 1.
-fn least_length(from: DVec3, change: DVec3) -> f64 {
+fn origin_distance_to_segment(from: DVec3, change: DVec3) -> f64 {
     length(from + change * least_length_parameter(from, change))
 }
 
@@ -129,7 +129,7 @@ fn boxes_keep_apart(problem: &Problem<'_>) -> bool {
     // Between adjacent faces the offset is mostly rounding, but it is perpendicular to the faces.
     let along = ways
         .clone()
-        .flat_map(|way| [&a, &b].map(|whole| whole.axis_along(way)));
+        .flat_map(|way| [&a, &b].map(|whole| whole.box_axis_nearest_to(way)));
     ways.chain(along)
         .any(|n| plane_keeps_apart(problem, [&a, &b], n))
 }
@@ -155,7 +155,9 @@ fn plane_keeps_apart(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2], n: DVec3) 
     let of_centres = centre_approach_rate(problem, [a, b], n, 0.0) + lesser(0.0, n.dot(away));
     excess > 0.0
         && of_centres <= excess
-        && ApproachRateBounds::bounds_along_axis(problem, [a, b], n, 0.0).free_time(excess) >= 1.0
+        && ApproachRateBounds::approach_rate_bounds_along_axis(problem, [a, b], n, 0.0)
+            .free_time(excess)
+            >= 1.0
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use crate::engine::nodes::expand::Split;
 use crate::engine::nodes::siblings::Siblings;
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::GAP_ERROR_PER_RADIUS_F32;
-use crate::tuning::{F64_FALLBACK_ROUNDING, MAX_NEWTON_STEPS, SPLITS_BEFORE_SCREW};
+use crate::tuning::{F64_FALLBACK_THRESHOLD, MAX_NEWTON_STEPS, SPLITS_BEFORE_SCREW};
 
 /// Computes tighter bounds for single pairs of nodes of a query, where splitting nodes would prove little.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ impl BoundTightener {
             f64::from(GAP_ERROR_PER_RADIUS_F32) * (radius(&problem.a) + radius(&problem.b));
         BoundTightener {
             is_f32_coarse: problem.uses_shortcut(Shortcut::FlatNodes)
-                && rounding > F64_FALLBACK_ROUNDING * problem.kept_node_gap(),
+                && rounding > F64_FALLBACK_THRESHOLD * problem.kept_node_gap(),
             split_count: 0,
             screw: None,
         }

@@ -9,7 +9,7 @@ use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{GAP_ERROR_PER_RADIUS_F32, RATE_ERROR_F64};
-use crate::tuning::{CLOSED_GAP_TOLERANCE_SHARE, F64_FALLBACK_ROUNDING, MIN_ROTATION_GAP_SHARE};
+use crate::tuning::{CLOSED_GAP_TOLERANCE_SHARE, F64_FALLBACK_THRESHOLD, MIN_ROTATION_GAP_SHARE};
 use glam::DVec3;
 
 /// Returns a time, from clock `s` on, for which a flat node of A and a flat node of B certainly keep the required gap.
@@ -20,11 +20,12 @@ pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f
     if !sides.iter().all(|(side, id)| may_be_flat(side, *id)) {
         return 0.0;
     }
-    let [Some(a), Some(b)] = sides.map(|(side, id)| PlanarNode::new(side, id, s)) else {
+    let [Some(a), Some(b)] = sides.map(|(side, id)| PlacedFlatNode::new(side, id, s)) else {
         return 0.0;
     };
-    let rounding = f64::from(GAP_ERROR_PER_RADIUS_F32) * (a.node.radius + b.node.radius);
-    if !(rounding > F64_FALLBACK_ROUNDING * problem.kept_node_gap()) {
+    let rounding =
+        f64::from(GAP_ERROR_PER_RADIUS_F32) * (a.node.bounding_radius + b.node.bounding_radius);
+    if !(rounding > F64_FALLBACK_THRESHOLD * problem.kept_node_gap()) {
         return 0.0;
     }
     let along = |n: DVec3| free_time_along(problem, &a, &b, n, s);
@@ -41,7 +42,7 @@ fn may_be_flat(side: &BodyWithPath<'_>, id: NodeId) -> bool {
 
 /// A flat node or a single triangle at its pose at a clock, in the problem's coordinates. All triangles of a flat node
 /// lie in one plane, up to rounding.
-struct PlanarNode {
+struct PlacedFlatNode {
     node: PlacedNode,
     /// Half the thickness of the node along its normal; `None` for a triangle, whose corners are known.
     half_thickness: Option<f64>,
@@ -49,7 +50,7 @@ struct PlanarNode {
     normal: DVec3,
 }
 
-impl PlanarNode {
+impl PlacedFlatNode {
     fn new(side: &BodyWithPath<'_>, id: NodeId, s: f64) -> Option<Self> {
         let node = PlacedNode::new(side, id, s);
         let tree = side.body.tree();
@@ -66,8 +67,8 @@ impl PlanarNode {
                 (unit((b - a).cross(c - a))?, None)
             }
         };
-        Some(PlanarNode {
-            normal: node.rotated(normal),
+        Some(PlacedFlatNode {
+            normal: node.rotate_vector(normal),
             node,
             half_thickness: half,
         })
@@ -79,7 +80,7 @@ impl PlanarNode {
             Some(half) => {
                 let along = self.normal.dot(n).abs();
                 let across = length(n.cross(self.normal));
-                half * along + self.node.radius * (across + RATE_ERROR_F64)
+                half * along + self.node.bounding_radius * (across + RATE_ERROR_F64)
             }
             None => self.node.extent_along(n),
         }
@@ -88,7 +89,13 @@ impl PlanarNode {
 
 /// Returns a time for which a fixed plane perpendicular to `n` certainly keeps the nodes apart; `n` may have either
 /// sign.
-fn free_time_along(problem: &Problem<'_>, a: &PlanarNode, b: &PlanarNode, n: DVec3, s: f64) -> f64 {
+fn free_time_along(
+    problem: &Problem<'_>,
+    a: &PlacedFlatNode,
+    b: &PlacedFlatNode,
+    n: DVec3,
+    s: f64,
+) -> f64 {
     let way = b.node.centre - a.node.centre;
     let n = if n.dot(way) < 0.0 { -n } else { n };
     let kept = problem.rounding + problem.kept_node_gap();
@@ -97,7 +104,8 @@ fn free_time_along(problem: &Problem<'_>, a: &PlanarNode, b: &PlanarNode, n: DVe
     if !(gap > CLOSED_GAP_TOLERANCE_SHARE * problem.tolerance) {
         return 0.0;
     }
-    let approach = ApproachRateBounds::bounds_along_axis(problem, [&a.node, &b.node], n, s);
+    let approach =
+        ApproachRateBounds::approach_rate_bounds_along_axis(problem, [&a.node, &b.node], n, s);
     let free = approach.free_time(gap);
     // The share of the gap that the nodes' turning uses up shrinks as they are split. Written so that NaN gives no
     // time.

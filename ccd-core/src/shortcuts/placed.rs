@@ -18,7 +18,7 @@ pub(crate) struct PlacedNode {
     /// The centre in the problem's coordinates. All arguments and results are in these coordinates.
     pub(crate) centre: DVec3,
     /// An upper bound of the distances of the node's points from the centre.
-    pub(crate) radius: f64,
+    pub(crate) bounding_radius: f64,
 }
 
 enum Shape {
@@ -48,7 +48,7 @@ impl PlacedNode {
                 slack: whole.slack,
             },
             centre: frame.transform_point(whole.centre),
-            radius: whole.radius,
+            bounding_radius: whole.radius,
         }
     }
 
@@ -65,7 +65,7 @@ impl PlacedNode {
                         + BOX_EXTENT_ERROR_F32 * f64::from(node.radius),
                 },
                 centre: frame.transform_point(node.centre),
-                radius: f64::from(node.radius),
+                bounding_radius: f64::from(node.radius),
             },
             NodeOrTriangle::Triangle(piece) => {
                 let corners = side.body.pieces().triangle(piece as usize);
@@ -76,14 +76,14 @@ impl PlacedNode {
                     frame,
                     shape: Shape::Triangle(corners),
                     centre,
-                    radius: corners.map(length).into_iter().fold(0.0, greater),
+                    bounding_radius: corners.map(length).into_iter().fold(0.0, greater),
                 }
             }
         }
     }
 
     /// Returns the corners of a triangle, relative to the centre; `None` for a box.
-    pub(crate) fn triangle_corners(&self) -> Option<[DVec3; 3]> {
+    pub(crate) fn triangle_corners_from_centre(&self) -> Option<[DVec3; 3]> {
         match self.shape {
             Shape::Triangle(corners) => Some(corners),
             Shape::Box { .. } => None,
@@ -91,7 +91,7 @@ impl PlacedNode {
     }
 
     /// Rotates a vector from the body's frame to the problem's coordinates.
-    pub(crate) fn rotated(&self, vector: DVec3) -> DVec3 {
+    pub(crate) fn rotate_vector(&self, vector: DVec3) -> DVec3 {
         self.frame.rotation * vector
     }
 
@@ -111,15 +111,15 @@ impl PlacedNode {
             let half = half[k] + slack;
             axes[k] * greater(-half, lesser(half, way.dot(axes[k])))
         };
-        self.centre + self.rotated(along(0) + along(1) + along(2))
+        self.centre + self.rotate_vector(along(0) + along(1) + along(2))
     }
 
     /// Returns the box axis with the least angle to `n`, in the orientation of `n`; `n` itself for a triangle.
-    pub(crate) fn axis_along(&self, n: DVec3) -> DVec3 {
+    pub(crate) fn box_axis_nearest_to(&self, n: DVec3) -> DVec3 {
         let Shape::Box { axes, .. } = &self.shape else {
             return n;
         };
-        let along = axes.map(|axis| self.rotated(axis));
+        let along = axes.map(|axis| self.rotate_vector(axis));
         let nearest = along
             .into_iter()
             .max_by(|x, y| x.dot(n).abs().total_cmp(&y.dot(n).abs()));
@@ -143,7 +143,7 @@ impl PlacedNode {
                 let half = |k: usize| half[k] * along.dot(axes[k]).abs();
                 lesser(
                     half(0) + half(1) + half(2) + slack * size,
-                    self.radius * size,
+                    self.bounding_radius * size,
                 )
             }
         }
@@ -162,7 +162,7 @@ pub(crate) struct ApproachRateBounds {
 
 impl ApproachRateBounds {
     /// Computes the bounds along a unit vector from A to B, from clock `s` on.
-    pub(crate) fn bounds_along_axis(
+    pub(crate) fn approach_rate_bounds_along_axis(
         problem: &Problem<'_>,
         [a, b]: [&PlacedNode; 2],
         n: DVec3,
@@ -171,7 +171,7 @@ impl ApproachRateBounds {
         let straight = centre_approach_rate(problem, [a, b], n, s);
         let (mut turning, mut second_derivative, mut speed) = (0.0, 0.0, 0.0);
         for (side, node, n) in [(&problem.a, a, n), (&problem.b, b, -n)] {
-            let (path, radius) = (&side.path, node.radius);
+            let (path, radius) = (&side.path, node.bounding_radius);
             let arm = node.centre - path.centre_at(s);
             let across = n.cross(path.spin);
             // n·(ω×w) = w·(n×ω) of points at w from the centre.

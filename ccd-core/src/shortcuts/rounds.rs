@@ -31,16 +31,16 @@ pub(crate) struct PeriodicSearch<'a> {
     rounding: f64,
     /// The clock until which the bodies are proven apart.
     proven_until: f64,
-    round: Round,
+    round: PeriodBatch,
     /// The number of periods of the next round that is searched in full, because its periods differ too much.
     full_round_period_count: f64,
     /// A lower bound of the distance of the bodies up to the clock `from`.
-    gap: f64,
+    proven_gap: f64,
 }
 
 /// The number of periods of a round, and the way they are searched.
 #[derive(Clone, Copy, Debug)]
-enum Round {
+enum PeriodBatch {
     /// Only the first of this number of periods is searched; it represents the others.
     FirstPeriod(f64),
     /// All of this number of periods are searched.
@@ -105,9 +105,9 @@ impl<'a> PeriodicSearch<'a> {
             period,
             rounding,
             proven_until: 0.0,
-            round: Round::AllPeriods(1.0),
+            round: PeriodBatch::AllPeriods(1.0),
             full_round_period_count: 1.0,
-            gap: f64::INFINITY,
+            proven_gap: f64::INFINITY,
         };
         rounds.begin_round(f64::INFINITY);
         Some(rounds)
@@ -121,10 +121,10 @@ impl<'a> PeriodicSearch<'a> {
         let room = (tolerance - 2.0 * self.max_distance_drift()) - 4.0 * self.rounding;
         let left = greater(room, MAX_PERIOD_DISTANCE_CHANGE_SHARE * tolerance);
         let to = match self.round {
-            Round::FirstPeriod(_) => {
+            PeriodBatch::FirstPeriod(_) => {
                 lesser(1.0, self.proven_until + self.period.length_rounded_up())
             }
-            Round::AllPeriods(_) => self.end_clock(),
+            PeriodBatch::AllPeriods(_) => self.round_end_clock(),
         };
         self.whole_problem.between_clocks(
             [self.proven_until, to],
@@ -177,18 +177,18 @@ impl<'a> PeriodicSearch<'a> {
 
     /// Records that the bodies keep a gap in the present round, and starts the next round or ends the search.
     fn record_gap(&mut self, gap: f64) -> ControlFlow<Outcome> {
-        self.gap = lesser(self.gap, (gap - self.margin_increase()).next_down());
-        self.proven_until = self.end_clock();
+        self.proven_gap = lesser(self.proven_gap, (gap - self.margin_increase()).next_down());
+        self.proven_until = self.round_end_clock();
         if self.proven_until >= 1.0 {
-            let proven_gap = greater(self.gap, self.whole_problem.margin);
+            let proven_gap = greater(self.proven_gap, self.whole_problem.margin);
             return ControlFlow::Break(Outcome::Free { proven_gap });
         }
         match self.round {
-            Round::FirstPeriod(count) => {
+            PeriodBatch::FirstPeriod(count) => {
                 self.full_round_period_count = 1.0;
                 self.begin_round(2.0 * count);
             }
-            Round::AllPeriods(count) => {
+            PeriodBatch::AllPeriods(count) => {
                 self.full_round_period_count = 2.0 * count;
                 self.begin_round(2.0);
             }
@@ -203,15 +203,15 @@ impl<'a> PeriodicSearch<'a> {
         contact: Contact,
     ) -> ControlFlow<Outcome> {
         let within = self.whole_problem.contact_distance();
-        let contact = widen_contact_by(contact, self.rounding);
+        let contact = widen_distance_bounds(contact, self.rounding);
         let Separation { upper, .. } = contact.separation;
         match self.round {
-            Round::FirstPeriod(count) if !(upper <= within) => {
+            PeriodBatch::FirstPeriod(count) if !(upper <= within) => {
                 // More periods than this would give the same contact.
                 let fewer = (upper - within) / self.period.max_distance_change;
                 match lesser(0.5 * count, fewer).floor() {
                     fewer if fewer >= 2.0 => self.begin_round(fewer),
-                    _ => self.round = Round::AllPeriods(self.full_round_period_count),
+                    _ => self.round = PeriodBatch::AllPeriods(self.full_round_period_count),
                 }
                 ControlFlow::Continue(())
             }
@@ -223,14 +223,14 @@ impl<'a> PeriodicSearch<'a> {
     fn begin_round(&mut self, count: f64) {
         let left = ((1.0 - self.proven_until) / self.period.length).ceil();
         self.round = match lesser(count, left) {
-            count if count >= 2.0 => Round::FirstPeriod(count),
-            _ => Round::AllPeriods(self.full_round_period_count),
+            count if count >= 2.0 => PeriodBatch::FirstPeriod(count),
+            _ => PeriodBatch::AllPeriods(self.full_round_period_count),
         };
     }
 
     /// Returns the clock at which the round ends.
-    fn end_clock(&self) -> f64 {
-        let (Round::FirstPeriod(count) | Round::AllPeriods(count)) = self.round;
+    fn round_end_clock(&self) -> f64 {
+        let (PeriodBatch::FirstPeriod(count) | PeriodBatch::AllPeriods(count)) = self.round;
         let end = self.proven_until + count * self.period.length;
         // A rest of the time that is only rounding is covered, too.
         if end + 0.5 * TURN_COUNT_WIDENING * self.period.length < 1.0 {
@@ -244,8 +244,8 @@ impl<'a> PeriodicSearch<'a> {
     /// its other periods.
     fn max_distance_drift(&self) -> f64 {
         match self.round {
-            Round::FirstPeriod(count) => count * self.period.max_distance_change,
-            Round::AllPeriods(_) => 0.0,
+            PeriodBatch::FirstPeriod(count) => count * self.period.max_distance_change,
+            PeriodBatch::AllPeriods(_) => 0.0,
         }
     }
 
@@ -284,7 +284,7 @@ impl<'a> RepresentativePeriod<'a> {
         let (change, rounding) = (rounds.max_distance_drift(), rounds.rounding);
         // Written so that NaN is too much.
         let stands_for_all =
-            matches!(rounds.round, Round::FirstPeriod(_)) && rounds.end_clock() >= 1.0;
+            matches!(rounds.round, PeriodBatch::FirstPeriod(_)) && rounds.round_end_clock() >= 1.0;
         (stands_for_all && change <= MAX_PERIOD_DISTANCE_CHANGE_SHARE * problem.tolerance).then(
             || RepresentativePeriod {
                 period_subproblem: rounds.problem_of_round().for_distances(),
@@ -303,13 +303,13 @@ impl<'a> RepresentativePeriod<'a> {
     }
 
     /// Widens the bounds of a contact in the period so that they hold for the whole problem.
-    pub(crate) fn widen_contact(&self, contact: Contact) -> Contact {
-        widen_contact_by(contact, self.rounding)
+    pub(crate) fn widen_distance_bounds(&self, contact: Contact) -> Contact {
+        widen_distance_bounds(contact, self.rounding)
     }
 }
 
 /// Widens the bounds of a contact's distance by `rounding` on either side.
-fn widen_contact_by(contact: Contact, rounding: f64) -> Contact {
+fn widen_distance_bounds(contact: Contact, rounding: f64) -> Contact {
     let Separation { lower, upper, .. } = contact.separation;
     contact.with_bounds((lower - rounding).next_down(), (upper + rounding).next_up())
 }
@@ -328,7 +328,7 @@ fn period_with_least_work(bodies: [PathWithRadius<'_>; 2], change: f64) -> Optio
         let rounds = greater(1.0, period.max_distance_change / (period.length * change));
         lesser(1.0, period.length * rounds)
     };
-    Period::within_half_duration(bodies)
+    Period::periods_up_to_half_duration(bodies)
         .map(|period| (searched(&period), period))
         .reduce(|best, next| if next.0 < best.0 { next } else { best })
         .filter(|(searched, _)| *searched <= MAX_SEARCHED_DURATION_SHARE)

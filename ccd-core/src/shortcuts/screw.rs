@@ -42,11 +42,11 @@ pub(crate) struct ProfileCache([BodyProfileCache; 2]);
 struct BodyProfileCache {
     /// For each node or triangle, by its id, the index of its profile among the known ones, or a mark that it is unknown or
     /// that there is none.
-    profile_indices: Vec<u32>,
+    profile_index_by_node: Vec<u32>,
     computed_profiles: Vec<NodeScrewBounds>,
 }
 
-/// The entry of `profile_indices` for a node whose profile is not computed yet.
+/// The entry of `profile_index_by_node` for a node whose profile is not computed yet.
 const UNCOMPUTED_PROFILE: u32 = u32::MAX;
 const NO_PROFILE: u32 = u32::MAX - 1;
 
@@ -139,8 +139,8 @@ impl Screw {
         [a, b]: [NodeId; 2],
         s: f64,
     ) -> Option<bool> {
-        let a = of_a.profile_of(&problem.a, a, &self.axis)?;
-        let b = of_b.profile_of(&problem.b, b, &self.axis)?;
+        let a = of_a.profile_of_node(&problem.a, a, &self.axis)?;
+        let b = of_b.profile_of_node(&problem.b, b, &self.axis)?;
         let (turning, still) = match self.turning_body {
             WhichBody::A => (a, b),
             WhichBody::B => (b, a),
@@ -158,18 +158,18 @@ impl BodyProfileCache {
     fn reset_cache(&mut self, side: &BodyWithPath<'_>) {
         let count = side.body.tree().node_count() + side.body.pieces().len();
         clear_and_shrink(&mut self.computed_profiles);
-        clear_and_shrink(&mut self.profile_indices);
-        self.profile_indices.resize(count, UNCOMPUTED_PROFILE);
+        clear_and_shrink(&mut self.profile_index_by_node);
+        self.profile_index_by_node.resize(count, UNCOMPUTED_PROFILE);
     }
 
     /// Returns the profile of a node or triangle; `None` if the node surrounds the axis, or nearly does.
-    fn profile_of(
+    fn profile_of_node(
         &mut self,
         side: &BodyWithPath<'_>,
         id: NodeId,
         axis: &ScrewAxis,
     ) -> Option<&NodeScrewBounds> {
-        let place = &mut self.profile_indices[id as usize];
+        let place = &mut self.profile_index_by_node[id as usize];
         if *place == UNCOMPUTED_PROFILE {
             *place = match compute_profile(side, id, axis) {
                 Some(profile) if self.computed_profiles.len() < NO_PROFILE as usize => {

@@ -62,7 +62,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
 
     /// Returns times for which planes that turn with the body of the unsplit node certainly keep the eight pairs apart.
     #[inline(always)]
-    pub(crate) fn free_times_turning_with_other_body(&self, axis: AxesX8<L>) -> f32x8<L> {
+    pub(crate) fn free_times_of_planes_turning_with_other(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, children) = (self.motion, self.children);
         let level = axis.n.simd_level();
         let at = children.centre(level);
@@ -112,7 +112,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let rate_slack =
             sweep.max_distance_from_centre * (RATE_ERROR_F32 * spin) + motion.rate_allowance;
         let free = clock::free_time(
-            axis.gap - motion.slack,
+            axis.gap - motion.required_gap,
             motion.closed_gap_threshold,
             sweep.approach_rate_bound + rate_slack,
             second_derivative * SECOND_DERIVATIVE_FACTOR_F32 + LEAST_SECOND_DERIVATIVE_F32,

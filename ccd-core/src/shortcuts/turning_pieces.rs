@@ -60,13 +60,13 @@ impl<'p> MovingPiece<'p> {
 }
 
 /// A piece of one body, as seen from a plane that turns with the other body.
-pub(crate) struct PiecePastTurningPlane<'p> {
+pub(crate) struct PieceMotionToTurningPlane<'p> {
     /// The plane's normal `n`, which turns at `ω`.
     normal: RotatingVector,
     rotation_axis: DVec3,
     angular_speed: f64,
     /// The vector `D`, from the turning body's centre to the reference point, at the present clock.
-    offset: DVec3,
+    reference_point_offset: DVec3,
     velocity: DVec3,
     speed: f64,
     /// The acceleration `V'` of the reference point relative to the turning body's centre, which is constant.
@@ -98,7 +98,7 @@ struct HeightTerms {
     rate_axis: DVec3,
 }
 
-impl<'p> PiecePastTurningPlane<'p> {
+impl<'p> PieceMotionToTurningPlane<'p> {
     /// Creates the description of the piece `other` relative to a plane that turns with the body of `holder`. The
     /// `normal` points from that body to the piece, and `rounding` is the problem's.
     pub(crate) fn new(
@@ -120,11 +120,11 @@ impl<'p> PiecePastTurningPlane<'p> {
         let acceleration = own.acceleration - path.acceleration;
         let speed = velocity.length() + acceleration.length();
         let radius = other.piece.max_distance_from(reference);
-        PiecePastTurningPlane {
+        PieceMotionToTurningPlane {
             normal: RotatingVector::new(path.axis, normal),
             rotation_axis: path.axis,
             angular_speed: path.angular_speed,
-            offset,
+            reference_point_offset: offset,
             velocity,
             speed,
             acceleration,
@@ -213,7 +213,7 @@ impl<'p> PiecePastTurningPlane<'p> {
         let own = AngleSinCos::new(self.own_angular_speed * tau);
         let axis = self.normal.vector_at(angle);
         let (offset, velocity) = self.relative_position_and_velocity_after(tau);
-        let turning = self.normal.derivative_at(angle) * self.angular_speed;
+        let turning = self.normal.derivative_at_angle(angle) * self.angular_speed;
         // The vectors that multiply the arms are rotated backwards, rather than every arm.
         let back = |v| {
             let turned = RotatingVector::new(-self.own_rotation_axis, v).vector_at(own);
@@ -232,7 +232,7 @@ impl<'p> PiecePastTurningPlane<'p> {
     fn relative_position_and_velocity_after(&self, tau: f64) -> (DVec3, DVec3) {
         let velocity = self.velocity + self.acceleration * (0.5 * tau);
         (
-            self.offset + velocity * tau,
+            self.reference_point_offset + velocity * tau,
             self.velocity + self.acceleration * tau,
         )
     }

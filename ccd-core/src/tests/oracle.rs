@@ -62,7 +62,7 @@ fn to_triangle(points: &[DVec3]) -> Option<Triangle> {
 fn convex_combination(weights: [f64; 3], points: usize) -> ConvexCombination {
     let mut out = ConvexCombination::EMPTY;
     for (k, weight) in weights.into_iter().enumerate() {
-        out.push(k.min(points - 1) as u32, weight);
+        out.add_weighted_point(k.min(points - 1) as u32, weight);
     }
     out
 }

@@ -160,7 +160,7 @@ impl Adjustments {
     ///
     /// # Errors
     /// The word is no adjustment.
-    pub(crate) fn with_adjustment_word(self, word: &str) -> Result<Self, UnknownAdjustment> {
+    pub(crate) fn with_parsed_adjustment(self, word: &str) -> Result<Self, UnknownAdjustment> {
         let unknown = || UnknownAdjustment { word: word.into() };
         if let Some(factor) = word.strip_prefix("scale=") {
             let factor: f64 = factor.parse().map_err(|_| unknown())?;

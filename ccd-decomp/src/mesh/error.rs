@@ -46,10 +46,10 @@ pub enum MeshFault {
         cargo_feature: &'static str,
     },
     /// A file that the mesh refers to, such as a buffer of a glTF, cannot be read.
-    #[error("refers to the file {file_name:?}, which cannot be read: {reason}")]
+    #[error("refers to the file {referenced_file_name:?}, which cannot be read: {reason}")]
     UnreadableLinkedFile {
         /// The name of the referenced file, as written in the mesh.
-        file_name: String,
+        referenced_file_name: String,
         /// The reason why the file cannot be read, and the remedy.
         reason: String,
     },
@@ -62,12 +62,12 @@ pub enum MeshFault {
         fault: Box<MeshFault>,
     },
     /// The file has no part of the requested name or number.
-    #[error("has no part {part:?}; {}", list_of_parts(.parts))]
+    #[error("has no part {part:?}; {}", list_of_parts(.part_names))]
     NoSuchPart {
         /// The name or number that was requested.
         part: String,
         /// The names of all parts of the file, in order; `None` for a part without a name.
-        parts: Vec<Option<String>>,
+        part_names: Vec<Option<String>>,
     },
     /// Several parts of the file have the requested name.
     #[error("has {} parts {part:?}; give the number of one: {}", .part_numbers.len(), list_of_numbers(.part_numbers))]
@@ -149,12 +149,12 @@ pub enum MeshFault {
         corners: usize,
     },
     /// There are more elements than an index can address.
-    #[error("{count} {element_kind} are too many; split the mesh into several")]
+    #[error("{element_count} {element_kind} are too many; split the mesh into several")]
     TooManyElements {
         /// The kind of elements, in the plural, such as `vertices`.
         element_kind: &'static str,
         /// The number of elements in the file.
-        count: usize,
+        element_count: usize,
     },
 }
 

@@ -200,7 +200,7 @@ impl MeshFile {
                 .filter(|&number| number < names.len())
                 .ok_or_else(|| MeshFault::NoSuchPart {
                     part: name_or_number.into(),
-                    parts: names.clone(),
+                    part_names: names.clone(),
                 }),
             _ => Err(MeshFault::AmbiguousPart {
                 part: name_or_number.into(),
@@ -273,7 +273,7 @@ fn read_linked_file(folder: &Path, name: &str, bytes: u64) -> Result<Vec<u8>, Me
         Ok(content)
     };
     read().map_err(|error| MeshFault::UnreadableLinkedFile {
-        file_name: name.into(),
+        referenced_file_name: name.into(),
         reason: format!("{error}; put it where the mesh is"),
     })
 }
@@ -286,7 +286,7 @@ fn checked_relative_path(name: &str) -> Result<PathBuf, MeshFault> {
         Ok(path)
     } else {
         Err(MeshFault::UnreadableLinkedFile {
-            file_name: name.into(),
+            referenced_file_name: name.into(),
             reason: "it is not in the folder of the mesh; put it there".into(),
         })
     }

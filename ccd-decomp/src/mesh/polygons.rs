@@ -98,7 +98,7 @@ impl Polygons {
                 ids.push(id);
             }
             if corners.len() > 3 {
-                repairs.polygons.add(id);
+                repairs.triangulated_polygons.add(id);
                 let fan = &mut faces[start..];
                 let overhangs = has_flipped_triangle(&self.vertices, fan);
                 if !(overhangs || has_degenerate_triangle(&self.vertices, fan)) {
@@ -129,7 +129,7 @@ pub(super) fn check_count_fits_indices(what: &'static str, count: usize) -> Resu
     } else {
         Err(MeshFault::TooManyElements {
             element_kind: what,
-            count,
+            element_count: count,
         })
     }
 }

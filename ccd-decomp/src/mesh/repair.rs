@@ -2,7 +2,7 @@
 
 use super::remark::Remarks;
 use crate::hull::polygons::with_smallest_corner_first;
-use crate::tally::Tally;
+use crate::tally::CountWithExamples;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::fmt;
@@ -15,19 +15,19 @@ use std::fmt;
 pub struct Repairs {
     /// Faces of more than three corners, which were triangulated. A non-planar polygon bounds several surfaces: the
     /// triangles are one of them.
-    pub polygons: Tally<u32>,
+    pub triangulated_polygons: CountWithExamples<u32>,
     /// Polygons that intersect themselves or are far from planar. Their triangle fan extends beyond the polygon.
-    pub overhanging_fans: Tally<u32>,
+    pub overhanging_fans: CountWithExamples<u32>,
     /// Faces dropped because another face has the same three points in the same orientation. The same points in the
     /// opposite orientation are kept: two faces back to back are a closed surface.
-    pub duplicate_faces: Tally<u32>,
+    pub duplicate_faces: CountWithExamples<u32>,
     /// Faces that were dropped because they collapse to a segment or point on an edge of another face. Two of their
     /// corners are the same point. Collapsed faces elsewhere are kept.
-    pub collapsed_faces: Tally<u32>,
+    pub collapsed_faces: CountWithExamples<u32>,
     /// Faces without area, which are kept. A segment or point can be touched, too.
-    pub zero_area_faces: Tally<u32>,
+    pub zero_area_faces: CountWithExamples<u32>,
     /// Vertices that no face uses.
-    pub unreferenced_vertices: Tally<u32>,
+    pub unreferenced_vertices: CountWithExamples<u32>,
     /// Remarks about content of the file that was skipped or changed.
     // Stored bodies have the remarks at their end; older files have none.
     #[serde(skip)]
@@ -44,7 +44,7 @@ impl Repairs {
     /// these faces again, but not the other repairs.
     pub(crate) fn with_zero_area_tally_cleared(&self) -> Self {
         Repairs {
-            zero_area_faces: Tally::default(),
+            zero_area_faces: CountWithExamples::default(),
             ..self.clone()
         }
     }
@@ -53,7 +53,7 @@ impl Repairs {
     pub(crate) fn append(&mut self, other: &Self, vertex: u32, face: u32) {
         // Exhaustive: a new kind of repair does not compile until it is added here.
         let Repairs {
-            polygons,
+            triangulated_polygons: polygons,
             overhanging_fans: overhanging,
             duplicate_faces: duplicates,
             collapsed_faces: collapsed,
@@ -61,7 +61,7 @@ impl Repairs {
             unreferenced_vertices: unreferenced,
             remarks,
         } = self;
-        polygons.append(&other.polygons, face);
+        polygons.append(&other.triangulated_polygons, face);
         overhanging.append(&other.overhanging_fans, face);
         duplicates.append(&other.duplicate_faces, face);
         collapsed.append(&other.collapsed_faces, face);
@@ -84,7 +84,7 @@ impl Repairs {
 impl fmt::Display for Repairs {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let notes = [
-            (&self.polygons, "polygons cut into triangles"),
+            (&self.triangulated_polygons, "polygons cut into triangles"),
             (
                 &self.overhanging_fans,
                 "of them meeting themselves, covered too widely",

@@ -22,7 +22,7 @@ fn duplicates_are_merged_in_any_rotation_and_whichever_vertex_names_a_point() {
     let mesh = mesh(&[[0, 1, 2], [0, 2, 3], [1, 2, 0], [2, 4, 1]]);
     assert_eq!(mesh.faces(), [[0, 1, 2], [0, 2, 3]]);
     assert_eq!(mesh.repairs().duplicate_faces.count(), 2);
-    assert_eq!(mesh.repairs().duplicate_faces.first(), [2, 3]);
+    assert_eq!(mesh.repairs().duplicate_faces.first_elements(), [2, 3]);
 }
 
 #[test]
@@ -38,7 +38,7 @@ fn a_collapsed_face_is_dropped_where_it_lies_on_an_edge() {
     let mesh = mesh(&[[0, 0, 1], [0, 1, 2], [4, 1, 1], [2, 2, 2]]);
     assert_eq!(mesh.faces(), [[0, 1, 2]]);
     assert_eq!(mesh.face_ids(), [1]);
-    assert_eq!(mesh.repairs().collapsed_faces.first(), [0, 2, 3]);
+    assert_eq!(mesh.repairs().collapsed_faces.first_elements(), [0, 2, 3]);
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn a_collapsed_face_is_kept_where_nothing_else_holds_it() {
     // Collapsed faces: a diagonal off every edge, the same again, a point of it, and an isolated point.
     let kept = mesh(&[[3, 3, 3], [0, 1, 5], [1, 3, 3], [3, 1, 1], [2, 2, 2]]);
     assert_eq!(kept.face_ids(), [1, 2, 4]);
-    assert_eq!(kept.repairs().collapsed_faces.first(), [0, 3]);
+    assert_eq!(kept.repairs().collapsed_faces.first_elements(), [0, 3]);
     assert_eq!(kept.repairs().zero_area_faces.count(), 3);
     assert_eq!(mesh(&[[0, 4, 0]]).faces(), [[0, 4, 0]]);
 }
@@ -55,8 +55,11 @@ fn a_collapsed_face_is_kept_where_nothing_else_holds_it() {
 fn a_face_without_area_is_kept_and_reported() {
     let mesh = mesh(&[[0, 5, 1], [0, 1, 2]]);
     assert_eq!(mesh.faces().len(), 2);
-    assert_eq!(mesh.repairs().zero_area_faces.first(), [0]);
-    assert_eq!(mesh.repairs().unreferenced_vertices.first(), [3, 4]);
+    assert_eq!(mesh.repairs().zero_area_faces.first_elements(), [0]);
+    assert_eq!(
+        mesh.repairs().unreferenced_vertices.first_elements(),
+        [3, 4]
+    );
 }
 
 /// Tests that exactly the collinear triangles count as faces without area, even if products of their coordinates
@@ -76,7 +79,7 @@ fn the_finest_face_has_an_area() {
         ];
         let mesh = TriangleMesh::new(vertices, &faces).unwrap();
         assert_eq!(
-            mesh.repairs().zero_area_faces.first(),
+            mesh.repairs().zero_area_faces.first_elements(),
             [1, 2, 5],
             "{unit:e}"
         );
@@ -90,7 +93,10 @@ fn a_concave_polygon_is_filled() {
     // From corner 4,0 one triangle of the fan is reversed; from the notch none is.
     assert_eq!(mesh.faces()[..2], [[1, 2, 0], [2, 3, 0]]);
     assert_eq!(mesh.face_ids()[..2], [0, 0]);
-    assert_eq!(mesh.repairs().polygons.first(), [0, 1]);
+    assert_eq!(
+        mesh.repairs().triangulated_polygons.first_elements(),
+        [0, 1]
+    );
     assert!(mesh.repairs().overhanging_fans.is_empty());
 }
 
@@ -110,7 +116,7 @@ fn a_polygon_that_meets_itself_is_covered_and_reported() {
     let file = "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 1 0\nf 1 2 3 4\n";
     let mesh = TriangleMesh::from_reader(crate::Format::Obj, file.as_bytes()).unwrap();
     assert_eq!(mesh.faces(), [[0, 1, 2], [0, 2, 3]]);
-    assert_eq!(mesh.repairs().overhanging_fans.first(), [0]);
+    assert_eq!(mesh.repairs().overhanging_fans.first_elements(), [0]);
 }
 
 #[test]

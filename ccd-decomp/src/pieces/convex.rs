@@ -36,7 +36,7 @@ pub(crate) fn convex_polytope(manifold: &Manifold<'_>) -> Result<Polytope, Decom
             facets.push(FacetWithFaces {
                 corners: corners.to_vec(),
                 mesh_faces: faces.to_vec(),
-                is_covered_by_mesh: true,
+                is_facet_covered_by_mesh: true,
             });
         },
     );

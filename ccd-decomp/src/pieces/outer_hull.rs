@@ -11,7 +11,7 @@ use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
 use crate::solid::manifold::Manifold;
 use crate::solid::star_shaped::star_centre;
-use crate::solid::topology::Topology;
+use crate::solid::topology::TopologyDefects;
 use crate::tolerance::EXCESS_TOLERANCE_PER_HALF_DIAGONAL;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
@@ -38,7 +38,10 @@ pub(crate) struct OuterHull {
 ///
 /// # Complexity
 /// O(n log n) for the hull. The bound takes about [`EXCESS_WORK_BUDGET`](crate::tolerance::EXCESS_WORK_BUDGET) steps.
-pub(crate) fn outer_hull(mesh: &TriangleMesh, topology: &Topology) -> Result<OuterHull, HullError> {
+pub(crate) fn outer_hull(
+    mesh: &TriangleMesh,
+    topology: &TopologyDefects,
+) -> Result<OuterHull, HullError> {
     let mut corners: Vec<u32> = mesh.faces().iter().flatten().copied().collect();
     corners.sort_unstable();
     corners.dedup();
@@ -66,7 +69,7 @@ fn polytope(hull: Hull) -> Polytope {
 }
 
 /// Returns an upper bound on how far the hull extends beyond the mesh; 0 for a convex solid.
-fn excess_bound(mesh: &TriangleMesh, topology: &Topology, hull: &Hull) -> f64 {
+fn excess_bound(mesh: &TriangleMesh, topology: &TopologyDefects, hull: &Hull) -> f64 {
     let target = EnclosedMesh::new(mesh, topology);
     let mut by_shrinking = f64::INFINITY;
     if let Ok(manifold) = Manifold::without_intersection_check(mesh, topology)

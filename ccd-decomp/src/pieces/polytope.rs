@@ -9,7 +9,7 @@ pub(super) struct FacetWithFaces {
     pub(super) corners: Vec<u32>,
     pub(super) mesh_faces: Vec<u32>,
     /// Whether the faces of the mesh cover the whole facet.
-    pub(super) is_covered_by_mesh: bool,
+    pub(super) is_facet_covered_by_mesh: bool,
 }
 
 /// Creates a polytope from its facets and the mesh faces that lie in them. Its points are the mesh vertices at the
@@ -21,7 +21,7 @@ pub(super) fn polytope(manifold: &Manifold<'_>, facets: &[FacetWithFaces]) -> Po
     let id = |face: u32| manifold.mesh().face_ids()[face as usize];
     let mut polytope = Polytope::default();
     for facet in facets {
-        let origin = match (&facet.mesh_faces[..], facet.is_covered_by_mesh) {
+        let origin = match (&facet.mesh_faces[..], facet.is_facet_covered_by_mesh) {
             ([], _) | (_, false) => FacetOrigin::Virtual,
             (&[face], true) => FacetOrigin::Face(id(face)),
             (_, true) => FacetOrigin::Faces,

@@ -1,7 +1,7 @@
 //! Chooses the fewest exact pieces for `Detail::Auto`.
 
 use super::parts::PiecesOfOneKind;
-use super::report::{PieceReason, QueryTimes};
+use super::report::{EstimatedQueryTimes, PieceReason};
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
 use crate::pieces::patches::{PatchOrder, patches_from_polygons};
@@ -9,7 +9,7 @@ use crate::solid::check_solid;
 use crate::solid::error::DecomposeError;
 use crate::solid::flats::{PlanarRegionSize, RegionMerger};
 use crate::solid::manifold::Manifold;
-use crate::solid::topology::Topology;
+use crate::solid::topology::TopologyDefects;
 use crate::tolerance::{PATCH_QUERY_COST, QueryCost, RESTING_QUERY_FREQUENCY, TRIANGLE_QUERY_COST};
 use crate::work::WorkBudget;
 
@@ -18,7 +18,7 @@ use crate::work::WorkBudget;
 /// Intersection tests and decomposition are slow: they run only if the result would be used, within a budget.
 pub(super) fn choose_pieces(
     mesh: &TriangleMesh,
-    topology: &Topology,
+    topology: &TopologyDefects,
     work: &WorkBudget,
 ) -> (PiecesOfOneKind, PieceReason) {
     let manifold = match Manifold::without_intersection_check(mesh, topology) {
@@ -64,11 +64,12 @@ fn triangles_with_reason(error: DecomposeError) -> (PiecesOfOneKind, PieceReason
 impl PlanarRegionSize {
     /// Estimates the mean time of a query with triangles and with patches as pieces. In a fixed share of the queries
     /// this region is assumed to rest flat on another body.
-    fn estimate_query_times(self) -> QueryTimes {
+    fn estimate_query_times(self) -> EstimatedQueryTimes {
         let cost = |of: QueryCost, count: usize| {
-            of.typical_time + RESTING_QUERY_FREQUENCY * of.time_per_resting_piece * count as f64
+            of.median_query_time
+                + RESTING_QUERY_FREQUENCY * of.time_per_resting_piece * count as f64
         };
-        QueryTimes {
+        EstimatedQueryTimes {
             triangles: cost(TRIANGLE_QUERY_COST, self.triangle_count),
             patches: cost(PATCH_QUERY_COST, self.polygon_count),
         }

@@ -46,7 +46,7 @@ impl StoredBodyContent {
         let mut body = Body::with_hierarchy(&self.pieces, &self.hierarchy, self.solidity)?;
         if let Some((pieces, hierarchy)) = &self.surface {
             let surface = Body::with_hierarchy(pieces, hierarchy, Solidity::Solid)?;
-            body = body.with_surface(surface)?;
+            body = body.with_surface_triangles(surface)?;
         }
         let body = body.with_excess(self.report.excess)?;
         Ok(match &self.hull_tree {

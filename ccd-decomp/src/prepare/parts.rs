@@ -6,7 +6,7 @@ use super::report::{PieceReason, PiecesKind, Report};
 use crate::mesh::TriangleMesh;
 use crate::pieces::outer_hull::OuterHull;
 use crate::pieces::patches::{Decomposition, Patch};
-use crate::solid::topology::Topology;
+use crate::solid::topology::TopologyDefects;
 use crate::tree::hierarchy::build_hierarchy;
 use ccd_core::{Hierarchy, Pieces, Polytope, Solidity};
 
@@ -23,7 +23,7 @@ pub(super) struct PiecesChoice {
     pub(super) solidity: Solidity,
     pub(super) pieces: PiecesOfOneKind,
     pub(super) choice_reason: PieceReason,
-    pub(super) topology: Topology,
+    pub(super) topology: TopologyDefects,
     /// A copy of the mesh with wrongly oriented shells reversed, if there are any.
     pub(super) reoriented_mesh: Option<TriangleMesh>,
 }

@@ -2,7 +2,7 @@
 
 use crate::mesh::repair::Repairs;
 use crate::solid::error::DecomposeError;
-use crate::solid::topology::Topology;
+use crate::solid::topology::TopologyDefects;
 use ccd_core::Solidity;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -28,7 +28,7 @@ pub struct Report {
     /// Whether the body is solid. A closed mesh is solid unless it was made hollow.
     pub volume: Solidity,
     /// The topology of the mesh, which shows why it is solid or not; `None` for a body without a mesh.
-    pub topology: Option<Topology>,
+    pub topology: Option<TopologyDefects>,
     /// The faults of the mesh that were repaired.
     pub repairs: Repairs,
 }
@@ -62,15 +62,15 @@ pub enum PieceReason {
     /// Testing whether other pieces are exact exceeds the work budget. They can be requested.
     WorkBudgetExceeded,
     /// Queries are estimated to be faster over triangles than over patches.
-    TrianglesFaster(QueryTimes),
+    TrianglesFaster(EstimatedQueryTimes),
     /// Queries are estimated to be faster over patches than over triangles.
-    PatchesFaster(QueryTimes),
+    PatchesFaster(EstimatedQueryTimes),
 }
 
 /// The estimated times of a query with two kinds of pieces, against a body of many triangles. They are in
 /// microseconds on the machine that the estimate was measured on. Only the comparison of the two is meaningful.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct QueryTimes {
+pub struct EstimatedQueryTimes {
     /// The estimated time of a query with triangles as pieces, in microseconds.
     pub triangles: f64,
     /// The estimated time of a query with patches as pieces, in microseconds.
@@ -105,12 +105,12 @@ impl Report {
 
     /// Describes the faults of the mesh as text. The text is empty if there are none.
     pub fn remarks(&self) -> String {
-        let plain = |t: &Topology| {
+        let plain = |t: &TopologyDefects| {
             t.is_manifold() && t.is_solid() && t.wrong_shells.is_empty() && t.signed_volume > 0.0
         };
         let topology = self.topology.as_ref().filter(|t| !plain(t));
         let repairs = Some(&self.repairs).filter(|r| !r.is_empty());
-        let remarks = topology.map(Topology::to_string).into_iter();
+        let remarks = topology.map(TopologyDefects::to_string).into_iter();
         let remarks = remarks.chain(repairs.map(Repairs::to_string));
         remarks.collect::<Vec<_>>().join("; ")
     }
@@ -180,10 +180,10 @@ impl fmt::Display for PieceReason {
                     "other pieces take longer to make than is spent unasked: {why}"
                 )
             }
-            PieceReason::TrianglesFaster(QueryTimes { triangles, patches }) => {
+            PieceReason::TrianglesFaster(EstimatedQueryTimes { triangles, patches }) => {
                 slower(f, "patches", patches / triangles)
             }
-            PieceReason::PatchesFaster(QueryTimes { triangles, patches }) => {
+            PieceReason::PatchesFaster(EstimatedQueryTimes { triangles, patches }) => {
                 slower(f, "triangles", triangles / patches)
             }
         }

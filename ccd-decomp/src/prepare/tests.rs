@@ -44,7 +44,9 @@ fn features_carry_the_numbers_of_the_file() {
     let body = body_from_mesh(&mesh, Detail::Triangles).unwrap().body;
     let feature = |support: &[u32]| {
         let mut point = ConvexCombination::EMPTY;
-        support.iter().for_each(|&corner| point.push(corner, 1.0));
+        support
+            .iter()
+            .for_each(|&corner| point.add_weighted_point(corner, 1.0));
         body.pieces().feature(0, &point).to_string()
     };
     assert_eq!(feature(&[0]), "v1");

@@ -51,7 +51,10 @@ const MAX_TESTED_FACETS: usize = 16;
 pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
     match shape {
         &Shape::Segment([p, q]) => Vec::from([[hub, p, q], [hub, q, p]].map(Plane::from_triangle)),
-        Shape::HullInBox(Hull { facets, .. }) => {
+        Shape::HullInBox(Hull {
+            largest_facets: facets,
+            ..
+        }) => {
             let is_front = |&&facet: &&[DVec3; 3]| side_of_plane(facet, hub) != Ordering::Less;
             let facets = facets.iter().filter(is_front);
             facets.map(|&facet| Plane::from_triangle(facet)).collect()
@@ -83,7 +86,7 @@ pub(super) fn separating_planes(shape: &Shape, hub: DVec3) -> Vec<Plane> {
 
 /// Returns the planes of the largest facets of a hull, which have the hull behind them.
 pub(super) fn largest_facet_planes(hull: &Hull) -> Vec<Plane> {
-    let tested = hull.facets.iter().take(MAX_TESTED_FACETS);
+    let tested = hull.largest_facets.iter().take(MAX_TESTED_FACETS);
     tested.map(|&facet| Plane::from_triangle(facet)).collect()
 }
 

@@ -25,7 +25,7 @@ const MAX_SEPARATION_FACETS: usize = 64;
 pub(super) struct Hull {
     pub(super) corners: Vec<DVec3>,
     /// The largest facets of the hull, in descending order of area.
-    pub(super) facets: Vec<[DVec3; 3]>,
+    pub(super) largest_facets: Vec<[DVec3; 3]>,
 }
 
 impl Region {
@@ -44,7 +44,7 @@ impl Region {
     }
 
     /// Creates the region inside both a box and a hull; the hull is given by its corners and facets.
-    pub(crate) fn inside_box_and_hull(
+    pub(crate) fn from_box_and_hull(
         corners: Vec<DVec3>,
         mut facets: Vec<[DVec3; 3]>,
         bounds: BoundingBox,
@@ -57,7 +57,10 @@ impl Region {
             facets.truncate(MAX_SEPARATION_FACETS);
         }
         facets.sort_by(larger);
-        let shape = Shape::HullInBox(Hull { corners, facets });
+        let shape = Shape::HullInBox(Hull {
+            corners,
+            largest_facets: facets,
+        });
         Region { bounds, shape }
     }
 }

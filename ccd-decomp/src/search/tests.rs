@@ -129,7 +129,7 @@ fn skipped_triangles_meet_nothing() {
             }
             let facets = ExactHull::facets_of(&probe).unwrap_or_default().into_iter();
             let facets: Vec<[DVec3; 3]> = facets.map(|f| f.map(|v| probe[v as usize])).collect();
-            let inside = Region::inside_box_and_hull(
+            let inside = Region::from_box_and_hull(
                 probe.to_vec(),
                 facets.clone(),
                 BoundingBox::enclosing(probe),

@@ -1,7 +1,7 @@
 //! Errors of meshes that do not bound a solid.
 
-use super::topology::{Edge, Topology};
-use crate::tally::Tally;
+use super::topology::{Edge, TopologyDefects};
+use crate::tally::CountWithExamples;
 use crate::work::WorkBudgetExhausted;
 use ccd_core::limits::LEAST_NONZERO_COORDINATE;
 use serde::{Deserialize, Serialize};
@@ -16,19 +16,19 @@ pub enum DecomposeError {
     #[error("{topology}; {}, or use triangles", .topology.advice())]
     NotManifold {
         /// The irregular edges of the mesh, by kind.
-        topology: Box<Topology>,
+        topology: Box<TopologyDefects>,
     },
     /// Some faces of the mesh have no area.
     #[error("faces without area: {faces}; remove them, or use triangles")]
     ZeroAreaFaces {
         /// The numbers of the faces without area.
-        faces: Tally<u32>,
+        faces: CountWithExamples<u32>,
     },
     /// Faces intersect outside shared vertices and edges.
     #[error("faces that intersect: {pairs}; mend them, or use triangles")]
     SelfIntersecting {
         /// The pairs of intersecting faces, at most a thousand.
-        pairs: Tally<Crossing>,
+        pairs: CountWithExamples<Crossing>,
     },
     /// The solid is in front of a face, not behind it.
     #[error("the part with face {face} is inside out; turn its faces, or use triangles")]

@@ -1,14 +1,14 @@
 //! The half-edge structure of a closed surface.
 
 use super::error::DecomposeError;
-use super::topology::Topology;
+use super::topology::TopologyDefects;
 use crate::exact::predicates::{
-    Projection, first_inexact_point_index, is_degenerate, side_of_plane,
+    Projection, first_underflow_prone_point_index, is_degenerate, side_of_plane,
 };
 use crate::half_edges::{HalfEdge, twins};
 use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
-use crate::tally::Tally;
+use crate::tally::CountWithExamples;
 use ccd_core::glam::DVec3;
 use rayon::prelude::*;
 use std::cmp::Ordering;
@@ -47,9 +47,9 @@ impl<'m> Manifold<'m> {
     /// inside out. It takes a tenth of the time of [`solid_surface`](super::solid_surface).
     pub(crate) fn without_intersection_check(
         mesh: &'m TriangleMesh,
-        topology: &Topology,
+        topology: &TopologyDefects,
     ) -> Result<Self, DecomposeError> {
-        if let Some(vertex) = first_inexact_point_index(mesh.vertices()) {
+        if let Some(vertex) = first_underflow_prone_point_index(mesh.vertices()) {
             return Err(DecomposeError::CoordinateNearZero { vertex });
         }
         if !topology.is_manifold() {
@@ -63,7 +63,7 @@ impl<'m> Manifold<'m> {
         }
         let is_flat = |&face: &u32| is_degenerate(mesh.triangle(face));
         let flat_faces = (0..faces.len() as u32).into_par_iter().filter(is_flat);
-        let mut flat = Tally::default();
+        let mut flat = CountWithExamples::default();
         for face in flat_faces.collect::<Vec<u32>>() {
             flat.add(mesh.face_ids()[face as usize]);
         }

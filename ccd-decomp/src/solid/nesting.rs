@@ -4,7 +4,7 @@ mod closed_parts;
 
 use crate::bounds::{BoundingBox, BoundingBoxTree};
 use crate::disjoint_sets::members_by_set;
-use crate::exact::predicates::{first_inexact_point_index, is_degenerate};
+use crate::exact::predicates::{first_underflow_prone_point_index, is_degenerate};
 use crate::exact::rays::{probe_segment, segment_crossing_sign};
 use crate::exact::triangles::meet_outside_shared_corners;
 use crate::exact::volume::SignedVolume;
@@ -12,7 +12,7 @@ use crate::half_edges::SortedHalfEdges;
 use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
 use crate::search::region::Region;
-use crate::tally::Tally;
+use crate::tally::CountWithExamples;
 use crate::tolerance::{FACE_CENTRE_ROUNDING, MAX_NESTING_RAYS};
 use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
@@ -30,9 +30,9 @@ pub(crate) struct MisorientedShells {
     /// The faces to reverse, so that the solid is behind all faces of the mesh or in front of all faces.
     pub(crate) faces_to_reverse: Vec<u32>,
     /// One face of each wrongly oriented shell, by the file's number; empty if all shells are wrongly oriented.
-    pub(crate) wrong_shells: Tally<u32>,
+    pub(crate) wrong_shells: CountWithExamples<u32>,
     /// One face, by the file's number, of each shell for which it is unclear whether it bounds a solid or a cavity.
-    pub(crate) unclear_shells: Tally<u32>,
+    pub(crate) unclear_shells: CountWithExamples<u32>,
 }
 
 impl MisorientedShells {
@@ -53,7 +53,7 @@ impl MisorientedShells {
 /// The shells of a mesh, and search trees over its faces.
 struct Shells<'m> {
     mesh: &'m TriangleMesh,
-    boxes: TriangleBoxes,
+    triangle_boxes: TriangleBoxes,
     shell_of_face: Vec<u32>,
     faces_of_shell: Vec<Vec<u32>>,
     /// The bounding boxes of the shells. The winding number of a shell is 0 outside its box.
@@ -75,7 +75,7 @@ impl<'m> Shells<'m> {
         };
         Shells {
             bounds: BoundingBoxTree::new(faces_of.iter().map(bounds).collect()),
-            boxes: TriangleBoxes::new(mesh.vertices(), &mesh.welded_faces()),
+            triangle_boxes: TriangleBoxes::new(mesh.vertices(), &mesh.welded_faces()),
             mesh,
             shell_of_face: shell_of,
             faces_of_shell: faces_of,
@@ -83,7 +83,7 @@ impl<'m> Shells<'m> {
     }
 
     fn misoriented_shells(&self) -> MisorientedShells {
-        let exact = first_inexact_point_index(self.mesh.vertices()).is_none();
+        let exact = first_underflow_prone_point_index(self.mesh.vertices()).is_none();
         let shells = 0..self.faces_of_shell.len() as u32;
         let found: Vec<Option<SurroundingShells>> = shells
             .map(|shell| exact.then(|| self.surrounding_shells(shell)).flatten())
@@ -165,7 +165,7 @@ impl<'m> Shells<'m> {
         if self.bounds.all_meeting_boxes_satisfy(&at, is_own) {
             return Some(Vec::new());
         }
-        let size = self.boxes.farthest_distance_bound(corner);
+        let size = self.triangle_boxes.farthest_distance_bound(corner);
         let face = |k: usize| {
             self.mesh
                 .triangle(faces[k * faces.len() / MAX_NESTING_RAYS])
@@ -188,7 +188,7 @@ impl<'m> Shells<'m> {
         let misses = |face: u32| {
             is_of_shell(face) || segment_crossing_sign(across, self.mesh.triangle(face)) == Some(0)
         };
-        let is_alone = self.boxes.all_near_faces_satisfy(
+        let is_alone = self.triangle_boxes.all_near_faces_satisfy(
             &Region::segment(across),
             &WorkBudget::unbounded(),
             misses,
@@ -201,20 +201,20 @@ impl<'m> Shells<'m> {
     fn shells_winding_about_start(&self, shell: u32, ray: [DVec3; 2]) -> Option<Vec<u32>> {
         let mut met = Vec::new();
         let region = Region::segment(ray);
-        let passes = self
-            .boxes
-            .all_near_faces_satisfy(&region, &WorkBudget::unbounded(), |face| {
-                let other = self.shell_of_face[face as usize];
-                let start = BoundingBox::enclosing([ray[0]]);
-                let may_wind = other != shell && self.bounds.get(other).meets(&start);
-                let found = if may_wind {
-                    segment_crossing_sign(ray, self.mesh.triangle(face))
-                } else {
-                    Some(0)
-                };
-                met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
-                found.is_some()
-            });
+        let passes =
+            self.triangle_boxes
+                .all_near_faces_satisfy(&region, &WorkBudget::unbounded(), |face| {
+                    let other = self.shell_of_face[face as usize];
+                    let start = BoundingBox::enclosing([ray[0]]);
+                    let may_wind = other != shell && self.bounds.get(other).meets(&start);
+                    let found = if may_wind {
+                        segment_crossing_sign(ray, self.mesh.triangle(face))
+                    } else {
+                        Some(0)
+                    };
+                    met.extend(found.filter(|&one| one != 0).map(|one| (other, one)));
+                    found.is_some()
+                });
         passes.then(|| {
             met.sort_unstable();
             met.chunk_by(|one, next| one.0 == next.0)
@@ -232,7 +232,7 @@ impl<'m> Shells<'m> {
         let faces = self.faces_of_shell[shell as usize].iter();
         for &face in faces.filter(|&&face| !flat(face)) {
             let one = self.mesh.triangle(face);
-            self.boxes.all_near_faces_satisfy(
+            self.triangle_boxes.all_near_faces_satisfy(
                 &Region::from_triangle(one),
                 &WorkBudget::unbounded(),
                 |near| {

@@ -3,28 +3,28 @@
 use super::nesting::MisorientedShells;
 use crate::half_edges::SortedHalfEdges;
 use crate::mesh::TriangleMesh;
-use crate::tally::Tally;
+use crate::tally::CountWithExamples;
 use ccd_core::glam::DVec3;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// The irregular edges of a mesh and its wrongly oriented shells. Equal points count as one vertex.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Topology {
+pub struct TopologyDefects {
     /// Edges with a single face, which are the boundaries of holes.
-    pub boundary_edges: Tally<Edge>,
+    pub boundary_edges: CountWithExamples<Edge>,
     /// Edges with two faces in the same direction. One of the two faces has the wrong orientation.
-    pub flipped_edges: Tally<Edge>,
+    pub flipped_edges: CountWithExamples<Edge>,
     /// Edges with more than two faces, with more in one direction than in the other.
-    pub branching_edges: Tally<Edge>,
+    pub branching_edges: CountWithExamples<Edge>,
     /// Edges with more than two faces, equally many in both directions. Closed parts touch there.
-    pub edges_shared_by_parts: Tally<Edge>,
+    pub edges_shared_by_parts: CountWithExamples<Edge>,
     /// One face of each wrongly oriented shell; none if all shells are wrongly oriented. Bodies are made with these
     /// shells reversed.
-    pub wrong_shells: Tally<u32>,
+    pub wrong_shells: CountWithExamples<u32>,
     /// Shells for which it is unclear whether they bound a solid or a cavity; one face of each. They are inside a shell
     /// and cross another shell, or their nesting cannot be determined.
-    pub unclear_shells: Tally<u32>,
+    pub unclear_shells: CountWithExamples<u32>,
     /// The enclosed volume after wrong shells are reversed, in cubic units of length. It is negative if all normals
     /// point inward, and meaningful for closed meshes only.
     pub signed_volume: f64,
@@ -34,27 +34,27 @@ pub struct Topology {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Edge(pub u32, pub u32);
 
-impl Topology {
+impl TopologyDefects {
     /// Computes the topology of a mesh from its edges and the nesting of its shells. O(n log n) in the number of faces,
     /// where few boxes of faces of different shells meet.
     ///
     /// ```
-    /// use ccd_decomp::{Format, Topology, TriangleMesh};
+    /// use ccd_decomp::{Format, TopologyDefects, TriangleMesh};
     /// let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
     /// let open = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
-    /// assert_eq!(Topology::of(&open).boundary_edges.count(), 3);
+    /// assert_eq!(TopologyDefects::of(&open).boundary_edges.count(), 3);
     /// ```
     pub fn of(mesh: &TriangleMesh) -> Self {
-        Topology::with_reoriented_mesh(mesh).0
+        TopologyDefects::with_reoriented_mesh(mesh).0
     }
 
-    /// Computes the topology like [`Topology::of`], and the mesh with wrong shells reversed. The mesh is `None` if no
+    /// Computes the topology like [`TopologyDefects::of`], and the mesh with wrong shells reversed. The mesh is `None` if no
     /// shell is wrong.
     pub(crate) fn with_reoriented_mesh(mesh: &TriangleMesh) -> (Self, Option<TriangleMesh>) {
         let edges = SortedHalfEdges::new(&mesh.welded_faces());
-        let mut topology = Topology {
+        let mut topology = TopologyDefects {
             signed_volume: signed_volume(mesh),
-            ..Topology::default()
+            ..TopologyDefects::default()
         };
         for ([v, w], uses) in edges.iter() {
             let backward = uses.iter().filter(|of| of.is_backward).count();
@@ -138,7 +138,7 @@ impl fmt::Display for Edge {
     }
 }
 
-impl fmt::Display for Topology {
+impl fmt::Display for TopologyDefects {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let notes = [
             (&self.boundary_edges, "edges with one face"),

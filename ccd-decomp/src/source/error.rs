@@ -20,10 +20,10 @@ pub enum BodyError {
     Mesh(#[from] MeshError),
     /// The file of the stored body cannot be loaded.
     #[error(transparent)]
-    Store(#[from] StoreError),
+    UnloadableStoredBody(#[from] StoreError),
     /// The constructors of `ccd_core` reject the shape.
     #[error(transparent)]
-    Input(#[from] InputError),
+    InvalidShape(#[from] InputError),
     /// No body can be made of the mesh.
     #[error(transparent)]
     Prepare(#[from] PrepareError),

@@ -101,7 +101,7 @@ impl FromStr for MeshSource {
         } else {
             let mut name = rest;
             while let Some((before, word)) = name.rsplit_once('@')
-                && Adjustments::NONE.with_adjustment_word(word).is_ok()
+                && Adjustments::NONE.with_parsed_adjustment(word).is_ok()
             {
                 name = before;
                 words.push(word);
@@ -113,7 +113,7 @@ impl FromStr for MeshSource {
         Ok(MeshSource {
             file: file.into(),
             part,
-            adjustments: words.try_fold(Adjustments::NONE, Adjustments::with_adjustment_word)?,
+            adjustments: words.try_fold(Adjustments::NONE, Adjustments::with_parsed_adjustment)?,
         })
     }
 }

@@ -29,7 +29,7 @@ fn descriptions_are_parsed(#[case] text: &str, #[case] expected: BodySource) {
 /// Returns the source that names a mesh file, an optional part of it, and adjustments given as text.
 fn mesh(file: &str, part: Option<&str>, adjusted: &str) -> BodySource {
     let mut words = adjusted.split('@').skip(1);
-    let adjustments = words.try_fold(Adjustments::NONE, Adjustments::with_adjustment_word);
+    let adjustments = words.try_fold(Adjustments::NONE, Adjustments::with_parsed_adjustment);
     let adjustments = adjustments.unwrap();
     assert_eq!(adjustments.to_string(), adjusted);
     BodySource::Mesh(MeshSource {
@@ -261,7 +261,7 @@ fn faults_reach_the_caller_typed() {
     let source = BodySource::Sphere { radius: 1e300 };
     assert!(matches!(
         source.load(Detail::Auto),
-        Err(BodyError::Input(_))
+        Err(BodyError::InvalidShape(_))
     ));
     match parse_body("no/such/file.ply", Detail::Auto) {
         Err(BodyError::Mesh(error)) => {

@@ -124,14 +124,14 @@ fn nearest_edge_points<L: Simd>(level: L, p: &Corners, q: &Corners) -> NearestEd
 }
 
 /// For every corner of one triangle, one per lane, its projection onto the face of the other triangle.
-struct CornerProjections<L: Simd> {
+struct CornerToFaceProjections<L: Simd> {
     /// The squared distance of the corner from its projection; infinite if the projection is outside of the face.
     squared_distance: f64x4<L>,
     u: f64x4<L>,
     v: f64x4<L>,
 }
 
-impl<L: Simd> CornerProjections<L> {
+impl<L: Simd> CornerToFaceProjections<L> {
     /// Returns the barycentric coordinates of the projection in the face, and of the corner in its own triangle.
     #[inline(always)]
     fn weights(&self, lane: usize) -> ([f64; 3], [f64; 3]) {
@@ -147,7 +147,7 @@ fn project_corners_to_face<L: Simd>(
     level: L,
     face: &Corners,
     corners: &Corners,
-) -> CornerProjections<L> {
+) -> CornerToFaceProjections<L> {
     let (e, f) = (face[1] - face[0], face[2] - face[0]);
     let n = e.cross(f);
     let square = n.length_squared();
@@ -162,7 +162,7 @@ fn project_corners_to_face<L: Simd>(
         .add_scaled(-v, FourVectors::splat(level, f));
     let zero = splat(level, 0.0);
     let inside = u.simd_ge(zero) & v.simd_ge(zero) & (splat(level, 1.0) - u - v).simd_gt(zero);
-    CornerProjections {
+    CornerToFaceProjections {
         squared_distance: inside.select(apart.dot(apart), splat(level, f64::INFINITY)),
         u,
         v,

@@ -10,7 +10,7 @@ pub struct TerminationBounds {
     /// The search ends when the lower bound exceeds this distance.
     pub sufficient_lower_bound: f64,
     /// The search ends when the upper bound is at most this distance.
-    pub upper: f64,
+    pub sufficient_upper_bound: f64,
 }
 
 /// Bounds of the distance of two convex sets, up to the rounding of their points.
@@ -42,7 +42,7 @@ pub struct DistanceBounds {
 ///     let b = if ends[1].dot(direction) < ends[0].dot(direction) { 1 } else { 0 };
 ///     Vertex { point: ends[b as usize], a: 0, b }
 /// };
-/// let required = TerminationBounds { sufficient_lower_bound: 0.5, upper: 0.0 };
+/// let required = TerminationBounds { sufficient_lower_bound: 0.5, sufficient_upper_bound: 0.0 };
 /// let bounds = bound_distance(support, DVec3::X, required);
 /// assert_eq!((bounds.lower, bounds.axis), (1.0, DVec3::X));
 /// ```
@@ -78,7 +78,7 @@ pub fn bound_distance(
             break;
         }
         bounds.upper = distance;
-        if bounds.upper <= required.upper {
+        if bounds.upper <= required.sufficient_upper_bound {
             break;
         }
         (simplex, _) = simplex.without_zero_weights(&foot);

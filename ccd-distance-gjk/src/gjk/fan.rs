@@ -11,7 +11,7 @@ use ccd_core::vector::unit;
 /// weight in the nearest point.
 pub(crate) struct CandidateAxisVertices {
     /// The point of the difference that is nearest to the origin.
-    point: DVec3,
+    nearest_point: DVec3,
     vertices: [Vertex; MAX_AXIS_VERTICES],
     len: usize,
 }
@@ -21,7 +21,7 @@ impl CandidateAxisVertices {
     pub(crate) fn new(found: &SearchResult) -> Option<Self> {
         let held = found.simplex.vertices();
         let mut out = CandidateAxisVertices {
-            point: DVec3::ZERO,
+            nearest_point: DVec3::ZERO,
             vertices: [*held.first()?; MAX_AXIS_VERTICES],
             len: 0,
         };
@@ -30,7 +30,7 @@ impl CandidateAxisVertices {
             if weight > heaviest.1 {
                 heaviest = (out.len, weight);
             }
-            out.point += weight * vertex.point;
+            out.nearest_point += weight * vertex.point;
             out.push(*vertex);
         }
         out.vertices.swap(0, heaviest.0);
@@ -68,7 +68,7 @@ impl CandidateAxisVertices {
             Some(&e) if e != DVec3::ZERO => e.any_orthonormal_vector(),
             _ => DVec3::X,
         };
-        let bases = [self.point, known, any];
+        let bases = [self.nearest_point, known, any];
         let mut best = (DVec3::ZERO, f64::NEG_INFINITY);
         let mut consider = |axis: DVec3| {
             let axis = unit(axis).unwrap_or(DVec3::ZERO);

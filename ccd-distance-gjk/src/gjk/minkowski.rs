@@ -11,7 +11,7 @@ use ccd_core::{Piece, PiecePair};
 /// depends on the sizes and the distance of the pieces, not on their positions.
 pub(crate) struct MinkowskiDifference<'a> {
     piece_pair: &'a PiecePair<'a>,
-    first_point_a: DVec3,
+    reference_point_a: DVec3,
     reference_point_b: DVec3,
     /// The vector from the first point of A's piece to the first point of B's piece.
     pub(crate) between: DVec3,
@@ -23,7 +23,7 @@ impl<'a> MinkowskiDifference<'a> {
         let (&first_a, &first_b) = (pair.a.points.first()?, pair.b.points.first()?);
         Some(MinkowskiDifference {
             piece_pair: pair,
-            first_point_a: first_a,
+            reference_point_a: first_a,
             reference_point_b: first_b,
             between: pair.b_to_a.transform_point(first_b) - first_a,
         })
@@ -32,7 +32,7 @@ impl<'a> MinkowskiDifference<'a> {
     /// Returns a point of A's piece, relative to the first point of A's piece; `None` if the index is out of range.
     #[inline]
     pub(crate) fn point_a(&self, index: u32) -> Option<DVec3> {
-        Some(*self.piece_pair.a.points.get(index as usize)? - self.first_point_a)
+        Some(*self.piece_pair.a.points.get(index as usize)? - self.reference_point_a)
     }
 
     /// Returns a point of B's piece along A's axes, relative to the first point of A's piece; `None` if the index is
@@ -45,7 +45,7 @@ impl<'a> MinkowskiDifference<'a> {
 
     /// Returns the vertex of the difference with the least height along `direction`.
     pub(crate) fn lowest_vertex(&self, direction: DVec3) -> Vertex {
-        let a = farthest_index_along(&self.piece_pair.a, self.first_point_a, direction);
+        let a = farthest_index_along(&self.piece_pair.a, self.reference_point_a, direction);
         let turned = self.piece_pair.b_to_a.inverse_transform_vector(direction);
         let b = farthest_index_along(&self.piece_pair.b, self.reference_point_b, -turned);
         self.vertex(a, b).unwrap_or(Vertex {

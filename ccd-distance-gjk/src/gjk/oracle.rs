@@ -128,8 +128,8 @@ pub(crate) fn claim(found: &SearchResult) -> Claim {
         ..EMPTY_CLAIM
     };
     for (vertex, weight) in found.simplex.vertices().iter().zip(found.weights) {
-        out.a.push(vertex.a, weight);
-        out.b.push(vertex.b, weight);
+        out.a.add_weighted_point(vertex.a, weight);
+        out.b.add_weighted_point(vertex.b, weight);
     }
     out
 }

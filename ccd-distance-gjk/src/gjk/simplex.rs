@@ -57,7 +57,7 @@ impl Simplex {
             0 => None,
             1 => Some(NearestPoint::at_vertex(point(0), 0)),
             2 => Some(segment::nearest_point(point(0), point(1))),
-            3 => Some(triangle::foot(point(0), point(1), point(2))),
+            3 => Some(triangle::nearest_point(point(0), point(1), point(2))),
             _ => Some(tetrahedron::foot(self.vertices.map(|v| v.point))),
         }
     }

@@ -80,7 +80,7 @@ fn feet_are_nearest() {
         let corners = corners(&mut Pcg64::seed_from_u64(seed));
         let [a, b, c, d] = corners;
         assert_nearest_point(&corners[..2], &segment::nearest_point(a, b));
-        assert_nearest_point(&corners[..3], &triangle::foot(a, b, c));
+        assert_nearest_point(&corners[..3], &triangle::nearest_point(a, b, c));
         let foot = tetrahedron::foot([a, b, c, d]);
         enclosed += u32::from(foot.direction.is_none());
         assert_nearest_point(&corners, &foot);

@@ -13,7 +13,7 @@ use ccd_core::order::greater;
 /// face with the origin on its inner side may contain the nearest point.
 pub(crate) fn foot(corners: [DVec3; 4]) -> NearestPoint {
     let heights = CORNER_WITH_OPPOSITE_FACE.map(|[apex, a, b, c]| {
-        FaceHeights::with_certain_side(corners[a], corners[b], corners[c], corners[apex])
+        FaceHeights::heights_if_same_side(corners[a], corners[b], corners[c], corners[apex])
     });
     if let [Some(a), Some(b), Some(c), Some(d)] = heights
         && let Some(inside) = origin_as_nearest_point(corners, [a, b, c, d])
@@ -21,7 +21,8 @@ pub(crate) fn foot(corners: [DVec3; 4]) -> NearestPoint {
         return inside;
     }
     let feet = CORNER_WITH_OPPOSITE_FACE.map(|[_, a, b, c]| {
-        triangle::foot(corners[a], corners[b], corners[c]).lifted_to_whole_simplex(&[a, b, c])
+        triangle::nearest_point(corners[a], corners[b], corners[c])
+            .lifted_to_whole_simplex(&[a, b, c])
     });
     let [first, others @ ..] = feet;
     others
@@ -78,7 +79,7 @@ struct FaceHeights {
 
 impl FaceHeights {
     /// Computes both heights; `None` unless both are certainly on the same side of the face.
-    fn with_certain_side(a: DVec3, b: DVec3, c: DVec3, apex: DVec3) -> Option<Self> {
+    fn heights_if_same_side(a: DVec3, b: DVec3, c: DVec3, apex: DVec3) -> Option<Self> {
         let (ab, ac, up) = (b - a, c - a, apex - a);
         let normal = ab.cross(ac);
         let (of_origin, of_apex) = (-a.dot(normal), up.dot(normal));

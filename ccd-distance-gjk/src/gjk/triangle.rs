@@ -10,7 +10,7 @@ use ccd_core::order::{greater, lesser};
 /// The foot is inside of the face if the origin is inside of all three edges. Otherwise it is the
 /// nearest foot on the edges that the origin is outside of. A triangle so flat that rounding may
 /// decide the sides is also compared with all of its edges.
-pub(crate) fn foot(a: DVec3, b: DVec3, c: DVec3) -> NearestPoint {
+pub(crate) fn nearest_point(a: DVec3, b: DVec3, c: DVec3) -> NearestPoint {
     let corners = [a, b, c];
     let (ab, ac, bc) = (b - a, c - a, c - b);
     let n = ab.cross(ac);

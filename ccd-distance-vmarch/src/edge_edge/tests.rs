@@ -95,7 +95,7 @@ fn finds_edges_below_both_faces() {
     };
     assert_eq!(
         (which, minimum.feature),
-        (WhichPolytope::Y, Feature::Edge(0))
+        (WhichPolytope::PolytopeY, Feature::Edge(0))
     );
     assert!(minimum.point.distance(at) < 1e-15);
 }
@@ -114,21 +114,27 @@ fn nearest_points_are_nearest_at_every_angle() {
             length: random_magnitude(&mut rng, -6.0, 0.5),
         };
         let other = Line {
-            start: one.point_at(rng.random_range(-1.0..1.0))
+            start: one.point_at_parameter(rng.random_range(-1.0..1.0))
                 + random_magnitude(&mut rng, -9.0, 0.0) * random_direction(&mut rng),
             direction: (along + tilt * random_direction(&mut rng)).normalize(),
             length: random_magnitude(&mut rng, -6.0, 0.5),
         };
         let [s, t] = nearest_parameters(&one, &other).parameters;
-        let distance = one.point_at(s).distance(other.point_at(t));
+        let distance = one
+            .point_at_parameter(s)
+            .distance(other.point_at_parameter(t));
         // Alternating projections from there and from every end, to the limit.
         let mut best = distance;
         for start in [s, 0.0, one.length, 0.5 * one.length] {
             let mut s = start;
             for _ in 0..50 {
-                let t = other.nearest_parameter(one.point_at(s));
-                s = one.nearest_parameter(other.point_at(t));
-                best = lesser(best, one.point_at(s).distance(other.point_at(t)));
+                let t = other.nearest_parameter(one.point_at_parameter(s));
+                s = one.nearest_parameter(other.point_at_parameter(t));
+                best = lesser(
+                    best,
+                    one.point_at_parameter(s)
+                        .distance(other.point_at_parameter(t)),
+                );
             }
         }
         assert!(

@@ -71,7 +71,7 @@ fn needles_through_a_face_have_a_common_point(#[case] half: DVec3, #[case] at: D
     };
     assert_eq!(
         (which, crossing.face),
-        (WhichPolytope::X, face_along(&cube(), DVec3::Z))
+        (WhichPolytope::PolytopeX, face_along(&cube(), DVec3::Z))
     );
 }
 
@@ -83,7 +83,7 @@ fn finds_features_behind() {
     };
     assert_eq!(
         (which, minimum.feature),
-        (WhichPolytope::X, Feature::Edge(0))
+        (WhichPolytope::PolytopeX, Feature::Edge(0))
     );
     // The end that is higher.
     assert!(minimum.point.distance(half) < 1e-15);

@@ -12,7 +12,7 @@ fn escape_of_point(at: DVec3) -> MarchStep {
     let minimum = LocalMinimum {
         feature: Feature::Vertex(0),
         point: at,
-        other_face: face_along(&cube, DVec3::Z),
+        other_polytope_face: face_along(&cube, DVec3::Z),
     };
     escape_local_minimum(&placed.b, minimum, &placed.a, placed.scale)
 }
@@ -54,7 +54,7 @@ fn edges_go_through_or_are_inside() {
         let minimum = LocalMinimum {
             feature: Feature::Edge(0),
             point: DVec3::ZERO,
-            other_face: face_along(&cube, DVec3::Z),
+            other_polytope_face: face_along(&cube, DVec3::Z),
         };
         let found = escape_local_minimum(&placed.b, minimum, &placed.a, placed.scale);
         let MarchStep::CommonPoint(_, crossing) = found else {

@@ -1,8 +1,8 @@
 //! Tests that common points of needles, tetrahedra and cubes are found or excluded exactly, to the last bit.
 
 use super::{
-    barycentric_coordinates, edge_face_crossing, inner_corner_crossing, search_crossing,
-    segment_crosses_triangle, weights,
+    barycentric_coordinates, contained_corner_crossing, edge_face_crossing,
+    find_edge_face_crossing, segment_crosses_triangle, weights,
 };
 use crate::placed::PlacedPolytope;
 use crate::tests::setting::{cube, face_along, needle, pair_with_b_moved, point};
@@ -96,7 +96,7 @@ fn tetrahedra_enclose_to_the_last_bit() {
 fn only_inner_corners_have_a_crossing(#[case] at: DVec3, #[case] inside: bool) {
     let (cube, point) = (cube(), point());
     let placed = pair_with_b_moved(&cube, &point, at);
-    let found = inner_corner_crossing(&placed.b, 0, &placed.a);
+    let found = contained_corner_crossing(&placed.b, 0, &placed.a);
     assert_eq!(found.is_some(), inside);
     if let Some(found) = found {
         let corners = found
@@ -132,7 +132,7 @@ fn faces_are_pierced_anywhere() {
 fn the_search_finds_common_points(#[case] at: DVec3, #[case] meets: bool) {
     let (one, other) = (cube(), cube());
     let placed = pair_with_b_moved(&one, &other, at);
-    let found =
-        search_crossing(&placed.a, &placed.b).or_else(|| search_crossing(&placed.b, &placed.a));
+    let found = find_edge_face_crossing(&placed.a, &placed.b)
+        .or_else(|| find_edge_face_crossing(&placed.b, &placed.a));
     assert_eq!(found.is_some(), meets);
 }

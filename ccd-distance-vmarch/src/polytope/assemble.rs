@@ -1,7 +1,7 @@
 //! Assembles polytopes from outlines of faces.
 
-use super::facets::{Plane, sides_of_loop, unit};
-use super::{Edge, Face, NO_FACE, OutgoingEdge, Polytope, Side, Vertex};
+use super::facets::{Plane, sides_of_loop, unit_or_zero};
+use super::{Edge, Face, FaceEdge, NO_FACE, OutgoingEdge, Polytope, Vertex};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -48,7 +48,7 @@ pub(crate) fn assemble_polytope(points: &[DVec3], ends: &[u32], loops: &[Vec<u32
     let at = |v: u32| points[numbers[v as usize] as usize];
     let edge = |v: u32, w: u32| Edge {
         start: out.vertices[v as usize].point,
-        direction: unit(at(w) - at(v)),
+        direction: unit_or_zero(at(w) - at(v)),
         length: at(w).distance(at(v)),
         inward_directions: [DVec3::ZERO; 2],
         ends: [v, w],
@@ -96,11 +96,11 @@ fn add_sides(out: &mut Polytope, loops: &[Vec<u32>]) {
             } else {
                 -edge.direction
             };
-            let inward = unit(normal.cross(along));
+            let inward = unit_or_zero(normal.cross(along));
             let slot = usize::from(v > w);
             edge.inward_directions[slot] = inward;
             edge.faces[slot] = face;
-            out.sides.push(Side {
+            out.sides.push(FaceEdge {
                 inward_direction: inward,
                 start: edge.start,
                 edge: number as u32,
@@ -117,7 +117,7 @@ fn add_outgoing_edges(out: &mut Polytope) {
     for (edge, number) in out.edges.iter().zip(0..) {
         let [start, end] = edge.ends;
         let spoke = |along, to| OutgoingEdge {
-            direction: along,
+            edge_direction: along,
             edge: number,
             end_vertex: to,
         };

@@ -1,6 +1,6 @@
 //! Checks that faces cover the boundary of a convex polytope, and cover each part of it exactly once.
 
-use super::{NO_FACE, Polytope, Side, unit};
+use super::{FaceEdge, NO_FACE, Polytope, unit_or_zero};
 use crate::tolerance::{CONVEXITY_TOLERANCE, COPLANARITY_TOLERANCE};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -52,7 +52,7 @@ impl ConvexityCheck<'_> {
         behind
             && (0..sides.len()).all(|k| {
                 let (here, next, over) = (at(k), at(k + 1), at(k + 2));
-                let inward = normal.cross(unit(next - here));
+                let inward = normal.cross(unit_or_zero(next - here));
                 // No triangle of the fan about the first corner is reversed.
                 let fan = (here - first).cross(next - first).dot(normal);
                 let longest = greater((here - first).length(), (next - first).length());
@@ -88,7 +88,7 @@ impl ConvexityCheck<'_> {
 fn face_width_lower_bound(polytope: &Polytope, face: u32) -> f64 {
     let sides = polytope.sides_of(face);
     let first = polytope.vertex(sides[0].vertex).point;
-    let arm = |side: &Side| polytope.vertex(side.vertex).point - first;
+    let arm = |side: &FaceEdge| polytope.vertex(side.vertex).point - first;
     let fan = sides
         .windows(2)
         .map(|two| 0.5 * arm(&two[0]).cross(arm(&two[1])).length());

@@ -87,7 +87,7 @@ impl Plane {
             sum = sum + one.cross(DoubleDoubleVector::difference(at(k + 1), at(0)));
         }
         let area = sum.value();
-        let normal = unit(area);
+        let normal = unit_or_zero(area);
         let sides =
             sides_of_loop(corners).map(|(v, w)| points[v as usize].distance(points[w as usize]));
         let (area, longest) = (0.5 * area.dot(normal), sides.fold(0.0, greater));
@@ -106,7 +106,7 @@ pub(crate) fn sides_of_loop(corners: &[u32]) -> impl Iterator<Item = (u32, u32)>
 }
 
 /// Returns the unit vector along `v`, or zero if `v` has no direction.
-pub(crate) fn unit(v: DVec3) -> DVec3 {
+pub(crate) fn unit_or_zero(v: DVec3) -> DVec3 {
     vector::unit(v).unwrap_or(DVec3::ZERO)
 }
 

@@ -24,7 +24,7 @@ fn assert_valid_polytope(polytope: &Polytope) {
     for (v, vertex) in (0..).zip(&polytope.vertices) {
         for spoke in polytope.outgoing_edges_of(v) {
             let offset = polytope.vertex(spoke.end_vertex).point - vertex.point;
-            assert!((offset - offset.length() * spoke.direction).length() <= slack);
+            assert!((offset - offset.length() * spoke.edge_direction).length() <= slack);
             assert!(polytope.edge(spoke.edge).ends.contains(&v));
         }
     }

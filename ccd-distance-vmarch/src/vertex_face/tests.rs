@@ -61,8 +61,8 @@ fn points_behind_the_face_are_local_minima(#[case] at: DVec3) {
     };
     let top = face_along(&cube(), DVec3::Z);
     assert_eq!(
-        (which, minimum.feature, minimum.other_face),
-        (WhichPolytope::X, Feature::Vertex(0), top)
+        (which, minimum.feature, minimum.other_polytope_face),
+        (WhichPolytope::PolytopeX, Feature::Vertex(0), top)
     );
 }
 

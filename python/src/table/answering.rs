@@ -56,7 +56,7 @@ pub(crate) fn answer(
     };
     let mut solver = parallel_solver(asked.thread_count, Solver::new);
     let (size, source) = (ChunkSize::new(solver.threads()), (reader, &columns));
-    let mut pieces = RowChunks::new(source, asked.question, IdReading::IdsSkipped, &size, stop)?;
+    let mut pieces = RowChunks::new(source, asked.question, IdReading::WithoutIds, &size, stop)?;
     let found = solver.map_iter(pieces.by_ref(), |solver, piece| {
         let start = Instant::now();
         let found = answer_rows(asked, &piece, &columns, solver, stop);

@@ -39,7 +39,7 @@ struct NumberColumn {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum IdReading {
     AsText,
-    IdsSkipped,
+    WithoutIds,
 }
 
 /// A row of a table, given by its batch and its index in the batch.
@@ -218,7 +218,7 @@ impl Record for Row {
     fn text(&self, _: usize) -> Option<String> {
         let id = self.batch.id_column.as_ref()?;
         let is_null = id.is_null(self.row_index) || id.data_type().is_null();
-        if self.batch.id_reading == IdReading::IdsSkipped || is_null {
+        if self.batch.id_reading == IdReading::WithoutIds || is_null {
             return None;
         }
         let options = FormatOptions::default();
@@ -297,7 +297,7 @@ impl PathRowReader {
     }
 
     /// Returns the batch with all of the rows.
-    pub(crate) fn batch(&self) -> Arc<Batch> {
+    pub(crate) fn row_batch(&self) -> Arc<Batch> {
         Arc::clone(&self.current_row.batch)
     }
 }

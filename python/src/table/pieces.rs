@@ -109,7 +109,7 @@ impl<'p> RowChunks<'p> {
         let source = if columns.is_path_table() {
             let rows =
                 PathRowReader::new(&read_whole_table(reader, stop).map_err(unreadable_error)?)?;
-            let batch = rows.batch();
+            let batch = rows.row_batch();
             RowSource::Paths(
                 Box::new(MovementRows::of(rows, question.path_grouping())?),
                 batch,

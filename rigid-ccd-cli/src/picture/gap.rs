@@ -66,7 +66,7 @@ impl GapOverTime {
 ///
 /// # Errors
 /// If the motions are out of range.
-pub fn gap_over_time(
+pub fn measure_gap_over_time(
     solver: &mut Solver,
     bodies: BodyPair<'_>,
     course: &Movements,
@@ -120,7 +120,7 @@ impl GapSampler<'_> {
             let point = self.measure(time)?;
             points.push(point);
             steps.push(time);
-            let ApproachBounds { speed, deviation } = self.approach_bounds(time, end)?;
+            let ApproachBounds { speed, deviation } = self.closing_speed_bounds(time, end)?;
             let next = time + (point.lower - deviation) / speed;
             // At a contact the steps become shorter than rounding.
             if !(point.lower > deviation && next > time && next < end) {
@@ -165,14 +165,15 @@ impl GapSampler<'_> {
         if !(time > 1e-6 * self.movements.duration()) {
             return Ok(0.0);
         }
-        let ApproachBounds { speed, deviation } = self.approach_bounds(before.time, after.time)?;
+        let ApproachBounds { speed, deviation } =
+            self.closing_speed_bounds(before.time, after.time)?;
         let least = 0.5 * (before.lower + after.lower - speed * time) - deviation;
         let most = greater(before.upper, after.upper);
         Ok(time * (most - greater(least, 0.0) + 1e-3 * most))
     }
 
     fn measure(&mut self, time: f64) -> Result<GapSample, InputError> {
-        let [a, b] = self.movements.poses(time)?;
+        let [a, b] = self.movements.poses_at(time)?;
         let answer = (self.solver).distance((self.bodies.a, a), (self.bodies.b, b))?;
         let closest = &answer.outcome;
         let (lower, upper) = (greater(closest.lower(), 0.0), closest.upper());
@@ -182,11 +183,11 @@ impl GapSampler<'_> {
 
     /// Bounds the closing speed of the bodies between two times, and how far their trajectories deviate from the motions that
     /// approximate them there.
-    fn approach_bounds(&self, from: f64, to: f64) -> Result<ApproachBounds, InputError> {
+    fn closing_speed_bounds(&self, from: f64, to: f64) -> Result<ApproachBounds, InputError> {
         let [a, b] = self.movements.trajectories();
         let (a, b) = (a.stretch_between(from, to)?, b.stretch_between(from, to)?);
         let [reach_a, reach_b] =
-            [(&a, self.bodies.a), (&b, self.bodies.b)].map(max_distance_from_centre);
+            [(&a, self.bodies.a), (&b, self.bodies.b)].map(max_distance_from_rotation_centre);
         let shift = (a.motion.velocity() - b.motion.velocity()).length();
         let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;
         let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
@@ -205,7 +206,8 @@ impl GapSampler<'_> {
         let mut line = Vec::new();
         for two in points.windows(2) {
             let [one, two] = [two[0], two[1]];
-            let ApproachBounds { speed, deviation } = self.approach_bounds(one.time, two.time)?;
+            let ApproachBounds { speed, deviation } =
+                self.closing_speed_bounds(one.time, two.time)?;
             let height = |point: GapSample| greater(point.lower - deviation, floor);
             let (left, right) = (height(one), height(two));
             line.push([one.time, left]);
@@ -229,6 +231,6 @@ impl GapSampler<'_> {
 }
 
 /// Bounds the distance of a body's points from the centre of rotation of a stretch's motion.
-fn max_distance_from_centre((stretch, body): (&Stretch, &Body)) -> f64 {
+fn max_distance_from_rotation_centre((stretch, body): (&Stretch, &Body)) -> f64 {
     body.bounding_radius() + stretch.motion.centre().length()
 }

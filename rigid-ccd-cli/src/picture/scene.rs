@@ -1,7 +1,7 @@
 //! Draws a scene of many bodies as a view of a page.
 
 use super::drawn::{drawn_mesh, feature_corners};
-use super::verdict::number;
+use super::verdict::format_rounded_down;
 use ccd_core::HitKind;
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, Feature, Motion};
@@ -79,7 +79,7 @@ pub(crate) fn scene_verdict(
         1 => "One body".to_owned(),
         count => format!("{count} bodies"),
     };
-    let end = format!("to the end at {}", number(duration));
+    let end = format!("to the end at {}", format_rounded_down(duration));
     let mut words = match hits.first() {
         None if contacts.is_empty() => format!("{all}, no contact, {end}. Proven."),
         None => format!("{all}, no contact found, {end}."),
@@ -88,7 +88,7 @@ pub(crate) fn scene_verdict(
             format!(
                 "{all}, {} in contact, {end}. The first at {}: {a} and {b}. Proven: no pair touches before its time.",
                 pair_count_text(hits.len()),
-                number(first.hit.time),
+                format_rounded_down(first.hit.time),
             )
         }
     };
@@ -128,7 +128,7 @@ fn contact(bodies: &[DrawnBody<'_>], impact: &Impact) -> ShownContact {
         feature_corners(shown.body, &pose, &feature, witness)
     };
     let when = match hit.kind {
-        HitKind::Contact(_) => number(hit.time),
+        HitKind::Contact(_) => format_rounded_down(hit.time),
         HitKind::Touching(_) => "at the start".to_owned(),
         HitKind::Overlapping(_) => "overlapping at the start".to_owned(),
     };

@@ -57,7 +57,7 @@ fn path(random: &mut impl Rng) -> Movements {
         id: "visit".to_owned(),
         a: poses(),
         b: poses(),
-        start: 4.0,
+        start_time: 4.0,
         end: 5.5,
         duration: 1.5,
     })
@@ -87,7 +87,7 @@ fn the_proven_line_is_under_the_gap_at_every_time() {
             1 => random_movements(&mut random, 2.0),
             _ => random_movements(&mut random, 40.0),
         };
-        let found = gap_over_time(&mut solver, BodyPair { a, b }, &course, 0.0).unwrap();
+        let found = measure_gap_over_time(&mut solver, BodyPair { a, b }, &course, 0.0).unwrap();
         let line = &found.gap.proven;
         assert!(
             line.windows(2).all(|two| two[0][0] <= two[1][0] + 1e-12),
@@ -98,7 +98,7 @@ fn the_proven_line_is_under_the_gap_at_every_time() {
         solver.set_settings(Settings::DEFAULT);
         for _ in 0..60 {
             let time = random.random_range(0.0..end);
-            let [pose_a, pose_b] = course.poses(time).unwrap();
+            let [pose_a, pose_b] = course.poses_at(time).unwrap();
             let answer = solver.distance((a, pose_a), (b, pose_b)).unwrap().outcome;
             let upper = match answer {
                 Outcome::Overlapping { upper, .. } => upper,
@@ -128,7 +128,7 @@ fn nothing_touches_before_the_last_step() {
         };
         let [a, b] = [k % 4, (k / 4) % 4].map(|k| &bodies[k]);
         let course = Movements::Motions(query.clone());
-        let found = gap_over_time(&mut solver, BodyPair { a, b }, &course, 0.0).unwrap();
+        let found = measure_gap_over_time(&mut solver, BodyPair { a, b }, &course, 0.0).unwrap();
         solver.set_settings(Settings::DEFAULT);
         let hit = solver
             .first_contact((a, query.a), (b, query.b), query.duration)
@@ -208,13 +208,13 @@ fn numbers_in_words_are_short_and_never_say_more_than_is_proven() {
         (2.5e7, "25000000"),
         (2.5e13, "2.500e13"),
     ] {
-        assert_eq!(verdict::number(value), text);
+        assert_eq!(verdict::format_rounded_down(value), text);
     }
     let mut random = Pcg64Mcg::seed_from_u64(9);
     for _ in 0..10_000 {
         let size = 10f64.powf(random.random_range(-12.0..12.0));
         let value = size * random.random_range(-1.0..1.0);
-        let read: f64 = verdict::number(value).parse().unwrap();
+        let read: f64 = verdict::format_rounded_down(value).parse().unwrap();
         assert!(
             read <= value && value - read <= 2e-3 * value.abs(),
             "{value} {read}"
@@ -241,9 +241,9 @@ fn keys_lead_where_the_engine_goes() {
         };
         for two in keys.windows(2) {
             let [from, to] = [0, 1].map(|n| two[n]["time"].as_f64().unwrap());
-            let start = way.poses(from).unwrap()[0].rotation();
+            let start = way.poses_at(from).unwrap()[0].rotation();
             for share in [0.2, 0.5, 0.9] {
-                let pose = way.poses(from + share * (to - from)).unwrap()[0];
+                let pose = way.poses_at(from + share * (to - from)).unwrap()[0];
                 let turned = DQuat::from_scaled_axis(share * vector(&two[0]["turn"])) * start;
                 let arm = DVec3::new(1.0, -2.0, 0.5);
                 let off = (turned * arm).distance(pose.rotation() * arm);

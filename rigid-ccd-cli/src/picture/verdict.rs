@@ -8,7 +8,7 @@ pub struct QueryContext {
     /// The meaning of the answer's time.
     pub time_meaning: TimeMeaning,
     /// The margin of the query, in the scene's unit of length.
-    pub margin: f64,
+    pub query_margin: f64,
     /// The required distance that the query's answer is compared with, if any.
     pub clearance: Option<f64>,
 }
@@ -38,10 +38,12 @@ pub(super) fn verdict(
     end: f64,
     proven: Option<f64>,
 ) -> String {
-    let time = row.time.map_or("an unknown time".to_owned(), number);
+    let time = row
+        .time
+        .map_or("an unknown time".to_owned(), format_rounded_down);
     let reason = row.reason.as_deref().unwrap_or("no reason given");
     let clearance = match asked.clearance {
-        Some(length) => format!("The clearance of {}", number(length)),
+        Some(length) => format!("The clearance of {}", format_rounded_down(length)),
         None => "The clearance".to_owned(),
     };
     match row.status {
@@ -50,7 +52,7 @@ pub(super) fn verdict(
         Status::Touching | Status::Overlapping => {
             let how = match row.status {
                 Status::Overlapping => "Overlapping",
-                _ if asked.margin > 0.0 => "Within the margin",
+                _ if asked.query_margin > 0.0 => "Within the margin",
                 _ => "In contact",
             };
             let (contact, after) = (describe_contact(row), describe_end_of_start_contact(row));
@@ -107,8 +109,8 @@ fn describe_end_of_start_contact(row: &ResultRow) -> String {
 
 /// Describes in words a contact that begins after the start.
 fn describe_contact_after_start(row: &ResultRow, asked: QueryContext, time: &str) -> String {
-    let margin = number(asked.margin);
-    let (first, at, before) = if asked.margin > 0.0 {
+    let margin = format_rounded_down(asked.query_margin);
+    let (first, at, before) = if asked.query_margin > 0.0 {
         (
             format!("First within the margin of {margin}"),
             format!("Within the margin of {margin}"),
@@ -144,11 +146,11 @@ fn describe_contact_after_start(row: &ResultRow, asked: QueryContext, time: &str
 }
 
 fn describe_free_bodies(asked: QueryContext, end: f64, proven: Option<f64>) -> String {
-    let end = number(end);
+    let end = format_rounded_down(end);
     match (asked.time_meaning, proven.filter(|gap| *gap > 0.0)) {
         (_, Some(gap)) => format!(
             "No contact, to the end at {end}. Proven: never nearer than {}.",
-            number(gap)
+            format_rounded_down(gap)
         ),
         (TimeMeaning::UncertifiedFirstContact, None) => {
             format!("No contact found, to the end at {end}. Not certified.")
@@ -197,11 +199,11 @@ fn describe_distance(row: &ResultRow) -> String {
         (Some(lower), Some(upper)) => {
             format!(
                 "between {} and {} apart",
-                number(lower),
+                format_rounded_down(lower),
                 number_rounded_up(upper)
             )
         }
-        (Some(lower), None) => format!("at least {} apart", number(lower)),
+        (Some(lower), None) => format!("at least {} apart", format_rounded_down(lower)),
         // One body is inside the other, and the bodies exceed their shapes.
         (None, Some(upper)) => format!("their shapes at most {} apart", number_rounded_up(upper)),
         _ => "at an unknown distance".to_owned(),
@@ -221,7 +223,7 @@ fn feature_in_words(name: &str) -> String {
 }
 
 /// Formats a number with at most six decimals, or four digits and an exponent, rounded down: the text is a lower bound.
-pub(super) fn number(value: f64) -> String {
+pub(super) fn format_rounded_down(value: f64) -> String {
     let text = number_with_few_digits(value);
     match text.parse::<f64>() {
         Ok(read) if value < read => number_with_few_digits(value - last_digit_value(value)),
@@ -229,7 +231,7 @@ pub(super) fn number(value: f64) -> String {
     }
 }
 
-/// Formats a number with as many digits as [`number`], rounded up: the text is an upper bound.
+/// Formats a number with as many digits as [`format_rounded_down`], rounded up: the text is an upper bound.
 fn number_rounded_up(value: f64) -> String {
     let text = number_with_few_digits(value);
     match text.parse::<f64>() {
@@ -247,7 +249,7 @@ fn number_with_few_digits(value: f64) -> String {
     }
 }
 
-/// Returns the value of one unit in the last digit that [`number`] writes.
+/// Returns the value of one unit in the last digit that [`format_rounded_down`] writes.
 fn last_digit_value(value: f64) -> f64 {
     if needs_no_exponent(value) {
         1e-6

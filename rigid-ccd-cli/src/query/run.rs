@@ -104,7 +104,7 @@ impl QueryRun<'_> {
             if let (Some(shown), Some(course)) = (&mut self.html_rows, course) {
                 shown.add_if_wanted(course, &row);
             }
-            self.outputs.results.row(&Line(&columns, &row))?;
+            self.outputs.results.add_row(&Line(&columns, &row))?;
             if let (Some(course), Ok(timed)) = (course, answer) {
                 answered.push((position, course, timed));
             }
@@ -132,7 +132,7 @@ impl QueryRun<'_> {
                 match rows {
                     Ok(rows) => {
                         for row in rows {
-                            table.row(&Line(&columns, &row))?;
+                            table.add_row(&Line(&columns, &row))?;
                         }
                     }
                     Err(error) => {

@@ -53,7 +53,7 @@ impl ClaimedFiles {
 impl OpenedTables {
     /// Creates the tables, or opens those of an earlier run with the same options.
     pub(crate) fn new(files: &RunFiles<'_>, places: ClaimedFiles, options: &str) -> Result<Self> {
-        let Some(results) = &places.results.claim else {
+        let Some(results) = &places.results.reserved_file else {
             let outputs = Outputs::create(files, places, options, None)?;
             return Ok(OpenedTables::Unfinished(Box::new(outputs), None));
         };
@@ -92,7 +92,7 @@ impl ClaimedFiles {
     ) -> Result<OpenedTables> {
         let left = self
             .results
-            .claim
+            .reserved_file
             .as_ref()
             .filter(|results| results.initial_length() > 0);
         match earlier.zip(left) {
@@ -136,7 +136,7 @@ impl ClaimedFiles {
 /// Renames a complete table to its final name, unless the table already has that name. Returns whether a file of that
 /// name exists.
 fn rename_complete_table(table: Output, written: LengthAndChecksum) -> Result<bool> {
-    let Some(mut claim) = table.claim else {
+    let Some(mut claim) = table.reserved_file else {
         return Ok(true);
     };
     let target = claim.target().to_owned();
@@ -144,7 +144,7 @@ fn rename_complete_table(table: Output, written: LengthAndChecksum) -> Result<bo
         if claim.initial_length() == written.bytes
             && measure_beginning(claim.file(), u64::MAX)?.length_and_checksum() == written
         {
-            claim.place()?;
+            claim.rename_to_target()?;
         }
         if !target.exists() {
             return Ok(None);
@@ -236,7 +236,7 @@ impl Outputs {
 
 /// Opens a table of an interrupted run, to append to it.
 fn resume_table(table: Output, written: LengthAndChecksum) -> Result<TableWriter> {
-    let Some(claim) = &table.claim else {
+    let Some(claim) = &table.reserved_file else {
         bail!("--resume needs files");
     };
     let partial = claim.partial_path().display().to_string();

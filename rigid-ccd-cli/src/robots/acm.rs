@@ -152,7 +152,7 @@ fn write_report(
                 configuration.map_or(String::new(), |positions| positions[joint].to_string())
             }));
         }
-        table.row(&cells)?;
+        table.add_row(&cells)?;
     }
     Ok(table.finish()?)
 }

@@ -149,7 +149,7 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
 }
 
 fn outcome(report: &Report<'_>) -> RunOutcome {
-    let has = |verdict| report.ranges.iter().any(|range| range.clearance == verdict);
+    let has = |verdict| report.ranges.iter().any(|range| range.verdict == verdict);
     if has(ClearanceVerdict::Violated) {
         RunOutcome::ClearanceViolated
     } else if has(ClearanceVerdict::Unverified) {

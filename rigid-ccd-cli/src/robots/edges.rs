@@ -167,7 +167,7 @@ impl EdgesRun<'_> {
             self.bad_rows.report(position, &problem, &self.progress);
         }
         row.micros = row.micros.filter(|_| !self.args.no_micros);
-        self.outputs.results.row(&Line(&self.columns, &row))
+        self.outputs.results.add_row(&Line(&self.columns, &row))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Positions of joints on the command line: `knee=-90deg:40deg` for a range, `hip=0.3` for one position.
 
-use crate::numbers::number;
+use crate::numbers::parse_finite;
 use std::str::FromStr;
 
 /// The positions between which a joint moves; both are the same for a joint at rest.
@@ -67,7 +67,7 @@ fn with_unit(text: &str, units: &[(&str, f64)]) -> Option<f64> {
         .iter()
         .find_map(|&(unit, per_one)| Some((text.strip_suffix(unit)?, per_one)));
     let (digits, per_one) = found.unwrap_or((text, 1.0));
-    Some(number(digits.trim())? / per_one)
+    Some(parse_finite(digits.trim())? / per_one)
 }
 
 #[cfg(test)]

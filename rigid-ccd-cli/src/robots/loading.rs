@@ -84,7 +84,7 @@ impl RobotArgs {
             MeshesArg::Hull => MeshConversion::OuterHull,
         };
         let urdf = Urdf::from_path(self.path())
-            .with_body_elements(elements)
+            .with_body_element_kind(elements)
             .with_mesh_conversion(meshes);
         // The last folder that is added is searched first.
         let folders = self.packages.iter().rev();

@@ -40,7 +40,7 @@ fn motions() -> impl Iterator<Item = Motion> {
 fn answers_are_the_same_bits_for_prepared_bodies() {
     let prepared = knot();
     for kind in SolverKind::all_sound() {
-        kind.prepare(&prepared);
+        kind.prepare_body(&prepared);
         // Each body has its own hulls and pieces, so nothing is prepared.
         let fresh = knot();
         for motion in motions().take(6) {

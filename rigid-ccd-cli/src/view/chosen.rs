@@ -47,7 +47,7 @@ impl ChosenRows {
         if row.status == Status::Error {
             if self.is_requested(&row.id) != Some(false) {
                 let reason = row.reason.as_deref().unwrap_or("not answered");
-                self.count_undrawable(format!("row {}: {reason}", row.id));
+                self.note_undrawable_row(format!("row {}: {reason}", row.id));
             }
         } else if wanted && !self.needs_no_more_rows() {
             self.rows.push((course.clone(), row.clone()));
@@ -75,7 +75,7 @@ impl ChosenRows {
     }
 
     /// Counts a row that cannot be drawn; `fault` is the message about it.
-    pub(super) fn count_undrawable(&mut self, fault: String) {
+    pub(super) fn note_undrawable_row(&mut self, fault: String) {
         self.undrawable_count += 1;
         self.first_fault.get_or_insert(fault);
     }

@@ -48,7 +48,13 @@ fn a_mesh_that_names_a_missing_vertex_is_refused_by_its_face() {
     form.push_triangles(corners, &[[0, 1, 2], [0, 1, 3]], 0..);
     let error = form.body().expect_err("refused");
     assert!(
-        matches!(error, ShapeError::Piece { number: 1, .. }),
+        matches!(
+            error,
+            ShapeError::Piece {
+                element_index: 1,
+                ..
+            }
+        ),
         "{error}"
     );
     let mut beside = ShapeGeometry::EMPTY;
@@ -58,7 +64,13 @@ fn a_mesh_that_names_a_missing_vertex_is_refused_by_its_face() {
     beside.push_hull_of_points([DVec3::ZERO], 1.0, 0);
     let error = beside.body().expect_err("refused");
     assert!(
-        matches!(error, ShapeError::Piece { number: 7, .. }),
+        matches!(
+            error,
+            ShapeError::Piece {
+                element_index: 7,
+                ..
+            }
+        ),
         "{error}"
     );
 }

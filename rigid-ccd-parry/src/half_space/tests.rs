@@ -77,7 +77,7 @@ fn normals_without_direction_are_refused() {
 fn the_horizon_ends_when_bodies_are_inside_or_away() {
     let plane = HalfSpace::new(DVec3::Y).expect("a normal");
     let ground = motion_with_extent([0.0; 3], [0.0; 3], [0.0; 3], 0.0);
-    let horizon = |body| plane.horizon(ground, body, 0.25, f64::INFINITY);
+    let horizon = |body| plane.query_duration(ground, body, 0.25, f64::INFINITY);
     let QueryDuration::WholeCast(falls) = horizon(motion_with_extent(
         [0.0, 3.0, 0.0],
         [5.0, -2.0, 0.0],
@@ -130,13 +130,13 @@ fn a_motion_that_may_be_along_a_tilted_plane_has_a_long_horizon() {
     let ground = motion_with_extent([0.0; 3], [0.0; 3], [0.0; 3], 0.0);
     // Rounding hides whether the body comes down.
     let along = motion_with_extent([3.0, 3.0, 3.0], [5.0, -2.0, -3.0], [0.0; 3], 1.0);
-    let horizon = plane.horizon(ground, along, 0.25, f64::INFINITY);
+    let horizon = plane.query_duration(ground, along, 0.25, f64::INFINITY);
     assert!(
         matches!(horizon, QueryDuration::PartOfCast(duration) if duration > 1e6),
         "{horizon:?}"
     );
     assert_eq!(
-        plane.horizon(ground, along, 0.25, 1e3),
+        plane.query_duration(ground, along, 0.25, 1e3),
         QueryDuration::WholeCast(1e3)
     );
 }

@@ -33,7 +33,7 @@ pub(super) fn least_overlap_direction(
             }
         }
     };
-    consider(b.middle() - a.middle());
+    consider(b.mean_point() - a.mean_point());
     a.face_normals
         .iter()
         .chain(&b.face_normals)
@@ -79,7 +79,7 @@ fn direction_between_ungrown_hulls(
 /// A piece with its points in the world frame.
 struct PlacedPiece {
     points: Vec<DVec3>,
-    radius: f64,
+    rounding_radius: f64,
     face_normals: Vec<DVec3>,
     edges: Vec<DVec3>,
 }
@@ -112,7 +112,7 @@ impl PlacedPiece {
         }
         PlacedPiece {
             points,
-            radius: piece.radius,
+            rounding_radius: piece.radius,
             face_normals: normals,
             edges,
         }
@@ -121,10 +121,10 @@ impl PlacedPiece {
     /// Returns the extent of the piece along a unit vector, measured from the origin.
     fn extent_along(&self, axis: DVec3) -> f64 {
         let heights = self.points.iter().map(|p| axis.dot(*p));
-        heights.fold(f64::NEG_INFINITY, crate::order::greater) + self.radius
+        heights.fold(f64::NEG_INFINITY, crate::order::greater) + self.rounding_radius
     }
 
-    fn middle(&self) -> DVec3 {
+    fn mean_point(&self) -> DVec3 {
         self.points.iter().sum::<DVec3>() / self.points.len() as f64
     }
 }

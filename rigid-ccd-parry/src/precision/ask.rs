@@ -1,7 +1,7 @@
 //! Converts parry's arguments to a cast in double precision.
 
 use super::CONTACT;
-use super::convert::{motion, point, pose_from_parry};
+use super::convert::{motion, point_from_parry, pose_from_parry};
 use super::hits::hit;
 use super::library::math::{Pose, Real, Vector};
 use super::library::query::{NonlinearRigidMotion, ShapeCastHit, ShapeCastOptions};
@@ -30,7 +30,7 @@ pub(super) fn linear_cast_from_arguments(
     options: &Options,
 ) -> Result<Option<Cast>, CastError> {
     let slides = |(at, velocity): (&Pose, Vector)| {
-        Motion::new(pose_from_parry(at)?, point(velocity), [0.0; 3])
+        Motion::new(pose_from_parry(at)?, point_from_parry(velocity), [0.0; 3])
     };
     let motions = CastError::motions_or_error(bodies.map(slides))?;
     let interval = [0.0, f64::from(asked.max_time_of_impact)];

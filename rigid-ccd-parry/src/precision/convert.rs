@@ -27,9 +27,9 @@ use ccd_core::{InputError, Motion, Pose};
 pub fn motion(motion: &NonlinearRigidMotion) -> Result<Motion, InputError> {
     Motion::about(
         pose_from_parry(&motion.start)?,
-        point(motion.linvel),
-        point(motion.angvel),
-        point(motion.local_center),
+        point_from_parry(motion.linvel),
+        point_from_parry(motion.angvel),
+        point_from_parry(motion.local_center),
     )
 }
 
@@ -37,11 +37,14 @@ pub fn motion(motion: &NonlinearRigidMotion) -> Result<Motion, InputError> {
 pub(super) fn pose_from_parry(pose: &ParryPose) -> Result<Pose, InputError> {
     let q = pose.rotation;
     let [x, y, z, w] = [q.x, q.y, q.z, q.w].map(f64::from);
-    Pose::new(point(pose.translation), DQuat::from_xyzw(x, y, z, w))
+    Pose::new(
+        point_from_parry(pose.translation),
+        DQuat::from_xyzw(x, y, z, w),
+    )
 }
 
 /// Converts a point or vector of parry to double precision.
-pub(super) fn point(v: Vector) -> DVec3 {
+pub(super) fn point_from_parry(v: Vector) -> DVec3 {
     DVec3::new(f64::from(v.x), f64::from(v.y), f64::from(v.z))
 }
 

@@ -1,6 +1,6 @@
 //! Converts parry's shapes to bodies.
 
-use super::convert::{point, pose_from_parry};
+use super::convert::{point_from_parry, pose_from_parry};
 use super::library::math::{IVector, Real};
 use super::library::shape::{
     Compound, Cone, ConvexPolyhedron, Cuboid, Cylinder, HalfSpace as ParryHalfSpace, HeightField,
@@ -57,7 +57,7 @@ pub(super) fn shape_geometry(
 
 /// Converts parry's half-space to this crate's, in double precision.
 pub(super) fn half_space(shape: &ParryHalfSpace) -> Result<HalfSpace, ShapeError> {
-    HalfSpace::new(point(shape.normal))
+    HalfSpace::new(point_from_parry(shape.normal))
 }
 
 /// Returns the geometry of a shape that is nested in `depth` compounds.
@@ -69,7 +69,7 @@ fn geometry_at_depth(
     let mut form = ShapeGeometry::EMPTY;
     match shape.as_typed_shape() {
         TypedShape::Ball(ball) => {
-            form.push_hull_of_points([DVec3::ZERO], size("radius", ball.radius)?, 0);
+            form.push_hull_of_points([DVec3::ZERO], checked_size("radius", ball.radius)?, 0);
         }
         TypedShape::Cuboid(cuboid) => push_cuboid(&mut form, cuboid, 0.0)?,
         TypedShape::RoundCuboid(round) => {
@@ -77,17 +77,21 @@ fn geometry_at_depth(
             push_cuboid(&mut form, &round.inner_shape, radius)?;
         }
         TypedShape::Capsule(capsule) => {
-            let ends = [capsule.segment.a, capsule.segment.b].map(point);
-            form.push_hull_of_points(ends, size("radius", capsule.radius)?, 0);
+            let ends = [capsule.segment.a, capsule.segment.b].map(point_from_parry);
+            form.push_hull_of_points(ends, checked_size("radius", capsule.radius)?, 0);
         }
         TypedShape::Segment(segment) => {
-            form.push_hull_of_points([segment.a, segment.b].map(point), 0.0, 0);
+            form.push_hull_of_points([segment.a, segment.b].map(point_from_parry), 0.0, 0);
         }
         TypedShape::Triangle(t) => {
-            form.push_triangles([t.a, t.b, t.c].map(point), &SINGLE_TRIANGLE_FACE, 0..);
+            form.push_triangles(
+                [t.a, t.b, t.c].map(point_from_parry),
+                &SINGLE_TRIANGLE_FACE,
+                0..,
+            );
         }
         TypedShape::RoundTriangle(round) => {
-            let corners = round.inner_shape.vertices().map(point);
+            let corners = round.inner_shape.vertices().map(point_from_parry);
             form.push_hull_of_points(corners, border_radius(round.border_radius)?, 0);
         }
         TypedShape::ConvexPolyhedron(polyhedron) => push_polyhedron(&mut form, polyhedron, 0.0),
@@ -96,7 +100,7 @@ fn geometry_at_depth(
             push_polyhedron(&mut form, &round.inner_shape, radius);
         }
         TypedShape::TriMesh(mesh) => {
-            let vertices = mesh.vertices().iter().copied().map(point);
+            let vertices = mesh.vertices().iter().copied().map(point_from_parry);
             form.push_triangles(vertices, mesh.indices(), 0..);
         }
         TypedShape::Polyline(line) => push_polyline(&mut form, line),
@@ -137,12 +141,12 @@ fn solid_of_revolution(
     half_height: Real,
     radius: Real,
 ) -> Result<SolidOfRevolution, ShapeError> {
-    let half_height = size("half height", half_height)?;
-    make(size("radius", radius)?, half_height).map_err(ShapeError::Body)
+    let half_height = checked_size("half height", half_height)?;
+    make(checked_size("radius", radius)?, half_height).map_err(ShapeError::Body)
 }
 
 fn push_cuboid(form: &mut ShapeGeometry, cuboid: &Cuboid, radius: f64) -> Result<(), ShapeError> {
-    let half = point(cuboid.half_extents);
+    let half = point_from_parry(cuboid.half_extents);
     for length in half.to_array() {
         check_size("half extent", length)?;
     }
@@ -159,7 +163,12 @@ fn push_polyhedron(form: &mut ShapeGeometry, polyhedron: &ConvexPolyhedron, radi
         (loop_of.len() >= 3).then(|| loop_of.to_vec())
     });
     let loops: Option<Vec<Vec<u32>>> = facets.collect();
-    let points = polyhedron.points().iter().copied().map(point).collect();
+    let points = polyhedron
+        .points()
+        .iter()
+        .copied()
+        .map(point_from_parry)
+        .collect();
     // Incomplete facets are useless.
     form.push_hull(points, radius, loops.unwrap_or_default(), 0);
 }
@@ -167,7 +176,8 @@ fn push_polyhedron(form: &mut ShapeGeometry, polyhedron: &ConvexPolyhedron, radi
 /// Adds the segments of a polyline to a geometry.
 fn push_polyline(form: &mut ShapeGeometry, line: &Polyline) {
     // A vertex that does not exist is refused as a point that is not finite.
-    let vertex = |v: u32| (line.vertices().get(v as usize)).map_or(DVec3::NAN, |v| point(*v));
+    let vertex =
+        |v: u32| (line.vertices().get(v as usize)).map_or(DVec3::NAN, |v| point_from_parry(*v));
     for (number, ends) in (0..).zip(line.indices()) {
         form.push_hull_of_points(ends.map(vertex), 0.0, number);
     }
@@ -186,7 +196,7 @@ fn push_height_field(form: &mut ShapeGeometry, field: &HeightField) {
             for (triangle, number) in [(left, number), (right, number + rows * columns)] {
                 if let Some(triangle) = triangle {
                     form.push_triangles(
-                        triangle.vertices().map(point),
+                        triangle.vertices().map(point_from_parry),
                         &SINGLE_TRIANGLE_FACE,
                         number as u32..,
                     );
@@ -198,7 +208,7 @@ fn push_height_field(form: &mut ShapeGeometry, field: &HeightField) {
 
 /// Adds the boxes of filled voxels to a geometry.
 fn push_voxels(form: &mut ShapeGeometry, voxels: &Voxels) -> Result<(), ShapeError> {
-    let edge = point(voxels.voxel_size());
+    let edge = point_from_parry(voxels.voxel_size());
     let [low, high] = voxels.domain();
     let near = |v: IVector| {
         [v.x, v.y, v.z]
@@ -247,10 +257,10 @@ fn push_compound(
 }
 
 fn border_radius(radius: Real) -> Result<f64, ShapeError> {
-    size("border radius", radius)
+    checked_size("border radius", radius)
 }
 
-fn size(what: &'static str, value: Real) -> Result<f64, ShapeError> {
+fn checked_size(what: &'static str, value: Real) -> Result<f64, ShapeError> {
     check_size(what, f64::from(value))
 }
 

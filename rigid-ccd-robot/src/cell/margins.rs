@@ -95,7 +95,8 @@ impl Cell {
     /// Returns the numbers of the bodies of a link, of an attached body, or of an obstacle.
     fn bodies_of(&self, item: Item<'_>) -> Vec<usize> {
         let all = 0..self.bodies.len();
-        all.filter(|&body| self.item(body) == item).collect()
+        all.filter(|&body| self.item_of_body(body) == item)
+            .collect()
     }
 }
 

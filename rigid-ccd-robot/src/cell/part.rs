@@ -1,6 +1,6 @@
 //! A convex hull around a body, in the frame in which the body rests.
 
-use crate::tuning::MIN_PIECES_TO_SPLIT;
+use crate::tuning::MIN_PIECES_FOR_TWO_HULLS;
 use ccd_core::fan_triangles;
 use ccd_core::order::greater;
 use ccd_core::{Body, Facet, FacetOrigin, Facets, Piece, Pieces, Polytope, Solidity, SupportMap};
@@ -32,7 +32,7 @@ pub(crate) struct Hull {
 
 /// A convex hull around some pieces of a body, in the frame in which the body rests.
 #[derive(Clone, Debug)]
-pub(crate) struct Part {
+pub(crate) struct HullPart {
     /// The number of the body in the cell.
     pub(crate) owner: usize,
     /// The number of the frame.
@@ -47,7 +47,7 @@ pub(crate) struct Part {
     /// Whether the grown hull is the body itself.
     pub(crate) is_convex: bool,
     /// By how much the body exceeds the shape that it encloses.
-    pub(crate) excess: f64,
+    pub(crate) excess_over_shape: f64,
     /// The centre and the half extents of the box along the frame's axes around the grown hull.
     pub(crate) centre: DVec3,
     pub(crate) half_extents: DVec3,
@@ -64,7 +64,7 @@ impl PlacedBody {
     pub(crate) fn new(body: Arc<Body>, pose: Pose, frame: usize, max_hulls: usize) -> Self {
         let body = match hull_surface_of_polytope(&body) {
             Some(surface) => Body::clone(&body)
-                .with_surface(surface)
+                .with_surface_triangles(surface)
                 .map_or(body, Arc::new),
             None => body,
         };
@@ -82,9 +82,9 @@ impl PlacedBody {
     }
 
     /// Returns the hulls as parts of a cell in which the body has the number `owner`.
-    pub(crate) fn parts(&self, owner: usize) -> Vec<Part> {
+    pub(crate) fn parts(&self, owner: usize) -> Vec<HullPart> {
         let hulls = self.hulls.iter();
-        hulls.map(|hull| Part::new(hull, self, owner)).collect()
+        hulls.map(|hull| HullPart::new(hull, self, owner)).collect()
     }
 }
 
@@ -133,7 +133,7 @@ fn hull_surface_of_polytope(body: &Body) -> Option<Body> {
     Body::with_hierarchy(&pieces, &hierarchy, Solidity::Solid).ok()
 }
 
-impl Part {
+impl HullPart {
     fn new(hull: &Arc<Hull>, placed: &PlacedBody, owner: usize) -> Self {
         let corners = hull.corners.iter();
         let points: Vec<DVec3> = corners
@@ -151,7 +151,7 @@ impl Part {
             .iter()
             .map(|point| point.distance(centre))
             .fold(0.0, greater);
-        Part {
+        HullPart {
             owner,
             frame: placed.frame,
             points,
@@ -159,7 +159,7 @@ impl Part {
             rotation: DMat3::from_quat(placed.pose.rotation()),
             radius,
             is_convex: placed.body.pieces().len() == 1,
-            excess: placed.body.excess(),
+            excess_over_shape: placed.body.excess(),
             centre,
             half_extents: 0.5 * (max - min) + DVec3::splat(radius),
             ball_radius: farthest + radius,
@@ -193,7 +193,7 @@ impl Part {
 
 /// Splits pieces at medians along the longest sides of their boxes, into at most `max_count` clusters.
 fn clusters(mut pieces: Vec<Piece<'_>>, max_count: usize) -> Vec<Vec<Piece<'_>>> {
-    if max_count < 2 || pieces.len() < MIN_PIECES_TO_SPLIT {
+    if max_count < 2 || pieces.len() < MIN_PIECES_FOR_TWO_HULLS {
         return vec![pieces];
     }
     let middle = |piece: &Piece<'_>| piece.points.iter().sum::<DVec3>() / piece.points.len() as f64;

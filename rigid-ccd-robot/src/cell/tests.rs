@@ -22,7 +22,7 @@ fn cart_cell() -> Cell {
             [1.0, 0.0, 0.0],
         )
         .unwrap(),
-        position_rule: PositionRule::Free,
+        position_rule: PositionRule::Independent,
     };
     let joints = vec![slide("rail", "cart", 0.0), slide("side", "post", 1.0)];
     let robot = Robot::new(links, joints).unwrap();

@@ -16,7 +16,7 @@ pub(crate) struct JointBox {
 impl JointBox {
     /// Returns the box of all positions of the joints that move two links against each other; `None` if a joint without
     /// limits does not come back to where it was after a turn.
-    pub(crate) fn between_links(cell: &Cell, links: [usize; 2]) -> Option<Self> {
+    pub(crate) fn of_joints_between(cell: &Cell, links: [usize; 2]) -> Option<Self> {
         let robot = cell.robot();
         let limits: Vec<[f64; 2]> = robot.limits().collect();
         let mut ranges: Vec<[f64; 2]> = limits

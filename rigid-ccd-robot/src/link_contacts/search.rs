@@ -54,7 +54,7 @@ impl<'c> PairSearch<'c> {
             touching_configuration: touching,
             apart_configuration: apart,
         };
-        let Some(all) = JointBox::between_links(self.cell, links) else {
+        let Some(all) = JointBox::of_joints_between(self.cell, links) else {
             return Ok(undecided(0.0, None, None));
         };
         if self.meet_on_hinge(links, &all)? {
@@ -165,7 +165,7 @@ impl<'c> PairSearch<'c> {
         };
         for pair in pairs {
             let thresholds = Thresholds {
-                min_free_distance: 0.0,
+                free_distance_threshold: 0.0,
                 near_distance: 0.0,
             };
             let found = measure(self.cell, &self.placement, pair, thresholds, false);

@@ -83,7 +83,7 @@ fn limits_decide_whether_a_hinge_meets_its_stop() {
             parent: "frame".into(),
             child: "leaf".into(),
             axis_and_limits: hinge.with_limits(joint_limit..=limit),
-            position_rule: PositionRule::Free,
+            position_rule: PositionRule::Independent,
         }];
         let robot = Robot::new(links, joints).unwrap();
         robot.classify_link_contacts(10_000).unwrap().remove(0).1
@@ -119,7 +119,7 @@ fn links_that_hold_their_hinge_always_touch() {
             parent: "base".into(),
             child: "arm".into(),
             axis_and_limits: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
-            position_rule: PositionRule::Free,
+            position_rule: PositionRule::Independent,
         }];
         let robot = Robot::new(links, joints).unwrap();
         robot.classify_link_contacts(2_000).unwrap().remove(0).1

@@ -14,7 +14,7 @@ fn robot() -> Robot {
         parent: parent.into(),
         child: child.into(),
         axis_and_limits: joint,
-        position_rule: PositionRule::Free,
+        position_rule: PositionRule::Independent,
     };
     let joints = vec![
         joint("base", "upper", hinge()),

@@ -16,7 +16,7 @@ fn joint(name: &str, parent: &str, child: &str, joint: trajectory::Joint) -> Joi
         parent: parent.into(),
         child: child.into(),
         axis_and_limits: joint,
-        position_rule: PositionRule::Free,
+        position_rule: PositionRule::Independent,
     }
 }
 
@@ -252,7 +252,7 @@ fn joints_that_follow_nothing_are_refused() {
         let joints = vec![b, joint("fixed", "link0", "link1", fixed)];
         let error = Robot::new(links(3), joints).unwrap_err();
         assert!(
-            matches!(error, RobotError::UnfollowableJoint { .. }),
+            matches!(error, RobotError::InvalidMimicJoint { .. }),
             "{followed}: {error}"
         );
     }

@@ -1,6 +1,6 @@
 //! The boxes of all obstacles, eight at once.
 
-use crate::cell::part::Part;
+use crate::cell::part::HullPart;
 use rigid_ccd::glam::DVec3;
 
 /// The number of boxes that are compared together.
@@ -21,7 +21,7 @@ struct Block {
 }
 
 impl ObstacleBoxes {
-    pub(crate) fn new(obstacles: &[Part]) -> Self {
+    pub(crate) fn new(obstacles: &[HullPart]) -> Self {
         let blocks = obstacles.chunks(LANES).map(|parts| {
             let mut block = Block {
                 min: [[f64::INFINITY; LANES]; 3],

@@ -15,7 +15,7 @@ pub struct ClearanceRange {
     pub to: PathPoint,
     /// Whether all pairs keep their distance everywhere in the range, or one of them is nearer everywhere in the range, or
     /// neither is proven.
-    pub clearance: ClearanceVerdict,
+    pub verdict: ClearanceVerdict,
 }
 
 /// How finely a path is examined, and how far the robot may be from it.
@@ -84,7 +84,7 @@ impl CellSolver<'_> {
     ///     parent: "rail".into(),
     ///     child: "ball".into(),
     ///     axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0])?,
-    ///     position_rule: PositionRule::Free,
+    ///     position_rule: PositionRule::Independent,
     /// };
     /// let ball = Link::named("ball").with_body(Body::sphere(0.5)?, Pose::IDENTITY);
     /// let robot = Robot::new(vec![Link::named("rail"), ball], vec![slider])?;
@@ -96,8 +96,8 @@ impl CellSolver<'_> {
     /// // The distance is 2 - x.
     /// let ranges = solver.clearance_ranges(&[[0.0], [2.0]], RangeSettings::DEFAULT)?;
     /// let [kept, unverified, violated] = ranges[..] else { panic!("{ranges:?}") };
-    /// assert_eq!(kept.clearance, ClearanceVerdict::Kept);
-    /// assert_eq!(violated.clearance, ClearanceVerdict::Violated);
+    /// assert_eq!(kept.verdict, ClearanceVerdict::Kept);
+    /// assert_eq!(violated.verdict, ClearanceVerdict::Violated);
     /// assert!(kept.to.share <= 0.5 && violated.from.share >= 0.5);
     /// assert!(violated.from.share - kept.to.share < 1e-3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -127,9 +127,9 @@ impl CellSolver<'_> {
         self.examine(self.search.whole_path_stretch(), resolution, &mut found)?;
         let segments = self.search.segment_count();
         let ranges = found.iter().map(|(from, to, clearance)| ClearanceRange {
-            from: PathPoint::from_segment_position(*from, segments),
-            to: PathPoint::from_segment_position(*to, segments),
-            clearance: *clearance,
+            from: PathPoint::from_path_position(*from, segments),
+            to: PathPoint::from_path_position(*to, segments),
+            verdict: *clearance,
         });
         Ok(ranges.collect())
     }
@@ -165,7 +165,7 @@ impl CellSolver<'_> {
     }
 
     fn is_clearance_kept(&mut self, stretch: Stretch) -> Result<bool, Error> {
-        self.search.answer(Question::AnyContact, stretch)?;
+        self.search.answer_question(Question::AnyContact, stretch)?;
         let found = &self.search.result;
         Ok(found.nearest.is_none() && found.limit_reached.is_none())
     }

@@ -6,7 +6,7 @@
 //! distances from axes in the middle of the stretch are needed.
 
 use super::kinematics::Kinematics;
-use crate::cell::part::Part;
+use crate::cell::part::HullPart;
 use rigid_ccd::oracle::Frame;
 
 /// The factor by which bounds are rounded up: they are sums and products of a few values for each joint, of which there
@@ -24,7 +24,7 @@ pub(crate) struct DisplacementBounds {
 }
 
 impl DisplacementBounds {
-    pub(crate) fn new(kinematics: &Kinematics, parts: &[Part]) -> Self {
+    pub(crate) fn new(kinematics: &Kinematics, parts: &[HullPart]) -> Self {
         let mut all = DisplacementBounds::default();
         for part in parts {
             all.joint_start_by_part.push(all.joints.len());
@@ -74,7 +74,7 @@ impl DisplacementBounds {
     pub(crate) fn update(
         &mut self,
         kinematics: &Kinematics,
-        parts: &[Part],
+        parts: &[HullPart],
         frames: &[Frame],
         deviations: &[f64],
         rounding: f64,

@@ -57,11 +57,12 @@ impl<'c> CellSolver<'c> {
     }
 
     fn distance_range(&mut self, stretch: Stretch) -> Result<DistanceRange<'c>, PathError> {
-        self.search.answer(Question::ClosestApproach, stretch)?;
+        self.search
+            .answer_question(Question::ClosestApproach, stretch)?;
         let segments = self.search.segment_count();
         Ok(DistanceRange {
-            from: PathPoint::from_segment_position(stretch.from, segments),
-            to: PathPoint::from_segment_position(stretch.to, segments),
+            from: PathPoint::from_path_position(stretch.from, segments),
+            to: PathPoint::from_path_position(stretch.to, segments),
             closest: self.found_approach()?,
         })
     }

@@ -4,7 +4,7 @@ use super::Question;
 use super::open_pairs::OpenPair;
 use super::part_pairs::{PartPair, sort_by_proof_distance};
 use super::search::Search;
-use super::stretch::Step;
+use super::stretch::StepResult;
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd::{Answer, Error, Outcome, Settings};
@@ -12,7 +12,7 @@ use std::ops::ControlFlow::{self, Break, Continue};
 
 impl Search<'_> {
     /// Asks the engine whether one of the suspects is in contact in the middle of a stretch.
-    pub(super) fn check_suspects(&mut self, at: f64) -> Step {
+    pub(super) fn check_suspects(&mut self, at: f64) -> StepResult {
         if self.near_nonconvex_pairs.is_empty() {
             return Ok(Continue(()));
         }
@@ -35,12 +35,12 @@ impl Search<'_> {
         step
     }
 
-    fn check_suspect(&mut self, pair: &PartPair, bodies: [usize; 2], at: f64) -> Step {
+    fn check_suspect(&mut self, pair: &PartPair, bodies: [usize; 2], at: f64) -> StepResult {
         let question = match self.question {
             Question::FirstContact => Question::AnyContact,
             other => other,
         };
-        let open = OpenPair::open_at_point(*pair, bodies, at);
+        let open = OpenPair::new_at_point(*pair, bodies, at);
         let answer = self.ask(question, &open, None)?;
         if question == Question::ClosestApproach {
             return Ok(self.record_distance(&open, &answer.outcome));
@@ -106,7 +106,7 @@ impl Search<'_> {
     }
 
     /// Measures the least distance of an open pair, if it may be less than what is found.
-    fn measure_least_distance(&mut self, open: &OpenPair) -> Step {
+    fn measure_least_distance(&mut self, open: &OpenPair) -> StepResult {
         let least = self.result.distance_upper_bound - self.settings.tolerance;
         // Written so that NaN is measured.
         if least <= 0.0 {

@@ -14,7 +14,7 @@ pub(crate) struct Kinematics {
     /// For each link, the frame in which it rests, and its pose there.
     links: Vec<(usize, Pose)>,
     /// For each joint of the robot, its number among those that move; `None` for a fixed one.
-    numbers: Vec<Option<usize>>,
+    moving_joint_numbers: Vec<Option<usize>>,
     /// The sum of the distances of all joints from the frames that hold them.
     pub(crate) arm_length_sum: f64,
     /// The number of all joints, fixed ones included.
@@ -46,7 +46,7 @@ impl Kinematics {
         let mut links = vec![(0, Pose::IDENTITY); robot.links().len()];
         let mut numbers = vec![None; robot.joints().len()];
         let mut arms = 0.0;
-        for (link, parent, joint) in robot.joints_from_base() {
+        for (link, parent, joint) in robot.joints_parents_first() {
             arms += robot.joints()[joint]
                 .axis_and_limits
                 .origin()
@@ -70,7 +70,7 @@ impl Kinematics {
         Kinematics {
             joints,
             links,
-            numbers,
+            moving_joint_numbers: numbers,
             arm_length_sum: arms,
             total_joint_count: robot.joints().len(),
         }
@@ -81,13 +81,13 @@ impl Kinematics {
     }
 
     /// Returns the frame in which a link rests, and its pose there.
-    pub(crate) fn link(&self, link: usize) -> (usize, Pose) {
+    pub(crate) fn link_frame_and_pose(&self, link: usize) -> (usize, Pose) {
         self.links[link]
     }
 
     /// Returns the number of a joint of the robot among those that move; `None` for a fixed one.
     pub(crate) fn moving_joint_index(&self, joint: usize) -> Option<usize> {
-        self.numbers[joint]
+        self.moving_joint_numbers[joint]
     }
 
     /// Returns the nearest frame from which two frames move.

@@ -3,7 +3,7 @@
 use super::part_pairs::PartPair;
 use super::placement::Placement;
 use crate::cell::Cell;
-use crate::cell::part::Part;
+use crate::cell::part::HullPart;
 use crate::tuning::{MIN_BOX_TEST_DISPLACEMENT, MIN_SQUARED_OFFSET};
 use ccd_distance_gjk::{TerminationBounds, Vertex, bound_distance};
 use rigid_ccd::glam::DVec3;
@@ -13,7 +13,7 @@ use rigid_ccd::oracle::Frame;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Thresholds {
     /// A pair is free that stays farther apart than this over the whole stretch.
-    pub(crate) min_free_distance: f64,
+    pub(crate) free_distance_threshold: f64,
     /// A pair is near that is at most so far apart in the middle.
     pub(crate) near_distance: f64,
 }
@@ -49,7 +49,7 @@ pub(crate) fn measure(
         frames[1].transform_point(b.centre),
     ];
     let gap = volume_gap_at_centres([a, b], &frames[0], centres, is_obstacle);
-    let required = displacement + thresholds.min_free_distance + rounding;
+    let required = displacement + thresholds.free_distance_threshold + rounding;
     if gap > required {
         return DistanceVerdict::Free;
     }
@@ -65,7 +65,7 @@ pub(crate) fn measure(
     let radii = a.radius + b.radius;
     let until = TerminationBounds {
         sufficient_lower_bound: required + radii,
-        upper: thresholds.near_distance - rounding + radii,
+        sufficient_upper_bound: thresholds.near_distance - rounding + radii,
     };
     let bounds = bound_distance(
         #[inline(always)]
@@ -79,8 +79,8 @@ pub(crate) fn measure(
     pair.axis = bounds.axis;
     pair.distance_to_proof_ratio = (bounds.lower - radii) / required;
     // The shapes that both bodies enclose may be farther apart.
-    let upper = bounds.upper - radii + rounding + a.excess + b.excess;
-    if bounds.upper <= until.upper {
+    let upper = bounds.upper - radii + rounding + a.excess_over_shape + b.excess_over_shape;
+    if bounds.upper <= until.sufficient_upper_bound {
         DistanceVerdict::Near
     } else {
         DistanceVerdict::Undecided(upper)
@@ -104,7 +104,7 @@ pub(crate) fn bounding_volume_gap(cell: &Cell, placement: &Placement, pair: &Par
 /// robot.
 #[inline(always)]
 fn volume_gap_at_centres(
-    [a, b]: [&Part; 2],
+    [a, b]: [&HullPart; 2],
     frame_a: &Frame,
     centres: [DVec3; 2],
     is_obstacle: bool,
@@ -121,7 +121,7 @@ fn volume_gap_at_centres(
 /// Returns the first direction in which a pair is measured: to the nearest point of an obstacle's box, or between centres.
 #[inline(always)]
 pub(super) fn initial_direction(
-    b: &Part,
+    b: &HullPart,
     [centre_a, centre_b]: [DVec3; 2],
     is_obstacle: bool,
 ) -> DVec3 {
@@ -138,7 +138,7 @@ pub(super) fn initial_direction(
 /// Returns the vertex of the Minkowski difference of two hulls with the least height along a direction.
 #[inline(always)]
 pub(super) fn minkowski_support_vertex(
-    [a, b]: [&Part; 2],
+    [a, b]: [&HullPart; 2],
     frames: &[Frame; 2],
     direction: DVec3,
 ) -> Vertex {

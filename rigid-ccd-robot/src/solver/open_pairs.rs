@@ -22,7 +22,7 @@ pub(crate) struct UndecidedPairs(Vec<OpenPair>);
 
 impl OpenPair {
     /// Creates a pair that is undecided at one point of the path.
-    pub(crate) fn open_at_point(pair: PartPair, bodies: [usize; 2], at: f64) -> Self {
+    pub(crate) fn new_at_point(pair: PartPair, bodies: [usize; 2], at: f64) -> Self {
         OpenPair {
             pair,
             bodies,

@@ -4,7 +4,7 @@ use super::boxes::ObstacleBoxes;
 use super::displacement::DisplacementBounds;
 use super::placement::Placement;
 use crate::cell::Cell;
-use crate::cell::part::Part;
+use crate::cell::part::HullPart;
 use rigid_ccd::glam::DVec3;
 
 /// A pair of parts that may touch in a stretch of the path, with what is known of it so far.
@@ -71,13 +71,13 @@ impl PartPair {
     }
 
     /// Returns whether both parts are the bodies themselves.
-    pub(crate) fn is_convex(&self, parts: &[Part]) -> bool {
+    pub(crate) fn is_convex(&self, parts: &[HullPart]) -> bool {
         let mut both = [self.a, self.b].into_iter();
         both.all(|part| parts[part as usize].is_convex)
     }
 
     /// Returns the numbers in the cell of the bodies to which the parts belong.
-    pub(crate) fn body_numbers(&self, parts: &[Part]) -> [usize; 2] {
+    pub(crate) fn body_numbers(&self, parts: &[HullPart]) -> [usize; 2] {
         [self.a, self.b].map(|part| parts[part as usize].owner)
     }
 }

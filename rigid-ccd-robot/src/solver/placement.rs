@@ -42,7 +42,11 @@ impl Placement {
     #[inline(always)]
     pub(crate) fn place(&mut self, cell: &Cell, path: &Waypoints, stretch: &Stretch) {
         self.place_frames(cell, path, stretch.middle());
-        path.max_joint_deviations(stretch, &self.positions, &mut self.max_deviation_by_joint);
+        path.max_joint_deviations_from_middle(
+            stretch,
+            &self.positions,
+            &mut self.max_deviation_by_joint,
+        );
         self.update_displacements(cell);
     }
 

@@ -1,7 +1,7 @@
 //! The rounding of poses that are computed along an edge.
 
 use super::kinematics::Kinematics;
-use crate::cell::part::Part;
+use crate::cell::part::HullPart;
 use ccd_core::order::greater;
 
 /// Half the distance of 1 to the next number.
@@ -22,7 +22,7 @@ const POSITION_ERROR_ULPS: f64 = 16.0;
 /// themselves. The positions of the moving joints are computed from numbers of at most `positions`.
 pub(crate) fn point_error_bound(
     kinematics: &Kinematics,
-    parts: &[Part],
+    parts: &[HullPart],
     positions: impl Iterator<Item = f64>,
 ) -> f64 {
     let joints = kinematics.joints();

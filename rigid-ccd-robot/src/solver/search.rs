@@ -10,7 +10,7 @@ use super::measure::{DistanceVerdict, Thresholds, bounding_volume_gap, measure};
 use super::open_pairs::UndecidedPairs;
 use super::part_pairs::{PartPair, PartPairs, sort_by_proof_distance};
 use super::placement::Placement;
-use super::stretch::{Step, Stretch};
+use super::stretch::{StepResult, Stretch};
 use super::time_limit::StopCondition;
 use super::waypoints::Waypoints;
 use crate::cell::Cell;
@@ -130,7 +130,11 @@ impl<'c> Search<'c> {
     }
 
     /// Answers a question about a stretch of the path; the answer is in `result`.
-    pub(crate) fn answer(&mut self, question: Question, stretch: Stretch) -> Result<(), Error> {
+    pub(crate) fn answer_question(
+        &mut self,
+        question: Question,
+        stretch: Stretch,
+    ) -> Result<(), Error> {
         self.question = question;
         self.result = SearchResult::NOTHING_FOUND;
         self.candidates.clear();
@@ -154,7 +158,7 @@ impl<'c> Search<'c> {
 
     /// Searches a stretch of the path among the given candidate pairs, or among all pairs if there are none. Pairs that
     /// stay open are left to the engine.
-    fn search(&mut self, stretch: Stretch, among: Option<Range<usize>>) -> Step {
+    fn search(&mut self, stretch: Stretch, among: Option<Range<usize>>) -> StepResult {
         if stretch.from >= self.result.end {
             return Ok(Continue(()));
         }
@@ -245,12 +249,12 @@ impl<'c> Search<'c> {
         let tolerance = self.settings.tolerance;
         match self.question {
             Question::AnyContact | Question::FirstContact => Thresholds {
-                min_free_distance: pair.margin,
+                free_distance_threshold: pair.margin,
                 near_distance: pair.margin + tolerance,
             },
             // Touching hulls end the search; others are measured exactly.
             Question::ClosestApproach => Thresholds {
-                min_free_distance: self.result.distance_upper_bound - tolerance,
+                free_distance_threshold: self.result.distance_upper_bound - tolerance,
                 near_distance: 0.0,
             },
         }
@@ -311,7 +315,7 @@ impl<'c> Search<'c> {
         self.result.nearest = Some((at, *pair));
         let parts = self.cell.parts();
         self.result.distance_upper_bound =
-            parts[pair.a as usize].excess + parts[pair.b as usize].excess;
+            parts[pair.a as usize].excess_over_shape + parts[pair.b as usize].excess_over_shape;
         self.result.lower = 0.0;
         self.result.end = at;
         match self.question {

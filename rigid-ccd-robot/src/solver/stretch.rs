@@ -31,7 +31,7 @@ impl PathPoint {
     }
 
     /// Converts a number of segments; the end of a path belongs to its last segment.
-    pub(crate) fn from_segment_position(at: f64, segments: usize) -> Self {
+    pub(crate) fn from_path_position(at: f64, segments: usize) -> Self {
         let segment = (at as usize).min(segments.saturating_sub(1));
         PathPoint {
             segment,
@@ -74,4 +74,4 @@ impl Stretch {
 }
 
 /// The result of a step of a search: an error of the engine, or whether the search goes on.
-pub(crate) type Step = Result<std::ops::ControlFlow<()>, Error>;
+pub(crate) type StepResult = Result<std::ops::ControlFlow<()>, Error>;

@@ -53,7 +53,7 @@ pub(crate) fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
             let body = (&*held.body, poses[number].compose(&held.pose));
             for obstacle in &cell.bodies()[cell.robot_body_count()..] {
                 // A body on the base never moves, and is not compared with obstacles.
-                if cell.kinematics().link(number).0 > 0 {
+                if cell.kinematics().link_frame_and_pose(number).0 > 0 {
                     measure(body, (&*obstacle.body, obstacle.pose));
                 }
             }

@@ -80,7 +80,7 @@ pub(crate) fn are_convex_parts_nearer(
     let frames = parts.map(|part| placement.frames[part.frame]);
     let [a, b] = parts;
     // The distance of the points, by whose hulls parts are described, for the shapes that the parts enclose.
-    let distance = distance + a.radius + b.radius - a.excess - b.excess;
+    let distance = distance + a.radius + b.radius - a.excess_over_shape - b.excess_over_shape;
     let centres = [
         frames[0].transform_point(a.centre),
         frames[1].transform_point(b.centre),
@@ -91,7 +91,7 @@ pub(crate) fn are_convex_parts_nearer(
     if distance > 0.0 {
         let until = TerminationBounds {
             sufficient_lower_bound: distance,
-            upper: 0.5 * distance,
+            sufficient_upper_bound: 0.5 * distance,
         };
         bound_distance(vertex, axis, until).upper < distance
     } else {
@@ -118,7 +118,7 @@ fn contains_ball(support: impl Fn(DVec3) -> DVec3, radius: f64) -> bool {
         points.push(point);
     }
     while points.len() <= MAX_HULL_POINTS {
-        let Some((normal, height)) = lowest_facet(&points) else {
+        let Some((normal, height)) = facet_nearest_origin(&points) else {
             return false;
         };
         if height > radius {
@@ -148,7 +148,7 @@ fn first_directions() -> impl Iterator<Item = DVec3> {
 
 /// Returns the outer unit normal of the facet of the hull of points that is nearest to the origin, or farthest on the wrong
 /// side, with a lower bound of its height over the origin; `None` for points without a volume.
-fn lowest_facet(points: &[DVec3]) -> Option<(DVec3, f64)> {
+fn facet_nearest_origin(points: &[DVec3]) -> Option<(DVec3, f64)> {
     let hull = ccd_decomp::convex_hull(points).ok()?;
     if hull.facets.iter().count() < 4 {
         return None;

@@ -49,7 +49,7 @@ impl Waypoints {
     /// Computes the positions of all joints at a point of the path.
     #[inline(always)]
     pub(crate) fn interpolate(&self, at: f64, positions: &mut Vec<f64>) {
-        let segment = PathPoint::from_segment_position(at, self.segment_count()).segment;
+        let segment = PathPoint::from_path_position(at, self.segment_count()).segment;
         self.interpolate_in_segment(segment, at, positions);
     }
 
@@ -69,7 +69,7 @@ impl Waypoints {
 
     /// Computes how far each joint is at most from its position in the middle of a stretch, at any point of the stretch.
     #[inline(always)]
-    pub(crate) fn max_joint_deviations(
+    pub(crate) fn max_joint_deviations_from_middle(
         &self,
         stretch: &Stretch,
         positions: &[f64],
@@ -81,8 +81,7 @@ impl Waypoints {
         } else if stretch.is_within_segment() {
             // The middle is at the same distance from both ends.
             let half = 0.5 * (stretch.to - stretch.from);
-            let segment =
-                PathPoint::from_segment_position(stretch.from, self.segment_count()).segment;
+            let segment = PathPoint::from_path_position(stretch.from, self.segment_count()).segment;
             let ends = self.at(segment).iter().zip(self.at(segment + 1));
             deviations.extend(ends.map(|(from, to)| half * (to - from).abs()));
         } else {

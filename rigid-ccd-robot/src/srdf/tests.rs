@@ -48,7 +48,7 @@ fn proven_pairs_are_written_and_read() {
         parent: parent.into(),
         child: child.into(),
         axis_and_limits: joint,
-        position_rule: PositionRule::Free,
+        position_rule: PositionRule::Independent,
     };
     let fixed = || trajectory::Joint::fixed(rigid_ccd::Pose::IDENTITY);
     let slide = trajectory::Joint::prismatic(rigid_ccd::Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();

@@ -24,7 +24,7 @@ pub enum MeshConversion {
 /// Makes bodies of shapes and meshes; a mesh that occurs several times becomes one shared body.
 pub(super) struct BodyReader<'p> {
     search_folders: &'p SearchFolders,
-    mesh_model: MeshConversion,
+    mesh_conversion: MeshConversion,
     bodies_by_mesh: RefCell<HashMap<MeshKey, Arc<Body>>>,
 }
 
@@ -35,7 +35,7 @@ impl<'p> BodyReader<'p> {
     pub(super) fn new(packages: &'p SearchFolders, model: MeshConversion) -> Self {
         BodyReader {
             search_folders: packages,
-            mesh_model: model,
+            mesh_conversion: model,
             bodies_by_mesh: RefCell::default(),
         }
     }
@@ -66,7 +66,7 @@ impl<'p> BodyReader<'p> {
             return Ok(Arc::clone(body));
         }
         let mesh = TriangleMesh::read(&file)?.transformed(DAffine3::from_scale(scale))?;
-        let detail = match self.mesh_model {
+        let detail = match self.mesh_conversion {
             MeshConversion::Exact => Detail::Auto,
             MeshConversion::OuterHull => Detail::OuterHull,
         };

@@ -70,7 +70,7 @@ pub enum UrdfError {
     },
     /// A shape, a pose or an axis is not valid.
     #[error(transparent)]
-    InvalidGeometry(#[from] InputError),
+    InvalidElement(#[from] InputError),
     /// The links and joints do not make a robot, for example because joints form a loop.
     #[error(transparent)]
     Robot(#[from] RobotError),

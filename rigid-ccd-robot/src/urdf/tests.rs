@@ -92,7 +92,7 @@ fn a_mesh_is_made_once_and_mirrored_as_a_solid() {
 #[test]
 fn visuals_are_a_choice() {
     let robot = urdf_in_folder(&write_robot_folder(JOINTS_XML))
-        .with_body_elements(BodyElements::Visual)
+        .with_body_element_kind(BodyElements::Visual)
         .read()
         .unwrap();
     let counts: Vec<usize> = robot.links().iter().map(|link| link.bodies.len()).collect();

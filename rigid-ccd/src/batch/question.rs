@@ -53,7 +53,7 @@ impl Question {
     /// Returns which rows of a table of paths this question treats as one path.
     pub fn path_grouping(self) -> Grouping {
         match self {
-            Question::Distance => Grouping::EachRow,
+            Question::Distance => Grouping::QueryPerRow,
             _ => Grouping::ById,
         }
     }

@@ -94,7 +94,7 @@ impl Event {
     }
 
     /// Returns whether the event is an overlap at the start.
-    pub(super) fn overlaps(&self) -> bool {
+    pub(super) fn is_start_overlap(&self) -> bool {
         matches!(&self.what, EventKind::Hit(hit) if matches!(hit.kind, HitKind::Overlapping(_)))
     }
 

@@ -40,7 +40,7 @@ impl<'r, 'a> PairQueue<'r, 'a> {
         let entry = |&pair| QueueEntry {
             time: 0.0,
             pair,
-            what: None,
+            item: None,
         };
         PairQueue {
             query,
@@ -91,7 +91,7 @@ impl WorkerMemory {
             let QueueEntry {
                 time,
                 pair,
-                what: search,
+                item: search,
             } = entry;
             let limit = pair_queue.goal.last_useful_time(pair);
             // A later event does not matter to the goal.
@@ -110,7 +110,7 @@ impl WorkerMemory {
                     pair_queue.waiting_pairs().push(QueueEntry {
                         time,
                         pair,
-                        what: Some(search),
+                        item: Some(search),
                     });
                     continue;
                 }

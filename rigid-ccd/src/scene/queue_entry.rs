@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 pub(super) struct QueueEntry<T> {
     pub(super) time: f64,
     pub(super) pair: [usize; 2],
-    pub(super) what: T,
+    pub(super) item: T,
 }
 
 impl<T> Ord for QueueEntry<T> {

@@ -159,14 +159,14 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         let mut coming = BinaryHeap::new();
         for event in events {
             let [a, b] = event.bodies;
-            if event.overlaps() {
+            if event.is_start_overlap() {
                 self.partners_by_body[a].retain(|&other| other != b);
                 self.partners_by_body[b].retain(|&other| other != a);
             } else {
                 coming.push(self.future_contact_from_event(event, 0.0));
             }
         }
-        while let Some(FutureContact { what, .. }) = coming.pop() {
+        while let Some(FutureContact { item: what, .. }) = coming.pop() {
             let (event, moving) = what;
             // If one of the bodies stopped in the meantime, the pair was examined again then.
             if event.bodies.map(|index| self.moves(index)) != moving {
@@ -229,13 +229,13 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         FutureContact {
             time: event.time,
             pair: event.bodies,
-            what: (event, moving),
+            item: (event, moving),
         }
     }
 
     fn answer(&mut self, time: f64, bodies: [usize; 2]) -> Result<Answer, InputError> {
         let shifted = bodies.map(|index| TimeShiftedTrajectory {
-            inner: self.scene.members[index].movement,
+            unshifted_movement: self.scene.members[index].movement,
             from: time,
         });
         let [a, b] = [0, 1].map(|k| self.movement_from(&shifted[k], bodies[k]));
@@ -262,9 +262,14 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         index: usize,
     ) -> Result<Movement<'r>, InputError> {
         if !self.moves(index) {
-            return Ok(Motion::still(shifted.inner.pose(self.stop_by_body[index].time)?).into());
+            return Ok(Motion::still(
+                shifted
+                    .unshifted_movement
+                    .pose(self.stop_by_body[index].time)?,
+            )
+            .into());
         }
-        let Movement::Motion(motion) = shifted.inner else {
+        let Movement::Motion(motion) = shifted.unshifted_movement else {
             return Ok(shifted.into());
         };
         let [velocity, spin] = [motion.velocity(), motion.spin()];

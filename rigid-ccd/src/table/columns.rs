@@ -162,7 +162,7 @@ impl Columns {
         if let Some(number) = number_in_header(header, &names) {
             let known = form.known_columns_text();
             return Err(TableError::NoHeader {
-                first_number: number,
+                first_number_in_header: number,
                 known_columns: known,
             });
         }

@@ -46,7 +46,7 @@ impl Movements {
 
     /// Returns the table's time that corresponds to the query's time 0.
     pub fn start_time(&self) -> f64 {
-        self.path().map_or(0.0, |path| path.start)
+        self.path().map_or(0.0, |path| path.start_time)
     }
 
     /// Returns the trajectories of both bodies.
@@ -61,7 +61,7 @@ impl Movements {
     ///
     /// # Errors
     /// A pose is out of range.
-    pub fn poses(&self, time: f64) -> Result<[Pose; 2], InputError> {
+    pub fn poses_at(&self, time: f64) -> Result<[Pose; 2], InputError> {
         match self {
             Movements::Motions(query) => Ok([query.a.pose(time), query.b.pose(time)]),
             Movements::Path(path) => path.poses_at(time),

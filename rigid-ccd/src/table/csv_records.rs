@@ -68,7 +68,9 @@ impl<R: Read> Records for CsvRecords<R> {
 
     fn header(&self) -> Result<Vec<String>, TableError> {
         if let Some(format) = foreign::format(&self.raw_record) {
-            return Err(TableError::NotCsv { format });
+            return Err(TableError::NotCsv {
+                other_format: format,
+            });
         }
         if foreign::is_lfs_pointer(&self.raw_record) {
             return Err(TableError::LfsPointer);
@@ -85,7 +87,7 @@ impl<R: Read> Records for CsvRecords<R> {
 
     fn consumed_bytes(&self) -> u64 {
         let (input, _) = self.reader.get_ref().get_ref();
-        input.input_byte_count(self.reader.position().byte())
+        input.input_bytes_for_output(self.reader.position().byte())
     }
 
     fn checksum(&self) -> u32 {

@@ -12,10 +12,10 @@ pub enum TableError {
     #[error("cannot be read: {0}")]
     Unreadable(String),
     /// The file has another format.
-    #[error("is {format}, not CSV; export it as CSV, in UTF-8")]
+    #[error("is {other_format}, not CSV; export it as CSV, in UTF-8")]
     NotCsv {
         /// The name of the other format.
-        format: &'static str,
+        other_format: &'static str,
     },
     /// The file is a Git LFS pointer.
     #[error("is a Git LFS pointer, not the table itself; run `git lfs pull` to fetch the table")]
@@ -33,11 +33,11 @@ pub enum TableError {
     },
     /// The first line has numbers instead of names.
     #[error(
-        "header: `{first_number}` is a number: the first line must name the columns, such as id,a_px,a_vx; {known_columns}"
+        "header: `{first_number_in_header}` is a number: the first line must name the columns, such as id,a_px,a_vx; {known_columns}"
     )]
     NoHeader {
         /// The first number in that line.
-        first_number: String,
+        first_number_in_header: String,
         /// The known columns, as text.
         known_columns: &'static str,
     },
@@ -202,13 +202,13 @@ pub enum RowProblem {
     #[error(
         "column t: {} is so long after {}, where the path begins, that times cannot be told apart",
         Number(*.time),
-        Number(*.first)
+        Number(*.first_row_time)
     )]
     TimeNotDistinguishable {
         /// The time of the row that is refused.
         time: f64,
         /// The time of the path's first row.
-        first: f64,
+        first_row_time: f64,
     },
     /// A row has no id, in a table with ids.
     #[error("column id: no value; each row of a path needs its name")]
@@ -229,21 +229,21 @@ pub enum RowProblem {
     },
     /// The angular velocity in the previous row does not lead to the orientation in this row.
     #[error(
-        "columns {body}_wx {body}_wy {body}_wz: those of the row before lead {orientation_error:.3} radians away from this orientation; \
+        "columns {body}_wx {body}_wy {body}_wz: those of the row before lead {orientation_mismatch_angle:.3} radians away from this orientation; \
          a quarter turn (1.571) is the most; give more rows, or 0 for the shortest turn"
     )]
     OrientationMismatch {
         /// The letter of the body, as in the columns' prefix.
         body: char,
         /// The angle in radians between the orientation in the row and the one to which the angular velocity leads.
-        orientation_error: f64,
+        orientation_mismatch_angle: f64,
     },
     /// Only the default schedule answers this question.
     #[error("needs --schedule best-first")]
     NeedsBestFirst,
     /// The numbers are valid, but the query is not.
     #[error("{0}")]
-    Input(InputError),
+    InvalidQuery(InputError),
 }
 
 impl From<InputError> for RowProblem {
@@ -254,7 +254,7 @@ impl From<InputError> for RowProblem {
                 value,
                 allowed,
             } => Self::BadDuration { value, allowed },
-            other => Self::Input(other),
+            other => Self::InvalidQuery(other),
         }
     }
 }

@@ -9,7 +9,7 @@ pub(super) struct LineEndConverter<R> {
     input: io::Chain<io::Cursor<Vec<u8>>, R>,
     is_after_carriage_return: bool,
     /// The number of bytes read from the input.
-    byte_count: u64,
+    read_byte_count: u64,
     /// The number of these bytes that were dropped: those of byte order marks, and one for each `\r\n`.
     dropped_byte_count: u64,
 }
@@ -36,19 +36,19 @@ impl<R: Read> LineEndConverter<R> {
         Ok(LineEndConverter {
             input: io::Cursor::new(start).chain(input),
             is_after_carriage_return: false,
-            byte_count: marks,
+            read_byte_count: marks,
             dropped_byte_count: marks,
         })
     }
 
     /// Returns the number of bytes that this reader has given so far.
     pub(super) fn output_byte_count(&self) -> u64 {
-        self.byte_count - self.dropped_byte_count
+        self.read_byte_count - self.dropped_byte_count
     }
 
     /// Returns the number of input bytes for the first `taken` bytes of this reader's output.
-    pub(super) fn input_byte_count(&self, taken: u64) -> u64 {
-        self.byte_count.min(taken + self.dropped_byte_count)
+    pub(super) fn input_bytes_for_output(&self, taken: u64) -> u64 {
+        self.read_byte_count.min(taken + self.dropped_byte_count)
     }
 }
 
@@ -56,7 +56,7 @@ impl<R: Read> Read for LineEndConverter<R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         loop {
             let read = self.input.read(out)?;
-            self.byte_count += read as u64;
+            self.read_byte_count += read as u64;
             // Most tables have no `\r`, and a search for it is many times as fast as the loop below.
             if !self.is_after_carriage_return && !out[..read].contains(&b'\r') {
                 return Ok(read);

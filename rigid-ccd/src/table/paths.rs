@@ -27,7 +27,7 @@ pub struct PathPair {
     /// The path of body B, from time 0.
     pub b: trajectory::Poses,
     /// The time in the table's column `t` that corresponds to the query's time 0.
-    pub start: f64,
+    pub start_time: f64,
     /// The time in the table's column `t` at which the path ends.
     pub end: f64,
     /// The duration of the paths: `end − start`, rounded.
@@ -40,7 +40,7 @@ pub enum Grouping {
     /// All consecutive rows with the same id form a path.
     ById,
     /// Each row alone is a query of two bodies at rest.
-    EachRow,
+    QueryPerRow,
 }
 
 /// The state of a reader of a table of paths, between two paths.
@@ -111,7 +111,7 @@ impl PathReader {
         let seen = match (self.grouping, &id) {
             (Grouping::ById, Some(id)) => !self.known_id_hashes.insert(self.id_hasher.hash_one(id)),
             // Consecutive rows without an id form one path.
-            (Grouping::ById, None) | (Grouping::EachRow, _) => false,
+            (Grouping::ById, None) | (Grouping::QueryPerRow, _) => false,
         };
         let mut at = position;
         loop {
@@ -121,7 +121,7 @@ impl PathReader {
             self.next = records.advance()?;
             let same = |next| match self.grouping {
                 Grouping::ById => row::id(columns, next) == id,
-                Grouping::EachRow => false,
+                Grouping::QueryPerRow => false,
             };
             match self.next {
                 Some(next) if same(records.current()) => at = next,
@@ -131,7 +131,7 @@ impl PathReader {
         let index = self.path_count;
         self.path_count += 1;
         Ok(Some(FirstRow {
-            position,
+            row_position: position,
             id: id.unwrap_or_else(|| index.to_string()),
             has_repeated_id: seen,
         }))
@@ -152,7 +152,7 @@ impl PathReader {
             }
         })?;
         let Some(FirstRow {
-            position,
+            row_position: position,
             id,
             has_repeated_id: seen,
         }) = read
@@ -176,7 +176,7 @@ impl PathReader {
 
 /// The first row of a path: its position, and the id of the path.
 struct FirstRow {
-    position: RowPosition,
+    row_position: RowPosition,
     id: String,
     /// Whether an earlier path has the same id.
     has_repeated_id: bool,
@@ -202,17 +202,17 @@ fn check_row_follows(
     if !(since > since_before && since.is_finite()) {
         return Err(RowProblem::TimeNotDistinguishable {
             time,
-            first: first.time,
+            first_row_time: first.time,
         });
     }
-    check_orientation('a', [before.a, row.a], since - since_before)?;
-    check_orientation('b', [before.b, row.b], since - since_before)?;
+    check_continuity('a', [before.a, row.a], since - since_before)?;
+    check_continuity('b', [before.b, row.b], since - since_before)?;
     Ok(row)
 }
 
 /// Returns an error if a row's centre of rotation or orientation does not fit the previous row. The centre must be the
 /// same, and the previous row's angular velocity must lead near the orientation.
-fn check_orientation(
+fn check_continuity(
     body: char,
     [before, row]: [BodyPose; 2],
     duration: f64,
@@ -231,7 +231,7 @@ fn check_orientation(
     } else {
         Err(RowProblem::OrientationMismatch {
             body,
-            orientation_error: left,
+            orientation_mismatch_angle: left,
         })
     }
 }
@@ -256,7 +256,7 @@ impl PathPair {
             duration: a.end_time(),
             a,
             b,
-            start,
+            start_time: start,
             end: rows[rows.len() - 1].time,
         })
     }
@@ -285,14 +285,14 @@ impl PathPair {
     }
 
     fn table_time_rounded_towards(&self, time: f64, direction: f64) -> f64 {
-        if self.start == 0.0 {
+        if self.start_time == 0.0 {
             return time;
         }
         // The differences of times from the first one are rounded, and so is this sum.
-        let rounding = 4.0 * f64::EPSILON * (self.start.abs() + self.duration);
-        match self.start + time + direction * rounding {
+        let rounding = 4.0 * f64::EPSILON * (self.start_time.abs() + self.duration);
+        match self.start_time + time + direction * rounding {
             _ if time >= self.duration => self.end,
-            early if early < self.start => self.start,
+            early if early < self.start_time => self.start_time,
             late if late > self.end => self.end,
             within => within,
         }

@@ -117,7 +117,7 @@ impl Curve {
     /// several segments.
     pub(super) fn acceleration_at(&self, time: f64, from: f64, to: f64) -> Option<Acceleration> {
         // A segment that only touches the interval overlaps it, too.
-        let mut overlapping = self.segments.overlapping_segments(from, to).iter();
+        let mut overlapping = self.segments.segments_overlapping_interval(from, to).iter();
         let segment = overlapping.find(|segment| from >= segment.from && to <= segment.to)?;
         Some(Acceleration {
             acceleration_vector: segment.derivative(2, segment.share(time)),

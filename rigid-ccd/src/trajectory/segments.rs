@@ -34,7 +34,7 @@ impl<T> Segments<T> {
     }
 
     /// Returns the segments that overlap an interval of time, or touch it.
-    pub(super) fn overlapping_segments(&self, from: f64, to: f64) -> &[Segment<T>] {
+    pub(super) fn segments_overlapping_interval(&self, from: f64, to: f64) -> &[Segment<T>] {
         let first = self.0.partition_point(|segment| segment.to < from);
         let rest = &self.0[first..];
         &rest[..rest.partition_point(|segment| segment.from <= to)]
@@ -42,7 +42,7 @@ impl<T> Segments<T> {
 
     /// Returns a knot strictly between two times, preferably near the middle; `None` if no knot is between them.
     pub(super) fn knot_between(&self, from: f64, to: f64) -> Option<f64> {
-        let segments = self.overlapping_segments(from, to);
+        let segments = self.segments_overlapping_interval(from, to);
         let middle = segments.get(segments.len() / 2)?.from;
         let ends = [segments.first(), segments.last()].into_iter().flatten();
         let ends = ends.flat_map(|segment| [segment.from, segment.to]);
@@ -58,7 +58,7 @@ impl<T> Segments<T> {
         to: f64,
         bound: impl Fn(&Segment<T>) -> f64,
     ) -> f64 {
-        let segments = self.overlapping_segments(from, to).iter();
+        let segments = self.segments_overlapping_interval(from, to).iter();
         segments.map(bound).fold(0.0, greater_bound)
     }
 
@@ -70,7 +70,7 @@ impl<T> Segments<T> {
         to: f64,
         velocity: impl Fn(&Segment<T>, f64) -> DVec3,
     ) -> f64 {
-        let segments = self.overlapping_segments(from, to);
+        let segments = self.segments_overlapping_interval(from, to);
         let before = segments.iter().map(|segment| velocity(segment, segment.to));
         let after = segments
             .iter()

@@ -76,7 +76,7 @@ impl SmoothTrajectory for Spline {
         }
     }
 
-    fn corner(&self, from: f64, to: f64) -> Option<f64> {
+    fn acceleration_jump_time(&self, from: f64, to: f64) -> Option<f64> {
         let corner = self.orientation_curve.segments.knot_between(from, to);
         corner.or_else(|| self.curve.segments.knot_between(from, to))
     }

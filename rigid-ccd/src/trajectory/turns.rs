@@ -23,13 +23,13 @@ use ccd_core::{InputError, Pose};
 pub struct OrientationCurve {
     pub(super) segments: Segments<Turn>,
     /// The orientations before the first segment and after the last.
-    ends: [DQuat; 2],
+    end_orientations: [DQuat; 2],
 }
 
 /// A rotation at a constant angular velocity from a start orientation, as in slerp.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Turn {
-    start: DQuat,
+    start_orientation: DQuat,
     spin: DVec3,
 }
 
@@ -37,7 +37,7 @@ impl OrientationCurve {
     /// The orientation curve of a body that does not rotate: its axes stay those of the world.
     pub const NONE: OrientationCurve = OrientationCurve {
         segments: Segments(Vec::new()),
-        ends: [DQuat::IDENTITY; 2],
+        end_orientations: [DQuat::IDENTITY; 2],
     };
 
     /// Creates a curve that rotates from each orientation to the next at a constant rate, by the shortest rotation.
@@ -51,7 +51,10 @@ impl OrientationCurve {
         let segment = |two: &[(f64, DQuat)]| {
             let [(from, start), (to, end)] = [two[0], two[1]];
             let spin = rotation_vector(end * start.conjugate()) / (to - from);
-            let course = Turn { start, spin };
+            let course = Turn {
+                start_orientation: start,
+                spin,
+            };
             Segment {
                 from,
                 to,
@@ -60,7 +63,7 @@ impl OrientationCurve {
         };
         Ok(OrientationCurve {
             segments: Segments(keys.windows(2).map(segment).collect()),
-            ends: [keys[0].1, keys[keys.len() - 1].1],
+            end_orientations: [keys[0].1, keys[keys.len() - 1].1],
         })
     }
 
@@ -68,8 +71,8 @@ impl OrientationCurve {
     pub fn at(&self, time: f64) -> (DQuat, DVec3) {
         match self.segments.segment_at(time) {
             Some(segment) if time >= segment.from => segment.orientation_and_spin_at(time),
-            Some(_) => (self.ends[0], DVec3::ZERO),
-            None => (self.ends[1], DVec3::ZERO),
+            Some(_) => (self.end_orientations[0], DVec3::ZERO),
+            None => (self.end_orientations[1], DVec3::ZERO),
         }
     }
 
@@ -91,7 +94,10 @@ impl OrientationCurve {
 impl Segment<Turn> {
     fn orientation_and_spin_at(&self, time: f64) -> (DQuat, DVec3) {
         let passed = greater(0.0, lesser(time, self.to) - self.from);
-        let Turn { start, spin } = self.curve;
+        let Turn {
+            start_orientation: start,
+            spin,
+        } = self.curve;
         let turned = DQuat::from_scaled_axis(spin * passed) * start;
         (turned.normalize(), spin)
     }

@@ -40,7 +40,7 @@ pub struct C2a {
 /// A pair of nodes on the stack of a descent, with its distance and its safe step.
 #[derive(Clone, Copy, Debug)]
 struct CandidatePair {
-    pair: RssNodePair,
+    node_pair: RssNodePair,
     distance_bound: f64,
     /// A time from now during which the nodes do not touch.
     safe_step: f64,
@@ -154,7 +154,7 @@ impl C2a {
             safe_step: f64::INFINITY,
         };
         if let Some((leaves, pair)) = last.and_then(|last| last.nearest_triangles) {
-            self.include_triangles(&mut found, setup, leaves, pair);
+            self.measure_triangle_pair(&mut found, setup, leaves, pair);
         }
         let Some(roots) = self.trees.root_pair(setup.placement) else {
             return DescentOutcome::Done(found);
@@ -176,9 +176,9 @@ impl C2a {
                 return DescentOutcome::LimitReached;
             }
             *pairs_left -= 1;
-            match self.trees.children(&candidate.pair) {
+            match self.trees.children(&candidate.node_pair) {
                 PairChildren::Triangles(leaves) => {
-                    self.include_triangles(&mut found, setup, leaves, candidate.pair);
+                    self.measure_triangle_pair(&mut found, setup, leaves, candidate.node_pair);
                 }
                 PairChildren::Pairs([first, second]) => {
                     let (first, second) = (self.candidate_pair(first), self.candidate_pair(second));
@@ -200,13 +200,13 @@ impl C2a {
             safe_step: self
                 .closing_speed_bounder
                 .safe_step(&self.trees, &pair, &gap),
-            pair,
+            node_pair: pair,
             distance_bound: gap.distance_bound,
         }
     }
 
     /// Measures the distance and the safe step of two triangles, and keeps each in `found` if it is the least so far.
-    fn include_triangles(
+    fn measure_triangle_pair(
         &mut self,
         found: &mut DescentResult,
         setup: &DescentSetup<'_>,
@@ -262,7 +262,7 @@ fn max_relative_excess(
     const COARSE_STEP_COUNT_AND_EXCESS: (u64, f64) = (3, 3.0);
     /// The number of the last finer step, after which all steps are exact, and the excess that the finer steps are
     /// allowed.
-    const LAST_INEXACT_STEP_EXCESS: (u64, f64) = (6, 0.5);
+    const LAST_INEXACT_STEP_AND_EXCESS: (u64, f64) = (6, 0.5);
     /// The length of a step at and below which the next step is exact, as a fraction of the duration.
     const EXACT_BELOW_STEP_FRACTION: f64 = 0.005;
     /// The distance at and below which the next step is exact, as a multiple of the tolerance.
@@ -275,7 +275,7 @@ fn max_relative_excess(
     match step {
         _ if exact => 0.0,
         _ if step <= COARSE_STEP_COUNT_AND_EXCESS.0 => COARSE_STEP_COUNT_AND_EXCESS.1,
-        _ if step <= LAST_INEXACT_STEP_EXCESS.0 => LAST_INEXACT_STEP_EXCESS.1,
+        _ if step <= LAST_INEXACT_STEP_AND_EXCESS.0 => LAST_INEXACT_STEP_AND_EXCESS.1,
         _ => 0.0,
     }
 }

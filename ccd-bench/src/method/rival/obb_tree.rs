@@ -22,7 +22,7 @@ pub(super) struct ObbTree {
     /// The origin of the boxes' coordinates, in the mesh's frame.
     pub(super) origin: DVec3,
     /// The largest distance of a triangle's corner from the origin.
-    radius: f64,
+    radius_about_origin: f64,
     /// The nodes of the tree, the root first.
     nodes: Vec<Node>,
     triangles: Vec<[DVec3; 3]>,
@@ -63,7 +63,7 @@ impl ObbTree {
         let node = |((_, bounds), content)| Node { bounds, content };
         ObbTree {
             origin,
-            radius,
+            radius_about_origin: radius,
             nodes: nodes.into_iter().map(node).collect(),
             triangles,
         }
@@ -83,7 +83,7 @@ impl ObbTree {
 
     /// Returns an upper bound of the distance of the mesh's points from a point in its frame.
     pub(super) fn radius_bound_about(&self, from: DVec3) -> f64 {
-        self.origin.distance(from) + self.radius
+        self.origin.distance(from) + self.radius_about_origin
     }
 }
 

@@ -29,7 +29,7 @@ pub(super) struct RssTree {
 #[derive(Clone, Copy, Debug)]
 struct Node {
     /// The rectangle's frame, relative to that of its parent.
-    placement: Placement,
+    frame_in_parent: Placement,
     /// The side lengths of the rectangle along its x and y axes.
     side_lengths: DVec2,
     radius: f64,
@@ -187,7 +187,7 @@ impl RssTreePair {
         match open_pair([a.content, b.content], sizes) {
             OpenedPair::Triangles(leaves) => PairChildren::Triangles(leaves),
             OpenedPair::ChildrenOfA(below) => PairChildren::Pairs(below.map(|a| {
-                let child = &self.a.nodes[a as usize].placement;
+                let child = &self.a.nodes[a as usize].frame_in_parent;
                 let placement = pair.placement.relative_to(child);
                 RssNodePair {
                     a,
@@ -196,7 +196,7 @@ impl RssTreePair {
                 }
             })),
             OpenedPair::ChildrenOfB(below) => PairChildren::Pairs(below.map(|b| {
-                let child = &self.b.nodes[b as usize].placement;
+                let child = &self.b.nodes[b as usize].frame_in_parent;
                 let placement = compose(&pair.placement, child);
                 RssNodePair {
                     b,

@@ -50,7 +50,7 @@ impl Ring {
     }
 
     /// Returns the number of edges of the circle; a pole has none.
-    fn edge_count(&self) -> usize {
+    fn ring_edge_count(&self) -> usize {
         if self.vertex_count == 1 {
             0
         } else {
@@ -83,7 +83,7 @@ fn ring_vertex_counts(vertices: usize) -> Vec<usize> {
 /// Adds the strip of triangles between two neighbouring circles of latitude, the northern one given first. The next
 /// step is always the one whose middle comes first, which keeps the triangles well shaped.
 fn join_rings(north: Ring, south: Ring, faces: &mut Vec<[u32; 3]>) {
-    let (n, s) = (north.edge_count(), south.edge_count());
+    let (n, s) = (north.ring_edge_count(), south.ring_edge_count());
     let (mut i, mut j) = (0, 0);
     while i < n || j < s {
         // The middles (2i + 1)/2n and (2j + 1)/2s, compared without rounding.

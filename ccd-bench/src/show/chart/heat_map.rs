@@ -15,7 +15,7 @@ use plotters::style::{FontTransform, RGBColor, WHITE};
 #[derive(Clone, Debug)]
 pub struct HeatMap {
     /// The kind of map: what the colours of its cells mean.
-    pub texts: &'static HeatMapTexts,
+    pub captions: &'static HeatMapTexts,
     /// The names of the methods, one for each column.
     pub methods: Vec<String>,
     /// The rows of the map, one for each family of scenes.
@@ -158,8 +158,8 @@ impl HeatMap {
     /// If the drawing library fails.
     pub fn draw(&self) -> Result<String> {
         let height = FIRST_ROW_TOP + ROW_HEIGHT * self.rows.len() as f64 + CHART_MARGIN;
-        draw_svg(self.texts.title, (CHART_WIDTH, height), |sheet| {
-            draw_header(sheet, self.texts)?;
+        draw_svg(self.captions.title, (CHART_WIDTH, height), |sheet| {
+            draw_header(sheet, self.captions)?;
             let upwards = text_style(SMALL_FONT_SIZE).transform(FontTransform::Rotate270);
             for (column, method) in self.methods.iter().enumerate() {
                 let middle = self.column_left(column) + 0.5 * self.column_width();

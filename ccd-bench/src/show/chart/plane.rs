@@ -190,7 +190,11 @@ pub(super) fn draw_footer(
         sheet.draw(&line)?;
         sheet.draw(&marker_glyph(at, style))?;
         let mark = if style.is_unsafe { " (unsafe)" } else { "" };
-        let label = format!("{}: {}{mark}", method.family.legend_heading(), method.name);
+        let label = format!(
+            "{}: {}{mark}",
+            method.method_family.legend_heading(),
+            method.name
+        );
         draw_text(
             sheet,
             &label,

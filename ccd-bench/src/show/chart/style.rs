@@ -50,7 +50,7 @@ pub(super) fn method_styles(
 ) -> Vec<MethodStyle> {
     let mut taken = [0; 3];
     let style = |method: &ChartedMethod<'_>| {
-        let (family, dash) = match method.family {
+        let (family, dash) = match method.method_family {
             MethodFamily::ThisProject => (0, None),
             MethodFamily::Rival => (1, Some((70, 40))),
             MethodFamily::Peer => (2, Some((20, 30))),

@@ -6,15 +6,15 @@ const SCENES: [&str; 3] = ["knot2880", "knot34560", "never measured"];
 const METHODS: [ChartedMethod<'_>; 3] = [
     ChartedMethod {
         name: "ours",
-        family: MethodFamily::ThisProject,
+        method_family: MethodFamily::ThisProject,
     },
     ChartedMethod {
         name: "careless <peer> & co",
-        family: MethodFamily::Peer,
+        method_family: MethodFamily::Peer,
     },
     ChartedMethod {
         name: "absent",
-        family: MethodFamily::Rival,
+        method_family: MethodFamily::Rival,
     },
 ];
 
@@ -139,7 +139,12 @@ fn no_two_methods_look_alike() {
         MethodFamily::Peer,
     ]
     .into_iter()
-    .flat_map(|family| [ChartedMethod { name: "", family }; 10])
+    .flat_map(|family| {
+        [ChartedMethod {
+            name: "",
+            method_family: family,
+        }; 10]
+    })
     .collect();
     let styles = style::method_styles(&methods, |_| false);
     for (index, style) in styles.iter().enumerate() {

@@ -32,7 +32,8 @@ fn a_method_on_easy_rows_only_is_slower_than_the_reference() {
         cells[1].median_us < cells[0].median_us,
         "the plain medians mislead"
     );
-    let moved = ReferenceTimes::new(REFERENCE_METHOD, &trials).comparable_cells(&cells);
+    let moved =
+        ReferenceTimes::new(REFERENCE_METHOD, &trials).cells_with_comparable_medians(&cells);
     assert_eq!(moved[0], cells[0], "the reference keeps its median, 46");
     // The ratios are 3 and 4.
     assert_eq!(moved[1].median_us, 46.0 * 3.5);
@@ -56,11 +57,11 @@ fn a_cell_keeps_its_median_where_there_is_nothing_to_compare() {
         assert_eq!(reference.median_time_ratio(cell), None);
     }
     let both = [finer, elsewhere];
-    assert_eq!(reference.comparable_cells(&both), both);
+    assert_eq!(reference.cells_with_comparable_medians(&both), both);
     trials.retain(|trial| trial.method != REFERENCE_METHOD);
     assert_eq!(
         ReferenceTimes::new(REFERENCE_METHOD, &trials)
-            .comparable_cells(std::slice::from_ref(&slow)),
+            .cells_with_comparable_medians(std::slice::from_ref(&slow)),
         [slow]
     );
 }

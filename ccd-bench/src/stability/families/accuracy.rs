@@ -1,6 +1,6 @@
 //! Scenes whose contact depends on the last digits, because parts are nearly parallel or hardly overlap.
 
-use super::super::family::{BodyMotion, Family, FamilyScene, expected_contact_at};
+use super::super::family::{BodyMotion, Family, FamilyScene, truth_for_contact_time};
 use super::super::shapes::{cube, cuboid, holed_plate, slab, torus};
 use super::{ROD_HALF_SIDES, fall_onto_slab, family, negative_powers_of_ten, rod_beside_wall};
 use anyhow::Result;
@@ -46,7 +46,7 @@ fn edge_across_edge(angle: f64) -> Result<FamilyScene> {
     let on_edge = DQuat::from_rotation_x(FRAC_PI_4);
     let falling = BodyMotion::FALLING.with_orientation(DQuat::from_rotation_z(angle) * on_edge);
     let lying = BodyMotion::STILL.with_orientation(on_edge);
-    let expected = expected_contact_at((3.0 - 0.2 * SQRT_2) / 4.0, MAX_CONTACT_TIME_ERROR);
+    let expected = truth_for_contact_time((3.0 - 0.2 * SQRT_2) / 4.0, MAX_CONTACT_TIME_ERROR);
     let step = FamilyScene::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
     step.with_query_and_rotations(falling, lying, expected)
 }
@@ -70,7 +70,7 @@ fn peg_in_a_hole(clearance: f64) -> Result<FamilyScene> {
     let step = FamilyScene::new(cuboid(half, half, 1.0)?, holed_plate(hole)?)
         .with_tolerance(greater(0.1 * clearance, 1e-11));
     // The angle has the error of the clearance.
-    let expected = expected_contact_at(0.5, 1e-15 / clearance);
+    let expected = truth_for_contact_time(0.5, 1e-15 / clearance);
     step.with_query_and_rotations(turning, BodyMotion::STILL, expected)
 }
 
@@ -92,14 +92,14 @@ fn cube_at_grazing_angle(angle: f64) -> Result<FamilyScene> {
     let height = 2.0 * sin;
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + height), 4.0 * dvec3(cos, 0.0, -sin));
     // The height is rounded in units of the cube, and the cube descends slowly.
-    let expected = expected_contact_at(0.5, 1e-15 / sin);
+    let expected = truth_for_contact_time(0.5, 1e-15 / sin);
     let step = FamilyScene::new(cube()?, slab()?).with_tolerance(greater(1e-3 * height, 1e-11));
     step.with_query_and_rotations(flying, BodyMotion::RESTING_SLAB_MOTION, expected)
 }
 
 fn barely_overlapping_cubes(overlap: f64) -> Result<FamilyScene> {
     let flying = BodyMotion::straight(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
-    let expected = expected_contact_at(1.0 / 3.0, MAX_CONTACT_TIME_ERROR);
+    let expected = truth_for_contact_time(1.0 / 3.0, MAX_CONTACT_TIME_ERROR);
     let step = FamilyScene::new(cube()?, cube()?);
     step.with_query_and_rotations_if(overlap > 1e-12, flying, BodyMotion::STILL, expected)
 }
@@ -111,7 +111,7 @@ fn rod_barely_reaching_wall(share: f64) -> Result<FamilyScene> {
     let turning = BodyMotion::STILL.with_spin(PI * DVec3::Y);
     let time = ((1.0 - share).asin() - thin.atan2(long)) / PI;
     // The corner moves along the wall: its distance grows with the square of the time.
-    let expected = expected_contact_at(time, 1e-15 / share.sqrt());
+    let expected = truth_for_contact_time(time, 1e-15 / share.sqrt());
     rod_beside_wall(turning, wall, expected)
 }
 
@@ -126,6 +126,6 @@ fn linked_rings(way: f64) -> Result<FamilyScene> {
         BodyMotion::straight((radius + rim - way) * DVec3::X, DVec3::X).with_orientation(upright);
     let step = FamilyScene::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
-    let expected = expected_contact_at(way, MAX_CONTACT_TIME_ERROR);
+    let expected = truth_for_contact_time(way, MAX_CONTACT_TIME_ERROR);
     step.with_query(hanging, BodyMotion::STILL, expected)
 }

@@ -18,7 +18,7 @@ pub(super) fn families() -> Vec<Family> {
         family("cube sliding over a slab", cube_sliding_over_slab),
         family("cube resting then leaving", cube_leaving_slab),
         family("spinning top", spinning_top),
-        family("rod turning past a wall", rod_past_a_wall),
+        family("rod turning past a wall", rod_turning_past_wall),
         family("peg passing through a hole", peg_through_a_hole),
     ]
 }
@@ -83,7 +83,7 @@ fn spinning_top(gap: f64) -> Result<FamilyScene> {
 }
 
 /// Makes a rod that rotates by half a turn about its middle, past a wall that its corners miss by a gap.
-fn rod_past_a_wall(gap: f64) -> Result<FamilyScene> {
+fn rod_turning_past_wall(gap: f64) -> Result<FamilyScene> {
     let reach = f64::hypot(ROD_HALF_SIDES.0, ROD_HALF_SIDES.1);
     let turning = BodyMotion::STILL.with_spin(std::f64::consts::PI * DVec3::Y);
     // The reach is rounded, and the gap with it.

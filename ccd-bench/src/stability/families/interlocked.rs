@@ -1,6 +1,6 @@
 //! Scenes of bodies that hold each other: hooks, threads, rings, slits.
 
-use super::super::family::{BodyMotion, Family, FamilyScene, expected_contact_at};
+use super::super::family::{BodyMotion, Family, FamilyScene, truth_for_contact_time};
 use super::super::shapes::{
     cuboid, extrude_cells, helicoid, sheet, slit_plate, stacked_squares, torus,
 };
@@ -50,7 +50,7 @@ fn hooks(slack: f64) -> Result<FamilyScene> {
     step.with_query_and_rotations(
         holding,
         BodyMotion::STILL,
-        expected_contact_at(slack, 1e-14),
+        truth_for_contact_time(slack, 1e-14),
     )
 }
 
@@ -60,7 +60,11 @@ fn ring_onto_ring(way: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
     let step = FamilyScene::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
-    step.with_query_and_rotations(falling, BodyMotion::STILL, expected_contact_at(way, 1e-14))
+    step.with_query_and_rotations(
+        falling,
+        BodyMotion::STILL,
+        truth_for_contact_time(way, 1e-14),
+    )
 }
 
 /// The pitch of the threads: their rise per turn.
@@ -122,10 +126,10 @@ fn rod_in_rotated_frame(degrees: f64) -> Result<FamilyScene> {
         .with_orientation(frame)
         .with_spin(PI * DVec3::Y);
     let step = FamilyScene::new(rod, cuboid(1.0, 3.0, 3.0)?);
-    let expected = expected_contact_at(rod_contact_angle(wall) / PI, 1e-14);
+    let expected = truth_for_contact_time(rod_contact_angle(wall) / PI, 1e-14);
     step.with_query_and_rotations(
         turning,
-        BodyMotion::resting((wall + 1.0) * DVec3::X),
+        BodyMotion::motion_at_rest((wall + 1.0) * DVec3::X),
         expected,
     )
 }

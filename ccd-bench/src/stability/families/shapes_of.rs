@@ -1,6 +1,6 @@
 //! Scenes of meshes with many triangles, and of meshes with repeated, collapsed or sliver triangles.
 
-use super::super::family::{BodyMotion, Family, FamilyScene, expected_contact_at};
+use super::super::family::{BodyMotion, Family, FamilyScene, truth_for_contact_time};
 use super::super::shapes::{
     TOOTH_WIDTH_SHARE, ball, comb, cone, cube, cube_grid_half_inside_out, evenly_stacked_squares,
     sliver_slab, with_bad_faces,
@@ -40,7 +40,11 @@ fn comb_into_comb(teeth: f64) -> Result<FamilyScene> {
     let shift = 1.0 - (0.5 - TOOTH_WIDTH_SHARE) / teeth;
     let falling = BodyMotion::straight(dvec3(shift, 0.0, 5.0), -4.0 * DVec3::Z)
         .with_orientation(DQuat::from_rotation_y(PI));
-    step.with_query_and_rotations(falling, BodyMotion::STILL, expected_contact_at(0.5, 1e-14))
+    step.with_query_and_rotations(
+        falling,
+        BodyMotion::STILL,
+        truth_for_contact_time(0.5, 1e-14),
+    )
 }
 
 /// Makes a ball with a vertex at its pole that falls onto a slab (case T22).
@@ -62,7 +66,7 @@ fn cube_onto_layers(count: f64) -> Result<FamilyScene> {
     step.with_query_and_rotations(
         falling,
         BodyMotion::STILL,
-        expected_contact_at(0.625, 1e-14),
+        truth_for_contact_time(0.625, 1e-14),
     )
 }
 
@@ -75,7 +79,7 @@ fn cube_with_bad_faces(count: f64) -> Result<FamilyScene> {
 /// Makes a cube that falls onto a sliver triangle of a slab.
 fn cube_onto_sliver(width: f64) -> Result<FamilyScene> {
     let step = FamilyScene::new(cube()?, sliver_slab(width)?);
-    let expected = expected_contact_at(0.625, 1e-14);
+    let expected = truth_for_contact_time(0.625, 1e-14);
     step.with_query_and_rotations(
         BodyMotion::FALLING,
         BodyMotion::RESTING_SLAB_MOTION,
@@ -87,7 +91,7 @@ fn cube_onto_sliver(width: f64) -> Result<FamilyScene> {
 fn cube_onto_cube_field(count: f64) -> Result<FamilyScene> {
     // The cube covers the middle of the field, where at least four others are.
     let step = FamilyScene::new(cube()?, cube_grid_half_inside_out(count as u32)?);
-    let expected = expected_contact_at(0.625, 1e-14);
+    let expected = truth_for_contact_time(0.625, 1e-14);
     step.with_query_and_rotations(BodyMotion::FALLING, BodyMotion::STILL, expected)
 }
 
@@ -101,6 +105,6 @@ fn tip_onto_tip(aside: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight(dvec3(aside, 0.0, 2.0), -4.0 * DVec3::Z);
     let upside_down = BodyMotion::STILL.with_orientation(DQuat::from_rotation_y(PI));
     let step = FamilyScene::new(cone.clone(), cone).with_tolerance(greater(0.1 * aside, 1e-11));
-    let expected = expected_contact_at((2.0 + aside * slope) / 4.0, 1e-14);
+    let expected = truth_for_contact_time((2.0 + aside * slope) / 4.0, 1e-14);
     step.with_query_and_rotations(falling, upside_down, expected)
 }

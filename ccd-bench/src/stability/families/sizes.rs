@@ -1,6 +1,6 @@
 //! Scenes whose sizes, distances and units are far from 1.
 
-use super::super::family::{BodyMotion, Family, FamilyScene, expected_contact_at};
+use super::super::family::{BodyMotion, Family, FamilyScene, truth_for_contact_time};
 use super::super::shapes::{cone, cube, cuboid, slab};
 use super::{fall_onto_slab, family, negative_powers_of_ten, powers_of_ten};
 use crate::truth::Truth;
@@ -52,7 +52,11 @@ fn cubes_of_unequal_size(size: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
     let step = FamilyScene::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?)
         .with_tolerance(1e-6 * way);
-    step.with_query_and_rotations(falling, BodyMotion::STILL, expected_contact_at(0.5, 1e-14))
+    step.with_query_and_rotations(
+        falling,
+        BodyMotion::STILL,
+        truth_for_contact_time(0.5, 1e-14),
+    )
 }
 
 /// Makes a cube that falls onto a slab, with all lengths multiplied by `size`. The scene is like T1 of
@@ -65,8 +69,8 @@ fn scene_in_length_unit(size: f64) -> Result<FamilyScene> {
         cuboid(9.0 * size, 9.0 * size, size)?,
     )
     .with_tolerance(1e-6 * size);
-    let slab = BodyMotion::resting(-size * DVec3::Z);
-    step.with_query_and_rotations(falling, slab, expected_contact_at(0.625, 1e-14))
+    let slab = BodyMotion::motion_at_rest(-size * DVec3::Z);
+    step.with_query_and_rotations(falling, slab, truth_for_contact_time(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto a slab within the given duration. The scene is like T1 of `tests/it/scenes.rs`.
@@ -75,7 +79,7 @@ fn scene_in_time_unit(duration: f64) -> Result<FamilyScene> {
     let step = FamilyScene::new(cube()?, slab()?);
     let step = FamilyScene { duration, ..step };
     let slab = BodyMotion::RESTING_SLAB_MOTION;
-    step.with_query_and_rotations(falling, slab, expected_contact_at(0.625, 1e-14))
+    step.with_query_and_rotations(falling, slab, truth_for_contact_time(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto another cube while both move sideways by `travel`.
@@ -83,7 +87,7 @@ fn cube_onto_moving_cube(travel: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
     let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
     let step = FamilyScene::new(cube()?, cube()?);
-    step.with_query(falling, fleeing, expected_contact_at(0.5, 1e-14))
+    step.with_query(falling, fleeing, truth_for_contact_time(0.5, 1e-14))
 }
 
 /// Makes a cube that rotates about a centre far below it, so that it moves towards a wall nearly in a straight line.
@@ -91,15 +95,19 @@ fn cube_about_far_centre(distance: f64) -> Result<FamilyScene> {
     let spin = 1.0 / distance;
     let turning = BodyMotion {
         angular_velocity: spin * DVec3::Y,
-        centre: -distance * DVec3::Z,
+        rotation_centre: -distance * DVec3::Z,
         ..BodyMotion::STILL
     };
     // Its upper corner is the first at the wall, which is at x = 1.
     let (across, up) = (0.5f64, distance + 0.5);
     let angle = (1.0 / up.hypot(across)).asin() - across.atan2(up);
     let step = FamilyScene::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
-    let expected = expected_contact_at(angle / spin, 1e-14);
-    step.with_query(turning, BodyMotion::resting(2.0 * DVec3::X), expected)
+    let expected = truth_for_contact_time(angle / spin, 1e-14);
+    step.with_query(
+        turning,
+        BodyMotion::motion_at_rest(2.0 * DVec3::X),
+        expected,
+    )
 }
 
 /// Makes a cone that falls onto a slab with its tip first; the sides of the cone are long and thin triangles.
@@ -116,8 +124,8 @@ fn cubes_far_from_origin(distance: f64) -> Result<FamilyScene> {
     let step = FamilyScene::new(cube()?, cube()?);
     step.with_query(
         falling,
-        BodyMotion::resting(origin),
-        expected_contact_at(0.5, 1e-14),
+        BodyMotion::motion_at_rest(origin),
+        truth_for_contact_time(0.5, 1e-14),
     )
 }
 
@@ -135,9 +143,9 @@ fn thin_box_onto_slab(ratio: f64) -> Result<FamilyScene> {
 fn bullet_and_paper(ratio: f64) -> Result<FamilyScene> {
     let (bullet, half) = (0.005, 0.05 / ratio);
     let flying = BodyMotion::straight(DVec3::ZERO, DVec3::X);
-    let paper = BodyMotion::resting(0.5 * DVec3::X);
+    let paper = BodyMotion::motion_at_rest(0.5 * DVec3::X);
     let step = FamilyScene::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
-    let expected = expected_contact_at(0.5 - half - bullet, 1e-14);
+    let expected = truth_for_contact_time(0.5 - half - bullet, 1e-14);
     step.with_query_and_rotations(flying, paper, expected)
 }
 
@@ -149,7 +157,7 @@ fn cube_within_margin_of_slab(margin: f64) -> Result<FamilyScene> {
     let step = FamilyScene::new(cube()?, slab()?);
     let step = FamilyScene { margin, ..step };
     let slab = BodyMotion::RESTING_SLAB_MOTION;
-    step.with_query_and_rotations(falling, slab, expected_contact_at(0.5, 1e-14))
+    step.with_query_and_rotations(falling, slab, truth_for_contact_time(0.5, 1e-14))
 }
 
 /// Makes a small cube that moves inside a larger cube, so that the solids overlap but their surfaces do not meet. The

@@ -1,6 +1,6 @@
 //! Scenes whose contact is close to the start or close to the end.
 
-use super::super::family::{BodyMotion, Family, FamilyScene, expected_contact_at};
+use super::super::family::{BodyMotion, Family, FamilyScene, truth_for_contact_time};
 use super::super::shapes::{cube, sheet, slab};
 use super::{family, negative_powers_of_ten};
 use crate::truth::Truth;
@@ -47,13 +47,13 @@ fn cube_falling_onto_slab(time: f64) -> Result<(FamilyScene, BodyMotion)> {
 fn contact_after_start(time: f64) -> Result<FamilyScene> {
     let (step, falling) = cube_falling_onto_slab(time)?;
     let step = step.with_tolerance(greater(0.1 * time, 1e-11));
-    let expected = expected_contact_at(time, 1e-14);
+    let expected = truth_for_contact_time(time, 1e-14);
     step.with_query_and_rotations(falling, BodyMotion::RESTING_SLAB_MOTION, expected)
 }
 
 fn contact_before_end(before: f64) -> Result<FamilyScene> {
     let (step, falling) = cube_falling_onto_slab(1.0 - before)?;
-    let expected = expected_contact_at(1.0 - before, 1e-14);
+    let expected = truth_for_contact_time(1.0 - before, 1e-14);
     step.with_query_and_rotations(falling, BodyMotion::RESTING_SLAB_MOTION, expected)
 }
 
@@ -68,5 +68,9 @@ fn contact_after_end(after: f64) -> Result<FamilyScene> {
 fn sheet_onto_sheet(way: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight(way * DVec3::Z, DVec3::NEG_Z);
     let step = FamilyScene::new(sheet(4)?, sheet(4)?).with_tolerance(greater(0.1 * way, 1e-11));
-    step.with_query_and_rotations(falling, BodyMotion::STILL, expected_contact_at(way, 1e-14))
+    step.with_query_and_rotations(
+        falling,
+        BodyMotion::STILL,
+        truth_for_contact_time(way, 1e-14),
+    )
 }

@@ -1,6 +1,6 @@
 //! Scenes of rotations, from very small ones to thousands of turns.
 
-use super::super::family::{BodyMotion, Family, FamilyScene, expected_contact_at};
+use super::super::family::{BodyMotion, Family, FamilyScene, truth_for_contact_time};
 use super::super::shapes::{cube, cuboid};
 use super::{
     ROD_HALF_SIDES, fall_onto_slab, family, powers_of_ten, rod, rod_beside_wall, rod_contact_angle,
@@ -34,7 +34,7 @@ fn rod_into_a_wall(turns: f64) -> Result<FamilyScene> {
     let wall = 1.2;
     let spin = TAU * turns;
     let turning = BodyMotion::STILL.with_spin(spin * DVec3::Y);
-    let expected = expected_contact_at(rod_contact_angle(wall) / spin, 1e-15);
+    let expected = truth_for_contact_time(rod_contact_angle(wall) / spin, 1e-15);
     rod_beside_wall(turning, wall, expected)
 }
 
@@ -48,10 +48,10 @@ fn arm_swinging_into_wall(spin: f64) -> Result<FamilyScene> {
     let swinging = BodyMotion::STILL.with_spin(spin * DVec3::Z);
     let angle = arm.atan2(ROD_HALF_SIDES.1) + (wall / arm.hypot(ROD_HALF_SIDES.1)).asin();
     let step = FamilyScene::new(hanging, cuboid(3.0, 1.0, 3.0)?);
-    let expected = expected_contact_at(angle / spin, 1e-15);
+    let expected = truth_for_contact_time(angle / spin, 1e-15);
     step.with_query_and_rotations(
         swinging,
-        BodyMotion::resting((wall + 1.0) * DVec3::Y),
+        BodyMotion::motion_at_rest((wall + 1.0) * DVec3::Y),
         expected,
     )
 }
@@ -60,10 +60,11 @@ fn arm_swinging_into_wall(spin: f64) -> Result<FamilyScene> {
 /// of `tests/it/scenes.rs`.
 fn counter_rotating_rods(turns: f64) -> Result<FamilyScene> {
     let (apart, spin) = (3.0, TAU * turns);
-    let turning = |spin: f64, x: f64| BodyMotion::resting(x * DVec3::X).with_spin(spin * DVec3::Y);
+    let turning =
+        |spin: f64, x: f64| BodyMotion::motion_at_rest(x * DVec3::X).with_spin(spin * DVec3::Y);
     let angle = rod_contact_angle(0.5 * apart);
     debug_assert!(angle < PI);
     let step = FamilyScene::new(rod()?, rod()?);
-    let expected = expected_contact_at(angle / spin, 1e-15);
+    let expected = truth_for_contact_time(angle / spin, 1e-15);
     step.with_query_and_rotations(turning(spin, 0.0), turning(-spin, apart), expected)
 }

@@ -1,6 +1,6 @@
 use super::*;
 use ccd_core::order::greater;
-use ccd_decomp::Topology;
+use ccd_decomp::TopologyDefects;
 
 #[test]
 fn bodies_are_closed_and_of_the_volume_that_they_should_have() {
@@ -17,7 +17,7 @@ fn bodies_are_closed_and_of_the_volume_that_they_should_have() {
         (sliver_slab(1e-6), 648.0, 1e-9),
     ];
     for (mesh, volume, slack) in cases {
-        let topology = Topology::of(&mesh.unwrap());
+        let topology = TopologyDefects::of(&mesh.unwrap());
         assert!(topology.is_solid() && topology.is_manifold(), "{topology}");
         assert!(
             (topology.signed_volume - volume).abs() <= slack,
@@ -44,7 +44,7 @@ fn a_sliver_is_as_thin_as_it_should_be() {
 fn cubes_in_a_field_are_turned_inside_out_one_by_one() {
     let field = cube_grid_half_inside_out(5).unwrap();
     assert_eq!(field.faces().len(), 60);
-    let topology = Topology::of(&field);
+    let topology = TopologyDefects::of(&field);
     assert_eq!(topology.wrong_shells.count(), 2, "{topology:?}");
     assert!(field.vertices().iter().all(|p| p.z <= 0.0));
 }

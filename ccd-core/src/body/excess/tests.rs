@@ -56,8 +56,8 @@ fn a_sum_is_rounded_away_from_what_is_claimed() {
         (0.3, 0.3)
     );
     let both = ExcessSum::sum_of_bodies(&exceeding(0.1), &exceeding(0.2));
-    assert!(both.upper_bound_at_overlap() > 0.1 + 0.2);
-    assert!(both.shape_distance_upper_bound(0.3) > 0.3 + both.upper_bound_at_overlap());
+    assert!(both.shape_distance_bound_at_overlap() > 0.1 + 0.2);
+    assert!(both.shape_distance_upper_bound(0.3) > 0.3 + both.shape_distance_bound_at_overlap());
     assert!(
         both.shape_distance_upper_bound(both.certain_nearness_threshold(1.0)) >= 1.0 - 1e-15
             && both.certain_nearness_threshold(1.0) < 0.7
@@ -77,6 +77,6 @@ fn a_sum_is_rounded_away_from_what_is_claimed() {
         crate::Pieces::from_triangles(&about.polytope().points, &triangles, &numbers).unwrap();
     let surface = Body::new(&pieces, crate::Solidity::Solid).unwrap();
     let surface = surface.with_excess(about.excess()).unwrap();
-    let joined = whole.with_surface(surface).unwrap();
+    let joined = whole.with_surface_triangles(surface).unwrap();
     assert_eq!(joined.excess(), about.excess());
 }

@@ -60,7 +60,7 @@ fn names_agree_with_a_scan_of_all_facets() {
         ];
         let mut point = ConvexCombination::EMPTY;
         for _ in 0..rng.random_range(1..=3) {
-            point.push(near[rng.random_range(0..4)], rng.random_range(0.1..1.0));
+            point.add_weighted_point(near[rng.random_range(0..4)], rng.random_range(0.1..1.0));
         }
         let name = find_mesh_feature(&piece, &point, |corner| corner);
         let scanned = find_mesh_feature(&bare, &point, |corner| corner);

@@ -15,7 +15,7 @@ use crate::body::pieces::Pieces;
 use crate::body::pieces::builder::{PiecesBuilder, PolytopeParts};
 use crate::body::polytope::Polytope;
 use crate::error::InputError;
-use crate::math::exact::first_inexact_point_index;
+use crate::math::exact::first_underflow_prone_point_index;
 use crate::math::order::greater;
 use crate::math::vector::bounding_box;
 use glam::DVec3;
@@ -81,7 +81,7 @@ fn flatten_hulls(nodes: Vec<Node<'_>>) -> Result<Pieces, InputError> {
                 .iter()
                 .zip(node.facet_data.iter().map(|facet| facet.provenance)),
             faces: node.faces().copied(),
-            radius: node.radius,
+            radius: node.rounding_radius,
         });
     }
     builder.into_pieces()
@@ -104,7 +104,7 @@ fn facets_by_point(nodes: &[Node<'_>]) -> AdjacencyLists<u32> {
 
 /// Creates the leaf node for a piece, whose hull is the piece itself.
 fn check_and_make_leaf_node(at: usize, piece: Polytope) -> Result<Node<'static>, HullTreeError> {
-    if let Some(point) = first_inexact_point_index(&piece.points) {
+    if let Some(point) = first_underflow_prone_point_index(&piece.points) {
         let point = point as u32;
         return Err(HullFault::CoordinateTooSmall { point }.at_node(at));
     }
@@ -118,7 +118,7 @@ fn check_and_make_leaf_node(at: usize, piece: Polytope) -> Result<Node<'static>,
         points: Cow::Owned(piece.points),
         vertex_ids: piece.vertex_ids,
         leaf_faces: Some(piece.faces),
-        radius: piece.radius,
+        rounding_radius: piece.radius,
     })
 }
 
@@ -134,13 +134,15 @@ fn check_and_make_inner_node<'a>(
     let identity = PointNumbering::new(hull, [left, right]).map_err(at_node)?;
     check_children_inside(hull, &identity, &children).map_err(at_node)?;
 
-    let even = |child: &Node<'_>| child.has_uniform_radius && child.radius == left.radius;
+    let even = |child: &Node<'_>| {
+        child.has_uniform_radius && child.rounding_radius == left.rounding_radius
+    };
     let has_uniform_radius = even(left) && even(right);
     let numbered = [0, 1].map(|k| NumberedChild {
         node: children[k].1,
         point_numbers: &identity.child_point_numbers[k],
     });
-    let radius = greater(left.radius, right.radius);
+    let radius = greater(left.rounding_radius, right.rounding_radius);
     Ok(Node {
         facet_data: inherit_facet_data(hull, &identity.positions, numbered),
         has_uniform_radius,
@@ -149,7 +151,7 @@ fn check_and_make_inner_node<'a>(
         points: Cow::Borrowed(&hull.points),
         vertex_ids: identity.vertex_ids,
         leaf_faces: None,
-        radius,
+        rounding_radius: radius,
     })
 }
 

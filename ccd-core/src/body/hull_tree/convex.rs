@@ -3,7 +3,7 @@
 use crate::body::facets::{edges_of, fan_triangles};
 use crate::body::piece::Piece;
 use crate::body::support::SupportMap;
-use crate::math::exact::{first_inexact_point_index, side_of_plane};
+use crate::math::exact::{first_underflow_prone_point_index, side_of_plane};
 use glam::DVec3;
 use std::cmp::Ordering;
 
@@ -27,7 +27,7 @@ pub(crate) fn build_support_map(hull: &Piece<'_>) -> SupportMap {
 /// convex part of a face. From every corner of the facet an edge then leads up along any direction that goes up from
 /// there in that face.
 fn is_convex(hull: &Piece<'_>) -> bool {
-    if hull.facets.is_empty() || first_inexact_point_index(hull.points).is_some() {
+    if hull.facets.is_empty() || first_underflow_prone_point_index(hull.points).is_some() {
         return false;
     }
     let middle = hull.points.iter().sum::<DVec3>() / hull.points.len() as f64;

@@ -17,7 +17,7 @@ pub(super) struct Node<'a> {
     pub(super) facet_data: Vec<FacetData>,
     /// The mesh's faces on a leaf's piece; `None` for an inner node, whose faces are listed by facet.
     pub(super) leaf_faces: Option<Vec<MeshFace>>,
-    pub(super) radius: f64,
+    pub(super) rounding_radius: f64,
     pub(super) has_uniform_radius: bool,
     pub(super) half_diagonal: f64,
 }

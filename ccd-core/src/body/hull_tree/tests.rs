@@ -80,8 +80,8 @@ fn facets_are_a_childs_or_tiled_or_bridges() {
     assert_eq!(whole.facet_classes(0), [OnMesh; 6]);
     let root = whole.hulls().get(0);
     let origins = [FacetOrigin::Face(0), FacetOrigin::Face(7)];
-    assert_eq!(root.facets.origins()[..2], origins);
-    assert_eq!(root.facets.origins()[2..], [FacetOrigin::Faces; 4]);
+    assert_eq!(root.facets.origins_in_mesh()[..2], origins);
+    assert_eq!(root.facets.origins_in_mesh()[2..], [FacetOrigin::Faces; 4]);
     // The mesh's faces are found again on a tiled side.
     let top = ConvexCombination::of_two_points([4, 7], 0.25);
     assert_eq!(whole.hulls().feature(0, &top), Feature::Face(5));
@@ -114,7 +114,7 @@ fn virtual_facets_stay_contained() {
     assert_eq!(whole.facet_classes(1)[5], FacetClass::InsideSolid);
     assert_eq!(whole.facet_classes(0)[5], FacetClass::InsideSolid);
     assert_eq!(
-        whole.hulls().get(0).facets.origins()[5],
+        whole.hulls().get(0).facets.origins_in_mesh()[5],
         FacetOrigin::Virtual
     );
 }
@@ -128,7 +128,9 @@ fn features_take_the_best_class_of_their_facets() {
     .unwrap();
     let class = |node, support: &[u32]| {
         let mut point = ConvexCombination::EMPTY;
-        support.iter().for_each(|&v| point.push(v, 1.0));
+        support
+            .iter()
+            .for_each(|&v| point.add_weighted_point(v, 1.0));
         gap.facet_class_at(node, &point)
     };
     use FacetClass::{Bridge, InsideSolid, OnMesh};

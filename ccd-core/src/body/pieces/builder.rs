@@ -72,13 +72,15 @@ impl PiecesBuilder {
         polytopes.point_ends.push(self.points.len() as u32);
         polytopes.radii.push(polytope.radius);
         for (corners, origin) in polytope.facets {
-            polytopes.corners.extend_from_slice(corners);
-            polytopes.corner_ends.push(polytopes.corners.len() as u32);
-            polytopes.facet_origins.push(origin);
+            polytopes.facet_corners.extend_from_slice(corners);
+            polytopes
+                .facet_corner_ends
+                .push(polytopes.facet_corners.len() as u32);
+            polytopes.facet_source_mesh_faces.push(origin);
         }
         polytopes
             .facet_ends
-            .push(polytopes.facet_origins.len() as u32);
+            .push(polytopes.facet_source_mesh_faces.len() as u32);
         polytopes.faces.extend(polytope.faces);
         polytopes.face_ends.push(polytopes.faces.len() as u32);
     }

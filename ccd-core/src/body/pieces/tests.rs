@@ -187,7 +187,9 @@ proptest! {
 /// Returns the combination of some corners with equal weights.
 fn mean(corners: &[u32]) -> ConvexCombination {
     let mut mean = ConvexCombination::EMPTY;
-    corners.iter().for_each(|&corner| mean.push(corner, 1.0));
+    corners
+        .iter()
+        .for_each(|&corner| mean.add_weighted_point(corner, 1.0));
     mean
 }
 
@@ -225,7 +227,7 @@ fn points_on_virtual_facets_within_a_face_are_named_by_it() {
         let mut point = ConvexCombination::EMPTY;
         terms
             .iter()
-            .for_each(|&(corner, weight)| point.push(corner, weight));
+            .for_each(|&(corner, weight)| point.add_weighted_point(corner, weight));
         pieces.feature(0, &point)
     };
     assert_eq!(weighted(&[(1, 0.5), (2, 0.4)]), Feature::Face(11));

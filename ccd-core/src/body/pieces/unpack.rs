@@ -10,7 +10,7 @@ impl Pieces {
     /// When `index` is not below [`Pieces::len`].
     pub fn polytope(&self, index: usize) -> Polytope {
         let piece = self.get(index);
-        let facets = piece.facets.iter().zip(piece.facets.origins());
+        let facets = piece.facets.iter().zip(piece.facets.origins_in_mesh());
         let facet = |(corners, &origin): (&[u32], _)| Facet {
             origin,
             corners: corners.to_vec(),
@@ -20,7 +20,7 @@ impl Pieces {
             vertex_ids: self.vertex_ids(index).to_vec(),
             facets: facets.map(facet).collect(),
             faces: match &self.shape {
-                PieceShapes::Polytopes(_) => piece.facets.faces.to_vec(),
+                PieceShapes::Polytopes(_) => piece.facets.mesh_faces.to_vec(),
                 PieceShapes::Triangles { face_ids } => vec![MeshFace {
                     id: face_ids[index],
                     vertices: [0, 1, 2].map(|k| self.vertex_ids(index)[k]),

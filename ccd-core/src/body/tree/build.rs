@@ -71,7 +71,7 @@ impl PieceRanges {
         }
     }
 
-    fn len(&self, node: u32) -> usize {
+    fn piece_count(&self, node: u32) -> usize {
         self.node_ranges[node as usize].len()
     }
 }
@@ -124,10 +124,11 @@ impl TreeLayout {
         layout.push_node(ranges, 0);
         let mut waiting = vec![(0u32, 0u32)];
         while let Some((parent, at)) = waiting.pop() {
-            layout.nodes[parent as usize].children = if triangles && ranges.len(at) <= LANES {
+            layout.nodes[parent as usize].children = if triangles && ranges.piece_count(at) <= LANES
+            {
                 layout.triangle_group_nodes.push(parent);
                 NodeChildren::Triangles(layout.triangle_group_nodes.len() as u32 - 1)
-            } else if ranges.len(at) > 1 {
+            } else if ranges.piece_count(at) > 1 {
                 let (members, count) = opener.choose_children(at);
                 let first = layout.nodes.len() as u32;
                 let children = first..first + count as u32;
@@ -266,10 +267,12 @@ impl ChildChooser<'_> {
     /// Groups are full at the bottom, where most of the groups are.
     fn choose_children(&self, at: u32) -> ([u32; LANES], usize) {
         let (mut members, mut count) = ([at; LANES], 1);
-        let max_leaf_pieces = self.max_child_pieces(self.ranges.len(at));
+        let max_leaf_pieces = self.max_child_pieces(self.ranges.piece_count(at));
         while count < LANES {
-            let largest = (0..count).max_by_key(|&k| self.ranges.len(members[k]));
-            let Some(k) = largest.filter(|&k| self.ranges.len(members[k]) > max_leaf_pieces) else {
+            let largest = (0..count).max_by_key(|&k| self.ranges.piece_count(members[k]));
+            let Some(k) =
+                largest.filter(|&k| self.ranges.piece_count(members[k]) > max_leaf_pieces)
+            else {
                 break;
             };
             let HierarchyNode::Inner(left, right) = self.hierarchy.nodes()[members[k] as usize]

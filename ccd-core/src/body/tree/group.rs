@@ -3,7 +3,7 @@
 use crate::math::order::greater;
 use crate::math::vector::{length, normal};
 use crate::rounding::{
-    MAX_THICKNESS_RATIO_F32, RAY_BOX_WIDENING_F64, SQUARED_LENGTH_RANGE, UNIT_ROUNDOFF_F64,
+    MAX_FLAT_NODE_THICKNESS_F32, RAY_BOX_WIDENING_F64, SQUARED_LENGTH_RANGE, UNIT_ROUNDOFF_F64,
 };
 use glam::{DVec3, Vec3};
 
@@ -230,7 +230,7 @@ impl Node {
 
     /// Returns whether the box is thin enough for the node to count as flat.
     pub(crate) fn is_thin(&self) -> bool {
-        self.half_extents[2] <= MAX_THICKNESS_RATIO_F32 * self.radius
+        self.half_extents[2] <= MAX_FLAT_NODE_THICKNESS_F32 * self.radius
     }
 
     /// Returns half the extent of the box along one of its axes, rounding radius included, widened for the rounding of

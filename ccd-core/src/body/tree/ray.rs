@@ -148,7 +148,7 @@ impl RayCrossingSums {
             Sign::Unclear
         } else {
             match Sign::of_number(height, size(a) * size(b) * size(c)) {
-                Sign::Unclear => triangle_side_of_ray_start(triangle, corners, sign),
+                Sign::Unclear => ray_parameter_sign(triangle, corners, sign),
                 clear => clear,
             }
         };
@@ -166,7 +166,7 @@ impl RayCrossingSums {
 
 /// Returns whether a triangle is ahead of a ray's start or behind it, computed from the triangle's edges. The edges may
 /// be far shorter than the vectors to the corners.
-fn triangle_side_of_ray_start(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
+fn ray_parameter_sign(triangle: [DVec3; 3], corners: [DVec3; 3], sign: i32) -> Sign {
     let size = |p: DVec3| p.abs().element_sum();
     let signs = [0, 1, 2].map(|k| {
         let (next, last) = ((k + 1) % 3, (k + 2) % 3);

@@ -31,7 +31,7 @@ fn worst_box() {
         let along = points[tape.index_below(8)] - points[tape.index_below(8)];
         let n =
             (along.normalize_or_zero() + random_direction(tape) * tape.size(-30..=4)).normalize();
-        let [_, high] = node.projection_on(n);
+        let [_, high] = node.projection_interval(n);
         let axes = node.axes.map(|axis| axis.dot(n).abs());
         let allowed = RAY_BOX_WIDENING_F64 * node.radius * (axes[0] + axes[1] + axes[2]);
         let middle = DoubleDouble3::from(n).dot(DoubleDouble3::from(node.centre));

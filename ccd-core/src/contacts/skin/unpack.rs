@@ -44,7 +44,7 @@ impl NearSurface<'_> {
             }
             let mut inside = ConvexCombination::EMPTY;
             for corner in corners {
-                inside.push(corner, 1.0);
+                inside.add_weighted_point(corner, 1.0);
             }
             let name = self.body.pieces().feature(index as usize, &inside);
             (
@@ -69,7 +69,7 @@ impl NearSurface<'_> {
         if triangles.peek().is_none() {
             return Vec::new();
         }
-        let faces = piece.facets.faces.iter();
+        let faces = piece.facets.mesh_faces.iter();
         let numbered = faces.flat_map(|face| face.corners.into_iter().zip(face.vertices.map(Some)));
         let points = (0..piece.points.len() as u32).rev();
         let own = points.map(|k| {

@@ -47,12 +47,12 @@ fn cubes_that_stand_on_each_other_have_one_normal() {
             assert!(found.distance(expected) < 1e-14, "{found} {expected}");
         }
         assert_eq!(
-            normals.nearest_normal_if_parallel(expected, 1e-12 * random_direction(rng)),
+            normals.nearest_normal_parallel_to(expected, 1e-12 * random_direction(rng)),
             None
         );
         assert!(
             normals
-                .nearest_normal_if_parallel(expected, 1e-12 * expected)
+                .nearest_normal_parallel_to(expected, 1e-12 * expected)
                 .is_some()
         );
     }

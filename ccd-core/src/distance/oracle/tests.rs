@@ -8,12 +8,12 @@ use crate::tests::scene::{RngExt, random_point_in_ball, rng};
 fn terms_are_merged_dropped_and_capped() {
     let mut out = ConvexCombination::EMPTY;
     for weight in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        out.push(0, weight);
+        out.add_weighted_point(0, weight);
     }
     assert_eq!(out, ConvexCombination::EMPTY);
     assert!(out.point_indices().is_empty());
     for (index, weight) in [(4, 1.0), (7, 2.0), (4, 3.0), (0, 1.0), (1, 1.0), (9, 1.0)] {
-        out.push(index, weight);
+        out.add_weighted_point(index, weight);
     }
     // The fifth distinct index was dropped.
     assert_eq!(out.point_indices(), [4, 7, 0, 1]);
@@ -40,7 +40,7 @@ fn a_combination_names_a_point_of_the_hull() {
         let weights = [(); 4].map(|()| rng.random_range(1e-3..1.0));
         let mut out = ConvexCombination::EMPTY;
         for (k, weight) in weights.into_iter().enumerate() {
-            out.push(k as u32, weight);
+            out.add_weighted_point(k as u32, weight);
         }
         let sum: f64 = weights.iter().sum();
         let exact: DVec3 = points

@@ -119,7 +119,7 @@ fn boxes_intersect(b_to_a: Frame) -> bool {
         // The point is a combination of four corners, with trilinear weights along the box's diagonal directions.
         let mut out = ConvexCombination::EMPTY;
         for (corner, weight) in corner_weights(p) {
-            out.push(corner, weight);
+            out.add_weighted_point(corner, weight);
         }
         out
     };

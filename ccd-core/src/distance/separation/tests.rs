@@ -39,7 +39,7 @@ fn random_claim(rng: &mut Pcg64) -> Claim {
     let mut combinations = weights.chunks(3).map(|weights| {
         let mut out = ConvexCombination::EMPTY;
         for &weight in weights {
-            out.push(rng.random_range(0..4), weight);
+            out.add_weighted_point(rng.random_range(0..4), weight);
         }
         out
     });
@@ -126,7 +126,7 @@ fn overflowing_weights_are_a_false_claim() {
     for weight in [f64::MAX, 1e308, 5e-324, 1e-310] {
         let mut lie = ConvexCombination::EMPTY;
         for (index, share) in [(0, 1.0), (1, 0.7), (2, 0.9), (1, 1.0)] {
-            lie.push(index, weight * share);
+            lie.add_weighted_point(index, weight * share);
         }
         let claim = Claim {
             axis: DVec3::Z,
@@ -250,7 +250,7 @@ fn facets_have_better_axes_than_corners_across_them() {
         };
         let mut across = ConvexCombination::default();
         for &corner in corners {
-            across.push(corner, 1.0 / corners.len() as f64);
+            across.add_weighted_point(corner, 1.0 / corners.len() as f64);
         }
         let tilted = Claim {
             axis: -DVec3::Z + random_point_in_ball(&mut rng, 1e-9),

@@ -25,7 +25,7 @@ pub(crate) fn widest_gap_axis<L: Simd, C: Children, P: OtherNode>(
 ) -> AxesX8<L> {
     let level = offset.simd_level();
     let between = children.offset_from_nearest_point(other.offset_to_nearest_point(offset));
-    let between = axes_with_gaps(children, other, offset, between);
+    let between = unit_axes_and_gaps(children, other, offset, between);
     let own = oriented_towards(children.likely_separating_axis(level), offset);
     let own = AxesX8::new(
         own,
@@ -51,7 +51,7 @@ pub(crate) fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
 ) -> AxesX8<L> {
     let nearest = offset.dot(travel) / travel.dot(travel).max(LEAST_DIVISOR);
     let nearest = nearest.min(1.0).max(0.0);
-    axes_with_gaps(children, other, offset, offset - travel * nearest)
+    unit_axes_and_gaps(children, other, offset, offset - travel * nearest)
 }
 
 /// Returns the axes along given vectors of any length, with the gaps along them.
@@ -59,7 +59,7 @@ pub(crate) fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
 /// The gaps are measured before the vectors are made unit vectors: a root and a quotient take as long as the
 /// measurement.
 #[inline(always)]
-pub(crate) fn axes_with_gaps<L: Simd, C: Children, P: OtherNode>(
+pub(crate) fn unit_axes_and_gaps<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
     offset: Vec3x8<L>,

@@ -14,7 +14,7 @@ use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*, u32x8};
 
 /// The free times of eight pairs of nodes, and the choices for the next step of each pair.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct EightPairBounds {
+pub(crate) struct EightPairFreeTimes {
     /// The time for which each pair certainly stays farther apart than the required gap.
     pub(crate) free_times: FreeTimes,
     /// The pairs to visit again instead of splitting them, as bits. They are far apart for their size.
@@ -38,14 +38,14 @@ pub(crate) fn bound_eight_pairs<L: Simd, C: Children, P: OtherNode>(
     other: &P,
     motion: &RelativeMotionF32,
     lanes: u8,
-) -> EightPairBounds {
+) -> EightPairFreeTimes {
     let pairs = EightPairs::new(level, children, other, motion);
     let widest = axis::widest_gap_axis(children, other, pairs.offset);
     let travel = pairs.velocity * splat(level, motion.remaining_time);
     let passing = axis::closest_approach_axis(children, other, pairs.offset, travel);
     let radius = children.radius(level);
     let revisit =
-        widest.gap - motion.slack - (radius + other.radius()) * MIN_REVISIT_DISTANCE_RATIO;
+        widest.gap - motion.required_gap - (radius + other.radius()) * MIN_REVISIT_DISTANCE_RATIO;
     let split_child = (widest.child_extent + radius * ADDED_THICKNESS_PER_RADIUS)
         - (widest.other_extent + ADDED_THICKNESS_PER_RADIUS * other.radius());
     let mut free = pairs
@@ -54,17 +54,17 @@ pub(crate) fn bound_eight_pairs<L: Simd, C: Children, P: OtherNode>(
     let mut revisit = mask_bits(revisit.simd_gt(0.0));
     if let Some(past) = FlybyPairs::new(&pairs, widest) {
         free = free.max(past.turning_plane_time);
-        revisit |= mask_bits(past.revisit_mask(free, widest.gap - motion.slack));
+        revisit |= mask_bits(past.revisit_mask(free, widest.gap - motion.required_gap));
     }
     let split_child = if other.is_piece() {
         u8::MAX
     } else {
         mask_bits(split_child.simd_gt(0.0))
     };
-    EightPairBounds {
+    EightPairFreeTimes {
         free_times: FreeTimes::pack(free, lanes),
         revisit_mask: revisit,
-        split_child_mask: split_child & !mask_bits(children.single_piece_mask(level)),
+        split_child_mask: split_child & !mask_bits(children.leaf_children_mask(level)),
         other_is_piece: other.is_piece(),
     }
 }
@@ -86,7 +86,7 @@ struct FlybyPairs<L: Simd> {
     small_radius: f32x8<L>,
     /// Set if the large node is a single piece. Then only the size of the small node decides whether the pair is far
     /// apart.
-    large_piece_mask: mask32x8<L>,
+    large_node_is_piece: mask32x8<L>,
 }
 
 impl<L: Simd> FlybyPairs<L> {
@@ -116,17 +116,17 @@ impl<L: Simd> FlybyPairs<L> {
                 ),
                 large_radius: children.radius(level),
                 small_radius: splat(level, other.radius()),
-                large_piece_mask: children.single_piece_mask(level),
+                large_node_is_piece: children.leaf_children_mask(level),
             }),
             LargerBody::OtherBody => Some(FlybyPairs {
-                turning_plane_time: pairs.free_times_turning_with_other_body(axis),
+                turning_plane_time: pairs.free_times_of_planes_turning_with_other(axis),
                 spin: motion.other_rotation.angular_speed,
                 small_node_arm_length: motion
                     .other_rotation
                     .distances_from_centre(children.centre(level)),
                 large_radius: splat(level, other.radius()),
                 small_radius: children.radius(level),
-                large_piece_mask: mask32x8::splat(level, other.is_piece()),
+                large_node_is_piece: mask32x8::splat(level, other.is_piece()),
             }),
         }
     }
@@ -137,7 +137,7 @@ impl<L: Simd> FlybyPairs<L> {
         let swept =
             free * self.spin * self.small_node_arm_length - self.large_radius * MIN_REVISIT_SWEEP;
         let clear = apart - self.small_radius * MIN_REVISIT_DISTANCE_RATIO;
-        swept.simd_gt(0.0) | self.large_piece_mask & clear.simd_gt(0.0)
+        swept.simd_gt(0.0) | self.large_node_is_piece & clear.simd_gt(0.0)
     }
 }
 

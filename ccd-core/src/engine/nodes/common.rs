@@ -22,7 +22,7 @@ pub(crate) struct NodeContext<'p> {
     /// that does not turn.
     angular_velocities: [Option<(Vec3, f32)>; 2],
     /// The gap that every clock proves, rounded up.
-    pub(crate) gap: f32,
+    pub(crate) kept_gap: f32,
     /// The gap `Problem::kept_node_gap` that pairs of nodes keep if rounding allows, rounded up. Until its clock, a pair of
     /// nodes keeps this gap or the sum of `gap` and the rounding, whichever is larger.
     pub(crate) guaranteed_node_gap: f32,
@@ -73,7 +73,7 @@ impl<'p> NodeContext<'p> {
                     )
                 })
             }),
-            gap: round_up_to_f32(problem.kept_gap()),
+            kept_gap: round_up_to_f32(problem.kept_gap()),
             guaranteed_node_gap: round_up_to_f32(problem.kept_node_gap()),
             rounding: round_up_to_f32(problem.rounding),
             rate_allowance: RATE_ERROR_F32 * round_up_to_f32(speed_bound(&problem.a, &problem.b)),

@@ -23,7 +23,7 @@ pub(crate) struct RelativeMotionF32 {
     /// The time left to the end of the duration.
     pub(crate) remaining_time: f32,
     /// The gap to keep, plus a bound of the rounding error of a computed gap.
-    pub(crate) slack: f32,
+    pub(crate) required_gap: f32,
     /// The excess of a gap over the slack up to which the gap counts as closed.
     pub(crate) closed_gap_threshold: f32,
     /// A bound of the rounding of a closing rate.
@@ -114,7 +114,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
                 self.other_rotational_speed_bound,
             );
         }
-        let apart = axis.gap - motion.slack;
+        let apart = axis.gap - motion.required_gap;
         if let Some(acceleration) = motion.acceleration {
             let along = axis.n.dot(Vec3x8::splat(axis.n.simd_level(), acceleration));
             let rounding = splat(axis.n.simd_level(), RATE_ERROR_F32 * acceleration.length());

@@ -1,7 +1,7 @@
 //! Splits one node of a pair: bounds its children against the other node, with both bodies placed at the time of the
 //! pair's clock.
 
-use super::bounds::{EightPairBounds, bound_eight_pairs};
+use super::bounds::{EightPairFreeTimes, bound_eight_pairs};
 use super::common::NodeContext;
 use super::eight_pairs::{BodyRotation, LargerBody, RelativeMotionF32};
 use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
@@ -20,7 +20,7 @@ use glam::{DVec3, Vec3};
 /// The result of a split: the bounds of the node's children against the other node, and the first child.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expansion {
-    pub(crate) bounds: EightPairBounds,
+    pub(crate) bounds: EightPairFreeTimes,
     pub(crate) first_child: NodeId,
 }
 
@@ -52,7 +52,7 @@ impl Split {
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn expand(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansion {
-    bound_children(common, split, s, ClosingRate::FromMotion)
+    bound_children(common, split, s, ClosingRate::RateOfMotion)
 }
 
 /// Computes lower bounds of the distances of the children from the other node at clock `s`. They are returned as free
@@ -61,7 +61,7 @@ pub(crate) fn expand(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansi
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn bound_child_distances(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansion {
-    let mut expansion = bound_children(common, split, s, ClosingRate::UnitRate);
+    let mut expansion = bound_children(common, split, s, ClosingRate::UnitClosingRate);
     // A second visit would give the same result.
     expansion.bounds.revisit_mask = 0;
     expansion
@@ -71,9 +71,9 @@ pub(crate) fn bound_child_distances(common: &NodeContext<'_>, split: &Split, s: 
 #[derive(Clone, Copy, Debug)]
 enum ClosingRate {
     /// The rate due to the motion of the bodies.
-    FromMotion,
+    RateOfMotion,
     /// One unit of length per unit of time, along every axis, so that the free time is the distance.
-    UnitRate,
+    UnitClosingRate,
 }
 
 /// Computes the free times of a split node's children, with the best vector instructions. This function alone contains
@@ -162,11 +162,11 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
 
     /// Computes the free times of the children in a group against the other body's node.
     #[inline(always)]
-    fn bound_group<C: Children>(&self, group: &C, members: &GroupHeader) -> EightPairBounds {
+    fn bound_group<C: Children>(&self, group: &C, members: &GroupHeader) -> EightPairFreeTimes {
         let RelativeState {
             rotation, offset, ..
         } = self.relative_state;
-        let centre = self.relative_path.centre(self.simd_level)
+        let centre = self.relative_path.rotation_centre(self.simd_level)
             - PackedVector::new(self.simd_level, members.origin);
         let other_centre = centre + offset;
         let group_view = GroupMotion {
@@ -202,10 +202,12 @@ struct GroupMotion<'m, L: Simd> {
 
 impl<L: Simd> GroupMotion<'_, L> {
     #[inline(always)]
-    fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> EightPairBounds {
+    fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> EightPairFreeTimes {
         let motion = match self.motion.closing_rate {
-            ClosingRate::FromMotion => self.motion_in_f32(other.centre(), other.radius()),
-            ClosingRate::UnitRate => self.motion_at_unit_rate(other.centre(), other.radius()),
+            ClosingRate::RateOfMotion => self.motion_in_f32(other.centre(), other.radius()),
+            ClosingRate::UnitClosingRate => {
+                self.unit_closing_rate_motion(other.centre(), other.radius())
+            }
         };
         let lanes = self.motion.split.lane_mask & u8::MAX >> (LANES as u32 - self.header.count);
         bound_eight_pairs(self.motion.simd_level, group, other, &motion, lanes)
@@ -301,7 +303,7 @@ impl<L: Simd> GroupMotion<'_, L> {
         let rounding = self.rounding(centre, radius);
         // Large nodes, whose gaps have a rounding above the rest of the tolerance, keep the gap of pieces.
         let slack = greater(
-            (common.gap + rounding).next_up(),
+            (common.kept_gap + rounding).next_up(),
             common.guaranteed_node_gap,
         );
         RelativeMotionF32 {
@@ -314,7 +316,7 @@ impl<L: Simd> GroupMotion<'_, L> {
             split_body_rotation: split,
             other_rotation: other,
             remaining_time: self.motion.horizon,
-            slack,
+            required_gap: slack,
             closed_gap_threshold: common.closed_gap_threshold,
             rate_allowance: common.rate_allowance,
             larger_body: if split.is_turning && reach > common.much_larger_ratio * radius {
@@ -329,14 +331,14 @@ impl<L: Simd> GroupMotion<'_, L> {
 
     /// Returns a motion in which all gaps close at a rate of 1, so that free times are lower bounds of distances.
     #[inline(always)]
-    fn motion_at_unit_rate(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
+    fn unit_closing_rate_motion(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
         RelativeMotionF32 {
             velocity: Vec3::ZERO,
             acceleration: None,
             split_body_rotation: BodyRotation::NO_ROTATION,
             other_rotation: BodyRotation::NO_ROTATION,
             remaining_time: 0.0,
-            slack: self.rounding(centre, radius),
+            required_gap: self.rounding(centre, radius),
             closed_gap_threshold: 0.0,
             rate_allowance: 1.0,
             larger_body: None,

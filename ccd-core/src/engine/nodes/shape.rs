@@ -23,7 +23,7 @@ pub(crate) trait Children {
     /// from the children's centres to the target.
     fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
     /// Returns which children are single pieces, and cannot be split.
-    fn single_piece_mask<L: Simd>(&self, level: L) -> mask32x8<L>;
+    fn leaf_children_mask<L: Simd>(&self, level: L) -> mask32x8<L>;
 }
 
 /// The node with which all children of a group are paired.
@@ -102,7 +102,7 @@ impl Children for BoxGroup {
         load(n.simd_level(), &self.half_extents[2]) + load(n.simd_level(), &self.rounding_radius)
     }
     #[inline(always)]
-    fn single_piece_mask<L: Simd>(&self, level: L) -> mask32x8<L> {
+    fn leaf_children_mask<L: Simd>(&self, level: L) -> mask32x8<L> {
         mask32x8::from_bitmask(level, self.leaf_mask.into())
     }
 }
@@ -138,7 +138,7 @@ impl Children for TriangleGroup {
         highest - n.dot(self.centre(level))
     }
     #[inline(always)]
-    fn single_piece_mask<L: Simd>(&self, level: L) -> mask32x8<L> {
+    fn leaf_children_mask<L: Simd>(&self, level: L) -> mask32x8<L> {
         mask32x8::splat(level, true)
     }
 }

@@ -97,10 +97,10 @@ impl Siblings {
     /// Returns the nodes of A and of B that are proven apart for the shortest time.
     #[inline]
     pub(crate) fn least_pair(&self) -> [NodeId; 2] {
-        self.pair(self.free_times.least_lane())
+        self.node_pair_of_lane(self.free_times.least_lane())
     }
 
-    fn pair(&self, lane: usize) -> [NodeId; 2] {
+    fn node_pair_of_lane(&self, lane: usize) -> [NodeId; 2] {
         let child = self.first_child + lane as NodeId;
         match self.split.body {
             WhichBody::A => [child, self.split.other_node],
@@ -118,7 +118,7 @@ impl Siblings {
         for lane in 0..LANES {
             // The other pairs are already certified to the end.
             if self.free_times.time_of_lane(lane) < horizon {
-                match keeps_apart(self.pair(lane)) {
+                match keeps_apart(self.node_pair_of_lane(lane)) {
                     Some(true) => self.free_times.finish_lane(lane),
                     Some(false) => self.revisit_mask &= !(1 << lane),
                     None => {}
@@ -165,7 +165,7 @@ impl Siblings {
         }
         let split_child = self.split_child_mask >> lane & 1 == 1;
         if self.other_is_piece && !split_child {
-            return step_to_measure_pieces(problem, self.pair(lane));
+            return step_to_measure_pieces(problem, self.node_pair_of_lane(lane));
         }
         // The choice has no branch, since none could be predicted.
         let (nodes, bodies) = ([other, child], [body.other(), body]);

@@ -212,7 +212,7 @@ impl<'a> Heights<'a> {
 
     /// Returns a lower bound of the least value of a function over all points after `tau`. The function is evaluated
     /// for each point if there are few, and for their bound if there are many. It must decrease with heights and rates.
-    pub(crate) fn point_value_lower_bound(
+    pub(crate) fn min_over_points_lower_bound(
         &self,
         tau: f64,
         of: impl Fn(&PointHeight) -> f64,
@@ -246,7 +246,7 @@ impl<'a> Heights<'a> {
         }
         // The normal, as seen from the turning body.
         let seen = RotatingVector::new(-self.rotation_axis, self.normal);
-        let (axis, derivative_length) = (seen.vector_at(angle), seen.derivative_at(angle));
+        let (axis, derivative_length) = (seen.vector_at(angle), seen.derivative_at_angle(angle));
         PointHeight {
             height: self.lowest_track(axis).height_at(tau, angle) - self.support_error_bound,
             rate: self.lowest_track(derivative_length).rate_at(tau, angle)
@@ -304,11 +304,11 @@ pub(crate) fn least_free_time_of_many_points(
 ) -> f64 {
     let of_below = || {
         let bound = above.bound_all_points(tau);
-        below.point_value_lower_bound(tau, |x| free(&bound, x))
+        below.min_over_points_lower_bound(tau, |x| free(&bound, x))
     };
     let of_above = || {
         let bound = below.bound_all_points(tau);
-        above.point_value_lower_bound(tau, |y| free(y, &bound))
+        above.min_over_points_lower_bound(tau, |y| free(y, &bound))
     };
     match (above.is_nonrotating(), below.is_nonrotating()) {
         (true, _) => of_below(),

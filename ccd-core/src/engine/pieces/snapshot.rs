@@ -14,7 +14,7 @@ use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use crate::rounding::{MIN_APPROACH_PER_ROUNDING, RATE_ERROR_F64};
 use crate::shortcuts::Shortcut;
-use crate::shortcuts::turning_pieces::{MovingPiece, PiecePastTurningPlane};
+use crate::shortcuts::turning_pieces::{MovingPiece, PieceMotionToTurningPlane};
 use crate::tuning::{
     ASSUMED_ORACLE_STEPS, MAX_NEWTON_STEPS, MIN_ROTATION_GAP_SHARE, RESTING_SLACK_PER_ROUNDING,
     SUFFICIENT_FIRST_FREE_TIME,
@@ -135,7 +135,7 @@ impl<'p> Snapshot<'p> {
         }
         let members = self.moving_pieces();
         for plane in iter::once(direct).chain(&passing) {
-            free = greater(self.turning_plane_time(&members, plane, free)?, free);
+            free = greater(self.turning_plane_free_time(&members, plane, free)?, free);
         }
         Some(free)
     }
@@ -243,7 +243,7 @@ impl<'p> Snapshot<'p> {
     pub(crate) fn plane_free_time(&self, plane: &SeparatingPlane) -> Option<f64> {
         let free = self.fixed_plane_free_time(plane.normal, plane.gap_excess)?;
         Some(greater(
-            self.turning_plane_time(&self.moving_pieces(), plane, free)?,
+            self.turning_plane_free_time(&self.moving_pieces(), plane, free)?,
             free,
         ))
     }
@@ -287,7 +287,7 @@ impl<'p> Snapshot<'p> {
 
     /// Like [`Snapshot::fixed_plane_free_time`], with planes that turn with one of the bodies. Returns 0 if such a plane is
     /// not worth trying: the rotation of that body does not use up the slack within `free`.
-    pub(crate) fn turning_plane_time(
+    pub(crate) fn turning_plane_free_time(
         &self,
         members: &[MovingPiece<'_>; 2],
         plane: &SeparatingPlane,
@@ -305,7 +305,7 @@ impl<'p> Snapshot<'p> {
                 && uses_up(holder.rotational_speed_bound_along(normal))
             {
                 let sweep =
-                    PiecePastTurningPlane::new(holder, other, normal, self.problem.rounding);
+                    PieceMotionToTurningPlane::new(holder, other, normal, self.problem.rounding);
                 let free = sweep.free_time(plane.gap_excess, self.time_left());
                 self.record_evaluations(sweep.evaluations.get());
                 longest = greater(longest, free?);

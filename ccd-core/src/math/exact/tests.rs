@@ -26,6 +26,6 @@ fn the_last_bit_decides() {
 #[test]
 fn coordinates_near_zero_are_reported() {
     let points = [DVec3::ZERO, DVec3::X, dvec3(0.0, 1e-91, 0.0)];
-    assert_eq!(first_inexact_point_index(&points), Some(2));
-    assert_eq!(first_inexact_point_index(&points[..2]), None);
+    assert_eq!(first_underflow_prone_point_index(&points), Some(2));
+    assert_eq!(first_underflow_prone_point_index(&points[..2]), None);
 }

@@ -50,7 +50,7 @@ fn distances_change_by_no_more_than_said() {
             reach,
         });
         let mut before = 0.0;
-        for period in Period::within_half_duration(bodies) {
+        for period in Period::periods_up_to_half_duration(bodies) {
             assert!(
                 period.length >= before && period.length <= 0.5,
                 "{period:?}"

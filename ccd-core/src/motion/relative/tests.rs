@@ -56,7 +56,7 @@ fn relative_state_of_point<L: Simd>(
     let point = rotation * (PackedVector::new(level, point) - view.other_rotation_centre(level));
     let acceleration = acceleration.unwrap_or(PackedVector::new(level, DVec3::ZERO));
     [
-        offset + point + view.centre(level),
+        offset + point + view.rotation_centre(level),
         velocity,
         acceleration,
         spin,

@@ -1,7 +1,7 @@
 //! Computes the distance of two bodies at one time, descending from where the last descent ended. This is Algorithm 3
 //! of the paper `[FAST06]`.
 
-use super::hull_pair::{BridgeFeatures, HullTreePair};
+use super::hull_pair::{FeaturesOnBridges, HullTreePair};
 use super::reach::AxisDistanceCache;
 use super::traversal_tree::{Node, TraversalPair, TraversalTree};
 use crate::answer::{Contact, Outcome};
@@ -44,7 +44,7 @@ struct DescentState {
 /// A pair of the front that may have to be split, with a lower bound of its distance.
 struct OpenPair {
     lower: f64,
-    front_index: u32,
+    traversal_node: u32,
 }
 
 impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
@@ -66,7 +66,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         }
         while let Some(OpenPair {
             lower,
-            front_index: at,
+            traversal_node: at,
         }) = found.open_pairs.pop()
         {
             // Written so that a pair with NaN is split.
@@ -139,14 +139,15 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             reaches,
         );
         node.distance_lower_bound = checked.lower;
-        node.feature_owners = self.hulls.feature_owners(node.pair, &checked.claim);
+        node.features_on_bridges = self.hulls.features_on_bridges(node.pair, &checked.claim);
         node.certified_until = free.map_or(f64::INFINITY, |free| (s + free).next_down());
         let contact = problem.contact_distance();
         // Contacts at the start are found at the start, or never.
         let reach = if s > 0.0 { problem.kept_gap() } else { contact };
         let apart = checked.lower > reach && node.certified_until > s;
         // The distance bound is that of the pieces below the nodes, which are not in contact.
-        let settled = node.feature_owners == BridgeFeatures::Pieces && checked.upper > contact;
+        let settled =
+            node.features_on_bridges == FeaturesOnBridges::BothPieces && checked.upper > contact;
         if settled && apart {
             found.distance_bound = lesser(found.distance_bound, checked.upper);
         }
@@ -156,7 +157,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             let lower = checked.lower;
             found.open_pairs.push(OpenPair {
                 lower,
-                front_index: at,
+                traversal_node: at,
             });
         }
     }
@@ -196,7 +197,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         }
         node.certified_until =
             self.proven_facts
-                .on_advance(problem, self.oracle, self.meter, step, s)?;
+                .next_clock_or_outcome(problem, self.oracle, self.meter, step, s)?;
         ControlFlow::Continue(())
     }
 
@@ -224,7 +225,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             self.measure_pair(snapshot, at, found)?;
             let node = self.traversal_tree.node(at);
             if node.distance_lower_bound >= distance && node.certified_until >= next {
-                self.traversal_tree.collapse_children(at);
+                self.traversal_tree.remove_child_leaves(at);
             } else {
                 node.max_join_distance = distance / JOIN_DISTANCE_RATIO;
             }
@@ -238,13 +239,13 @@ impl<C> Node<C> {
     fn reset_unmeasured_pair(&mut self, at: u32, s: f64) -> OpenPair {
         (
             self.distance_lower_bound,
-            self.feature_owners,
+            self.features_on_bridges,
             self.certified_until,
-        ) = (f64::NEG_INFINITY, BridgeFeatures::BothBridges, s);
+        ) = (f64::NEG_INFINITY, FeaturesOnBridges::BothBridges, s);
         let lower = self.distance_lower_bound;
         OpenPair {
             lower,
-            front_index: at,
+            traversal_node: at,
         }
     }
 }
@@ -265,7 +266,7 @@ impl DescentState {
 impl Ord for OpenPair {
     fn cmp(&self, other: &Self) -> Ordering {
         let nearer = other.lower.total_cmp(&self.lower);
-        nearer.then(other.front_index.cmp(&self.front_index))
+        nearer.then(other.traversal_node.cmp(&self.traversal_node))
     }
 }
 

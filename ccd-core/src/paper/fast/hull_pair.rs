@@ -16,9 +16,9 @@ pub(super) struct HullTreePair<'a> {
 
 /// Which of the nearest features of two nodes belong to bridges, the facets of a hull that are on no piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum BridgeFeatures {
+pub(super) enum FeaturesOnBridges {
     /// Both features belong to pieces.
-    Pieces,
+    BothPieces,
     /// The feature of this body belongs to a bridge.
     OneBridge(WhichBody),
     /// Both features belong to bridges.
@@ -48,26 +48,30 @@ impl<'a> HullTreePair<'a> {
     }
 
     /// Returns which nearest features belong to bridges; `claim` has the nearest points.
-    pub(super) fn feature_owners(&self, [a, b]: [u32; 2], claim: &Claim) -> BridgeFeatures {
+    pub(super) fn features_on_bridges(&self, [a, b]: [u32; 2], claim: &Claim) -> FeaturesOnBridges {
         match (
             self.a.is_on_bridge(a, &claim.a),
             self.b.is_on_bridge(b, &claim.b),
         ) {
-            (false, false) => BridgeFeatures::Pieces,
-            (true, false) => BridgeFeatures::OneBridge(WhichBody::A),
-            (false, true) => BridgeFeatures::OneBridge(WhichBody::B),
-            (true, true) => BridgeFeatures::BothBridges,
+            (false, false) => FeaturesOnBridges::BothPieces,
+            (true, false) => FeaturesOnBridges::OneBridge(WhichBody::A),
+            (false, true) => FeaturesOnBridges::OneBridge(WhichBody::B),
+            (true, true) => FeaturesOnBridges::BothBridges,
         }
     }
 
     /// Returns the two pairs that replace a pair when it is split, or its pieces if both nodes are leaves. One node is
     /// replaced by its children: if only one body has a bridge, that body's node, else the larger node, or the one with
     /// children if the other has none.
-    pub(super) fn children_of_pair(&self, [a, b]: [u32; 2], near: BridgeFeatures) -> PairChildren {
+    pub(super) fn children_of_pair(
+        &self,
+        [a, b]: [u32; 2],
+        near: FeaturesOnBridges,
+    ) -> PairChildren {
         use HierarchyNode::{Inner, Leaf};
         let body = match near {
-            BridgeFeatures::OneBridge(body) => body,
-            BridgeFeatures::Pieces | BridgeFeatures::BothBridges => {
+            FeaturesOnBridges::OneBridge(body) => body,
+            FeaturesOnBridges::BothPieces | FeaturesOnBridges::BothBridges => {
                 self.body_with_larger_node([a, b])
             }
         };

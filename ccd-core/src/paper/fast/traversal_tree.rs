@@ -1,6 +1,6 @@
 //! The bounding volume traversal tree with its front `[FAST06 §5.1]`.
 
-use super::hull_pair::{BridgeFeatures, HullTreePair, PairChildren};
+use super::hull_pair::{FeaturesOnBridges, HullTreePair, PairChildren};
 use crate::engine::capacity::clear_and_shrink;
 use crate::engine::pieces::pair::Pair;
 use crate::math::order::lesser;
@@ -31,7 +31,7 @@ pub(super) struct Node<C> {
     /// the end.
     pub(super) certified_until: f64,
     /// Whether pieces or bridges own the pair's nearest features.
-    pub(super) feature_owners: BridgeFeatures,
+    pub(super) features_on_bridges: FeaturesOnBridges,
     /// The children are joined only while the bodies are nearer than this; each attempt that fails lowers it.
     pub(super) max_join_distance: f64,
 }
@@ -87,7 +87,8 @@ impl<C: Clone + Default> TraversalTree<C> {
     /// Splits a leaf into two pairs that cover it, and returns the index of the first; `None` for a pair of pieces.
     pub(super) fn split(&mut self, hulls: HullTreePair<'_>, at: u32) -> Option<u32> {
         let node = &self.nodes[at as usize];
-        let PairChildren::Pairs(pairs) = hulls.children_of_pair(node.pair, node.feature_owners)
+        let PairChildren::Pairs(pairs) =
+            hulls.children_of_pair(node.pair, node.features_on_bridges)
         else {
             return None;
         };
@@ -117,7 +118,7 @@ impl<C: Clone + Default> TraversalTree<C> {
     }
 
     /// Removes the two leaves below a pair, so that the pair becomes a leaf.
-    pub(super) fn collapse_children(&mut self, at: u32) {
+    pub(super) fn remove_child_leaves(&mut self, at: u32) {
         if let Some(first) = self.nodes[at as usize].children.take() {
             self.vacant_slots.push(first);
             self.leaf_count -= 1;
@@ -153,14 +154,14 @@ impl<C: Default + Clone> Node<C> {
     fn new(hulls: HullTreePair<'_>, pair: [u32; 2], cache: C) -> Self {
         Node {
             pair,
-            traversal_pair: match hulls.children_of_pair(pair, BridgeFeatures::BothBridges) {
+            traversal_pair: match hulls.children_of_pair(pair, FeaturesOnBridges::BothBridges) {
                 PairChildren::Pieces([a, b]) => TraversalPair::Pieces(Pair::new(a, b)),
                 PairChildren::Pairs(_) => TraversalPair::Nodes(cache),
             },
             children: None,
             distance_lower_bound: f64::NEG_INFINITY,
             certified_until: 0.0,
-            feature_owners: BridgeFeatures::BothBridges,
+            features_on_bridges: FeaturesOnBridges::BothBridges,
             max_join_distance: f64::INFINITY,
         }
     }

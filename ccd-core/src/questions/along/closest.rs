@@ -16,7 +16,7 @@ use crate::query::span::Span;
 use crate::questions::closest::required::RequiredClearance;
 use crate::questions::closest::{FartherThanCutoff, is_contact_after_start};
 use crate::questions::depth_first::DepthFirst;
-use crate::tuning::{MAX_DEVIATION_SHARE, UNMEASURED_HALVING_LENGTH_SHARE};
+use crate::tuning::{MAX_DEVIATION_SHARE, MIN_UNMEASURED_HALVING_LENGTH_SHARE};
 use found::{LeastDistanceBounds, StretchDistanceBounds};
 use std::ops::ControlFlow;
 
@@ -30,8 +30,9 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ) -> Result<Answer, InputError> {
         let answer = match query.settings.clearance {
             Some(distance) => self.decide_clearance_along(query, distance, oracle)?,
-            None => self
-                .search_least_distance_of_bodies_along(&query.for_distance_measurement(), oracle)?,
+            None => {
+                self.search_least_distance_of_bodies_along(&query.query_without_margin(), oracle)?
+            }
         };
         Ok(answer.widened_by_excess(query.excess()))
     }
@@ -43,7 +44,7 @@ impl<O: DistanceOracle> DepthFirst<O> {
         oracle: &mut O,
     ) -> Result<Answer, InputError> {
         let mut closest = ClosestApproachSearch {
-            depth_first: self,
+            depth_first_search: self,
             least_distance_so_far: LeastDistanceBounds::new(query),
         };
         search_stretches(&mut closest, query, oracle)
@@ -72,17 +73,17 @@ impl<O: DistanceOracle> DepthFirst<O> {
 }
 
 struct ClosestApproachSearch<'s, O: DistanceOracle> {
-    depth_first: &'s mut DepthFirst<O>,
+    depth_first_search: &'s mut DepthFirst<O>,
     least_distance_so_far: LeastDistanceBounds,
 }
 
 impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
     fn scratch(&mut self) -> &mut Scratch {
-        &mut self.depth_first.scratch
+        &mut self.depth_first_search.scratch
     }
 
     /// Tries to prove a lower bound of the least distance over the whole query, if the next such attempt is due.
-    fn before_stretch(
+    fn on_before_each_stretch(
         &mut self,
         stretches: &mut WaitingStretches<'_, '_>,
         oracle: &mut O,
@@ -91,7 +92,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
         let work = stretches.stats.budgeted_work();
         let (Some(rung), Ok(left)) = (
             found
-                .lower_bound_attempts
+                .lower_bound_prover
                 .next_attempt_if_due(work, found.upper()),
             stretches.remaining_settings(),
         ) else {
@@ -99,7 +100,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
         };
         let mut query = stretches.query().contact_query(rung);
         query.settings.deadline = left.deadline;
-        let answer = self.depth_first.any_contact_along(&query, oracle)?;
+        let answer = self.depth_first_search.any_contact_along(&query, oracle)?;
         stretches.add_uncharged_work(&answer.stats);
         let proven = match answer.outcome {
             Outcome::Free { proven_gap } => Some(proven_gap),
@@ -109,7 +110,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
             }
             _ => None,
         };
-        found.lower_bound_attempts.record_attempt(proven);
+        found.lower_bound_prover.record_attempt(proven);
         Ok(())
     }
 
@@ -137,7 +138,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
         // the upper bound.
         let beyond = found.upper() + motions.total_deviation_bound + 2.0 * problem.tolerance;
         let answer = self
-            .depth_first
+            .depth_first_search
             .search_least_distance_below(problem, beyond, oracle);
         stretches.add(&answer.stats);
         let seen = match answer.result {
@@ -215,7 +216,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
         };
         let problem = pose.problem(stretches.query(), &terms)?;
         let start = self
-            .depth_first
+            .depth_first_search
             .search_least_distance_of_bodies(&problem, oracle);
         stretches.add(&start.stats);
         Ok(Answer {
@@ -239,11 +240,11 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
         let time = motions.query_time(seen.time);
         let query = stretches.query();
         // Halves mostly suffice, and cost less than measuring the distance.
-        if motions.span.length() > UNMEASURED_HALVING_LENGTH_SHARE * query.duration {
+        if motions.span.length() > MIN_UNMEASURED_HALVING_LENGTH_SHARE * query.duration {
             return Ok(stretches.cut_out_around(motions.span, time, f64::INFINITY));
         }
         // If they are nearest at an end, and still approach there, they get nearer beyond it.
-        if let Some(end) = seen.stretch_end_of_falling_distance(motions)
+        if let Some(end) = seen.stretch_end_nearer_beyond(motions)
             && let Some(beyond) = stretches.take_adjacent_stretch(end)
         {
             let is_cut = stretches.cut_out_around(motions.span, time, f64::INFINITY);
@@ -253,7 +254,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
         let length = match self.measure_at_time(stretches, oracle, time)? {
             Some(distance_at_time) => greater(
                 distance_at_time.suitable_stretch_length(motions),
-                motions.stretch_length_for_rate(distance_at_time.rate.abs()),
+                motions.stretch_length_for_rate(distance_at_time.distance_growth_rate.abs()),
             ),
             None => {
                 motions.stretch_length_for_deviation(MAX_DEVIATION_SHARE * query.settings.tolerance)
@@ -275,19 +276,19 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
         };
         let problem = pose.problem(stretches.query(), &terms)?;
         let answer = self
-            .depth_first
+            .depth_first_search
             .search_least_distance_of_bodies(&problem, oracle);
         stretches.stats.add(&answer.stats);
         let Outcome::LeastDistance { contact, .. } = answer.outcome else {
             return Ok(None);
         };
         let found = &mut self.least_distance_so_far;
-        found.record_contact(time, pose.widen_contact_bounds(contact));
+        found.record_contact(time, pose.widen_separation_bounds(contact));
         let rounding = 2.0 * pose.total_deviation_bound;
         let least = greater(terms.tolerance, rounding);
         Ok(Some(DeviationLimitAndRate {
             deviation_limit: greater(least, contact.separation.upper - found.upper()),
-            rate: -pose.approach_rate(0.0, &contact),
+            distance_growth_rate: -pose.approach_rate(0.0, &contact),
         }))
     }
 }
@@ -298,7 +299,7 @@ struct DeviationLimitAndRate {
     /// found, but at least the tolerance. Stretches are made so short that their deviations are a share of it.
     deviation_limit: f64,
     /// The rate at which the distance increases at the time of the measurement.
-    rate: f64,
+    distance_growth_rate: f64,
 }
 
 impl DeviationLimitAndRate {
@@ -309,9 +310,9 @@ impl DeviationLimitAndRate {
     /// Returns whether the distance increases from the given end of the stretch towards its middle.
     fn distance_increases_from_end(&self, motions: &StretchMotions, end: f64) -> bool {
         if end > motions.span.from {
-            self.rate <= 0.0
+            self.distance_growth_rate <= 0.0
         } else {
-            self.rate >= 0.0
+            self.distance_growth_rate >= 0.0
         }
     }
 }

@@ -89,7 +89,7 @@ impl<O: DistanceOracle, S: EngineSchedule<O>> Question<O> for ContactSearch<'_, 
     ) -> Result<ControlFlow<Answer>, InputError> {
         if self.wanted_contact == WantedContact::First {
             // The stretches before a contact may not be examined again.
-            self.record_proven_gap(motions, problem.proven_gap());
+            self.record_distance_lower_bound(motions, problem.proven_gap());
         }
         let answer = self.schedule.answer_first_contact(problem, oracle);
         let seen = match self.record(stretches, motions, &answer)? {
@@ -185,7 +185,7 @@ enum StretchResult {
 
 impl<S> ContactSearch<'_, S> {
     /// Records the gap that the motions of a stretch are proven to keep, minus the deviations.
-    fn record_proven_gap(&mut self, motions: &StretchMotions, proven_gap: f64) {
+    fn record_distance_lower_bound(&mut self, motions: &StretchMotions, proven_gap: f64) {
         self.gap = lesser(self.gap, motions.lower_bound_for_bodies(proven_gap));
     }
 
@@ -199,7 +199,7 @@ impl<S> ContactSearch<'_, S> {
         stretches.add(&answer.stats);
         Ok(match answer.outcome {
             Outcome::Free { proven_gap } => {
-                self.record_proven_gap(motions, proven_gap);
+                self.record_distance_lower_bound(motions, proven_gap);
                 stretches.record_proven_stretch(motions);
                 StretchResult::Done(ControlFlow::Continue(()))
             }
@@ -252,8 +252,9 @@ impl<S> ContactSearch<'_, S> {
         motions: &StretchMotions,
         outcome: Outcome,
     ) -> Result<Answer, InputError> {
-        let at =
-            |time: f64, contact| Outcome::from_contact(time, motions.widen_contact_bounds(contact));
+        let at = |time: f64, contact| {
+            Outcome::from_contact(time, motions.widen_separation_bounds(contact))
+        };
         let outcome = match outcome {
             Outcome::Contact { time, contact } => at(motions.query_time(time), contact),
             Outcome::Touching { contact } => at(motions.span.from, contact),

@@ -22,7 +22,7 @@ pub(super) trait Question<O: DistanceOracle> {
     }
 
     /// Does work that concerns the whole query; called before each stretch is searched.
-    fn before_stretch(
+    fn on_before_each_stretch(
         &mut self,
         _stretches: &mut WaitingStretches<'_, '_>,
         _oracle: &mut O,
@@ -86,7 +86,7 @@ fn search_waiting_stretches<O: DistanceOracle, Q: Question<O>>(
     oracle: &mut O,
 ) -> Result<Answer, InputError> {
     loop {
-        question.before_stretch(stretches, oracle)?;
+        question.on_before_each_stretch(stretches, oracle)?;
         let Some(span) = stretches.next() else {
             return question.on_end(stretches, oracle);
         };
@@ -96,7 +96,7 @@ fn search_waiting_stretches<O: DistanceOracle, Q: Question<O>>(
                 Err(limit) => return Ok(question.on_limit(stretches, span, limit)),
             };
         // A stretch that is probably too long is cut without a search.
-        if let Some(time) = stretches.end_at_proven_stretch_if_too_long(&motions)
+        if let Some(time) = stretches.cut_time_if_too_long(&motions)
             && let Some(length) =
                 question.suitable_length_by_measurement(stretches, &motions, time, oracle)?
             && motions.is_worth_a_cut(length)

@@ -102,7 +102,7 @@ impl Trajectory for ReversedTrajectory<'_> {
     fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let (first, last) = (self.reversed_time(to), self.reversed_time(from));
         let stretch = self.original.stretch_between(first, last)?;
-        let end = stretch.with_start_at(last - first)?;
+        let end = stretch.with_time_origin(last - first)?;
         // Times are rounded. The shift is the distance that the body moves in the rounding of a time.
         let off = 2.0 * UNIT_ROUNDOFF_F64 * self.duration;
         let [before, after] = [stretch, end].map(|stretch| length(stretch.motion.velocity()));

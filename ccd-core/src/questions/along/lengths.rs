@@ -10,7 +10,7 @@ use crate::error::InputError;
 use crate::math::order::{greater, lesser};
 use crate::query::Query;
 use crate::settings::QuerySettings;
-use crate::tuning::{MAX_DEVIATION_SHARE, UNMEASURED_HALVING_LENGTH_SHARE};
+use crate::tuning::{MAX_DEVIATION_SHARE, MIN_UNMEASURED_HALVING_LENGTH_SHARE};
 
 /// Measures the bodies at one end of a stretch, and returns the length that suits the stretch; `None` if the bodies
 /// overlap, or if a limit is reached.
@@ -44,7 +44,7 @@ pub(super) fn choose_next_stretch_length<O: DistanceOracle>(
     let query = stretches.query();
     let seen = if time > 0.0 {
         seen.map(|contact| (contact, motions.approach_rate(time, &contact)))
-    } else if motions.span.length() > UNMEASURED_HALVING_LENGTH_SHARE * query.duration {
+    } else if motions.span.length() > MIN_UNMEASURED_HALVING_LENGTH_SHARE * query.duration {
         // Halves mostly suffice, and cost less.
         return Ok(f64::INFINITY);
     } else {

@@ -169,7 +169,7 @@ impl StretchMotions {
     }
 
     /// Widens the bounds of a contact of the motions so that they hold for the bodies.
-    pub(super) fn widen_contact_bounds(&self, contact: Contact) -> Contact {
+    pub(super) fn widen_separation_bounds(&self, contact: Contact) -> Contact {
         let Separation { lower, upper, .. } = contact.separation;
         let upper = rounded_up_sum(upper, self.total_deviation_bound);
         contact.with_bounds(self.lower_bound_for_bodies(lower), upper)

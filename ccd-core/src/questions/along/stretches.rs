@@ -169,7 +169,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
     /// Returns whether the deviations are at most twice those of a stretch of length 0, so that they are mostly
     /// rounding and a cut does not help.
     fn is_limited_by_rounding(&self, motions: &StretchMotions) -> Result<bool, InputError> {
-        let least = StretchMotions::new(self.query, motions.span.start_span())?;
+        let least = StretchMotions::new(self.query, motions.span.empty_span_at_start())?;
         Ok(motions.total_deviation_bound <= 2.0 * least.total_deviation_bound)
     }
 
@@ -197,7 +197,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
         }
         self.was_start_examined = true;
         self.waiting_spans
-            .extend([motions.span, motions.span.start_span()]);
+            .extend([motions.span, motions.span.empty_span_at_start()]);
         Ok(true)
     }
 
@@ -208,10 +208,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
 
     /// Returns the time at which a stretch adjoins the last proven stretch, if its deviations are much larger than
     /// those of that stretch. The stretch is then probably too long.
-    pub(super) fn end_at_proven_stretch_if_too_long(
-        &mut self,
-        motions: &StretchMotions,
-    ) -> Option<f64> {
+    pub(super) fn cut_time_if_too_long(&mut self, motions: &StretchMotions) -> Option<f64> {
         let (proven, stray) = self.last_proven_stretch.take()?;
         let Span { from, end: to, .. } = motions.span;
         let beside = [(from, proven.end), (to, proven.from)];

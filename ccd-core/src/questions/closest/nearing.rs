@@ -147,12 +147,12 @@ impl<O: DistanceOracle> SearchHandler<O> for LeastDistanceSearch {
         meter: &mut Meter,
         advance: AdvanceResult,
     ) -> ControlFlow<Self::Conclusion, f64> {
-        match advance.pair_step {
+        match advance.step_outcome {
             PairStep::FreeUntil(clock) => ControlFlow::Continue(clock),
             PairStep::Contact(contact) => {
                 let seen = NearestPair {
                     time: advance.clock,
-                    pieces: advance.pieces,
+                    pieces: advance.piece_pair,
                     contact,
                 };
                 self.nearest_pair = Some(follow_to_minimum(problem, oracle, meter, seen));

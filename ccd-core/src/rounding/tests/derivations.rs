@@ -36,7 +36,7 @@ fn constants_cover_the_operations_that_they_count() {
         ("DISC_F32", DISC_HEIGHT_ERROR_F32, 59.0),
         ("DISC_TILT_F32", DISC_TILT_ERROR_F32, 45.0),
         ("BOX_AXES_F32", BOX_EXTENT_ERROR_F32 as f32, 3.5),
-        ("FLAT_THICKNESS_F32", MAX_THICKNESS_RATIO_F32, 4.0),
+        ("FLAT_THICKNESS_F32", MAX_FLAT_NODE_THICKNESS_F32, 4.0),
     ] {
         assert_covers_sum(name, f64::from(taken) / u, derived);
     }

@@ -38,7 +38,7 @@ fn worst_reach_of_a_box() {
             DoubleDouble3::from(n).dot(way)
         };
         let highest = points.iter().map(height).reduce(DoubleDouble::max)?;
-        let allowed = BOX_EXTENT_ERROR_F32 * node.radius;
+        let allowed = BOX_EXTENT_ERROR_F32 * node.bounding_radius;
         let reach = DoubleDouble::from(node.extent_along(n)) - DoubleDouble::from(allowed);
         Some(error_share((highest - reach).get(), allowed))
     });

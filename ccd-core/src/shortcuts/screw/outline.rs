@@ -16,10 +16,10 @@ use glam::{DVec2, DVec3};
 pub(crate) struct HelicalProjection {
     /// The corners as (`r`, `ζ`), distance from the axis and height along the screw. Their triangle reaches at least as far out
     /// as the triangle itself.
-    max_radius_corners: [DVec2; 3],
+    outer_bound_corners: [DVec2; 3],
     /// The projected corners with a lower bound of the distance from the axis as `r`; the bound is a linear function
     /// over the triangle.
-    min_radius_corners: [DVec2; 3],
+    inner_bound_corners: [DVec2; 3],
     /// A bound of the deviation of `ζ` from a linear function over the triangle.
     zeta_nonlinearity_bound: f64,
     /// The distance of the node's centre from the origin of the axis, and the node's radius; rounding is proportional
@@ -44,7 +44,7 @@ pub(crate) struct ZetaApproximation {
 impl HelicalProjection {
     /// Projects a triangle along the screw; `None` if the node is not a single triangle.
     pub(crate) fn new(node: &PlacedNode, linear: &ZetaApproximation) -> Option<Self> {
-        let corners = node.triangle_corners()?;
+        let corners = node.triangle_corners_from_centre()?;
         let [origin, along] = linear.axis_point_and_direction;
         let across = |x: DVec3| {
             let x = x - x.dot(along) * along;
@@ -61,8 +61,8 @@ impl HelicalProjection {
         let facing = unit(x + y)?;
         let zeta = |w: DVec3| linear.centre_zeta + w.dot(linear.zeta_gradient);
         Some(HelicalProjection {
-            max_radius_corners: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
-            min_radius_corners: [0, 1, 2]
+            outer_bound_corners: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
+            inner_bound_corners: [0, 1, 2]
                 .map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),
             zeta_nonlinearity_bound: linear.zeta_nonlinearity_bound,
             centre_distance_and_radius: linear.rounding_lengths,
@@ -73,9 +73,9 @@ impl HelicalProjection {
     /// Returns an interval that contains all values of `n.x r + n.y ζ` over the triangle.
     pub(crate) fn projection_interval(&self, n: DVec2) -> [f64; 2] {
         let (least, most) = if n.x < 0.0 {
-            (&self.max_radius_corners, &self.min_radius_corners)
+            (&self.outer_bound_corners, &self.inner_bound_corners)
         } else {
-            (&self.min_radius_corners, &self.max_radius_corners)
+            (&self.inner_bound_corners, &self.outer_bound_corners)
         };
         let slack = n.y.abs() * self.zeta_nonlinearity_bound
             + profile_rounding(
@@ -93,7 +93,7 @@ impl HelicalProjection {
 
     /// Returns the surfaces `a r + b ζ = const` along the triangle's edges, as unit vectors (`a`, `b`) with `b ≥ 0`.
     pub(crate) fn edge_normals(&self) -> impl Iterator<Item = DVec2> {
-        let [a, b, c] = self.max_radius_corners;
+        let [a, b, c] = self.outer_bound_corners;
         let edges = [b - a, c - b, a - c];
         let across = edges.map(|edge| edge.perp() / edge.length());
         // An edge along the turn has no direction here. Written so that NaN gives none.

@@ -132,12 +132,15 @@ impl NodeScrewBounds {
             triangle_projection: None,
         };
         let bulge = 0.5 * aside * aside / inner;
-        let twist = 0.5 * axis.advance.abs() * (node.radius / inner) * (node.radius / inner);
+        let twist = 0.5
+            * axis.advance.abs()
+            * (node.bounding_radius / inner)
+            * (node.bounding_radius / inner);
         for (k, &n) in axis.surfaces.iter().enumerate() {
             let at = n.x * distance + n.y * zeta;
             let gradient = n.x * outward + n.y * ahead;
             let tilt = axis.advance / distance;
-            let rounding = profile_rounding(n.abs().to_array(), [arm, node.radius], tilt);
+            let rounding = profile_rounding(n.abs().to_array(), [arm, node.bounding_radius], tilt);
             let reach = |sign: f64| {
                 let nonlinear = greater(0.0, sign * n.x) * bulge + n.y.abs() * twist;
                 node.extent_along(sign * gradient) + nonlinear + rounding
@@ -150,7 +153,7 @@ impl NodeScrewBounds {
             centre_zeta: zeta,
             zeta_gradient: ahead,
             zeta_nonlinearity_bound: twist,
-            rounding_lengths: [arm, node.radius],
+            rounding_lengths: [arm, node.bounding_radius],
             helix_slope: axis.advance / distance,
         };
         profile.triangle_projection = HelicalProjection::new(node, &linear);

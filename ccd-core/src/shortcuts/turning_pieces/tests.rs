@@ -121,7 +121,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     };
     let gap = gap_at(clock);
     let slack = gap.abs() * random_power_of_ten(rng, -3.0, 0.0);
-    let free = PiecePastTurningPlane::new(own, other, towards, problem.rounding)
+    let free = PieceMotionToTurningPlane::new(own, other, towards, problem.rounding)
         .free_time(slack, 1.0 - clock);
     let until = free.map_or(1.0, |free| clock + free);
     // Both gaps are rounded.
@@ -170,7 +170,7 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
                 continue;
             }
             let normal = random_direction(&mut rng);
-            let sweep = PiecePastTurningPlane::new(own, other, normal, problem.rounding);
+            let sweep = PieceMotionToTurningPlane::new(own, other, normal, problem.rounding);
             let motions = [&scene.motions[holder], &scene.motions[1 - holder]];
             let point = other.piece.points[rng.random_range(0..other.piece.points.len())];
             let rises = |tau: f64| {
@@ -257,7 +257,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
         assert!(still < 0.01, "{still}");
         // 0.5 (1 − cos τ) uses up 0.3 after 1.16.
         assert_eq!(
-            snapshot.turning_plane_time(&snapshot.moving_pieces(), &plane, still),
+            snapshot.turning_plane_free_time(&snapshot.moving_pieces(), &plane, still),
             None
         );
         let closer = SeparatingPlane {
@@ -265,7 +265,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
             gap_excess: 0.1,
         };
         let free = snapshot
-            .turning_plane_time(&snapshot.moving_pieces(), &closer, still)
+            .turning_plane_free_time(&snapshot.moving_pieces(), &closer, still)
             .unwrap();
         let exact = 0.8f64.acos();
         assert!(free <= exact && free > 0.9 * exact, "{free} {exact}");
@@ -282,13 +282,17 @@ fn no_slack_is_no_time() {
         let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
         let [a, b] = snapshot.moving_pieces();
         for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-            let free =
-                PiecePastTurningPlane::new(&a, &b, random_direction(&mut rng), problem.rounding)
-                    .free_time(slack, 0.5);
+            let free = PieceMotionToTurningPlane::new(
+                &a,
+                &b,
+                random_direction(&mut rng),
+                problem.rounding,
+            )
+            .free_time(slack, 0.5);
             assert_eq!(free, Some(0.0), "{slack}");
         }
-        let free =
-            PiecePastTurningPlane::new(&a, &b, DVec3::NAN, problem.rounding).free_time(1.0, 0.5);
+        let free = PieceMotionToTurningPlane::new(&a, &b, DVec3::NAN, problem.rounding)
+            .free_time(1.0, 0.5);
         assert_eq!(free, Some(0.0));
     }
 }

@@ -59,7 +59,7 @@ struct HullBuilder<'a> {
 /// An edge between a facet that the inserted point sees and a facet that it does not see.
 struct HorizonEdge {
     ends: [u32; 2],
-    unseen_facet: u32,
+    facet_hidden_from_point: u32,
     seen_facet: u32,
 }
 
@@ -133,17 +133,17 @@ impl<'a> HullBuilder<'a> {
         for (k, edge) in (base..).zip(&rim) {
             let [a, b] = edge.ends;
             candidates.clear();
-            for facet in [edge.seen_facet, edge.unseen_facet] {
+            for facet in [edge.seen_facet, edge.facet_hidden_from_point] {
                 candidates.extend_from_slice(&self.facets[facet as usize].conflict_points);
             }
             // The previous facet is set once all are added.
             let adjacent = [
-                edge.unseen_facet,
+                edge.facet_hidden_from_point,
                 self.horizon_facet_by_start[b as usize],
                 NONE,
             ];
             self.add_facet([a, b, v], adjacent, &candidates);
-            let beyond = &mut self.facets[edge.unseen_facet as usize];
+            let beyond = &mut self.facets[edge.facet_hidden_from_point as usize];
             if let Some(place) = (0..3).find(|&l| beyond.corners[l] == b) {
                 beyond.adjacent_facets[place] = k;
             }
@@ -183,7 +183,7 @@ impl<'a> HullBuilder<'a> {
                     let ends = [corners[k], corners[(k + 1) % 3]];
                     rim.push(HorizonEdge {
                         ends,
-                        unseen_facet: beyond,
+                        facet_hidden_from_point: beyond,
                         seen_facet: seen,
                     });
                 }

@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 
 /// A list of points, and their positions relative to the first one.
 pub(super) struct LocalPoints<'a> {
-    points: &'a [DVec3],
+    input_points: &'a [DVec3],
     relative_positions: Vec<DVec3>,
     /// The largest absolute coordinate of a relative position.
     max_abs_coordinate: f64,
@@ -29,14 +29,14 @@ impl<'a> LocalPoints<'a> {
         let relative: Vec<DVec3> = points.iter().map(|&p| p - base).collect();
         let coordinates = relative.iter().map(|p| p.abs().max_element());
         LocalPoints {
-            points,
+            input_points: points,
             max_abs_coordinate: coordinates.fold(0.0, greater),
             relative_positions: relative,
         }
     }
 
     pub(super) fn plane(&self, corners: [u32; 3]) -> Plane {
-        let [p, q, r] = corners.map(|v| self.points[v as usize]);
+        let [p, q, r] = corners.map(|v| self.input_points[v as usize]);
         let sides = [q - p, r - p];
         let normal = sides[0].cross(sides[1]);
         Plane {
@@ -54,7 +54,7 @@ impl<'a> LocalPoints<'a> {
         if height.abs() > plane.rounding {
             height > 0.0
         } else {
-            side_of(self.points, corners, v) == Ordering::Greater
+            side_of(self.input_points, corners, v) == Ordering::Greater
         }
     }
 }

@@ -1,5 +1,5 @@
 use crate::test_meshes::{cubes, mesh, tetrahedron};
-use crate::{AffineMap, Detail, Format, MeshFault, Topology, TriangleMesh, body_from_mesh};
+use crate::{AffineMap, Detail, Format, MeshFault, TopologyDefects, TriangleMesh, body_from_mesh};
 use ccd_core::glam::{DAffine3, DMat3, DQuat, DVec3, dvec3};
 use ccd_core::{Pose, Solidity};
 
@@ -12,7 +12,7 @@ fn cube() -> TriangleMesh {
 }
 
 fn volume(mesh: &TriangleMesh) -> f64 {
-    Topology::of(mesh).signed_volume
+    TopologyDefects::of(mesh).signed_volume
 }
 
 #[test]
@@ -93,10 +93,10 @@ fn numbers_go_on_in_merged_meshes() {
     assert_eq!(both.face_ids(), [0, 0, 2, 3, 3, 5]);
     assert_eq!(both.faces()[4], [5, 7, 8]);
     let repairs = both.repairs();
-    assert_eq!(repairs.polygons.first(), [0, 3, 6]);
-    assert_eq!(repairs.collapsed_faces.first(), [1, 4, 7]);
-    assert_eq!(repairs.unreferenced_vertices.first(), [4, 9, 14]);
-    assert_eq!(repairs.duplicate_faces.first(), [6, 6, 8]);
+    assert_eq!(repairs.triangulated_polygons.first_elements(), [0, 3, 6]);
+    assert_eq!(repairs.collapsed_faces.first_elements(), [1, 4, 7]);
+    assert_eq!(repairs.unreferenced_vertices.first_elements(), [4, 9, 14]);
+    assert_eq!(repairs.duplicate_faces.first_elements(), [6, 6, 8]);
     let error = TriangleMesh::merge([]).unwrap_err();
     assert!(matches!(error.fault, MeshFault::NoVertices), "{error}");
 }

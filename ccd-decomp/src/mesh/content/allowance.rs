@@ -3,7 +3,8 @@
 
 use crate::mesh::error::MeshFault;
 use crate::tolerance::{
-    BASE_EXPANSION_LIMIT, EXPANSION_LIMIT_PER_BYTE, MAX_FILE_EXPANSION, VERTEX_EXPANSION_COST,
+    BASE_FILE_EXPANSION_LIMIT, EXPANSION_LIMIT_PER_BYTE, MAX_EXPANDED_ELEMENT_COUNT,
+    VERTEX_EXPANSION_COST,
 };
 
 /// The budget of vertices and face corners that a file may expand to. A corner costs 1, a vertex more.
@@ -26,9 +27,9 @@ impl ExpansionBudget {
         // Without repetition, a byte costs at most 4: a corner of a strip may take one byte, is read as a number, and
         // makes a triangle of three corners.
         let once = bytes.saturating_mul(4);
-        let repeated =
-            BASE_EXPANSION_LIMIT.saturating_add(bytes.saturating_mul(EXPANSION_LIMIT_PER_BYTE));
-        let limit = once.saturating_add(repeated.min(MAX_FILE_EXPANSION));
+        let repeated = BASE_FILE_EXPANSION_LIMIT
+            .saturating_add(bytes.saturating_mul(EXPANSION_LIMIT_PER_BYTE));
+        let limit = once.saturating_add(repeated.min(MAX_EXPANDED_ELEMENT_COUNT));
         ExpansionBudget {
             remaining_budget: limit,
             limit,

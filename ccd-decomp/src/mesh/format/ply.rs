@@ -21,7 +21,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     let bytes = &text_cr_to_lf(bytes);
     check_unique_names(bytes)?;
     let mut reader = Reader::new(&bytes[..]);
-    let header = Parser::<PlyElement>::new()
+    let header = Parser::<PlyVertexOrFace>::new()
         .read_header(&mut reader)
         .map_err(|error| fault(&error, Encoding::Ascii))?;
     check_header(&header, bytes.len())?;
@@ -29,7 +29,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
     let (payload, first_line) = (*reader.get_ref(), reader.line());
     let mut polygons = Polygons::default();
     for element in header.elements.values() {
-        let read: Vec<PlyElement> = Parser::new()
+        let read: Vec<PlyVertexOrFace> = Parser::new()
             .read_payload_for_element(&mut reader, element, &header)
             .map_err(fault)?;
         match element.name.as_str() {
@@ -246,7 +246,7 @@ fn fault(error: &ParseError, encoding: Encoding) -> MeshFault {
 
 /// An element of a PLY: a vertex, a face, a triangle strip, or an element that is skipped. One type stands for all,
 /// because the library compiles its readers anew for each type.
-struct PlyElement {
+struct PlyVertexOrFace {
     point: DVec3,
     corners: Vec<i64>,
 }
@@ -254,9 +254,9 @@ struct PlyElement {
 /// The two usual names of the property that lists the vertex indices of a face or strip.
 const CORNER_PROPERTY_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-impl PropertyAccess for PlyElement {
+impl PropertyAccess for PlyVertexOrFace {
     fn new() -> Self {
-        PlyElement {
+        PlyVertexOrFace {
             point: DVec3::NAN,
             corners: Vec::new(),
         }
@@ -285,7 +285,7 @@ impl PropertyAccess for PlyElement {
     }
 }
 
-impl PlyElement {
+impl PlyVertexOrFace {
     fn set_corners(&mut self, property: Property) -> PropertyAccessResult {
         self.corners = match property {
             Property::ListChar(list) => list.into_iter().map(i64::from).collect(),

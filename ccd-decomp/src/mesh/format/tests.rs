@@ -153,7 +153,10 @@ fn obj_keeps_the_numbers_of_the_file() {
     assert_eq!(mesh.faces(), [[5, 3, 2], [5, 2, 1], [3, 2, 1]]);
     assert_eq!(mesh.face_ids(), [0, 0, 1]);
     assert_eq!(mesh.vertices()[4], DVec3::splat(8.0));
-    assert_eq!(mesh.repairs().unreferenced_vertices.first(), [0, 4]);
+    assert_eq!(
+        mesh.repairs().unreferenced_vertices.first_elements(),
+        [0, 4]
+    );
 }
 
 #[test]

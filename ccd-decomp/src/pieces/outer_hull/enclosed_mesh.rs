@@ -5,7 +5,7 @@ use crate::exact::predicates::{side_of_line_along, side_of_plane};
 use crate::mesh::TriangleMesh;
 use crate::search::box_tree::BoxTree;
 use crate::search::region::Region;
-use crate::solid::topology::Topology;
+use crate::solid::topology::TopologyDefects;
 use crate::tolerance::{MAX_NEEDLE_RATIO, excess_rounding_bound};
 use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
@@ -39,7 +39,7 @@ pub(super) enum Location {
 }
 
 impl<'a> EnclosedMesh<'a> {
-    pub(super) fn new(mesh: &'a TriangleMesh, topology: &Topology) -> Self {
+    pub(super) fn new(mesh: &'a TriangleMesh, topology: &TopologyDefects) -> Self {
         let bounds = mesh.bounding_box();
         let [lo, hi] = bounds;
         let farthest = lo.abs().max(hi.abs()).max_element();

@@ -156,7 +156,7 @@ fn is_inside(polytope: &Polytope, point: DVec3) -> bool {
 }
 
 fn enclose(mesh: &TriangleMesh) -> OuterHull {
-    outer_hull(mesh, &Topology::of(mesh)).expect("a hull")
+    outer_hull(mesh, &TopologyDefects::of(mesh)).expect("a hull")
 }
 
 #[rstest]
@@ -178,7 +178,7 @@ fn excess_bounds_hold_for_samples(#[case] mesh: TriangleMesh) {
         assert!(is_inside(&found.polytope, point), "{point} is outside");
     }
     let mut next = noise_generator();
-    let closed = Topology::of(&mesh).is_closed();
+    let closed = TopologyDefects::of(&mesh).is_closed();
     let mut farthest = 0.0_f64;
     for _ in 0..600 {
         let point = random_convex_combination(&found.polytope.points, &mut next);
@@ -242,7 +242,7 @@ fn dented_sphere() -> TriangleMesh {
 fn a_convex_solid_in_single_precision_exceeds_itself_little() {
     let mesh = with_rounded_coordinates(&sphere());
     let manifold =
-        Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).expect("closed");
+        Manifold::without_intersection_check(&mesh, &TopologyDefects::of(&mesh)).expect("closed");
     assert!(convex_polytope(&manifold).is_err());
     let found = enclose(&mesh);
     assert!(found.excess_bound > 0.0);
@@ -304,7 +304,7 @@ fn needles_and_unused_vertices() {
 fn a_coordinate_too_near_to_0_is_refused() {
     let vertices = [DVec3::ZERO, DVec3::Y, DVec3::X, DVec3::splat(1e-95)];
     let fine = mesh(&vertices, &[[0, 2, 3]]);
-    let error = outer_hull(&fine, &Topology::of(&fine)).err();
+    let error = outer_hull(&fine, &TopologyDefects::of(&fine)).err();
     assert_eq!(error, Some(HullError { point_index: 3 }));
 }
 
@@ -317,7 +317,7 @@ fn a_coordinate_too_near_to_0_is_refused() {
 #[case::inside_out(box_mesh(&[[DVec3::splat(0.5), DVec3::splat(-0.5)]]))]
 fn lattice_points_are_located(#[case] mesh: TriangleMesh) {
     let (target, surface) = (
-        EnclosedMesh::new(&mesh, &Topology::of(&mesh)),
+        EnclosedMesh::new(&mesh, &TopologyDefects::of(&mesh)),
         triangles(&mesh),
     );
     for k in 0..21 * 21 * 21 {

@@ -106,7 +106,7 @@ impl GrowingPatch {
             let facets = hull.facets().iter();
             let facets = facets.map(|facet| facet.map(|v| points[v as usize]));
             let corners = hull.corners().iter().map(|&v| points[v as usize]);
-            let near = Region::inside_box_and_hull(corners.collect(), facets.collect(), changed);
+            let near = Region::from_box_and_hull(corners.collect(), facets.collect(), changed);
             if !manifold
                 .boxes()
                 .all_near_faces_satisfy(&near, work, is_apart)

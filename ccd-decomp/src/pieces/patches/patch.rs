@@ -57,7 +57,7 @@ fn facet_with_faces(
         return FacetWithFaces {
             corners: facet.to_vec(),
             mesh_faces: Vec::new(),
-            is_covered_by_mesh: false,
+            is_facet_covered_by_mesh: false,
         };
     };
     // Coplanar with the facet, with the same normal.
@@ -78,7 +78,8 @@ fn facet_with_faces(
             .all(|&p| plane.turn(a, b, p) != Ordering::Less)
     };
     FacetWithFaces {
-        is_covered_by_mesh: rims.all(|edge| ours(manifold.twin(edge) / 3) || on_outline(edge)),
+        is_facet_covered_by_mesh: rims
+            .all(|edge| ours(manifold.twin(edge) / 3) || on_outline(edge)),
         mesh_faces: members.iter().flat_map(|f| &f.faces).copied().collect(),
         corners: facet.to_vec(),
     }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::solid::solid_surface;
-use crate::solid::topology::Topology;
+use crate::solid::topology::TopologyDefects;
 use crate::test_meshes::{
     block_cells, cubes, merged_meshes, mesh_with_reversed_faces, prism, prism_under_prism,
     scaled_and_moved, star_bipyramid, tetrahedron, toothed_quadrant_outline,
@@ -224,7 +224,7 @@ fn steps_per_face_stay_bounded() {
             prism_under_prism(count),
         ] {
             let manifold =
-                Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
+                Manifold::without_intersection_check(&mesh, &TopologyDefects::of(&mesh)).unwrap();
             let work = WorkBudget::unbounded();
             let flats = ConvexPolygons::new(&manifold);
             let found =

@@ -8,7 +8,7 @@ use ccd_core::glam::DVec3;
 fn chosen_reason(mesh: &TriangleMesh) -> PieceReason {
     let (parts, why) = choose_pieces(
         mesh,
-        &Topology::of(mesh),
+        &TopologyDefects::of(mesh),
         &WorkBudget::with_steps(AUTO_WORK_BUDGET),
     );
     let fits = match why {
@@ -132,8 +132,11 @@ fn slow_decompositions_stay_triangles() {
         .filter(|c| !in_corner(c));
     let mesh = cubes(&cells.collect::<Vec<_>>());
     for steps in [1, 1000] {
-        let (parts, why) =
-            choose_pieces(&mesh, &Topology::of(&mesh), &WorkBudget::with_steps(steps));
+        let (parts, why) = choose_pieces(
+            &mesh,
+            &TopologyDefects::of(&mesh),
+            &WorkBudget::with_steps(steps),
+        );
         assert_eq!(why, PieceReason::WorkBudgetExceeded);
         assert!(matches!(parts, PiecesOfOneKind::Triangles));
     }

@@ -23,7 +23,7 @@ pub(super) struct FannedPolygons<'a, 'm> {
     /// The axis-aligned boxes of the polygons.
     bounds: BoundingBoxTree,
     /// The faces outside all polygons.
-    faces_outside_polygons: FaceGroup,
+    faces_outside_polygons: FacesWithTree,
 }
 
 const NO_POLYGON: u32 = u32::MAX;
@@ -37,18 +37,18 @@ struct FannedPolygon {
     rim: Vec<RimVertex>,
     bounds: BoundingBox,
     /// The search trees over the polygon's triangles, created on demand.
-    triangle_trees: OnceCell<FaceGroup>,
+    triangle_trees: OnceCell<FacesWithTree>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct RimVertex {
-    vertex: u32,
+    rim_vertex: u32,
     previous_vertex: u32,
     next_vertex: u32,
 }
 
 /// Some faces of a mesh, with search trees over them.
-struct FaceGroup {
+struct FacesWithTree {
     faces: Vec<u32>,
     boxes: TriangleBoxes,
 }
@@ -86,7 +86,7 @@ impl<'a, 'm> FannedPolygons<'a, 'm> {
         let rest = (0..)
             .zip(&polygon_of)
             .filter(|(_, polygon)| **polygon == NO_POLYGON);
-        let rest = FaceGroup::new(manifold, rest.map(|(face, _)| face).collect());
+        let rest = FacesWithTree::new(manifold, rest.map(|(face, _)| face).collect());
         Some(FannedPolygons {
             manifold,
             bounds: BoundingBoxTree::new(polygons.iter().map(|polygon| polygon.bounds).collect()),
@@ -108,7 +108,7 @@ impl<'a, 'm> FannedPolygons<'a, 'm> {
         let own = self.polygon_of_face[face as usize];
         // Pairs with a face of a polygon are reported for the other face.
         if own == NO_POLYGON {
-            let FaceGroup { faces, boxes } = &self.faces_outside_polygons;
+            let FacesWithTree { faces, boxes } = &self.faces_outside_polygons;
             let later = |other: u32| faces[other as usize] <= face || holds(faces[other as usize]);
             if !boxes.all_near_faces_satisfy(region, work, later) {
                 return false;
@@ -116,8 +116,8 @@ impl<'a, 'm> FannedPolygons<'a, 'm> {
         }
         let mut polygon_satisfies = |number: u32| {
             let polygon = &self.polygons[number as usize];
-            let new_group = || FaceGroup::new(self.manifold, polygon.faces.clone());
-            let FaceGroup { faces, boxes } = polygon.triangle_trees.get_or_init(new_group);
+            let new_group = || FacesWithTree::new(self.manifold, polygon.faces.clone());
+            let FacesWithTree { faces, boxes } = polygon.triangle_trees.get_or_init(new_group);
             boxes.all_near_faces_satisfy(region, work, |other| {
                 let other = faces[other as usize];
                 // Pairs of faces of two polygons are found twice.
@@ -171,7 +171,7 @@ impl<'a, 'm> FannedPolygons<'a, 'm> {
         !BoundingBox::enclosing(level().map(|k| points[k])).meets(&polygon.bounds)
             || level_corners.any(|rim_vertex| {
                 rim_vertex.is_some_and(|p| {
-                    beyond(p.previous_vertex, p.vertex) || beyond(p.vertex, p.next_vertex)
+                    beyond(p.previous_vertex, p.rim_vertex) || beyond(p.rim_vertex, p.next_vertex)
                 })
             })
     }
@@ -202,12 +202,12 @@ impl FannedPolygon {
             .zip(starts().cycle().skip(2));
         let mut rim: Vec<RimVertex> = triples
             .map(|((before, at), after)| RimVertex {
-                vertex: at,
+                rim_vertex: at,
                 previous_vertex: before,
                 next_vertex: after,
             })
             .collect();
-        rim.sort_unstable_by_key(|rim_vertex| rim_vertex.vertex);
+        rim.sort_unstable_by_key(|rim_vertex| rim_vertex.rim_vertex);
         Some(FannedPolygon {
             projection: Projection::new(plane)?,
             bounds: BoundingBox::enclosing(starts().map(|v| manifold.point(v))),
@@ -222,12 +222,12 @@ impl FannedPolygon {
     fn rim_vertex(&self, vertex: u32) -> Option<RimVertex> {
         let found = self
             .rim
-            .binary_search_by_key(&vertex, |rim_vertex| rim_vertex.vertex);
+            .binary_search_by_key(&vertex, |rim_vertex| rim_vertex.rim_vertex);
         found.ok().map(|k| self.rim[k])
     }
 }
 
-impl FaceGroup {
+impl FacesWithTree {
     /// Builds the search trees in O(n log n) in the number of faces.
     fn new(manifold: &Manifold<'_>, faces: Vec<u32>) -> Self {
         let corners = faces.iter().map(|&f| manifold.faces()[f as usize]);
@@ -237,7 +237,7 @@ impl FaceGroup {
         let place = |v: u32| vertices.partition_point(|&w| w < v) as u32;
         let named: Vec<[u32; 3]> = corners.map(|corners| corners.map(place)).collect();
         let points: Vec<DVec3> = vertices.iter().map(|&v| manifold.point(v)).collect();
-        FaceGroup {
+        FacesWithTree {
             boxes: TriangleBoxes::new(&points, &named),
             faces,
         }

@@ -2,7 +2,7 @@ use crate::mesh::TriangleMesh;
 use crate::solid::error::Crossing;
 use crate::solid::error::DecomposeError;
 use crate::solid::manifold::Manifold;
-use crate::solid::topology::Topology;
+use crate::solid::topology::TopologyDefects;
 use crate::solid::{check_solid, solid_surface};
 use crate::test_meshes::{
     comb, cubes, merged_meshes, mesh, prism, prism_under_prism, scaled_and_moved, tetrahedron,
@@ -24,7 +24,7 @@ fn moved_tetrahedra_meet(offset: DVec3) -> bool {
         Ok(()) => false,
         Err(DecomposeError::SelfIntersecting { pairs }) => {
             let across = |pair: &Crossing| pair.face < 4 && pair.other >= 4;
-            assert!(pairs.first().iter().all(across), "{pairs}");
+            assert!(pairs.first_elements().iter().all(across), "{pairs}");
             true
         }
         Err(other) => panic!("{other}"),
@@ -84,7 +84,7 @@ fn a_two_sided_sheet_is_found() {
     let Err(DecomposeError::SelfIntersecting { pairs }) = solid_surface(&sheet).map(|_| ()) else {
         panic!("it holds no volume");
     };
-    assert_eq!(pairs.first(), [Crossing { face: 0, other: 1 }]);
+    assert_eq!(pairs.first_elements(), [Crossing { face: 0, other: 1 }]);
 }
 
 #[test]
@@ -110,7 +110,8 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
             dvec3(angle.cos(), angle.sin(), 0.0)
         };
         let mesh = prism(&(0..corners).map(corner).collect::<Vec<_>>());
-        let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
+        let manifold =
+            Manifold::without_intersection_check(&mesh, &TopologyDefects::of(&mesh)).unwrap();
         // All pairs about a corner of 5,000 would be 2,500 for each triangle.
         let work = WorkBudget::with_steps(100 * mesh.faces().len() as u64);
         assert_eq!(check_solid(&manifold, &work), Ok(()), "{corners}");
@@ -119,7 +120,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
 
 /// Returns the number of steps per face that checking a mesh takes.
 fn steps_per_face(mesh: &TriangleMesh) -> u64 {
-    let manifold = Manifold::without_intersection_check(mesh, &Topology::of(mesh)).unwrap();
+    let manifold = Manifold::without_intersection_check(mesh, &TopologyDefects::of(mesh)).unwrap();
     assert_eq!(crate::solid::star_shaped::star_centre(&manifold), None);
     let too_few = WorkBudget::with_steps(100);
     assert_eq!(
@@ -176,7 +177,8 @@ fn crossings_are_those_of_all_pairs() {
     for _ in 0..150 {
         let (radii, on_grid, turn) = given.new_tree(&mut runner).unwrap().current();
         let mesh = rough_prism(&radii, on_grid, turn);
-        let Ok(manifold) = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)) else {
+        let Ok(manifold) = Manifold::without_intersection_check(&mesh, &TopologyDefects::of(&mesh))
+        else {
             continue;
         };
         let faces = 0..mesh.faces().len() as u32;

@@ -1,6 +1,6 @@
 use super::*;
 use crate::mesh::TriangleMesh;
-use crate::solid::topology::Topology;
+use crate::solid::topology::TopologyDefects;
 use crate::solid::{check_solid, solid_surface};
 use crate::test_meshes::{block_cells, cubes, merged_meshes, mesh, scaled_and_moved, tetrahedron};
 use crate::work::WorkBudget;
@@ -100,7 +100,8 @@ fn folds_are_no_polygons() {
         (beside(&flat), 6),
     ];
     for (mesh, polygons) in cases {
-        let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
+        let manifold =
+            Manifold::without_intersection_check(&mesh, &TopologyDefects::of(&mesh)).unwrap();
         assert_eq!(ConvexPolygons::new(&manifold).len(), polygons);
         assert!(check_solid(&manifold, &WorkBudget::unbounded()).is_err());
     }

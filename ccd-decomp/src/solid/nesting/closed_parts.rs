@@ -1,7 +1,7 @@
 //! Splits a closed mesh into shells, its smallest closed parts.
 
 use crate::disjoint_sets::DisjointSets;
-use crate::exact::predicates::{Projection, first_inexact_point_index, side_of_plane};
+use crate::exact::predicates::{Projection, first_underflow_prone_point_index, side_of_plane};
 use crate::half_edges::{EdgeUse, SortedHalfEdges};
 use crate::mesh::TriangleMesh;
 use ccd_core::glam::DVec3;
@@ -79,11 +79,11 @@ fn in_angular_order(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Op
     let [v, w] = ends.map(|v| mesh.vertices()[v as usize]);
     let apexes: Vec<DVec3> = edge
         .iter()
-        .map(|&one| opposite_corner(mesh, ends, one))
+        .map(|&one| corner_opposite_edge(mesh, ends, one))
         .collect();
     let first = *apexes.first()?;
-    let is_too_fine = first_inexact_point_index(&[v, w])
-        .or(first_inexact_point_index(&apexes))
+    let is_too_fine = first_underflow_prone_point_index(&[v, w])
+        .or(first_underflow_prone_point_index(&apexes))
         .is_some();
     let flat = |&p: &DVec3| Projection::new([v, w, p]).is_none();
     if is_too_fine || apexes.iter().any(flat) {
@@ -107,7 +107,7 @@ fn in_angular_order(mesh: &TriangleMesh, ends: [u32; 2], edge: &[EdgeUse]) -> Op
 }
 
 /// Returns the corner of a face that is opposite to the edge with the given ends.
-fn opposite_corner(mesh: &TriangleMesh, ends: [u32; 2], of: EdgeUse) -> DVec3 {
+fn corner_opposite_edge(mesh: &TriangleMesh, ends: [u32; 2], of: EdgeUse) -> DVec3 {
     let face = of.face();
     let mut at = mesh.welded_face(face).into_iter().zip(mesh.triangle(face));
     let off = at.find(|(v, _)| !ends.contains(v));

@@ -5,7 +5,7 @@ use crate::rational::Exact3;
 use crate::test_meshes::CUBE_FACES;
 use crate::tolerance::FACE_CENTRE_ROUNDING;
 use crate::worst::{WorstCaseSearch, error_share};
-use crate::{Detail, Topology, TriangleMesh, body_from_mesh};
+use crate::{Detail, TopologyDefects, TriangleMesh, body_from_mesh};
 use ccd_core::Solidity;
 use ccd_core::glam::{DVec3, dvec3};
 use ccd_core::order::lesser;
@@ -26,7 +26,7 @@ fn cubes(cubes: &[(DVec3, f64, bool)]) -> TriangleMesh {
 }
 
 fn wrong_and_unclear_shell_counts(mesh: &TriangleMesh) -> [usize; 2] {
-    let topology = Topology::of(mesh);
+    let topology = TopologyDefects::of(mesh);
     [
         topology.wrong_shells.count(),
         topology.unclear_shells.count(),
@@ -50,7 +50,7 @@ fn shells_side_by_side_are_each_turned_outward() {
     let report = body_from_mesh(&mesh, Detail::Auto).unwrap().report;
     let said = report.to_string();
     assert!(said.contains("turned, by a face: 1 (0)"), "{said}");
-    let volume = Topology::of(&mesh).signed_volume;
+    let volume = TopologyDefects::of(&mesh).signed_volume;
     assert!((volume - 28.0).abs() < 1e-12, "{volume}");
 }
 
@@ -82,7 +82,7 @@ fn nested_shells_alternate() {
             [wrong, 0],
             "{flips:b}"
         );
-        let volume = Topology::of(&mesh).signed_volume.abs();
+        let volume = TopologyDefects::of(&mesh).signed_volume.abs();
         let cube = |half: f64| 8.0 * half * half * half;
         let exact = cube(4.0) - cube(3.0) + cube(2.0) - cube(1.0);
         assert!((volume - exact).abs() < 1e-9, "{flips:b} {volume} {exact}");
@@ -123,7 +123,7 @@ fn shells_that_cross_are_one_solid_outside_and_unclear_within_another() {
 fn shells_that_share_an_edge_are_distinguished() {
     for (one, other) in [(true, false), (false, true), (false, false)] {
         let mesh = cubes(&[(DVec3::ZERO, 0.5, one), (dvec3(1.0, 1.0, 0.0), 0.5, other)]);
-        let topology = Topology::of(&mesh);
+        let topology = TopologyDefects::of(&mesh);
         assert_eq!(topology.edges_shared_by_parts.count(), 1);
         assert_eq!(
             wrong_and_unclear_shell_counts(&mesh),
@@ -147,7 +147,7 @@ fn shells_that_share_faces_are_distinguished() {
             continue;
         }
         let mesh = cubes(&of_lattice);
-        let topology = Topology::of(&mesh);
+        let topology = TopologyDefects::of(&mesh);
         assert_eq!(wrong_and_unclear_shell_counts(&mesh), [0, 0], "{seed}");
         let volume = topology.signed_volume.abs() - of_lattice.len() as f64;
         assert!(volume.abs() < 1e-9, "{seed}");

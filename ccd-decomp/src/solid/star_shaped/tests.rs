@@ -1,14 +1,15 @@
 use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::solid_surface;
-use crate::solid::topology::Topology;
+use crate::solid::topology::TopologyDefects;
 use crate::test_meshes::{
     block_cells, cubes, merged_meshes, mesh, mesh_with_reversed_faces, scaled_and_moved,
     star_bipyramid, tetrahedron,
 };
 
 fn is_star_shaped(mesh: &TriangleMesh) -> bool {
-    star_centre(&Manifold::without_intersection_check(mesh, &Topology::of(mesh)).unwrap()).is_some()
+    star_centre(&Manifold::without_intersection_check(mesh, &TopologyDefects::of(mesh)).unwrap())
+        .is_some()
 }
 
 #[test]

@@ -1,5 +1,5 @@
 use crate::test_meshes::CUBE_FACES;
-use crate::{Edge, Topology, TriangleMesh};
+use crate::{Edge, TopologyDefects, TriangleMesh};
 use ccd_core::glam::{DVec3, dvec3};
 
 const TETRAHEDRON_FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
@@ -11,8 +11,8 @@ fn cube_points() -> Vec<DVec3> {
         .collect()
 }
 
-fn topology(points: Vec<DVec3>, faces: &[[u32; 3]]) -> Topology {
-    Topology::of(&TriangleMesh::new(points, faces).unwrap())
+fn topology(points: Vec<DVec3>, faces: &[[u32; 3]]) -> TopologyDefects {
+    TopologyDefects::of(&TriangleMesh::new(points, faces).unwrap())
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn a_missing_face_leaves_its_rim() {
     let open = topology(cube_points(), &CUBE_FACES[1..]);
     assert!(!open.is_closed());
     assert_eq!(
-        open.boundary_edges.first(),
+        open.boundary_edges.first_elements(),
         [Edge(0, 4), Edge(0, 6), Edge(4, 6)]
     );
     assert_eq!(
@@ -68,7 +68,7 @@ fn a_flipped_face_is_found_at_its_edges() {
     let flipped = topology(cube_points(), &faces);
     assert!(!flipped.is_closed());
     assert_eq!(
-        flipped.flipped_edges.first(),
+        flipped.flipped_edges.first_elements(),
         [Edge(0, 4), Edge(0, 6), Edge(4, 6)]
     );
     assert!(flipped.boundary_edges.is_empty());
@@ -87,7 +87,7 @@ fn two_shells_that_share_an_edge_are_closed_but_no_manifold() {
     let other = TETRAHEDRON_FACES.map(|face| face.map(|v| [0, 1, 4, 5][v as usize]));
     let both = topology(points, &[TETRAHEDRON_FACES, other].concat());
     assert!(both.is_closed() && !both.is_manifold(), "{both}");
-    assert_eq!(both.edges_shared_by_parts.first(), [Edge(0, 1)]);
+    assert_eq!(both.edges_shared_by_parts.first_elements(), [Edge(0, 1)]);
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn a_fin_on_an_edge_opens_a_shell() {
     let fin = [TETRAHEDRON_FACES.as_slice(), &[[0, 1, 4]]].concat();
     let topology = topology(points, &fin);
     assert!(!topology.is_closed());
-    assert_eq!(topology.branching_edges.first(), [Edge(0, 1)]);
+    assert_eq!(topology.branching_edges.first_elements(), [Edge(0, 1)]);
     assert_eq!(topology.boundary_edges.count(), 2);
 }
 

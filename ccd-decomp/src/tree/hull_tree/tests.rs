@@ -140,7 +140,7 @@ proptest! {
                     prop_assert!(real(&ConvexCombination::from_single_point(corners[k])));
                     prop_assert!(real(&ConvexCombination::of_two_points([corners[k], next], weights[0])));
                     let mut inside = ConvexCombination::of_two_points([corners[k], next], weights[1]);
-                    inside.push(corners[(k + 2) % corners.len()], weights[2]);
+                    inside.add_weighted_point(corners[(k + 2) % corners.len()], weights[2]);
                     prop_assert!(real(&inside));
                 }
             }

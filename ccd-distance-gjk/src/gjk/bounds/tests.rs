@@ -47,7 +47,7 @@ fn bounds_contain_the_distance_and_reach_what_is_required() {
         let lower = random.random_range(0.0..3.0);
         let required = TerminationBounds {
             sufficient_lower_bound: lower,
-            upper: lower * random.random_range(0.0..1.0),
+            sufficient_upper_bound: lower * random.random_range(0.0..1.0),
         };
         let first = DVec3::new(1.0, random.random_range(-1.0..1.0), 0.0);
         let found = bound_distance(support, first, required);
@@ -57,7 +57,7 @@ fn bounds_contain_the_distance_and_reach_what_is_required() {
         );
         if found.lower > required.sufficient_lower_bound {
             apart += 1;
-        } else if found.upper <= required.upper {
+        } else if found.upper <= required.sufficient_upper_bound {
             near += 1;
         } else {
             exact += 1;
@@ -82,7 +82,7 @@ fn an_axis_without_a_direction_gives_bounds_that_hold() {
         };
         let required = TerminationBounds {
             sufficient_lower_bound: 0.5,
-            upper: 0.0,
+            sufficient_upper_bound: 0.0,
         };
         let found = bound_distance(support, axis, required);
         assert!(

@@ -129,7 +129,7 @@ impl Report<'_> {
             "required": self.required,
             "verdict": self.required.map(|_| verdict_name(self.verdict())),
             "ranges": self.ranges.iter().map(|found| {
-                with(range(found.from, found.to), json!({ "clearance": verdict_name(found.clearance) }))
+                with(range(found.from, found.to), json!({ "clearance": verdict_name(found.verdict) }))
             }).collect::<Vec<_>>(),
             "curve": curve.iter().map(|found| {
                 with(range(found.from, found.to), self.closest_json(&found.closest))
@@ -142,7 +142,7 @@ impl Report<'_> {
 
     /// Returns the verdict about the whole path: the worst of its ranges.
     fn verdict(&self) -> ClearanceVerdict {
-        let has = |verdict| self.ranges.iter().any(|range| range.clearance == verdict);
+        let has = |verdict| self.ranges.iter().any(|range| range.verdict == verdict);
         if has(ClearanceVerdict::Violated) {
             ClearanceVerdict::Violated
         } else if has(ClearanceVerdict::Unverified) {
@@ -195,7 +195,7 @@ impl fmt::Display for Report<'_> {
         }
         for range in &self.ranges {
             let (from, to) = (self.place(range.from), self.place(range.to));
-            write!(f, "\n  {:10} {from} to {to}", verdict_name(range.clearance))?;
+            write!(f, "\n  {:10} {from} to {to}", verdict_name(range.verdict))?;
         }
         let skipped: Vec<String> = self
             .pairs_not_checked()

@@ -11,7 +11,7 @@ fn robot() -> Robot {
         parent: parent.into(),
         child: child.into(),
         axis_and_limits: moves,
-        position_rule: PositionRule::Free,
+        position_rule: PositionRule::Independent,
     };
     let turns = trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap();
     let slides = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();

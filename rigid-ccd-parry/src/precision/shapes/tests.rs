@@ -29,7 +29,7 @@ fn holes_of_height_fields_are_holes() {
         let theirs = field
             .triangle_at_id(number)
             .expect("a triangle that is there");
-        let theirs = theirs.vertices().map(point);
+        let theirs = theirs.vertices().map(point_from_parry);
         let ours = holed.body().pieces().get(piece as usize);
         assert_eq!(ours.points, theirs, "{number}");
     }
@@ -44,7 +44,7 @@ fn voxels_are_boxes_on_the_grid() {
         .collect();
     let made = prepared_body(&Voxels::new(Vector::new(0.1, 0.3, 0.7), &keys));
     assert_eq!(made.body().pieces().len(), 4);
-    let size = point(Vector::new(0.1, 0.3, 0.7));
+    let size = point_from_parry(Vector::new(0.1, 0.3, 0.7));
     for [x, y, z] in cells {
         let low = DVec3::new(x as f64, y as f64, z as f64) * size;
         let pieces = made.body().pieces();
@@ -105,7 +105,10 @@ fn refusals_name_the_reason() {
     let mesh = TriMesh::new(points, vec![[0, 1, 2]]).expect("a mesh");
     assert!(matches!(
         refused(&mesh),
-        ShapeError::Piece { number: 0, .. }
+        ShapeError::Piece {
+            element_index: 0,
+            ..
+        }
     ));
 }
 

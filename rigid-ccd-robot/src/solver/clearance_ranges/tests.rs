@@ -43,19 +43,19 @@ fn sampled_distances_are_on_the_proven_side() {
         for (k, range) in ranges.iter().enumerate() {
             if k > 0 {
                 assert_eq!(at(ranges[k - 1].to), at(range.from));
-                assert_ne!(ranges[k - 1].clearance, range.clearance);
+                assert_ne!(ranges[k - 1].verdict, range.verdict);
             }
-            if range.clearance == ClearanceVerdict::Unverified {
+            if range.verdict == ClearanceVerdict::Unverified {
                 unverified += at(range.to) - at(range.from);
             }
             for sample in 0..=8 {
                 let there =
                     at(range.from) + f64::from(sample) / 8.0 * (at(range.to) - at(range.from));
-                let there = PathPoint::from_segment_position(there, path.len() - 1);
+                let there = PathPoint::from_path_position(there, path.len() - 1);
                 let ends = [&path[there.segment], &path[there.segment + 1]];
                 let distance =
                     least_distance(&cell, &configuration_between(ends[0], ends[1], there.share));
-                match range.clearance {
+                match range.verdict {
                     ClearanceVerdict::Kept => {
                         assert!(distance > margin, "{distance} of {margin} in {range:?}");
                     }
@@ -67,8 +67,8 @@ fn sampled_distances_are_on_the_proven_side() {
                     }
                     ClearanceVerdict::Unverified => {}
                 }
-                kept += usize::from(range.clearance == ClearanceVerdict::Kept);
-                violated += usize::from(range.clearance == ClearanceVerdict::Violated);
+                kept += usize::from(range.verdict == ClearanceVerdict::Kept);
+                violated += usize::from(range.verdict == ClearanceVerdict::Violated);
             }
         }
     }
@@ -93,7 +93,7 @@ fn without_time_nothing_is_verified() {
         .unwrap();
     let [
         ClearanceRange {
-            clearance: ClearanceVerdict::Unverified,
+            verdict: ClearanceVerdict::Unverified,
             to,
             ..
         },
@@ -131,7 +131,7 @@ fn lid_with_stop(stop_angle: f64) -> Cell {
         "hinge",
         ["frame", "lid"],
         hinge_at([0.0; 3]),
-        PositionRule::Free,
+        PositionRule::Independent,
     );
     let robot = Robot::new(vec![Link::named("frame"), lid], vec![hinge]).unwrap();
     let mut cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
@@ -155,7 +155,7 @@ fn a_stop_of_a_hinge_limits_it() {
         let ranges = solver
             .clearance_ranges(&[[0.0], [PI]], RangeSettings::DEFAULT)
             .unwrap();
-        let verdicts: Vec<ClearanceVerdict> = ranges.iter().map(|range| range.clearance).collect();
+        let verdicts: Vec<ClearanceVerdict> = ranges.iter().map(|range| range.verdict).collect();
         use ClearanceVerdict::{Kept, Unverified, Violated};
         assert_eq!(verdicts, [Kept, Unverified, Violated, Unverified, Kept]);
         let borders = [2.0 - angle_of_gap(gap), 2.0 + angle_of_gap(gap)];
@@ -193,7 +193,7 @@ fn deep_overlaps_are_violated() {
         ),
     ] {
         let link = Link::named("part").with_body(held, pose.unwrap());
-        let moves = joint("joint", ["frame", "part"], moves, PositionRule::Free);
+        let moves = joint("joint", ["frame", "part"], moves, PositionRule::Independent);
         let robot = Robot::new(vec![Link::named("frame"), link], vec![moves]).unwrap();
         let mut cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
         cell.add_obstacle("obstacle", obstacle, Pose::at(at).unwrap())
@@ -203,7 +203,7 @@ fn deep_overlaps_are_violated() {
             .clearance_ranges(&[[-0.5], [0.5]], RangeSettings::DEFAULT)
             .unwrap();
         assert!(
-            ranges[0].clearance == ClearanceVerdict::Violated && ranges.len() == 1,
+            ranges[0].verdict == ClearanceVerdict::Violated && ranges.len() == 1,
             "{ranges:?}"
         );
     }
@@ -223,7 +223,7 @@ fn an_error_of_poses_is_kept_on_both_sides() {
         panic!("{ranges:?}")
     };
     assert_eq!(
-        [kept.clearance, violated.clearance],
+        [kept.verdict, violated.verdict],
         [ClearanceVerdict::Kept, ClearanceVerdict::Violated]
     );
     // Both balls may be away from their places.

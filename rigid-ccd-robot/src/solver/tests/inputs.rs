@@ -61,7 +61,7 @@ fn an_edge_beyond_all_numbers_is_never_free() {
         parent: "base".into(),
         child: "cart".into(),
         axis_and_limits: rail,
-        position_rule: PositionRule::Free,
+        position_rule: PositionRule::Independent,
     };
     let cart = Link::named("cart").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
     let robot = Robot::new(vec![Link::named("base"), cart], vec![joint]).unwrap();
@@ -141,14 +141,14 @@ fn numbers_that_cancel_are_rounded_as_what_they_are() {
         (
             mesh,
             back,
-            vec![slides("x", PositionRule::Free)],
+            vec![slides("x", PositionRule::Independent)],
             [-0.5000000000043645, 4.718003765447065e-12, 0.0],
             0.0,
         ),
         (
             ball(),
             Pose::IDENTITY,
-            vec![slides("x", PositionRule::Free), slides("y", follows)],
+            vec![slides("x", PositionRule::Independent), slides("y", follows)],
             [1.1000000108069037, 0.0, 0.0],
             1.0000000000000109,
         ),

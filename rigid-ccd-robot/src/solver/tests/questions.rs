@@ -275,7 +275,7 @@ fn bounds_hold_for_the_shapes_that_bodies_enclose() {
         parent: "base".into(),
         child: "rod".into(),
         axis_and_limits: slide,
-        position_rule: PositionRule::Free,
+        position_rule: PositionRule::Independent,
     };
     let robot = Robot::new(links, vec![joint]).unwrap();
     let pairs = LinkPairs::from_robot(&robot);

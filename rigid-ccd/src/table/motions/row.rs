@@ -119,7 +119,7 @@ struct Row<'a, R> {
 }
 
 /// The two ways in which a row gives the motion of a body.
-enum MotionKind {
+enum MotionEncoding {
     EndPose,
     Velocities,
 }
@@ -131,7 +131,7 @@ impl<'a, R: Record> Row<'a, R> {
     }
 
     /// Returns the pose of a body at the start.
-    fn start(&self, side: Side) -> Result<Pose, RowProblem> {
+    fn start_pose(&self, side: Side) -> Result<Pose, RowProblem> {
         let position = self.vector(side, Quantity::Position)?;
         let orientation = self.quaternion(side, Quantity::Orientation)?;
         Ok(Pose::new(
@@ -142,22 +142,22 @@ impl<'a, R: Record> Row<'a, R> {
 
     fn body_pose(&self, side: Side) -> Result<BodyPose, RowProblem> {
         Ok(BodyPose {
-            pose: self.start(side)?,
+            pose: self.start_pose(side)?,
             spin: self.vector_or_zero(side, Quantity::AngularVelocity)?,
             centre: self.vector_or_zero(side, Quantity::Centre)?,
         })
     }
 
     fn motion(&self, side: Side, duration: f64) -> Result<Motion, RowProblem> {
-        let start = self.start(side)?;
+        let start = self.start_pose(side)?;
         let centre = self.vector_or_zero(side, Quantity::Centre)?;
         match self.motion_kind(side)? {
-            MotionKind::Velocities => {
+            MotionEncoding::Velocities => {
                 let velocity = self.vector_or_zero(side, Quantity::Velocity)?;
                 let spin = self.vector_or_zero(side, Quantity::AngularVelocity)?;
                 Ok(Motion::about(start, velocity, spin, centre)?)
             }
-            MotionKind::EndPose => {
+            MotionEncoding::EndPose => {
                 let position = self.vector(side, Quantity::EndPosition)?;
                 let orientation = self.quaternion(side, Quantity::EndOrientation)?;
                 let end = Pose::new(
@@ -170,7 +170,7 @@ impl<'a, R: Record> Row<'a, R> {
     }
 
     /// Returns whether the row gives a body's motion by an end pose or by velocities; it is an error to give both.
-    fn motion_kind(&self, side: Side) -> Result<MotionKind, RowProblem> {
+    fn motion_kind(&self, side: Side) -> Result<MotionEncoding, RowProblem> {
         let end = [Quantity::EndPosition, Quantity::EndOrientation];
         let velocities = [Quantity::Velocity, Quantity::AngularVelocity];
         let is_given = |cell| self.record.has_value(cell);
@@ -182,11 +182,11 @@ impl<'a, R: Record> Row<'a, R> {
                 end_pose_column: self.columns.name(end).to_owned(),
                 velocity_column: self.columns.name(velocity).to_owned(),
             }),
-            (None, Some(_)) => Ok(MotionKind::Velocities),
+            (None, Some(_)) => Ok(MotionEncoding::Velocities),
             // If the table has the columns, reading reports the empty cell.
             (_, None) => match self.column_where(side, end, |_| true) {
-                Some(_) => Ok(MotionKind::EndPose),
-                None => Ok(MotionKind::Velocities),
+                Some(_) => Ok(MotionEncoding::EndPose),
+                None => Ok(MotionEncoding::Velocities),
             },
         }
     }

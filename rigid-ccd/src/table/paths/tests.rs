@@ -60,7 +60,7 @@ fn a_table_without_ids_is_one_path() {
 
 #[test]
 fn each_row_may_be_a_pose_at_rest() {
-    let rows = rows("id,t,a_px\nx,0,1\nx,5,2\ny,7,3\n", Grouping::EachRow);
+    let rows = rows("id,t,a_px\nx,0,1\nx,5,2\ny,7,3\n", Grouping::QueryPerRow);
     let read: Vec<(usize, String, f64, f64)> = rows
         .into_iter()
         .map(|row| match row {
@@ -85,7 +85,7 @@ fn each_row_may_be_a_pose_at_rest() {
 fn times_may_begin_anywhere() {
     let read = paths("t,a_px\n1e9,0\n1000000000.5,1\n");
     let path = &read[0];
-    assert_eq!((path.start, path.duration), (1e9, 0.5));
+    assert_eq!((path.start_time, path.duration), (1e9, 0.5));
     assert_eq!(
         (
             path.table_time_rounded_down(0.0),

@@ -11,7 +11,7 @@ pub(super) fn run(bytes: &[u8]) {
     let paths = [b"t,", bytes].concat();
     run_within_memory_limit(bytes, || {
         for bytes in [bytes, &paths] {
-            for grouping in [Grouping::ById, Grouping::EachRow] {
+            for grouping in [Grouping::ById, Grouping::QueryPerRow] {
                 check(bytes, grouping);
             }
         }

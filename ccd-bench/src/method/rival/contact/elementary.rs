@@ -64,7 +64,7 @@ impl ElementaryTest {
     const ELEMENTARY_TEST_COUNT: usize = 15;
 
     /// Returns the test with the given number: corners first, then faces, then pairs of edges.
-    fn from_number(number: usize) -> ElementaryTest {
+    fn nth_test(number: usize) -> ElementaryTest {
         match number {
             0..3 => ElementaryTest::VertexFace(number),
             3..6 => ElementaryTest::FaceVertex(number - 3),
@@ -87,11 +87,14 @@ impl ElementaryTestSet {
     }
 
     /// Returns the tests of the set for which `holds` is true.
-    pub(super) fn filter(self, mut holds: impl FnMut(ElementaryTest) -> bool) -> ElementaryTestSet {
+    pub(super) fn filter_tests(
+        self,
+        mut holds: impl FnMut(ElementaryTest) -> bool,
+    ) -> ElementaryTestSet {
         let (mut kept, mut left) = (0, self.0);
         while left != 0 {
             let k = left.trailing_zeros();
-            if holds(ElementaryTest::from_number(k as usize)) {
+            if holds(ElementaryTest::nth_test(k as usize)) {
                 kept |= 1 << k;
             }
             left &= left - 1;
@@ -170,7 +173,7 @@ impl TrianglePair {
         if have_same_sign(over_a) {
             return ElementaryTestSet::NONE;
         }
-        tests.filter(|test| match test {
+        tests.filter_tests(|test| match test {
             ElementaryTest::VertexFace(i) => {
                 !(b.is_degenerate() || over_b[i].excludes_zero())
                     && self.may_project_into_b(corners[i])
@@ -221,11 +224,11 @@ impl TrianglePair {
             return false;
         }
         let at_s = w.cross_vector(g);
-        if is_never_scaled_down_from(at_s, c) {
+        if is_outside_scalings_of(at_s, c) {
             return false;
         }
         let at_u = w.cross(e);
-        if is_never_scaled_down_from(at_u, c) {
+        if is_outside_scalings_of(at_u, c) {
             return false;
         }
         let (along, of_e, of_g) = (w.dot_vector(g), e.dot_vector(g), g.length_squared());
@@ -266,6 +269,6 @@ fn have_same_sign(values: [Interval; 3]) -> bool {
 }
 
 /// Returns true if no vector in `part` can be a vector in `whole` times a factor from 0 to 1.
-fn is_never_scaled_down_from(part: IntervalVec, whole: IntervalVec) -> bool {
+fn is_outside_scalings_of(part: IntervalVec, whole: IntervalVec) -> bool {
     (part.mignitude() - whole.magnitude()).max_element() > 0.0
 }

@@ -45,7 +45,7 @@ pub(super) fn first_touch(
             first = FirstTouch::AtTime(interval.span.start);
             continue;
         }
-        let open = open.filter(|test| match find_root(triangles, test, interval, clock) {
+        let open = open.filter_tests(|test| match find_root(triangles, test, interval, clock) {
             Root::MaybeSeveral => true,
             Root::None => false,
             Root::AtTime(time) => {
@@ -108,7 +108,7 @@ fn find_root(
         start: found.start - slack,
         end: found.end + slack,
     };
-    let only = ElementaryTestSet::ALL.filter(|other| other == test);
+    let only = ElementaryTestSet::ALL.filter_tests(|other| other == test);
     if triangles
         .tests_with_possible_roots(only, &clock.relative_motion.enclosure_over(around))
         .is_empty()

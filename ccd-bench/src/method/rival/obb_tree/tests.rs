@@ -28,7 +28,7 @@ fn boxes_hold_their_triangles_and_leaves_all_of_them_once() {
                 .axes
                 .transpose_mul_vec3(*corner - node.bounds.centre);
             assert!((along.abs() - node.bounds.half_extents).max_element() < 1e-12);
-            assert!(corner.length() <= tree.radius);
+            assert!(corner.length() <= tree.radius_about_origin);
         }
     }
     let mut leaves = Vec::new();

@@ -17,7 +17,7 @@ pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> RssTree {
         |triangles, parent: Option<&(Placement, Node)>| {
             let (frame, lengths, radius) = fit_swept_rectangle(triangles);
             let node = Node {
-                placement: parent.map_or(frame, |(parent, _)| frame.relative_to(parent)),
+                frame_in_parent: parent.map_or(frame, |(parent, _)| frame.relative_to(parent)),
                 side_lengths: lengths,
                 radius,
                 content: NodeContent::Triangle(0),

@@ -2,7 +2,7 @@ use super::*;
 
 fn draw_map(kind: &'static HeatMapTexts, cells: Vec<Option<HeatCell>>) -> String {
     let map = HeatMap {
-        texts: kind,
+        captions: kind,
         methods: vec!["ours".to_owned(), "theirs".to_owned(), "absent".to_owned()],
         rows: vec![HeatRow {
             name: "bullet and paper".to_owned(),

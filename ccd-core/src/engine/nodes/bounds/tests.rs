@@ -185,7 +185,7 @@ fn values_along_three_axes<L: Simd, C: Children, P: OtherNode>(
     let axes = [
         widest_gap_axis(&pairs),
         closest_approach_axis(&pairs),
-        axis::axes_with_gaps(pairs.children, pairs.other_node, pairs.offset, some),
+        axis::unit_axes_and_gaps(pairs.children, pairs.other_node, pairs.offset, some),
     ];
     axes.map(|axis| values_along_axis(&pairs, axis))
 }
@@ -252,7 +252,7 @@ fn free_times_turning_with_other_body<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
     axis: AxesX8<L>,
 ) -> [f32; LANES] {
-    *pairs.free_times_turning_with_other_body(axis)
+    *pairs.free_times_of_planes_turning_with_other(axis)
 }
 
 /// Returns the [free times](clock::free_time) of eight pairs with these gaps, rates and second derivatives.

@@ -374,7 +374,7 @@ fn expand_with_fixed_planes(
     node: NodeId,
     other: NodeId,
     s: f64,
-) -> EightPairBounds {
+) -> EightPairFreeTimes {
     let tree = split.body_in_problem(problem).body.tree();
     let NodeOrTriangle::Node(below) = tree.get(node) else {
         panic!("a node to split");
@@ -382,7 +382,7 @@ fn expand_with_fixed_planes(
     let common = NodeContext::new(problem);
     let split_all = Split::with_all_children(split, node, other);
     vectorize!(problem.simd_level, level => {
-        let motion = RelativeMotion::new(level, &common, &split_all, s, ClosingRate::FromMotion);
+        let motion = RelativeMotion::new(level, &common, &split_all, s, ClosingRate::RateOfMotion);
         match below.children {
             NodeChildren::Boxes(group) => {
                 let group = tree.box_group(group);
@@ -405,7 +405,7 @@ fn bound_with_fixed_planes<L: Simd, C: Children>(
     motion: &RelativeMotion<'_, L>,
     group: &C,
     members: &GroupHeader,
-) -> EightPairBounds {
+) -> EightPairFreeTimes {
     let far = motion.other_body;
     let radius = match far.body.tree().get(motion.split.other_node) {
         NodeOrTriangle::Node(node) => node.radius,

@@ -244,7 +244,7 @@ impl ReferenceHeights {
                     <= self.least_point_value(tau, |p| -p.second_derivative) + 1e-12
             );
             let both = |p: &PointHeight| p.height + p.rate;
-            let least = heights.point_value_lower_bound(tau, both);
+            let least = heights.min_over_points_lower_bound(tau, both);
             assert!(least <= self.least_point_value(tau, both) + 1e-11 * (1.0 + rate * rate));
             let Some(few) = heights.tracks_if_few_points() else {
                 continue;

@@ -13,7 +13,7 @@ use crate::tuning::MIN_CUT_LENGTH_SHARE;
 
 impl Query<'_> {
     /// Returns a copy of the query for measuring distances, with a margin of 0 and no required clearance.
-    pub(in crate::questions::along) fn for_distance_measurement(&self) -> Self {
+    pub(in crate::questions::along) fn query_without_margin(&self) -> Self {
         let mut query = Query {
             constant_velocity_problem: None,
             ..*self
@@ -24,7 +24,7 @@ impl Query<'_> {
 
     /// Returns a copy of the query that asks for contacts with the margin, tolerance and budget of `rung`.
     pub(super) fn contact_query(&self, rung: MarginQuery) -> Self {
-        let mut query = self.for_distance_measurement();
+        let mut query = self.query_without_margin();
         query.settings.margin = rung.margin;
         query.settings.tolerance = rung.tolerance;
         query.settings.budget = rung.budget;
@@ -68,7 +68,7 @@ impl StretchDistanceBounds {
     /// Returns the end of the stretch beyond which the distance probably decreases further; `None` if there is no such
     /// end. The motions are nearest at about that end. At their rate of approach there, the distance would fall by more
     /// than the deviations over another stretch of this length.
-    pub(super) fn stretch_end_of_falling_distance(&self, motions: &StretchMotions) -> Option<f64> {
+    pub(super) fn stretch_end_nearer_beyond(&self, motions: &StretchMotions) -> Option<f64> {
         let Span { from, end: to, .. } = motions.span;
         let (near, falls) = (
             MIN_CUT_LENGTH_SHARE * motions.span.length(),
@@ -91,7 +91,7 @@ pub(super) struct LeastDistanceBounds {
     pub(super) lower: f64,
     pub(super) nearest_contact: Option<(f64, Contact)>,
     /// The lower bound of the distance that is proven for all times, with the state of further attempts.
-    pub(super) lower_bound_attempts: LowerBoundAttempts,
+    pub(super) lower_bound_prover: LowerBoundAttempts,
 }
 
 impl LeastDistanceBounds {
@@ -100,7 +100,7 @@ impl LeastDistanceBounds {
         LeastDistanceBounds {
             lower: f64::INFINITY,
             nearest_contact: None,
-            lower_bound_attempts: LowerBoundAttempts::new(0.0, query.settings.budget)
+            lower_bound_prover: LowerBoundAttempts::new(0.0, query.settings.budget)
                 .with_earlier_first_attempt_if_timed(is_timed),
         }
     }
@@ -131,7 +131,7 @@ impl LeastDistanceBounds {
             } => {
                 self.record_contact(
                     motions.query_time(time),
-                    motions.widen_contact_bounds(contact),
+                    motions.widen_separation_bounds(contact),
                 );
                 seen.lower = lower;
                 seen.upper = contact.separation.upper;
@@ -140,14 +140,17 @@ impl LeastDistanceBounds {
             }
             Outcome::Overlapping { overlap, .. } => {
                 if let Overlap::Pieces(contact) = overlap {
-                    self.record_contact(motions.span.from, motions.widen_contact_bounds(contact));
+                    self.record_contact(
+                        motions.span.from,
+                        motions.widen_separation_bounds(contact),
+                    );
                 }
             }
             Outcome::Unresolved(known) => {
                 if let Some((time, contact)) = known.nearest_contact {
                     self.record_contact(
                         motions.query_time(time),
-                        motions.widen_contact_bounds(contact),
+                        motions.widen_separation_bounds(contact),
                     );
                 }
                 return Err(known.limit);
@@ -199,10 +202,7 @@ impl LeastDistanceBounds {
     /// Returns the unresolved outcome for a search that reached a limit; `lower` is a lower bound of the distance at
     /// all times.
     fn unresolved_outcome(&self, lower: f64, limit: Limit) -> Outcome {
-        let lower = lesser(
-            greater(self.lower_bound_attempts.lower, lower),
-            self.upper(),
-        );
+        let lower = lesser(greater(self.lower_bound_prover.lower, lower), self.upper());
         let seen = |(time, contact): (f64, Contact)| (time, contact.cap_lower_bound(lower));
         Outcome::Unresolved(Unresolved::for_least_distance(
             lower,

@@ -1,7 +1,7 @@
 //! Tests that the extent of a flat node bounds the extent of all points that lie in its ball and between its two
 //! planes.
 
-use super::super::PlanarNode;
+use super::super::PlacedFlatNode;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::Problem;
@@ -23,11 +23,11 @@ fn worst_reach() {
         let problem =
             Problem::of_moving_bodies((&flat, still), (&flat, still), 1.0, &Settings::DEFAULT)
                 .ok()?;
-        let node = PlanarNode::new(&problem.a, 0, 0.0)?;
+        let node = PlacedFlatNode::new(&problem.a, 0, 0.0)?;
         let n = (node.normal + random_direction(tape) * tape.size(-30..=4)).normalize();
         let [exact, normal] = [n, node.normal].map(DoubleDouble3::from);
         let along = exact.dot(normal).get().abs();
-        let radius = node.node.radius;
+        let radius = node.node.bounding_radius;
         let truth = DoubleDouble::from(node.half_thickness?) * DoubleDouble::from(along)
             + DoubleDouble::from(radius) * exact.cross(normal).length();
         let allowed = RATE_ERROR_F64 * radius;

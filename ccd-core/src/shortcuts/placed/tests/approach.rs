@@ -76,9 +76,10 @@ impl ApproachRateTerms {
         self.second_derivative =
             self.second_derivative + axis.dot(DoubleDouble3::from(path.acceleration));
         let arm = node.centre - path.centre_at(s);
-        self.speed += path.speed_bound() + path.angular_speed * (length(arm) + node.radius);
-        self.size += path.angular_speed * node.radius;
-        let from_axis = length(path.axis.cross(arm)) + node.radius;
+        self.speed +=
+            path.speed_bound() + path.angular_speed * (length(arm) + node.bounding_radius);
+        self.size += path.angular_speed * node.bounding_radius;
+        let from_axis = length(path.axis.cross(arm)) + node.bounding_radius;
         self.second_derivative_without_allowance +=
             length(n.cross(path.spin)) * path.angular_speed * from_axis;
         self.second_derivative_without_allowance += n.dot(path.acceleration);
@@ -103,7 +104,7 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let sides = [&problem.a, &problem.b];
     let nodes = sides.map(|side| PlacedNode::new(side, side.body.tree().node_count() as u32, s));
     let [at, bt] = &nodes;
-    let found = ApproachRateBounds::bounds_along_axis(&problem, [at, bt], n, s);
+    let found = ApproachRateBounds::approach_rate_bounds_along_axis(&problem, [at, bt], n, s);
     let mut sums = ApproachRateTerms::new();
     for (k, n) in [(0, n), (1, -n)] {
         sums.add(sides[k], &motions[k], &nodes[k], n, s);

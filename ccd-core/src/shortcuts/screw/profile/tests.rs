@@ -63,7 +63,7 @@ fn worst_error_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     let mut worst = f64::NEG_INFINITY;
     for (k, &n) in axis.surfaces.iter().enumerate() {
         let tilt = axis.advance / distance;
-        let allowed = profile_rounding(n.abs().to_array(), [arm, node.radius], tilt);
+        let allowed = profile_rounding(n.abs().to_array(), [arm, node.bounding_radius], tilt);
         for [r, z, angle] in places {
             let zeta = z - DoubleDouble::from(axis.advance) * angle;
             let f = DoubleDouble::from(n.x) * r + DoubleDouble::from(n.y) * zeta;

@@ -3,7 +3,7 @@
 //! The reference takes the axis, the rounded frame and the offset between the bodies as given, and computes
 //! everything from there on exactly. Earlier rounding is that of distances, which is counted separately.
 
-use super::super::{HeightTerms, PiecePastTurningPlane};
+use super::super::{HeightTerms, PieceMotionToTurningPlane};
 use crate::engine::pieces::snapshot::Snapshot;
 use crate::math::vector::unit;
 use crate::motion::Motion;
@@ -32,7 +32,7 @@ fn motion(tape: &mut RandomCase) -> Option<Motion> {
 
 /// A point of one body and a plane that turns with the other body, to compare computed heights with exact heights.
 struct PointAndTurningPlane<'s> {
-    sweep: &'s PiecePastTurningPlane<'s>,
+    sweep: &'s PieceMotionToTurningPlane<'s>,
     motions: [Motion; 2],
     normal: DVec3,
     point: DVec3,
@@ -73,8 +73,9 @@ impl PointAndTurningPlane<'_> {
         let [x, y, z] = [0, 1, 2].map(|k| columns[k].scale(local.0[k]));
         let arm = turned(x + y + z, own);
         let passing = velocity - away;
-        let way =
-            DoubleDouble3::from(self.sweep.offset) + passing.scale(DoubleDouble::from(tau)) + arm;
+        let way = DoubleDouble3::from(self.sweep.reference_point_offset)
+            + passing.scale(DoubleDouble::from(tau))
+            + arm;
         let rate = spin.cross(normal).dot(way) + normal.dot(passing + own.cross(arm));
         [normal.dot(way), rate]
     }
@@ -92,7 +93,8 @@ impl PointAndTurningPlane<'_> {
             velocity - away,
             DoubleDouble::from(f64::from(MAX_TURNING_PLANE_TIME)),
         );
-        let way = DoubleDouble3::from(self.sweep.offset) + passing.scale(DoubleDouble::from(tau));
+        let way = DoubleDouble3::from(self.sweep.reference_point_offset)
+            + passing.scale(DoubleDouble::from(tau));
         let arm = spin.unit().cross(way).length() + passing.length() * time;
         let across = spin.cross(DoubleDouble3::from(self.normal)).length();
         let two = DoubleDouble::from(2.0);
@@ -103,7 +105,7 @@ impl PointAndTurningPlane<'_> {
         let sweep = self.sweep;
         let arm = sweep
             .rotation_axis
-            .cross(sweep.offset + sweep.velocity * tau)
+            .cross(sweep.reference_point_offset + sweep.velocity * tau)
             .length()
             + sweep.speed * f64::from(MAX_TURNING_PLANE_TIME);
         let across = sweep.angular_speed * sweep.normal.derivative_length();
@@ -126,7 +128,7 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
     if !own.body_with_path.path.is_turning() {
         return None;
     }
-    let sweep = PiecePastTurningPlane::new(&own, &other, normal, problem.rounding);
+    let sweep = PieceMotionToTurningPlane::new(&own, &other, normal, problem.rounding);
     let setting = PointAndTurningPlane {
         sweep: &sweep,
         motions,

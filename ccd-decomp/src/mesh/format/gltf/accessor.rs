@@ -90,7 +90,7 @@ impl<'a> AccessorReader<'a> {
             Some(view) => {
                 let stride = self.buffers.stride(view);
                 let layout = (about.count, size);
-                Some(self.element_bytes(view, about.byte_offset, layout, stride)?)
+                Some(self.element_slices(view, about.byte_offset, layout, stride)?)
             }
             None if about.sparse.is_some() => None,
             None => return Err(MeshFault::malformed_content("has no buffer view")),
@@ -106,7 +106,7 @@ impl<'a> AccessorReader<'a> {
             let values = &sparse.values;
             let layout = (sparse.count, size);
             let values =
-                self.element_bytes(values.buffer_view, values.byte_offset, layout, None)?;
+                self.element_slices(values.buffer_view, values.byte_offset, layout, None)?;
             for (place, row) in places.into_iter().zip(values) {
                 elements[place] = read(row);
             }
@@ -116,7 +116,7 @@ impl<'a> AccessorReader<'a> {
 
     /// Returns an iterator over the bytes of each of `count` elements of `size` bytes, at a constant stride in a buffer
     /// view.
-    fn element_bytes(
+    fn element_slices(
         &self,
         view: usize,
         offset: u64,
@@ -144,7 +144,7 @@ impl<'a> AccessorReader<'a> {
         let about = &sparse.indices;
         let component = ComponentType::index_type_from_code(about.component_type)?;
         let layout = (sparse.count, component.bytes_per_component);
-        let rows = self.element_bytes(about.buffer_view, about.byte_offset, layout, None)?;
+        let rows = self.element_slices(about.buffer_view, about.byte_offset, layout, None)?;
         self.expansion_budget
             .spend(expansion_cost(0, sparse.count))?;
         let checked = |row| match (component.read)(row) as usize {

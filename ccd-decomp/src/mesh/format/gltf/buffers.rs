@@ -97,7 +97,7 @@ fn buffer_bytes<'a>(
 
 fn missing_linked_file_fault(name: String) -> MeshFault {
     MeshFault::UnreadableLinkedFile {
-        file_name: name,
+        referenced_file_name: name,
         reason: "only a file has others beside it; read the mesh from a file, or export a .glb"
             .into(),
     }

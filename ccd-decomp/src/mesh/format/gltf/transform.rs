@@ -9,7 +9,7 @@ use ccd_core::glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, DVec4};
 /// Returns the affine map from a node's coordinates to those of its parent.
 pub(super) fn node_transform(node: &Node) -> Result<AffineMap, MeshFault> {
     let Some(matrix) = node.matrix else {
-        return compose(node);
+        return affine_from_trs(node);
     };
     let matrix = DMat4::from_cols_array(&matrix);
     if matrix.row(3) == DVec4::W && matrix.is_finite() {
@@ -21,7 +21,7 @@ pub(super) fn node_transform(node: &Node) -> Result<AffineMap, MeshFault> {
 }
 
 /// Returns the affine map that applies a node's scale, then its rotation, then its translation.
-fn compose(node: &Node) -> Result<AffineMap, MeshFault> {
+fn affine_from_trs(node: &Node) -> Result<AffineMap, MeshFault> {
     let scale = node.scale.map_or(DVec3::ONE, DVec3::from_array);
     let rotation = node.rotation.unwrap_or(DQuat::IDENTITY.to_array());
     let translation = node.translation.unwrap_or([0.0; 3]);

@@ -3,7 +3,7 @@
 use super::EnclosedMesh;
 use crate::mesh::TriangleMesh;
 use crate::rational::{Exact3, exact_fraction};
-use crate::solid::topology::Topology;
+use crate::solid::topology::TopologyDefects;
 use crate::work::WorkBudget;
 use crate::worst::{RandomCase, WorstCaseSearch, error_share};
 use ccd_core::glam::DVec3;
@@ -58,7 +58,7 @@ fn worst_distance() {
     let found = WorstCaseSearch::new("NEAREST_SLACK", 6_000).search(|tape| {
         let (corners, point) = random_triangle_and_point(tape);
         let mesh = TriangleMesh::new(corners.to_vec(), &[[0, 1, 2]]).ok()?;
-        let target = EnclosedMesh::new(&mesh, &Topology::of(&mesh));
+        let target = EnclosedMesh::new(&mesh, &TopologyDefects::of(&mesh));
         let (found, reached) = target.distance_bounds(point, &WorkBudget::unbounded());
         let scale = exact_fraction(2f64.powi(400));
         let truth = (squared_distance(corners, point) * &scale)

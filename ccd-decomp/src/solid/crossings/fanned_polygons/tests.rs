@@ -1,7 +1,7 @@
 use super::*;
 use crate::mesh::TriangleMesh;
 use crate::solid::crossings::faces_cross;
-use crate::solid::topology::Topology;
+use crate::solid::topology::TopologyDefects;
 use crate::test_meshes::{comb, merged_meshes, scaled_and_moved, tetrahedron};
 use ccd_core::glam::{DQuat, dvec3};
 use proptest::prelude::*;
@@ -43,7 +43,8 @@ fn whoever_meets_is_reported() {
     for _ in 0..60 {
         let (heights, places, turn) = given.new_tree(&mut runner).unwrap().current();
         let mesh = rotated_comb_with_tetrahedra(&heights, &places, turn);
-        let Ok(manifold) = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)) else {
+        let Ok(manifold) = Manifold::without_intersection_check(&mesh, &TopologyDefects::of(&mesh))
+        else {
             continue;
         };
         let Some(polygons) = FannedPolygons::from_manifold(&manifold) else {
@@ -86,7 +87,8 @@ fn whoever_meets_is_reported() {
 #[test]
 fn a_comb_is_next_to_its_polygons() {
     let mesh = comb(&[5.0; 40]);
-    let manifold = Manifold::without_intersection_check(&mesh, &Topology::of(&mesh)).unwrap();
+    let manifold =
+        Manifold::without_intersection_check(&mesh, &TopologyDefects::of(&mesh)).unwrap();
     let polygons = FannedPolygons::from_manifold(&manifold).unwrap();
     assert_eq!(polygons.polygons.len(), 2);
     assert!(

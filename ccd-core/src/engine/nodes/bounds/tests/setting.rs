@@ -280,7 +280,7 @@ impl PairConfiguration {
                 split_body_rotation: split,
                 other_rotation: turning_far,
                 remaining_time: 1.0,
-                slack: (kept + allowed).next_up(),
+                required_gap: (kept + allowed).next_up(),
                 closed_gap_threshold: LEAST_GAP_F32,
                 rate_allowance: RATE_ERROR_F32 * speed,
                 larger_body: None,

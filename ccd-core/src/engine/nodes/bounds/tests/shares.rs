@@ -43,7 +43,7 @@ pub(super) fn free_time_error_share(numbers: [f32; 4]) -> f64 {
 impl<C: Children, P: OtherNode> EightPairSample<C, P> {
     /// Computes the free times from the gaps and rates of an axis, with exact second derivatives.
     pub(super) fn axis_free_times(&self, found: &AxisValues) -> AxisFreeTimes {
-        let apart = found.gap.map(|gap| gap - self.motion.slack);
+        let apart = found.gap.map(|gap| gap - self.motion.required_gap);
         let second_derivative = std::array::from_fn(|lane| {
             let n = found.normal(lane);
             (self.children[lane].second_derivative_bound(n)

@@ -3,7 +3,7 @@
 use super::setting::{PairConfiguration, Shape};
 use super::{EightPairSample, values_along_three_axes, widest_gap_axis};
 use crate::body::tree::LANES;
-use crate::engine::nodes::bounds::{EightPairBounds, bound_eight_pairs};
+use crate::engine::nodes::bounds::{EightPairFreeTimes, bound_eight_pairs};
 use crate::engine::nodes::eight_pairs::LargerBody;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
@@ -28,14 +28,14 @@ struct SplitChoiceInputs {
     /// The free times of two fixed planes, and of planes that turn with the split body and the other body.
     free_times: [[f32; LANES]; 4],
     piece_mask: u8,
-    computed_bounds: EightPairBounds,
+    computed_bounds: EightPairFreeTimes,
 }
 
 #[inline(never)]
 fn bounds<L: Simd, C: Children, P: OtherNode>(
     level: L,
     sample: &EightPairSample<C, P>,
-) -> EightPairBounds {
+) -> EightPairFreeTimes {
     bound_eight_pairs(
         level,
         &sample.group,
@@ -59,7 +59,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
                 other_extent: *axis.other_extent,
                 gap: along.gap,
                 free_times: [along.free_times[0], passing.free_times[0], along.free_times[1], along.free_times[2]],
-                piece_mask: self.group.single_piece_mask(level).to_bitmask() as u8,
+                piece_mask: self.group.leaf_children_mask(level).to_bitmask() as u8,
                 computed_bounds: bounds(level, self),
             }
         })
@@ -136,7 +136,7 @@ impl SplitChoiceInputs {
             f64::from(self.radius[lane]),
             f64::from(sample.other_node.radius()),
         );
-        let apart = f64::from(self.gap[lane]) - f64::from(motion.slack);
+        let apart = f64::from(self.gap[lane]) - f64::from(motion.required_gap);
         let clear_of = |size: f64| {
             exceeds_beyond_rounding(apart, size * f64::from(MIN_REVISIT_DISTANCE_RATIO))
         };

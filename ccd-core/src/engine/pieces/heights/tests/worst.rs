@@ -116,7 +116,7 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let seen = RotatingVector::new(-path.axis, normal);
     let along = match tape.index_below(2) {
         0 => seen.vector_at(angle.0),
-        _ => seen.derivative_at(angle.0),
+        _ => seen.derivative_at_angle(angle.0),
     };
     let level = unit(frame.inverse_transform_vector(along))?;
     let (east, north) = level.any_orthonormal_pair();
@@ -165,7 +165,7 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
         Some((of(&arms[chosen as usize]) - least).get())
     };
     let height = miss(seen.vector_at(angle.0), &|arm| n.dot(*arm))?;
-    let rate = miss(seen.derivative_at(angle.0), &|arm| {
+    let rate = miss(seen.derivative_at_angle(angle.0), &|arm| {
         n.dot(turning.spin.cross(*arm))
     })?;
     assert!(heights.support_error_bound >= allowed);

@@ -118,7 +118,7 @@ fn the_plane_of_the_longest_time_counts() {
         };
         let members = snapshot.moving_pieces();
         let attached = |plane: &&SeparatingPlane| {
-            free_time_or_infinity(snapshot.turning_plane_time(&members, plane, f64::INFINITY))
+            free_time_or_infinity(snapshot.turning_plane_free_time(&members, plane, f64::INFINITY))
         };
         let fixed = planes.iter().map(along).fold(0.0, greater);
         let all = planes.iter().map(attached).fold(fixed, greater);
