@@ -50,7 +50,7 @@ struct Polytopes {
     /// The end of each piece's points in the list of points.
     point_ends: Vec<u32>,
     radii: Vec<f64>,
-    /// The end of each piece's facets in `corner_ends` and `facet_source_mesh_faces`.
+    /// The end of each piece's facets in `facet_corner_ends` and `facet_source_mesh_faces`.
     facet_ends: Vec<u32>,
     facet_source_mesh_faces: Vec<FacetOrigin>,
     /// The end of each facet's corners in `corners`.
