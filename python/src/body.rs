@@ -8,8 +8,8 @@ use pyo3::types::{PyBytes, PyType};
 use rigid_ccd::body::{SolidOfRevolution, Solidity};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::mesh::{
-    Adjustments, Axis, Detail, MeshSource, StoredBodyContent, STORED_BODY_EXTENSION, SourceError, StoreFault,
-    TriangleMesh, Unit, prepare,
+    Adjustments, Axis, Detail, MeshSource, STORED_BODY_EXTENSION, SourceError, StoreFault,
+    StoredBodyContent, TriangleMesh, Unit, prepare,
 };
 use rigid_ccd::{Body, Remark};
 use std::borrow::Cow;
@@ -358,7 +358,11 @@ impl PyBody {
         report: String,
     ) -> PyResult<Self> {
         let body = body.map_err(input_error)?;
-        Ok(PyBody::with_pickle_data(body, PickleData::Shape(recipe), report))
+        Ok(PyBody::with_pickle_data(
+            body,
+            PickleData::Shape(recipe),
+            report,
+        ))
     }
 
     fn solid_of_revolution(

@@ -1,21 +1,26 @@
 //! The Python class `Cell`.
 
-use crate::body::extract_body;
-use crate::cell_rows::{self, PathQuestion, PathRow};
+use crate::body::{PyBody, extract_body};
+use crate::cell_contents::{CellContents, PickledContents};
 use crate::cell_solver::{CellWithCachedSolver, answer_paths};
 use crate::errors::{Unresolved, input_error, input_error_from, unresolved_error, with_attribute};
 use crate::interruptible::run_interruptibly;
-use crate::motion::read_pose;
+use crate::motion::{GivenPose, read_given_pose};
 use crate::path_array::PathArray;
 use crate::robot::PyRobot;
-use crate::settings::{CONTACT_SETTING_NAMES, read, read_thread_count};
-use crate::table::PyTable;
+use crate::settings::{
+    APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES, DISTANCE_QUERY_SETTING_NAMES, read,
+    read_thread_count,
+};
+use crate::table::{PyTable, path_batch};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyType};
 use rigid_ccd::answer::{ClearanceVerdict, Limit};
-use rigid_ccd::{Error, Pose, Settings};
+use rigid_ccd::table::results::Status;
+use rigid_ccd::{Error, Settings};
+use rigid_ccd_robot::path_rows::{PathAnswer, PathQuestion};
 use rigid_ccd_robot::{Cell, PathError, PathPoint, RangeSettings, RobotError};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// A robot among obstacles that rest in the frame of its base.
@@ -29,6 +34,7 @@ use std::time::Duration;
 pub(crate) struct PyCell {
     robot: Py<PyRobot>,
     cell_with_solver: CellWithCachedSolver,
+    contents: Mutex<CellContents>,
 }
 
 #[pymethods]
@@ -44,6 +50,7 @@ impl PyCell {
         PyCell {
             robot: robot.clone().unbind(),
             cell_with_solver: CellWithCachedSolver::new(cell),
+            contents: Mutex::default(),
         }
     }
 
@@ -61,19 +68,28 @@ impl PyCell {
         body: &Bound<'_, PyAny>,
         pose: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let (body, pose) = (extract_body(body, "body")?.clone(), pose_or_identity(pose)?);
-        self.change(|cell| cell.add_obstacle(name, body, pose))
+        let (given, pose) = (read_body(body)?, given_pose_or_identity(pose)?);
+        let body = given.get().body.clone();
+        let place = pose.pose("pose")?;
+        self.change(|cell| cell.add_obstacle(name, body, place))?;
+        self.contents().add(name, given, pose);
+        Ok(())
     }
 
     /// Moves an obstacle to a pose.
     fn move_to(&self, name: &str, pose: &Bound<'_, PyAny>) -> PyResult<()> {
-        let pose = read_pose(pose, "pose")?;
-        self.change(|cell| cell.move_obstacle(name, pose))
+        let pose = read_given_pose(pose, "pose")?;
+        let place = pose.pose("pose")?;
+        self.change(|cell| cell.move_obstacle(name, place))?;
+        self.contents().move_to(name, pose);
+        Ok(())
     }
 
     /// Removes an obstacle.
     fn remove(&self, name: &str) -> PyResult<()> {
-        self.change(|cell| cell.remove_obstacle(name))
+        self.change(|cell| cell.remove_obstacle(name))?;
+        self.contents().remove(name);
+        Ok(())
     }
 
     /// Attaches a body to a link, at a pose in the link's frame. It may touch that link, and those in `may_touch`.
@@ -86,19 +102,28 @@ impl PyCell {
         pose: Option<&Bound<'_, PyAny>>,
         may_touch: Vec<String>,
     ) -> PyResult<()> {
-        let (body, pose) = (extract_body(body, "body")?.clone(), pose_or_identity(pose)?);
-        let may_touch: Vec<&str> = may_touch.iter().map(String::as_str).collect();
-        self.change(|cell| cell.attach(name, body, (link, pose), &may_touch))
+        let (given, pose) = (read_body(body)?, given_pose_or_identity(pose)?);
+        let body = given.get().body.clone();
+        let place = pose.pose("pose")?;
+        let names: Vec<&str> = may_touch.iter().map(String::as_str).collect();
+        self.change(|cell| cell.attach(name, body, (link, place), &names))?;
+        let attached = (name.to_owned(), given, link.to_owned(), pose, may_touch);
+        self.contents().attach(attached);
+        Ok(())
     }
 
     /// Removes a body that is attached to a link.
     fn detach(&self, name: &str) -> PyResult<()> {
-        self.change(|cell| cell.detach(name))
+        self.change(|cell| cell.detach(name))?;
+        self.contents().remove(name);
+        Ok(())
     }
 
     /// Sets the distance that obstacles have to keep from a link, in addition to the margin.
     fn set_padding(&self, link: &str, distance: f64) -> PyResult<()> {
-        self.change(|cell| cell.set_padding(link, distance))
+        self.change(|cell| cell.set_padding(link, distance))?;
+        self.contents().set_padding(link, distance);
+        Ok(())
     }
 
     /// Sets the distance at which a pair counts as touching. `a` is a link or an attached body; so is `b`, or an obstacle.
@@ -106,7 +131,9 @@ impl PyCell {
         self.change(|cell| {
             let pair = [cell.item_named(a)?, cell.item_named(b)?];
             cell.set_clearance(pair, distance)
-        })
+        })?;
+        self.contents().set_clearance(a, b, distance);
+        Ok(())
     }
 
     /// Returns whether nothing touches on a path. That is proven for all configurations on it.
@@ -120,9 +147,9 @@ impl PyCell {
         path: &Bound<'_, PyAny>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
-        Ok(self
-            .ask(py, PathQuestion::IsFree, path, settings)?
-            .is_free())
+        let settings = read(settings, CONTACT_SETTING_NAMES)?;
+        let answer = self.ask(py, PathQuestion::IsFree, path, settings)?;
+        Ok(answer.row.status == Status::Free)
     }
 
     /// Returns the first contact on a path, or None. Nothing touches before it.
@@ -136,17 +163,16 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let row = self.ask(py, PathQuestion::FirstContact, path, settings)?;
-        match row.limit {
+        let settings = read(settings, CONTACT_SETTING_NAMES)?;
+        let answer = self.ask(py, PathQuestion::FirstContact, path, settings)?;
+        match answer.limit {
             Some(limit) => {
-                let until = row
-                    .at
-                    .map_or(0.0, |(segment, share)| segment as f64 + share);
+                let until = answer.at.map_or(0.0, PathPoint::time);
                 let text = format!("a limit was reached ({limit}); free until {until}");
                 let error = Unresolved::new_err(text);
                 Err(with_attribute(py, error, "safe_until", until))
             }
-            None => row.contact(py),
+            None => contact_object(py, &answer),
         }
     }
 
@@ -158,9 +184,12 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let row = self.ask(py, PathQuestion::ClosestApproach, path, settings)?;
+        let settings = read(settings, DISTANCE_QUERY_SETTING_NAMES)?;
+        let answer = self.ask(py, PathQuestion::ClosestApproach, path, settings)?;
         let class = py.import("rigid_ccd")?.getattr("PathDistance")?;
-        class.call1((row.lower, row.upper, row.contact(py)?))
+        let lower = answer.row.distance_lower.unwrap_or(0.0);
+        let upper = answer.row.distance_upper.unwrap_or(f64::INFINITY);
+        class.call1((lower, upper, contact_object(py, &answer)?))
     }
 
     /// Divides a path into ranges in which all pairs keep their distance, ranges in which one certainly does not, and the rest.
@@ -201,7 +230,6 @@ impl PyCell {
         let (ranges, seen) = run_interruptibly(py, work, |_| Ok(()))?;
         seen?;
         let class = py.import("rigid_ccd")?.getattr("PathRange")?;
-        let at = |point: PathPoint| point.segment as f64 + point.share;
         let ranges = ranges.map_err(|error| path_error(py, error))?;
         let ranges = ranges.iter().map(|range| {
             let clearance = match range.verdict {
@@ -209,7 +237,7 @@ impl PyCell {
                 ClearanceVerdict::Violated => "violated",
                 ClearanceVerdict::Unverified => "unverified",
             };
-            class.call1((at(range.from), at(range.to), clearance))
+            class.call1((range.from.time(), range.to.time(), clearance))
         });
         ranges.collect()
     }
@@ -221,8 +249,9 @@ impl PyCell {
     ///     threads: how many threads; None for one on each core.
     ///
     /// Returns:
-    ///     A table with a row for each edge: the column `status`, and those that the question has of `share`, `a`, `b`,
-    ///     `lower`, `upper`, and the witnesses `wa_x` to `wb_z`.
+    ///     A table with a row for each edge, with the columns of ``ccd edges``: `status`, `reason`, and those that the question has
+    ///     of `time` from 0 to 1, `a`, `b`, `distance_lower`, `distance_upper`, and the witnesses `witness_a_x` to `witness_b_z`.
+    ///     With the setting `clearance` a closest approach is "kept", "violated" or "unverified".
     #[pyo3(signature = (start, end, ask = "is-free", *, threads = None, **settings))]
     fn edges(
         &self,
@@ -241,7 +270,7 @@ impl PyCell {
     }
 
     /// Answers a question about many paths of equally many configurations, on all cores: an array of shape
-    /// (N, n, joints). The column `segment` has the number of the segment of a path; otherwise the table is that of `edges`.
+    /// (N, n, joints). The table is that of `edges`; times are in segments: 1.5 is the middle of the second one.
     #[pyo3(signature = (paths, ask = "is-free", *, threads = None, **settings))]
     fn paths(
         &self,
@@ -251,8 +280,9 @@ impl PyCell {
         threads: Option<i64>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyTable> {
-        let ask = PathQuestion::from_name(ask)?;
-        let settings = read(settings, ask.allowed_setting_names())?;
+        let ask = question_named(ask)?;
+        let settings = read(settings, allowed_setting_names(ask))?;
+        let clearance = settings.clearance;
         let threads = read_thread_count(threads)?;
         let cell = self.cell_with_solver.cell();
         let array = PathArray::read(paths, "paths")?;
@@ -264,15 +294,38 @@ impl PyCell {
                 ..settings
             };
             answer_paths(&cell, &settings, threads, array.paths(), |solver, path| {
-                ask.answer(solver, path)
+                ask.answer(solver, path, clearance)
             })
         };
         let (rows, seen) = run_interruptibly(py, work, |_| Ok(()))?;
         seen?;
-        let batch = py
-            .detach(|| cell_rows::path_table(&rows, ask))
-            .map_err(input_error)?;
+        let batch = py.detach(|| path_batch(ask, &rows)).map_err(input_error)?;
         Ok(PyTable { batch })
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> (Bound<'py, PyType>, (Py<PyRobot>,), PickledContents) {
+        let (py, cell) = (slf.py(), slf.get());
+        let contents = cell.contents().pickled(py);
+        (slf.get_type(), (cell.robot.clone_ref(py),), contents)
+    }
+
+    fn __setstate__(&self, state: UnpickledContents<'_>) -> PyResult<()> {
+        let (obstacles, attached, paddings, clearances) = state;
+        for (name, body, pose) in &obstacles {
+            self.add(name, body, Some(pose))?;
+        }
+        for (name, body, link, pose, may_touch) in attached {
+            self.attach(&name, &body, &link, Some(&pose), may_touch)?;
+        }
+        for (link, distance) in &paddings {
+            self.set_padding(link, *distance)?;
+        }
+        for (a, b, distance) in &clearances {
+            self.set_clearance(a, b, *distance)?;
+        }
+        Ok(())
     }
 
     fn __repr__(&self) -> String {
@@ -286,25 +339,38 @@ impl PyCell {
     }
 }
 
+/// The contents of a cell as pickle returns them.
+type UnpickledContents<'py> = (
+    Vec<(String, Bound<'py, PyAny>, Bound<'py, PyAny>)>,
+    Vec<(
+        String,
+        Bound<'py, PyAny>,
+        String,
+        Bound<'py, PyAny>,
+        Vec<String>,
+    )>,
+    Vec<(String, f64)>,
+    Vec<(String, String, f64)>,
+);
+
 /// The time after which a question goes on, from its start, on a thread that Ctrl-C can end. To start one for each question
 /// would cost more than most questions do.
 const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(5);
 
 impl PyCell {
-    /// Answers a question about a path, after reading its settings and its configurations.
+    /// Answers a question about a path, after reading its configurations.
     fn ask(
         &self,
         py: Python<'_>,
         ask: PathQuestion,
         path: &Bound<'_, PyAny>,
-        settings: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<PathRow> {
-        let settings = read(settings, ask.allowed_setting_names())?;
+        settings: Settings,
+    ) -> PyResult<PathAnswer> {
         let path = PathArray::read(path, "path")?;
         let path = path.configurations();
         let question = |settings| {
             let solver = &self.cell_with_solver;
-            solver.ask(settings, |solver| ask.ask(solver, &path))
+            solver.ask(settings, |solver| ask.ask(solver, &path, None))
         };
         let limit = settings.deadline.unwrap_or(Duration::MAX);
         let first_limit = limit.min(FIRST_ATTEMPT_TIME_LIMIT);
@@ -328,23 +394,69 @@ impl PyCell {
         found.map_err(|error| path_error(py, error))
     }
 
+    fn contents(&self) -> MutexGuard<'_, CellContents> {
+        self.contents.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn change(&self, change: impl FnOnce(&mut Cell) -> Result<(), RobotError>) -> PyResult<()> {
         self.cell_with_solver.change(change).map_err(input_error)
     }
 }
 
 /// Returns whether a deadline ended a question.
-fn ended_by_deadline(found: &Result<PathRow, PathError>) -> bool {
+fn ended_by_deadline(found: &Result<PathAnswer, PathError>) -> bool {
     let limit = match found {
-        Ok(row) => row.limit,
+        Ok(answer) => answer.limit,
         Err(PathError::Query(Error::Unresolved(known))) => Some(known.limit),
         Err(_) => None,
     };
     limit == Some(Limit::Deadline)
 }
 
-fn pose_or_identity(given: Option<&Bound<'_, PyAny>>) -> PyResult<Pose> {
-    given.map_or(Ok(Pose::IDENTITY), |pose| read_pose(pose, "pose"))
+fn question_named(name: &str) -> PyResult<PathQuestion> {
+    let found = PathQuestion::ALL
+        .into_iter()
+        .find(|question| question.name() == name);
+    found.ok_or_else(|| {
+        input_error(format!(
+            "ask: '{name}' is not is-free, first-contact or closest-approach"
+        ))
+    })
+}
+
+fn allowed_setting_names(question: PathQuestion) -> &'static [&'static str] {
+    match question {
+        PathQuestion::IsFree | PathQuestion::FirstContact => CONTACT_SETTING_NAMES,
+        PathQuestion::ClosestApproach => APPROACH_SETTING_NAMES,
+    }
+}
+
+/// Returns the pair of an answer as an object of Python; `None` without one.
+fn contact_object<'py>(
+    py: Python<'py>,
+    answer: &PathAnswer,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let row = &answer.row;
+    let point = |[x, y, z]: [Option<f64>; 3]| Some((x?, y?, z?));
+    let witnesses = (point(row.witness_a), point(row.witness_b));
+    let (Some(at), (Some(witness_a), Some(witness_b))) = (answer.at, witnesses) else {
+        return Ok(None);
+    };
+    let class = py.import("rigid_ccd")?.getattr("PathContact")?;
+    let (a, b) = (&row.item_a, &row.item_b);
+    let values = (at.segment, at.share, a, b, witness_a, witness_b);
+    class.call1(values).map(Some)
+}
+
+fn given_pose_or_identity(given: Option<&Bound<'_, PyAny>>) -> PyResult<GivenPose> {
+    given.map_or(Ok(GivenPose::IDENTITY), |pose| {
+        read_given_pose(pose, "pose")
+    })
+}
+
+fn read_body(given: &Bound<'_, PyAny>) -> PyResult<Py<PyBody>> {
+    extract_body(given, "body")?;
+    Ok(given.clone().cast_into::<PyBody>()?.unbind())
 }
 
 /// Converts an error about a path to a Python exception.

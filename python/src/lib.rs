@@ -4,7 +4,7 @@ mod answers;
 mod arrays;
 mod body;
 mod cell;
-mod cell_rows;
+mod cell_contents;
 mod cell_solver;
 mod errors;
 mod interruptible;

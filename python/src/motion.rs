@@ -238,5 +238,8 @@ pub(crate) fn read_given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<
         )));
     }
     let rows = [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]];
-    Ok(GivenPose([m[3], m[7], m[11]], quaternion_from_rows(rows, what)?))
+    Ok(GivenPose(
+        [m[3], m[7], m[11]],
+        quaternion_from_rows(rows, what)?,
+    ))
 }

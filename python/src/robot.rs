@@ -14,8 +14,8 @@ use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyType};
 use rigid_ccd_robot::{
-    BodyElements, Joint, Link, LinkBody, LinkContactClass, LinkPairs, MeshConversion, Robot, SkipReason,
-    Urdf,
+    BodyElements, Joint, Link, LinkBody, LinkContactClass, LinkPairs, MeshConversion, Robot,
+    SkipReason, Urdf,
 };
 use std::path::PathBuf;
 use std::sync::Arc;

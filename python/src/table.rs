@@ -9,6 +9,8 @@ mod pieces;
 mod results;
 mod stored;
 
+pub(crate) use results::path_batch;
+
 use crate::arrays::row_indices;
 use crate::errors::{input_error as refuse, input_error_or_interrupt, run_catching_panics};
 use crate::interruptible::run_interruptibly;

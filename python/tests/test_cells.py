@@ -1,5 +1,6 @@
 """Robots and cells: answers against closed forms, poses and distances of one pair after another."""
 
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -71,15 +72,15 @@ def test_tables_agree_with_single_paths(robot: Robot) -> None:
         assert cell.is_free(path) == (free["status"][k] == "free")
         contact, nearest = cell.first_contact(path), cell.closest_approach(path)
         if contact is None:
-            assert first["a"][k] is None and np.isnan(first["share"][k])
+            assert first["a"][k] is None and first["time"][k] == 1
         else:
             assert (first["a"][k], first["b"][k]) == (contact.a, contact.b)
-            assert first["share"][k] == contact.share
-        assert close["lower"][k] == nearest.lower
-        assert close["upper"][k] == nearest.upper
+            assert first["time"][k] == contact.share
+        assert close["distance_lower"][k] == nearest.lower
+        assert close["distance_upper"][k] == nearest.upper
     paths = np.stack([start, (start + end) / 2, end], axis=1)
     table = cell.paths(paths, ask="first-contact")
-    assert {0, 1} >= set(table["segment"][~np.isnan(table["segment"].astype(float))])
+    assert ((table["time"] >= 0) & (table["time"] <= 2)).all() and (table["time"] > 1).any()
 
 
 def test_distances_are_those_of_bodies(robot: Robot) -> None:
@@ -169,6 +170,41 @@ def test_wrong_input_is_named(robot: Robot, tmp_path: Path) -> None:
     assert caught.value.safe_until == 0
     assert len(cell.edges(np.zeros((0, 2)), np.zeros((0, 2)), ask="first-contact")) == 0
     rows = cell.edges([[0, 0], [0, 0]], [[1, 0], [9, 0]])
-    assert rows["status"].tolist() == ["free", "error"] and "shoulder" in rows["error"][1]
+    assert rows["status"].tolist() == ["free", "error"] and "shoulder" in rows["reason"][1]
     with pytest.raises(InputError, match="nothing.urdf"):
         Robot.from_urdf(tmp_path / "nothing.urdf")
+
+
+def test_a_cell_is_pickled_as_it_is(robot: Robot) -> None:
+    rng = np.random.default_rng(5)
+    cell = Cell(robot)
+    for k in range(4):
+        cell.add(f"box{k}", Body.box(0.1, 0.1, 0.1), (rng.uniform(-1.5, 1.5, 3), [0.8, 0, 0.6, 0]))
+    cell.move_to("box1", ([1, 1, 0], [1, 0, 0, 0]))
+    cell.remove("box0")
+    cell.attach("tool", Body.sphere(0.05), "fore", ([0.3, 0, 0], [1, 0, 0, 0]), may_touch=["upper"])
+    cell.attach("lost", Body.sphere(0.05), "fore")
+    cell.detach("lost")
+    cell.set_padding("fore", 0.02)
+    cell.set_padding("fore", 0.01)
+    cell.set_clearance("tool", "box2", 0.3)
+    cell.set_clearance("box2", "tool", 0.2)
+    again = pickle.loads(pickle.dumps(cell))
+    assert repr(again) == repr(cell)
+    start, end = rng.uniform(-3, 3, (2, 300, 2))
+    for ask in ("is-free", "first-contact", "closest-approach"):
+        one, other = (each.edges(start, end, ask=ask) for each in (cell, again))
+        for column in one:
+            assert [*one[column]] == [*other[column]] or np.array_equal(one[column], other[column], equal_nan=True)
+    assert 0 < np.sum(cell.edges(start, end)["status"] == "free") < 300
+
+
+def test_a_closest_approach_is_compared_with_a_clearance(robot: Robot) -> None:
+    cell = Cell(robot)
+    cell.add("post", Body.box(0.1, 0.1, 1), ([3, 0, 0], [1, 0, 0, 0]))
+    start, end = np.zeros((3, 2)), np.array([[0.5, 0], [1, 0], [0, 1]])
+    nearest = cell.edges(start, end, ask="closest-approach")["distance_upper"]
+    for clearance, expected in ((0.5 * nearest.min(), "kept"), (nearest.max() + 0.1, "violated")):
+        found = cell.edges(start, end, ask="closest-approach", clearance=clearance)
+        assert set(found["status"]) == {expected}
+    assert set(cell.edges(start, end, ask="closest-approach")["status"]) == {"measured"}

@@ -9,6 +9,7 @@ mod contacts;
 mod counts;
 mod decompose;
 mod files;
+mod html;
 mod man;
 mod meshes;
 mod named;

@@ -7,6 +7,7 @@ pub(super) use args::ViewArgs;
 pub(super) use chosen::ChosenRows;
 
 use super::files::{input_name, open_movement_rows, refuse_overwriting_input};
+use super::html::write_page;
 use super::output::Output;
 use super::pair::BodiesArgs;
 use super::scene_table;
@@ -150,17 +151,6 @@ pub(super) fn write_rows_page(
     } else {
         RunOutcome::SomeRowsBad
     })
-}
-
-/// Writes a page, and says so unless `quiet`.
-pub(super) fn write_page(page: &Page<'_>, out: Output, quiet: bool) -> Result<()> {
-    let html = page.html()?;
-    let told = (!quiet && !out.is_stream()).then(|| out.name());
-    out.write(|writer| writer.write_all(html.as_bytes()))?;
-    if let Some(name) = told {
-        print_error(&format!("open {name} in a browser"));
-    }
-    Ok(())
 }
 
 /// Reads a table of results into lists by id; rows with the same id stay in their order.

@@ -135,7 +135,9 @@ fn answer_timed(
     solver: &mut Solver,
 ) -> Result<TimedAnswer, InputError> {
     let start = Instant::now();
-    let query = asked.bodies.build_query(asked.question, course, asked.settings)?;
+    let query = asked
+        .bodies
+        .build_query(asked.question, course, asked.settings)?;
     let answer = solver.answer(asked.question, &query)?;
     let micros = start.elapsed().as_secs_f64() * 1e6;
     Ok(TimedAnswer { answer, micros })

@@ -7,6 +7,7 @@ use arrow_schema::{ArrowError, DataType, Field, Schema};
 use arrow_select::concat::concat_batches;
 use rigid_ccd::batch::Question;
 use rigid_ccd::table::results::{self, CellGetter, Column, ResultRow};
+use rigid_ccd_robot::path_rows::PathQuestion;
 use std::sync::Arc;
 
 /// Returns the columns of the results of a question, as in the command, for a given column of ids.
@@ -50,15 +51,33 @@ pub(crate) fn batch(
     rows: &[ResultRow],
 ) -> Result<RecordBatch, ArrowError> {
     let columns = results::columns(question);
-    let others = columns[1..]
+    let ids = std::iter::once((columns[0].0, ids));
+    record_batch(ids.chain(columns_of_rows(&columns[1..], rows)))
+}
+
+/// Converts answers about paths, which have no ids and were not timed, to a batch of columns.
+pub(crate) fn path_batch(
+    question: PathQuestion,
+    rows: &[ResultRow],
+) -> Result<RecordBatch, ArrowError> {
+    let mut columns = question.columns();
+    columns.retain(|Column(name, _)| !matches!(*name, "id" | "micros"));
+    record_batch(columns_of_rows(&columns, rows))
+}
+
+fn columns_of_rows(
+    columns: &[Column],
+    rows: &[ResultRow],
+) -> impl Iterator<Item = (&'static str, ArrayRef)> {
+    columns
         .iter()
-        .map(|Column(_, cells)| column_array(*cells, rows));
-    let arrays: Vec<ArrayRef> = std::iter::once(ids).chain(others).collect();
-    let fields = columns.iter().zip(&arrays);
-    let fields =
-        fields.map(|(Column(name, _), array)| Field::new(*name, array.data_type().clone(), true));
-    let schema = Schema::new(fields.collect::<Vec<_>>());
-    RecordBatch::try_new(Arc::new(schema), arrays)
+        .map(|Column(name, cells)| (*name, column_array(*cells, rows)))
+}
+
+fn record_batch(
+    columns: impl Iterator<Item = (&'static str, ArrayRef)>,
+) -> Result<RecordBatch, ArrowError> {
+    RecordBatch::try_from_iter_with_nullable(columns.map(|(name, array)| (name, array, true)))
 }
 
 /// Returns the cells of all rows in one column as an array.

@@ -20,7 +20,7 @@ const MAX_HALVINGS: u32 = 20;
 
 impl<'c> CellSolver<'c> {
     /// Divides each segment of a path into 2^`halvings` equal ranges, and returns how near any pair comes to touching in each. The
-    /// lower bounds together are a curve that the distance is never below.
+    /// lower bounds together are a curve that the distance is never below. A robot at rest, in one configuration, has one range.
     ///
     /// # Guarantee
     /// As of [`closest_approach`](Self::closest_approach), for each range. A deadline is for each range.
@@ -42,7 +42,7 @@ impl<'c> CellSolver<'c> {
         self.set_path(path)?;
         let segments = self.search.segment_count();
         let whole = self.search.whole_path_stretch();
-        if !self.search.placement.moves() {
+        if path.len() == 1 {
             return Ok(vec![self.distance_range(whole)?]);
         }
         let mut stretches = Vec::new();

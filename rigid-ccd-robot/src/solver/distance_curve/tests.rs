@@ -6,15 +6,13 @@ use rigid_ccd::Settings;
 #[test]
 fn no_sample_is_below_the_curve() {
     let mut random = Pcg64::seed_from_u64(11);
-    let (mut near, mut divided) = (0, 0);
+    let mut near = 0;
     for _ in 0..25 {
         let cell = random_cell(&mut random);
         let path = [(); 3].map(|()| random_configuration(&mut random, cell.robot()));
         let mut solver = cell.solver();
         let ranges = solver.distance_curve(&path, 3).unwrap();
-        // A robot without moving bodies has one range.
-        assert!([1, 16].contains(&ranges.len()));
-        divided += usize::from(ranges.len() == 16);
+        assert_eq!(ranges.len(), 16);
         assert_eq!(ranges[0].from.time(), 0.0);
         assert_eq!(ranges[ranges.len() - 1].to.time(), 2.0);
         for two in ranges.windows(2) {
@@ -42,5 +40,5 @@ fn no_sample_is_below_the_curve() {
             }
         }
     }
-    assert!(near > 100 && divided > 15, "{near} {divided}");
+    assert!(near > 100, "{near}");
 }

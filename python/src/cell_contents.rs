@@ -1,0 +1,85 @@
+//! What was put into a cell, as Python gave it, so that the cell can be pickled.
+
+use crate::body::PyBody;
+use crate::motion::GivenPose;
+use pyo3::prelude::*;
+
+/// The arguments of the calls that make a cell as it is now.
+#[derive(Default)]
+pub(crate) struct CellContents {
+    obstacles: Vec<(String, Py<PyBody>, GivenPose)>,
+    attached: Vec<AttachedBody>,
+    paddings: Vec<(String, f64)>,
+    clearances: Vec<(String, String, f64)>,
+}
+
+/// The arguments of `Cell.attach`.
+pub(crate) type AttachedBody = (String, Py<PyBody>, String, GivenPose, Vec<String>);
+
+/// What pickle stores of the contents.
+pub(crate) type PickledContents = (
+    Vec<(String, Py<PyBody>, GivenPose)>,
+    Vec<AttachedBody>,
+    Vec<(String, f64)>,
+    Vec<(String, String, f64)>,
+);
+
+impl CellContents {
+    pub(crate) fn add(&mut self, name: &str, body: Py<PyBody>, pose: GivenPose) {
+        self.obstacles.push((name.to_owned(), body, pose));
+    }
+
+    pub(crate) fn move_to(&mut self, name: &str, pose: GivenPose) {
+        let moved = self.obstacles.iter_mut().find(|(other, ..)| other == name);
+        if let Some((_, _, old)) = moved {
+            *old = pose;
+        }
+    }
+
+    pub(crate) fn attach(&mut self, attached: AttachedBody) {
+        self.attached.push(attached);
+    }
+
+    /// Removes an obstacle or an attached body, with its clearances.
+    pub(crate) fn remove(&mut self, name: &str) {
+        self.obstacles.retain(|(other, ..)| other != name);
+        self.attached.retain(|(other, ..)| other != name);
+        self.clearances.retain(|(a, b, _)| a != name && b != name);
+    }
+
+    pub(crate) fn set_padding(&mut self, link: &str, distance: f64) {
+        self.paddings.retain(|(other, _)| other != link);
+        self.paddings.push((link.to_owned(), distance));
+    }
+
+    pub(crate) fn set_clearance(&mut self, a: &str, b: &str, distance: f64) {
+        let is_same = |one: &str, other: &str| [(one, other), (other, one)].contains(&(a, b));
+        self.clearances
+            .retain(|(one, other, _)| !is_same(one, other));
+        self.clearances.push((a.to_owned(), b.to_owned(), distance));
+    }
+
+    /// Returns the contents for pickle.
+    pub(crate) fn pickled(&self, py: Python<'_>) -> PickledContents {
+        let obstacles = self.obstacles.iter();
+        let attached = self.attached.iter();
+        (
+            obstacles
+                .map(|(name, body, pose)| (name.clone(), body.clone_ref(py), *pose))
+                .collect(),
+            attached
+                .map(|(name, body, link, pose, may_touch)| {
+                    (
+                        name.clone(),
+                        body.clone_ref(py),
+                        link.clone(),
+                        *pose,
+                        may_touch.clone(),
+                    )
+                })
+                .collect(),
+            self.paddings.clone(),
+            self.clearances.clone(),
+        )
+    }
+}
