@@ -49,7 +49,7 @@ pub enum PieceKind {
     FewestPieces,
     /// One piece per triangle of the mesh.
     Triangles,
-    /// Patches of the surface under a hull tree, as in the paper.
+    /// Convex patches of the surface, with a hull tree over them `[FAST06 §3.3]`.
     Patches,
 }
 

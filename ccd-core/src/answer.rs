@@ -114,7 +114,7 @@ pub struct Stats {
     /// The approximate number of times that a point was projected onto a direction, by the oracle or for bounds of how
     /// long a gap lasts.
     pub point_evaluations: u64,
-    /// The number of calls of the oracle.
+    /// The number of calls of the oracle, each for one pair of pieces; calls that returned no result are included.
     pub oracle_calls: u64,
     /// The number of oracle calls that returned no result.
     pub give_ups: u64,

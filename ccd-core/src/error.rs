@@ -88,7 +88,7 @@ pub enum InputError {
     FaceIdCountMismatch {
         /// The number of faces in the mesh.
         faces: usize,
-        /// The number of given face numbers.
+        /// The length of the list of face numbers.
         id_count: usize,
     },
     /// A surface does not consist of triangles that bound a solid, or does not belong to a solid body of one piece with

@@ -180,14 +180,15 @@ impl<'a> Problem<'a> {
         self.margin + self.tolerance
     }
 
-    /// Returns the gap that every clock proves: the margin plus half the tolerance. A pair of pieces whose clock has
-    /// run out is well within the tolerance.
+    /// Returns the gap that a pair is proven to keep until its clock: the margin plus half the tolerance. A pair whose
+    /// contact at the start is ignored may keep less. A pair of pieces whose clock has run out is well within the
+    /// tolerance.
     pub(crate) fn kept_gap(&self) -> f64 {
         self.margin + 0.5 * self.tolerance
     }
 
-    /// Returns the gap down to which the clock of a pair of nodes advances, if rounding allows. It is the same for all
-    /// sizes of nodes, so that clocks that run out at a common contact run out together.
+    /// Returns the gap at which the clock of a pair of nodes stops, unless rounding requires a larger gap. It is the
+    /// same for nodes of all sizes, so that clocks that stop at a common contact stop together.
     pub(crate) fn kept_node_gap(&self) -> f64 {
         self.margin + NODE_GAP_TOLERANCE_SHARE * self.tolerance
     }

@@ -183,9 +183,9 @@ pub const LEAST_AXIS_LENGTH_F32: f32 = 1e-18;
 /// whole duration.
 pub const LEAST_GAP_F32: f32 = 1e-15;
 
-/// The least bound of a second derivative of a path that is used in f32, in units of length over time squared. Smaller
-/// bounds are raised. It keeps a division by the second derivative finite for a straight path, and can only increase
-/// it.
+/// The least value that f32 code uses as an upper bound of a path's second derivative, in units of length over time
+/// squared. Smaller bounds are raised, so that a division by the bound stays finite for a straight path. A raised bound
+/// is still an upper bound.
 pub const LEAST_SECOND_DERIVATIVE_F32: f32 = 1e-30;
 
 /// The relative error of speeds and free times computed in f64: the axis is off by 2u, the arm by 5u, products and sums
@@ -260,8 +260,8 @@ pub const WEIGHT_RANGE: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 /// distances. The positions of both are rounded.
 pub const CERTAIN_SIDE_DISTANCE_PER_ROUNDING: f64 = 4.0;
 
-/// The distance beside an edge at which points of a flat piece are tested, in units of the length of the edge's part on
-/// the piece. It is far above rounding, and below the distance to other features.
+/// The distance of test points on a flat piece from an edge of another piece, as a fraction of the length of edge that
+/// lies on the flat piece. It is far above rounding, and below the distance to other features.
 pub const EDGE_PROBE_DISTANCE_SHARE: f64 = 1e-3;
 
 /// The error of a height `n·x` computed in f64, relative to the product of `|n|₁` and the largest coordinate of `x`.

@@ -1,4 +1,4 @@
-//! Parts to throw: bodies with the triangles that draw them.
+//! The parts that are thrown at each other: bodies, each with the triangles with which it is drawn.
 
 use crate::shapes;
 use rigid_ccd::mesh::{

@@ -1,4 +1,4 @@
-//! The Python class `Body`.
+//! The Python class `Body`: made from arrays, files, trimesh and simple shapes, saved and pickled.
 
 use crate::arrays::{finite_numbers, rows, triangles};
 use crate::errors::{InputError, file_error, input_error, warn, wrong_type_error};

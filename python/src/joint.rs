@@ -1,4 +1,4 @@
-//! The Python class `Joint`.
+//! The Python class `Joint`: a revolute, prismatic or fixed joint of a robot.
 
 use crate::arrays::{finite_numbers, numbers};
 use crate::errors::input_error;
@@ -18,13 +18,13 @@ pub(crate) struct PyJoint {
     constructor_call: ConstructorCall,
 }
 
-/// A joint that follows another one: its name, the multiplier and the offset.
+/// How a joint follows another one: the name of the other joint, the multiplier and the offset.
 type Mimic = (String, f64, f64);
 
 /// Makes a joint from the pose of its frame and its axis.
 type MakeJoint = fn(Pose, [f64; 3]) -> Result<trajectory::Joint, InputError>;
 
-/// What joints with a degree of freedom are made of, besides their names.
+/// The optional arguments of a joint with a degree of freedom: origin, axis, limits and mimic.
 type MovingJointArgs<'a, 'py> = (
     Option<&'a Bound<'py, PyAny>>,
     Option<&'a Bound<'py, PyAny>>,

@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 
-/// The constructor of an object and its arguments.
+/// How pickle recreates an object: the class or the class method to call, and the arguments.
 pub(crate) struct ConstructorCall {
     /// The name of the class method; `None` for the class itself.
     constructor_name: Option<&'static str>,

@@ -17,7 +17,7 @@ use rigid_ccd_robot::{
     BodyElements, Joint, Link, LinkBody, LinkContactClass, LinkPairs, MeshConversion, Robot,
     SkipReason, Urdf,
 };
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A robot: a tree of links and joints, and the pairs of links that are checked.
@@ -124,38 +124,52 @@ impl PyRobot {
     ) -> PyResult<Self> {
         let arguments = (&path, &srdf, &packages, geometry, meshes);
         let constructor_call = ConstructorCall::new(class.py(), Some("from_urdf"), arguments)?;
-        let geometry = match geometry {
-            "collision" => BodyElements::Collision,
-            "visual" => BodyElements::Visual,
-            _ => {
-                return Err(unknown_name_error(
-                    "geometry",
-                    geometry,
-                    "collision or visual",
-                ));
-            }
-        };
-        let meshes = match meshes {
-            "exact" => MeshConversion::Exact,
-            "hull" => MeshConversion::OuterHull,
-            _ => return Err(unknown_name_error("meshes", meshes, "exact or hull")),
-        };
-        let mut urdf = Urdf::from_path(path)
-            .with_body_element_kind(geometry)
-            .with_mesh_conversion(meshes);
-        // The first folder is searched first.
-        for folder in packages.into_iter().flatten().rev() {
-            urdf = urdf.with_package_folder(folder);
-        }
-        class.py().detach(|| {
-            let robot = urdf.read().map_err(input_error)?;
-            let pairs = urdf.link_pairs(&robot, srdf.as_deref());
-            Ok(PyRobot {
-                pairs: pairs.map_err(input_error)?,
-                robot: Arc::new(robot),
-                constructor_call,
-            })
-        })
+        let urdf = with_options(Urdf::from_path(path), packages, geometry, meshes)?;
+        read_robot(class.py(), &urdf, srdf.as_deref(), constructor_call)
+    }
+
+    /// Reads a robot from the text of a URDF file, such as what xacro prints.
+    ///
+    /// Args:
+    ///     text: the text.
+    ///     path: where the file would be; relative names of meshes and messages are of it.
+    ///     srdf, packages, geometry, meshes: as of `from_urdf`.
+    #[classmethod]
+    #[pyo3(signature = (text, path = PathBuf::from("robot.urdf"), srdf = None, packages = None, geometry = "collision", meshes = "exact"))]
+    fn from_urdf_text(
+        class: &Bound<'_, PyType>,
+        text: &str,
+        path: PathBuf,
+        srdf: Option<PathBuf>,
+        packages: Option<Vec<PathBuf>>,
+        geometry: &str,
+        meshes: &str,
+    ) -> PyResult<Self> {
+        let arguments = (text, &path, &srdf, &packages, geometry, meshes);
+        let constructor_call = ConstructorCall::new(class.py(), Some("from_urdf_text"), arguments)?;
+        let urdf = with_options(Urdf::from_text(text, path), packages, geometry, meshes)?;
+        read_robot(class.py(), &urdf, srdf.as_deref(), constructor_call)
+    }
+
+    /// Reads a robot that yourdfpy has loaded. Its meshes are found as yourdfpy finds them.
+    ///
+    /// Args:
+    ///     urdf: a yourdfpy.URDF.
+    ///     srdf, geometry, meshes: as of `from_urdf`.
+    #[classmethod]
+    #[pyo3(signature = (urdf, srdf = None, geometry = "collision", meshes = "exact"))]
+    fn from_yourdfpy(
+        class: &Bound<'_, PyType>,
+        urdf: &Bound<'_, PyAny>,
+        srdf: Option<PathBuf>,
+        geometry: &str,
+        meshes: &str,
+    ) -> PyResult<Self> {
+        // Names of mesh files in this text are the paths at which yourdfpy finds them.
+        let text: Vec<u8> = urdf.call_method0("write_xml_string")?.extract()?;
+        let text = String::from_utf8(text).map_err(input_error)?;
+        let path = PathBuf::from("robot.urdf");
+        PyRobot::from_urdf_text(class, &text, path, srdf, None, geometry, meshes)
     }
 
     /// The names of the joints that have a position of their own, in the order of a configuration.
@@ -272,6 +286,51 @@ impl PyRobot {
             self.joint_names().join(", ")
         )
     }
+}
+
+/// Sets the options of `Robot.from_urdf`.
+fn with_options(
+    urdf: Urdf,
+    packages: Option<Vec<PathBuf>>,
+    geometry: &str,
+    meshes: &str,
+) -> PyResult<Urdf> {
+    let geometry = match geometry {
+        "collision" => BodyElements::Collision,
+        "visual" => BodyElements::Visual,
+        _ => {
+            let known = "collision or visual";
+            return Err(unknown_name_error("geometry", geometry, known));
+        }
+    };
+    let meshes = match meshes {
+        "exact" => MeshConversion::Exact,
+        "hull" => MeshConversion::OuterHull,
+        _ => return Err(unknown_name_error("meshes", meshes, "exact or hull")),
+    };
+    let urdf = urdf
+        .with_body_element_kind(geometry)
+        .with_mesh_conversion(meshes);
+    // The first folder is searched first.
+    let folders = packages.into_iter().flatten().rev();
+    Ok(folders.fold(urdf, Urdf::with_package_folder))
+}
+
+fn read_robot(
+    py: Python<'_>,
+    urdf: &Urdf,
+    srdf: Option<&Path>,
+    constructor_call: ConstructorCall,
+) -> PyResult<PyRobot> {
+    py.detach(|| {
+        let robot = urdf.read().map_err(input_error)?;
+        let pairs = urdf.link_pairs(&robot, srdf);
+        Ok(PyRobot {
+            pairs: pairs.map_err(input_error)?,
+            robot: Arc::new(robot),
+            constructor_call,
+        })
+    })
 }
 
 /// Returns the link that has a name, which is new if there is none.

@@ -16,7 +16,7 @@ use crate::errors::{input_error as refuse, input_error_or_interrupt, run_catchin
 use crate::interruptible::run_interruptibly;
 use arrow_array::cast::AsArray;
 use arrow_array::{Array, ArrayRef, RecordBatch, StructArray};
-use arrow_schema::Field;
+use arrow_schema::{Field, Schema};
 use pyo3::exceptions::{PyKeyError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyCapsule, PyDict, PyList, PyTuple, PyType};
@@ -79,6 +79,20 @@ impl PyTable {
     }
 
     /// Makes a table from its pickled form.
+    /// Returns a table with a column of this one, then all columns of another one of as many rows.
+    fn _column_before(&self, name: &str, other: &Bound<'_, PyTable>) -> PyResult<Self> {
+        let index = self.batch.schema().index_of(name).map_err(refuse)?;
+        let (schema, others) = (self.batch.schema(), &other.get().batch);
+        let mut fields = vec![Arc::clone(&schema.fields()[index])];
+        fields.extend(others.schema().fields().iter().cloned());
+        let mut columns = vec![Arc::clone(self.batch.column(index))];
+        columns.extend(others.columns().iter().cloned());
+        let batch = RecordBatch::try_new(Arc::new(Schema::new(fields)), columns);
+        Ok(PyTable {
+            batch: batch.map_err(refuse)?,
+        })
+    }
+
     #[classmethod]
     fn _from_bytes(
         class: &Bound<'_, PyType>,

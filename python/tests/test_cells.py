@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rigid_ccd import Body, Cell, InputError, PathContact, Robot, Unresolved, distance
+from rigid_ccd import Body, Cell, EdgesQuery, InputError, PathContact, Robot, Unresolved, distance
 
 URDF = """<robot name="arm">
   <link name="base"/>
@@ -208,3 +208,48 @@ def test_a_closest_approach_is_compared_with_a_clearance(robot: Robot) -> None:
         found = cell.edges(start, end, ask="closest-approach", clearance=clearance)
         assert set(found["status"]) == {expected}
     assert set(cell.edges(start, end, ask="closest-approach")["status"]) == {"measured"}
+
+
+def test_edges_of_tables_are_those_of_arrays(robot: Robot) -> None:
+    pyarrow: Any = pytest.importorskip("pyarrow")
+    cell = Cell(robot)
+    cell.add("post", Body.box(0.1, 0.1, 1), ([1.2, 0.3, 0], [1, 0, 0, 0]))
+    query = EdgesQuery(cell, ask="first-contact", rest={"elbow": 0.5}, tolerance=1e-5)
+    cell.remove("post")
+    again = pickle.loads(pickle.dumps(query))
+    ids, start, end = [f"e{k}" for k in range(40)], np.linspace(-2, 0, 40), np.linspace(-1, 2, 40)
+    table = {"id": ids, "from_shoulder": start, "to_shoulder": end}
+    cell.add("post", Body.box(0.1, 0.1, 1), ([1.2, 0.3, 0], [1, 0, 0, 0]))
+    ends = [np.column_stack([each, np.full(40, 0.5)]) for each in (start, end)]
+    expected = cell.edges(ends[0], ends[1], ask="first-contact", tolerance=1e-5)
+    for found in (query(table), again(table), pyarrow.table(dict(again(pyarrow.table(table)).to_pydict()))):
+        assert [str(each) for each in found["status"]] == [*expected["status"]] and [str(each) for each in found["id"]] == ids
+    assert {"free", "contact"} == set(expected["status"])
+    parts = list(query(iter([pyarrow.table(table).slice(0, 7), pyarrow.table(table).slice(7)])))
+    assert pyarrow.concat_tables(parts).schema == query.schema(pyarrow.table(table).schema)
+    for wrong, message in (({"id": ["a"], "from_shoulder": [0]}, "to_shoulder"), ({"from_shoulder": [0]}, "id")):
+        with pytest.raises(InputError, match=message):
+            query(wrong)
+    with pytest.raises(InputError, match="knee"):
+        EdgesQuery(cell, rest={"knee": 0})
+    with pytest.raises((InputError, TypeError), match="ask"):
+        EdgesQuery(cell, ask="all")  # type: ignore[arg-type]
+
+
+def test_a_robot_of_yourdfpy_is_that_of_its_file(tmp_path: Path) -> None:
+    yourdfpy = pytest.importorskip("yourdfpy")
+    (tmp_path / "meshes").mkdir()
+    (tmp_path / "meshes" / "corner.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
+    mesh = '<mesh filename="package://arm/meshes/corner.obj" scale="0.1 0.1 0.1"/>'
+    text = URDF.replace('<link name="base"/>', f'<link name="base"><collision><geometry>{mesh}</geometry></collision></link>')
+    path = tmp_path / "arm.urdf"
+    path.write_text(text)
+    known = Robot.from_urdf(path, packages=[tmp_path.parent]) if tmp_path.name == "arm" else None
+    load = {"build_scene_graph": False, "load_meshes": False}
+    robot = Robot.from_yourdfpy(yourdfpy.URDF.load(str(path), **load))
+    assert known is None or robot.checked_pairs == known.checked_pairs
+    assert robot.joint_names == Robot.from_urdf_text(URDF).joint_names
+    again = pickle.loads(pickle.dumps(robot))
+    assert again.checked_pairs == robot.checked_pairs == [("base", "fore")]
+    with pytest.raises(InputError):
+        Robot.from_urdf_text(text, tmp_path / "nowhere" / "arm.urdf")

@@ -16,7 +16,7 @@ pub(crate) fn columns() -> Vec<Column> {
     )
 }
 
-/// The error of listing contacts.
+/// The reason why the contacts at an answer's time cannot be listed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(crate) enum ContactListError {
     /// The query is not valid.

@@ -13,7 +13,7 @@ use rigid_ccd::Solver;
 use rigid_ccd::batch::Question;
 use std::fmt;
 
-/// The choice of a schedule, a distance backend and a bound, from which a solver is made.
+/// The schedule, the distance backend and the motion bound that a solver is made with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct SolverKind {
     /// The order in which pairs of pieces are advanced in time.

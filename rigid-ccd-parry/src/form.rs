@@ -44,7 +44,7 @@ struct Part {
 }
 
 impl ShapeGeometry {
-    /// The geometry without any points.
+    /// The empty geometry, to which vertices, triangles and parts are added. It is a surface, not a solid.
     pub(crate) const EMPTY: ShapeGeometry = ShapeGeometry {
         vertices: Vec::new(),
         triangles: Vec::new(),

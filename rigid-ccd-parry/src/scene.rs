@@ -53,7 +53,8 @@ pub(crate) enum CastStatus {
 }
 
 impl Scene<'_> {
-    /// Finds the first contact of the two bodies.
+    /// Finds the first contact, or the limit that ended the search, as a hit of the cast; `None` if the bodies stay
+    /// apart during the whole cast.
     pub(crate) fn first_contact(&self, solver: &mut Solver) -> Result<Option<CastHit>, CastError> {
         let [a, b] = [0, 1].map(|k| (self.bodies[k].body(), self.motions[k]));
         solver.set_settings(self.settings.clone());

@@ -100,7 +100,7 @@ pub enum RobotError {
     WrongPositionCount {
         /// The number of positions in the configuration.
         given_count: usize,
-        /// The number of joints with a position of their own.
+        /// The number of joints with a position of their own: those that are neither fixed nor follow another joint.
         expected_count: usize,
         /// The names of the joints with a position of their own, separated by commas.
         joint_names: String,

@@ -65,7 +65,8 @@ impl PathQuestion {
         columns
     }
 
-    /// Answers the question. With a clearance, a closest approach says whether it is kept.
+    /// Asks a solver this question about a path. With a clearance, the status of a closest approach says whether it is
+    /// kept.
     ///
     /// # Errors
     /// [`PathError`].

@@ -103,7 +103,8 @@ impl PositionSource {
         self.multiplier
     }
 
-    /// Returns whether the joint turns a whole number of times while that position makes one turn.
+    /// Returns whether the factor is a whole number. While the position in the configuration makes one turn, the joint
+    /// then makes a whole number of turns.
     pub(crate) fn has_integer_multiplier(&self) -> bool {
         self.multiplier.fract() == 0.0
     }

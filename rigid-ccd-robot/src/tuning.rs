@@ -1,4 +1,4 @@
-//! Numbers that only cost time: answers are right with any values.
+//! Tuning constants. They change how long a search takes; its answer is right with any values.
 
 /// The length of a stretch, in segments of the path, at which open pairs go to the engine. Each halving costs the frames of
 /// all links and a distance for each open pair; the engine costs about ten of these.

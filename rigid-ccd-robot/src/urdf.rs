@@ -39,6 +39,8 @@ use urdf_rs::JointType;
 #[derive(Clone, Debug)]
 pub struct Urdf {
     path: PathBuf,
+    /// The text of the file, if it is not read from the path.
+    text: Option<String>,
     search_folders: SearchFolders,
     body_elements: BodyElements,
     mesh_conversion: MeshConversion,
@@ -62,8 +64,24 @@ impl Urdf {
         Urdf {
             search_folders: SearchFolders::for_urdf(&path),
             path,
+            text: None,
             body_elements: BodyElements::default(),
             mesh_conversion: MeshConversion::default(),
+        }
+    }
+
+    /// Takes the text of a URDF file that is not read. Meshes are found and messages are written as if it were at a path.
+    ///
+    /// ```
+    /// use rigid_ccd_robot::Urdf;
+    /// let robot = Urdf::from_text("<robot name='stone'><link name='base'/></robot>", "stone.urdf").read()?;
+    /// assert_eq!(robot.links().len(), 1);
+    /// # Ok::<(), rigid_ccd_robot::UrdfError>(())
+    /// ```
+    pub fn from_text(text: impl Into<String>, path: impl Into<PathBuf>) -> Self {
+        Urdf {
+            text: Some(text.into()),
+            ..Urdf::from_path(path)
         }
     }
 
@@ -100,8 +118,11 @@ impl Urdf {
     /// # Errors
     /// [`UrdfError`] with the link or the joint, and with the file of a mesh.
     pub fn read(&self) -> Result<Robot, UrdfError> {
-        let text = read(&self.path)?;
-        let urdf = urdf_rs::read_from_string(&text).map_err(|error| UrdfError::Syntax {
+        let text = match &self.text {
+            Some(text) => text,
+            None => &read(&self.path)?,
+        };
+        let urdf = urdf_rs::read_from_string(text).map_err(|error| UrdfError::Syntax {
             file: self.path.clone(),
             error: error.to_string(),
         })?;

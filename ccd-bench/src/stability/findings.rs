@@ -15,7 +15,7 @@ pub struct Findings<'j> {
     /// The methods with answers in the journal.
     pub(super) methods: Vec<Method>,
     pub(super) journal: &'j Journal,
-    /// The worst verdict on each step by each method.
+    /// The worst verdict on a method's answers at one step of a family, by the step's scene name and the method's name.
     worst_verdicts: HashMap<(&'j str, &'j str), Verdict>,
 }
 
@@ -66,7 +66,8 @@ impl<'j> Findings<'j> {
         self.families.is_empty() || self.methods.is_empty()
     }
 
-    /// Returns how many steps of a family a method solves; `None` if the journal has no answers of the method there.
+    /// Returns the share of a family's steps that a method solves, from the easiest step on, and its first failure.
+    /// Returns `None` if the journal has no answers of the method to the family.
     pub(super) fn solved_range(&self, family: &Family, method: &str) -> Option<SolvedRange> {
         let answer = |&value: &f64| {
             let step = scene_name(family, value);

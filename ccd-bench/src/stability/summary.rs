@@ -74,8 +74,8 @@ pub fn solved_range_heat_map(findings: &Findings<'_>) -> HeatMap {
     })
 }
 
-/// Returns the heat map of cost growth: the most steps of a method in a family, relative to its steps at the easiest
-/// value.
+/// Returns the heat map of cost growth. For each family and method, it shows the largest mean number of steps per query
+/// at any parameter value, divided by the number at the easiest value.
 pub fn cost_growth_heat_map(findings: &Findings<'_>) -> HeatMap {
     // A query takes no step if the bounds of the whole bodies are enough.
     let cost = |cell: &MeasurementCell| {

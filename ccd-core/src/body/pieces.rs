@@ -53,7 +53,7 @@ struct Polytopes {
     /// The end of each piece's facets in `facet_corner_ends` and `facet_source_mesh_faces`.
     facet_ends: Vec<u32>,
     facet_source_mesh_faces: Vec<FacetOrigin>,
-    /// The end of each facet's corners in `corners`.
+    /// The end of each facet's corners in `facet_corners`.
     facet_corner_ends: Vec<u32>,
     facet_corners: Vec<u32>,
     /// The end of each piece's mesh faces in `faces`.

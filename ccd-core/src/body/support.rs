@@ -37,9 +37,9 @@ pub enum SupportMap {
 }
 
 impl SupportMap {
-    /// Builds the search structure for the points of one piece: a scan of few points, climbing for many. If there are
-    /// more than [`MAX_SCANNED_POINTS`] of them, the facets must be those of their hull. Without facets, every point is
-    /// scanned.
+    /// Builds the search structure for the points of one piece: a linear scan for few points, climbing along the hull's
+    /// edges for many. If there are more than [`MAX_SCANNED_POINTS`] of them, the facets must be those of their hull.
+    /// Without facets, every point is scanned.
     pub fn new(points: &[DVec3], facets: Facets<'_>) -> Self {
         let climbed = points.len() > MAX_SCANNED_POINTS;
         match climbed.then(|| SupportTable::new(points, facets)).flatten() {

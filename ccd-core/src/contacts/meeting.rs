@@ -5,9 +5,9 @@ use crate::engine::pieces::snapshot::Snapshot;
 use crate::rounding::{ADJACENCY_DISTANCE_PER_ROUNDING, LEVEL_HEIGHT_PER_ROUNDING};
 use glam::DVec3;
 
-/// Returns the common normal of both surfaces at a contact that is nearest to the direction `towards`. Returns `None`
-/// unless the vector between both points is along such a normal up to rounding. The points, of A and of B without their
-/// radii, and the directions are in A's frame.
+/// Returns a common normal of both surfaces at a contact: the one that is nearest to the direction `towards`, or close
+/// to the nearest. Returns `None` unless the vector between both points is along that normal, up to rounding. The
+/// points, of A and of B without their radii, and the directions are in A's frame.
 pub(super) fn common_normal(
     snapshot: &Snapshot<'_>,
     points: [DVec3; 2],

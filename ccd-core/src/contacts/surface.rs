@@ -21,7 +21,8 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// Returns the common normals of two surfaces, each at its own point, in A's frame.
+    /// Returns the common normals of two surfaces at a pair of points. The first point is on A's surface, the second on
+    /// B's. All coordinates are in A's frame.
     pub(super) fn common_normals(
         surfaces: &[Surface<'_>; 2],
         points: [DVec3; 2],

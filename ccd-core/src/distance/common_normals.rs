@@ -11,9 +11,9 @@ use glam::DVec3;
 /// a slack.
 #[derive(Debug, Default)]
 pub(crate) struct CommonNormals {
-    /// The offsets of B, and the negated offsets of A. None of them may fall along a common normal.
+    /// The offsets of B, and the negated offsets of A. Along a common normal none of them falls by more than `slack`.
     constraint_vectors: Vec<DVec3>,
-    /// The largest height by which an offset may fall along a common normal.
+    /// How far an offset may fall along a direction that still counts as a common normal, as a length.
     slack: f64,
 }
 

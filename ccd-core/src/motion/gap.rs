@@ -41,7 +41,8 @@ impl Gap {
         }
     }
 
-    /// Returns the free time for a negative `second_derivative`: the gap closes ever slower, and may never close.
+    /// Returns the free time for a negative `second_derivative`. The rate at which the gap closes then decreases, so
+    /// that the gap may never close.
     #[cold]
     fn free_time_decelerating(&self) -> f64 {
         let (gap, rate, second_derivative) = (self.gap, self.rate, self.second_derivative);

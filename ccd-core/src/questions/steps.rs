@@ -92,7 +92,7 @@ pub enum Progress {
 }
 
 impl<'a, O: DistanceOracle> FirstContactSearch<'a, O> {
-    /// Creates the search for a query, which uses the memory of the schedule `memory`. The time until the
+    /// Creates the search for a query. It reuses the allocations of the schedule `memory`. The time until the
     /// [deadline](crate::Settings::deadline) starts now.
     pub fn new(mut query: Query<'a>, memory: BestFirst<O>) -> Self {
         FirstContactSearch(match query.constant_velocity_problem.take() {

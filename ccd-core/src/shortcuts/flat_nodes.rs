@@ -40,8 +40,8 @@ fn may_be_flat(side: &BodyWithPath<'_>, id: NodeId) -> bool {
     }
 }
 
-/// A flat node or a single triangle at its pose at a clock, in the problem's coordinates. All triangles of a flat node
-/// lie in one plane, up to rounding.
+/// A flat node or a single triangle, placed where its body is at a given clock, in the problem's coordinates. All
+/// triangles of a flat node lie in one plane, up to rounding.
 struct PlacedFlatNode {
     node: PlacedNode,
     /// Half the thickness of the node along its normal; `None` for a triangle, whose corners are known.

@@ -1,5 +1,5 @@
-//! Nodes at the pose of a clock, as boxes or triangles in f64, and the rate at which two of them approach along a
-//! direction.
+//! Nodes as boxes or triangles in f64, placed where their bodies are at a given clock, and the rate at which two of
+//! them approach along a direction.
 
 use crate::body::tree::{NodeId, NodeOrTriangle};
 use crate::math::order::{greater, lesser};
@@ -11,7 +11,7 @@ use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{BOX_EXTENT_ERROR_F32, RATE_ERROR_F64};
 use glam::{DVec3, Vec3};
 
-/// A node's bounding box, or a single triangle, at the pose of a clock.
+/// A node's bounding box, or a single triangle, placed where its body is at a given clock.
 pub(crate) struct PlacedNode {
     frame: Frame,
     shape: Shape,

@@ -1,4 +1,4 @@
-//! Free times of pairs of nodes by planes that turn with one of the bodies.
+//! Computes for how long planes that turn with one of the bodies keep pairs of nodes apart.
 //!
 //! For a fixed plane the full speed of a turning body's far rim counts, however small the other body is. For a plane
 //! that turns with the body it does not count: the body's own extent along the plane's normal is constant, and only

@@ -48,7 +48,7 @@ pub enum PiecesKind {
     OuterHull,
 }
 
-/// The reason for the kind of a body's pieces.
+/// The reason why a body's pieces are of their kind, such as triangles or patches.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum PieceReason {

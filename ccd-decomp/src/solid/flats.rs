@@ -54,7 +54,8 @@ impl ConvexPolygons {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct PlanarRegionSize {
     pub(crate) triangle_count: usize,
-    /// The number of convex polygons in the part, which is at least the number of patches.
+    /// The number of convex polygons into which the part is merged. It is an upper bound of the part's number of
+    /// patches.
     pub(crate) polygon_count: usize,
 }
 

@@ -19,8 +19,8 @@ pub struct TopologyDefects {
     pub branching_edges: CountWithExamples<Edge>,
     /// Edges with more than two faces, equally many in both directions. Closed parts touch there.
     pub edges_shared_by_parts: CountWithExamples<Edge>,
-    /// One face of each wrongly oriented shell; none if all shells are wrongly oriented. Bodies are made with these
-    /// shells reversed.
+    /// One face of each wrongly oriented shell. Bodies are made with these shells reversed. The list is empty if all
+    /// shells are wrongly oriented: such a mesh is consistent, and `signed_volume` is negative.
     pub wrong_shells: CountWithExamples<u32>,
     /// Shells for which it is unclear whether they bound a solid or a cavity; one face of each. They are inside a shell
     /// and cross another shell, or their nesting cannot be determined.

@@ -44,7 +44,7 @@ pub enum SourceError {
     /// The text that describes the body is empty.
     #[error("no body given; {USAGE_EXAMPLES}")]
     Empty,
-    /// The word before the colon is not the name of a shape.
+    /// The text has the form `shape:lengths`, but no shape has that name.
     #[error("there is no shape {shape:?}; {USAGE_EXAMPLES}")]
     UnknownShape {
         /// The word before the colon.

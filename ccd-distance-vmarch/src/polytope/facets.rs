@@ -47,7 +47,8 @@ impl Facets {
         Self::from_loops(points, kept)
     }
 
-    /// Connects polygons along their edges, each without repeated corners; `None` if the surface is not closed.
+    /// Connects polygons along their common edges; `None` unless they form a closed surface, on which each edge occurs
+    /// once in each direction. No polygon may repeat a corner.
     pub(crate) fn from_loops(points: &[DVec3], loops: Vec<Vec<u32>>) -> Option<Self> {
         let mut sides: Vec<(u32, u32, u32)> = Vec::new();
         for (corners, facet) in loops.iter().zip(0..) {

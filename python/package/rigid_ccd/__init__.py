@@ -21,6 +21,7 @@ tables of the command ``ccd``.
 """
 
 from ._answers import Contact, Distance, PathContact, PathDistance, PathRange
+from ._edges_query import EdgesQuery
 from ._query import TableQuery
 from ._rigid_ccd import (
     Body,
@@ -63,6 +64,7 @@ __all__ = [
     "PathRange",
     "Robot",
     "Table",
+    "EdgesQuery",
     "TableQuery",
     "Unresolved",
     "are_free",

@@ -65,7 +65,7 @@ class TableQuery:
         if isinstance(motions, Iterator) and not hasattr(motions, "__arrow_c_stream__"):
             return self._each(motions)
         table = self._table(motions)
-        return _like(motions, answer(self._ask, _body(self._a), _body(self._b), table, **self._settings))
+        return like(motions, answer(self._ask, _body(self._a), _body(self._b), table, **self._settings))
 
     def schema(self, motions: Any) -> Any:
         """Returns an empty table with the columns of the results, without loading the bodies.
@@ -75,7 +75,7 @@ class TableQuery:
         if hasattr(motions, "empty_table"):
             return self.schema(motions.empty_table()).schema
         empty = self._table(motions).take([])
-        return _like(motions, answer(self._ask, _NOTHING, _NOTHING, empty, **self._settings))
+        return like(motions, answer(self._ask, _NOTHING, _NOTHING, empty, **self._settings))
 
     def _each(self, tables: Iterable[Any]) -> Iterator[Any]:
         for motions in tables:
@@ -140,7 +140,7 @@ def _library(motions: Any) -> str:
     return next((name for name in modules if name in ("pyarrow", "pandas", "polars")), modules[0])
 
 
-def _like(motions: Any, results: Table) -> Any:
+def like(motions: Any, results: Table) -> Any:
     """Converts results to the kind of table of the motions."""
     library = _library(motions)
     if library == "pyarrow":
@@ -159,9 +159,10 @@ def _like(motions: Any, results: Table) -> Any:
 def _frame(motions: Any, results: Table) -> Any:
     """Makes a pandas frame, with types independent of values, so that parts of a table can be concatenated."""
     text = "str" if int(sys.modules["pandas"].__version__.partition(".")[0]) >= 3 else "string"
-    types = {name: text for name in ("status", "feature_a", "feature_b", "reason")}
+    types = {name: text for name in ("status", "a", "b", "feature_a", "feature_b", "reason")}
     types |= {name: "Int64" for name in ("iterations", "oracle_calls")}
-    frame = sys.modules["pandas"].DataFrame(dict(results)).astype(types)
+    frame = sys.modules["pandas"].DataFrame(dict(results))
+    frame = frame.astype({name: kind for name, kind in types.items() if name in frame})
     ids = motions["id"] if "id" in motions else motions.index.get_level_values("id").to_series()
     # A table of paths has fewer results than rows.
     frame["id"] = ids.array if len(ids) == len(frame) else frame["id"].astype(ids.dtype)

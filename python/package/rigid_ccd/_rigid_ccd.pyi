@@ -9,6 +9,7 @@ from ._answers import Contact, Distance, PathContact, PathDistance, PathRange
 from ._settings import OfApproaches as _OfApproaches
 from ._settings import OfContacts as _OfContacts
 from ._settings import OfDistances as _OfDistances
+from ._settings import OfPaths as _OfPaths
 
 __all__ = [
     "Body",
@@ -185,6 +186,24 @@ class Robot:
         geometry: Literal["collision", "visual"] = "collision",
         meshes: Literal["exact", "hull"] = "exact",
     ) -> Robot: ...
+    @classmethod
+    def from_urdf_text(
+        cls,
+        text: str,
+        path: str | PathLike[str] = ...,
+        srdf: str | PathLike[str] | None = None,
+        packages: Sequence[str | PathLike[str]] | None = None,
+        geometry: Literal["collision", "visual"] = "collision",
+        meshes: Literal["exact", "hull"] = "exact",
+    ) -> Robot: ...
+    @classmethod
+    def from_yourdfpy(
+        cls,
+        urdf: Any,
+        srdf: str | PathLike[str] | None = None,
+        geometry: Literal["collision", "visual"] = "collision",
+        meshes: Literal["exact", "hull"] = "exact",
+    ) -> Robot: ...
     @property
     def joint_names(self) -> list[str]: ...
     @property
@@ -255,7 +274,7 @@ class Cell:
         ask: Literal["is-free", "first-contact", "closest-approach"] = "is-free",
         *,
         threads: int | None = None,
-        **settings: Unpack[_OfContacts],
+        **settings: Unpack[_OfPaths],
     ) -> Table: ...
     def paths(
         self,
@@ -263,8 +282,10 @@ class Cell:
         ask: Literal["is-free", "first-contact", "closest-approach"] = "is-free",
         *,
         threads: int | None = None,
-        **settings: Unpack[_OfContacts],
+        **settings: Unpack[_OfPaths],
     ) -> Table: ...
+    def __reduce__(self) -> tuple[type[Cell], tuple[Robot], tuple[Any, ...]]: ...
+    def __setstate__(self, state: tuple[Any, ...]) -> None: ...
 
 @final
 class Table:
@@ -273,6 +294,7 @@ class Table:
     def column_names(self) -> list[str]: ...
     def keys(self) -> list[str]: ...
     def take(self, rows: ArrayLike) -> Table: ...
+    def _column_before(self, name: str, other: Table) -> Table: ...
     @classmethod
     def _from_bytes(cls, stored: bytes, checksum: int) -> Table: ...
     def __reduce__(self) -> tuple[Callable[[bytes, int], Table], tuple[bytes, int]]: ...

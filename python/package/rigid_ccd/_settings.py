@@ -34,6 +34,12 @@ class OfApproaches(OfDistances, total=False):
     clearance: float | None
 
 
+class OfPaths(OfContacts, total=False):
+    """Of `Cell.edges` and `Cell.paths`: `clearance` is for closest approaches, `margin` for the other questions."""
+
+    clearance: float | None
+
+
 class OfTables(TypedDict, total=False):
     """Settings of a query about each row of a table."""
 

@@ -267,7 +267,8 @@ pub(crate) fn read_whole_table(
     concat_batches(&schema, &batches)
 }
 
-/// Decodes the dictionary columns of a batch, because the dictionaries of several batches may not fit into one.
+/// Replaces the dictionary-encoded columns of a batch by plain values. Batches with different dictionaries may need
+/// more entries than one common dictionary can have.
 fn decoded_batch(batch: &RecordBatch, schema: &SchemaRef) -> Result<RecordBatch, ArrowError> {
     let columns = schema.fields().iter().zip(batch.columns());
     let columns = columns.map(|(field, column)| decoded_column(column, field.data_type()));

@@ -54,10 +54,10 @@ pub(crate) struct ChunkSize {
     thread_count: usize,
 }
 
-/// The time that answering a piece should take.
+/// The time that a thread should take to answer one chunk of rows; chunk sizes are adapted to it.
 const TARGET_CHUNK_DURATION: Duration = Duration::from_millis(20);
 
-/// The maximum number of rows in a piece.
+/// The maximum number of rows in a chunk.
 const MAX_CHUNK_ROWS: usize = 512;
 
 impl ChunkSize {

@@ -23,7 +23,7 @@ use std::time::Duration;
 pub(crate) struct QueryArgs {
     #[command(flatten)]
     pub(super) bodies: BodiesArgs,
-    /// Table of motions to read, CSV, or of paths if it has a column `t`; - reads standard input
+    /// CSV table of motions, or of paths if it has a column `t`; - reads standard input
     #[arg(long, value_name = "CSV")]
     pub(super) motions: PathBuf,
     /// Question that every row answers; all except first-contact need --schedule best-first

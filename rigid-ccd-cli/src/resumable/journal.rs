@@ -33,7 +33,7 @@ pub(crate) struct Checkpoint {
     pub(crate) finished: bool,
 }
 
-/// The prefix of an option's name in an entry that holds the checksum of the option's file.
+/// The prefix of an option's name in a journal entry that holds the checksum of the file that the option names.
 pub(crate) const FILE_CHECKSUM_PREFIX: &str = "content-of:";
 
 /// The journal file: the options of the run, then a line for each checkpoint. A run continues from the last checkpoint.

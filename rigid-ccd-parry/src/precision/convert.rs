@@ -5,7 +5,7 @@ use super::library::query::NonlinearRigidMotion;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 
-/// Returns the motion of a body in double precision, with exactly the same path.
+/// Converts parry's motion of a body to double precision. The path stays exactly the same.
 ///
 /// parry's motion turns about `local_center`, a point in the shape's frame, which moves by `linvel`; `angvel` is along
 /// the world's axes. A [`Motion`] about that centre is the same. Its orientation is that of the quaternion made a unit

@@ -191,7 +191,8 @@ impl HullPart {
     }
 }
 
-/// Splits pieces at medians along the longest sides of their boxes, into at most `max_count` clusters.
+/// Groups pieces into at most `max_count` clusters of nearby pieces. It halves the pieces at their median along the
+/// longest side of the bounding box of their middles, then halves each half in the same way.
 fn clusters(mut pieces: Vec<Piece<'_>>, max_count: usize) -> Vec<Vec<Piece<'_>>> {
     if max_count < 2 || pieces.len() < MIN_PIECES_FOR_TWO_HULLS {
         return vec![pieces];
@@ -209,7 +210,8 @@ fn clusters(mut pieces: Vec<Piece<'_>>, max_count: usize) -> Vec<Vec<Piece<'_>>>
     all
 }
 
-/// Returns the corners of the hull of points, and a search for the extremal ones; all points if the hull cannot be computed.
+/// Returns the corners of the convex hull of some points, and a support map of them. If the hull cannot be computed,
+/// all points count as corners.
 fn corners_of_hull(points: Vec<DVec3>) -> (Vec<DVec3>, SupportMap) {
     let with_facets = ccd_decomp::convex_hull(&points).ok().and_then(|hull| {
         let facets = hull.facets.iter().map(|corners| Facet {

@@ -44,7 +44,7 @@ impl ObstacleBoxes {
         }
     }
 
-    /// Calls a function with the number of each obstacle whose box meets a box.
+    /// Calls `each` with the index of every obstacle whose box meets the box from `min` to `max`.
     #[inline(always)]
     pub(crate) fn for_each_meeting(&self, min: DVec3, max: DVec3, mut each: impl FnMut(usize)) {
         for (block, first) in self.blocks.iter().zip((0..self.count).step_by(LANES)) {

@@ -9,8 +9,8 @@ use super::kinematics::Kinematics;
 use crate::cell::part::HullPart;
 use rigid_ccd::oracle::Frame;
 
-/// The factor by which bounds are rounded up: they are sums and products of a few values for each joint, of which there
-/// are at most some thousands.
+/// The factor by which bounds are raised, to allow for rounding. A bound takes a few sums and products for each joint;
+/// the factor suffices for some thousands of joints.
 const ROUNDING_FACTOR: f64 = 1.0 + 1e-11;
 
 /// For each part and each joint that moves it, a bound of its displacement as the frame before that joint sees it.

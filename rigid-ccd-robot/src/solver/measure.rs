@@ -12,9 +12,9 @@ use rigid_ccd::oracle::Frame;
 /// The distances that decide about a pair, in the middle of a stretch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Thresholds {
-    /// A pair is free that stays farther apart than this over the whole stretch.
+    /// The pair is free if it stays farther apart than this over the whole stretch.
     pub(crate) free_distance_threshold: f64,
-    /// A pair is near that is at most so far apart in the middle.
+    /// The pair is near if its distance in the middle of the stretch is at most this.
     pub(crate) near_distance: f64,
 }
 

@@ -111,7 +111,7 @@ impl<'c> PartPairs<'c> {
         self.update_margins();
     }
 
-    /// Returns what is added to the margins of all pairs.
+    /// Returns by how much the margins of all pairs are increased at present, to allow for errors of poses.
     pub(crate) fn margin_increase(&self) -> f64 {
         self.margin_increase
     }

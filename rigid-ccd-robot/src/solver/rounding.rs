@@ -13,9 +13,10 @@ const U: f64 = 0.5 * f64::EPSILON;
 /// are rounded by 2. That is less than 64. The direction in which the corners of a hull are searched is rotated once more.
 const ROTATION_ERROR_PER_JOINT: f64 = 64.0;
 
-/// The error of a position between two others, for each unit of both: a difference, a product and a sum are rounded. For a
-/// joint that follows another one the units are those of its factor and its offset. The difference to a position in the middle of a
-/// stretch has the errors of both.
+/// The rounding error of a joint's position that is interpolated between two configurations. It is in units of `U`
+/// times the largest of the numbers from which the position is computed. Interpolation rounds a difference, a product
+/// and a sum. For a joint that follows another one, the numbers include its factor times the followed position, and its
+/// offset. The difference to the position in the middle of a stretch has the errors of both positions.
 const POSITION_ERROR_ULPS: f64 = 16.0;
 
 /// Returns a bound of the distance between points of all parts, as computed with frames along an edge, and the points

@@ -50,7 +50,8 @@ impl Stretch {
         }
     }
 
-    /// Returns the point that halves the stretch: a configuration if the stretch is longer than a segment.
+    /// Returns the middle of the stretch, in segments. It is rounded down to a configuration if the stretch is longer
+    /// than a segment.
     pub(crate) fn middle(&self) -> f64 {
         let middle = 0.5 * (self.from + self.to);
         if self.to - self.from > 1.0 {

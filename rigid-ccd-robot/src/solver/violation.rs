@@ -16,8 +16,9 @@ use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Error, Settings};
 
 impl Search<'_> {
-    /// Returns whether some pair is certainly nearer than its margin everywhere in a stretch, also if it is farther apart than
-    /// it is placed by as much as margins are grown.
+    /// Returns whether some pair is certainly nearer than its margin everywhere in a stretch. The margin is that
+    /// without `PartPairs::margin_increase`. The result holds even if the true distance exceeds that of the placed
+    /// parts by up to this increase.
     pub(super) fn is_margin_violated(&mut self, stretch: &Stretch) -> Result<bool, Error> {
         let parts = self.cell.parts();
         self.question = Question::AnyContact;

@@ -28,7 +28,7 @@ pub enum TableError {
     UnclosedQuote {
         /// The row of the cell, from 0; `None` for the header.
         row: Option<usize>,
-        /// The line of the quote, from 1.
+        /// The line of the opening quotation mark, counted from 1.
         line: u64,
     },
     /// The first line has numbers instead of names.
@@ -112,7 +112,7 @@ impl From<csv::Error> for TableError {
     }
 }
 
-/// The error of one row of a table.
+/// An error in one row of a table: which row it is, and why the row cannot be answered.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{position}: {problem}")]
 pub struct RowError {

@@ -20,7 +20,7 @@ use ccd_core::{Answer, Contact, HitKind, Outcome, Overlap, Stats};
 use serde::Deserialize;
 use std::io;
 
-/// The clearance that distances are compared with, and the excess of the bodies that are measured.
+/// The clearance that distances are compared with, and by how much the measured bodies exceed their shapes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ClearanceAndExcess {
     /// The required distance of the bodies, if one is given.

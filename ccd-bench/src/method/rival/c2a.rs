@@ -263,9 +263,9 @@ fn max_relative_excess(
     /// The number of the last finer step, after which all steps are exact, and the excess that the finer steps are
     /// allowed.
     const LAST_INEXACT_STEP_AND_EXCESS: (u64, f64) = (6, 0.5);
-    /// The length of a step at and below which the next step is exact, as a fraction of the duration.
+    /// After a step of at most this fraction of the duration, the next step computes the exact distance.
     const EXACT_BELOW_STEP_FRACTION: f64 = 0.005;
-    /// The distance at and below which the next step is exact, as a multiple of the tolerance.
+    /// After a distance of at most this many tolerances, the next step computes the exact distance.
     const EXACT_BELOW_DISTANCE_IN_TOLERANCES: f64 = 16.0;
 
     let exact = last.is_some_and(|last| {

@@ -44,7 +44,7 @@ impl RivalMotion {
         }
     }
 
-    /// Returns the placement of the body at a time.
+    /// Returns the rigid transformation from the body's frame to the world frame at a time.
     pub fn placement_at(&self, time: f64) -> Placement {
         let turn = DMat3::from_quat(DQuat::from_axis_angle(self.axis, self.angular_speed * time));
         let rotation = turn * self.start_orientation;

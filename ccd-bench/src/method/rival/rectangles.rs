@@ -70,8 +70,8 @@ fn vectors_from_rectangle(Vec3x4([x, y, z]): Vec3x4, face: DVec2) -> Vec3x4 {
     ])
 }
 
-/// Returns `shortest` with the vectors between four pairs of edges added: those of A along axis `I` with those of B
-/// along axis `J`.
+/// Includes in `shortest` the shortest vectors between four pairs of edges: each of A's two edges along its axis `I`
+/// with each of B's two edges along its axis `J`.
 #[inline(always)]
 fn include_edge_vectors<const I: usize, const J: usize>(
     shortest: ShortestVectors,

@@ -43,7 +43,7 @@ pub enum Verdict {
 /// The verdict on a claim, with the error of the claimed time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judgement {
-    /// The verdict on the claim.
+    /// How the claim compares with the exact answer.
     pub verdict: Verdict,
     /// The distance of the reported time of contact from the bracket of the exact one, as a fraction of the duration;
     /// `None` if either time is missing.

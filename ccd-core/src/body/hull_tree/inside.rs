@@ -12,7 +12,7 @@ pub(super) struct PreparedHull<'a> {
     points: &'a [DVec3],
     /// The facets as fans of triangles.
     fan_triangles: Vec<[DVec3; 3]>,
-    /// The corners of the first facet, which decide if the hull is flat.
+    /// The corners of the first facet. A point in the planes of all facets is inside only if this polygon contains it.
     first_facet_corners: Vec<DVec3>,
 }
 

@@ -44,8 +44,8 @@ struct DiscGroup {
     normal: [[f32; LANES]; 3],
     radius: [f32; LANES],
     half_thickness: [f32; LANES],
-    /// The rounding error by which the bound of each disc is raised. In lanes without a disc it is −∞, so that these
-    /// lanes are never visited.
+    /// For each disc, what is added for rounding to the upper bound of its points' heights along a direction. In lanes
+    /// without a disc it is −∞, so that these lanes are never visited.
     rounding_error_bounds: [f32; LANES],
 }
 

@@ -207,7 +207,7 @@ impl TreeLayout {
 }
 
 impl NodeLayout {
-    /// Returns the points, and their rounding radius, that the node's box has to contain.
+    /// Returns the points that the node's box has to contain, with the largest radius by which its pieces are rounded.
     fn node_points<'p>(&self, pieces: &'p Pieces) -> NodePoints<'p> {
         let triangles = pieces.are_all_triangles();
         let radii = self.pieces.clone().map(|k| pieces.get(k).radius);

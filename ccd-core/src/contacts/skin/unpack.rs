@@ -91,8 +91,8 @@ impl NearSurface<'_> {
         named.collect()
     }
 
-    /// Returns the mesh's number of the vertex at a corner; `None` if no piece there has one. If the corner's own piece
-    /// does not have the number, this is the least number among pieces with a point at the same position.
+    /// Returns the number of the mesh's vertex at a corner. If the corner's own piece does not have the number, this is
+    /// the least number among the pieces with a point at the same position; `None` if none of them has one.
     pub(super) fn mesh_vertex_number(&self, corner: u32) -> Option<u32> {
         let corner = &self.corners[corner as usize];
         corner.id.or_else(|| {

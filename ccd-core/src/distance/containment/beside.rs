@@ -41,7 +41,7 @@ pub(crate) fn points_beside_edges(
 #[derive(Clone, Copy)]
 struct FlatOutline<'a> {
     outline_points: &'a [DVec3],
-    /// The indices of the outline's corners; `None` if they are all points in order.
+    /// The indices of the outline's corners in `outline_points`; `None` if every point is a corner, in the given order.
     corners: Option<&'a [u32]>,
     normal: DVec3,
 }
@@ -86,7 +86,8 @@ impl<'a> FlatOutline<'a> {
         self.normal.dot(point - self.corner(0))
     }
 
-    /// Returns a point on each side of the outline, with the direction from that side into the outline.
+    /// Returns for each edge of the outline its first corner, and a vector perpendicular to the edge that points
+    /// inward.
     fn side_half_planes(&self) -> impl Iterator<Item = (DVec3, DVec3)> {
         let count = self.corner_count();
         (0..count).map(move |k| {

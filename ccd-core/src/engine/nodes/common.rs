@@ -21,10 +21,10 @@ pub(crate) struct NodeContext<'p> {
     /// The angular velocities of A and of B in their own frames, and the angular speeds, rounded up; `None` for a body
     /// that does not turn.
     angular_velocities: [Option<(Vec3, f32)>; 2],
-    /// The gap that every clock proves, rounded up.
+    /// The gap `Problem::kept_gap` that every pair of nodes keeps until its clock, rounded up.
     pub(crate) kept_gap: f32,
-    /// The gap `Problem::kept_node_gap` that pairs of nodes keep if rounding allows, rounded up. Until its clock, a pair of
-    /// nodes keeps this gap or the sum of `gap` and the rounding, whichever is larger.
+    /// The gap `Problem::kept_node_gap`, rounded up. The clock of a pair of nodes stops at this gap, or at the sum of
+    /// `kept_gap` and the rounding, whichever is larger.
     pub(crate) guaranteed_node_gap: f32,
     /// A bound of the rounding of distances in f64, rounded up.
     pub(crate) rounding: f32,

@@ -31,7 +31,7 @@ pub(crate) struct Split {
     pub(crate) body: WhichBody,
     pub(crate) node: NodeId,
     pub(crate) other_node: NodeId,
-    /// The children to bound, as bits.
+    /// The children to bound against the other node: bit `k` stands for child `k`.
     pub(crate) lane_mask: u8,
 }
 

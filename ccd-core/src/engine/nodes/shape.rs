@@ -279,7 +279,7 @@ fn nearest_on_edges<L: Simd>([a, b, c]: [Vec3x8<L>; 3], to: Vec3x8<L>) -> Vec3x8
     nearer_points(first, r, to)
 }
 
-/// Returns the points of segments that are nearest to `to`.
+/// Returns the point nearest to `to` on the segment from `a` to `b`, for each of eight lanes.
 #[inline(always)]
 fn nearest_on_segment<L: Simd>(a: Vec3x8<L>, b: Vec3x8<L>, to: Vec3x8<L>) -> Vec3x8<L> {
     let edge = b - a;

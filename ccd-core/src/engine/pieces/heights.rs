@@ -181,8 +181,8 @@ impl<'a> Heights<'a> {
         }
     }
 
-    /// Returns the largest descent of any point below [`Heights::least_height`] by rotation alone, up to `horizon`;
-    /// `None` if there are many points.
+    /// Returns an upper bound of how far rotation alone moves any point below [`Heights::least_height`] until
+    /// `horizon`; `None` for a piece of many points.
     pub(crate) fn max_rotational_descent_until(&self, horizon: f64) -> Option<f64> {
         if self.piece.bounding_ball().is_some() {
             return None;

@@ -21,17 +21,17 @@ pub(crate) struct Pair<C> {
     pub(crate) a: u32,
     pub(crate) b: u32,
     contact_rule: ContactRule,
-    /// True once the pair has been advanced.
+    /// Whether the pair has been advanced before. The first time uses [`Snapshot::first_visit_free_time`].
     was_advanced: bool,
     /// What the oracle remembers for its next call on this pair.
     cache: C,
 }
 
-/// What counts as contact for a pair, and the gap that its clock proves until then. Distances are measured beyond the
-/// margin.
+/// The rule by which a pair counts as in contact, and the gap that it is proven to keep until its clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum ContactRule {
-    /// The pair counts as in contact once it is within the query's tolerance. The clock proves half of the tolerance.
+    /// The pair counts as in contact once it is within margin + tolerance. It keeps `Problem::kept_gap` until its
+    /// clock.
     ApartAtStart,
     /// Like `ApartAtStart`, for a pair that was in contact at the start and has separated since.
     SeparatedAfterStart,

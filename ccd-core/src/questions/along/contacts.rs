@@ -184,7 +184,8 @@ enum StretchResult {
 }
 
 impl<S> ContactSearch<'_, S> {
-    /// Records the gap that the motions of a stretch are proven to keep, minus the deviations.
+    /// Records a lower bound of the bodies' distance in a stretch: the gap that its motions are proven to keep, minus
+    /// the deviations of the trajectories from these motions.
     fn record_distance_lower_bound(&mut self, motions: &StretchMotions, proven_gap: f64) {
         self.gap = lesser(self.gap, motions.lower_bound_for_bodies(proven_gap));
     }

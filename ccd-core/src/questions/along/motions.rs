@@ -54,8 +54,8 @@ impl StretchMotions {
         self
     }
 
-    /// Returns whether the deviations and the displacements by acceleration are at most the largest coordinate minus
-    /// the margin.
+    /// Returns whether the deviations, and bounds of the displacements by acceleration, are each at most
+    /// `MAX_COORDINATE` minus the margin.
     pub(super) fn is_in_coordinate_range(&self, query: &Query<'_>) -> bool {
         let time = self.span.length();
         let far = |stretch: &Stretch| time * (time * length(stretch.acceleration));

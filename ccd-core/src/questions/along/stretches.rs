@@ -61,7 +61,7 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
         }
     }
 
-    /// Returns the memory for a later query.
+    /// Returns the allocated lists, for reuse by a later query.
     pub(super) fn recycle_lists(self) -> SpanLists {
         SpanLists {
             waiting_spans: self.waiting_spans,

@@ -1,4 +1,5 @@
-//! Decides whether bodies keep a required distance, by two queries for any contact.
+//! Decides whether bodies keep a required distance, by queries for any contact. The required distance is the margin of
+//! the first query. A second query has a smaller margin, to prove a violation.
 
 use super::ladder::{LowerBoundAttempts, MAX_FINAL_ATTEMPTS, MarginQuery};
 use crate::answer::{Answer, Contact, Limit, Outcome, Stats, Unresolved};

@@ -21,7 +21,8 @@ use std::f64::consts::{PI, TAU};
 /// width, for the flanks of a thread at any slope.
 const SURFACE_FAMILY_COUNT: usize = 16;
 
-/// The axis of a screw motion at the start, with the surfaces about it that may separate nodes.
+/// The axis of a screw motion at the start of the query, with the families of helical surfaces about it that are tried
+/// to separate nodes.
 #[derive(Debug)]
 pub(crate) struct ScrewAxis {
     origin: DVec3,
@@ -46,7 +47,7 @@ pub(crate) struct NodeScrewBounds {
     /// Half of a lower bound of the node's distance from the axis: a path from the node of at most this length stays at
     /// least this length away from the axis.
     half_min_axis_distance: f64,
-    /// The greatest change of any `f` per unit of length, on paths from the node of at most `half_min_axis_distance`.
+    /// An upper bound of the gradient of every `f`, for all points within `half_min_axis_distance` of the node.
     max_gradient: f64,
     /// The projection of a node that is a single triangle, which gives intervals for any surface; `None` for other
     /// nodes.

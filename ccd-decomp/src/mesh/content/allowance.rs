@@ -22,7 +22,8 @@ pub(crate) fn expansion_cost(vertices: u64, corners: u64) -> u64 {
 }
 
 impl ExpansionBudget {
-    /// Returns the budget of a file of `bytes` bytes: an allowance for each byte, and a limited one for repetition.
+    /// Returns the budget of a file of `bytes` bytes: an amount per byte for what the file contains once, plus a capped
+    /// amount for repeated references.
     pub(crate) fn for_file(bytes: u64) -> Self {
         // Without repetition, a byte costs at most 4: a corner of a strip may take one byte, is read as a number, and
         // makes a triangle of three corners.

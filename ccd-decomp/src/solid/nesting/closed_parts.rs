@@ -31,8 +31,8 @@ pub(super) fn closed_part_numbers(mesh: &TriangleMesh, edges: &SortedHalfEdges) 
     parts.set_index_by_element()
 }
 
-/// Returns the half-edges at one edge whose part has more of them in one direction than in the other. An open part has
-/// more half-edges in one direction than in the other.
+/// Returns the half-edges at one edge that belong to open parts. A part is open there if it has more half-edges at the
+/// edge in one direction than in the other.
 fn half_edges_of_open_parts(edge: &[EdgeUse], parts: &mut DisjointSets) -> Vec<EdgeUse> {
     let mut of_parts: Vec<(u32, EdgeUse)> =
         edge.iter().map(|&u| (parts.root(u.face()), u)).collect();

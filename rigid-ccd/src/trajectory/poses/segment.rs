@@ -43,7 +43,8 @@ impl Segment {
         })
     }
 
-    /// Returns the motion with the segment's pose and velocities at `time`, which is counted from the first pose.
+    /// Returns the motion that starts with the segment's pose and velocities at `time`. The time is counted from the
+    /// segment's first pose.
     pub(super) fn motion_at(&self, time: f64) -> Result<Motion, InputError> {
         let (motion, leftover_spin) = (&self.motion, self.leftover_spin);
         if time == 0.0 && leftover_spin == DVec3::ZERO {

@@ -32,7 +32,8 @@ pub(super) enum ElementaryTest {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ElementaryTestSet(u16);
 
-/// Two triangles, each in its body's frame; enclosures map the first into the frame of the second.
+/// Two triangles, each in its body's frame. A [`Placement`] or a [`MotionEnclosure`] maps the first into the frame of
+/// the second.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TrianglePair {
     pub(super) a: TriangleWithNormals,

@@ -22,7 +22,7 @@ pub(crate) struct PointSample {
 }
 
 impl PointSample {
-    /// A sample without points.
+    /// A sample without points: the initial value of memory that [`PointSample::fill_from`] fills.
     pub(crate) const EMPTY: PointSample = PointSample {
         point_buffer: [DVec3::ZERO; MAX_SAMPLE_POINTS],
         count: 0,

@@ -1,0 +1,101 @@
+"""A picklable question about a robot's edges, for distributed engines."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._query import like
+from ._rigid_ccd import Cell, InputError, Table
+
+PathAsk: TypeAlias = Literal["is-free", "first-contact", "closest-approach"]
+
+
+class EdgesQuery:
+    """A question about a robot's edges that answers one table after another.
+
+    It is a callable that goes where functions of tables go: Ray Data's `map_batches`, Dask's `map_partitions`, Spark's
+    `mapInArrow`, a pool of processes. It can be pickled, with its cell.
+
+    A table has a column `id`, and for each joint the columns `from_JOINT` and `to_JOINT`, as `ccd edges` reads them. The
+    results are a table of the same kind, with the ids and the columns of `Cell.edges`. Called with an iterator of tables
+    it returns an iterator of tables.
+
+    Args:
+        cell: the cell, as it is now; later changes do not count.
+        ask: "is-free", "first-contact" or "closest-approach".
+        rest: the positions of joints that tables have no columns for.
+        settings: those of `Cell.edges`. Engines start a task for each core: so `threads` is 1 by default.
+
+    >>> from rigid_ccd import Body, Cell, EdgesQuery, Joint, Robot
+    >>> slider = Joint.prismatic("x", "rail", "cart", axis=[1, 0, 0])
+    >>> cell = Cell(Robot([slider], {"cart": Body.sphere(0.5)}))
+    >>> cell.add("wall", Body.box(0.1, 5, 5), ([3, 0, 0], [1, 0, 0, 0]))
+    >>> EdgesQuery(cell)({"id": ["near", "far"], "from_x": [0, 0], "to_x": [1, 4]})["status"]
+    array(['free', 'contact'], dtype=object)
+    """
+
+    def __init__(
+        self, cell: Cell, *, ask: PathAsk = "is-free", rest: Mapping[str, float] | None = None, **settings: Any
+    ) -> None:
+        # A copy, which later changes of the cell do not reach.
+        constructor, arguments, state = cell.__reduce__()
+        self._cell: Cell = constructor(*arguments)
+        self._cell.__setstate__(state)
+        self._ask, self._rest = ask, dict(rest or {})
+        self._settings = {"threads": 1, **settings}
+        unknown = set(self._rest) - set(cell.robot.joint_names)
+        if unknown:
+            raise InputError(f"rest: there is no joint {', '.join(sorted(unknown))}")
+        # Invalid settings raise here, not on a worker.
+        self._answer(np.zeros((2, 0, len(cell.robot.joint_names))))
+
+    def __call__(self, edges: Any) -> Any:
+        """Answers a table, or an iterator of tables."""
+        if isinstance(edges, Iterator) and not hasattr(edges, "__arrow_c_stream__"):
+            return self._each(edges)
+        table = self._table(edges)
+        return like(edges, table._column_before("id", self._answer(self._configurations(table))))
+
+    def schema(self, edges: Any) -> Any:
+        """Returns an empty table with the columns of the results; for a pyarrow.Schema, a pyarrow.Schema."""
+        if hasattr(edges, "empty_table"):
+            return self.schema(edges.empty_table()).schema
+        empty = self._table(edges).take([])
+        return like(edges, empty._column_before("id", self._answer(self._configurations(empty))))
+
+    def _each(self, tables: Iterable[Any]) -> Iterator[Any]:
+        for edges in tables:
+            yield self(edges)
+
+    def _table(self, edges: Any) -> Table:
+        table = Table(edges)
+        if "id" not in table:
+            raise InputError("edges: no column `id`: engines return rows in any order")
+        return table
+
+    def _configurations(self, table: Table) -> NDArray[np.float64]:
+        joints = self._cell.robot.joint_names
+        missing = [
+            f"{end}_{joint}"
+            for joint in joints
+            if joint not in self._rest
+            for end in ("from", "to")
+            if f"{end}_{joint}" not in table
+        ]
+        if missing:
+            raise InputError(f"edges: no column {', '.join(missing)}; `rest` says where joints without columns rest")
+        ends = np.empty((2, len(table["id"]), len(joints)))
+        for k, joint in enumerate(joints):
+            for end, name in enumerate(("from", "to")):
+                column = f"{name}_{joint}"
+                ends[end, :, k] = table[column] if column in table else self._rest[joint]
+        return ends
+
+    def _answer(self, ends: NDArray[np.float64]) -> Table:
+        return self._cell.edges(ends[0], ends[1], ask=self._ask, **self._settings)
+
+    def __repr__(self) -> str:
+        settings = "".join(f", {name}={value!r}" for name, value in self._settings.items())
+        return f"EdgesQuery({self._cell!r}, ask={self._ask!r}, rest={self._rest!r}{settings})"
