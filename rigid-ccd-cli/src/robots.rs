@@ -12,8 +12,8 @@ mod robot_paths;
 
 pub(super) use acm::{AcmArgs, run as run_acm};
 pub(super) use clearance::{ClearanceArgs, run as run_clearance};
-pub(super) use edges::{EdgesArgs, run as run_edges};
-pub(super) use joint_values::JointRange;
+pub(super) use edges::{DEFAULT_PATH_TOLERANCE, EdgesArgs, run as run_edges};
+pub(super) use joint_values::{JointRange, length};
 pub(super) use loading::CellArgs;
 pub(super) use page::RobotPainter;
 pub(super) use robot_paths::RobotPaths;

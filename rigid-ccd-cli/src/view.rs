@@ -99,7 +99,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
         }
     }
     if args.results.is_none() && !args.quiet {
-        pair.print_remarks(args.tolerance, &rows);
+        pair.print_remarks(args.tolerance(), &rows);
     }
     if let (Some(results), true) = (&args.results, chosen.is_empty()) {
         let (motions, results) = (input_name(motions), results.display());
@@ -167,7 +167,7 @@ fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
 
 fn settings(args: &ViewArgs) -> Settings {
     Settings {
-        tolerance: args.tolerance,
+        tolerance: args.tolerance(),
         margin: args.margin,
         ..Settings::DEFAULT
     }
@@ -186,14 +186,14 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
     let out = Output::claim(&args.out)?;
     let cell = robot.load(args.quiet)?;
     let mut solver = cell.solver().with_settings(Settings {
-        margin: robot.clearance,
+        margin: args.clearance,
         ..settings(args)
     });
     let painter = RobotPainter::new(&cell)?;
     let paths = asked.read(&cell)?;
     let views = paths
         .iter()
-        .map(|path| painter.animation(&mut solver, path));
+        .map(|path| painter.animation(&mut solver, path, args.clearance));
     let views = views.collect::<Result<Vec<_>>>()?;
     if let ([view], false) = (&views[..], args.quiet) {
         print_error(&view.verdict);
@@ -206,7 +206,7 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
 fn view_scene(args: &ViewArgs, path: &Path) -> Result<RunOutcome> {
     let table = scene_table::read(("--scene", path), args.scene_args(), &args.out)?;
     if !args.quiet {
-        table.print_load_report(args.tolerance);
+        table.print_load_report(args.tolerance());
     }
     let out = Output::claim(&args.out)?;
     let shown = table.bodies_to_draw();

@@ -177,6 +177,19 @@ impl Cell {
         Ok(())
     }
 
+    /// Returns whether any pair of bodies is checked. Where none is, every path is free.
+    pub fn checks_any_pair(&self) -> bool {
+        let moves = |part: &HullPart| {
+            self.kinematics
+                .link_frame_and_pose(self.link_of(part.owner))
+                .0
+                > 0
+        };
+        let meets_obstacles = self.parts.len() > self.robot_part_count
+            && self.parts[..self.robot_part_count].iter().any(moves);
+        meets_obstacles || self.checked_robot_part_pairs().next().is_some()
+    }
+
     /// Returns the robot.
     pub fn robot(&self) -> &Robot {
         &self.robot

@@ -54,7 +54,7 @@ impl PathQuestion {
             "id" | "status" | "micros" | "reason" => true,
             "time" | "witness_a_x" | "witness_a_y" | "witness_a_z" | "witness_b_x"
             | "witness_b_y" | "witness_b_z" => self != PathQuestion::IsFree,
-            "distance_lower" | "distance_upper" => self == PathQuestion::ClosestApproach,
+            "distance_lower" | "distance_upper" => self != PathQuestion::IsFree,
             _ => false,
         };
         let mut columns = COLUMNS.to_vec();
@@ -137,7 +137,17 @@ impl PathAnswer {
                 answer
             }
             PathOutcome::Contact(contact) => {
-                PathAnswer::from_status(Status::Contact).with_contact(&contact)
+                let [lower, upper] = contact.distance_bounds;
+                let overlaps = upper == 0.0 && contact.at.time() == 0.0;
+                let status = if overlaps {
+                    Status::Overlapping
+                } else {
+                    Status::Contact
+                };
+                let mut answer = PathAnswer::from_status(status).with_contact(&contact);
+                answer.row.distance_lower = Some(lower);
+                answer.row.distance_upper = Some(upper).filter(|upper| upper.is_finite());
+                answer
             }
             PathOutcome::Unresolved { free_until, limit } => {
                 PathAnswer::from_status(Status::Unresolved)
@@ -165,6 +175,9 @@ impl PathAnswer {
         answer.row.distance_upper = Some(found.upper).filter(|upper| upper.is_finite());
         if let Some(limit) = found.limit {
             answer = answer.with_limit(limit);
+        } else if status == Status::Unverified {
+            let reason = "the clearance is within the bounds of the distance; a smaller tolerance may decide";
+            answer.row.reason = Some(reason.to_owned());
         }
         Ok(match &found.nearest {
             Some(nearest) => answer.with_contact(nearest),

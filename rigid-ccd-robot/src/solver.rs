@@ -52,6 +52,8 @@ pub struct PathContact<'c> {
     pub items: [Item<'c>; 2],
     /// The nearest points of both, in the frame of the base. If both overlap they are points of two pieces that intersect.
     pub witnesses: [DVec3; 2],
+    /// Bounds of the distance of the pair there; 0 if both overlap.
+    pub distance_bounds: [f64; 2],
 }
 
 /// The first contact on a path, if there is one.
@@ -250,6 +252,10 @@ impl<'c> CellSolver<'c> {
             at: PathPoint::from_path_position(at, self.search.segment_count()),
             items: bodies.map(|body| self.cell.item_of_body(body)),
             witnesses: witnesses(&outcome),
+            distance_bounds: match outcome {
+                Outcome::Overlapping { .. } => [0.0; 2],
+                _ => [outcome.lower(), outcome.upper()],
+            },
         })
     }
 }

@@ -7,16 +7,18 @@ use quick_xml::escape::escape;
 use serde::Deserialize;
 use std::fmt::Write;
 
-/// The pairs that an SRDF file disables. Groups, states and other elements are ignored.
+/// The pairs that an SRDF file disables, and those that it enables again. Groups, states and other elements are ignored.
 #[derive(Debug, Deserialize)]
 struct Document {
     #[serde(rename = "disable_collisions", default)]
-    pairs: Vec<DisabledPair>,
+    disabled: Vec<SrdfPair>,
+    #[serde(rename = "enable_collisions", default)]
+    enabled: Vec<SrdfPair>,
 }
 
-/// A pair of links that is not checked, by their names.
+/// A pair of links by their names.
 #[derive(Debug, Deserialize, PartialEq)]
-pub(crate) struct DisabledPair {
+pub(crate) struct SrdfPair {
     #[serde(rename = "@link1")]
     pub(crate) link1: String,
     #[serde(rename = "@link2")]
@@ -26,9 +28,12 @@ pub(crate) struct DisabledPair {
     pub(crate) reason: String,
 }
 
-/// Reads the pairs that are not checked from the text of an SRDF file.
-pub(crate) fn disabled_pairs(text: &str) -> Result<Vec<DisabledPair>, quick_xml::DeError> {
-    Ok(from_str::<Document>(text)?.pairs)
+/// Reads the pairs that are not checked, and those that are checked nevertheless, from the text of an SRDF file.
+pub(crate) fn disabled_and_enabled_pairs(
+    text: &str,
+) -> Result<[Vec<SrdfPair>; 2], quick_xml::DeError> {
+    let Document { disabled, enabled } = from_str(text)?;
+    Ok([disabled, enabled])
 }
 
 impl Robot {

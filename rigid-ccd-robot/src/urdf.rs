@@ -9,7 +9,7 @@ pub use error::UrdfError;
 
 use crate::pairs::{LinkPairs, SkipReason};
 use crate::robot::{Joint, Link, LinkBody, PositionRule, Robot};
-use crate::srdf::disabled_pairs;
+use crate::srdf::disabled_and_enabled_pairs;
 use bodies::BodyReader;
 use packages::SearchFolders;
 use rigid_ccd::glam::{DQuat, EulerRot};
@@ -140,20 +140,25 @@ impl Urdf {
     }
 
     /// Returns which pairs of links are checked: all pairs except neighbours, links that never move relative to each
-    /// other, and pairs that the SRDF file disables.
+    /// other, and pairs that the SRDF file disables; those that it enables are checked.
     ///
     /// # Errors
     /// [`UrdfError`] if the file cannot be read, or names a link that the robot does not have.
     pub fn link_pairs(&self, robot: &Robot, srdf: Option<&Path>) -> Result<LinkPairs, UrdfError> {
         let mut pairs = LinkPairs::from_robot(robot);
         if let Some(file) = srdf {
-            let disabled = disabled_pairs(&read(file)?).map_err(|error| UrdfError::Syntax {
+            let pairs_of_file = disabled_and_enabled_pairs(&read(file)?);
+            let [disabled, enabled] = pairs_of_file.map_err(|error| UrdfError::Syntax {
                 file: file.to_owned(),
                 error: error.to_string(),
             })?;
             for pair in disabled {
                 let [one, other] = [&pair.link1, &pair.link2].map(|link| robot.link_number(link));
                 pairs.skip(one?, other?, SkipReason::Disabled(pair.reason));
+            }
+            for pair in enabled {
+                let [one, other] = [&pair.link1, &pair.link2].map(|link| robot.link_number(link));
+                pairs.include(one?, other?);
             }
         }
         Ok(pairs)

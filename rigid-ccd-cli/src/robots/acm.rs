@@ -92,13 +92,12 @@ fn summary(classes: &[([usize; 2], LinkContactClass)]) -> String {
         let found = classes
             .iter()
             .filter(|(_, class)| class_name(class) == name);
-        format!("{} {name}", found.count())
+        match name {
+            "undecided" => format!("{} are undecided", found.count()),
+            _ => format!("{} {name} touch", found.count()),
+        }
     });
-    format!(
-        "{} pairs of links touch: {}",
-        classes.len(),
-        counts.join(", ")
-    )
+    format!("{} pairs of links: {}", classes.len(), counts.join(", "))
 }
 
 /// Writes a row for each pair.

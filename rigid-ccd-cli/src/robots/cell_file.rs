@@ -1,6 +1,6 @@
 //! Reads what is around a robot: a TOML file of obstacles, held objects, paddings and clearances; or the parts of a glTF.
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use ccd_decomp::{Detail, parse_body};
 use rigid_ccd::glam::{DQuat, EulerRot};
 use rigid_ccd::{Body, Pose, load_parts};
@@ -74,7 +74,12 @@ pub(super) fn add_to(cell: &mut Cell, path: &Path) -> Result<()> {
         return Ok(());
     }
     let text = fs::read_to_string(path)?;
-    let file: CellFile = toml::from_str(&text)?;
+    let file: CellFile = toml::from_str(&text).map_err(|error| {
+        let line = error
+            .span()
+            .map_or(1, |span| text[..span.start].lines().count().max(1));
+        anyhow!("line {line}: {}", error.message())
+    })?;
     let folder = path.parent().unwrap_or(Path::new(""));
     for obstacle in file.obstacle {
         let name = obstacle.name.clone();

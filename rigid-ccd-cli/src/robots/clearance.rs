@@ -27,13 +27,8 @@ pub(crate) struct ClearanceArgs {
     #[command(flatten)]
     cell: CellArgs,
     /// Range over which a joint moves, such as knee=-90deg:40deg, or its position; several joints move together. A joint that is
-    /// not named rests at 0, or at its limit nearest to 0
-    #[arg(
-        long,
-        value_name = "NAME=FROM:TO",
-        allow_hyphen_values = true,
-        required_unless_present = "path"
-    )]
+    /// not named rests at 0, or at its limit nearest to 0; without any, the only joint moves over all its limits
+    #[arg(long, value_name = "NAME=FROM:TO", allow_hyphen_values = true)]
     joint: Vec<JointRange>,
     /// Table with a path, CSV, as `ccd edges` reads it; in place of ranges, for closed loops of joints
     #[arg(long, value_name = "CSV")]
@@ -142,7 +137,7 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     if let Some(html) = html {
         let painter = RobotPainter::new(&cell)?;
         let title = input_name(args.cell.robot.path());
-        let view = painter.animation(&mut solver, path)?;
+        let view = painter.animation(&mut solver, path, args.require.unwrap_or(0.0))?;
         write_page(&painter.page(&title, vec![view]), html, args.quiet)?;
     }
     Ok(outcome(&report))

@@ -2,7 +2,7 @@
 
 mod args;
 
-pub(crate) use args::EdgesArgs;
+pub(crate) use args::{DEFAULT_PATH_TOLERANCE, EdgesArgs};
 
 use super::path_table::{PathTable, TablePath};
 use crate::bad_rows::BadRowCounter;
@@ -33,7 +33,7 @@ use std::time::Instant;
 pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     args.cell.refuse_overwriting(&[("--out", &args.out)])?;
     crate::files::refuse_overwriting_input(("--edges", &args.edges), ("--out", &args.out))?;
-    if args.check && args.ask == PathQuestion::ClosestApproach && args.cell.clearance == 0.0 {
+    if args.check && args.ask == PathQuestion::ClosestApproach && args.clearance == 0.0 {
         bail!(
             "--check needs --clearance with --ask closest-approach: a distance alone is neither good nor bad"
         );
@@ -174,7 +174,7 @@ impl EdgesRun<'_> {
 /// Answers the question about a path, and takes the time.
 fn answer(args: &EdgesArgs, solver: &mut CellSolver<'_>, path: &TablePath) -> ResultRow {
     let start = Instant::now();
-    let clearance = Some(args.cell.clearance).filter(|&clearance| clearance > 0.0);
+    let clearance = Some(args.clearance).filter(|&clearance| clearance > 0.0);
     let row = args.ask.answer(solver, &path.configurations, clearance);
     let micros = start.elapsed().as_secs_f64() * 1e6;
     ResultRow {
@@ -248,7 +248,7 @@ impl EdgesArgs {
     /// Returns the settings of a question. A closest approach measures distances without a margin.
     fn settings(&self) -> Settings {
         let margin = match self.ask {
-            PathQuestion::IsFree | PathQuestion::FirstContact => self.cell.clearance,
+            PathQuestion::IsFree | PathQuestion::FirstContact => self.clearance,
             PathQuestion::ClosestApproach => 0.0,
         };
         Settings {

@@ -49,7 +49,7 @@ fn position(text: &str) -> Result<f64, String> {
 }
 
 /// Parses a length in metres, the unit of robots, or in another unit, such as `0.3mm`.
-pub(super) fn length(text: &str) -> Result<f64, String> {
+pub(crate) fn length(text: &str) -> Result<f64, String> {
     with_unit(
         text,
         &[("mm", 1000.0), ("cm", 100.0), ("um", 1e6), ("m", 1.0)],

@@ -1,13 +1,12 @@
 //! Loads a robot from URDF and SRDF, and the cell around it.
 
 use super::cell_file;
-use super::joint_values::length;
 use crate::files::refuse_overwriting_input;
 use crate::print_escaped_to_stderr;
 use crate::progress::Progress;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
-use rigid_ccd_robot::{BodyElements, Cell, MeshConversion, Robot, Urdf};
+use rigid_ccd_robot::{BodyElements, Cell, MeshConversion, Robot, SkipReason, Urdf};
 use std::path::{Path, PathBuf};
 
 /// The options that name a robot, and say how its links become bodies.
@@ -38,9 +37,6 @@ pub(crate) struct CellArgs {
     /// Obstacles, held objects, paddings and clearances, TOML; or obstacles alone, the parts of a glTF
     #[arg(long, value_name = "TOML|GLTF")]
     pub(crate) cell: Option<PathBuf>,
-    /// Distance that all pairs have to keep, such as 0.005 or 5mm
-    #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length)]
-    pub(crate) clearance: f64,
 }
 
 /// The values of `--geometry`.
@@ -156,6 +152,16 @@ impl CellArgs {
                 ));
             }
         }
+        if !cell.checks_any_pair() {
+            bail!(
+                "no pair is checked: there is no obstacle, and no two links are checked{}",
+                skipped_text(&cell)
+            );
+        }
+        let skipped = skipped_text(&cell);
+        if !quiet && !skipped.is_empty() {
+            print_escaped_to_stderr(&skipped[2..]);
+        }
         Ok(cell)
     }
 
@@ -174,4 +180,25 @@ impl CellArgs {
         }
         Ok(())
     }
+}
+
+/// Says which pairs of links with bodies are not checked although they move against each other, and how to check them.
+fn skipped_text(cell: &Cell) -> String {
+    let links = cell.robot().links();
+    let moving = cell
+        .link_pairs()
+        .skipped_pairs()
+        .filter(|(_, reason)| **reason != SkipReason::NoMotion);
+    let pairs: Vec<String> = moving
+        .map(|([one, other], reason)| {
+            format!("{} and {} ({reason})", links[one].name, links[other].name)
+        })
+        .collect();
+    if pairs.is_empty() {
+        return String::new();
+    }
+    format!(
+        "; not checked: {}; a [[clearance]] between two links in the --cell, or enable_collisions in the --srdf, checks them",
+        pairs.join(", ")
+    )
 }

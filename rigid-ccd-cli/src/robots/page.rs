@@ -61,11 +61,12 @@ impl<'c> RobotPainter<'c> {
         }
     }
 
-    /// Makes the animation of a path. The solver's margin is the clearance.
+    /// Makes the animation of a path. The clearance is the solver's margin.
     pub(crate) fn animation(
         &self,
         solver: &mut CellSolver<'c>,
         path: &TablePath,
+        clearance: f64,
     ) -> Result<Animation> {
         let configurations = &path.configurations;
         let segments = configurations.len() - 1;
@@ -107,7 +108,7 @@ impl<'c> RobotPainter<'c> {
                 .collect(),
             ..Animation::new(
                 &path.id,
-                &verdict(&first, nearest),
+                &verdict(&first, nearest, clearance),
                 seconds(segments as f64),
             )
         })
@@ -207,7 +208,16 @@ fn shown_contact(contact: &PathContact<'_>, seconds: &impl Fn(f64) -> f64) -> Sh
 }
 
 /// Says in words what touches, or how near anything comes.
-fn verdict(first: &PathOutcome<'_>, nearest: Option<(f64, PathContact<'_>)>) -> String {
+fn verdict(
+    first: &PathOutcome<'_>,
+    nearest: Option<(f64, PathContact<'_>)>,
+    clearance: f64,
+) -> String {
+    let kept = if clearance > 0.0 {
+        format!(" with a clearance of {clearance}")
+    } else {
+        String::new()
+    };
     let place = |contact: &PathContact<'_>| {
         let [a, b] = contact.items.map(Item::name);
         format!(
@@ -218,22 +228,22 @@ fn verdict(first: &PathOutcome<'_>, nearest: Option<(f64, PathContact<'_>)>) -> 
     match (first, nearest) {
         (PathOutcome::Contact(contact), _) => {
             format!(
-                "First contact: {}. Proven: nothing touches before.",
+                "First contact{kept}: {}. Proven: free before.",
                 place(contact)
             )
         }
         (PathOutcome::Unresolved { free_until, limit }, _) => {
             let (share, segment) = (free_until.share, free_until.segment);
             format!(
-                "Free until {share:.4} of segment {segment}; then a limit was reached: {limit}."
+                "Free{kept} until {share:.4} of segment {segment}; then a limit was reached: {limit}."
             )
         }
         (PathOutcome::Free, Some((distance, contact))) => {
             format!(
-                "Free, proven. Nearest: {}, {distance:.5} apart.",
+                "Free{kept}, proven. Nearest: {}, {distance:.5} apart.",
                 place(&contact)
             )
         }
-        (PathOutcome::Free, None) => "Free, proven.".to_owned(),
+        (PathOutcome::Free, None) => format!("Free{kept}, proven."),
     }
 }

@@ -27,6 +27,9 @@ impl RobotPaths<'_> {
     /// If the table cannot be read, or has no such path.
     pub(crate) fn read(self, cell: &Cell) -> Result<Vec<TablePath>> {
         let Some(file) = self.table else {
+            if self.joints.is_empty() {
+                return Ok(vec![TablePath::between(whole_range(cell.robot())?)]);
+            }
             let ends = configurations(cell.robot(), self.joints)?;
             return Ok(vec![TablePath::between(ends)]);
         };
@@ -43,7 +46,10 @@ impl RobotPaths<'_> {
             }
         }
         if paths.is_empty() {
-            bail!("{}: has no path to show", name());
+            match self.ids {
+                [] => bail!("{}: has a header, but no rows", name()),
+                ids => bail!("{}: no path has the id {}", name(), ids.join(" or ")),
+            }
         }
         Ok(paths)
     }
@@ -74,4 +80,22 @@ fn configurations(robot: &Robot, given: &[JointRange]) -> Result<[Vec<f64>; 2]> 
         path[1][number] = range.to;
     }
     Ok(path)
+}
+
+/// Returns the ends of the range of a robot's only joint.
+///
+/// # Errors
+/// If the robot has more joints, or its joint has no limits.
+fn whole_range(robot: &Robot) -> Result<[Vec<f64>; 2]> {
+    let limits: Vec<[f64; 2]> = robot.limits().collect();
+    match limits[..] {
+        [[low, high]] if low.is_finite() && high.is_finite() => Ok([vec![low], vec![high]]),
+        _ => {
+            let names: Vec<&str> = robot.free_joint_names().collect();
+            bail!(
+                "give --joint NAME=FROM:TO for a joint that moves; there are {}",
+                names.join(", ")
+            )
+        }
+    }
 }

@@ -3,7 +3,7 @@
 use crate::meshes::MeshArgs;
 use crate::numbers::{parse_nonnegative, tolerance};
 use crate::pair::BodiesArgs;
-use crate::robots::{CellArgs, JointRange};
+use crate::robots::{CellArgs, DEFAULT_PATH_TOLERANCE, JointRange, length};
 use crate::scene_table::SceneArgs;
 use ccd_core::limits::DEFAULT_TOLERANCE;
 use clap::Args;
@@ -15,8 +15,11 @@ use std::path::{Path, PathBuf};
 pub(crate) struct ViewArgs {
     #[command(flatten)]
     pub(super) cell: CellArgs,
+    /// Distance that all pairs of the robot have to keep, such as 0.005 or 5mm
+    #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length, requires = "urdf")]
+    pub(super) clearance: f64,
     /// Table of edges or paths of the robot, CSV, as of `ccd edges`; - reads standard input
-    #[arg(long, value_name = "CSV", requires = "urdf", conflicts_with_all = ["motions", "a", "b", "scene"])]
+    #[arg(long, visible_alias = "edges", value_name = "CSV", requires = "urdf", conflicts_with_all = ["motions", "a", "b", "scene"])]
     pub(super) path: Option<PathBuf>,
     /// Range over which a joint of the robot moves, or a position at which it rests, as of `ccd clearance`
     #[arg(
@@ -47,7 +50,7 @@ pub(crate) struct ViewArgs {
         long,
         value_name = "CSV",
         requires = "motions",
-        conflicts_with = "scene"
+        conflicts_with_all = ["scene", "urdf"]
     )]
     pub(super) results: Option<PathBuf>,
     /// Show the rows with these ids [default: up to 4 of each status, in the table's order]
@@ -64,9 +67,9 @@ pub(crate) struct ViewArgs {
     /// Time at which the motions of --scene end [default: 1]
     #[arg(long, value_name = "TIME", value_parser = parse_nonnegative, allow_hyphen_values = true)]
     duration: Option<f64>,
-    /// Report a contact at a distance of at most margin + tolerance
-    #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_TOLERANCE, value_parser = tolerance, allow_hyphen_values = true)]
-    pub(super) tolerance: f64,
+    /// Report a contact at a distance of at most margin + tolerance [default: 0.001; of a robot 0.0001]
+    #[arg(long, value_name = "LENGTH", value_parser = tolerance, allow_hyphen_values = true)]
+    tolerance: Option<f64>,
     /// Distance to keep between the bodies
     #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = parse_nonnegative, allow_hyphen_values = true)]
     pub(super) margin: f64,
@@ -79,6 +82,16 @@ pub(crate) struct ViewArgs {
 }
 
 impl ViewArgs {
+    /// Returns the tolerance, which is by default that of `ccd query` or of `ccd edges`.
+    pub(super) fn tolerance(&self) -> f64 {
+        let default = if self.cell.robot.is_given() {
+            DEFAULT_PATH_TOLERANCE
+        } else {
+            DEFAULT_TOLERANCE
+        };
+        self.tolerance.unwrap_or(default)
+    }
+
     /// Returns the two bodies and the table of motions; `None` if an option for them is missing.
     pub(super) fn bodies_and_motions(&self) -> Option<(BodiesArgs, &Path)> {
         let bodies = BodiesArgs {

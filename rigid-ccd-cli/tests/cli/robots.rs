@@ -57,7 +57,11 @@ fn the_hand_meets_the_table_where_it_should() {
             .map(|row| row.text("status").to_owned())
             .collect::<Vec<_>>()
     };
-    assert_eq!(statuses(&free), statuses(&rows));
+    assert_eq!(statuses(&free), ["free", "contact", "contact", "contact"]);
+    assert_eq!(
+        statuses(&rows),
+        ["free", "overlapping", "contact", "contact"]
+    );
     let message = call(&scene, &EDGES).args(&["--check"]).run_for_messages(3);
     assert_contains(&message, "3 of 4 rows are not proven free or kept");
     let kept = call(&scene, &EDGES)
@@ -259,7 +263,7 @@ fn pairs_are_written_as_srdf() {
         "pairs.csv",
     ];
     let message = call(&scene, &args).run_for_messages(0);
-    assert_contains(&message, "6 pairs of links touch: 1 never");
+    assert_contains(&message, "6 pairs of links: 1 never touch");
     let srdf = fs::read_to_string(scene.directory.join("acm.srdf")).unwrap();
     assert_contains(
         &srdf,
@@ -304,4 +308,38 @@ fn a_page_shows_the_robot() {
     assert!(scene.directory.join("clearance.html").exists());
     let message = call(&scene, &["view", "arm.urdf", "--joint", "knee=1"]).run_for_messages(2);
     assert_contains(&message, "--joint knee");
+}
+
+#[test]
+fn a_mechanism_without_pairs_is_no_proof() {
+    let scene = folder();
+    let link = |name: &str| {
+        format!(
+            "<link name='{name}'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>"
+        )
+    };
+    let hinge = format!(
+        "<robot name='hinge'>{}{}<joint name='pivot' type='revolute'><origin xyz='0.15 0 0'/><parent link='frame'/>\
+         <child link='lever'/><axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint></robot>",
+        link("frame"),
+        link("lever")
+    );
+    scene.file("hinge.urdf", &hinge);
+    let args = ["clearance", "hinge.urdf", "--require", "0.3mm"];
+    let message = call(&scene, &args).run_for_messages(2);
+    assert_contains(&message, "no pair is checked");
+    assert_contains(&message, "frame and lever (adjacent)");
+    // Neighbours are checked if a file says so; here they overlap, over the whole range of the only joint.
+    let srdf = "<robot name='hinge'><enable_collisions link1='frame' link2='lever'/></robot>";
+    scene.file("hinge.srdf", srdf);
+    call(&scene, &args)
+        .args(&["--srdf", "hinge.srdf"])
+        .run_expecting_code(1);
+    scene.file(
+        "hinge.toml",
+        "[[clearance]]\nbetween = ['frame', 'lever']\ndistance = 0.01\n",
+    );
+    call(&scene, &args)
+        .args(&["--cell", "hinge.toml"])
+        .run_expecting_code(1);
 }

@@ -30,7 +30,8 @@ impl Cell {
         Ok(())
     }
 
-    /// Sets the distance at which a pair counts as touching, instead of the margin and the padding.
+    /// Sets the distance at which a pair counts as touching, instead of the margin and the padding. A pair of links that is not
+    /// checked, such as neighbours, is checked from then on.
     ///
     /// # Errors
     /// [`RobotError::NoSuchLink`], [`RobotError::NoSuchAttachedBody`] or [`RobotError::NoSuchObstacle`], [`RobotError::NeverCompared`], and
@@ -48,6 +49,14 @@ impl Cell {
         if a == b || matches!(pair, [Item::Obstacle(_), Item::Obstacle(_)]) {
             let [a, b] = [a, b].map(|item| item.name().to_owned());
             return Err(RobotError::NeverCompared { a, b });
+        }
+        if let [Item::Link(a), Item::Link(b)] = pair {
+            let [a, b] = [self.robot.link_number(a)?, self.robot.link_number(b)?];
+            if self.robot.are_rigidly_connected(a, b) {
+                let [a, b] = [a, b].map(|link| self.robot.links()[link].name.clone());
+                return Err(RobotError::NeverCompared { a, b });
+            }
+            self.pairs.include(a, b);
         }
         let [one, other] = pair.map(|item| self.bodies_of(item));
         for &a in &one {

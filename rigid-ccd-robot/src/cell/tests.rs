@@ -139,3 +139,30 @@ fn paddings_keep_obstacles_away_but_not_links() {
         .unwrap_err();
     assert_eq!(unknown.to_string(), "there is no link `wall`");
 }
+
+#[test]
+fn a_clearance_includes_a_pair_of_neighbours() {
+    let hinge = Joint {
+        name: "hinge".into(),
+        parent: "frame".into(),
+        child: "lever".into(),
+        axis_and_limits: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+        position_rule: PositionRule::Independent,
+    };
+    let ball = |x: f64| (Body::sphere(0.1).unwrap(), Pose::at([x, 0.0, 0.0]).unwrap());
+    let (stop, end) = (ball(-0.5), ball(0.5));
+    let links = vec![
+        Link::named("frame").with_body(stop.0, stop.1),
+        Link::named("lever").with_body(end.0, end.1),
+    ];
+    let robot = Robot::new(links, vec![hinge]).unwrap();
+    let pairs = LinkPairs::from_robot(&robot);
+    let mut cell = Cell::new(robot, pairs);
+    assert!(!cell.checks_any_pair());
+    assert!(cell.solver().is_free(&[[0.0], [3.1]]).unwrap());
+    let pair = [Item::Link("frame"), Item::Link("lever")];
+    cell.set_clearance(pair, 0.0).unwrap();
+    assert!(cell.checks_any_pair());
+    assert!(!cell.solver().is_free(&[[0.0], [3.1]]).unwrap());
+    assert!(cell.solver().is_free(&[[0.0], [1.5]]).unwrap());
+}

@@ -12,22 +12,26 @@ const SRDF: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
     <end_effector name="hand" parent_link="hand" group="hand"/>
     <virtual_joint name="world" type="fixed" parent_frame="world" child_link="base"/>
     <disable_collisions link1="upper" link2="hand"/>
+    <enable_collisions link1="base" link2="hand"/>
 </robot>"#;
 
 #[test]
 fn disabled_pairs_are_read_among_other_elements() {
-    let pairs = disabled_pairs(SRDF).unwrap();
-    let named = |pair: &DisabledPair| (pair.link1.clone(), pair.link2.clone(), pair.reason.clone());
+    let [pairs, enabled] = disabled_and_enabled_pairs(SRDF).unwrap();
+    let named = |pair: &SrdfPair| (pair.link1.clone(), pair.link2.clone(), pair.reason.clone());
     let expected = [("base", "upper", "Adjacent"), ("upper", "hand", "")];
     let expected = expected.map(|(one, other, why)| (one.into(), other.into(), why.into()));
     assert_eq!(pairs.iter().map(named).collect::<Vec<_>>(), expected);
+    let enabled: Vec<_> = enabled.iter().map(named).collect();
+    assert_eq!(enabled, [("base".into(), "hand".into(), String::new())]);
 }
 
 #[test]
 fn a_pair_without_a_link_is_an_error() {
-    let error = disabled_pairs(r#"<robot><disable_collisions link1="a"/></robot>"#).unwrap_err();
+    let error = disabled_and_enabled_pairs(r#"<robot><disable_collisions link1="a"/></robot>"#)
+        .unwrap_err();
     assert!(error.to_string().contains("link2"), "{error}");
-    assert!(disabled_pairs("<robot><disable_collisions").is_err());
+    assert!(disabled_and_enabled_pairs("<robot><disable_collisions").is_err());
 }
 
 /// Tests that what is written is read again, with names that XML has to escape.
@@ -59,7 +63,7 @@ fn proven_pairs_are_written_and_read() {
     ];
     let robot = Robot::new(links, joints).unwrap();
     let meetings = robot.classify_link_contacts(1000).unwrap();
-    let read = disabled_pairs(&robot.to_srdf("<box>", &meetings)).unwrap();
+    let [read, _] = disabled_and_enabled_pairs(&robot.to_srdf("<box>", &meetings)).unwrap();
     let pairs: Vec<[&str; 3]> = read
         .iter()
         .map(|pair| [&*pair.link1, &*pair.link2, &*pair.reason])

@@ -3,7 +3,7 @@
 use crate::named::{Named, named_value_parser};
 use crate::numbers::{parse_seconds, tolerance};
 use crate::resumable::RowRange;
-use crate::robots::joint_values::JointRange;
+use crate::robots::joint_values::{JointRange, length};
 use crate::robots::loading::CellArgs;
 use clap::Args;
 use rigid_ccd_robot::path_rows::PathQuestion;
@@ -16,6 +16,9 @@ use std::time::Duration;
 pub(crate) struct EdgesArgs {
     #[command(flatten)]
     pub(super) cell: CellArgs,
+    /// Distance that all pairs have to keep, such as 0.005 or 5mm
+    #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length)]
+    pub(super) clearance: f64,
     /// Table of edges or paths, CSV; - reads standard input
     #[arg(long, value_name = "CSV")]
     pub(super) edges: PathBuf,
@@ -26,7 +29,7 @@ pub(crate) struct EdgesArgs {
     #[arg(long, value_parser = named_value_parser(QUESTIONS), default_value = "is-free")]
     pub(super) ask: PathQuestion,
     /// Report a contact at a distance of at most clearance + tolerance, in metres
-    #[arg(long, value_name = "LENGTH", default_value_t = 1e-4, value_parser = tolerance, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_PATH_TOLERANCE, value_parser = tolerance, allow_hyphen_values = true)]
     pub(super) tolerance: f64,
     /// Leave a row unresolved after this time, in seconds [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_hyphen_values = true)]
@@ -58,6 +61,9 @@ pub(crate) struct EdgesArgs {
     #[arg(long, short)]
     pub(super) quiet: bool,
 }
+
+/// The default tolerance of questions about robots, in metres.
+pub(crate) const DEFAULT_PATH_TOLERANCE: f64 = 1e-4;
 
 /// The questions of `--ask`.
 const QUESTIONS: &Named<PathQuestion> = &[
@@ -119,6 +125,7 @@ Table of results:
   status    free            proven: all pairs that are checked stay farther apart than the clearance, between the
                             configurations too
             contact         a pair comes within clearance + tolerance
+            overlapping     a pair overlaps at the start (first-contact)
             measured        the least distance is between distance_lower and distance_upper
             kept, violated, unverified
                             the same, compared with --clearance
@@ -128,7 +135,8 @@ Table of results:
                             of it, or the time of column `t`. Of a first contact: proven, nothing touches before
   a, b                      links, held objects or obstacles; a is of the robot
   distance_lower, distance_upper
-                            bounds of the least distance of all pairs on the path
+                            bounds of the distance of a and b at `time`; of closest-approach: of the least distance of
+                            all pairs on the path
   witness_a_x ... witness_b_z
                             nearest points of both at `time`, in the frame of the base
   micros, reason            time of this row in microseconds; why it is unresolved or an error
