@@ -74,6 +74,11 @@ impl MeshArgs {
         }
     }
 
+    /// Returns whether no option is given.
+    pub(super) fn are_default(&self) -> bool {
+        self.adjustments() == Adjustments::NONE && self.pieces == PiecesArg::default()
+    }
+
     /// Returns the unit of length that `--unit` gives; `None` without this option.
     pub(super) fn unit(&self) -> Option<Unit> {
         self.unit

@@ -174,6 +174,11 @@ fn settings(args: &ViewArgs) -> Settings {
 }
 
 fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
+    if !args.meshes_are_default() {
+        bail!(
+            "the options of mesh files are for --a, --b and --scene; --geometry and --meshes say what a robot's links are"
+        );
+    }
     robot.refuse_overwriting(&[("--out", &args.out)])?;
     let asked = RobotPaths {
         table: args.path.as_deref(),

@@ -2,16 +2,15 @@
 
 mod report;
 
-use super::joint_values::{JointRange, length};
+use super::joint_values::{JointRange, length, tolerance_length};
 use super::loading::CellArgs;
 use super::page::RobotPainter;
 use super::robot_paths::RobotPaths;
 use crate::files::{input_name, refuse_overwriting_input};
 use crate::html::write_page;
-use crate::numbers::tolerance;
 use crate::output::{Output, OutputError};
 use crate::{RunOutcome, print_error};
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::Args;
 use report::Report;
 use rigid_ccd::Settings;
@@ -71,10 +70,6 @@ Examples:
   ccd clearance arm.urdf --joint elbow=-30deg:60deg --joint shoulder=20deg --cell cell.toml --require 5mm --json
   ccd clearance arm.urdf --path path.csv --pose-error 0.1mm --html clearance.html";
 
-fn tolerance_length(text: &str) -> Result<f64, String> {
-    tolerance(&length(text)?.to_string())
-}
-
 /// Runs `ccd clearance`.
 pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     if let Some(html) = &args.html {
@@ -93,10 +88,7 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     let paths = asked.read(&cell)?;
     let path = &paths[0];
     if paths.len() > 1 {
-        print_error(&format!(
-            "--path: only the first path, {}, is examined",
-            path.id
-        ));
+        bail!("--path: has several paths; give a table of one");
     }
     let settings = Settings {
         tolerance: args.tolerance,

@@ -23,8 +23,8 @@ use rigid_ccd::batch::{BatchSize, parallel_solver};
 use rigid_ccd::table::motions::RowError;
 use rigid_ccd::table::results::{Column, Line, ResultRow, Status, names};
 use rigid_ccd::{ParallelSolver, Settings};
-use rigid_ccd_robot::CellSolver;
 use rigid_ccd_robot::path_rows::PathQuestion;
+use rigid_ccd_robot::{Cell, CellSolver};
 use std::fs;
 use std::iter::once;
 use std::time::Instant;
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     let cell = args.cell.load(args.quiet)?;
     let (mut table, length) = PathTable::open(&args.edges, cell.robot(), &args.joint)
         .with_context(|| input_name(&args.edges))?;
-    let options = recorded_options(args, given)?;
+    let options = recorded_options(args, given, &cell)?;
     let (mut outputs, earlier) = match OpenedTables::new(&files, claimed, &options)? {
         OpenedTables::Unfinished(outputs, earlier) => (*outputs, earlier),
         OpenedTables::Finished(end) => {
@@ -186,8 +186,8 @@ fn answer(args: &EdgesArgs, solver: &mut CellSolver<'_>, path: &TablePath) -> Re
 }
 
 /// Returns the version, the options and the checksums of the files that determine the table. The checksum of the edges is in each
-/// checkpoint; those of meshes are not recorded.
-fn recorded_options(args: &EdgesArgs, given: &ArgMatches) -> Result<String> {
+/// checkpoint.
+fn recorded_options(args: &EdgesArgs, given: &ArgMatches, cell: &Cell) -> Result<String> {
     let version = ("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
     let options = option_values::<EdgesArgs>(given, &UNRECORDED_OPTIONS);
     let rows = ("--rows".to_owned(), args.rows.to_string());
@@ -197,9 +197,29 @@ fn recorded_options(args: &EdgesArgs, given: &ArgMatches) -> Result<String> {
         let checksum = format!("{:08x}", crc32fast::hash(&bytes));
         checksums.push((format!("{FILE_CHECKSUM_PREFIX}{option}"), checksum));
     }
+    let meshes = format!("{:08x}", checksum_of_bodies(cell)?);
+    checksums.push((format!("{FILE_CHECKSUM_PREFIX}meshes"), meshes));
     Ok(options_text(
         once(version).chain(options).chain([rows]).chain(checksums),
     ))
+}
+
+/// Returns the checksum of the pieces of all bodies, whichever files they come from.
+fn checksum_of_bodies(cell: &Cell) -> Result<u32> {
+    let limits = cell.robot().limits();
+    let at_rest: Vec<f64> = limits.map(|[low, high]| 0f64.clamp(low, high)).collect();
+    let mut sum = crc32fast::Hasher::new();
+    for (_, body, _) in cell.placed_bodies(&at_rest)? {
+        for piece in body.pieces().iter() {
+            sum.update(&piece.radius.to_le_bytes());
+            for point in piece.points {
+                for coordinate in point.to_array() {
+                    sum.update(&coordinate.to_le_bytes());
+                }
+            }
+        }
+    }
+    Ok(sum.finalize())
 }
 
 fn print_summary(end: Checkpoint, times: &TimeHistogram) {
@@ -232,6 +252,10 @@ fn report_outcome(args: &EdgesArgs, end: Checkpoint) -> RunOutcome {
         print_error(&format!(
             "--check: {failed} of {rows} rows are not proven free or kept"
         ));
+    }
+    if args.check && end.counts.row_count() == 0 {
+        print_error("--check: no row is answered");
+        return RunOutcome::SomeRowsBad;
     }
     match (end.bad_rows, failed) {
         (0, 1..) if args.check => RunOutcome::SomeRowsUnproven,

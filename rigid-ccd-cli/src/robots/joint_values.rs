@@ -1,6 +1,9 @@
 //! Positions of joints on the command line: `knee=-90deg:40deg` for a range, `hip=0.3` for one position.
 
-use crate::numbers::parse_finite;
+use crate::numbers::{parse_finite, tolerance};
+use anyhow::{Result, bail};
+use rigid_ccd::trajectory::JointKind;
+use rigid_ccd_robot::Robot;
 use std::str::FromStr;
 
 /// The positions between which a joint moves; both are the same for a joint at rest.
@@ -9,6 +12,15 @@ pub(crate) struct JointRange {
     pub(crate) joint: String,
     pub(crate) from: f64,
     pub(crate) to: f64,
+    /// The quantity of the unit that the positions are given in, if they say one.
+    quantity: Option<Quantity>,
+}
+
+/// What a unit measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Quantity {
+    Angle,
+    Length,
 }
 
 impl JointRange {
@@ -20,45 +32,83 @@ impl JointRange {
 impl FromStr for JointRange {
     type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
         let (joint, positions) = text.split_once('=').ok_or(
             "give a joint with a position or a range, such as hip=0.3 or knee=-90deg:40deg",
         )?;
-        let (from, to) = match positions.split_once(':') {
-            Some((from, to)) => (position(from)?, position(to)?),
-            None => (position(positions)?, position(positions)?),
-        };
-        let joint = joint.to_owned();
-        Ok(JointRange { joint, from, to })
+        let (from, to) = positions.split_once(':').unwrap_or((positions, positions));
+        let (from, of_from) = position(from)?;
+        let (to, of_to) = position(to)?;
+        if let (Some(one), Some(other)) = (of_from, of_to)
+            && one != other
+        {
+            return Err(format!("`{positions}` has an angle and a length"));
+        }
+        let (joint, quantity) = (joint.to_owned(), of_from.or(of_to));
+        Ok(JointRange {
+            joint,
+            from,
+            to,
+            quantity,
+        })
     }
 }
 
+/// Refuses names that no joint with a position of its own has, names that occur twice, and units that do not fit a joint.
+pub(crate) fn check_joints(robot: &Robot, given: &[JointRange]) -> Result<()> {
+    let names: Vec<&str> = robot.free_joint_names().collect();
+    for (k, range) in given.iter().enumerate() {
+        let name = &range.joint;
+        if given[..k].iter().any(|other| other.joint == *name) {
+            bail!("--joint {name}: is given twice");
+        }
+        let joint = robot.joints().iter().find(|joint| joint.name == *name);
+        let Some(joint) = joint.filter(|_| names.contains(&name.as_str())) else {
+            let names = names.join(", ");
+            bail!(
+                "--joint {name}: no joint has this name and a position of its own; there are {names}"
+            );
+        };
+        let turns = matches!(joint.axis_and_limits.kind(), JointKind::Revolute(_));
+        match range.quantity {
+            Some(Quantity::Length) if turns => {
+                bail!("--joint {name}: turns; give an angle, such as 0.3 or 20deg")
+            }
+            Some(Quantity::Angle) if !turns => {
+                bail!("--joint {name}: slides; give a length, such as 0.3 or 20mm")
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+const ANGLES: &[(&str, f64)] = &[("deg", 180.0 / std::f64::consts::PI), ("rad", 1.0)];
+const LENGTHS: &[(&str, f64)] = &[("mm", 1000.0), ("cm", 100.0), ("um", 1e6), ("m", 1.0)];
+
 /// Parses the position of a joint: radians or the robot's unit of length, unless it says `deg`, `mm` or another unit.
-fn position(text: &str) -> Result<f64, String> {
-    with_unit(
-        text,
-        &[
-            ("deg", 180.0 / std::f64::consts::PI),
-            ("rad", 1.0),
-            ("mm", 1000.0),
-            ("cm", 100.0),
-            ("m", 1.0),
-        ],
-    )
-    .ok_or_else(|| format!("`{text}` is no position, such as 0.3, 40deg or 12mm"))
+fn position(text: &str) -> std::result::Result<(f64, Option<Quantity>), String> {
+    let plain = || Some((parse_finite(text.trim())?, None));
+    let angle = || Some((with_unit(text, ANGLES)?, Some(Quantity::Angle)));
+    let length = || Some((with_unit(text, LENGTHS)?, Some(Quantity::Length)));
+    let found = plain().or_else(angle).or_else(length);
+    found.ok_or_else(|| format!("`{text}` is no position, such as 0.3, 40deg or 12mm"))
 }
 
 /// Parses a length in metres, the unit of robots, or in another unit, such as `0.3mm`.
-pub(crate) fn length(text: &str) -> Result<f64, String> {
-    with_unit(
-        text,
-        &[("mm", 1000.0), ("cm", 100.0), ("um", 1e6), ("m", 1.0)],
-    )
-    .filter(|&length| length >= 0.0)
-    .ok_or_else(|| format!("`{text}` is no length of at least 0, such as 0.005 or 0.3mm"))
+pub(crate) fn length(text: &str) -> std::result::Result<f64, String> {
+    parse_finite(text.trim())
+        .or_else(|| with_unit(text, LENGTHS))
+        .filter(|&length| length >= 0.0)
+        .ok_or_else(|| format!("`{text}` is no length of at least 0, such as 0.005 or 0.3mm"))
 }
 
-/// Parses a number with one of the units, which are given with how many of them make 1; or without a unit.
+/// Parses the value of `--tolerance`, a length in the range of the library.
+pub(super) fn tolerance_length(text: &str) -> std::result::Result<f64, String> {
+    tolerance(&length(text)?.to_string())
+}
+
+/// Parses a number with one of the units, which are given with how many of them make 1.
 ///
 /// The number is divided, because the factors are whole numbers where that is possible: `0.3mm` is the number next to 0.0003.
 fn with_unit(text: &str, units: &[(&str, f64)]) -> Option<f64> {
@@ -66,7 +116,7 @@ fn with_unit(text: &str, units: &[(&str, f64)]) -> Option<f64> {
     let found = units
         .iter()
         .find_map(|&(unit, per_one)| Some((text.strip_suffix(unit)?, per_one)));
-    let (digits, per_one) = found.unwrap_or((text, 1.0));
+    let (digits, per_one) = found?;
     Some(parse_finite(digits.trim())? / per_one)
 }
 

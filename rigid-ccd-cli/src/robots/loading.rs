@@ -97,7 +97,7 @@ impl RobotArgs {
     pub(crate) fn load(&self, quiet: bool) -> Result<Robot> {
         let progress = Progress::start_single_step("reading the robot's meshes", quiet);
         let name = || self.path().display().to_string();
-        let robot = self.urdf().read().with_context(name)?;
+        let robot = self.urdf().read()?;
         drop(progress);
         if !quiet {
             let joints: Vec<&str> = robot.free_joint_names().collect();
@@ -154,7 +154,7 @@ impl CellArgs {
         }
         if !cell.checks_any_pair() {
             bail!(
-                "no pair is checked: there is no obstacle, and no two links are checked{}",
+                "no pair is checked: there is no obstacle, and no two links are checked{}; --geometry visual takes the other elements of the URDF",
                 skipped_text(&cell)
             );
         }

@@ -1,6 +1,6 @@
 //! Reads a table of edges or paths of a robot: CSV with columns named like its joints.
 
-use super::joint_values::JointRange;
+use super::joint_values::{JointRange, check_joints};
 use crate::files::{Source, open_table};
 use crate::resumable::RowSource;
 use anyhow::{Result, bail};
@@ -159,6 +159,16 @@ impl RowSource for PathTable {
 
 impl PathColumns {
     fn new(header: Vec<String>, robot: &Robot, at_rest: &[JointRange]) -> Result<Self> {
+        check_joints(robot, at_rest)?;
+        if let [only] = &header[..] {
+            if only.is_empty() {
+                return Err(TableError::Empty.into());
+            }
+            if let Some(found) = [';', '\t'].into_iter().find(|mark| only.contains(*mark)) {
+                let header = only.clone();
+                return Err(TableError::WrongSeparator { found, header }.into());
+            }
+        }
         for (k, column) in header.iter().enumerate() {
             if header[..k].contains(column) {
                 let column = column.clone();
@@ -207,16 +217,6 @@ impl PathColumns {
             .iter()
             .map(|prefix| positions(prefix))
             .collect::<Result<Vec<_>>>()?;
-        if let Some(unknown) = at_rest
-            .iter()
-            .find(|range| !joints.contains(&range.joint.as_str()))
-        {
-            bail!(
-                "--joint {}: there is no such joint with a position of its own; there are {}",
-                unknown.joint,
-                joints.join(", ")
-            );
-        }
         if !missing.is_empty() {
             bail!(
                 "header: no column {}; a table of edges has from_JOINT and to_JOINT, one of paths a column for each joint, and \

@@ -1,6 +1,6 @@
 //! The paths that `ccd view` and `ccd clearance` show: those of a table, or joints that move over ranges.
 
-use super::joint_values::JointRange;
+use super::joint_values::{JointRange, check_joints};
 use super::path_table::{PathTable, TablePath};
 use crate::files::input_name;
 use anyhow::{Context, Result, bail};
@@ -61,23 +61,17 @@ impl RobotPaths<'_> {
 /// # Errors
 /// A name that no joint with a position of its own has, or that is given twice.
 fn configurations(robot: &Robot, given: &[JointRange]) -> Result<[Vec<f64>; 2]> {
+    check_joints(robot, given)?;
     let names: Vec<&str> = robot.free_joint_names().collect();
     let at_rest = robot.limits().map(|[low, high]| 0f64.clamp(low, high));
     let from: Vec<f64> = at_rest.collect();
     let mut path = [from.clone(), from];
-    for (k, range) in given.iter().enumerate() {
-        if given[..k].iter().any(|other| other.joint == range.joint) {
-            bail!("--joint {}: is given twice", range.joint);
+    for range in given {
+        let number = names.iter().position(|name| *name == range.joint);
+        if let Some(number) = number {
+            path[0][number] = range.from;
+            path[1][number] = range.to;
         }
-        let Some(number) = names.iter().position(|name| *name == range.joint) else {
-            bail!(
-                "--joint {}: no joint has this name and a position of its own; there are {}",
-                range.joint,
-                names.join(", ")
-            );
-        };
-        path[0][number] = range.from;
-        path[1][number] = range.to;
     }
     Ok(path)
 }

@@ -65,13 +65,13 @@ pub(crate) struct ViewArgs {
     #[arg(long, value_name = "CSV", conflicts_with_all = ["motions", "a", "b", "urdf"])]
     pub(super) scene: Option<PathBuf>,
     /// Time at which the motions of --scene end [default: 1]
-    #[arg(long, value_name = "TIME", value_parser = parse_nonnegative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = parse_nonnegative, allow_hyphen_values = true, conflicts_with = "urdf")]
     duration: Option<f64>,
     /// Report a contact at a distance of at most margin + tolerance [default: 0.001; of a robot 0.0001]
     #[arg(long, value_name = "LENGTH", value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// Distance to keep between the bodies
-    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = parse_nonnegative, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = parse_nonnegative, allow_hyphen_values = true, conflicts_with = "urdf")]
     pub(super) margin: f64,
     /// Write the page to this file, HTML
     #[arg(long, value_name = "HTML", default_value = "view.html")]
@@ -82,6 +82,11 @@ pub(crate) struct ViewArgs {
 }
 
 impl ViewArgs {
+    /// Returns whether no option for reading mesh files is given.
+    pub(super) fn meshes_are_default(&self) -> bool {
+        self.meshes.are_default()
+    }
+
     /// Returns the tolerance, which is by default that of `ccd query` or of `ccd edges`.
     pub(super) fn tolerance(&self) -> f64 {
         let default = if self.cell.robot.is_given() {

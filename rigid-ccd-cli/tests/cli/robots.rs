@@ -343,3 +343,60 @@ fn a_mechanism_without_pairs_is_no_proof() {
         .args(&["--cell", "hinge.toml"])
         .run_expecting_code(1);
 }
+
+#[test]
+fn a_changed_mesh_is_not_resumed() {
+    let scene = folder();
+    let mesh = |size: f64| {
+        format!(
+            "v 0 0 0\nv {size} 0 0\nv 0 {size} 0\nv 0 0 {size}\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
+        )
+    };
+    scene.file("hand.obj", &mesh(0.1));
+    let text = fs::read_to_string(scene.directory.join("arm.urdf")).unwrap();
+    scene.file(
+        "arm.urdf",
+        &text.replace("<sphere radius=\"0.06\"/>", "<mesh filename='hand.obj'/>"),
+    );
+    let args = ["--out", "results.csv"];
+    call(&scene, &EDGES).args(&args).run_expecting_code(0);
+    scene.file("hand.obj", &mesh(0.2));
+    let message = call(&scene, &EDGES)
+        .args(&args)
+        .args(&["--resume"])
+        .run_for_messages(2);
+    assert_contains(&message, "the file of meshes has changed since");
+}
+
+#[test]
+fn options_that_do_not_apply_to_a_robot_are_refused() {
+    let scene = folder();
+    let view = ["view", "arm.urdf", "--path", "moves.csv"];
+    for options in [
+        ["--margin", "0.5"],
+        ["--unit", "mm"],
+        ["--duration", "9"],
+        ["--results", "moves.csv"],
+        ["--pieces", "hull"],
+    ] {
+        call(&scene, &view).args(&options).run_expecting_code(2);
+    }
+    for joint in ["elbow=5mm", "knee=1"] {
+        let message =
+            call(&scene, &["clearance", "arm.urdf", "--joint", joint]).run_for_messages(2);
+        assert_contains(&message, "--joint");
+    }
+    let twice = ["--joint", "elbow=0", "--joint", "elbow=1"];
+    let call_twice = call(&scene, &["edges", "arm.urdf", "--edges", "-"]).args(&twice);
+    assert_contains(
+        &call_twice.stdin("shoulder\n0\n").run_for_messages(2),
+        "given twice",
+    );
+    let several = call(&scene, &["clearance", "arm.urdf", "--path", "moves.csv"]);
+    assert_contains(&several.run_for_messages(2), "several paths");
+    scene.file("moves.csv", "shoulder,elbow\n");
+    assert_contains(
+        &call(&scene, &EDGES).args(&["--check"]).run_for_messages(2),
+        "no row",
+    );
+}

@@ -58,6 +58,16 @@ impl Cell {
             }
             self.pairs.include(a, b);
         }
+        if let ([Item::Link(link), Item::Obstacle(_)] | [Item::Obstacle(_), Item::Link(link)], base) =
+            (pair, self.robot.base())
+            && self
+                .robot
+                .are_rigidly_connected(self.robot.link_number(link)?, base)
+        {
+            // Neither moves.
+            let [a, b] = pair.map(|item| item.name().to_owned());
+            return Err(RobotError::NeverCompared { a, b });
+        }
         let [one, other] = pair.map(|item| self.bodies_of(item));
         for &a in &one {
             for &b in &other {

@@ -1,9 +1,9 @@
 //! The options of `ccd edges`.
 
 use crate::named::{Named, named_value_parser};
-use crate::numbers::{parse_seconds, tolerance};
+use crate::numbers::parse_seconds;
 use crate::resumable::RowRange;
-use crate::robots::joint_values::{JointRange, length};
+use crate::robots::joint_values::{JointRange, length, tolerance_length};
 use crate::robots::loading::CellArgs;
 use clap::Args;
 use rigid_ccd_robot::path_rows::PathQuestion;
@@ -17,7 +17,7 @@ pub(crate) struct EdgesArgs {
     #[command(flatten)]
     pub(super) cell: CellArgs,
     /// Distance that all pairs have to keep, such as 0.005 or 5mm
-    #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length, allow_hyphen_values = true)]
     pub(super) clearance: f64,
     /// Table of edges or paths, CSV; - reads standard input
     #[arg(long, value_name = "CSV")]
@@ -29,7 +29,7 @@ pub(crate) struct EdgesArgs {
     #[arg(long, value_parser = named_value_parser(QUESTIONS), default_value = "is-free")]
     pub(super) ask: PathQuestion,
     /// Report a contact at a distance of at most clearance + tolerance, in metres
-    #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_PATH_TOLERANCE, value_parser = tolerance, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_PATH_TOLERANCE, value_parser = tolerance_length, allow_hyphen_values = true)]
     pub(super) tolerance: f64,
     /// Leave a row unresolved after this time, in seconds [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_hyphen_values = true)]
@@ -128,7 +128,7 @@ Table of results:
             overlapping     a pair overlaps at the start (first-contact)
             measured        the least distance is between distance_lower and distance_upper
             kept, violated, unverified
-                            the same, compared with --clearance
+                            the same, compared with --clearance; paddings and clearances of the cell do not count
             unresolved      a limit was reached; free until `time`
             error           the row is no valid question; see `reason`
   time                      where the pair is: of an edge from 0 to 1, of a path the number of the segment and the share

@@ -105,7 +105,7 @@ fn tables_that_do_not_fit_the_robot_are_refused() {
         (
             "hip,rail\n0,0\n",
             vec!["leg=1"],
-            "--joint leg: there is no such joint",
+            "--joint leg: no joint has this name",
         ),
         (
             "from_hip,rail\n0,0\n",
