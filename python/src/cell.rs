@@ -3,23 +3,25 @@
 use crate::body::{PyBody, extract_body};
 use crate::cell_contents::{CellContents, PickledContents};
 use crate::cell_solver::{CellWithCachedSolver, answer_paths};
-use crate::errors::{Unresolved, input_error, input_error_from, unresolved_error, with_attribute};
+use crate::errors::{Unresolved, input_error, input_error_from, with_attribute};
 use crate::interruptible::run_interruptibly;
 use crate::motion::{GivenPose, read_given_pose};
+use crate::path_answers::{
+    allowed_setting_names, contact_object, ended_by_deadline, path_error, question_named,
+};
 use crate::path_array::PathArray;
 use crate::robot::PyRobot;
 use crate::settings::{
-    APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES, DISTANCE_QUERY_SETTING_NAMES, read,
-    read_thread_count,
+    CONTACT_SETTING_NAMES, DISTANCE_QUERY_SETTING_NAMES, read, read_thread_count,
 };
 use crate::table::{PyTable, path_batch};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
-use rigid_ccd::answer::{ClearanceVerdict, Limit};
+use rigid_ccd::Settings;
+use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd::table::results::Status;
-use rigid_ccd::{Error, Settings};
 use rigid_ccd_robot::path_rows::{PathAnswer, PathQuestion};
-use rigid_ccd_robot::{Cell, PathError, PathPoint, RangeSettings, RobotError};
+use rigid_ccd_robot::{Cell, PathPoint, RangeSettings, RobotError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -403,51 +405,6 @@ impl PyCell {
     }
 }
 
-/// Returns whether a deadline ended a question.
-fn ended_by_deadline(found: &Result<PathAnswer, PathError>) -> bool {
-    let limit = match found {
-        Ok(answer) => answer.limit,
-        Err(PathError::Query(Error::Unresolved(known))) => Some(known.limit),
-        Err(_) => None,
-    };
-    limit == Some(Limit::Deadline)
-}
-
-fn question_named(name: &str) -> PyResult<PathQuestion> {
-    let found = PathQuestion::ALL
-        .into_iter()
-        .find(|question| question.name() == name);
-    found.ok_or_else(|| {
-        input_error(format!(
-            "ask: '{name}' is not is-free, first-contact or closest-approach"
-        ))
-    })
-}
-
-fn allowed_setting_names(question: PathQuestion) -> &'static [&'static str] {
-    match question {
-        PathQuestion::IsFree | PathQuestion::FirstContact => CONTACT_SETTING_NAMES,
-        PathQuestion::ClosestApproach => APPROACH_SETTING_NAMES,
-    }
-}
-
-/// Returns the pair of an answer as an object of Python; `None` without one.
-fn contact_object<'py>(
-    py: Python<'py>,
-    answer: &PathAnswer,
-) -> PyResult<Option<Bound<'py, PyAny>>> {
-    let row = &answer.row;
-    let point = |[x, y, z]: [Option<f64>; 3]| Some((x?, y?, z?));
-    let witnesses = (point(row.witness_a), point(row.witness_b));
-    let (Some(at), (Some(witness_a), Some(witness_b))) = (answer.at, witnesses) else {
-        return Ok(None);
-    };
-    let class = py.import("rigid_ccd")?.getattr("PathContact")?;
-    let (a, b) = (&row.item_a, &row.item_b);
-    let values = (at.segment, at.share, a, b, witness_a, witness_b);
-    class.call1(values).map(Some)
-}
-
 fn given_pose_or_identity(given: Option<&Bound<'_, PyAny>>) -> PyResult<GivenPose> {
     given.map_or(Ok(GivenPose::IDENTITY), |pose| {
         read_given_pose(pose, "pose")
@@ -457,12 +414,4 @@ fn given_pose_or_identity(given: Option<&Bound<'_, PyAny>>) -> PyResult<GivenPos
 fn read_body(given: &Bound<'_, PyAny>) -> PyResult<Py<PyBody>> {
     extract_body(given, "body")?;
     Ok(given.clone().cast_into::<PyBody>()?.unbind())
-}
-
-/// Converts an error about a path to a Python exception.
-fn path_error(py: Python<'_>, error: PathError) -> PyErr {
-    match error {
-        PathError::Query(Error::Unresolved(known)) => unresolved_error(py, &known),
-        error => input_error(error),
-    }
 }

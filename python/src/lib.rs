@@ -13,6 +13,7 @@ mod link_motion;
 mod motion;
 mod movement;
 mod path;
+mod path_answers;
 mod path_array;
 mod pickle;
 mod queries;

@@ -152,15 +152,16 @@ impl CellArgs {
                 ));
             }
         }
+        let skipped = pairs_not_checked(&cell);
         if !cell.checks_any_pair() {
             bail!(
-                "no pair is checked: there is no obstacle, and no two links are checked{}; --geometry visual takes the other elements of the URDF",
-                skipped_text(&cell)
+                "no pair is checked: there is no obstacle, and no two links are checked; --geometry visual takes the other \
+                 elements of the URDF{}",
+                skipped.map_or(String::new(), |pairs| format!("; {pairs}"))
             );
         }
-        let skipped = skipped_text(&cell);
-        if !quiet && !skipped.is_empty() {
-            print_escaped_to_stderr(&skipped[2..]);
+        if let (Some(pairs), false) = (skipped, quiet) {
+            print_escaped_to_stderr(&pairs);
         }
         Ok(cell)
     }
@@ -182,23 +183,19 @@ impl CellArgs {
     }
 }
 
-/// Says which pairs of links with bodies are not checked although they move against each other, and how to check them.
-fn skipped_text(cell: &Cell) -> String {
-    let links = cell.robot().links();
-    let moving = cell
-        .link_pairs()
-        .skipped_pairs()
-        .filter(|(_, reason)| **reason != SkipReason::NoMotion);
+/// Says which pairs of links with bodies are not checked although they move against each other, and how to check them; `None`
+/// if all are.
+fn pairs_not_checked(cell: &Cell) -> Option<String> {
+    let name = |link: usize| &cell.robot().links()[link].name;
+    let skipped = cell.link_pairs().skipped_pairs();
+    let moving = skipped.filter(|(_, reason)| **reason != SkipReason::NoMotion);
     let pairs: Vec<String> = moving
-        .map(|([one, other], reason)| {
-            format!("{} and {} ({reason})", links[one].name, links[other].name)
-        })
+        .map(|([one, other], reason)| format!("{} and {} ({reason})", name(one), name(other)))
         .collect();
-    if pairs.is_empty() {
-        return String::new();
-    }
-    format!(
-        "; not checked: {}; a [[clearance]] between two links in the --cell, or enable_collisions in the --srdf, checks them",
-        pairs.join(", ")
-    )
+    (!pairs.is_empty()).then(|| {
+        format!(
+            "not checked: {}; a [[clearance]] between two links in the --cell, or enable_collisions in the --srdf, checks them",
+            pairs.join(", ")
+        )
+    })
 }

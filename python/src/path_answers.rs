@@ -1,0 +1,64 @@
+//! Questions about paths by their names, and their answers as objects of Python.
+
+use crate::errors::{input_error, unresolved_error};
+use crate::settings::{APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES};
+use pyo3::prelude::*;
+use rigid_ccd::Error;
+use rigid_ccd::answer::Limit;
+use rigid_ccd_robot::PathError;
+use rigid_ccd_robot::path_rows::{PathAnswer, PathQuestion};
+
+/// Returns the question that has a name.
+pub(crate) fn question_named(name: &str) -> PyResult<PathQuestion> {
+    let found = PathQuestion::ALL
+        .into_iter()
+        .find(|question| question.name() == name);
+    found.ok_or_else(|| {
+        input_error(format!(
+            "ask: '{name}' is not is-free, first-contact or closest-approach"
+        ))
+    })
+}
+
+/// Returns the names of the settings of a question about many paths.
+pub(crate) fn allowed_setting_names(question: PathQuestion) -> &'static [&'static str] {
+    match question {
+        PathQuestion::IsFree | PathQuestion::FirstContact => CONTACT_SETTING_NAMES,
+        PathQuestion::ClosestApproach => APPROACH_SETTING_NAMES,
+    }
+}
+
+/// Returns the pair of an answer as an object of Python; `None` without one.
+pub(crate) fn contact_object<'py>(
+    py: Python<'py>,
+    answer: &PathAnswer,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let row = &answer.row;
+    let point = |[x, y, z]: [Option<f64>; 3]| Some((x?, y?, z?));
+    let witnesses = (point(row.witness_a), point(row.witness_b));
+    let (Some(at), (Some(witness_a), Some(witness_b))) = (answer.at, witnesses) else {
+        return Ok(None);
+    };
+    let class = py.import("rigid_ccd")?.getattr("PathContact")?;
+    let (a, b) = (&row.item_a, &row.item_b);
+    let values = (at.segment, at.share, a, b, witness_a, witness_b);
+    class.call1(values).map(Some)
+}
+
+/// Returns whether a deadline ended a question.
+pub(crate) fn ended_by_deadline(found: &Result<PathAnswer, PathError>) -> bool {
+    let limit = match found {
+        Ok(answer) => answer.limit,
+        Err(PathError::Query(Error::Unresolved(known))) => Some(known.limit),
+        Err(_) => None,
+    };
+    limit == Some(Limit::Deadline)
+}
+
+/// Converts an error about a path to a Python exception.
+pub(crate) fn path_error(py: Python<'_>, error: PathError) -> PyErr {
+    match error {
+        PathError::Query(Error::Unresolved(known)) => unresolved_error(py, &known),
+        error => input_error(error),
+    }
+}
