@@ -284,6 +284,7 @@ impl PyCell {
     ) -> PyResult<PyTable> {
         let ask = question_named(ask)?;
         let settings = read(settings, allowed_setting_names(ask))?;
+        settings.check().map_err(input_error)?;
         let clearance = settings.clearance;
         let threads = read_thread_count(threads)?;
         let cell = self.cell_with_solver.cell();

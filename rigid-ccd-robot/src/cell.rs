@@ -311,6 +311,19 @@ impl Cell {
         })
     }
 
+    /// Returns whether two bodies are compared with each other: two of the robot's that are checked, or one that moves and an
+    /// obstacle.
+    fn is_compared(&self, a: usize, b: usize) -> bool {
+        let count = self.robot_body_count();
+        let moves = |body: usize| self.kinematics.link_frame_and_pose(self.link_of(body)).0 > 0;
+        match (a < count, b < count) {
+            (true, true) => self.is_checked(a, b),
+            (true, false) => moves(a),
+            (false, true) => moves(b),
+            (false, false) => false,
+        }
+    }
+
     /// Returns whether two of the robot's bodies are checked against each other.
     fn is_checked(&self, a: usize, b: usize) -> bool {
         let [a, b] = [

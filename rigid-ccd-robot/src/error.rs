@@ -75,6 +75,16 @@ pub enum RobotError {
         /// The name of the second base.
         second_base: String,
     },
+    /// The lower limit of a joint is above the upper one, or one of them is not a number.
+    #[error("joint `{joint}`: its limits are {low} and {high}; give the lower one first")]
+    InvalidLimits {
+        /// The name of the joint.
+        joint: String,
+        /// The lower limit.
+        low: f64,
+        /// The upper limit.
+        high: f64,
+    },
     /// A joint is [reversed](rigid_ccd::trajectory::Joint::reversed).
     #[error("joint `{joint}` is reversed; exchange its parent and its child instead")]
     ReversedJoint {

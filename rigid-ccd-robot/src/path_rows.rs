@@ -3,7 +3,7 @@
 use crate::error::PathError;
 use crate::solver::{CellSolver, PathContact, PathOutcome, PathPoint};
 use rigid_ccd::Error;
-use rigid_ccd::answer::Limit;
+use rigid_ccd::answer::{ClearanceVerdict, Limit};
 use rigid_ccd::batch::Question;
 use rigid_ccd::table::results::{COLUMNS, Column, ITEM_COLUMNS, ResultRow, Status};
 
@@ -52,15 +52,16 @@ impl PathQuestion {
     pub fn columns(self) -> Vec<Column> {
         let is_in_table = |name: &str| match name {
             "id" | "status" | "micros" | "reason" => true,
-            "time" | "witness_a_x" | "witness_a_y" | "witness_a_z" | "witness_b_x"
-            | "witness_b_y" | "witness_b_z" => self != PathQuestion::IsFree,
-            "distance_lower" | "distance_upper" => self != PathQuestion::IsFree,
+            "time" | "distance_lower" | "distance_upper" => self != PathQuestion::IsFree,
+            _ if name.starts_with("witness_") => self != PathQuestion::IsFree,
             _ => false,
         };
         let mut columns = COLUMNS.to_vec();
         columns.retain(|Column(name, _)| is_in_table(name));
         if self != PathQuestion::IsFree {
-            columns.splice(3..3, ITEM_COLUMNS);
+            let after_time = columns.iter().position(|Column(name, _)| *name == "time");
+            let after_time = after_time.map_or(0, |time| time + 1);
+            columns.splice(after_time..after_time, ITEM_COLUMNS);
         }
         columns
     }
@@ -163,11 +164,12 @@ impl PathAnswer {
         clearance: Option<f64>,
     ) -> Result<Self, PathError> {
         let found = solver.closest_approach(path)?;
-        let status = match (clearance, found.limit) {
-            (Some(clearance), _) if found.lower >= clearance => Status::Kept,
-            (Some(clearance), _) if found.upper < clearance => Status::Violated,
+        let verdict = clearance.map(|clearance| found.clearance_verdict(clearance));
+        let status = match (verdict, found.limit) {
+            (Some(ClearanceVerdict::Kept), _) => Status::Kept,
+            (Some(ClearanceVerdict::Violated), _) => Status::Violated,
             (_, Some(_)) => Status::Unresolved,
-            (Some(_), None) => Status::Unverified,
+            (Some(ClearanceVerdict::Unverified), None) => Status::Unverified,
             (None, None) => Status::Measured,
         };
         let mut answer = PathAnswer::from_status(status);

@@ -157,6 +157,13 @@ impl Robot {
                 let joint = joint.name.clone();
                 return Err(RobotError::ReversedJoint { joint });
             }
+            let limits = joint.axis_and_limits.limits();
+            let (low, high) = (*limits.start(), *limits.end());
+            // Written so that NaN is refused.
+            if !(low <= high) {
+                let joint = joint.name.clone();
+                return Err(RobotError::InvalidLimits { joint, low, high });
+            }
             if joint.position_rule != PositionRule::Independent {
                 joint.axis_and_limits = joint
                     .axis_and_limits
@@ -204,6 +211,13 @@ impl Robot {
             let limits = self.joints[joint].axis_and_limits.limits();
             [*limits.start(), *limits.end()]
         })
+    }
+
+    /// Returns the configuration in which each joint is at 0 or, if that is outside of its limits, at the limit nearest to 0.
+    pub fn configuration_nearest_zero(&self) -> Vec<f64> {
+        let limits = self.limits();
+        // The lower limit is not above the upper one.
+        limits.map(|[low, high]| 0f64.clamp(low, high)).collect()
     }
 
     /// Returns the number of the base, which is the link that no joint moves.

@@ -25,7 +25,7 @@ pub use stretch::PathPoint;
 use crate::cell::{Cell, Item};
 use crate::error::PathError;
 use part_pairs::PartPair;
-use rigid_ccd::answer::{HitKind, Limit, Unresolved};
+use rigid_ccd::answer::{ClearanceVerdict, HitKind, Limit, Unresolved};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Error, Hit, Outcome, Settings, Solver};
 use search::Search;
@@ -83,6 +83,21 @@ pub struct ClosestApproach<'c> {
     pub nearest: Option<PathContact<'c>>,
     /// The limit that ended the search; `None` if the bounds differ by the tolerance.
     pub limit: Option<Limit>,
+}
+
+impl ClosestApproach<'_> {
+    /// Returns whether all pairs stay at least the required distance apart, as far as the bounds tell.
+    ///
+    /// Pairs that may touch keep no clearance, not even a clearance of 0.
+    pub fn clearance_verdict(&self, required: f64) -> ClearanceVerdict {
+        if self.lower >= required && self.lower > 0.0 {
+            ClearanceVerdict::Kept
+        } else if self.upper < required || self.upper <= 0.0 {
+            ClearanceVerdict::Violated
+        } else {
+            ClearanceVerdict::Unverified
+        }
+    }
 }
 
 /// A question about a path.

@@ -1,5 +1,6 @@
 """A picklable question about a robot's edges, for distributed engines."""
 
+import copy
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Literal, TypeAlias
 
@@ -40,9 +41,7 @@ class EdgesQuery:
         self, cell: Cell, *, ask: PathAsk = "is-free", rest: Mapping[str, float] | None = None, **settings: Any
     ) -> None:
         # A copy, which later changes of the cell do not reach.
-        constructor, arguments, state = cell.__reduce__()
-        self._cell: Cell = constructor(*arguments)
-        self._cell.__setstate__(state)
+        self._cell: Cell = copy.copy(cell)
         self._ask, self._rest = ask, dict(rest or {})
         self._settings = {"threads": 1, **settings}
         unknown = set(self._rest) - set(cell.robot.joint_names)
@@ -86,6 +85,9 @@ class EdgesQuery:
         ]
         if missing:
             raise InputError(f"edges: no column {', '.join(missing)}; `rest` says where joints without columns rest")
+        for joint in self._rest:
+            if f"from_{joint}" in table or f"to_{joint}" in table:
+                raise InputError(f"edges: there are columns for {joint}, which rests")
         ends = np.empty((2, len(table["id"]), len(joints)))
         for k, joint in enumerate(joints):
             for end, name in enumerate(("from", "to")):

@@ -1,12 +1,12 @@
 //! `ccd acm`: decides which pairs of a robot's links can touch at all.
 
-use super::loading::RobotArgs;
+use super::loading::{RobotArgs, refuse_overwriting_any};
 use crate::files::refuse_overwriting_input;
-use crate::output::Output;
+use crate::output::{Output, is_standard_output};
 use crate::progress::Progress;
 use crate::table::TableWriter;
 use crate::{RunOutcome, print_escaped_to_stderr};
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::Args;
 use rigid_ccd_robot::{LinkContactClass, Robot};
 use std::path::PathBuf;
@@ -33,7 +33,8 @@ pub(crate) struct AcmArgs {
 
 const AFTER_HELP: &str = "\
 The SRDF disables neighbours, and pairs that are proven to touch never or always, over all configurations within the
-limits of the joints. MoveIt's own file samples configurations.
+limits of the joints. Pairs that never touch may come near each other: with a clearance they are to be checked. MoveIt's own
+file samples configurations.
 
 Table of pairs (--report):
   link1, link2       the links
@@ -52,9 +53,13 @@ Examples:
 pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
     let mut outputs = vec![("--out", args.out.as_path())];
     outputs.extend(args.report.iter().map(|path| ("--report", path.as_path())));
-    args.robot.refuse_overwriting(&outputs)?;
+    refuse_overwriting_any(args.robot.files(), &outputs)?;
     if let Some(report) = &args.report {
+        if is_standard_output(&args.out) && is_standard_output(report) {
+            bail!("--out - and --report - are both standard output; give one of them a file");
+        }
         refuse_overwriting_input(("--out", &args.out), ("--report", report))?;
+        refuse_overwriting_input(("--report", report), ("--out", &args.out))?;
     }
     let out = Output::claim(&args.out)?;
     let report = args

@@ -1,7 +1,7 @@
 //! Reads what is around a robot: a TOML file of obstacles, held objects, paddings and clearances; or the parts of a glTF.
 
 use anyhow::{Context, Result, anyhow, bail};
-use ccd_decomp::{Detail, parse_body};
+use ccd_decomp::{BodySource, Detail, Unit};
 use rigid_ccd::glam::{DQuat, EulerRot};
 use rigid_ccd::{Body, Pose, load_parts};
 use rigid_ccd_robot::Cell;
@@ -75,9 +75,8 @@ pub(super) fn add_to(cell: &mut Cell, path: &Path) -> Result<()> {
     }
     let text = fs::read_to_string(path)?;
     let file: CellFile = toml::from_str(&text).map_err(|error| {
-        let line = error
-            .span()
-            .map_or(1, |span| text[..span.start].lines().count().max(1));
+        let start = error.span().map_or(0, |span| span.start);
+        let line = 1 + text[..start].matches('\n').count();
         anyhow!("line {line}: {}", error.message())
     })?;
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -113,19 +112,15 @@ fn attach(cell: &mut Cell, folder: &Path, given: AttachedBody) -> Result<()> {
     Ok(cell.attach(given.name, body, (&given.link, pose), &may_touch)?)
 }
 
-/// Makes the body that a text names. A file is looked for in a folder, unless its path is absolute.
+/// Makes the body that a text names, in metres. A file is looked for in a folder, unless its path is absolute.
 fn body_beside(folder: &Path, text: &str) -> Result<Body> {
-    let is_file = |text: &str| {
-        folder
-            .join(text.split(['#', '@']).next().unwrap_or(text))
-            .exists()
-    };
-    let beside = folder.join(text);
-    let text = match beside.to_str() {
-        Some(beside) if is_file(text) => beside,
-        _ => text,
-    };
-    Ok(parse_body(text, Detail::Auto)?.body)
+    let mut source: BodySource = text.parse()?;
+    match &mut source {
+        BodySource::Mesh(mesh) => mesh.file = folder.join(&mesh.file),
+        BodySource::StoredBody(file) => *file = folder.join(&*file),
+        _ => {}
+    }
+    Ok(source.load_in_unit(Unit::Metre, Detail::Auto)?.body)
 }
 
 /// Returns a pose whose rotation is roll, pitch and yaw as in a URDF, a quaternion (w, x, y, z), or none.

@@ -68,10 +68,14 @@ Exit codes:
 Examples:
   ccd clearance arm.urdf --joint elbow=-30deg:60deg
   ccd clearance arm.urdf --joint elbow=-30deg:60deg --joint shoulder=20deg --cell cell.toml --require 5mm --json
-  ccd clearance arm.urdf --path path.csv --pose-error 0.1mm --html clearance.html";
+  ccd clearance arm.urdf --path path.csv --pose-error 0.1mm
+  ccd clearance arm.urdf --path path.csv --html clearance.html";
 
 /// Runs `ccd clearance`.
 pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
+    if args.html.is_some() && args.pose_error > 0.0 {
+        bail!("--html shows the path as it is: leave out --pose-error");
+    }
     if let Some(html) = &args.html {
         args.cell.refuse_overwriting(&[("--html", html)])?;
         if let Some(path) = &args.path {
@@ -127,24 +131,29 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     };
     printed.map_err(OutputError::standard_output_error)?;
     if let Some(html) = html {
+        let clearance = args.require.unwrap_or(0.0);
+        solver.set_settings(Settings {
+            tolerance: args.tolerance,
+            margin: clearance,
+            ..Settings::DEFAULT
+        });
         let painter = RobotPainter::new(&cell)?;
         let title = input_name(args.cell.robot.path());
-        let view = painter.animation(&mut solver, path, args.require.unwrap_or(0.0))?;
+        let view = painter.animation(&mut solver, path, clearance)?;
         write_page(&painter.page(&title, vec![view]), html, args.quiet)?;
     }
     Ok(outcome(&report))
 }
 
 fn outcome(report: &Report<'_>) -> RunOutcome {
-    let has = |verdict| report.ranges.iter().any(|range| range.verdict == verdict);
-    if has(ClearanceVerdict::Violated) {
-        RunOutcome::ClearanceViolated
-    } else if has(ClearanceVerdict::Unverified) {
-        print_error(
-            "the clearance is unverified in a part of the path; a smaller --resolution or --tolerance may decide",
-        );
-        RunOutcome::SomeRowsBad
-    } else {
-        RunOutcome::AllAnswered
+    match report.verdict() {
+        Some(ClearanceVerdict::Violated) => RunOutcome::ClearanceViolated,
+        Some(ClearanceVerdict::Unverified) => {
+            print_error(
+                "the clearance is unverified in a part of the path; a smaller --resolution or --tolerance may decide",
+            );
+            RunOutcome::SomeRowsBad
+        }
+        Some(ClearanceVerdict::Kept) | None => RunOutcome::AllAnswered,
     }
 }

@@ -50,7 +50,7 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     };
     let claimed = ClaimedFiles::claim(&files)?;
     let cell = args.cell.load(args.quiet)?;
-    let (mut table, length) = PathTable::open(&args.edges, cell.robot(), &args.joint)
+    let (mut table, length) = PathTable::open("--edges", &args.edges, cell.robot(), &args.joint)
         .with_context(|| input_name(&args.edges))?;
     let options = recorded_options(args, given, &cell)?;
     let (mut outputs, earlier) = match OpenedTables::new(&files, claimed, &options)? {
@@ -206,8 +206,7 @@ fn recorded_options(args: &EdgesArgs, given: &ArgMatches, cell: &Cell) -> Result
 
 /// Returns the checksum of the pieces of all bodies, whichever files they come from.
 fn checksum_of_bodies(cell: &Cell) -> Result<u32> {
-    let limits = cell.robot().limits();
-    let at_rest: Vec<f64> = limits.map(|[low, high]| 0f64.clamp(low, high)).collect();
+    let at_rest = cell.robot().configuration_nearest_zero();
     let mut sum = crc32fast::Hasher::new();
     for (_, body, _) in cell.placed_bodies(&at_rest)? {
         for piece in body.pieces().iter() {

@@ -2,6 +2,7 @@
 
 use crate::numbers::{parse_finite, tolerance};
 use anyhow::{Result, bail};
+use ccd_core::limits::MAX_COORDINATE;
 use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::Robot;
 use std::str::FromStr;
@@ -99,7 +100,7 @@ fn position(text: &str) -> std::result::Result<(f64, Option<Quantity>), String> 
 pub(crate) fn length(text: &str) -> std::result::Result<f64, String> {
     parse_finite(text.trim())
         .or_else(|| with_unit(text, LENGTHS))
-        .filter(|&length| length >= 0.0)
+        .filter(|length| (0.0..=MAX_COORDINATE).contains(length))
         .ok_or_else(|| format!("`{text}` is no length of at least 0, such as 0.005 or 0.3mm"))
 }
 

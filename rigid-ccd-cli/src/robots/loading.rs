@@ -15,9 +15,6 @@ pub(crate) struct RobotArgs {
     /// Robot to read, URDF; packages are found by ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and around the file
     #[arg(value_name = "URDF")]
     urdf: Option<PathBuf>,
-    /// Pairs of links that are not checked, SRDF
-    #[arg(long, value_name = "SRDF")]
-    pub(crate) srdf: Option<PathBuf>,
     /// Folder of packages for `package://`, searched before all others; may be given several times
     #[arg(long, value_name = "FOLDER")]
     packages: Vec<PathBuf>,
@@ -34,6 +31,9 @@ pub(crate) struct RobotArgs {
 pub(crate) struct CellArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
+    /// Pairs of links that are not checked, or nevertheless, SRDF
+    #[arg(long, value_name = "SRDF")]
+    srdf: Option<PathBuf>,
     /// Obstacles, held objects, paddings and clearances, TOML; or obstacles alone, the parts of a glTF
     #[arg(long, value_name = "TOML|GLTF")]
     pub(crate) cell: Option<PathBuf>,
@@ -87,10 +87,9 @@ impl RobotArgs {
         folders.fold(urdf, |urdf, folder| urdf.with_package_folder(folder))
     }
 
-    /// Returns the files that are read, each with the option that names it; meshes are left out.
-    fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
-        let srdf = self.srdf.iter().map(|path| ("--srdf", path.as_path()));
-        std::iter::once(("URDF", self.path())).chain(srdf)
+    /// Returns the file of the robot with the name that messages give it; meshes are left out.
+    pub(crate) fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+        std::iter::once(("URDF", self.path()))
     }
 
     /// Reads the robot, and prints what its links are, unless `quiet`.
@@ -121,23 +120,13 @@ impl RobotArgs {
         }
         Ok(robot)
     }
-
-    /// Refuses an output that would overwrite a file that is read.
-    pub(crate) fn refuse_overwriting(&self, outputs: &[(&'static str, &Path)]) -> Result<()> {
-        for (option, file) in self.files() {
-            for &(output, path) in outputs {
-                refuse_overwriting_input((option, file), (output, path))?;
-            }
-        }
-        Ok(())
-    }
 }
 
 impl CellArgs {
     /// Reads the robot and the cell around it.
     pub(crate) fn load(&self, quiet: bool) -> Result<Cell> {
         let robot = self.robot.load(quiet)?;
-        let srdf = self.robot.srdf.as_deref();
+        let srdf = self.srdf.as_deref();
         let pairs = self.robot.urdf().link_pairs(&robot, srdf)?;
         let mut cell = Cell::new(robot, pairs);
         if let Some(file) = &self.cell {
@@ -168,19 +157,28 @@ impl CellArgs {
 
     /// Returns the files that are read, except meshes, each with the option that names it.
     pub(crate) fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+        let srdf = self.srdf.iter().map(|path| ("--srdf", path.as_path()));
         let cell = self.cell.iter().map(|path| ("--cell", path.as_path()));
-        self.robot.files().chain(cell)
+        self.robot.files().chain(srdf).chain(cell)
     }
 
     /// Refuses an output that would overwrite a file that is read.
     pub(crate) fn refuse_overwriting(&self, outputs: &[(&'static str, &Path)]) -> Result<()> {
-        for (option, file) in self.files() {
-            for &(output, path) in outputs {
-                refuse_overwriting_input((option, file), (output, path))?;
-            }
-        }
-        Ok(())
+        refuse_overwriting_any(self.files(), outputs)
     }
+}
+
+/// Refuses outputs that would overwrite a file that is read.
+pub(crate) fn refuse_overwriting_any<'a>(
+    files: impl Iterator<Item = (&'static str, &'a Path)>,
+    outputs: &[(&'static str, &Path)],
+) -> Result<()> {
+    for (option, file) in files {
+        for &(output, path) in outputs {
+            refuse_overwriting_input((option, file), (output, path))?;
+        }
+    }
+    Ok(())
 }
 
 /// Says which pairs of links with bodies are not checked although they move against each other, and how to check them; `None`

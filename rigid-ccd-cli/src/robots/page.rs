@@ -2,7 +2,7 @@
 
 use super::path_table::TablePath;
 use crate::picture::{AnimationGroup, Page, drawn_mesh};
-use anyhow::Result;
+use anyhow::{Result, bail};
 use ccd_view::{
     Animation, GapCurve, GapSample, Keyframe, Meshes, ShownBody, ShownContact, ShownMotion,
 };
@@ -15,7 +15,7 @@ use std::collections::HashMap;
 const MAX_RANGES: usize = 512;
 /// The greatest number of halvings of a segment.
 const MAX_HALVINGS: u32 = 6;
-/// The step in hue from one link to the next, in degrees: the golden angle.
+/// The step in hue from one body to the next, in degrees: the golden angle.
 const HUE_STEP: f64 = 137.508;
 /// The colour of obstacles, in CSS.
 const OBSTACLE_COLOR: &str = "#b8b8b8";
@@ -32,11 +32,7 @@ impl<'c> RobotPainter<'c> {
     pub(crate) fn new(cell: &'c Cell) -> Result<Self> {
         let mut meshes = Meshes::default();
         let mut known: HashMap<*const Body, usize> = HashMap::new();
-        let at_rest: Vec<f64> = cell
-            .robot()
-            .limits()
-            .map(|[low, high]| 0f64.clamp(low, high))
-            .collect();
+        let at_rest = cell.robot().configuration_nearest_zero();
         let bodies = cell.placed_bodies(&at_rest)?;
         let numbers = bodies.into_iter().map(|(_, body, _)| {
             *known
@@ -70,6 +66,12 @@ impl<'c> RobotPainter<'c> {
     ) -> Result<Animation> {
         let configurations = &path.configurations;
         let segments = configurations.len() - 1;
+        if segments > MAX_RANGES {
+            bail!(
+                "{}: a path of {segments} segments is too long to draw: at most {MAX_RANGES}",
+                path.id
+            );
+        }
         let halvings = halvings(segments);
         let ranges = solver.distance_curve(configurations, halvings)?;
         let first = solver.first_contact(configurations)?;
@@ -222,7 +224,8 @@ fn verdict(
         let [a, b] = contact.items.map(Item::name);
         format!(
             "{a} and {b} at {:.4} of segment {}",
-            contact.at.share, contact.at.segment
+            rounded_down(contact.at.share),
+            contact.at.segment
         )
     };
     match (first, nearest) {
@@ -233,7 +236,7 @@ fn verdict(
             )
         }
         (PathOutcome::Unresolved { free_until, limit }, _) => {
-            let (share, segment) = (free_until.share, free_until.segment);
+            let (share, segment) = (rounded_down(free_until.share), free_until.segment);
             format!(
                 "Free{kept} until {share:.4} of segment {segment}; then a limit was reached: {limit}."
             )
@@ -246,4 +249,9 @@ fn verdict(
         }
         (PathOutcome::Free, None) => format!("Free{kept}, proven."),
     }
+}
+
+/// Rounds to four digits after the point, downward.
+fn rounded_down(share: f64) -> f64 {
+    (1e4 * share).floor() * 1e-4
 }

@@ -62,11 +62,12 @@ impl PathTable {
     /// # Errors
     /// If the table cannot be read, or a joint has no position.
     pub(super) fn open(
+        option: &str,
         path: &Path,
         robot: &Robot,
         at_rest: &[JointRange],
     ) -> Result<(Self, Option<u64>)> {
-        let (input, length) = open_table("--edges", path)?;
+        let (input, length) = open_table(option, path)?;
         let mut records = CsvRecords::new(input)?;
         let columns = PathColumns::new(records.header()?, robot, at_rest)?;
         let (checksum, consumed_bytes) = (records.checksum(), records.consumed_bytes());

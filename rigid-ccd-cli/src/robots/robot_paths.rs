@@ -34,10 +34,14 @@ impl RobotPaths<'_> {
             return Ok(vec![TablePath::between(ends)]);
         };
         let name = || input_name(file);
-        let (table, _) = PathTable::open(file, cell.robot(), self.joints).with_context(name)?;
+        let (table, _) =
+            PathTable::open("--path", file, cell.robot(), self.joints).with_context(name)?;
         let mut paths = Vec::new();
         for path in table {
-            let path = path.with_context(name)?.with_context(name)?;
+            let path = match path.with_context(name)? {
+                Err(error) if !self.ids.is_empty() && !self.ids.contains(&error.id) => continue,
+                path => path.with_context(name)?,
+            };
             if self.ids.is_empty() || self.ids.contains(&path.id) {
                 paths.push(path);
             }
@@ -45,11 +49,15 @@ impl RobotPaths<'_> {
                 break;
             }
         }
+        if let Some(missing) = self
+            .ids
+            .iter()
+            .find(|id| paths.iter().all(|path| path.id != **id))
+        {
+            bail!("{}: no path has the id {missing}", name());
+        }
         if paths.is_empty() {
-            match self.ids {
-                [] => bail!("{}: has a header, but no rows", name()),
-                ids => bail!("{}: no path has the id {}", name(), ids.join(" or ")),
-            }
+            bail!("{}: has a header, but no rows", name());
         }
         Ok(paths)
     }
@@ -63,8 +71,7 @@ impl RobotPaths<'_> {
 fn configurations(robot: &Robot, given: &[JointRange]) -> Result<[Vec<f64>; 2]> {
     check_joints(robot, given)?;
     let names: Vec<&str> = robot.free_joint_names().collect();
-    let at_rest = robot.limits().map(|[low, high]| 0f64.clamp(low, high));
-    let from: Vec<f64> = at_rest.collect();
+    let from = robot.configuration_nearest_zero();
     let mut path = [from.clone(), from];
     for range in given {
         let number = names.iter().position(|name| *name == range.joint);

@@ -58,17 +58,12 @@ impl Cell {
             }
             self.pairs.include(a, b);
         }
-        if let ([Item::Link(link), Item::Obstacle(_)] | [Item::Obstacle(_), Item::Link(link)], base) =
-            (pair, self.robot.base())
-            && self
-                .robot
-                .are_rigidly_connected(self.robot.link_number(link)?, base)
-        {
-            // Neither moves.
+        let [one, other] = pair.map(|item| self.bodies_of(item));
+        let is_compared = |&a: &usize| other.iter().any(|&b| self.is_compared(a, b));
+        if !one.iter().any(is_compared) {
             let [a, b] = pair.map(|item| item.name().to_owned());
             return Err(RobotError::NeverCompared { a, b });
         }
-        let [one, other] = pair.map(|item| self.bodies_of(item));
         for &a in &one {
             for &b in &other {
                 self.margins

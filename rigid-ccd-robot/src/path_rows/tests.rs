@@ -44,7 +44,8 @@ fn rows_are_the_answers_of_the_solver() {
             let row = PathQuestion::ClosestApproach.answer(&mut solver, &path, Some(clearance));
             row.status
         };
-        assert_eq!(status(lower), Status::Kept);
+        // What may touch keeps no clearance.
+        assert_eq!(status(lower) == Status::Kept, lower > 0.0);
         if let Some(upper) = upper {
             assert_eq!(status(upper + 0.1), Status::Violated);
         }

@@ -15,32 +15,33 @@ pub struct DistanceRange<'c> {
     pub closest: ClosestApproach<'c>,
 }
 
-/// The greatest number of halvings of a segment.
-const MAX_HALVINGS: u32 = 20;
+/// The greatest number of ranges.
+const MAX_RANGE_COUNT: f64 = 1e6;
 
 impl<'c> CellSolver<'c> {
     /// Divides each segment of a path into 2^`halvings` equal ranges, and returns how near any pair comes to touching in each. The
     /// lower bounds together are a curve that the distance is never below. A robot at rest, in one configuration, has one range.
     ///
     /// # Guarantee
-    /// As of [`closest_approach`](Self::closest_approach), for each range. A deadline is for each range.
+    /// As of [`closest_approach`](Self::closest_approach), for each range. A deadline is for all ranges together.
     ///
     /// # Errors
-    /// [`PathError`]; more than 20 halvings are refused.
+    /// [`PathError`]; more than a million ranges are refused.
     pub fn distance_curve<Q: AsRef<[f64]>>(
         &mut self,
         path: &[Q],
         halvings: u32,
     ) -> Result<Vec<DistanceRange<'c>>, PathError> {
-        if halvings > MAX_HALVINGS {
-            return Err(PathError::InvalidRangeSetting {
-                name: "halvings",
-                value: halvings.into(),
-                allowed: "at most 20",
-            });
-        }
         self.set_path(path)?;
         let segments = self.search.segment_count();
+        let count = (segments as f64) * f64::from(halvings).exp2();
+        if count > MAX_RANGE_COUNT {
+            return Err(PathError::InvalidRangeSetting {
+                name: "number of ranges",
+                value: count,
+                allowed: "at most a million",
+            });
+        }
         let whole = self.search.whole_path_stretch();
         if path.len() == 1 {
             return Ok(vec![self.distance_range(whole)?]);

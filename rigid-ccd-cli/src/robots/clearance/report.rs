@@ -51,10 +51,17 @@ impl Report<'_> {
 
     /// Describes a point of the path by the positions of the joints that move.
     fn place(&self, at: PathPoint) -> String {
-        let positions = self
-            .moving_positions(at)
-            .into_iter()
-            .map(|(name, position)| format!("{name} = {}", self.position_text(name, position)));
+        self.place_rounded_towards(at, at)
+    }
+
+    /// Describes a point of the path; its positions are rounded towards those of another point.
+    fn place_rounded_towards(&self, at: PathPoint, other: PathPoint) -> String {
+        let others = self.moving_positions(other);
+        let positions = self.moving_positions(at).into_iter().zip(others);
+        let positions = positions.map(|((name, position), (_, towards))| {
+            let text = self.position_text(name, position, towards);
+            format!("{name} = {text}")
+        });
         let positions: Vec<String> = positions.collect();
         if positions.is_empty() {
             "rest".to_owned()
@@ -63,17 +70,29 @@ impl Report<'_> {
         }
     }
 
-    fn position_text(&self, name: &str, position: f64) -> String {
+    fn position_text(&self, name: &str, position: f64, towards: f64) -> String {
         let joint = self
             .cell
             .robot()
             .joints()
             .iter()
             .find(|joint| joint.name == name);
-        match joint.map(|joint| joint.axis_and_limits.kind()) {
-            Some(JointKind::Revolute(_)) => format!("{:.3}°", position.to_degrees()),
-            _ => format!("{:.4} mm", 1e3 * position),
-        }
+        let turns = joint
+            .is_some_and(|joint| matches!(joint.axis_and_limits.kind(), JointKind::Revolute(_)));
+        let (factor, unit) = if turns {
+            (1f64.to_degrees(), "°")
+        } else {
+            (1e3, " mm")
+        };
+        let shown = 1e4 * factor * position;
+        let rounded = if towards > position {
+            shown.ceil()
+        } else if towards < position {
+            shown.floor()
+        } else {
+            shown.round()
+        };
+        format!("{:.4}{unit}", 1e-4 * rounded)
     }
 
     fn positions_json(&self, at: PathPoint) -> Value {
@@ -127,7 +146,7 @@ impl Report<'_> {
         json!({
             "closest": self.closest_json(&self.closest),
             "required": self.required,
-            "verdict": self.required.map(|_| verdict_name(self.verdict())),
+            "verdict": self.verdict().map(verdict_name),
             "ranges": self.ranges.iter().map(|found| {
                 with(range(found.from, found.to), json!({ "clearance": verdict_name(found.verdict) }))
             }).collect::<Vec<_>>(),
@@ -140,16 +159,18 @@ impl Report<'_> {
         })
     }
 
-    /// Returns the verdict about the whole path: the worst of its ranges.
-    fn verdict(&self) -> ClearanceVerdict {
-        let has = |verdict| self.ranges.iter().any(|range| range.verdict == verdict);
-        if has(ClearanceVerdict::Violated) {
-            ClearanceVerdict::Violated
-        } else if has(ClearanceVerdict::Unverified) {
-            ClearanceVerdict::Unverified
-        } else {
-            ClearanceVerdict::Kept
-        }
+    /// Returns the verdict about the whole path, the worst of its ranges; `None` if no clearance is required.
+    pub(super) fn verdict(&self) -> Option<ClearanceVerdict> {
+        self.required?;
+        let verdicts = [ClearanceVerdict::Violated, ClearanceVerdict::Unverified];
+        let has =
+            |verdict: &ClearanceVerdict| self.ranges.iter().any(|range| range.verdict == *verdict);
+        Some(
+            verdicts
+                .into_iter()
+                .find(has)
+                .unwrap_or(ClearanceVerdict::Kept),
+        )
     }
 
     /// Iterates over the pairs of links with bodies that are not checked, with the reason.
@@ -185,24 +206,18 @@ impl fmt::Display for Report<'_> {
         if let Some(limit) = self.closest.limit {
             write!(f, " (a limit was reached: {limit})")?;
         }
-        if let Some(required) = self.required {
+        if let (Some(required), Some(verdict)) = (self.required, self.verdict()) {
             write!(
                 f,
                 "\n{} mm required: {}",
                 1e3 * required,
-                verdict_name(self.verdict())
+                verdict_name(verdict)
             )?;
         }
         for range in &self.ranges {
-            let (from, to) = (self.place(range.from), self.place(range.to));
+            let from = self.place_rounded_towards(range.from, range.to);
+            let to = self.place_rounded_towards(range.to, range.from);
             write!(f, "\n  {:10} {from} to {to}", verdict_name(range.verdict))?;
-        }
-        let skipped: Vec<String> = self
-            .pairs_not_checked()
-            .map(|([a, b], reason)| format!("{a} and {b} ({reason})"))
-            .collect();
-        if !skipped.is_empty() {
-            write!(f, "\nnot checked: {}", skipped.join(", "))?;
         }
         Ok(())
     }

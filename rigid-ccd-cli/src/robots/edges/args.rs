@@ -92,6 +92,8 @@ Examples:
   ccd edges arm.urdf --cell cell.toml --edges path.csv --ask closest-approach
   printf 'from_shoulder,to_shoulder\\n0,1.5\\n' | ccd edges arm.urdf --joint elbow=30deg --edges -
 
+An SRDF of `ccd acm` leaves out pairs that never touch, also if they come nearer than --clearance.
+
 See `ccd edges --help` for the columns, the file of a cell and the exit codes.";
 
 const AFTER_LONG_HELP: &str = "\
@@ -129,7 +131,7 @@ Table of results:
             measured        the least distance is between distance_lower and distance_upper
             kept, violated, unverified
                             the same, compared with --clearance; paddings and clearances of the cell do not count
-            unresolved      a limit was reached; free until `time`
+            unresolved      a limit was reached; of first-contact: free until `time`
             error           the row is no valid question; see `reason`
   time                      where the pair is: of an edge from 0 to 1, of a path the number of the segment and the share
                             of it, or the time of column `t`. Of a first contact: proven, nothing touches before

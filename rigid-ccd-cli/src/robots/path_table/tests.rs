@@ -28,7 +28,7 @@ fn open(text: &str, at_rest: &[&str]) -> Result<PathTable> {
     let path = folder.path().join("edges.csv");
     fs::write(&path, text)?;
     let at_rest: Vec<JointRange> = at_rest.iter().map(|text| text.parse().unwrap()).collect();
-    Ok(PathTable::open(&path, &robot(), &at_rest)?.0)
+    Ok(PathTable::open("--edges", &path, &robot(), &at_rest)?.0)
 }
 
 fn read(text: &str, at_rest: &[&str]) -> Vec<Result<TablePath, RowError>> {
