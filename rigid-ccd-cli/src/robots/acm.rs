@@ -18,7 +18,7 @@ pub(crate) struct AcmArgs {
     #[command(flatten)]
     robot: RobotArgs,
     /// Examine at most N boxes of configurations for a pair; a larger number decides more pairs
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1..))]
     boxes: u32,
     /// Write the pairs that need no check to this file, SRDF; - writes to standard output
     #[arg(long, value_name = "SRDF", default_value = "-")]
@@ -47,7 +47,7 @@ Exit code: 0 if the pairs are examined, also if some stay undecided; 2 for bad i
 
 Examples:
   ccd acm arm.urdf --out arm.srdf
-  ccd acm arm.urdf --boxes 10000 --out arm.srdf --report pairs.csv";
+  ccd acm arm.urdf --boxes 1000 --out arm.srdf --report pairs.csv";
 
 /// Runs `ccd acm`.
 pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
