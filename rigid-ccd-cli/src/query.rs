@@ -19,8 +19,8 @@ use crate::pair::Pair;
 use crate::picture::{Painter, QueryContext, TimeMeaning};
 use crate::progress::Progress;
 use crate::resumable::{
-    self, Checkpoint, ClaimedFiles, FILE_CHECKSUM_PREFIX, OpenedTables, RunFiles,
-    answer_in_batches, option_values, options_text,
+    self, ClaimedFiles, FILE_CHECKSUM_PREFIX, OpenedTables, RunFiles, answer_in_batches,
+    option_values, options_text,
 };
 use crate::solver_kind::{BoundKind, ScheduleKind, SolverKind};
 use crate::timed::TimedQuestion;
@@ -56,7 +56,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
                     let summary = Summary::new(args.tolerance).with_earlier_counts(end.counts);
                     print_summary(args, &summary);
                 }
-                return Ok(report_run_outcome(args, end));
+                return Ok(resumable::report_outcome(&files, end));
             }
         };
     if args.resume {
@@ -99,7 +99,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
         print_summary(args, &run.summary);
         pair.print_remarks(args.tolerance, &rows);
     }
-    Ok(report_run_outcome(args, end).max(shown))
+    Ok(resumable::report_outcome(&files, end).max(shown))
 }
 
 /// Returns the files of the run.
@@ -111,6 +111,7 @@ fn run_files(args: &QueryArgs) -> RunFiles<'_> {
         header: names(&args.columns()),
         contacts: args.contacts.as_deref(),
         resume: args.resume,
+        check: args.check,
         quiet: args.quiet,
     }
 }
@@ -293,23 +294,5 @@ fn print_summary(args: &QueryArgs, summary: &Summary) {
     let _ = writeln!(io::stderr(), "{prefix}{summary}");
     if let (true, Some(means)) = (args.counters, summary.describe_means()) {
         let _ = writeln!(io::stderr(), "{means}");
-    }
-}
-
-/// Returns the exit status of a run, and prints how many rows fail `--check`, if it is given.
-fn report_run_outcome(args: &QueryArgs, end: Checkpoint) -> RunOutcome {
-    let counts = end.counts.nonzero_counts();
-    let failed = counts.filter(|(status, _)| !status.proves_distance_kept());
-    let failed: usize = failed.map(|(_, count)| count).sum();
-    if args.check && failed > 0 {
-        let rows = end.counts.row_count();
-        print_error(&format!(
-            "--check: {failed} of {rows} rows are not proven free or kept"
-        ));
-    }
-    match (end.bad_rows, failed) {
-        (0, 1..) if args.check => RunOutcome::SomeRowsUnproven,
-        (0, _) => RunOutcome::AllAnswered,
-        _ => RunOutcome::SomeRowsBad,
     }
 }

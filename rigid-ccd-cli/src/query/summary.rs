@@ -91,15 +91,11 @@ impl Summary {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (rows, counts) = (self.counts.row_count(), self.counts.nonzero_counts());
-        let counts = counts.map(|(status, count)| format!("{count} {}", status.name()));
-        let counts: Vec<String> = counts.collect();
-        let plural = if rows == 1 { "" } else { "s" };
-        write!(f, "{rows} row{plural}")?;
-        if counts.is_empty() {
+        let rows = self.counts.row_count();
+        write!(f, "{}", self.counts)?;
+        if rows == 0 {
             return Ok(());
         }
-        write!(f, ": {}", counts.join(", "))?;
         match rows - self.earlier_row_count {
             _ if self.earlier_row_count == 0 => {}
             0 => write!(f, "; 0 in this run")?,

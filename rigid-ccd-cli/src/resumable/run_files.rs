@@ -18,6 +18,8 @@ pub(crate) struct RunFiles<'a> {
     pub(crate) contacts: Option<&'a Path>,
     /// Whether an earlier run is continued.
     pub(crate) resume: bool,
+    /// Whether rows that are not proven free or kept fail the run.
+    pub(crate) check: bool,
     /// Whether only warnings and errors are printed.
     pub(crate) quiet: bool,
 }

@@ -5,6 +5,7 @@ mod report;
 use super::joint_values::{JointRange, length, tolerance_length};
 use super::loading::CellArgs;
 use super::page::RobotPainter;
+use super::path_table::TablePath;
 use super::robot_paths::RobotPaths;
 use crate::files::{input_name, refuse_overwriting_input};
 use crate::html::write_page;
@@ -15,7 +16,7 @@ use clap::Args;
 use report::Report;
 use rigid_ccd::Settings;
 use rigid_ccd::answer::ClearanceVerdict;
-use rigid_ccd_robot::RangeSettings;
+use rigid_ccd_robot::{Cell, RangeSettings};
 use std::io::{self, Write};
 use std::path::PathBuf;
 
@@ -84,40 +85,21 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     }
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let cell = args.cell.load(args.quiet)?;
-    let asked = RobotPaths {
-        table: args.path.as_deref(),
-        joints: &args.joint,
-        ids: &[],
-    };
-    let paths = asked.read(&cell)?;
-    let path = &paths[0];
-    if paths.len() > 1 {
-        bail!("--path: has several paths; give a table of one");
-    }
-    let settings = Settings {
-        tolerance: args.tolerance,
-        ..Settings::DEFAULT
-    };
-    let mut solver = cell.solver().with_settings(settings.clone());
+    let path = args.read_path(&cell)?;
+    let mut solver = cell.solver().with_settings(args.settings(0.0));
     let closest = solver.closest_approach(&path.configurations)?;
-    let ranges = match args.require {
-        None => Vec::new(),
-        Some(clearance) => {
-            solver.set_settings(Settings {
-                margin: clearance,
-                ..settings.clone()
-            });
-            let how = RangeSettings {
-                resolution: args.resolution,
-                max_pose_error: args.pose_error,
-            };
-            solver.clearance_ranges(&path.configurations, how)?
-        }
-    };
-    solver.set_settings(settings);
+    let mut ranges = Vec::new();
+    if let Some(clearance) = args.require {
+        let how = RangeSettings {
+            resolution: args.resolution,
+            max_pose_error: args.pose_error,
+        };
+        solver.set_settings(args.settings(clearance));
+        ranges = solver.clearance_ranges(&path.configurations, how)?;
+    }
     let report = Report {
         cell: &cell,
-        path,
+        path: &path,
         pose_error: args.pose_error,
         required: args.require,
         closest,
@@ -132,14 +114,9 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     printed.map_err(OutputError::standard_output_error)?;
     if let Some(html) = html {
         let clearance = args.require.unwrap_or(0.0);
-        solver.set_settings(Settings {
-            tolerance: args.tolerance,
-            margin: clearance,
-            ..Settings::DEFAULT
-        });
         let painter = RobotPainter::new(&cell)?;
         let title = input_name(args.cell.robot.path());
-        let view = painter.animation(&mut solver, path, clearance)?;
+        let view = painter.animation(&mut solver, &path, clearance)?;
         write_page(&painter.page(&title, vec![view]), html, args.quiet)?;
     }
     Ok(outcome(&report))
@@ -155,5 +132,29 @@ fn outcome(report: &Report<'_>) -> RunOutcome {
             RunOutcome::SomeRowsBad
         }
         Some(ClearanceVerdict::Kept) | None => RunOutcome::AllAnswered,
+    }
+}
+
+impl ClearanceArgs {
+    fn settings(&self, margin: f64) -> Settings {
+        Settings {
+            tolerance: self.tolerance,
+            margin,
+            ..Settings::DEFAULT
+        }
+    }
+
+    /// Reads the one path that is examined.
+    fn read_path(&self, cell: &Cell) -> Result<TablePath> {
+        let asked = RobotPaths {
+            table: self.path.as_deref(),
+            joints: &self.joint,
+            ids: &[],
+        };
+        let mut paths = asked.read(cell)?;
+        match (paths.pop(), paths.is_empty()) {
+            (Some(path), true) => Ok(path),
+            _ => bail!("--path: has several paths; give a table of one"),
+        }
     }
 }

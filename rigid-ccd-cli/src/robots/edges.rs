@@ -46,6 +46,7 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
         header: names(&columns),
         contacts: None,
         resume: args.resume,
+        check: args.check,
         quiet: args.quiet,
     };
     let claimed = ClaimedFiles::claim(&files)?;
@@ -57,7 +58,7 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
         OpenedTables::Unfinished(outputs, earlier) => (*outputs, earlier),
         OpenedTables::Finished(end) => {
             resumable::check_finished(&files, &mut table, end)?;
-            return Ok(report_outcome(args, end));
+            return Ok(report_outcome(&files, end));
         }
     };
     if args.resume {
@@ -93,7 +94,7 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     if !args.quiet {
         print_summary(end, &times);
     }
-    Ok(report_outcome(args, end))
+    Ok(report_outcome(&files, end))
 }
 
 /// The state of a run while it answers rows.
@@ -222,15 +223,7 @@ fn checksum_of_bodies(cell: &Cell) -> Result<u32> {
 }
 
 fn print_summary(end: Checkpoint, times: &TimeHistogram) {
-    let rows = end.counts.row_count();
-    let counts = end.counts.nonzero_counts();
-    let counts: Vec<String> = counts
-        .map(|(status, count)| format!("{count} {}", status.name()))
-        .collect();
-    let mut text = format!("{rows} row{}", if rows == 1 { "" } else { "s" });
-    if !counts.is_empty() {
-        text += &format!(": {}", counts.join(", "));
-    }
+    let mut text = end.counts.to_string();
     if times.count() > 0 {
         text += &format!(
             "; median {:.1} µs, mean {:.1} µs",
@@ -241,26 +234,13 @@ fn print_summary(end: Checkpoint, times: &TimeHistogram) {
     crate::print_escaped_to_stderr(&text);
 }
 
-/// Returns the exit status of a run, and prints how many rows fail `--check`, if it is given.
-fn report_outcome(args: &EdgesArgs, end: Checkpoint) -> RunOutcome {
-    let counts = end.counts.nonzero_counts();
-    let failed = counts.filter(|(status, _)| !status.proves_distance_kept());
-    let failed: usize = failed.map(|(_, count)| count).sum();
-    if args.check && failed > 0 {
-        let rows = end.counts.row_count();
-        print_error(&format!(
-            "--check: {failed} of {rows} rows are not proven free or kept"
-        ));
-    }
-    if args.check && end.counts.row_count() == 0 {
+/// Returns how a run ended. No row is no proof: with `--check` it is bad input.
+fn report_outcome(files: &RunFiles<'_>, end: Checkpoint) -> RunOutcome {
+    if files.check && end.counts.row_count() == 0 {
         print_error("--check: no row is answered");
         return RunOutcome::SomeRowsBad;
     }
-    match (end.bad_rows, failed) {
-        (0, 1..) if args.check => RunOutcome::SomeRowsUnproven,
-        (0, _) => RunOutcome::AllAnswered,
-        _ => RunOutcome::SomeRowsBad,
-    }
+    resumable::report_outcome(files, end)
 }
 
 impl EdgesArgs {
