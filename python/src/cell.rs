@@ -1,8 +1,8 @@
 //! The Python class `Cell`.
 
 use crate::body::{PyBody, extract_body};
-use crate::cell_contents::{CellContents, PickledContents};
-use crate::cell_solver::{CellWithCachedSolver, answer_paths};
+use crate::cell_contents::{CellContents, PickledContents, UnpickledContents};
+use crate::cell_solver::CellWithCachedSolvers;
 use crate::errors::{Unresolved, input_error, input_error_from, with_attribute};
 use crate::interruptible::run_interruptibly;
 use crate::motion::{GivenPose, read_given_pose};
@@ -35,7 +35,7 @@ use std::time::Duration;
 #[pyclass(name = "Cell", module = "rigid_ccd", frozen)]
 pub(crate) struct PyCell {
     robot: Py<PyRobot>,
-    cell_with_solver: CellWithCachedSolver,
+    cell_with_solvers: CellWithCachedSolvers,
     contents: Mutex<CellContents>,
 }
 
@@ -51,7 +51,7 @@ impl PyCell {
         let cell = Cell::new((**links).clone(), pairs.clone());
         PyCell {
             robot: robot.clone().unbind(),
-            cell_with_solver: CellWithCachedSolver::new(cell),
+            cell_with_solvers: CellWithCachedSolvers::new(cell),
             contents: Mutex::default(),
         }
     }
@@ -225,7 +225,7 @@ impl PyCell {
                 stop: Some(Arc::clone(stop)),
                 ..settings
             };
-            self.cell_with_solver.ask(settings, |solver| {
+            self.cell_with_solvers.ask(&settings, |solver| {
                 solver.clearance_ranges(&path.configurations(), how)
             })
         };
@@ -287,7 +287,7 @@ impl PyCell {
         settings.check().map_err(input_error)?;
         let clearance = settings.clearance;
         let threads = read_thread_count(threads)?;
-        let cell = self.cell_with_solver.cell();
+        let cell = self.cell_with_solvers.cell();
         let array = PathArray::read(paths, "paths")?;
         let joints = cell.robot().free_joint_names().len();
         array.check_shape_of_paths(joints)?;
@@ -296,7 +296,8 @@ impl PyCell {
                 stop: Some(Arc::clone(stop)),
                 ..settings
             };
-            answer_paths(&cell, &settings, threads, array.paths(), |solver, path| {
+            let solvers = &self.cell_with_solvers;
+            solvers.ask_paths(&settings, threads, array.paths(), |solver, path| {
                 ask.answer(solver, path, clearance)
             })
         };
@@ -332,7 +333,7 @@ impl PyCell {
     }
 
     fn __repr__(&self) -> String {
-        let cell = self.cell_with_solver.cell();
+        let cell = self.cell_with_solvers.cell();
         let obstacles: Vec<&str> = cell.obstacle_names().collect();
         format!(
             "Cell({} obstacles: {})",
@@ -341,20 +342,6 @@ impl PyCell {
         )
     }
 }
-
-/// The contents of a cell as pickle returns them.
-type UnpickledContents<'py> = (
-    Vec<(String, Bound<'py, PyAny>, Bound<'py, PyAny>)>,
-    Vec<(
-        String,
-        Bound<'py, PyAny>,
-        String,
-        Bound<'py, PyAny>,
-        Vec<String>,
-    )>,
-    Vec<(String, f64)>,
-    Vec<(String, String, f64)>,
-);
 
 /// The time after which a question goes on, from its start, on a thread that Ctrl-C can end. To start one for each question
 /// would cost more than most questions do.
@@ -371,9 +358,9 @@ impl PyCell {
     ) -> PyResult<PathAnswer> {
         let path = PathArray::read(path, "path")?;
         let path = path.configurations();
-        let question = |settings| {
-            let solver = &self.cell_with_solver;
-            solver.ask(settings, |solver| ask.ask(solver, &path, None))
+        let question = |settings: Settings| {
+            let solvers = &self.cell_with_solvers;
+            solvers.ask(&settings, |solver| ask.ask(solver, &path, None))
         };
         let limit = settings.deadline.unwrap_or(Duration::MAX);
         let first_limit = limit.min(FIRST_ATTEMPT_TIME_LIMIT);
@@ -402,7 +389,7 @@ impl PyCell {
     }
 
     fn change(&self, change: impl FnOnce(&mut Cell) -> Result<(), RobotError>) -> PyResult<()> {
-        self.cell_with_solver.change(change).map_err(input_error)
+        self.cell_with_solvers.change(change).map_err(input_error)
     }
 }
 

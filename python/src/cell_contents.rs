@@ -24,6 +24,20 @@ pub(crate) type PickledContents = (
     Vec<(String, String, f64)>,
 );
 
+/// The contents of a cell as pickle returns them.
+pub(crate) type UnpickledContents<'py> = (
+    Vec<(String, Bound<'py, PyAny>, Bound<'py, PyAny>)>,
+    Vec<(
+        String,
+        Bound<'py, PyAny>,
+        String,
+        Bound<'py, PyAny>,
+        Vec<String>,
+    )>,
+    Vec<(String, f64)>,
+    Vec<(String, String, f64)>,
+);
+
 impl CellContents {
     pub(crate) fn add(&mut self, name: &str, body: Py<PyBody>, pose: GivenPose) {
         self.obstacles.push((name.to_owned(), body, pose));

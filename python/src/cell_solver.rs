@@ -1,31 +1,34 @@
-//! A cell with a solver that keeps its memory from one question to the next.
+//! A cell with solvers that keep their memory from one question to the next.
 
 use rigid_ccd::{ParallelSolver, Settings};
 use rigid_ccd_robot::{Cell, CellSolver};
 use std::num::NonZeroUsize;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::available_parallelism;
+
+type CellSolvers<'c> = ParallelSolver<CellSolver<'c>>;
 
 self_cell::self_cell!(
-    /// A cell, and a solver that borrows it.
-    struct CellAndSolver {
+    /// A cell, and solvers that borrow it.
+    struct CellAndSolvers {
         owner: Arc<Cell>,
         #[not_covariant]
-        dependent: CellSolver,
+        dependent: CellSolvers,
     }
 );
 
-/// A cell that may change between questions, and a solver for it. Changes do not wait for a question.
-pub(crate) struct CellWithCachedSolver {
+/// A cell that may change between questions, and solvers for it. Neither changes nor questions wait for another question.
+pub(crate) struct CellWithCachedSolvers {
     cell: Mutex<Arc<Cell>>,
-    /// The solver of the last question.
-    solver: Mutex<Option<CellAndSolver>>,
+    /// The solvers of the last question; `None` while it is answered.
+    solvers: Mutex<Option<CellAndSolvers>>,
 }
 
-impl CellWithCachedSolver {
+impl CellWithCachedSolvers {
     pub(crate) fn new(cell: Cell) -> Self {
-        CellWithCachedSolver {
+        CellWithCachedSolvers {
             cell: Mutex::new(Arc::new(cell)),
-            solver: Mutex::new(None),
+            solvers: Mutex::new(None),
         }
     }
 
@@ -39,65 +42,86 @@ impl CellWithCachedSolver {
         change(Arc::make_mut(&mut lock(&self.cell)))
     }
 
-    /// Asks the solver a question about the cell as it is now.
-    pub(crate) fn ask<T>(
+    /// Asks a solver a question about the cell as it is now.
+    pub(crate) fn ask<T: Send>(
         &self,
-        settings: Settings,
-        question: impl FnOnce(&mut CellSolver<'_>) -> T,
+        settings: &Settings,
+        question: impl Fn(&mut CellSolver<'_>) -> T + Sync,
+    ) -> T {
+        let only_question = |solver: &mut CellSolver<'_>, (): &()| {
+            solver.set_settings(settings.clone());
+            question(solver)
+        };
+        let any_number = |solvers: &CellSolvers<'_>| solvers.threads() > 0;
+        let mut answers = self.with_solvers(NonZeroUsize::MIN, any_number, |solvers| {
+            solvers.map(&[()], only_question)
+        });
+        answers.remove(0)
+    }
+
+    /// Asks a question about many paths in the cell as it is now, on `threads` threads, or on all cores.
+    pub(crate) fn ask_paths<T: Send>(
+        &self,
+        settings: &Settings,
+        threads: Option<u16>,
+        paths: Paths<'_>,
+        question: impl Fn(&mut CellSolver<'_>, &[&[f64]]) -> T + Sync,
+    ) -> Vec<T> {
+        let tasks: Vec<&[f64]> = paths.position_chunks().collect();
+        let threads = threads.and_then(|threads| NonZeroUsize::new(usize::from(threads)));
+        let threads = threads
+            .or_else(|| available_parallelism().ok())
+            .unwrap_or(NonZeroUsize::MIN);
+        let is_of_count = |solvers: &CellSolvers<'_>| solvers.threads() == threads.get();
+        let answer_task = |solver: &mut CellSolver<'_>, task: &&[f64]| {
+            solver.set_settings(settings.clone());
+            let mut path = Vec::with_capacity(paths.configuration_count);
+            let mut answers = Vec::with_capacity(PATHS_PER_TASK);
+            for positions in task.chunks_exact(paths.configuration_count * paths.joint_count) {
+                path.clear();
+                path.extend(positions.chunks_exact(paths.joint_count));
+                answers.push(question(solver, &path));
+            }
+            answers
+        };
+        let answers = self.with_solvers(threads, is_of_count, |solvers| {
+            solvers.map(&tasks, answer_task)
+        });
+        answers.into_iter().flatten().collect()
+    }
+
+    /// Calls `work` with the solvers of the last question if they are for the cell as it is now and `suits` accepts them, and
+    /// otherwise with new ones for so many threads.
+    fn with_solvers<T>(
+        &self,
+        threads: NonZeroUsize,
+        suits: impl Fn(&CellSolvers<'_>) -> bool,
+        work: impl FnOnce(&mut CellSolvers<'_>) -> T,
     ) -> T {
         let cell = self.cell();
-        let mut kept = lock(&self.solver);
-        let is_current = |kept: &CellAndSolver| Arc::ptr_eq(kept.borrow_owner(), &cell);
-        let mut solver = match kept.take().filter(is_current) {
-            Some(solver) => solver,
-            None => CellAndSolver::new(cell, |cell| cell.solver()),
+        let last = lock(&self.solvers).take();
+        let is_usable = |kept: &CellAndSolvers| {
+            Arc::ptr_eq(kept.borrow_owner(), &cell)
+                && kept.with_dependent(|_, solvers| suits(solvers))
         };
-        let answer = solver.with_dependent_mut(|_, solver| {
-            solver.set_settings(settings);
-            question(solver)
+        let mut solvers = last.filter(is_usable).unwrap_or_else(|| {
+            CellAndSolvers::new(cell, |cell| {
+                ParallelSolver::with_threads(threads, || cell.solver())
+            })
         });
-        *kept = Some(solver);
+        let answer = solvers.with_dependent_mut(|_, solvers| work(solvers));
+        *lock(&self.solvers) = Some(solvers);
         answer
     }
 }
 
-/// Locks a value. After a panic a cell is as it was, and there is no solver.
+/// Locks a value. After a panic a cell is as it was, and there are no solvers.
 fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
     value.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The number of paths that a thread answers at a time.
 const PATHS_PER_TASK: usize = 32;
-
-/// Answers a question about many paths, on `threads` threads, or on all cores.
-///
-/// `positions` has the paths one after another, each of `length` configurations of `joints` positions.
-pub(crate) fn answer_paths<T: Send>(
-    cell: &Cell,
-    settings: &Settings,
-    threads: Option<u16>,
-    paths: Paths<'_>,
-    question: impl Fn(&mut CellSolver<'_>, &[&[f64]]) -> T + Sync,
-) -> Vec<T> {
-    let solver = || cell.solver().with_settings(settings.clone());
-    let tasks: Vec<&[f64]> = paths.position_chunks().collect();
-    let count = threads.and_then(|threads| NonZeroUsize::new(usize::from(threads)));
-    let mut solvers = match count {
-        Some(count) => ParallelSolver::with_threads(count, solver),
-        None => ParallelSolver::new(solver),
-    };
-    let answers = solvers.map(&tasks, |solver, task| {
-        let mut path = Vec::with_capacity(paths.configuration_count);
-        let mut answers = Vec::with_capacity(PATHS_PER_TASK);
-        for positions in task.chunks_exact(paths.configuration_count * paths.joint_count) {
-            path.clear();
-            path.extend(positions.chunks_exact(paths.joint_count));
-            answers.push(question(solver, &path));
-        }
-        answers
-    });
-    answers.into_iter().flatten().collect()
-}
 
 /// Paths of equally many configurations, one after another.
 #[derive(Clone, Copy)]
