@@ -54,9 +54,9 @@ pub const MAX_DEVIATION_SHARE: f64 = 0.125;
 /// The least tolerance of a search with approximate motions, in units of their deviations from the trajectories.
 pub const MIN_TOLERANCE_PER_DEVIATION: f64 = 1.0 / 16.0;
 
-/// The ratio of a stretch's deviation to that of the adjacent proven stretch above which the stretch is cut before it
-/// is searched. The bodies are measured at the common end, which costs less than a failure. Twice the length has at
-/// most 8 times the deviation.
+/// A stretch is cut before it is searched if its deviation from the trajectories exceeds that of the adjacent proven
+/// stretch by this factor. The bodies are measured at the common end, which costs less than a failure. Twice the length
+/// has at most 8 times the deviation.
 pub const CUT_DEVIATION_RATIO: f64 = 16.0;
 
 /// The length above which a stretch of time is halved without a measurement of the distance, as a share of the
@@ -104,8 +104,8 @@ pub const MIN_REVISIT_DISTANCE_RATIO: f32 = 0.5;
 /// lets flat nodes that are seen edge-on be split as well.
 pub const ADDED_THICKNESS_PER_RADIUS: f32 = 0.1;
 
-/// The longest time for which a bound along a plane that turns with a body is used, in units of the duration. The bound
-/// has to cover the motion of the bodies in that time.
+/// The longest time for which a separating plane that turns with a body is used, as a share of the duration. The bounds
+/// along the plane have to cover the motion of the bodies in that time.
 pub const MAX_TURNING_PLANE_TIME: f32 = 1.0 / 16.0;
 
 /// The ratio of two nodes' radii above which a plane that turns with the larger node is tried.
@@ -179,8 +179,9 @@ pub const MIN_JACOBI_ANGLE: f64 = 1e-7;
 /// contact to f32.
 pub const MAX_FLAT_THICKNESS: f64 = 1e-9;
 
-/// The rounding of a gap of nodes in f32 above which the gap is computed in f64 instead, in units of the gap at which
-/// clocks of nodes stop. Below it f32 proves as much as f64.
+/// The ratio of the rounding of a node gap in f32 to the gap at which clocks of nodes stop, above which the node gap is
+/// computed in f64 instead. Clocks stop at the margin plus a [share](crate::rounding::NODE_GAP_TOLERANCE_SHARE) of the
+/// tolerance. Below the ratio f32 proves as much as f64.
 pub const F64_FALLBACK_THRESHOLD: f64 = 1.0;
 
 /// The largest sideways displacement of a screw's axis during the query at which nodes are compared along the screw, in
@@ -199,9 +200,9 @@ pub const MIN_PROFILE_DISTANCE_SHARE: f64 = 0.25;
 /// cost to long queries only.
 pub const SPLITS_BEFORE_SCREW: u64 = 512;
 
-/// The largest number of triangles of a node from which the frame of its box is chosen; the box then contains all of
-/// them.
+/// The largest number of a node's triangles to which the axes of its box are fitted. The box is then made to enclose
+/// all triangles of the node.
 ///
-/// Unit: triangles. Smaller: boxes grow; at 16 queries visit a percent more nodes. Larger: longer
-/// to build, boxes hardly shrink.
+/// Unit: triangles. Smaller: boxes grow; at 16 queries visit a percent more nodes. Larger: longer to build, boxes
+/// hardly shrink.
 pub const MAX_SAMPLED_TRIANGLES: usize = 64;

@@ -238,8 +238,8 @@ const SHAPE_LENGTH_COUNTS: [(&str, usize); 5] = [
     ("cone", 2),
 ];
 
-/// Creates the description of a shape from the words of its lengths. A cylinder and a cone may have one more, the
-/// excess.
+/// Parses the lengths of a shape, such as `1,2,3` of `box:1,2,3`, and returns the shape. A cylinder and a cone may have
+/// one more length, the excess.
 fn parse_shape(
     shape: &'static str,
     expected: usize,

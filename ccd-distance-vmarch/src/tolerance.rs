@@ -33,8 +33,9 @@ pub(crate) const MIN_CERTAIN_DISTANCE_RATIO: f64 = 1.0 / 4.0;
 /// a nearer pair around it; a smaller one would search around in vain.
 pub(crate) const MAX_CERTIFIED_GAP_DEFICIT: f64 = 16.0 * UNIT_ROUNDOFF;
 
-/// The excess of the distance over the support gap that is allowed beyond [`MAX_CERTIFIED_GAP_DEFICIT`], in units of the
-/// distance. It is for pieces that are much farther apart than they are large.
+/// The part of the allowed gap deficit that grows with the distance: a certificate's support gap may fall short of the
+/// distance by [`MAX_CERTIFIED_GAP_DEFICIT`] · size + this · distance. It is for pieces that are much farther apart
+/// than they are large.
 pub(crate) const MAX_RELATIVE_CERTIFIED_GAP_DEFICIT: f64 = 32.0 * UNIT_ROUNDOFF;
 
 /// The distance from a plane or a line up to which points count as on it, in units of the largest coordinate. Corners

@@ -88,7 +88,7 @@ enum Command {
     Edges(Box<EdgesArgs>),
     /// Prove where a mechanism keeps a clearance, over a joint or along a path
     Clearance(Box<ClearanceArgs>),
-    /// Decide which pairs of a robot's links can touch at all, and write them as SRDF
+    /// Decide which pairs of a robot's links can touch, and write those that need no check as SRDF
     Acm(AcmArgs),
     /// Split a mesh into convex pieces; print statistics, write the pieces or the prepared body
     Decompose(DecomposeArgs),

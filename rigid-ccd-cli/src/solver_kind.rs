@@ -30,7 +30,8 @@ pub enum ScheduleKind {
     /// Advances the pair first whose proven separation ends first.
     #[default]
     BestFirst,
-    /// FAST, as published: one step for all pairs at which a distance query over hull trees stops.
+    /// FAST as published: descends the hull trees, then advances the pairs where the descent stops, all by one common
+    /// time step.
     Fast,
     /// Advances all pairs of pieces together, by one step at a time: slow, for comparison on small bodies.
     Naive,

@@ -15,7 +15,7 @@ pub(super) struct TimeHistogram {
 const DROPPED_LOW_BIT_COUNT: u32 = f64::MANTISSA_DIGITS - 1 - 10;
 
 impl TimeHistogram {
-    /// Adds a time.
+    /// Counts one measured time, in microseconds.
     pub(super) fn add(&mut self, micros: f64) {
         *self
             .counts

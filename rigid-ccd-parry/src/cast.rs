@@ -3,7 +3,7 @@
 use crate::half_space::HalfSpace;
 use crate::horizon::{MotionWithExtent, QueryDuration, max_relative_displacement};
 use crate::interval::Interval;
-use crate::leaving::first_contact_unless_parting;
+use crate::leaving::first_contact_unless_separating;
 use crate::order::{greater, length, lesser};
 use crate::scene::{CastHit, CastStatus, Scene};
 use crate::tolerance::{
@@ -158,8 +158,8 @@ impl Cast {
         })
     }
 
-    /// Returns the first contact; with [`StartPolicy::Leave`], pieces that overlap at the start and begin to part are
-    /// ignored.
+    /// Returns the first contact; with [`StartPolicy::Leave`], pieces that overlap at the start and begin to separate
+    /// are ignored.
     fn first_hit(
         &self,
         scene: &Scene<'_>,
@@ -172,7 +172,7 @@ impl Cast {
                     && self.start_policy == StartPolicy::Leave
                     && scene.may_ignore_overlap() =>
             {
-                first_contact_unless_parting(scene, found, solver)
+                first_contact_unless_separating(scene, found, solver)
             }
             _ => Ok(found),
         }

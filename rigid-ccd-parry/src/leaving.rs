@@ -1,7 +1,8 @@
-//! Ignores the overlap of pieces at the start of a linear cast if they begin to part, as parry does.
+//! Ignores the overlap of pieces at the start of a linear cast if they begin to separate, as parry does.
 //!
-//! Two convex pieces that move straight overlap for one stretch of time. Once they part they never meet again: a pair
-//! that begins to part is left out, and all other pairs are asked about. parry, too, looks at each pair by itself.
+//! Two convex pieces that move straight overlap for one stretch of time. Once they separate they never meet again: a
+//! pair that begins to separate is left out, and all other pairs are asked about. parry, too, looks at each pair by
+//! itself.
 
 mod direction;
 
@@ -15,13 +16,13 @@ use ccd_core::glam::DVec3;
 use direction::least_overlap_direction;
 use rigid_ccd::Solver;
 
-/// The maximum number of pairs of pieces that are ignored because they part. Beyond it the bodies are in contact at the
-/// start.
-const MAX_PARTING_PAIRS: usize = 256;
+/// The maximum number of pairs of pieces that are ignored because they separate or slide. Beyond it the bodies are in
+/// contact at the start.
+const MAX_SEPARATING_PAIRS: usize = 256;
 
-/// Returns the first contact of all pairs of pieces that do not begin to part; `overlap`, the hit at the start, if one
-/// of these overlaps.
-pub(crate) fn first_contact_unless_parting(
+/// Returns the first contact of all pairs of pieces that do not begin to separate; `overlap`, the hit at the start, if
+/// one of these overlaps.
+pub(crate) fn first_contact_unless_separating(
     scene: &Scene<'_>,
     overlap: CastHit,
     solver: &mut Solver,
@@ -40,7 +41,9 @@ pub(crate) fn first_contact_unless_parting(
             CastStatus::Overlap => {
                 left_out += 1;
                 let [a, b] = found.sub_shape_indices;
-                if left_out > MAX_PARTING_PAIRS || !pieces_begin_to_part(scene, [a, b], solver) {
+                if left_out > MAX_SEPARATING_PAIRS
+                    || !pieces_separate_or_slide(scene, [a, b], solver)
+                {
                     return Ok(Some(overlap));
                 }
                 let [mut of_a, of_b] = task;
@@ -139,11 +142,11 @@ fn bounding_ball(piece: &Piece<'_>) -> (DVec3, f64) {
 }
 
 /// Returns whether two pieces that overlap at the start begin to move apart, or slide along each other.
-fn pieces_begin_to_part(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> bool {
+fn pieces_separate_or_slide(scene: &Scene<'_>, numbers: [u32; 2], solver: &mut Solver) -> bool {
     let pieces = [0, 1].map(|k| scene.bodies[k].body().pieces().get(numbers[k] as usize));
     let poses = scene.motions.map(|motion| motion.start());
     let velocity = scene.motions[1].velocity() - scene.motions[0].velocity();
-    // The comparison is false for NaN, which does not part.
+    // The comparison is false for NaN, which does not separate.
     let least = -MAX_SLIDING_APPROACH_RATIO * length(velocity);
     least_overlap_direction(pieces, poses, solver)
         .is_some_and(|normal| normal.dot(velocity) >= least)

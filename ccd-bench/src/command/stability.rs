@@ -31,7 +31,7 @@ pub(super) struct StabilityArgs {
     methods: Vec<String>,
     #[command(flatten)]
     programs: MethodPrograms,
-    /// Draw the answers that are already in the folder, even those of another build, and ask nothing
+    /// Only redraw the tables and charts from the answers in the folder, even those of another build; run no method
     #[arg(long)]
     redraw: bool,
     /// Write the tables to this folder; answers that are in it already are drawn, but not asked again. Those of another

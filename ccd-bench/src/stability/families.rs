@@ -51,11 +51,11 @@ fn powers_of_ten(exponents: std::ops::RangeInclusive<i32>) -> Vec<f64> {
     exponents.map(|k| 10f64.powi(k)).collect()
 }
 
-/// Returns the family step in which a body falls onto a slab, and meets it at `time`, which is known to within 1e-14.
+/// Returns the scene in which a body falls onto a slab, and meets it at `time`, which is known to within 1e-14.
 fn fall_onto_slab(mesh: TriangleMesh, falling: BodyMotion, time: f64) -> Result<FamilyScene> {
-    let step = FamilyScene::new(mesh, slab()?);
+    let scene = FamilyScene::new(mesh, slab()?);
     let expected = truth_for_contact_time(time, 1e-14);
-    step.with_query_and_rotations(falling, BodyMotion::RESTING_SLAB_MOTION, expected)
+    scene.with_query_and_rotations(falling, BodyMotion::RESTING_SLAB_MOTION, expected)
 }
 
 /// The half length and the half width of a rod.
@@ -72,11 +72,11 @@ fn rod_contact_angle(wall: f64) -> f64 {
     (wall / long.hypot(thin)).asin() - thin.atan2(long)
 }
 
-/// Returns the family step in which a rod rotates at the origin, next to a wall whose near side is at x = `wall`.
+/// Returns the scene in which a rod rotates at the origin, next to a wall whose near side is at x = `wall`.
 fn rod_beside_wall(turning: BodyMotion, wall: f64, expected: Truth) -> Result<FamilyScene> {
-    let step = FamilyScene::new(rod()?, cuboid(1.0, 3.0, 3.0)?);
+    let scene = FamilyScene::new(rod()?, cuboid(1.0, 3.0, 3.0)?);
     let beside = BodyMotion::motion_at_rest((wall + 1.0) * DVec3::X);
-    step.with_query_and_rotations(turning, beside, expected)
+    scene.with_query_and_rotations(turning, beside, expected)
 }
 
 #[cfg(test)]

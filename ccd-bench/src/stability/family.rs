@@ -73,7 +73,7 @@ const WORLD_ROTATIONS: [(DVec3, f64); 2] = [
     (DVec3::new(-0.48, 0.6, 0.64), 2.3),
 ];
 
-/// The default tolerance of a step, in the scene's unit of length.
+/// The default tolerance of a scene, in the scene's unit of length.
 const TOLERANCE: f64 = 1e-6;
 
 /// Returns the exact answer for a contact at a known time, widened by `slack` for the rounding of the query's numbers.
@@ -145,7 +145,7 @@ impl BodyMotion {
 }
 
 impl FamilyScene {
-    /// Creates a step for two meshes, with the default tolerance, no margin, duration 1 and no queries.
+    /// Creates a scene for two meshes, with the default tolerance, no margin, duration 1 and no queries.
     pub(super) fn new(a: TriangleMesh, b: TriangleMesh) -> Self {
         FamilyScene {
             meshes: [a, b],
@@ -156,7 +156,7 @@ impl FamilyScene {
         }
     }
 
-    /// Returns the same step with another tolerance.
+    /// Returns the same scene with another tolerance.
     pub(super) fn with_tolerance(self, tolerance: f64) -> Self {
         FamilyScene { tolerance, ..self }
     }

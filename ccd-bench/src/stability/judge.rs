@@ -5,10 +5,10 @@ use crate::method::guarded::QueryOutcome;
 use crate::run::contest::{self, Judgement};
 use crate::truth::{Truth, TruthSolver};
 
-/// Judges a method's answer within the tolerance of one step of a family, or within a larger one that the method
+/// Judges a method's answer within the tolerance of one scene of a family, or within a larger one that the method
 /// states. The referee measures distances; it is not asked for the answer.
 pub fn judge(
-    step: &FamilyScene,
+    scene: &FamilyScene,
     case: &ExactCase,
     referee: &TruthSolver<'_>,
     outcome: &QueryOutcome,
@@ -19,7 +19,7 @@ pub fn judge(
         truth => truth,
     };
     contest::judge_outcome(outcome, |reply| {
-        let within = step.margin + reply.judging_tolerance(step.tolerance);
+        let within = scene.margin + reply.judging_tolerance(scene.tolerance);
         contest::judge(referee, &case.query, truth, reply.claim, within)
     })
 }

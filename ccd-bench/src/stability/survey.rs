@@ -1,4 +1,4 @@
-//! Runs methods on all steps of the families, each in a process that can be stopped, and records the answers in a
+//! Runs methods on all scenes of the families, each in a process that can be stopped, and records the answers in a
 //! journal.
 
 use super::family::{Family, FamilyScene};
@@ -35,19 +35,19 @@ pub struct Survey {
 /// The time that a method may take for one query.
 const QUERY_TIME_LIMIT: Duration = Duration::from_secs(3);
 
-/// The time that a method may take to prepare the bodies of a step.
+/// The time that a method may take to prepare the bodies of a scene.
 const PREPARATION_TIME_LIMIT: Duration = Duration::from_secs(20);
 
-/// The number of consecutive steps at which a method must exceed a time limit before its harder steps are skipped.
+/// The number of consecutive scenes at which a method must exceed a time limit before its harder scenes are skipped.
 const TIMEOUTS_BEFORE_SKIPPING: usize = 2;
 
-/// Returns the name of a step in the tables: the family and the parameter value.
+/// Returns the name of a scene in the tables: the family and the parameter value.
 pub(super) fn scene_name(family: &Family, value: f64) -> String {
     format!("{} {value:e}", family.name)
 }
 
 impl Survey {
-    /// Runs the steps whose answers the journal in the folder does not have yet, and returns the journal.
+    /// Runs the scenes whose answers the journal in the folder does not have yet, and returns the journal.
     ///
     /// # Errors
     /// If a scene cannot be made, a method cannot be started, or the journal cannot be kept; earlier answers are kept.
@@ -56,9 +56,9 @@ impl Survey {
             self.programs.check_script_starts(method)?;
         }
         let journal = Mutex::new(Journal::open(&self.folder, &fingerprint())?);
-        let steps = self.families.iter().map(|f| self.selected_values(f).len());
-        let steps: usize = steps.sum();
-        let progress = Progress::new(TotalWork::Steps(steps * self.methods.len()));
+        let scenes = self.families.iter().map(|f| self.selected_values(f).len());
+        let scenes: usize = scenes.sum();
+        let progress = Progress::new(TotalWork::Steps(scenes * self.methods.len()));
         let families = self.families.par_iter();
         families.try_for_each(|family| self.run_family_queries(family, &journal, &progress))?;
         drop(progress);
@@ -85,17 +85,17 @@ impl Survey {
         let mut stopped = vec![0; self.methods.len()];
         for value in self.selected_values(family) {
             let name = scene_name(family, value);
-            let step = (family.make_scene)(value).with_context(|| name.clone())?;
+            let scene = (family.make_scene)(value).with_context(|| name.clone())?;
             let ready = PreparedFamilyScene {
-                scene: &step,
+                scene: &scene,
                 name: &name,
-                body_surfaces: step.meshes.each_ref().map(Surface::new),
+                body_surfaces: scene.meshes.each_ref().map(Surface::new),
             };
             for (&method, stopped) in self.methods.iter().zip(&mut stopped) {
                 progress.set_message(&format!("{name}: {method}"));
                 progress.step();
                 let locked = || journal.lock().unwrap_or_else(PoisonError::into_inner);
-                let known = locked().has_cell(&name, &method.to_string(), step.tolerance);
+                let known = locked().has_cell(&name, &method.to_string(), scene.tolerance);
                 if *stopped >= TIMEOUTS_BEFORE_SKIPPING || known {
                     continue;
                 }
@@ -114,7 +114,7 @@ impl Survey {
     }
 }
 
-/// A step with its name and the referee's surfaces of its meshes.
+/// A scene of a family with its name, and its two meshes as surfaces for the exact reference answers.
 struct PreparedFamilyScene<'s> {
     scene: &'s FamilyScene,
     name: &'s str,
@@ -122,24 +122,24 @@ struct PreparedFamilyScene<'s> {
 }
 
 impl PreparedFamilyScene<'_> {
-    /// Runs a method on all queries of the step; stops after the first query that exceeds the time limit.
+    /// Runs a method on all queries of the scene; stops after the first query that exceeds the time limit.
     fn run_queries(&self, method: Method, programs: &MethodPrograms) -> io::Result<Vec<Trial>> {
-        let step = self.scene;
+        let scene = self.scene;
         let setting = GuardedMethodSettings {
-            margin: step.margin,
+            margin: scene.margin,
             preparation_limit: PREPARATION_TIME_LIMIT,
-            ..GuardedMethodSettings::new(method, step.tolerance)
+            ..GuardedMethodSettings::new(method, scene.tolerance)
         };
         let name = method.to_string();
         let trial = |row: usize, outcome: &QueryOutcome, judged: (Judgement, String)| {
             Trial::new(
-                (self.name, &name, step.tolerance),
+                (self.name, &name, scene.tolerance),
                 (row, &row.to_string()),
                 (outcome, QUERY_TIME_LIMIT),
                 judged,
             )
         };
-        let mut guarded = match GuardedMethod::start(programs, setting, step.meshes.each_ref()) {
+        let mut guarded = match GuardedMethod::start(programs, setting, scene.meshes.each_ref()) {
             Ok(guarded) => guarded,
             Err(error) => {
                 let note = error.to_string();
@@ -149,7 +149,7 @@ impl PreparedFamilyScene<'_> {
         };
         let [a, b] = &self.body_surfaces;
         let mut trials = Vec::new();
-        for (row, case) in step.cases.iter().enumerate() {
+        for (row, case) in scene.cases.iter().enumerate() {
             if method.moves_along_screws() && !are_screw_motions(&case.query) {
                 let refused = Judgement::without_time_error(Verdict::Refused);
                 let note = "bodies move along screws only".to_owned();
@@ -157,7 +157,7 @@ impl PreparedFamilyScene<'_> {
                 continue;
             }
             let outcome = guarded.run_query(&case.query, QUERY_TIME_LIMIT)?;
-            let judged = judge(step, case, &TruthSolver::new(a, b), &outcome);
+            let judged = judge(scene, case, &TruthSolver::new(a, b), &outcome);
             trials.push(trial(row, &outcome, (judged, self.reply_remark(&outcome))));
             if outcome == QueryOutcome::CutOff {
                 break;

@@ -215,9 +215,9 @@ struct AffineMap {
 }
 
 impl AffineMap {
-    /// Converts a map from intervals to floats, and bounds the error and the length of the images. Each coordinate of
-    /// an image is Σⱼ mⱼpⱼ + o with four roundings in sequence. Its error is at most 4u(|m||p| + |o|), plus √3
-    /// rad(m)|p| + rad(o) for the widths of the intervals.
+    /// Rounds the interval coefficients of an affine map to their midpoints, and bounds the error and the length of its
+    /// images. Each coordinate of an image is Σⱼ mⱼpⱼ + o with four roundings in sequence. Its error is at most
+    /// 4u(|m||p| + |o|), plus √3 rad(m)|p| + rad(o) for the widths of the intervals.
     fn new((matrix, offset): &(IntervalMatrix, IntervalVector), farthest: f64) -> Self {
         let rows = matrix.0.map(|row| IntervalVector(row).midpoint());
         let widest = |width: f64, entry: &Interval| nan_propagating_max(width, entry.radius());

@@ -34,8 +34,8 @@ use std::sync::Arc;
 /// - The hull of an inner node is exactly that of its children's points: each of its points is one of theirs, and
 ///   each of theirs is inside it. Construction checks both with exact arithmetic `[SHE97]`. The distance of two nodes
 ///   therefore never exceeds that of any two pieces below them.
-/// - If the nearest features of two nodes are [not free](FacetClass::Bridge), their distance is that
-///   of the pieces below them.
+/// - If neither of the nearest features of two nodes is a [bridge](FacetClass::Bridge), the distance of the nodes is
+///   that of the pieces below them.
 ///
 /// A node is grown by the largest rounding radius of the pieces below.
 #[derive(Clone, Debug)]
@@ -56,7 +56,7 @@ struct Hulls {
     pieces: Pieces,
     /// The class of each facet, for the facets of all hulls one after the other.
     facet_classes: Vec<FacetClass>,
-    /// The end of each hull's facets in `classes`.
+    /// The end of each hull's facets in `facet_classes`.
     facet_class_ends: Vec<u32>,
     /// For each node, whether all pieces below it have the same rounding radius.
     has_uniform_radius_by_node: Vec<bool>,
@@ -86,12 +86,14 @@ impl HullTree {
         &self.hulls.facet_classes[range_from_ends(&self.hulls.facet_class_ends, node as usize)]
     }
 
-    /// Returns the best facet class at a point of a node's hull, given as a combination of the hull's points
-    /// `[SWIFT01]`.
+    /// Returns the class of the facet that contains `point` on a node's hull `[SWIFT01]`; of several facets, the class
+    /// that is first in the order of [`FacetClass`].
+    ///
+    /// `point` is a combination of the hull's points; each of these points by itself counts as on the mesh. If the
+    /// pieces below the node have different rounding radii, the class is [`FacetClass::Bridge`].
     ///
     /// # Guarantee
-    /// Unless the class is [`FacetClass::Bridge`], the combination is on or in a piece below the
-    /// node.
+    /// Unless the class is [`FacetClass::Bridge`], the combination is on or in a piece below the node.
     ///
     /// # Panics
     /// When there is no such node.

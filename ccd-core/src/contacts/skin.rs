@@ -24,7 +24,7 @@ pub(super) struct NearSurface<'a> {
     coplanar_edges: HashMap<[u32; 2], [u32; 2]>,
     /// For each corner, whether it has no mesh number and all edges at it are between coplanar faces.
     is_corner_internal: Vec<bool>,
-    /// The faces around each hidden corner.
+    /// The faces around each internal corner.
     faces_around_internal_corner: HashMap<u32, Vec<u32>>,
     /// The first triangle of each face of the mesh; a face may have several triangles.
     first_triangle_by_feature: HashMap<Feature, u32>,

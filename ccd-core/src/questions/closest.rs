@@ -90,8 +90,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
             deadline: problem.deadline,
             body_excess: problem.body_excess_sum(),
         };
-        let answer = required.decide(|rung, deadline| {
-            let mut problem = rung.problem(&problem.for_distances());
+        let answer = required.decide(|margin_query, deadline| {
+            let mut problem = margin_query.problem(&problem.for_distances());
             problem.deadline = deadline;
             Ok::<_, Infallible>(self.any_contact_of(&problem, oracle))
         });
@@ -188,12 +188,12 @@ impl<O: DistanceOracle> DepthFirst<O> {
             let common = NodeContext::new(&below);
             let mut look = BoundTightener::new(&below);
             while nearing.upper() == upper {
-                if let Some(rung) = nearing
+                if let Some(attempt) = nearing
                     .lower_bound_attempts
                     .next_attempt_if_due(search.meter.stats.budgeted_work(), upper)
                 {
                     if let ControlFlow::Break(found) =
-                        nearing.try_lower_bound(problem, rung, search.oracle, search.meter)
+                        nearing.try_lower_bound(problem, attempt, search.oracle, search.meter)
                     {
                         return Ok(found);
                     }

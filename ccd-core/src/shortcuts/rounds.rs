@@ -258,11 +258,12 @@ impl<'a> PeriodicSearch<'a> {
 /// One period that represents the whole duration, for queries for the closest approach.
 #[derive(Debug)]
 pub(crate) struct RepresentativePeriod<'a> {
-    /// The problem restricted to this period, with a tolerance that leaves room for `change`.
+    /// The problem restricted to this period, with a tolerance that leaves room for `max_distance_change` and
+    /// `rounding`.
     pub(crate) period_subproblem: Problem<'a>,
     /// An upper bound of how much the bodies' distance differs between this period and the same moment of any other.
     pub(crate) max_distance_change: f64,
-    /// The error of distances in this period, in addition to the error of distances in the whole problem.
+    /// The rounding of distances that comes on top of the problem's own `rounding`, because one period stands for all.
     pub(crate) rounding: f64,
 }
 

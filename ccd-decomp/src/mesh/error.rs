@@ -58,7 +58,7 @@ pub enum MeshFault {
     AtElement {
         /// The element that has the fault, such as a node or a mesh.
         element: String,
-        /// The fault of the element.
+        /// What is wrong with the element.
         fault: Box<MeshFault>,
     },
     /// The file has no part of the requested name or number.

@@ -1,4 +1,4 @@
-//! Builds a model from the pieces of a mesh.
+//! Builds the content of a stored body (pieces, hierarchy, report) from the pieces chosen for a mesh.
 
 use super::error::PrepareError;
 use super::model::StoredBodyContent;
@@ -32,7 +32,7 @@ pub(super) struct PiecesChoice {
 type PieceTree = (Pieces, Hierarchy);
 
 impl PiecesChoice {
-    /// Creates the model from the chosen pieces. `triangles` are those of the mesh before any shell is reversed, if
+    /// Creates the content from the chosen pieces. `triangles` are those of the mesh before any shell is reversed, if
     /// computed.
     pub(super) fn into_model(
         self,

@@ -1,4 +1,4 @@
-//! Regions for which triangles are searched.
+//! Regions in which triangles are searched for.
 
 use crate::bounds::BoundingBox;
 use ccd_core::glam::DVec3;

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ._query import like
 from ._rigid_ccd import Cell, InputError, Table
 
-PathAsk: TypeAlias = Literal["is-free", "first-contact", "closest-approach"]
+PathQuestion: TypeAlias = Literal["is-free", "first-contact", "closest-approach"]
 
 
 class EdgesQuery:
@@ -38,7 +38,7 @@ class EdgesQuery:
     """
 
     def __init__(
-        self, cell: Cell, *, ask: PathAsk = "is-free", rest: Mapping[str, float] | None = None, **settings: Any
+        self, cell: Cell, *, ask: PathQuestion = "is-free", rest: Mapping[str, float] | None = None, **settings: Any
     ) -> None:
         # A copy, which later changes of the cell do not reach.
         self._cell: Cell = copy.copy(cell)

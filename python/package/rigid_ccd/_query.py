@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import Any, Literal, TypeAlias
 
 from ._rigid_ccd import Body, InputError, Table
-from ._tables import Ask, answer
+from ._tables import Question, answer
 
 BodyOrFile: TypeAlias = Body | str | os.PathLike[str]
 
@@ -46,7 +46,7 @@ class TableQuery:
         a: BodyOrFile,
         b: BodyOrFile,
         *,
-        ask: Ask = "first-contact",
+        ask: Question = "first-contact",
         paths: Literal["refused", "whole"] = "refused",
         **settings: Any,
     ) -> None:
@@ -82,7 +82,11 @@ class TableQuery:
             yield self(motions)
 
     def _table(self, motions: Any) -> Table:
-        """Converts a table; refuses one without ids, or whose paths may be cut."""
+        """Converts to a `Table`.
+
+        Raises InputError without a column `id`, or with a column `t` unless paths='whole': an engine may split a path's
+        rows between partitions.
+        """
         table = Table(motions)
         if "id" not in table:
             raise InputError("motions: no column `id`: engines return rows in any order")

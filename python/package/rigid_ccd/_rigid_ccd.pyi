@@ -44,7 +44,7 @@ _Rotation: TypeAlias = ArrayLike | _ScipyRotation
 _Pose: TypeAlias = ArrayLike | tuple[ArrayLike, _Rotation]
 _Pieces: TypeAlias = Literal["auto", "triangles", "patches", "hull"]
 _Unit: TypeAlias = Literal["um", "mm", "cm", "m", "in", "ft"]
-_Course: TypeAlias = Motion | Path | LinkMotion
+_Movement: TypeAlias = Motion | Path | LinkMotion
 
 class InputError(ValueError):
     results: Table | None
@@ -310,24 +310,24 @@ class Table:
 def first_contact(
     a: Body,
     b: Body,
-    motion_a: _Course | None = None,
-    motion_b: _Course | None = None,
+    motion_a: _Movement | None = None,
+    motion_b: _Movement | None = None,
     duration: float | None = None,
     **settings: Unpack[_OfContacts],
 ) -> Contact | None: ...
 def is_free(
     a: Body,
     b: Body,
-    motion_a: _Course | None = None,
-    motion_b: _Course | None = None,
+    motion_a: _Movement | None = None,
+    motion_b: _Movement | None = None,
     duration: float | None = None,
     **settings: Unpack[_OfContacts],
 ) -> bool: ...
 def closest_approach(
     a: Body,
     b: Body,
-    motion_a: _Course | None = None,
-    motion_b: _Course | None = None,
+    motion_a: _Movement | None = None,
+    motion_b: _Movement | None = None,
     duration: float | None = None,
     **settings: Unpack[_OfApproaches],
 ) -> Distance: ...

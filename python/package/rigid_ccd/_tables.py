@@ -10,7 +10,7 @@ from ._settings import ContactsOfTables, DistancesOfTables, Progress
 Motions: TypeAlias = Any
 """An Arrow table of any library, or a dict of arrays."""
 
-Ask: TypeAlias = Literal[
+Question: TypeAlias = Literal[
     "first-contact", "is-free", "contact-interval", "closest-approach", "distance"
 ]
 
@@ -113,7 +113,7 @@ def distances(a: Body, b: Body, motions: Motions, **settings: Unpack[DistancesOf
     return answer("distance", a, b, motions, **settings)
 
 
-def answer(ask: Ask, a: Body, b: Body, motions: Motions, *, progress: Progress = None, **settings: Any) -> Table:
+def answer(ask: Question, a: Body, b: Body, motions: Motions, *, progress: Progress = None, **settings: Any) -> Table:
     """Answers a question about each row."""
     report, close = _reporter(progress)
     try:

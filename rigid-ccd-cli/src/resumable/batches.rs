@@ -9,9 +9,9 @@ use anyhow::{Context, Result};
 use rigid_ccd::table::courses::{CourseRow, MovementRows};
 use rigid_ccd::table::motions::TableError;
 
-/// A table of what is asked, row by row.
+/// A table of queries, read row by row.
 pub(crate) trait RowSource: Iterator<Item = Result<Self::Row, TableError>> {
-    /// What a row asks, or what is wrong with it.
+    /// A parsed row: a query, or the reason why it is invalid.
     type Row;
 
     /// Skips rows, and returns how many there were.

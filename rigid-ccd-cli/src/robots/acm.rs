@@ -1,4 +1,4 @@
-//! `ccd acm`: decides which pairs of a robot's links can touch at all.
+//! `ccd acm`: decides which pairs of a robot's links can touch.
 
 use super::loading::{RobotArgs, refuse_overwriting_any};
 use crate::files::refuse_overwriting_input;
@@ -11,7 +11,7 @@ use clap::Args;
 use rigid_ccd_robot::{LinkContactClass, Robot};
 use std::path::PathBuf;
 
-/// Decide which pairs of a robot's links can touch at all, and write them as SRDF
+/// Decide which pairs of a robot's links can touch, and write those that need no check as SRDF
 #[derive(Clone, Debug, Args)]
 #[command(mut_arg("urdf", |urdf| urdf.required(true)), after_help = AFTER_HELP)]
 pub(crate) struct AcmArgs {

@@ -78,7 +78,11 @@ impl TableKind {
 
     /// Returns the known columns that hold a quantity's components, as indices into [`TableKind::names`]; empty if tables of
     /// this kind do not have it.
-    pub(in crate::table) fn column_range(self, side: Side, quantity: Quantity) -> Range<usize> {
+    pub(in crate::table) fn known_column_range(
+        self,
+        side: Side,
+        quantity: Quantity,
+    ) -> Range<usize> {
         let within = match (self, quantity) {
             (_, Quantity::Position) => 0..3,
             (_, Quantity::Orientation) => 3..7,
@@ -205,8 +209,8 @@ impl Columns {
         let is_there = |&slot: &usize| self.cell_indices[slot].is_some();
         for side in self.table_kind.sides() {
             for (given, needed) in needs.clone() {
-                let given = self.column_range(side, given).find(is_there);
-                let mut needed = self.column_range(side, needed);
+                let given = self.known_column_range(side, given).find(is_there);
+                let mut needed = self.known_column_range(side, needed);
                 let missing = needed.find(|slot| !is_there(slot));
                 if let (Some(given), Some(missing)) = (given, missing) {
                     return Err(TableError::MissingColumn {
@@ -233,9 +237,13 @@ impl Columns {
         &self.remark_collector
     }
 
-    /// Returns the known columns that hold a quantity's components, as [`TableKind::column_range`] does.
-    pub(in crate::table) fn column_range(&self, side: Side, quantity: Quantity) -> Range<usize> {
-        self.table_kind.column_range(side, quantity)
+    /// Returns the known columns that hold a quantity's components, as [`TableKind::known_column_range`] does.
+    pub(in crate::table) fn known_column_range(
+        &self,
+        side: Side,
+        quantity: Quantity,
+    ) -> Range<usize> {
+        self.table_kind.known_column_range(side, quantity)
     }
 
     /// Returns the number of columns in the table's header.

@@ -47,8 +47,8 @@ fn edge_across_edge(angle: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::FALLING.with_orientation(DQuat::from_rotation_z(angle) * on_edge);
     let lying = BodyMotion::STILL.with_orientation(on_edge);
     let expected = truth_for_contact_time((3.0 - 0.2 * SQRT_2) / 4.0, MAX_CONTACT_TIME_ERROR);
-    let step = FamilyScene::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
-    step.with_query_and_rotations(falling, lying, expected)
+    let scene = FamilyScene::new(cuboid(2.0, 0.1, 0.1)?, cuboid(2.0, 0.1, 0.1)?);
+    scene.with_query_and_rotations(falling, lying, expected)
 }
 
 /// Makes a cube that falls onto a slab corner first, with its diagonal tilted by a small angle from upright (case T8).
@@ -67,11 +67,11 @@ fn peg_in_a_hole(clearance: f64) -> Result<FamilyScene> {
     let hole = half + clearance;
     let angle = (hole / (half * SQRT_2)).asin() - FRAC_PI_4;
     let turning = BodyMotion::STILL.with_spin(2.0 * angle * DVec3::Z);
-    let step = FamilyScene::new(cuboid(half, half, 1.0)?, holed_plate(hole)?)
+    let scene = FamilyScene::new(cuboid(half, half, 1.0)?, holed_plate(hole)?)
         .with_tolerance(greater(0.1 * clearance, 1e-11));
     // The angle has the error of the clearance.
     let expected = truth_for_contact_time(0.5, 1e-15 / clearance);
-    step.with_query_and_rotations(turning, BodyMotion::STILL, expected)
+    scene.with_query_and_rotations(turning, BodyMotion::STILL, expected)
 }
 
 /// Makes a cube that falls flat onto a slab while it rotates by a very small angle (case T25).
@@ -93,15 +93,15 @@ fn cube_at_grazing_angle(angle: f64) -> Result<FamilyScene> {
     let flying = BodyMotion::straight(dvec3(-2.0, 0.0, 0.5 + height), 4.0 * dvec3(cos, 0.0, -sin));
     // The height is rounded in units of the cube, and the cube descends slowly.
     let expected = truth_for_contact_time(0.5, 1e-15 / sin);
-    let step = FamilyScene::new(cube()?, slab()?).with_tolerance(greater(1e-3 * height, 1e-11));
-    step.with_query_and_rotations(flying, BodyMotion::RESTING_SLAB_MOTION, expected)
+    let scene = FamilyScene::new(cube()?, slab()?).with_tolerance(greater(1e-3 * height, 1e-11));
+    scene.with_query_and_rotations(flying, BodyMotion::RESTING_SLAB_MOTION, expected)
 }
 
 fn barely_overlapping_cubes(overlap: f64) -> Result<FamilyScene> {
     let flying = BodyMotion::straight(dvec3(-3.0, 0.0, 1.0 - overlap), 6.0 * DVec3::X);
     let expected = truth_for_contact_time(1.0 / 3.0, MAX_CONTACT_TIME_ERROR);
-    let step = FamilyScene::new(cube()?, cube()?);
-    step.with_query_and_rotations_if(overlap > 1e-12, flying, BodyMotion::STILL, expected)
+    let scene = FamilyScene::new(cube()?, cube()?);
+    scene.with_query_and_rotations_if(overlap > 1e-12, flying, BodyMotion::STILL, expected)
 }
 
 /// Makes a rod that rotates until its corner barely reaches a wall, shortly before the corner would pass it (case T5).
@@ -124,8 +124,8 @@ fn linked_rings(way: f64) -> Result<FamilyScene> {
     let upright = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
     let hanging =
         BodyMotion::straight((radius + rim - way) * DVec3::X, DVec3::X).with_orientation(upright);
-    let step = FamilyScene::new(torus(radius, tube)?, torus(radius, tube)?)
+    let scene = FamilyScene::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
     let expected = truth_for_contact_time(way, MAX_CONTACT_TIME_ERROR);
-    step.with_query(hanging, BodyMotion::STILL, expected)
+    scene.with_query(hanging, BodyMotion::STILL, expected)
 }

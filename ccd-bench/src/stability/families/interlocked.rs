@@ -46,8 +46,8 @@ fn hooks(slack: f64) -> Result<FamilyScene> {
     // Upside down, the other hook's bar is above this one's: its lower side is at 0.2 + slack.
     let holding = BodyMotion::straight((2.0 * bar + slack) * DVec3::Z, DVec3::NEG_Z)
         .with_orientation(DQuat::from_rotation_z(FRAC_PI_2) * DQuat::from_rotation_x(PI));
-    let step = FamilyScene::new(hook.clone(), hook).with_tolerance(greater(0.1 * slack, 1e-11));
-    step.with_query_and_rotations(
+    let scene = FamilyScene::new(hook.clone(), hook).with_tolerance(greater(0.1 * slack, 1e-11));
+    scene.with_query_and_rotations(
         holding,
         BodyMotion::STILL,
         truth_for_contact_time(slack, 1e-14),
@@ -58,9 +58,9 @@ fn hooks(slack: f64) -> Result<FamilyScene> {
 fn ring_onto_ring(way: f64) -> Result<FamilyScene> {
     let (radius, tube) = (1.0, 0.25);
     let falling = BodyMotion::straight((2.0 * tube + way) * DVec3::Z, DVec3::NEG_Z);
-    let step = FamilyScene::new(torus(radius, tube)?, torus(radius, tube)?)
+    let scene = FamilyScene::new(torus(radius, tube)?, torus(radius, tube)?)
         .with_tolerance(greater(0.1 * way, 1e-11));
-    step.with_query_and_rotations(
+    scene.with_query_and_rotations(
         falling,
         BodyMotion::STILL,
         truth_for_contact_time(way, 1e-14),
@@ -81,8 +81,8 @@ fn screw_in_nut(turns: f64, play: f64) -> Result<FamilyScene> {
     let flank = helicoid(THREAD_RADII, PITCH, sides, 3)?;
     let turning = BodyMotion::straight(play * PITCH * DVec3::Z, turns * PITCH * DVec3::Z)
         .with_spin(TAU * turns * DVec3::Z);
-    let step = FamilyScene::new(flank.clone(), flank).with_tolerance(0.1 * play * PITCH);
-    step.with_query_and_rotations(turning, BodyMotion::STILL, Truth::Free)
+    let scene = FamilyScene::new(flank.clone(), flank).with_tolerance(0.1 * play * PITCH);
+    scene.with_query_and_rotations(turning, BodyMotion::STILL, Truth::Free)
 }
 
 /// Makes a sheet that slides between two other sheets, at a gap from each.
@@ -112,9 +112,9 @@ fn plate_through_slit(gap: f64) -> Result<FamilyScene> {
     )
 }
 
-fn with_free_query(step: FamilyScene, gap: f64, moving: BodyMotion) -> Result<FamilyScene> {
-    let step = step.with_tolerance(greater(0.25 * gap, 1e-11));
-    step.with_query_and_rotations_if(gap >= 1e-12, moving, BodyMotion::STILL, Truth::Free)
+fn with_free_query(scene: FamilyScene, gap: f64, moving: BodyMotion) -> Result<FamilyScene> {
+    let scene = scene.with_tolerance(greater(0.25 * gap, 1e-11));
+    scene.with_query_and_rotations_if(gap >= 1e-12, moving, BodyMotion::STILL, Truth::Free)
 }
 
 /// Makes a rod that rotates into a wall, with its mesh stored in a frame that is rotated by the given angle (case T3).
@@ -125,9 +125,9 @@ fn rod_in_rotated_frame(degrees: f64) -> Result<FamilyScene> {
     let turning = BodyMotion::STILL
         .with_orientation(frame)
         .with_spin(PI * DVec3::Y);
-    let step = FamilyScene::new(rod, cuboid(1.0, 3.0, 3.0)?);
+    let scene = FamilyScene::new(rod, cuboid(1.0, 3.0, 3.0)?);
     let expected = truth_for_contact_time(rod_contact_angle(wall) / PI, 1e-14);
-    step.with_query_and_rotations(
+    scene.with_query_and_rotations(
         turning,
         BodyMotion::motion_at_rest((wall + 1.0) * DVec3::X),
         expected,

@@ -34,13 +34,13 @@ pub(super) fn families() -> Vec<Family> {
 
 /// Makes two combs whose teeth pass between each other, until their tips meet the bars (case T19).
 fn comb_into_comb(teeth: f64) -> Result<FamilyScene> {
-    let step = FamilyScene::new(comb(teeth as u32)?, comb(teeth as u32)?);
+    let scene = FamilyScene::new(comb(teeth as u32)?, comb(teeth as u32)?);
     // Rotated by half a turn about y, a tooth ends at its mirror image: in the middle of a gap, at 1/2 +
     // TOOTH of the step.
     let shift = 1.0 - (0.5 - TOOTH_WIDTH_SHARE) / teeth;
     let falling = BodyMotion::straight(dvec3(shift, 0.0, 5.0), -4.0 * DVec3::Z)
         .with_orientation(DQuat::from_rotation_y(PI));
-    step.with_query_and_rotations(
+    scene.with_query_and_rotations(
         falling,
         BodyMotion::STILL,
         truth_for_contact_time(0.5, 1e-14),
@@ -61,9 +61,9 @@ fn tip_onto_slab(sides: f64) -> Result<FamilyScene> {
 
 /// Makes a cube that falls onto the first of many open sheets.
 fn cube_onto_layers(count: f64) -> Result<FamilyScene> {
-    let step = FamilyScene::new(cube()?, evenly_stacked_squares(count as u32)?);
+    let scene = FamilyScene::new(cube()?, evenly_stacked_squares(count as u32)?);
     let falling = BodyMotion::FALLING;
-    step.with_query_and_rotations(
+    scene.with_query_and_rotations(
         falling,
         BodyMotion::STILL,
         truth_for_contact_time(0.625, 1e-14),
@@ -78,9 +78,9 @@ fn cube_with_bad_faces(count: f64) -> Result<FamilyScene> {
 
 /// Makes a cube that falls onto a sliver triangle of a slab.
 fn cube_onto_sliver(width: f64) -> Result<FamilyScene> {
-    let step = FamilyScene::new(cube()?, sliver_slab(width)?);
+    let scene = FamilyScene::new(cube()?, sliver_slab(width)?);
     let expected = truth_for_contact_time(0.625, 1e-14);
-    step.with_query_and_rotations(
+    scene.with_query_and_rotations(
         BodyMotion::FALLING,
         BodyMotion::RESTING_SLAB_MOTION,
         expected,
@@ -90,9 +90,9 @@ fn cube_onto_sliver(width: f64) -> Result<FamilyScene> {
 /// Makes a cube that falls onto one mesh of many cubes, every other one of which is inside out.
 fn cube_onto_cube_field(count: f64) -> Result<FamilyScene> {
     // The cube covers the middle of the field, where at least four others are.
-    let step = FamilyScene::new(cube()?, cube_grid_half_inside_out(count as u32)?);
+    let scene = FamilyScene::new(cube()?, cube_grid_half_inside_out(count as u32)?);
     let expected = truth_for_contact_time(0.625, 1e-14);
-    step.with_query_and_rotations(BodyMotion::FALLING, BodyMotion::STILL, expected)
+    scene.with_query_and_rotations(BodyMotion::FALLING, BodyMotion::STILL, expected)
 }
 
 /// Makes two cones that meet nearly tip to tip: each tip touches a side of the other cone, slightly beside its tip.
@@ -104,7 +104,7 @@ fn tip_onto_tip(aside: f64) -> Result<FamilyScene> {
     let slope = 1.0 / (radius * half_side.cos());
     let falling = BodyMotion::straight(dvec3(aside, 0.0, 2.0), -4.0 * DVec3::Z);
     let upside_down = BodyMotion::STILL.with_orientation(DQuat::from_rotation_y(PI));
-    let step = FamilyScene::new(cone.clone(), cone).with_tolerance(greater(0.1 * aside, 1e-11));
+    let scene = FamilyScene::new(cone.clone(), cone).with_tolerance(greater(0.1 * aside, 1e-11));
     let expected = truth_for_contact_time((2.0 + aside * slope) / 4.0, 1e-14);
-    step.with_query_and_rotations(falling, upside_down, expected)
+    scene.with_query_and_rotations(falling, upside_down, expected)
 }

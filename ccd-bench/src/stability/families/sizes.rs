@@ -50,9 +50,9 @@ fn margin_parameter_values() -> Vec<f64> {
 fn cubes_of_unequal_size(size: f64) -> Result<FamilyScene> {
     let way = greater(size, 1.0);
     let falling = BodyMotion::straight((1.0 + size + way) * DVec3::Z, -2.0 * way * DVec3::Z);
-    let step = FamilyScene::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?)
+    let scene = FamilyScene::new(cuboid(size, size, size)?, cuboid(1.0, 1.0, 1.0)?)
         .with_tolerance(1e-6 * way);
-    step.with_query_and_rotations(
+    scene.with_query_and_rotations(
         falling,
         BodyMotion::STILL,
         truth_for_contact_time(0.5, 1e-14),
@@ -64,30 +64,30 @@ fn cubes_of_unequal_size(size: f64) -> Result<FamilyScene> {
 fn scene_in_length_unit(size: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight(3.0 * size * DVec3::Z, -4.0 * size * DVec3::Z);
     let half = 0.5 * size;
-    let step = FamilyScene::new(
+    let scene = FamilyScene::new(
         cuboid(half, half, half)?,
         cuboid(9.0 * size, 9.0 * size, size)?,
     )
     .with_tolerance(1e-6 * size);
     let slab = BodyMotion::motion_at_rest(-size * DVec3::Z);
-    step.with_query_and_rotations(falling, slab, truth_for_contact_time(0.625, 1e-14))
+    scene.with_query_and_rotations(falling, slab, truth_for_contact_time(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto a slab within the given duration. The scene is like T1 of `tests/it/scenes.rs`.
 fn scene_in_time_unit(duration: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::FALLING;
-    let step = FamilyScene::new(cube()?, slab()?);
-    let step = FamilyScene { duration, ..step };
+    let scene = FamilyScene::new(cube()?, slab()?);
+    let scene = FamilyScene { duration, ..scene };
     let slab = BodyMotion::RESTING_SLAB_MOTION;
-    step.with_query_and_rotations(falling, slab, truth_for_contact_time(0.625, 1e-14))
+    scene.with_query_and_rotations(falling, slab, truth_for_contact_time(0.625, 1e-14))
 }
 
 /// Makes a cube that falls onto another cube while both move sideways by `travel`.
 fn cube_onto_moving_cube(travel: f64) -> Result<FamilyScene> {
     let falling = BodyMotion::straight(3.0 * DVec3::Z, dvec3(travel, 0.0, -4.0));
     let fleeing = BodyMotion::straight(DVec3::ZERO, travel * DVec3::X);
-    let step = FamilyScene::new(cube()?, cube()?);
-    step.with_query(falling, fleeing, truth_for_contact_time(0.5, 1e-14))
+    let scene = FamilyScene::new(cube()?, cube()?);
+    scene.with_query(falling, fleeing, truth_for_contact_time(0.5, 1e-14))
 }
 
 /// Makes a cube that rotates about a centre far below it, so that it moves towards a wall nearly in a straight line.
@@ -101,9 +101,9 @@ fn cube_about_far_centre(distance: f64) -> Result<FamilyScene> {
     // Its upper corner is the first at the wall, which is at x = 1.
     let (across, up) = (0.5f64, distance + 0.5);
     let angle = (1.0 / up.hypot(across)).asin() - across.atan2(up);
-    let step = FamilyScene::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
+    let scene = FamilyScene::new(cube()?, cuboid(1.0, 3.0, 3.0)?);
     let expected = truth_for_contact_time(angle / spin, 1e-14);
-    step.with_query(
+    scene.with_query(
         turning,
         BodyMotion::motion_at_rest(2.0 * DVec3::X),
         expected,
@@ -121,8 +121,8 @@ fn cubes_far_from_origin(distance: f64) -> Result<FamilyScene> {
     // All coordinates stay within the distance.
     let origin = distance * dvec3(1.0, -1.0, -1.0);
     let falling = BodyMotion::straight(origin + 3.0 * DVec3::Z, -4.0 * DVec3::Z);
-    let step = FamilyScene::new(cube()?, cube()?);
-    step.with_query(
+    let scene = FamilyScene::new(cube()?, cube()?);
+    scene.with_query(
         falling,
         BodyMotion::motion_at_rest(origin),
         truth_for_contact_time(0.5, 1e-14),
@@ -144,9 +144,9 @@ fn bullet_and_paper(ratio: f64) -> Result<FamilyScene> {
     let (bullet, half) = (0.005, 0.05 / ratio);
     let flying = BodyMotion::straight(DVec3::ZERO, DVec3::X);
     let paper = BodyMotion::motion_at_rest(0.5 * DVec3::X);
-    let step = FamilyScene::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
+    let scene = FamilyScene::new(cuboid(bullet, bullet, bullet)?, cuboid(half, 0.5, 0.5)?);
     let expected = truth_for_contact_time(0.5 - half - bullet, 1e-14);
-    step.with_query_and_rotations(flying, paper, expected)
+    scene.with_query_and_rotations(flying, paper, expected)
 }
 
 /// Makes a cube that falls towards a slab, and is at the distance `margin` from it at half the duration.
@@ -154,17 +154,17 @@ fn cube_within_margin_of_slab(margin: f64) -> Result<FamilyScene> {
     let speed = 4.0 * greater(1.0, margin);
     let height = 0.5 + margin + 0.5 * speed;
     let falling = BodyMotion::straight(height * DVec3::Z, -speed * DVec3::Z);
-    let step = FamilyScene::new(cube()?, slab()?);
-    let step = FamilyScene { margin, ..step };
+    let scene = FamilyScene::new(cube()?, slab()?);
+    let scene = FamilyScene { margin, ..scene };
     let slab = BodyMotion::RESTING_SLAB_MOTION;
-    step.with_query_and_rotations(falling, slab, truth_for_contact_time(0.5, 1e-14))
+    scene.with_query_and_rotations(falling, slab, truth_for_contact_time(0.5, 1e-14))
 }
 
 /// Makes a small cube that moves inside a larger cube, so that the solids overlap but their surfaces do not meet. The
 /// scene is like T24 of `tests/it/scenes.rs`.
 fn cube_inside_cube(size: f64) -> Result<FamilyScene> {
     let half = 0.9 * size;
-    let step = FamilyScene::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
+    let scene = FamilyScene::new(cuboid(half, half, half)?, cuboid(1.0, 1.0, 1.0)?);
     let moving = BodyMotion::straight(DVec3::ZERO, 0.05 * DVec3::X);
-    step.with_query_and_rotations(moving, BodyMotion::STILL, Truth::ContactAtStart)
+    scene.with_query_and_rotations(moving, BodyMotion::STILL, Truth::ContactAtStart)
 }

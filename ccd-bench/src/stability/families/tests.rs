@@ -32,20 +32,20 @@ fn families_have_names_and_steps_of_their_own() {
 }
 
 #[test]
-fn every_step_can_be_made() {
+fn every_scene_can_be_made() {
     families().par_iter().for_each(|family| {
         for &value in &family.parameter_values {
-            let step = (family.make_scene)(value);
-            let step = step.unwrap_or_else(|error| panic!("{} {value:e}: {error}", family.name));
-            assert!(!step.cases.is_empty() && step.tolerance > 0.0);
+            let scene = (family.make_scene)(value);
+            let scene = scene.unwrap_or_else(|error| panic!("{} {value:e}: {error}", family.name));
+            assert!(!scene.cases.is_empty() && scene.tolerance > 0.0);
             for ExactCase {
                 expected_truth: expected,
                 ..
-            } in &step.cases
+            } in &scene.cases
             {
                 if let Truth::Hit { lo, hi } = *expected {
                     assert!(
-                        0.0 < hi && lo <= hi && lo < step.duration,
+                        0.0 < hi && lo <= hi && lo < scene.duration,
                         "{} {value:e}",
                         family.name
                     );
@@ -73,13 +73,13 @@ fn the_referee_finds_the_answers_that_are_claimed() {
 /// Asserts that the referee agrees with the exact answers of a family's queries at a parameter value, and returns the
 /// number of queries that it decided.
 fn assert_referee_agrees(family: &Family, value: f64) -> usize {
-    let step = (family.make_scene)(value).unwrap();
-    let FamilyScene { meshes, cases, .. } = &step;
+    let scene = (family.make_scene)(value).unwrap();
+    let FamilyScene { meshes, cases, .. } = &scene;
     let many = meshes
         .iter()
         .any(|mesh| mesh.faces().len() > MAX_REFEREE_TRIANGLES);
     // The referee has no margin.
-    if many || step.margin > 0.0 {
+    if many || scene.margin > 0.0 {
         return 0;
     }
     let [a, b] = meshes.each_ref().map(Surface::new);

@@ -47,9 +47,9 @@ fn arm_swinging_into_wall(spin: f64) -> Result<FamilyScene> {
     let hanging = hanging.transformed(DAffine3::from_translation(-0.5 * arm * DVec3::Y))?;
     let swinging = BodyMotion::STILL.with_spin(spin * DVec3::Z);
     let angle = arm.atan2(ROD_HALF_SIDES.1) + (wall / arm.hypot(ROD_HALF_SIDES.1)).asin();
-    let step = FamilyScene::new(hanging, cuboid(3.0, 1.0, 3.0)?);
+    let scene = FamilyScene::new(hanging, cuboid(3.0, 1.0, 3.0)?);
     let expected = truth_for_contact_time(angle / spin, 1e-15);
-    step.with_query_and_rotations(
+    scene.with_query_and_rotations(
         swinging,
         BodyMotion::motion_at_rest((wall + 1.0) * DVec3::Y),
         expected,
@@ -64,7 +64,7 @@ fn counter_rotating_rods(turns: f64) -> Result<FamilyScene> {
         |spin: f64, x: f64| BodyMotion::motion_at_rest(x * DVec3::X).with_spin(spin * DVec3::Y);
     let angle = rod_contact_angle(0.5 * apart);
     debug_assert!(angle < PI);
-    let step = FamilyScene::new(rod()?, rod()?);
+    let scene = FamilyScene::new(rod()?, rod()?);
     let expected = truth_for_contact_time(angle / spin, 1e-15);
-    step.with_query_and_rotations(turning(spin, 0.0), turning(-spin, apart), expected)
+    scene.with_query_and_rotations(turning(spin, 0.0), turning(-spin, apart), expected)
 }

@@ -15,7 +15,7 @@ fn unresolved_claim(safe_until: f64) -> ContactClaim {
     ContactClaim::Unresolved { safe_until }
 }
 
-/// Tests the verdict on each kind of claim, on a step with a contact at 0.5, a step without contact, and a step that
+/// Tests the verdict on each kind of claim, on a scene with a contact at 0.5, a scene without contact, and a scene that
 /// starts with one body inside the other.
 #[rstest]
 #[case("margin", contact_claim(0.5), Verdict::Right)]
@@ -40,14 +40,14 @@ fn unresolved_claim(safe_until: f64) -> ContactClaim {
 #[case("one inside the other", ContactClaim::Refused, Verdict::Refused)]
 fn claims_are_judged(#[case] family: &str, #[case] claim: ContactClaim, #[case] verdict: Verdict) {
     let family = families().into_iter().find(|f| f.name == family).unwrap();
-    let step = (family.make_scene)(family.parameter_values[1]).unwrap();
-    let [a, b] = step.meshes.each_ref().map(Surface::new);
+    let scene = (family.make_scene)(family.parameter_values[1]).unwrap();
+    let [a, b] = scene.meshes.each_ref().map(Surface::new);
     let outcome = QueryOutcome::Answered(TimedReply {
         reply: Reply::new(claim, 1),
         micros: 1.0,
     });
-    for case in &step.cases {
-        let judged = judge(&step, case, &TruthSolver::new(&a, &b), &outcome);
+    for case in &scene.cases {
+        let judged = judge(&scene, case, &TruthSolver::new(&a, &b), &outcome);
         assert_eq!(judged.verdict, verdict, "{claim:?}");
     }
 }
@@ -64,9 +64,9 @@ fn an_answer_is_judged_by_the_tolerance_that_it_states(
 ) {
     let mut families = families().into_iter();
     let family = families.find(|f| f.name == "margin").unwrap();
-    let step = (family.make_scene)(0.0).unwrap();
-    let [a, b] = step.meshes.each_ref().map(Surface::new);
-    let case = &step.cases[0];
+    let scene = (family.make_scene)(0.0).unwrap();
+    let [a, b] = scene.meshes.each_ref().map(Surface::new);
+    let case = &scene.cases[0];
     let Truth::Hit { lo, .. } = case.expected_truth else {
         panic!("{:?}", case.expected_truth)
     };
@@ -75,6 +75,6 @@ fn an_answer_is_judged_by_the_tolerance_that_it_states(
         ..Reply::new(contact_claim(lo - 0.01), 1)
     };
     let outcome = QueryOutcome::Answered(TimedReply { reply, micros: 1.0 });
-    let judged = judge(&step, case, &TruthSolver::new(&a, &b), &outcome);
+    let judged = judge(&scene, case, &TruthSolver::new(&a, &b), &outcome);
     assert_eq!(judged.verdict, verdict);
 }

@@ -27,8 +27,8 @@ pub struct Hull {
 
 /// The class of a hull's facet: whether it lies on the mesh, on a piece, or on neither; better classes come first.
 ///
-/// The nearest features of two nodes that are both not [`Free`](FacetClass::Bridge) belong to pieces:
-/// no pair of pieces below is nearer, or farther.
+/// If neither of the nearest features of two nodes is a [`Bridge`](FacetClass::Bridge), both belong to pieces. The
+/// distance of the nodes is then that of the pieces below them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FacetClass {
     /// The facet is part of the mesh.

@@ -31,8 +31,8 @@ pub(crate) struct Heights<'a> {
     point_tracks: PointTracks,
     /// A bound of the second derivatives of all points' heights, if there are many points.
     second_derivative: f64,
-    /// A bound of the error of the lowest height of a piece of many points, which is searched for; 0 for few points. Times the angular speed, it bounds the
-    /// error of the least rate.
+    /// A bound of the error of the lowest height of a piece of many points, which is searched for; 0 for few points.
+    /// Times the angular speed, it bounds the error of the least rate.
     support_error_bound: f64,
 }
 

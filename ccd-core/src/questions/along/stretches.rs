@@ -209,11 +209,11 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
     /// Returns the time at which a stretch adjoins the last proven stretch, if its deviations are much larger than
     /// those of that stretch. The stretch is then probably too long.
     pub(super) fn cut_time_if_too_long(&mut self, motions: &StretchMotions) -> Option<f64> {
-        let (proven, stray) = self.last_proven_stretch.take()?;
+        let (proven, deviation_bound) = self.last_proven_stretch.take()?;
         let Span { from, end: to, .. } = motions.span;
         let beside = [(from, proven.end), (to, proven.from)];
         let (time, _) = beside.into_iter().find(|(time, other)| time == other)?;
-        (motions.total_deviation_bound > CUT_DEVIATION_RATIO * stray).then_some(time)
+        (motions.total_deviation_bound > CUT_DEVIATION_RATIO * deviation_bound).then_some(time)
     }
 
     /// Returns the poses of both bodies at a time and the remaining settings, or the limit that is reached.

@@ -1,14 +1,14 @@
 //! Proves increasing lower bounds of the least distance, for a search that may reach a limit before its answer.
 //!
 //! A search for the least distance proves it pair by pair, and has no bound for the whole bodies until its end. Half
-//! of the distance is proven much sooner. A long search therefore stops now and then, to prove such a part: a *rung*
-//! of the ladder.
+//! of the distance is proven much sooner. A long search therefore stops now and then, and attempts to prove a share of
+//! the least distance measured so far.
 
 use crate::math::order::greater;
 use crate::problem::Problem;
 
-/// A sequence of attempts, each of which tries to prove a share of the least measured distance as a lower bound. Each
-/// attempt is a *rung*, and the share increases after each success.
+/// A sequence of attempts, each of which tries to prove a share of the least measured distance as a lower bound. The
+/// share increases after each success, and decreases after each failure.
 #[derive(Debug)]
 pub(crate) struct LowerBoundAttempts {
     /// The amount of work of the search after which it next tries to prove a lower bound.

@@ -64,13 +64,13 @@ impl LeastDistanceSearch {
     pub(crate) fn try_lower_bound<O: DistanceOracle>(
         &mut self,
         problem: &Problem<'_>,
-        rung: MarginQuery,
+        attempt: MarginQuery,
         oracle: &mut O,
         meter: &mut Meter,
     ) -> ControlFlow<Outcome> {
         let work = meter.stats.budgeted_work();
-        let budget = problem.budget.min(work.saturating_add(rung.budget));
-        let lower = MarginQuery { budget, ..rung }.problem(problem);
+        let budget = problem.budget.min(work.saturating_add(attempt.budget));
+        let lower = MarginQuery { budget, ..attempt }.problem(problem);
         let mut below = LeastDistanceSearch {
             nearest_pair: None,
             cutoff_distance: lower.contact_distance(),
@@ -123,13 +123,14 @@ impl LeastDistanceSearch {
         };
         for _ in 0..MAX_FINAL_ATTEMPTS {
             let left = problem.budget.saturating_sub(meter.stats.budgeted_work());
-            let Some(rung) = self
+            let Some(attempt) = self
                 .lower_bound_attempts
                 .next_attempt(self.upper(), left / 2)
             else {
                 break;
             };
-            if let ControlFlow::Break(found) = self.try_lower_bound(problem, rung, oracle, meter) {
+            if let ControlFlow::Break(found) = self.try_lower_bound(problem, attempt, oracle, meter)
+            {
                 return Ok(found);
             }
         }

@@ -102,11 +102,11 @@ struct ClearanceDecision<F> {
 }
 
 impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceDecision<F> {
-    fn run_query(&mut self, mut rung: MarginQuery) -> Result<Answer, E> {
-        rung.tolerance = greater(LEAST_TOLERANCE, rung.tolerance);
+    fn run_query(&mut self, mut margin_query: MarginQuery) -> Result<Answer, E> {
+        margin_query.tolerance = greater(LEAST_TOLERANCE, margin_query.tolerance);
         let left =
             |(begun, deadline): (Instant, Duration)| deadline.saturating_sub(begun.elapsed());
-        let answer = (self.answer_any_contact)(rung, self.start_and_time_limit.map(left))?;
+        let answer = (self.answer_any_contact)(margin_query, self.start_and_time_limit.map(left))?;
         self.stats.add(&answer.stats);
         Ok(answer)
     }
@@ -126,7 +126,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
         // Bodies in contact with this margin are nearer. Bodies that are not keep the distance up to the tolerance
         // and the excess.
         let margin = greater(0.0, distance - 1.5 * query_tolerance);
-        let rung = MarginQuery {
+        let margin_query = MarginQuery {
             margin,
             tolerance: if margin > 0.0 {
                 query_tolerance
@@ -135,7 +135,7 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
             },
             budget: self.remaining_budget(),
         };
-        let found = self.run_query(rung)?.outcome;
+        let found = self.run_query(margin_query)?.outcome;
         Ok(match (found, self.clearance.clearance_outcome(found)) {
             (Outcome::Free { proven_gap }, _) => {
                 Outcome::from_least_distance(proven_gap, time, contact)
@@ -151,21 +151,21 @@ impl<E, F: FnMut(MarginQuery, Option<Duration>) -> Result<Answer, E>> ClearanceD
 
     /// Proves a lower bound of the distance with the rest of the budget, in several attempts; 0 if none succeeds.
     fn prove_lower_bound(&mut self, reason: Limit) -> Result<f64, E> {
-        let mut ladder = LowerBoundAttempts::new(0.0, self.clearance.budget);
+        let mut attempts = LowerBoundAttempts::new(0.0, self.clearance.budget);
         if matches!(reason, Limit::Deadline | Limit::Stopped) {
-            return Ok(ladder.lower);
+            return Ok(attempts.lower);
         }
         for _ in 0..MAX_FINAL_ATTEMPTS {
-            let Some(rung) =
-                ladder.next_attempt(self.clearance.distance, self.remaining_budget() / 2)
+            let Some(attempt) =
+                attempts.next_attempt(self.clearance.distance, self.remaining_budget() / 2)
             else {
                 break;
             };
-            ladder.record_attempt(match self.run_query(rung)?.outcome {
+            attempts.record_attempt(match self.run_query(attempt)?.outcome {
                 Outcome::Free { proven_gap } => Some(proven_gap),
                 _ => None,
             });
         }
-        Ok(ladder.lower)
+        Ok(attempts.lower)
     }
 }

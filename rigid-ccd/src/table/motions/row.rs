@@ -199,13 +199,13 @@ impl<'a, R: Record> Row<'a, R> {
         wanted: impl Fn(usize) -> bool,
     ) -> Option<usize> {
         let slots = quantities.into_iter();
-        let mut slots = slots.flat_map(|quantity| self.columns.column_range(side, quantity));
+        let mut slots = slots.flat_map(|quantity| self.columns.known_column_range(side, quantity));
         slots.find(|&slot| self.columns.index(slot).is_some_and(&wanted))
     }
 
     /// Returns a vector of a body, with 0 for missing columns; `None` if all of its columns are missing.
     fn vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
-        let parts = self.numbers::<3>(self.columns.column_range(side, quantity))?;
+        let parts = self.numbers::<3>(self.columns.known_column_range(side, quantity))?;
         let given = parts.iter().any(Option::is_some);
         Ok(given.then(|| DVec3::from(parts.map(Option::unwrap_or_default))))
     }
@@ -216,7 +216,7 @@ impl<'a, R: Record> Row<'a, R> {
 
     /// Returns a nonzero quaternion of a body as given, not normalised; `None` if the table has no columns for it.
     fn quaternion(&self, side: Side, quantity: Quantity) -> Result<Option<DQuat>, RowProblem> {
-        let slots = self.columns.column_range(side, quantity);
+        let slots = self.columns.known_column_range(side, quantity);
         // A table has all four columns, or none.
         let [Some(w), Some(x), Some(y), Some(z)] = self.numbers(slots.clone())? else {
             return Ok(None);

@@ -22,7 +22,7 @@ pub fn write(output: impl io::Write, queries: &[Motions]) -> Result<(), csv::Err
     let rows: Vec<Vec<String>> = queries.iter().map(cells).collect();
     // The parts of an orientation are kept or omitted together.
     let differs = |slot: usize| rows.iter().any(|row| row[slot] != defaults[slot]);
-    let orientation = |side| TableKind::Motions.column_range(side, Quantity::Orientation);
+    let orientation = |side| TableKind::Motions.known_column_range(side, Quantity::Orientation);
     let kept: Vec<usize> = (0..names.len())
         .filter(|&slot| {
             let whole = [Side::A, Side::B]
@@ -50,7 +50,10 @@ fn cells(query: &Motions) -> Vec<String> {
     for (side, motion) in [(Side::A, &query.a), (Side::B, &query.b)] {
         let rotation = motion.start().rotation();
         let mut put = |quantity, values: &[f64]| {
-            for (slot, value) in TableKind::Motions.column_range(side, quantity).zip(values) {
+            for (slot, value) in TableKind::Motions
+                .known_column_range(side, quantity)
+                .zip(values)
+            {
                 cells[slot] = value.to_string();
             }
         };

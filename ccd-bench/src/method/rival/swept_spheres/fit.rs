@@ -90,7 +90,7 @@ fn fit_swept_rectangle(triangles: &[Triangle]) -> (Placement, DVec2, f64) {
     )
 }
 
-/// A rectangle in the plane z = `middle` that grows until it has all points within the radius.
+/// A rectangle in the plane z = `plane_z` that grows until it has all points within the radius.
 struct GrowingRectangle {
     low: DVec2,
     high: DVec2,

@@ -22,12 +22,12 @@ impl Query<'_> {
         query
     }
 
-    /// Returns a copy of the query that asks for contacts with the margin, tolerance and budget of `rung`.
-    pub(super) fn contact_query(&self, rung: MarginQuery) -> Self {
+    /// Returns a copy of the query that asks for contacts with the margin, tolerance and budget of `margin_query`.
+    pub(super) fn contact_query(&self, margin_query: MarginQuery) -> Self {
         let mut query = self.query_without_margin();
-        query.settings.margin = rung.margin;
-        query.settings.tolerance = rung.tolerance;
-        query.settings.budget = rung.budget;
+        query.settings.margin = margin_query.margin;
+        query.settings.tolerance = margin_query.tolerance;
+        query.settings.budget = margin_query.budget;
         query
     }
 }
