@@ -1,5 +1,6 @@
 //! Errors of robots: links and joints that form no tree, and positions that do not fit a robot.
 
+use crate::solver::PathPoint;
 use rigid_ccd::InputError;
 
 /// The reason why links and joints form no robot, or why a configuration does not fit a robot.
@@ -143,6 +144,14 @@ pub enum PathError {
         /// The reason why it does not fit.
         error: RobotError,
     },
+    /// A curve has another number of joints than the robot, or a joint leaves its limits on it.
+    #[error("segment {}, after {} of it: {error}", .at.segment, .at.share)]
+    InvalidCurvePoint {
+        /// Where on the curve.
+        at: PathPoint,
+        /// What is wrong there.
+        error: RobotError,
+    },
     /// A number of the [`RangeSettings`](crate::RangeSettings) is out of its range.
     #[error("{name}: {value} is not {allowed}")]
     InvalidRangeSetting {
@@ -156,4 +165,58 @@ pub enum PathError {
     /// A query is invalid, or reached a limit.
     #[error(transparent)]
     Query(#[from] rigid_ccd::Error),
+}
+
+/// The reason why polynomials form no [`JointCurve`](crate::JointCurve).
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CurveError {
+    /// A curve needs at least two times.
+    #[error("a curve needs at least two times, not {count}")]
+    TooFewTimes {
+        /// The number of times.
+        count: usize,
+    },
+    /// The end of a segment is not after its start.
+    #[error("segment {segment} does not end after its start")]
+    TimesNotIncreasing {
+        /// The number of the segment.
+        segment: usize,
+    },
+    /// There are more or fewer segments, configurations or joints than needed.
+    #[error("{given} {what} at {index}, but {expected} are needed")]
+    WrongCount {
+        /// What is counted.
+        what: &'static str,
+        /// The number of the segment or of the configuration.
+        index: usize,
+        /// The number given.
+        given: usize,
+        /// The number needed.
+        expected: usize,
+    },
+    /// The degree of a polynomial is too high.
+    #[error("a polynomial has the degree {degree}; at most 9 is supported")]
+    DegreeTooHigh {
+        /// The degree.
+        degree: usize,
+    },
+    /// A coefficient of a polynomial is not finite.
+    #[error("segment {segment}: a coefficient of joint {joint} is not finite")]
+    NotFinite {
+        /// The number of the segment.
+        segment: usize,
+        /// The number of the joint in a configuration.
+        joint: usize,
+    },
+    /// A joint is elsewhere at the start of a segment than at the end of the one before.
+    #[error("joint {joint} jumps by {jump} at the start of segment {segment}")]
+    Jump {
+        /// The number of the segment.
+        segment: usize,
+        /// The number of the joint in a configuration.
+        joint: usize,
+        /// The size of the jump.
+        jump: f64,
+    },
 }

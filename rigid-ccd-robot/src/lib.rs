@@ -25,6 +25,7 @@
 //! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another |
 //! | `cell` | a robot among obstacles: [`Cell`] |
 //! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/clearance_ranges` where a distance is kept, `solver/distance_curve` the distance over a path |
+//! | `path`, `joint_curve` | what a question is about: a [`Path`] through configurations, or a [`JointCurve`] of polynomials |
 //! | `link_contacts` | whether two links can ever touch, by branch and bound over their joints: [`Robot::classify_link_contacts`] |
 //! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
 //! | `urdf` | a robot from a URDF file with its meshes: [`Urdf`] |
@@ -34,8 +35,10 @@
 
 mod cell;
 mod error;
+mod joint_curve;
 mod link_contacts;
 mod pairs;
+mod path;
 #[cfg(feature = "tables")]
 #[doc(hidden)]
 pub mod path_rows;
@@ -48,9 +51,11 @@ mod tuning;
 mod urdf;
 
 pub use cell::{Cell, Item};
-pub use error::{PathError, RobotError};
+pub use error::{CurveError, PathError, RobotError};
+pub use joint_curve::JointCurve;
 pub use link_contacts::LinkContactClass;
 pub use pairs::{LinkPairs, SkipReason};
+pub use path::Path;
 pub use robot::{ChainBetween, Joint, Link, LinkBody, PositionRule, Robot};
 pub use solver::{
     CellSolver, ClearanceRange, ClosestApproach, DistanceRange, PathContact, PathOutcome,

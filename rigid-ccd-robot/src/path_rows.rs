@@ -1,6 +1,7 @@
 //! Answers about paths as rows of tables, for the command and the Python package. No stable interface.
 
 use crate::error::PathError;
+use crate::path::Path;
 use crate::solver::{CellSolver, PathContact, PathOutcome, PathPoint};
 use rigid_ccd::Error;
 use rigid_ccd::answer::{ClearanceVerdict, Limit};
@@ -71,10 +72,10 @@ impl PathQuestion {
     ///
     /// # Errors
     /// [`PathError`].
-    pub fn ask<Q: AsRef<[f64]>>(
+    pub fn ask<P: Path + ?Sized>(
         self,
         solver: &mut CellSolver<'_>,
-        path: &[Q],
+        path: &P,
         clearance: Option<f64>,
     ) -> Result<PathAnswer, PathError> {
         match self {
@@ -93,10 +94,10 @@ impl PathQuestion {
     }
 
     /// Answers the question; an error becomes a row.
-    pub fn answer<Q: AsRef<[f64]>>(
+    pub fn answer<P: Path + ?Sized>(
         self,
         solver: &mut CellSolver<'_>,
-        path: &[Q],
+        path: &P,
         clearance: Option<f64>,
     ) -> ResultRow {
         match self.ask(solver, path, clearance) {
@@ -127,14 +128,14 @@ impl PathAnswer {
         }
     }
 
-    fn first_contact<Q: AsRef<[f64]>>(
+    fn first_contact<P: Path + ?Sized>(
         solver: &mut CellSolver<'_>,
-        path: &[Q],
+        path: &P,
     ) -> Result<Self, PathError> {
         Ok(match solver.first_contact(path)? {
             PathOutcome::Free => {
                 let mut answer = PathAnswer::from_status(Status::Free);
-                answer.row.time = Some((path.len() - 1) as f64);
+                answer.row.time = Some(end_time(path));
                 answer
             }
             PathOutcome::Contact(contact) => {
@@ -158,9 +159,9 @@ impl PathAnswer {
         })
     }
 
-    fn closest_approach<Q: AsRef<[f64]>>(
+    fn closest_approach<P: Path + ?Sized>(
         solver: &mut CellSolver<'_>,
-        path: &[Q],
+        path: &P,
         clearance: Option<f64>,
     ) -> Result<Self, PathError> {
         let found = solver.closest_approach(path)?;
@@ -206,6 +207,14 @@ impl PathAnswer {
         (self.row.witness_a, self.row.witness_b) = (a, b);
         self.with_point(contact.at)
     }
+}
+
+/// Returns the time of the end of a path.
+fn end_time<P: Path + ?Sized>(path: &P) -> f64 {
+    path.time(PathPoint::from_path_position(
+        path.segment_count() as f64,
+        path.segment_count(),
+    ))
 }
 
 #[cfg(test)]

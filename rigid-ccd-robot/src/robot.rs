@@ -290,14 +290,7 @@ impl Robot {
 
     /// Refuses a configuration with a wrong number of positions, or with a position outside of its joint's limits.
     pub(crate) fn check_configuration(&self, configuration: &[f64]) -> Result<(), RobotError> {
-        let expected = self.free_joints.len();
-        if configuration.len() != expected {
-            return Err(RobotError::WrongPositionCount {
-                given_count: configuration.len(),
-                expected_count: expected,
-                joint_names: self.free_joint_names().collect::<Vec<_>>().join(", "),
-            });
-        }
+        self.check_position_count(configuration.len())?;
         for (&joint, &position) in self.free_joints.iter().zip(configuration) {
             let Joint {
                 name,
@@ -312,6 +305,19 @@ impl Robot {
                 })?;
         }
         Ok(())
+    }
+
+    /// Refuses a number of positions other than that of a configuration.
+    pub(crate) fn check_position_count(&self, count: usize) -> Result<(), RobotError> {
+        let expected = self.free_joints.len();
+        if count == expected {
+            return Ok(());
+        }
+        Err(RobotError::WrongPositionCount {
+            given_count: count,
+            expected_count: expected,
+            joint_names: self.free_joint_names().collect::<Vec<_>>().join(", "),
+        })
     }
 
     /// Returns the position of a joint in a configuration; 0 for a fixed joint.

@@ -1,11 +1,13 @@
-//! Questions about paths: a robot moves through configurations, between two of them all joints at constant rates.
+//! Questions about paths: a robot moves through configurations, or along a curve.
 
 mod boxes;
 mod clearance_ranges;
+mod curved_link;
 mod displacement;
 mod distance_curve;
 mod engine;
 mod exact;
+pub(crate) mod joint_path;
 pub(crate) mod kinematics;
 pub(crate) mod measure;
 mod open_pairs;
@@ -16,7 +18,6 @@ mod search;
 mod stretch;
 mod time_limit;
 pub(crate) mod violation;
-mod waypoints;
 
 pub use clearance_ranges::{ClearanceRange, RangeSettings};
 pub use distance_curve::DistanceRange;
@@ -24,6 +25,7 @@ pub use stretch::PathPoint;
 
 use crate::cell::{Cell, Item};
 use crate::error::PathError;
+use crate::path::Path;
 use part_pairs::PartPair;
 use rigid_ccd::answer::{ClearanceVerdict, HitKind, Limit, Unresolved};
 use rigid_ccd::glam::DVec3;
@@ -32,8 +34,8 @@ use search::Search;
 
 /// Answers questions about paths in a cell, one after another.
 ///
-/// A path is a slice of configurations. One configuration is a robot at rest, two are an edge. Between two of them all
-/// joints move at constant rates.
+/// A [`Path`] is a slice of configurations, between two of which all joints move at constant rates, or a
+/// [`JointCurve`](crate::JointCurve).
 ///
 /// The margin of the settings is the distance at which bodies count as touching. A deadline is for a whole question, the
 /// budget for each query of two bodies that a path leaves to the engine. Contacts at the start are always reported.
@@ -140,7 +142,7 @@ impl<'c> CellSolver<'c> {
     ///
     /// # Errors
     /// [`PathError`]; also if a limit is reached.
-    pub fn is_free<Q: AsRef<[f64]>>(&mut self, path: &[Q]) -> Result<bool, PathError> {
+    pub fn is_free<P: Path + ?Sized>(&mut self, path: &P) -> Result<bool, PathError> {
         Ok(self.find_any_contact(path)?.is_none())
     }
 
@@ -148,9 +150,9 @@ impl<'c> CellSolver<'c> {
     ///
     /// # Errors
     /// [`PathError`]; also if a limit is reached.
-    pub fn any_contact<Q: AsRef<[f64]>>(
+    pub fn any_contact<P: Path + ?Sized>(
         &mut self,
-        path: &[Q],
+        path: &P,
     ) -> Result<Option<PathContact<'c>>, PathError> {
         let found = self.find_any_contact(path)?;
         Ok(found.map(|found| self.measure_contact(found)).transpose()?)
@@ -164,9 +166,9 @@ impl<'c> CellSolver<'c> {
     ///
     /// # Errors
     /// [`PathError`].
-    pub fn first_contact<Q: AsRef<[f64]>>(
+    pub fn first_contact<P: Path + ?Sized>(
         &mut self,
-        path: &[Q],
+        path: &P,
     ) -> Result<PathOutcome<'c>, PathError> {
         self.answer(Question::FirstContact, path)?;
         let found = &self.search.result;
@@ -190,9 +192,9 @@ impl<'c> CellSolver<'c> {
     ///
     /// # Errors
     /// [`PathError`].
-    pub fn closest_approach<Q: AsRef<[f64]>>(
+    pub fn closest_approach<P: Path + ?Sized>(
         &mut self,
-        path: &[Q],
+        path: &P,
     ) -> Result<ClosestApproach<'c>, PathError> {
         self.answer(Question::ClosestApproach, path)?;
         Ok(self.found_approach()?)
@@ -213,9 +215,9 @@ impl<'c> CellSolver<'c> {
         })
     }
 
-    fn find_any_contact<Q: AsRef<[f64]>>(
+    fn find_any_contact<P: Path + ?Sized>(
         &mut self,
-        path: &[Q],
+        path: &P,
     ) -> Result<Option<(f64, PartPair)>, PathError> {
         self.answer(Question::AnyContact, path)?;
         let found = &self.search.result;
@@ -228,30 +230,16 @@ impl<'c> CellSolver<'c> {
         Ok(found.nearest)
     }
 
-    fn answer<Q: AsRef<[f64]>>(&mut self, question: Question, path: &[Q]) -> Result<(), PathError> {
+    fn answer<P: Path + ?Sized>(&mut self, question: Question, path: &P) -> Result<(), PathError> {
         self.set_path(path)?;
         let whole = self.search.whole_path_stretch();
         Ok(self.search.answer_question(question, whole)?)
     }
 
     /// Takes a path for the questions that follow, if it fits the robot and the settings are valid.
-    fn set_path<Q: AsRef<[f64]>>(&mut self, path: &[Q]) -> Result<(), PathError> {
-        if path.is_empty() {
-            return Err(PathError::EmptyPath);
-        }
-        for (number, configuration) in path.iter().enumerate() {
-            let checked = self
-                .cell
-                .robot()
-                .check_configuration(configuration.as_ref());
-            checked.map_err(|error| PathError::InvalidConfiguration {
-                configuration_index: number,
-                error,
-            })?;
-        }
+    fn set_path<P: Path + ?Sized>(&mut self, path: &P) -> Result<(), PathError> {
         self.search.settings().check().map_err(Error::from)?;
-        self.search.begin(path);
-        Ok(())
+        self.search.begin(path)
     }
 
     /// Measures a pair at a point of the path.

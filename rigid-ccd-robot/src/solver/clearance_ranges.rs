@@ -3,6 +3,7 @@
 use super::stretch::{PathPoint, Stretch};
 use super::{CellSolver, Question};
 use crate::error::PathError;
+use crate::path::Path;
 use rigid_ccd::Error;
 use rigid_ccd::answer::ClearanceVerdict;
 
@@ -102,9 +103,9 @@ impl CellSolver<'_> {
     /// assert!(violated.from.share - kept.to.share < 1e-3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn clearance_ranges<Q: AsRef<[f64]>>(
+    pub fn clearance_ranges<P: Path + ?Sized>(
         &mut self,
-        path: &[Q],
+        path: &P,
         ranges: RangeSettings,
     ) -> Result<Vec<ClearanceRange>, PathError> {
         ranges.check()?;
@@ -117,9 +118,9 @@ impl CellSolver<'_> {
         found
     }
 
-    fn find_ranges<Q: AsRef<[f64]>>(
+    fn find_ranges<P: Path + ?Sized>(
         &mut self,
-        path: &[Q],
+        path: &P,
         resolution: f64,
     ) -> Result<Vec<ClearanceRange>, PathError> {
         self.set_path(path)?;

@@ -3,6 +3,7 @@
 use super::stretch::{PathPoint, Stretch};
 use super::{CellSolver, ClosestApproach, Question};
 use crate::error::PathError;
+use crate::path::Path;
 
 /// Bounds of the least distance in a range of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,9 +28,9 @@ impl<'c> CellSolver<'c> {
     ///
     /// # Errors
     /// [`PathError`]; more than a million ranges are refused.
-    pub fn distance_curve<Q: AsRef<[f64]>>(
+    pub fn distance_curve<P: Path + ?Sized>(
         &mut self,
-        path: &[Q],
+        path: &P,
         halvings: u32,
     ) -> Result<Vec<DistanceRange<'c>>, PathError> {
         self.set_path(path)?;
@@ -43,7 +44,7 @@ impl<'c> CellSolver<'c> {
             });
         }
         let whole = self.search.whole_path_stretch();
-        if path.len() == 1 {
+        if segments == 0 {
             return Ok(vec![self.distance_range(whole)?]);
         }
         let mut stretches = Vec::new();

@@ -1,6 +1,7 @@
 //! What the search leaves to the engine: bodies that are not convex, and pairs that are open after all halvings.
 
 use super::Question;
+use super::curved_link::PathSection;
 use super::open_pairs::OpenPair;
 use super::part_pairs::{PartPair, sort_by_proof_distance};
 use super::search::Search;
@@ -161,12 +162,13 @@ impl Search<'_> {
             deadline: self.stop_condition.remaining(),
             ..self.settings.clone()
         });
-        for (at, positions) in [open.from, open.to].into_iter().zip(&mut self.ends) {
-            self.path
-                .interpolate_in_segment(open.segment, at, positions);
-        }
-        let [from, to] = &self.ends;
+        let section = PathSection {
+            path: &self.path,
+            segment: open.segment,
+            from: open.from,
+            to: open.to,
+        };
         self.exact_chains
-            .ask(&mut self.solver, question, open.bodies, from, to)
+            .ask(&mut self.solver, question, open.bodies, &section)
     }
 }

@@ -1,23 +1,26 @@
 //! Pairs of bodies as the engine takes them: a body with the trajectory of its link, against another one at rest.
 
 use super::Question;
+use super::curved_link::{CurvedLink, PathSection};
 use crate::cell::Cell;
-use rigid_ccd::trajectory::{Chain, Joint};
-use rigid_ccd::{Answer, Error, Motion, Pose, Solver};
+use rigid_ccd::trajectory::{Chain, Joint, MovingBody};
+use rigid_ccd::{Answer, Body, Error, Motion, Pose, Solver};
 use std::collections::HashMap;
 
 /// The chains of joints by which one body moves as another one sees it. Each is made when it is needed first.
 pub(crate) struct PairChains<'c> {
     cell: &'c Cell,
     chains: HashMap<[usize; 2], PairChain>,
-    from: Vec<f64>,
-    to: Vec<f64>,
+    /// The positions of all joints at one end of a section, and those of a chain's joints at both.
+    positions: Vec<f64>,
+    ends: [Vec<f64>; 2],
 }
 
-struct PairChain {
-    chain: Chain,
+/// A chain of joints of the robot, through which one of its bodies moves as another body sees it.
+pub(crate) struct PairChain {
+    pub(crate) chain: Chain,
     /// For each joint of the chain, the number of the moving joint; `None` for a fixed one.
-    moving_joint_numbers: Vec<Option<usize>>,
+    pub(crate) moving_joint_numbers: Vec<Option<usize>>,
 }
 
 impl<'c> PairChains<'c> {
@@ -25,58 +28,70 @@ impl<'c> PairChains<'c> {
         PairChains {
             cell,
             chains: HashMap::new(),
-            from: Vec::new(),
-            to: Vec::new(),
+            positions: Vec::new(),
+            ends: Default::default(),
         }
     }
 
-    /// Asks a question about two bodies while all moving joints go from their positions in `from` to those in `to`.
+    /// Asks a question about two bodies in a section of a path, which takes one unit of time.
     pub(crate) fn ask(
         &mut self,
         solver: &mut Solver,
         question: Question,
         pair: [usize; 2],
-        from: &[f64],
-        to: &[f64],
+        section: &PathSection<'_>,
     ) -> Result<Answer, Error> {
         let cell = self.cell;
         let [a, b] = pair;
         let is_obstacle = b >= cell.robot_body_count();
         // All obstacles see a body move by the same chain.
         let key = if is_obstacle { [a, usize::MAX] } else { pair };
-        let PairChain {
-            chain,
-            moving_joint_numbers: moving,
-        } = self
+        let own = self
             .chains
             .entry(key)
             .or_insert_with(|| pair_chain(cell, a, (!is_obstacle).then_some(b)));
-        for (all, own) in [(from, &mut self.from), (to, &mut self.to)] {
-            own.clear();
-            own.extend(
-                moving
-                    .iter()
-                    .map(|joint| joint.map_or(0.0, |joint| all[joint])),
-            );
-        }
-        let link = chain.link(moving.len(), &self.from, &self.to, 1.0)?;
         let bodies = cell.bodies();
         let rests = Motion::still(if is_obstacle {
             bodies[b].pose
         } else {
             Pose::IDENTITY
         });
-        let (a, b) = ((&*bodies[a].body, &link), (&*bodies[b].body, rests));
-        Ok(match question {
-            Question::AnyContact => solver.any_contact(a, b, 1.0)?,
-            Question::FirstContact => solver.first_contact(a, b, 1.0)?,
-            Question::ClosestApproach => solver.closest_approach(a, b, 1.0)?,
-        })
+        let (a, b) = (&*bodies[a].body, (&*bodies[b].body, rests));
+        if !section.path.has_constant_rates() {
+            let link = CurvedLink {
+                pair_chain: own,
+                section: *section,
+            };
+            return ask_solver(solver, question, (a, &link), b);
+        }
+        for (at, in_chain) in section.ends().into_iter().zip(&mut self.ends) {
+            let path = section.path;
+            path.interpolate_in_segment(section.segment, at, &mut self.positions);
+            let joints = own.moving_joint_numbers.iter();
+            in_chain.clear();
+            in_chain.extend(joints.map(|joint| joint.map_or(0.0, |joint| self.positions[joint])));
+        }
+        let [from, to] = &self.ends;
+        let link = own.chain.link(from.len(), from, to, 1.0)?;
+        ask_solver(solver, question, (a, &link), b)
     }
 }
 
+fn ask_solver<'b>(
+    solver: &mut Solver,
+    question: Question,
+    a: impl Into<MovingBody<'b>> + Copy,
+    b: (&'b Body, Motion),
+) -> Result<Answer, Error> {
+    Ok(match question {
+        Question::AnyContact => solver.any_contact(a, b, 1.0)?,
+        Question::FirstContact => solver.first_contact(a, b, 1.0)?,
+        Question::ClosestApproach => solver.closest_approach(a, b, 1.0)?,
+    })
+}
+
 /// Makes the chain from a body of another link, or from the base, to a body of a link.
-fn pair_chain(cell: &Cell, a: usize, b: Option<usize>) -> PairChain {
+pub(crate) fn pair_chain(cell: &Cell, a: usize, b: Option<usize>) -> PairChain {
     let (robot, kinematics) = (cell.robot(), cell.kinematics());
     let seen_from = b.map_or(robot.base(), |b| cell.link_of(b));
     let between = robot.chain_between(seen_from, cell.link_of(a));

@@ -1,9 +1,9 @@
 //! A stretch of a path as the search sees it: the frames of all links in its middle, and how far parts move from there.
 
 use super::displacement::DisplacementBounds;
-use super::rounding::point_error_bound;
+use super::joint_path::JointPath;
+use super::rounding::{Magnitude, point_error_bound};
 use super::stretch::Stretch;
-use super::waypoints::Waypoints;
 use crate::cell::Cell;
 use crate::robot::PositionSource;
 use rigid_ccd::glam::DQuat;
@@ -33,14 +33,13 @@ impl Placement {
     }
 
     /// Prepares for the stretches of a path.
-    pub(crate) fn begin(&mut self, cell: &Cell, path: &Waypoints) {
-        self.rounding =
-            point_error_bound(cell.kinematics(), cell.parts(), path.max_abs_positions());
+    pub(crate) fn begin(&mut self, cell: &Cell, path: &JointPath) {
+        self.rounding = point_error_bound(cell.kinematics(), cell.parts(), path.magnitudes());
     }
 
     /// Computes the frames in the middle of a stretch, and the bounds of displacements.
     #[inline(always)]
-    pub(crate) fn place(&mut self, cell: &Cell, path: &Waypoints, stretch: &Stretch) {
+    pub(crate) fn place(&mut self, cell: &Cell, path: &JointPath, stretch: &Stretch) {
         self.place_frames(cell, path, stretch.middle());
         path.max_joint_deviations_from_middle(
             stretch,
@@ -73,8 +72,13 @@ impl Placement {
             self.max_deviation_by_joint.push(deviation(joint.source));
         }
         let largest = joints().zip(&self.max_deviation_by_joint);
-        let largest =
-            largest.map(|(joint, deviation)| joint.source.magnitude(configuration) + deviation);
+        let largest = largest.map(|(joint, deviation)| {
+            let rounding = joint.source.magnitude(configuration) + deviation;
+            Magnitude {
+                position: rounding,
+                rounding,
+            }
+        });
         self.rounding = point_error_bound(cell.kinematics(), cell.parts(), largest);
         let positions = self.positions.iter().copied();
         cell.kinematics().place(positions, &mut self.frames);
@@ -94,7 +98,7 @@ impl Placement {
 
     /// Computes the frames at a point of the path.
     #[inline(always)]
-    pub(crate) fn place_frames(&mut self, cell: &Cell, path: &Waypoints, at: f64) {
+    pub(crate) fn place_frames(&mut self, cell: &Cell, path: &JointPath, at: f64) {
         path.interpolate(at, &mut self.positions);
         let positions = self.positions.iter().copied();
         cell.kinematics().place(positions, &mut self.frames);

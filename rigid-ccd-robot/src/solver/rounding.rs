@@ -13,26 +13,46 @@ const U: f64 = 0.5 * f64::EPSILON;
 /// are rounded by 2. That is less than 64. The direction in which the corners of a hull are searched is rotated once more.
 const ROTATION_ERROR_PER_JOINT: f64 = 64.0;
 
-/// The rounding error of a joint's position that is interpolated between two configurations. It is in units of `U`
-/// times the largest of the numbers from which the position is computed. Interpolation rounds a difference, a product
-/// and a sum. For a joint that follows another one, the numbers include its factor times the followed position, and its
-/// offset. The difference to the position in the middle of a stretch has the errors of both positions.
+/// The rounding error of a joint's position that is interpolated between two configurations, in units of `U` times its
+/// [`Magnitude::rounding`]. Interpolation rounds a difference, a product and a sum. For a joint that follows another one,
+/// the magnitude includes its factor times the followed position, and its offset. That of a polynomial includes what its
+/// degree adds. The difference to the position in the middle of a stretch has the errors of both positions.
 const POSITION_ERROR_ULPS: f64 = 16.0;
 
-/// Returns a bound of the distance between points of all parts, as computed with frames along an edge, and the points
-/// themselves. The positions of the moving joints are computed from numbers of at most `positions`.
+/// The sizes of a joint's positions on a path, or in a range.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Magnitude {
+    /// The largest absolute value of the position.
+    pub(crate) position: f64,
+    /// The magnitude to which the rounding error of the position is proportional.
+    pub(crate) rounding: f64,
+}
+
+impl Magnitude {
+    /// Returns the larger of both values each.
+    pub(crate) fn or_larger(self, other: Magnitude) -> Self {
+        Magnitude {
+            position: greater(self.position, other.position),
+            rounding: greater(self.rounding, other.rounding),
+        }
+    }
+}
+
+/// Returns a bound of the distance between points of all parts, as computed with frames along a path, and the points
+/// themselves.
 pub(crate) fn point_error_bound(
     kinematics: &Kinematics,
     parts: &[HullPart],
-    positions: impl Iterator<Item = f64>,
+    magnitudes: impl Iterator<Item = Magnitude>,
 ) -> f64 {
     let joints = kinematics.joints();
-    let (mut angles, mut arms) = (0.0, kinematics.arm_length_sum);
-    for (joint, position) in joints.iter().zip(positions) {
+    let (mut angles, mut slides, mut arms) = (0.0, 0.0, kinematics.arm_length_sum);
+    for (joint, magnitude) in joints.iter().zip(magnitudes) {
         if joint.is_prismatic {
-            arms += position;
+            arms += magnitude.position;
+            slides += magnitude.rounding;
         } else {
-            angles += position;
+            angles += magnitude.rounding;
         }
     }
     let reach = parts
@@ -41,5 +61,5 @@ pub(crate) fn point_error_bound(
         .fold(0.0, greater);
     let turn = ROTATION_ERROR_PER_JOINT * (kinematics.total_joint_count + 2) as f64
         + POSITION_ERROR_ULPS * angles;
-    U * (turn + POSITION_ERROR_ULPS) * (arms + reach)
+    U * (turn + POSITION_ERROR_ULPS) * (arms + reach) + U * POSITION_ERROR_ULPS * slides
 }

@@ -6,14 +6,16 @@
 
 use super::Question;
 use super::exact::PairChains;
+use super::joint_path::JointPath;
 use super::measure::{DistanceVerdict, Thresholds, bounding_volume_gap, measure};
 use super::open_pairs::UndecidedPairs;
 use super::part_pairs::{PartPair, PartPairs, sort_by_proof_distance};
 use super::placement::Placement;
 use super::stretch::{StepResult, Stretch};
 use super::time_limit::StopCondition;
-use super::waypoints::Waypoints;
 use crate::cell::Cell;
+use crate::error::PathError;
+use crate::path::Path;
 use crate::tuning::{
     MAX_APPROACH_STRETCH_LENGTH, MAX_ENGINE_DISPLACEMENT, MAX_ENGINE_STRETCH_LENGTH,
     MIN_ENGINE_HALVINGS,
@@ -30,7 +32,7 @@ pub(crate) struct Search<'c> {
     pub(super) cell: &'c Cell,
     pub(super) pairs: PartPairs<'c>,
     pub(super) exact_chains: PairChains<'c>,
-    pub(super) path: Waypoints,
+    pub(super) path: JointPath,
     pub(super) placement: Placement,
     /// Pairs that may touch in the stretches from the whole path down to the current one.
     pub(super) candidates: Vec<PartPair>,
@@ -40,8 +42,6 @@ pub(crate) struct Search<'c> {
     /// What the engine is to decide.
     pub(super) open_pairs: UndecidedPairs,
     pub(super) solver: Solver,
-    /// The positions at both ends of the stretch that the engine is asked about.
-    pub(super) ends: [Vec<f64>; 2],
     pub(super) settings: Settings,
     // Of the current question.
     pub(super) question: Question,
@@ -81,13 +81,12 @@ impl<'c> Search<'c> {
             cell,
             pairs: PartPairs::new(cell, &placement.displacement_bounds),
             exact_chains: PairChains::new(cell),
-            path: Waypoints::default(),
+            path: JointPath::default(),
             placement,
             candidates: Vec::new(),
             near_nonconvex_pairs: Vec::new(),
             open_pairs: UndecidedPairs::default(),
             solver: Solver::new(),
-            ends: Default::default(),
             settings: Settings::DEFAULT,
             question: Question::AnyContact,
             stop_condition: StopCondition::NONE,
@@ -122,11 +121,12 @@ impl<'c> Search<'c> {
         self.path.segment_count()
     }
 
-    /// Takes a path of at least one configuration, which the questions that follow are about. Their time starts now.
-    pub(crate) fn begin<Q: AsRef<[f64]>>(&mut self, path: &[Q]) {
+    /// Takes a path, which the questions that follow are about. Their time starts now.
+    pub(crate) fn begin<P: Path + ?Sized>(&mut self, path: &P) -> Result<(), PathError> {
         self.stop_condition = StopCondition::starting_now(&self.settings);
-        self.path.set(self.cell.kinematics(), path);
+        path.write_to(self.cell, &mut self.path)?;
         self.placement.begin(self.cell, &self.path);
+        Ok(())
     }
 
     /// Answers a question about a stretch of the path; the answer is in `result`.

@@ -38,6 +38,8 @@ pub struct LinkTrajectory<'c> {
     from: &'c [f64],
     end_positions: &'c [f64],
     duration: f64,
+    /// For each joint a bound of its deviation from its constant rate; empty without deviations.
+    joint_deviations: &'c [f64],
 }
 
 impl Chain {
@@ -93,6 +95,7 @@ impl Chain {
             from,
             end_positions: to,
             duration,
+            joint_deviations: &[],
         })
     }
 }
@@ -115,6 +118,46 @@ impl<'c> LinkTrajectory<'c> {
                 from: link,
                 link: self.link,
             })
+        }
+    }
+
+    /// Lets each joint deviate from its position at a constant rate, at any time, by at most so much: a number for each joint, in
+    /// radians or as a length. Joints without a number do not deviate.
+    ///
+    /// Joints that follow a curve are near constant rates for a short time. A [`Trajectory`] of theirs has stretches of such
+    /// links.
+    #[must_use]
+    pub fn with_joint_deviations(self, deviations: &'c [f64]) -> Self {
+        LinkTrajectory {
+            joint_deviations: deviations,
+            ..self
+        }
+    }
+
+    /// Bounds how far the link is from its pose at constant rates, for arms of at most this length together.
+    ///
+    /// The angles between the orientations of links add up. An arm turns by at most as much, and one that slides changes by
+    /// its joint's deviation.
+    fn bound_of_joint_deviations(&self, arm_length_sum: f64) -> DeviationBound {
+        let (mut turn, mut slide) = (0.0, 0.0);
+        let range = self.reference_link.unwrap_or(0)..self.link;
+        let joints = range.zip(
+            self.joint_deviations
+                .iter()
+                .skip(self.reference_link.unwrap_or(0)),
+        );
+        for (k, deviation) in joints {
+            match self.chain.joints()[k].kind() {
+                JointKind::Fixed => {}
+                JointKind::Revolute(_) => turn += deviation,
+                JointKind::Prismatic(_) => slide += deviation,
+            }
+        }
+        // A few sums and products.
+        let rounded_up = 1.0 + 1e-12;
+        DeviationBound {
+            centre_deviation: (slide + turn * arm_length_sum) * rounded_up,
+            max_deviation_angle: turn * rounded_up,
         }
     }
 
@@ -205,10 +248,11 @@ impl SmoothTrajectory for LinkTrajectory<'_> {
         } = self.link_bounds(from, to);
         let base = length(self.chain.base().translation());
         let turn = U * (24.0 * joints + 4.0 * angles);
-        DeviationBound {
+        let rounding = DeviationBound {
             centre_deviation: turn * arms + 8.0 * U * (base + arms),
             max_deviation_angle: turn,
-        }
+        };
+        rounding + self.bound_of_joint_deviations(arms)
     }
 }
 

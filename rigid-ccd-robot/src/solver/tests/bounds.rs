@@ -3,7 +3,7 @@
 use super::*;
 use crate::solver::displacement::DisplacementBounds;
 use crate::solver::kinematics::Kinematics;
-use crate::solver::rounding::point_error_bound;
+use crate::solver::rounding::{Magnitude, point_error_bound};
 use rigid_ccd::oracle::Frame;
 
 /// Tests that frames are as near to the poses of links as the bound on rounding says, and that the bound is not a million
@@ -23,7 +23,10 @@ fn frames_are_within_the_bound_on_rounding() {
         let positions: Vec<f64> = positions.collect();
         let mut frames = Vec::new();
         kinematics.place(positions.iter().copied(), &mut frames);
-        let largest = positions.iter().map(|position| position.abs());
+        let largest = positions.iter().map(|position| Magnitude {
+            position: position.abs(),
+            rounding: position.abs(),
+        });
         let bound = point_error_bound(kinematics, cell.parts(), largest);
         for part in &cell.parts()[..cell.robot_part_count()] {
             let link = cell.link_of(part.owner);

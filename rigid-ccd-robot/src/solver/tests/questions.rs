@@ -1,36 +1,85 @@
-//! Tests the questions about paths of several configurations against sampled configurations.
+//! Tests the questions about paths and curves against sampled configurations.
 
 use super::*;
+use crate::joint_curve::JointCurve;
+use crate::path::PathSource;
+use crate::solver::joint_path::JointPath;
 use rigid_ccd::answer::Limit;
 use std::time::Duration;
 
-/// Returns a path of a few configurations, each near the one before.
-fn random_path(random: &mut Pcg64, robot: &Robot) -> Vec<Vec<f64>> {
-    let mut path = vec![random_configuration(random, robot)];
-    for _ in 0..random.random_range(0..9) {
-        let next = random_configuration(random, robot);
-        let step = [0.01, 0.2, 0.7][random.random_range(0..3)];
-        path.push(configuration_between(path.last().unwrap(), &next, step));
-    }
-    path
+/// A path of either kind.
+enum TestPath {
+    Configurations(Vec<Vec<f64>>),
+    Curve(JointCurve),
 }
 
-/// Returns the configuration at a point of a path.
-fn configuration_at(path: &[Vec<f64>], at: PathPoint) -> Vec<f64> {
-    match path.get(at.segment + 1) {
-        Some(next) => configuration_between(&path[at.segment], next, at.share),
-        None => path[at.segment].clone(),
+impl TestPath {
+    /// Returns a path of a few configurations, each near the one before, or a cubic or quintic curve through them.
+    fn random(random: &mut Pcg64, robot: &Robot) -> Self {
+        let mut path = vec![random_configuration(random, robot)];
+        for _ in 0..random.random_range(0..9) {
+            let next = random_configuration(random, robot);
+            let step = [0.01, 0.2, 0.7][random.random_range(0..3)];
+            path.push(configuration_between(path.last().unwrap(), &next, step));
+        }
+        if path.len() == 1 || random.random_range(0..2) == 0 {
+            return TestPath::Configurations(path);
+        }
+        let mut times = vec![random.random_range(-1.0..1.0)];
+        for _ in 1..path.len() {
+            times.push(times[times.len() - 1] + random.random_range(0.1..1.0));
+        }
+        let mut rates = || {
+            let size = [0.0, 0.1, 3.0][random.random_range(0..3)];
+            let mut row = || random_configuration(random, robot).into_iter();
+            let rows = path.iter().map(|_| row().map(|rate| size * rate).collect());
+            rows.collect::<Vec<Vec<f64>>>()
+        };
+        let (velocities, accelerations) = (rates(), rates());
+        TestPath::Curve(match path.len() % 2 {
+            0 => JointCurve::cubic_hermite(&times, &path, &velocities).unwrap(),
+            _ => JointCurve::quintic_hermite(&times, &path, &velocities, &accelerations).unwrap(),
+        })
+    }
+
+    /// Returns the configuration at a point.
+    fn at(&self, at: PathPoint) -> Vec<f64> {
+        match self {
+            TestPath::Configurations(path) => match path.get(at.segment + 1) {
+                Some(next) => configuration_between(&path[at.segment], next, at.share),
+                None => path[at.segment].clone(),
+            },
+            TestPath::Curve(curve) => curve.positions(curve.time(at)),
+        }
+    }
+
+    /// Returns points of the path, some in each segment.
+    fn sampled_points(&self) -> Vec<PathPoint> {
+        let segments = 0..self.segment_count().max(1);
+        let shares = |segment| (0..=8).map(move |k| (segment, f64::from(k) / 8.0));
+        let points = segments.flat_map(shares);
+        points
+            .map(|(segment, share)| PathPoint { segment, share })
+            .collect()
     }
 }
 
-/// Returns points of a path, some in each segment.
-fn sampled_points(path: &[Vec<f64>]) -> Vec<PathPoint> {
-    let segments = 0..(path.len() - 1).max(1);
-    let shares = |segment| (0..=8).map(move |k| (segment, f64::from(k) / 8.0));
-    let points = segments.flat_map(shares);
-    points
-        .map(|(segment, share)| PathPoint { segment, share })
-        .collect()
+impl Path for TestPath {
+    fn segment_count(&self) -> usize {
+        match self {
+            TestPath::Configurations(path) => path.segment_count(),
+            TestPath::Curve(curve) => curve.segment_count(),
+        }
+    }
+}
+
+impl PathSource for TestPath {
+    fn write_to(&self, cell: &Cell, path: &mut JointPath) -> Result<(), PathError> {
+        match self {
+            TestPath::Configurations(configurations) => configurations.write_to(cell, path),
+            TestPath::Curve(curve) => curve.write_to(cell, path),
+        }
+    }
 }
 
 /// Tests that no sampled configuration before a first contact is within the margin, and that the pair which is named is
@@ -48,7 +97,7 @@ fn nothing_touches_before_a_first_contact() {
             ..Settings::DEFAULT
         };
         let mut solver = cell.solver().with_settings(settings);
-        let path = random_path(&mut random, cell.robot());
+        let path = TestPath::random(&mut random, cell.robot());
         let outcome = solver.first_contact(&path).unwrap();
         let any = solver.any_contact(&path).unwrap();
         let end = match outcome {
@@ -60,7 +109,7 @@ fn nothing_touches_before_a_first_contact() {
             PathOutcome::Contact(contact) => {
                 contacts += 1;
                 late_segments += usize::from(contact.at.segment > 0);
-                let there = least_distance(&cell, &configuration_at(&path, contact.at));
+                let there = least_distance(&cell, &path.at(contact.at));
                 assert!(there <= margin + 1e-4 + 1e-9, "{there} in {contact:?}");
                 let [a, b] = contact.witnesses;
                 let is_near = a.distance(b) <= margin + 1e-4 + 1e-9;
@@ -69,9 +118,9 @@ fn nothing_touches_before_a_first_contact() {
             }
             PathOutcome::Unresolved { .. } => panic!("{outcome:?}"),
         };
-        for at in sampled_points(&path) {
+        for at in path.sampled_points() {
             if end.is_none_or(|end| at < end) {
-                let distance = least_distance(&cell, &configuration_at(&path, at));
+                let distance = least_distance(&cell, &path.at(at));
                 assert!(distance > margin, "{distance} at {at:?} before {end:?}");
             }
         }
@@ -93,7 +142,7 @@ fn the_closest_approach_brackets_sampled_distances() {
             ..Settings::DEFAULT
         };
         let mut solver = cell.solver().with_settings(settings);
-        let path = random_path(&mut random, cell.robot());
+        let path = TestPath::random(&mut random, cell.robot());
         let found = solver.closest_approach(&path).unwrap();
         assert_eq!(found.limit, None);
         assert!(found.upper - found.lower <= 1e-4 + 1e-9, "{found:?}");
@@ -101,9 +150,10 @@ fn the_closest_approach_brackets_sampled_distances() {
         let [a, b] = nearest.witnesses;
         let is_near = a.distance(b) <= found.upper + 1e-9;
         assert!(is_near || found.upper <= 1e-9, "{found:?}");
-        let least = sampled_points(&path)
+        let least = path
+            .sampled_points()
             .into_iter()
-            .map(|at| least_distance(&cell, &configuration_at(&path, at)))
+            .map(|at| least_distance(&cell, &path.at(at)))
             .fold(f64::INFINITY, lesser);
         assert!(least >= found.lower, "{least} below {found:?}");
         narrowest = lesser(narrowest, least - found.lower);
@@ -155,7 +205,7 @@ fn a_solver_keeps_its_memory() {
     for _ in 0..20 {
         let cell = random_cell(&mut random);
         let mut solver = cell.solver();
-        let path = random_path(&mut random, cell.robot());
+        let path = TestPath::random(&mut random, cell.robot());
         let ask = |solver: &mut CellSolver<'_>| {
             let is_free = solver.is_free(&path).unwrap();
             let first = solver.first_contact(&path).unwrap();
@@ -183,14 +233,14 @@ fn a_deadline_leaves_a_free_start() {
             deadline: Some(Duration::from_nanos(nanos)),
             ..Settings::DEFAULT
         };
-        let path = random_path(&mut random, cell.robot());
+        let path = TestPath::random(&mut random, cell.robot());
         let mut solver = cell.solver().with_settings(settings);
         if let PathOutcome::Unresolved { free_until, limit } = solver.first_contact(&path).unwrap()
         {
             unresolved += 1;
             assert_eq!(limit, Limit::Deadline);
-            for at in sampled_points(&path) {
-                let distance = || least_distance(&cell, &configuration_at(&path, at));
+            for at in path.sampled_points() {
+                let distance = || least_distance(&cell, &path.at(at));
                 assert!(
                     at >= free_until || distance() > 0.0,
                     "{at:?} {free_until:?}"
@@ -216,7 +266,7 @@ fn a_budget_leaves_a_free_start() {
             budget: 1,
             ..Settings::DEFAULT
         };
-        let path = random_path(&mut random, cell.robot());
+        let path = TestPath::random(&mut random, cell.robot());
         let mut solver = cell.solver().with_settings(settings);
         let end = match solver.first_contact(&path).unwrap() {
             PathOutcome::Free => None,
@@ -227,13 +277,17 @@ fn a_budget_leaves_a_free_start() {
                 Some(free_until)
             }
         };
-        for at in sampled_points(&path) {
-            let distance = || least_distance(&cell, &configuration_at(&path, at));
+        for at in path.sampled_points() {
+            let distance = || least_distance(&cell, &path.at(at));
             let is_before = end.is_none_or(|end| at < end);
             assert!(!is_before || distance() > 0.0, "{at:?} {end:?}");
         }
         let closest = solver.closest_approach(&path).unwrap();
-        let least = least_distance(&cell, &path[0]);
+        let start = PathPoint {
+            segment: 0,
+            share: 0.0,
+        };
+        let least = least_distance(&cell, &path.at(start));
         assert!(closest.lower <= least && closest.lower <= closest.upper);
     }
     assert!(unresolved > 5, "{unresolved}");
@@ -254,7 +308,7 @@ fn a_configuration_is_a_path() {
             "{found:?} {least}"
         );
         assert!(matches!(
-            solver.is_free::<Vec<f64>>(&[]),
+            solver.is_free(&[] as &[Vec<f64>]),
             Err(PathError::EmptyPath)
         ));
     }

@@ -1,0 +1,319 @@
+//! Paths whose joints follow polynomials of the time, as controllers run them.
+
+use crate::error::{CurveError, PathError, RobotError};
+use crate::robot::Robot;
+use crate::solver::PathPoint;
+use crate::solver::joint_path::{Polynomial, rounding_factor};
+use ccd_core::order::greater;
+use rigid_ccd::InputError;
+use smallvec::SmallVec;
+
+/// The largest degree of a polynomial, which has a fixed place in memory.
+pub(crate) const MAX_DEGREE: usize = 9;
+
+/// The largest jump of a joint from one segment to the next, in radians or as a length, relative to its position if that is
+/// greater than 1. Coefficients of splines are rounded; a jump of this size is no motion that a path leaves out.
+const MAX_JUMP: f64 = 1e-9;
+
+/// The number of times that a segment is halved to find out whether a joint leaves its limits.
+const MAX_LIMIT_HALVINGS: u32 = 20;
+
+/// A path of a robot whose joints follow polynomials of the time, segment by segment.
+///
+/// All questions of a [`CellSolver`](crate::CellSolver) take one as a path. Points of it are a segment, and a share of the
+/// segment's time.
+///
+/// ```
+/// use rigid_ccd_robot::JointCurve;
+/// // One joint goes from 0 to 1 in two seconds, and stops there.
+/// let curve = JointCurve::cubic_hermite(&[0.0, 2.0], &[[0.0], [1.0]], &[[0.0], [0.0]])?;
+/// assert_eq!(curve.positions(1.0), [0.5]);
+/// # Ok::<(), rigid_ccd_robot::CurveError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointCurve {
+    /// The times at which segments begin, and the end of the last one.
+    times: Vec<f64>,
+    joint_count: usize,
+    degree: usize,
+    /// The coefficients of each segment, of powers of the share of its time; for each power, lowest first, those of all
+    /// joints.
+    coefficients: Vec<f64>,
+}
+
+impl JointCurve {
+    /// Creates a curve from polynomials of the time since each segment's start: for each segment and each joint with a position
+    /// of its own its coefficients, that of the lowest power first.
+    ///
+    /// The path is that of the polynomials of the share of each segment, whose coefficients are rounded.
+    ///
+    /// # Errors
+    /// [`CurveError`] for numbers that are not finite, times that do not increase, numbers of segments, joints or coefficients
+    /// that do not fit, a degree of more than 9, and joints that jump from one segment to the next.
+    pub fn from_polynomials(times: &[f64], segments: &[Vec<Vec<f64>>]) -> Result<Self, CurveError> {
+        let joint_count = segments.first().map_or(0, Vec::len);
+        let joints = segments.iter().flatten();
+        let degree = joints.map(|own| own.len().saturating_sub(1)).max();
+        let degree = degree.unwrap_or(0);
+        if degree > MAX_DEGREE {
+            return Err(CurveError::DegreeTooHigh { degree });
+        }
+        check_times(times, segments.len())?;
+        let mut coefficients = Vec::new();
+        for (segment, (joints, span)) in segments.iter().zip(times.windows(2)).enumerate() {
+            check_count("joints", segment, joints.len(), joint_count)?;
+            let mut scale = 1.0;
+            for power in 0..=degree {
+                // A lower degree has zeros above it.
+                let own = joints.iter().map(|own| own.get(power).copied());
+                coefficients.extend(own.map(|own| own.map_or(0.0, |own| own * scale)));
+                scale *= span[1] - span[0];
+            }
+        }
+        JointCurve {
+            times: times.to_vec(),
+            joint_count,
+            degree,
+            coefficients,
+        }
+        .checked()
+    }
+
+    /// Creates a curve of cubic polynomials through configurations, with the velocities there.
+    ///
+    /// # Errors
+    /// As of [`JointCurve::from_polynomials`].
+    pub fn cubic_hermite<Q: AsRef<[f64]>>(
+        times: &[f64],
+        positions: &[Q],
+        velocities: &[Q],
+    ) -> Result<Self, CurveError> {
+        JointCurve::hermite(times, [positions, velocities], |[[p, v], [q, w]]| {
+            let change = q - p;
+            [p, v, 3.0 * change - 2.0 * v - w, v + w - 2.0 * change]
+        })
+    }
+
+    /// Creates a curve of quintic polynomials through configurations, with the velocities and accelerations there.
+    ///
+    /// # Errors
+    /// As of [`JointCurve::from_polynomials`].
+    pub fn quintic_hermite<Q: AsRef<[f64]>>(
+        times: &[f64],
+        positions: &[Q],
+        velocities: &[Q],
+        accelerations: &[Q],
+    ) -> Result<Self, CurveError> {
+        let derivatives = [positions, velocities, accelerations];
+        JointCurve::hermite(times, derivatives, |[[p, v, a], [q, w, b]]| {
+            let change = q - p;
+            [
+                p,
+                v,
+                0.5 * a,
+                10.0 * change - 6.0 * v - 4.0 * w - 1.5 * a + 0.5 * b,
+                -15.0 * change + 8.0 * v + 7.0 * w + 1.5 * a - b,
+                6.0 * change - 3.0 * (v + w) + 0.5 * (b - a),
+            ]
+        })
+    }
+
+    /// Creates a curve from the derivatives of all joints at the ends of each segment, by a function that returns a joint's
+    /// coefficients from its derivatives by the share at both ends.
+    fn hermite<Q: AsRef<[f64]>, const ORDERS: usize, const COUNT: usize>(
+        times: &[f64],
+        derivatives: [&[Q]; ORDERS],
+        interpolate: impl Fn([[f64; ORDERS]; 2]) -> [f64; COUNT],
+    ) -> Result<Self, CurveError> {
+        let joint_count = derivatives[0].first().map_or(0, |row| row.as_ref().len());
+        check_times(times, derivatives[0].len().saturating_sub(1))?;
+        for rows in derivatives {
+            check_count("configurations", 0, rows.len(), times.len())?;
+            for (number, row) in rows.iter().enumerate() {
+                check_count("joints", number, row.as_ref().len(), joint_count)?;
+            }
+        }
+        let mut coefficients = Vec::new();
+        for (segment, span) in times.windows(2).enumerate() {
+            let duration = span[1] - span[0];
+            let by_joint: Vec<[f64; COUNT]> = (0..joint_count)
+                .map(|joint| {
+                    let ends = [segment, segment + 1].map(|row| {
+                        let mut scale = 1.0 / duration;
+                        derivatives.map(|rows| {
+                            scale *= duration;
+                            rows[row].as_ref()[joint] * scale
+                        })
+                    });
+                    interpolate(ends)
+                })
+                .collect();
+            for power in 0..COUNT {
+                coefficients.extend(by_joint.iter().map(|own| own[power]));
+            }
+        }
+        JointCurve {
+            times: times.to_vec(),
+            joint_count,
+            degree: COUNT - 1,
+            coefficients,
+        }
+        .checked()
+    }
+
+    /// Refuses numbers that are not finite, and jumps.
+    fn checked(self) -> Result<Self, CurveError> {
+        for segment in 0..self.segment_count() {
+            for joint in 0..self.joint_count {
+                let own = (0..=self.degree).map(|power| self.coefficients(segment, power)[joint]);
+                if !own.into_iter().all(f64::is_finite) {
+                    return Err(CurveError::NotFinite { segment, joint });
+                }
+                if segment == 0 {
+                    continue;
+                }
+                let before = self.polynomial(segment - 1, joint).about(1.0).constant();
+                let after = self.coefficients(segment, 0)[joint];
+                let jump = (after - before).abs();
+                // Written so that NaN is refused.
+                if !(jump <= MAX_JUMP * greater(1.0, after.abs())) {
+                    return Err(CurveError::Jump {
+                        segment,
+                        joint,
+                        jump,
+                    });
+                }
+            }
+        }
+        Ok(self)
+    }
+
+    /// Returns the number of segments.
+    pub fn segment_count(&self) -> usize {
+        self.times.len() - 1
+    }
+
+    /// Returns the times at which segments begin, and the end of the last one.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Returns the time of a point of the curve.
+    pub fn time(&self, point: PathPoint) -> f64 {
+        let segment = point.segment.min(self.segment_count() - 1);
+        let [from, to] = [self.times[segment], self.times[segment + 1]];
+        from + point.share * (to - from)
+    }
+
+    /// Returns the positions of all joints at a time; before the start and after the end, those there.
+    pub fn positions(&self, time: f64) -> Vec<f64> {
+        let later = self.times[1..self.segment_count()].iter();
+        let segment = later.take_while(|&&start| start <= time).count();
+        let [from, to] = [self.times[segment], self.times[segment + 1]];
+        let share = ((time - from) / (to - from)).clamp(0.0, 1.0);
+        let joints = 0..self.joint_count;
+        joints
+            .map(|joint| self.polynomial(segment, joint).about(share).constant())
+            .collect()
+    }
+
+    pub(crate) fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// Returns the coefficients of all joints for one power of the share of a segment.
+    pub(crate) fn coefficients(&self, segment: usize, power: usize) -> &[f64] {
+        let start = (segment * (self.degree + 1) + power) * self.joint_count;
+        &self.coefficients[start..][..self.joint_count]
+    }
+
+    fn polynomial(&self, segment: usize, joint: usize) -> Polynomial {
+        Polynomial::new(self.degree, |power| {
+            self.coefficients(segment, power)[joint]
+        })
+    }
+
+    /// Refuses a curve with a wrong number of joints, or one on which a joint leaves its limits.
+    pub(crate) fn check_for_robot(&self, robot: &Robot) -> Result<(), PathError> {
+        let start = PathPoint {
+            segment: 0,
+            share: 0.0,
+        };
+        let refused = |at: PathPoint, error| Err(PathError::InvalidCurvePoint { at, error });
+        if let Err(error) = robot.check_position_count(self.joint_count) {
+            return refused(start, error);
+        }
+        for segment in 0..self.segment_count() {
+            for (joint, [low, high]) in robot.limits().enumerate() {
+                let polynomial = self.polynomial(segment, joint);
+                let Some((share, position)) = find_outside(&polynomial, [low, high]) else {
+                    continue;
+                };
+                let error = InputError::JointOutOfLimits {
+                    joint: None,
+                    joint_position: position,
+                    limits: [low, high],
+                };
+                let joint = robot.free_joint_names().nth(joint).unwrap_or_default();
+                let joint = joint.to_owned();
+                let error = RobotError::InvalidPosition { joint, error };
+                return refused(PathPoint { segment, share }, error);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Finds a share at which a polynomial is outside of limits, by more than it is rounded, and its value there.
+fn find_outside(polynomial: &Polynomial, [low, high]: [f64; 2]) -> Option<(f64, f64)> {
+    let rounding = 16.0 * f64::EPSILON * rounding_factor(polynomial.degree()) * polynomial.size();
+    let [low, high] = [low - rounding, high + rounding];
+    let mut open = SmallVec::<[_; MAX_LIMIT_HALVINGS as usize + 1]>::new();
+    open.push((0.0, 1.0, 0));
+    while let Some((from, to, halvings)) = open.pop() {
+        let middle = 0.5 * (from + to);
+        let about = polynomial.about(middle);
+        let (value, deviation) = (about.constant(), about.deviation_bound(0.5 * (to - from)));
+        // Written so that NaN is outside.
+        if !(low <= value && value <= high) {
+            return Some((middle, value));
+        }
+        let is_inside = low <= value - deviation && value + deviation <= high;
+        if !is_inside && halvings < MAX_LIMIT_HALVINGS {
+            open.extend([(middle, to, halvings + 1), (from, middle, halvings + 1)]);
+        }
+    }
+    None
+}
+
+fn check_times(times: &[f64], segment_count: usize) -> Result<(), CurveError> {
+    if times.len() < 2 {
+        return Err(CurveError::TooFewTimes { count: times.len() });
+    }
+    check_count("segments", 0, segment_count, times.len() - 1)?;
+    let is_span = |span: &[f64]| span[0] < span[1] && (span[1] - span[0]).is_finite();
+    match times.windows(2).position(|span| !is_span(span)) {
+        Some(segment) => Err(CurveError::TimesNotIncreasing { segment }),
+        None => Ok(()),
+    }
+}
+
+fn check_count(
+    what: &'static str,
+    index: usize,
+    given: usize,
+    expected: usize,
+) -> Result<(), CurveError> {
+    if given == expected {
+        return Ok(());
+    }
+    Err(CurveError::WrongCount {
+        what,
+        index,
+        given,
+        expected,
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,159 @@
+//! Tests curves: that they pass where they are told to, and that wrong ones are refused.
+
+use super::*;
+use crate::cell::Cell;
+use crate::pairs::LinkPairs;
+use crate::robot::{Joint, Link, PositionRule};
+use rigid_ccd::{Body, Pose, trajectory};
+
+/// Returns the derivatives of a joint's position at the start and at the end of a segment, by the time.
+fn derivatives(curve: &JointCurve, segment: usize, joint: usize) -> [[f64; 3]; 2] {
+    let duration = curve.times[segment + 1] - curve.times[segment];
+    [0.0, 1.0].map(|share| {
+        let about = curve.polynomial(segment, joint).about(share);
+        let [position, velocity, half_acceleration] =
+            [0, 1, 2].map(|power| about.coefficient(power));
+        [
+            position,
+            velocity / duration,
+            2.0 * half_acceleration / duration.powi(2),
+        ]
+    })
+}
+
+#[test]
+fn hermite_curves_have_the_derivatives_that_are_given() {
+    let times = [0.5, 0.75, 2.75, 3.0];
+    let positions = [[0.1, 2.0], [0.3, -1.0], [0.2, 0.5], [-0.4, 0.0]];
+    let velocities = [[0.0, 0.7], [1.0, -2.0], [0.0, 0.25], [0.3, 0.0]];
+    let accelerations = [[2.0, 0.0], [-1.0, 0.5], [0.0, 4.0], [1.0, 1.0]];
+    let cubic = JointCurve::cubic_hermite(&times, &positions, &velocities).unwrap();
+    let quintic =
+        JointCurve::quintic_hermite(&times, &positions, &velocities, &accelerations).unwrap();
+    for segment in 0..3 {
+        for joint in 0..2 {
+            let rows = [segment, segment + 1];
+            let expected = rows.map(|k| {
+                [
+                    positions[k][joint],
+                    velocities[k][joint],
+                    accelerations[k][joint],
+                ]
+            });
+            for (curve, orders) in [(&cubic, 2), (&quintic, 3)] {
+                let found = derivatives(curve, segment, joint);
+                for (found, expected) in found.iter().zip(&expected) {
+                    for (found, expected) in found.iter().zip(expected).take(orders) {
+                        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+                    }
+                }
+            }
+        }
+    }
+    // Polynomials of the time are the same curve.
+    let polynomials: Vec<Vec<Vec<f64>>> = (0..3)
+        .map(|segment| {
+            let duration = times[segment + 1] - times[segment];
+            let of_joint = |joint: usize| {
+                let powers = (0..=3i32).map(|power| {
+                    cubic.coefficients(segment, power as usize)[joint] / duration.powi(power)
+                });
+                powers.collect()
+            };
+            (0..2).map(of_joint).collect()
+        })
+        .collect();
+    let same = JointCurve::from_polynomials(&times, &polynomials).unwrap();
+    for k in -4..=40 {
+        let time = f64::from(k) / 10.0;
+        let pairs = same.positions(time).into_iter().zip(cubic.positions(time));
+        assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-12));
+    }
+    let end = PathPoint {
+        segment: 2,
+        share: 1.0,
+    };
+    let last = cubic.positions(9.0);
+    assert!(cubic.time(end) == 3.0 && (last[0] + 0.4).abs() < 1e-15 && last[1] == 0.0);
+}
+
+#[test]
+fn wrong_curves_are_refused() {
+    let line = |from: f64, rate: f64| vec![vec![from, rate]];
+    let refused = |times: &[f64], segments: &[Vec<Vec<f64>>]| {
+        let error = JointCurve::from_polynomials(times, segments).unwrap_err();
+        error.to_string()
+    };
+    let two = [line(0.0, 1.0), line(1.0, 0.0)];
+    assert!(JointCurve::from_polynomials(&[0.0, 1.0, 2.0], &two).is_ok());
+    assert_eq!(refused(&[], &[]), "a curve needs at least two times, not 0");
+    assert_eq!(
+        refused(&[0.0, 1.0], &two),
+        "2 segments at 0, but 1 are needed"
+    );
+    for wrong in [
+        [0.0, 1.0, 1.0],
+        [0.0, f64::NAN, 1.0],
+        [0.0, 1.0, f64::INFINITY],
+    ] {
+        let error = refused(&wrong, &two);
+        assert!(error.ends_with("does not end after its start"), "{error}");
+    }
+    assert_eq!(
+        refused(&[0.0, 1.0, 2.0], &[line(0.0, 1.0), line(1.5, 0.0)]),
+        "joint 0 jumps by 0.5 at the start of segment 1"
+    );
+    assert_eq!(
+        refused(&[0.0, 1.0], &[line(f64::NAN, 1.0)]),
+        "segment 0: a coefficient of joint 0 is not finite"
+    );
+    assert_eq!(
+        refused(&[0.0, 1.0], &[vec![vec![1.0; 11]]]),
+        "a polynomial has the degree 10; at most 9 is supported"
+    );
+    let uneven = [line(0.0, 1.0), vec![vec![1.0], vec![0.0]]];
+    assert_eq!(
+        refused(&[0.0, 1.0, 2.0], &uneven),
+        "2 joints at 1, but 1 are needed"
+    );
+}
+
+/// Tests that a joint which leaves its limits between the ends of a segment is refused, and that one which touches them is
+/// not.
+#[test]
+fn a_curve_stays_within_the_limits() {
+    let slider = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
+    let joint = Joint {
+        name: "slider".into(),
+        parent: "rail".into(),
+        child: "ball".into(),
+        axis_and_limits: slider.with_limits(-1.0..=1.0),
+        position_rule: PositionRule::Independent,
+    };
+    let ball = Link::named("ball").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
+    let robot = Robot::new(vec![Link::named("rail"), ball], vec![joint]).unwrap();
+    let cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
+    // 4 s (1 - s) h is h in the middle.
+    let hump = |height: f64| {
+        let segments = [vec![vec![0.0, 4.0 * height, -4.0 * height]]];
+        JointCurve::from_polynomials(&[0.0, 1.0], &segments).unwrap()
+    };
+    for height in [0.5, 1.0, -1.0] {
+        assert!(cell.solver().is_free(&hump(height)).unwrap(), "{height}");
+    }
+    for height in [1.001, -2.0] {
+        let error = cell.solver().is_free(&hump(height)).unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .starts_with("segment 0, after 0.5 of it: joint `slider`: the joint is at"),
+            "{error}"
+        );
+    }
+    let two = JointCurve::cubic_hermite(&[0.0, 1.0], &[[0.0; 2]; 2], &[[0.0; 2]; 2]).unwrap();
+    let error = cell.solver().is_free(&two).unwrap_err();
+    assert!(
+        error.to_string().contains("2 positions for 1 joints"),
+        "{error}"
+    );
+}

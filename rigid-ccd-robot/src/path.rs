@@ -1,0 +1,92 @@
+//! What a question can be about: paths through configurations, and curves.
+
+use crate::cell::Cell;
+use crate::error::PathError;
+use crate::joint_curve::JointCurve;
+use crate::solver::PathPoint;
+use crate::solver::joint_path::JointPath;
+
+/// A path of a robot: a slice, an array or a vector of configurations, between two of which all joints move at constant rates,
+/// or a [`JointCurve`].
+///
+/// One configuration is a robot at rest, two are an edge.
+pub trait Path: PathSource {
+    /// Returns the number of segments.
+    fn segment_count(&self) -> usize;
+
+    /// Returns the time of a point: that of a curve; without times each segment takes one unit of time.
+    fn time(&self, point: PathPoint) -> f64 {
+        point.time()
+    }
+}
+
+/// What writes a path for a search. Only this crate implements it.
+pub trait PathSource {
+    /// Replaces a path by this one, if it fits the robot.
+    fn write_to(&self, cell: &Cell, path: &mut JointPath) -> Result<(), PathError>;
+}
+
+impl<Q: AsRef<[f64]>> Path for [Q] {
+    fn segment_count(&self) -> usize {
+        self.len().saturating_sub(1)
+    }
+}
+
+impl<Q: AsRef<[f64]>> PathSource for [Q] {
+    fn write_to(&self, cell: &Cell, path: &mut JointPath) -> Result<(), PathError> {
+        if self.is_empty() {
+            return Err(PathError::EmptyPath);
+        }
+        for (number, configuration) in self.iter().enumerate() {
+            let checked = cell.robot().check_configuration(configuration.as_ref());
+            checked.map_err(|error| PathError::InvalidConfiguration {
+                configuration_index: number,
+                error,
+            })?;
+        }
+        path.set_configurations(cell.kinematics(), self);
+        Ok(())
+    }
+}
+
+impl Path for JointCurve {
+    fn segment_count(&self) -> usize {
+        JointCurve::segment_count(self)
+    }
+
+    fn time(&self, point: PathPoint) -> f64 {
+        JointCurve::time(self, point)
+    }
+}
+
+impl PathSource for JointCurve {
+    fn write_to(&self, cell: &Cell, path: &mut JointPath) -> Result<(), PathError> {
+        self.check_for_robot(cell.robot())?;
+        path.set_curve(cell.kinematics(), self);
+        Ok(())
+    }
+}
+
+impl<Q: AsRef<[f64]>> Path for Vec<Q> {
+    fn segment_count(&self) -> usize {
+        self.as_slice().segment_count()
+    }
+}
+
+impl<Q: AsRef<[f64]>> PathSource for Vec<Q> {
+    fn write_to(&self, cell: &Cell, path: &mut JointPath) -> Result<(), PathError> {
+        self.as_slice().write_to(cell, path)
+    }
+}
+
+impl<Q: AsRef<[f64]>, const COUNT: usize> Path for [Q; COUNT] {
+    fn segment_count(&self) -> usize {
+        self.as_slice().segment_count()
+    }
+}
+
+impl<Q: AsRef<[f64]>, const COUNT: usize> PathSource for [Q; COUNT] {
+    fn write_to(&self, cell: &Cell, path: &mut JointPath) -> Result<(), PathError> {
+        self.as_slice().write_to(cell, path)
+    }
+}

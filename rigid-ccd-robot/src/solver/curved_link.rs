@@ -1,0 +1,61 @@
+//! The trajectory of a link whose joints follow a curve.
+
+use super::exact::PairChain;
+use super::joint_path::JointPath;
+use rigid_ccd::InputError;
+use rigid_ccd::trajectory::{Stretch, Trajectory};
+use smallvec::SmallVec;
+
+/// The number of joints of a chain up to which a stretch allocates nothing.
+const INLINE_JOINT_COUNT: usize = 24;
+
+/// A section of one segment of a path.
+#[derive(Clone, Copy)]
+pub(crate) struct PathSection<'a> {
+    pub(crate) path: &'a JointPath,
+    pub(crate) segment: usize,
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+}
+
+impl PathSection<'_> {
+    pub(crate) fn ends(&self) -> [f64; 2] {
+        [self.from, self.to]
+    }
+}
+
+/// The trajectory by which a link moves in a section of a path, which takes one unit of time.
+///
+/// Between two times it is that of joints at constant rates, and a bound of how far each joint is from these.
+pub(crate) struct CurvedLink<'a> {
+    pub(crate) pair_chain: &'a PairChain,
+    pub(crate) section: PathSection<'a>,
+}
+
+impl Trajectory for CurvedLink<'_> {
+    fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
+        let PathSection { path, segment, .. } = self.section;
+        let [start, end] = self.section.ends();
+        let ends = [from, to].map(|time| start + time * (end - start));
+        let [first, last] = ends.map(|at| self.values(|joint| path.position(segment, at, joint)));
+        let deviations = self.values(|joint| path.chord_deviation_bound(segment, ends, joint));
+        let time = to - from;
+        // A stretch of no length has no rates.
+        let duration = if time > 0.0 { time } else { 1.0 };
+        let chain = &self.pair_chain.chain;
+        let link = chain.link(first.len(), &first, &last, duration)?;
+        link.with_joint_deviations(&deviations)
+            .stretch_between(0.0, time)
+    }
+}
+
+impl CurvedLink<'_> {
+    /// Returns a value for each joint of the chain, by a function for those that move; fixed joints have 0.
+    fn values(&self, of_moving: impl Fn(usize) -> f64) -> SmallVec<[f64; INLINE_JOINT_COUNT]> {
+        let joints = self.pair_chain.moving_joint_numbers.iter();
+        joints.map(|joint| joint.map_or(0.0, &of_moving)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;
