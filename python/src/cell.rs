@@ -9,7 +9,7 @@ use crate::motion::{GivenPose, read_given_pose};
 use crate::path_answers::{
     allowed_setting_names, contact_object, ended_by_deadline, path_error, question_named,
 };
-use crate::path_array::PathArray;
+use crate::path_array::{GivenPath, GivenPaths};
 use crate::robot::PyRobot;
 use crate::settings::{
     CONTACT_SETTING_NAMES, DISTANCE_QUERY_SETTING_NAMES, read, read_thread_count,
@@ -21,14 +21,15 @@ use rigid_ccd::Settings;
 use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd::table::results::Status;
 use rigid_ccd_robot::path_rows::{PathAnswer, PathQuestion};
-use rigid_ccd_robot::{Cell, PathPoint, RangeSettings, RobotError};
+use rigid_ccd_robot::{Cell, RangeSettings, RobotError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// A robot among obstacles that rest in the frame of its base.
 ///
 /// A path is an array of shape (n, joints): configurations, between two of which all joints move at constant rates. An array
-/// of shape (joints,) is a configuration alone.
+/// of shape (joints,) is a configuration alone. Or it is a curve: a `scipy.interpolate.PPoly` such as `CubicSpline`, or any
+/// object with its breakpoints `x` and its coefficients `c` of shape (degree + 1, segments, joints), up to degree 9.
 ///
 /// Args:
 ///     robot: the robot.
@@ -157,7 +158,7 @@ impl PyCell {
     /// Returns the first contact on a path, or None. Nothing touches before it.
     ///
     /// Raises:
-    ///     Unresolved: a limit was reached first; `safe_until` is the last free point, in segments of the path.
+    ///     Unresolved: a limit was reached first; `safe_until` is the last free point, in segments of the path, or the time on a curve.
     #[pyo3(signature = (path, **settings))]
     fn first_contact<'py>(
         &self,
@@ -169,7 +170,7 @@ impl PyCell {
         let answer = self.ask(py, PathQuestion::FirstContact, path, settings)?;
         match answer.limit {
             Some(limit) => {
-                let until = answer.at.map_or(0.0, PathPoint::time);
+                let until = answer.row.time.unwrap_or(0.0);
                 let text = format!("a limit was reached ({limit}); free until {until}");
                 let error = Unresolved::new_err(text);
                 Err(with_attribute(py, error, "safe_until", until))
@@ -199,7 +200,7 @@ impl PyCell {
     ///
     /// Args:
     ///     path: the path; for a mechanism with one joint `[[low], [high]]`.
-    ///     resolution: the length of the shortest ranges that are examined, in segments of the path.
+    ///     resolution: the length of the shortest ranges that are examined, in segments of the path or of the curve.
     ///     max_pose_error: how far points of links may be from where the path places them. A closed loop of joints is a path of
     ///         configurations in which the loop is closed; between these, points differ by the error of the interpolation.
     ///
@@ -215,7 +216,7 @@ impl PyCell {
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let settings = read(settings, CONTACT_SETTING_NAMES)?;
-        let path = PathArray::read(path, "path")?;
+        let path = GivenPath::read(path)?;
         let how = RangeSettings {
             resolution,
             max_pose_error,
@@ -225,8 +226,11 @@ impl PyCell {
                 stop: Some(Arc::clone(stop)),
                 ..settings
             };
-            self.cell_with_solvers.ask(&settings, |solver| {
-                solver.clearance_ranges(&path.configurations(), how)
+            self.cell_with_solvers.ask(&settings, |solver| match &path {
+                GivenPath::Configurations(array) => {
+                    solver.clearance_ranges(&array.configurations(), how)
+                }
+                GivenPath::Curve(curve) => solver.clearance_ranges(curve, how),
             })
         };
         let (ranges, seen) = run_interruptibly(py, work, |_| Ok(()))?;
@@ -239,7 +243,7 @@ impl PyCell {
                 ClearanceVerdict::Violated => "violated",
                 ClearanceVerdict::Unverified => "unverified",
             };
-            class.call1((range.from.time(), range.to.time(), clearance))
+            class.call1((path.time(range.from), path.time(range.to), clearance))
         });
         ranges.collect()
     }
@@ -272,7 +276,8 @@ impl PyCell {
     }
 
     /// Answers a question about many paths of equally many configurations, on all cores: an array of shape
-    /// (N, n, joints). The table is that of `edges`; times are in segments: 1.5 is the middle of the second one.
+    /// (N, n, joints). The table is that of `edges`; times are in segments: 1.5 is the middle of the second one. A list of
+    /// curves has their own times.
     #[pyo3(signature = (paths, ask = "is-free", *, threads = None, **settings))]
     fn paths(
         &self,
@@ -287,19 +292,29 @@ impl PyCell {
         settings.check().map_err(input_error)?;
         let clearance = settings.clearance;
         let threads = read_thread_count(threads)?;
-        let cell = self.cell_with_solvers.cell();
-        let array = PathArray::read(paths, "paths")?;
-        let joints = cell.robot().free_joint_names().len();
-        array.check_shape_of_paths(joints)?;
+        let paths = GivenPaths::read(paths, self.robot.get())?;
         let work = |stop: &Arc<_>| {
             let settings = Settings {
                 stop: Some(Arc::clone(stop)),
                 ..settings
             };
             let solvers = &self.cell_with_solvers;
-            solvers.ask_paths(&settings, threads, array.paths(), |solver, path| {
-                ask.answer(solver, path, clearance)
-            })
+            match &paths {
+                GivenPaths::Array(array) => {
+                    let paths = array.paths();
+                    let groups = paths.position_chunks();
+                    let rows =
+                        solvers.answer_tasks(&settings, threads, &groups, |solver, group| {
+                            paths.map_group(group, |path| ask.answer(solver, path, clearance))
+                        });
+                    rows.into_iter().flatten().collect()
+                }
+                GivenPaths::Curves(curves) => {
+                    solvers.answer_tasks(&settings, threads, curves, |solver, curve| {
+                        ask.answer(solver, curve, clearance)
+                    })
+                }
+            }
         };
         let (rows, seen) = run_interruptibly(py, work, |_| Ok(()))?;
         seen?;
@@ -356,11 +371,13 @@ impl PyCell {
         path: &Bound<'_, PyAny>,
         settings: Settings,
     ) -> PyResult<PathAnswer> {
-        let path = PathArray::read(path, "path")?;
-        let path = path.configurations();
+        let path = GivenPath::read(path)?;
         let question = |settings: Settings| {
             let solvers = &self.cell_with_solvers;
-            solvers.ask(&settings, |solver| ask.ask(solver, &path, None))
+            solvers.ask(&settings, |solver| match &path {
+                GivenPath::Configurations(array) => ask.ask(solver, &array.configurations(), None),
+                GivenPath::Curve(curve) => ask.ask(solver, curve, None),
+            })
         };
         let limit = settings.deadline.unwrap_or(Duration::MAX);
         let first_limit = limit.min(FIRST_ATTEMPT_TIME_LIMIT);

@@ -59,35 +59,25 @@ impl CellWithCachedSolvers {
         answers.remove(0)
     }
 
-    /// Asks a question about many paths in the cell as it is now, on `threads` threads, or on all cores.
-    pub(crate) fn ask_paths<T: Send>(
+    /// Answers many tasks about the cell as it is now, on `threads` threads, or on all cores.
+    pub(crate) fn answer_tasks<Q: Sync, T: Send>(
         &self,
         settings: &Settings,
         threads: Option<u16>,
-        paths: Paths<'_>,
-        question: impl Fn(&mut CellSolver<'_>, &[&[f64]]) -> T + Sync,
+        tasks: &[Q],
+        answer: impl Fn(&mut CellSolver<'_>, &Q) -> T + Sync,
     ) -> Vec<T> {
-        let tasks: Vec<&[f64]> = paths.position_chunks().collect();
         let threads = threads.and_then(|threads| NonZeroUsize::new(usize::from(threads)));
         let threads = threads
             .or_else(|| available_parallelism().ok())
             .unwrap_or(NonZeroUsize::MIN);
         let is_of_count = |solvers: &CellSolvers<'_>| solvers.threads() == threads.get();
-        let answer_task = |solver: &mut CellSolver<'_>, task: &&[f64]| {
-            solver.set_settings(settings.clone());
-            let mut path = Vec::with_capacity(paths.configuration_count);
-            let mut answers = Vec::with_capacity(PATHS_PER_TASK);
-            for positions in task.chunks_exact(paths.configuration_count * paths.joint_count) {
-                path.clear();
-                path.extend(positions.chunks_exact(paths.joint_count));
-                answers.push(question(solver, &path));
-            }
-            answers
-        };
-        let answers = self.with_solvers(threads, is_of_count, |solvers| {
-            solvers.map(&tasks, answer_task)
-        });
-        answers.into_iter().flatten().collect()
+        self.with_solvers(threads, is_of_count, |solvers| {
+            solvers.map(tasks, |solver, task| {
+                solver.set_settings(settings.clone());
+                answer(solver, task)
+            })
+        })
     }
 
     /// Calls `work` with the solvers of the last question if they are for the cell as it is now and `suits` accepts them, and
@@ -134,8 +124,25 @@ pub(crate) struct Paths<'a> {
 }
 
 impl<'a> Paths<'a> {
-    fn position_chunks(&self) -> impl Iterator<Item = &'a [f64]> {
-        self.positions
-            .chunks(PATHS_PER_TASK * self.configuration_count * self.joint_count)
+    /// Returns the paths in groups, each the positions of several paths.
+    pub(crate) fn position_chunks(&self) -> Vec<&'a [f64]> {
+        let length = self.configuration_count * self.joint_count;
+        self.positions.chunks(PATHS_PER_TASK * length).collect()
+    }
+
+    /// Calls `answer` with each path of a group, and returns its results.
+    pub(crate) fn map_group<T>(
+        &self,
+        positions: &[f64],
+        mut answer: impl FnMut(&[&[f64]]) -> T,
+    ) -> Vec<T> {
+        let mut path = Vec::with_capacity(self.configuration_count);
+        let paths = positions.chunks_exact(self.configuration_count * self.joint_count);
+        let answers = paths.map(|positions| {
+            path.clear();
+            path.extend(positions.chunks_exact(self.joint_count));
+            answer(&path)
+        });
+        answers.collect()
     }
 }

@@ -1,10 +1,107 @@
-//! Reads paths from NumPy arrays.
+//! Reads paths from NumPy arrays, and curves from piecewise polynomials.
 
-use crate::arrays::float64_array;
+use crate::arrays::{flat_numbers, float64_array};
 use crate::cell_solver::Paths;
 use crate::errors::input_error;
+use crate::robot::PyRobot;
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::{PyList, PyTuple};
+use rigid_ccd_robot::{JointCurve, PathPoint};
+
+/// A path as Python gives it: configurations, or polynomials.
+pub(crate) enum GivenPath {
+    Configurations(PathArray),
+    Curve(JointCurve),
+}
+
+impl GivenPath {
+    /// Reads an array, or an object with breakpoints `x` and coefficients `c` as `scipy.interpolate.PPoly` has them.
+    pub(crate) fn read(values: &Bound<'_, PyAny>) -> PyResult<Self> {
+        match read_curve(values)? {
+            Some(curve) => Ok(GivenPath::Curve(curve)),
+            None => PathArray::read(values, "path").map(GivenPath::Configurations),
+        }
+    }
+
+    /// Returns the time of a point: that of the curve, or segments of one unit of time each.
+    pub(crate) fn time(&self, at: PathPoint) -> f64 {
+        match self {
+            GivenPath::Configurations(_) => at.time(),
+            GivenPath::Curve(curve) => curve.time(at),
+        }
+    }
+}
+
+/// Many paths as Python gives them.
+pub(crate) enum GivenPaths {
+    /// Paths of equally many configurations.
+    Array(PathArray),
+    Curves(Vec<JointCurve>),
+}
+
+impl GivenPaths {
+    /// Reads an array of shape (paths, configurations, joints), or a list of curves.
+    pub(crate) fn read(values: &Bound<'_, PyAny>, robot: &PyRobot) -> PyResult<Self> {
+        if let Some(curves) = read_curves(values)? {
+            return Ok(GivenPaths::Curves(curves));
+        }
+        let array = PathArray::read(values, "paths")?;
+        array.check_shape_of_paths(robot.robot.free_joint_names().len())?;
+        Ok(GivenPaths::Array(array))
+    }
+}
+
+/// Reads a list of curves; `None` for anything else.
+fn read_curves(values: &Bound<'_, PyAny>) -> PyResult<Option<Vec<JointCurve>>> {
+    if !(values.is_instance_of::<PyList>() || values.is_instance_of::<PyTuple>()) {
+        return Ok(None);
+    }
+    let mut curves = Vec::new();
+    for value in values.try_iter()? {
+        match read_curve(&value?)? {
+            Some(curve) => curves.push(curve),
+            None => return Ok(None),
+        }
+    }
+    Ok(Some(curves).filter(|curves| !curves.is_empty()))
+}
+
+/// Reads polynomials of the time with coefficients of shape (degree + 1, segments, joints), that of the highest power first;
+/// `None` for an object that is no such curve.
+fn read_curve(values: &Bound<'_, PyAny>) -> PyResult<Option<JointCurve>> {
+    let [times, coefficients] = ["x", "c"].map(|name| values.getattr_opt(name));
+    let (Some(times), Some(coefficients)) = (times?, coefficients?) else {
+        return Ok(None);
+    };
+    let times = flat_numbers(&times, "path.x")?;
+    let given = PathArray::read(&coefficients, "path.c")?;
+    let [powers, segments, joints] = given.shape[..] else {
+        return Err(input_error(format!(
+            "path.c: coefficients of shape (degree + 1, segments, joints) are needed, not {:?}",
+            given.shape
+        )));
+    };
+    let coefficient = |power: usize, segment: usize, joint: usize| {
+        given.positions[(power * segments + segment) * joints + joint]
+    };
+    let polynomial = |segment: usize, joint: usize| {
+        let lowest_first = (0..powers).rev();
+        lowest_first
+            .map(|power| coefficient(power, segment, joint))
+            .collect()
+    };
+    let of_segment = |segment| {
+        (0..joints)
+            .map(|joint| polynomial(segment, joint))
+            .collect()
+    };
+    let segments: Vec<Vec<Vec<f64>>> = (0..segments).map(of_segment).collect();
+    let curve = JointCurve::from_polynomials(&times, &segments);
+    curve
+        .map(Some)
+        .map_err(|error| input_error(format!("path: {error}")))
+}
 
 /// Configurations from an array, one after another.
 pub(crate) struct PathArray {

@@ -254,3 +254,52 @@ def test_a_robot_of_yourdfpy_is_that_of_its_file(tmp_path: Path) -> None:
     assert again.checked_pairs == robot.checked_pairs == [("base", "fore")]
     with pytest.raises(InputError):
         Robot.from_urdf_text(text, tmp_path / "nowhere" / "arm.urdf")
+
+
+class PPoly:
+    """Polynomials as scipy.interpolate.PPoly has them."""
+
+    def __init__(self, c: Any, x: Any) -> None:
+        self.c, self.x = np.asarray(c, float), np.asarray(x, float)
+
+
+def test_a_curve_is_a_path(robot: Robot) -> None:
+    cell = Cell(robot)
+    cell.add("post", Body.sphere(0.1), ([0, 1.5, 0], [1, 0, 0, 0]))
+    touch = np.pi / 2 - 2 * np.arcsin(0.3 / 2 / 1.5)
+    # The shoulder turns by t^2 / 2, from the time 0, first as a polynomial about 0, then about 1.
+    curve = PPoly([[[0.5, 0], [0.5, 0]], [[0, 0], [1, 0]], [[0, 0], [0.5, 0]]], [0, 1, 2.4])
+    contact = cell.first_contact(curve, tolerance=1e-6)
+    assert isinstance(contact, PathContact)
+    expected = np.sqrt(2 * touch)
+    assert (contact.segment, contact.a, contact.b) == (1, "fore", "post")
+    assert expected - 1e-5 < contact.time <= expected
+    assert contact.share == pytest.approx((contact.time - 1) / 1.4)
+    assert not cell.is_free(curve)
+    early = PPoly(curve.c[:, :1], curve.x[:2])
+    assert cell.is_free(early)
+    table = cell.paths([curve, early], "first-contact", tolerance=1e-6)
+    assert table["status"].tolist() == ["contact", "free"]
+    assert table["time"].tolist() == [contact.time, 1]
+    nearest = cell.closest_approach(early, tolerance=1e-6)
+    at_the_end = cell.closest_approach([0.5, 0], tolerance=1e-9)
+    assert nearest.lower <= at_the_end.upper and at_the_end.lower <= nearest.upper <= nearest.lower + 2e-6
+    assert nearest.nearest is not None and nearest.nearest.time == pytest.approx(1)
+    ranges = cell.clearance_ranges(curve)
+    # The ball touches the post, and leaves it again.
+    assert [item.clearance for item in ranges] == ["kept", "unverified", "violated", "unverified", "kept"]
+    assert ranges[0].end <= expected <= ranges[2].start
+    assert ranges[2].end <= np.sqrt(2 * (np.pi - touch)) <= ranges[4].start
+    assert (ranges[0].start, ranges[-1].end) == (0, 2.4)
+
+
+def test_wrong_curves_are_refused(robot: Robot) -> None:
+    cell = Cell(robot)
+    with pytest.raises(InputError, match="the joint is at"):
+        cell.is_free(PPoly([[[9, 0]], [[0, 0]]], [0, 1]))
+    with pytest.raises(InputError, match="3 positions for 2 joints"):
+        cell.is_free(PPoly(np.zeros((2, 1, 3)), [0, 1]))
+    with pytest.raises(InputError, match="coefficients of shape"):
+        cell.is_free(PPoly(np.zeros((2, 1)), [0, 1]))
+    with pytest.raises(InputError, match="jumps by 1"):
+        cell.is_free(PPoly([[[0, 0], [1, 0]]], [0, 1, 2]))

@@ -23,7 +23,7 @@ pub enum PathQuestion {
 /// The answer about a path.
 #[derive(Clone, Debug)]
 pub struct PathAnswer {
-    /// The answer as a row, without an id. Its time is that of a path whose segments take one unit of time each.
+    /// The answer as a row, without an id. Its time is [`Path::time`].
     pub row: ResultRow,
     /// Where the pair of the row is, or up to where the path is free.
     pub at: Option<PathPoint>,
@@ -146,7 +146,7 @@ impl PathAnswer {
                 } else {
                     Status::Contact
                 };
-                let mut answer = PathAnswer::from_status(status).with_contact(&contact);
+                let mut answer = PathAnswer::from_status(status).with_contact(path, &contact);
                 answer.row.distance_lower = Some(lower);
                 answer.row.distance_upper = Some(upper).filter(|upper| upper.is_finite());
                 answer
@@ -154,7 +154,7 @@ impl PathAnswer {
             PathOutcome::Unresolved { free_until, limit } => {
                 PathAnswer::from_status(Status::Unresolved)
                     .with_limit(limit)
-                    .with_point(free_until)
+                    .with_point(path, free_until)
             }
         })
     }
@@ -183,7 +183,7 @@ impl PathAnswer {
             answer.row.reason = Some(reason.to_owned());
         }
         Ok(match &found.nearest {
-            Some(nearest) => answer.with_contact(nearest),
+            Some(nearest) => answer.with_contact(path, nearest),
             None => answer,
         })
     }
@@ -194,18 +194,18 @@ impl PathAnswer {
         self
     }
 
-    fn with_point(mut self, at: PathPoint) -> Self {
-        self.row.time = Some(at.time());
+    fn with_point<P: Path + ?Sized>(mut self, path: &P, at: PathPoint) -> Self {
+        self.row.time = Some(path.time(at));
         self.at = Some(at);
         self
     }
 
-    fn with_contact(mut self, contact: &PathContact<'_>) -> Self {
+    fn with_contact<P: Path + ?Sized>(mut self, path: &P, contact: &PathContact<'_>) -> Self {
         let [a, b] = contact.items.map(|item| Some(item.name().to_owned()));
         (self.row.item_a, self.row.item_b) = (a, b);
         let [a, b] = contact.witnesses.map(|point| point.to_array().map(Some));
         (self.row.witness_a, self.row.witness_b) = (a, b);
-        self.with_point(contact.at)
+        self.with_point(path, contact.at)
     }
 }
 

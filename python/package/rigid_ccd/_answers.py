@@ -66,6 +66,7 @@ class PathContact:
     Attributes:
         segment: the number of the segment between two configurations, from 0. An edge has only segment 0.
         share: the share of the segment that is passed, from 0 to 1. Nothing touches before a first contact.
+        time: the segment and the share together: 1.5 is the middle of the second segment. On a curve, its own time.
         a: the name of the link, or of the body attached to one.
         b: the name of the other link, attached body or obstacle.
         witness_a: the point of `a` nearest to `b`, in the frame of the robot's base.
@@ -74,6 +75,7 @@ class PathContact:
 
     segment: int
     share: float
+    time: float
     a: str
     b: str
     witness_a: Point
@@ -100,7 +102,7 @@ class PathRange:
     """A range of a path, and whether all pairs keep their distance in it.
 
     Attributes:
-        start, end: where on the path, in segments: 1.5 is the middle of the second one.
+        start, end: where on the path, in segments: 1.5 is the middle of the second one. On a curve, its own times.
         clearance: "kept", if all pairs keep their distance everywhere in the range; "violated", if some pair is nearer
             everywhere in it; "unverified", if neither is proven.
     """

@@ -34,6 +34,12 @@ __all__ = [
 class _ScipyRotation(Protocol):
     def as_matrix(self) -> Any: ...
 
+class _Curve(Protocol):
+    @property
+    def x(self) -> Any: ...
+    @property
+    def c(self) -> Any: ...
+
 class _Mesh(Protocol):
     @property
     def vertices(self) -> Any: ...
@@ -246,22 +252,22 @@ class Cell:
     def set_clearance(self, a: str, b: str, distance: float) -> None: ...
     def is_free(
         self,
-        path: ArrayLike,
+        path: ArrayLike | _Curve,
         **settings: Unpack[_OfContacts],
     ) -> bool: ...
     def first_contact(
         self,
-        path: ArrayLike,
+        path: ArrayLike | _Curve,
         **settings: Unpack[_OfContacts],
     ) -> PathContact | None: ...
     def closest_approach(
         self,
-        path: ArrayLike,
+        path: ArrayLike | _Curve,
         **settings: Unpack[_OfDistances],
     ) -> PathDistance: ...
     def clearance_ranges(
         self,
-        path: ArrayLike,
+        path: ArrayLike | _Curve,
         *,
         resolution: float = ...,
         max_pose_error: float = 0.0,
@@ -278,7 +284,7 @@ class Cell:
     ) -> Table: ...
     def paths(
         self,
-        paths: ArrayLike,
+        paths: ArrayLike | Sequence[_Curve],
         ask: Literal["is-free", "first-contact", "closest-approach"] = "is-free",
         *,
         threads: int | None = None,
