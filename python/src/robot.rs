@@ -2,6 +2,7 @@
 
 use crate::arrays::flat_numbers;
 use crate::body::{PyBody, extract_body};
+use crate::combined_robot::GivenRobots;
 use crate::errors::{file_error, input_error};
 use crate::joint::PyJoint;
 use crate::link_motion::PyLinkMotion;
@@ -170,6 +171,44 @@ impl PyRobot {
         let text = String::from_utf8(text).map_err(input_error)?;
         let path = PathBuf::from("robot.urdf");
         PyRobot::from_urdf_text(class, &text, path, srdf, None, geometry, meshes)
+    }
+
+    /// Combines robots to one, whose base is a link "world". Their links and joints have the robots' names before theirs: the joint
+    /// "elbow" of the robot "left" is "left/elbow". A configuration has the positions of the first robot, then those of the
+    /// second, and so on. The robots are checked against each other.
+    ///
+    /// A base may move: "planar" has positions "left/base/x", "left/base/y" and "left/base/yaw" before those of the robot,
+    /// "floating" also "z", "pitch" and "roll". An obstacle that moves is such a robot: `Robot([], {"ball": Body.sphere(1)})`.
+    ///
+    /// Args:
+    ///     robots: a dict of robots by name. The name "" keeps the robot's own names.
+    ///     poses: a dict of poses of their bases in the world; those of bases that move are where their positions are 0.
+    ///     bases: a dict of "fixed", "planar" or "floating"; a base that is not named is fixed.
+    ///
+    /// >>> from rigid_ccd import Body, Cell, Robot
+    /// >>> ball = Robot([], {"body": Body.sphere(1)})
+    /// >>> both = Robot.combined({"red": ball, "blue": ball}, {"blue": ([5, 0, 0], [1, 0, 0, 0])}, {"red": "planar"})
+    /// >>> both.joint_names
+    /// ['red/base/x', 'red/base/y', 'red/base/yaw']
+    /// >>> contact = Cell(both).first_contact([[0, 0, 0], [6, 0, 0]])
+    /// >>> contact.a, contact.b, round(6 * contact.share, 2)
+    /// ('blue/body', 'red/body', 3.0)
+    #[classmethod]
+    #[pyo3(signature = (robots, poses = None, bases = None))]
+    fn combined(
+        class: &Bound<'_, PyType>,
+        robots: &Bound<'_, PyMapping>,
+        poses: Option<&Bound<'_, PyMapping>>,
+        bases: Option<&Bound<'_, PyMapping>>,
+    ) -> PyResult<Self> {
+        let given = GivenRobots::read(robots, poses, bases)?;
+        let (robot, pairs) = given.combine()?;
+        let arguments: (_, _, _) = given.arguments(class.py())?.into();
+        Ok(PyRobot {
+            robot: Arc::new(robot),
+            pairs,
+            constructor_call: ConstructorCall::new(class.py(), Some("combined"), arguments)?,
+        })
     }
 
     /// The names of the joints that have a position of their own, in the order of a configuration.

@@ -303,3 +303,25 @@ def test_wrong_curves_are_refused(robot: Robot) -> None:
         cell.is_free(PPoly(np.zeros((2, 1)), [0, 1]))
     with pytest.raises(InputError, match="jumps by 1"):
         cell.is_free(PPoly([[[0, 0], [1, 0]]], [0, 1, 2]))
+
+
+def test_robots_are_combined(robot: Robot) -> None:
+    poses: Any = {"right": ([0, 1.5, 0], [1, 0, 0, 0])}
+    both = Robot.combined({"left": robot, "right": robot, "cart": robot}, poses, {"cart": "floating"})
+    assert both.joint_names[:5] == ["left/shoulder", "left/elbow", "right/shoulder", "right/elbow", "cart/base/x"]
+    assert both.limits[:2].tolist() == robot.limits.tolist()
+    q = np.array([0.3, 1, -0.2, 0.5, 1, 2, 3, 0, 0, 0, 0.4, 0.6])
+    assert both.pose("right/fore", q)[:3, 3] == pytest.approx(robot.pose("fore", q[2:4])[:3, 3] + [0, 1.5, 0])
+    assert both.pose("cart/fore", q)[:3, 3] == pytest.approx(robot.pose("fore", q[10:])[:3, 3] + [1, 2, 3])
+    far = np.concatenate([np.zeros(4), [9, 9, 9], np.zeros(5)])
+    turned = far.copy()
+    turned[0], turned[2] = 1, -1
+    cell = Cell(both)
+    contact = cell.first_contact([far, turned])
+    assert contact is not None and {contact.a.split("/")[0], contact.b.split("/")[0]} == {"left", "right"}
+    again = pickle.loads(pickle.dumps(both))
+    assert again.joint_names == both.joint_names and Cell(again).first_contact([far, turned]) == contact
+    with pytest.raises(InputError, match="poses: there is no robot 'b'"):
+        Robot.combined({"a": robot}, {"b": ([0, 0, 0], [1, 0, 0, 0])})
+    with pytest.raises(InputError, match="'rolling' is not fixed, planar or floating"):
+        Robot.combined({"a": robot}, bases={"a": "rolling"})  # type: ignore[dict-item]

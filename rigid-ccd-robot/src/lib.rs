@@ -22,7 +22,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another |
+//! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another, [`Robot::combine`] for several robots and moving bases |
 //! | `cell` | a robot among obstacles: [`Cell`] |
 //! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/clearance_ranges` where a distance is kept, `solver/distance_curve` the distance over a path |
 //! | `path`, `joint_curve` | what a question is about: a [`Path`] through configurations, or a [`JointCurve`] of polynomials |
@@ -56,7 +56,9 @@ pub use joint_curve::JointCurve;
 pub use link_contacts::LinkContactClass;
 pub use pairs::{LinkPairs, SkipReason};
 pub use path::Path;
-pub use robot::{ChainBetween, Joint, Link, LinkBody, PositionRule, Robot};
+pub use robot::{
+    ChainBetween, CompoundKind, Joint, Link, LinkBody, PlacedRobot, PositionRule, Robot,
+};
 pub use solver::{
     CellSolver, ClearanceRange, ClosestApproach, DistanceRange, PathContact, PathOutcome,
     PathPoint, RangeSettings,

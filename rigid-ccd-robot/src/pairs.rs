@@ -3,6 +3,7 @@
 use crate::robot::Robot;
 use std::collections::BTreeMap;
 use std::fmt;
+use std::ops::Range;
 
 /// The pairs of a robot's links that are checked for collision, with the reason for each pair that is not. Links go by
 /// their numbers.
@@ -98,6 +99,16 @@ impl LinkPairs {
     pub fn skipped_pairs(&self) -> impl Iterator<Item = ([usize; 2], &SkipReason)> {
         self.all_pairs()
             .filter_map(|pair| Some((pair, self.skip_reasons.get(&pair)?)))
+    }
+
+    /// Replaces what is skipped among the links of a range by what is skipped among those of a robot whose links they are.
+    pub(crate) fn replace_within(&mut self, links: Range<usize>, own: &LinkPairs) {
+        let is_within = |pair: &[usize; 2]| pair.iter().all(|link| links.contains(link));
+        self.skip_reasons.retain(|pair, _| !is_within(pair));
+        let own = own.skip_reasons.iter();
+        let renumbered =
+            own.map(|(pair, reason)| (pair.map(|link| links.start + link), reason.clone()));
+        self.skip_reasons.extend(renumbered);
     }
 
     /// Iterates over all pairs of links with bodies.

@@ -8,7 +8,7 @@ pub use bodies::MeshConversion;
 pub use error::UrdfError;
 
 use crate::pairs::{LinkPairs, SkipReason};
-use crate::robot::{Joint, Link, LinkBody, PositionRule, Robot};
+use crate::robot::{CompoundKind, Joint, Link, LinkBody, PositionRule, Robot};
 use crate::srdf::disabled_and_enabled_pairs;
 use bodies::BodyReader;
 use packages::SearchFolders;
@@ -113,7 +113,7 @@ impl Urdf {
     /// Reads the URDF file and its meshes, and builds the robot.
     ///
     /// A cylinder becomes a polytope that encloses it; see [`Body::excess`](rigid_ccd::Body::excess). A floating, planar or
-    /// spherical joint is refused.
+    /// spherical joint becomes a chain of joints, see [`CompoundKind`].
     ///
     /// # Errors
     /// [`UrdfError`] with the link or the joint, and with the file of a mesh.
@@ -128,14 +128,14 @@ impl Urdf {
         })?;
         let reader = BodyReader::new(&self.search_folders, self.mesh_conversion);
         let links = urdf.links.iter().map(|link| self.link(&reader, link));
-        let joints = urdf
-            .joints
-            .iter()
-            .map(|joint| convert_joint(joint).map_err(|error| error.with_joint_name(&joint.name)));
-        let (links, joints) = (
-            links.collect::<Result<_, _>>()?,
-            joints.collect::<Result<_, _>>()?,
-        );
+        let mut links: Vec<Link> = links.collect::<Result<_, _>>()?;
+        let mut joints = Vec::new();
+        for joint in &urdf.joints {
+            let converted = convert_joint(joint);
+            let (between, own) = converted.map_err(|error| error.with_joint_name(&joint.name))?;
+            links.extend(between);
+            joints.extend(own);
+        }
         Ok(Robot::new(links, joints)?)
     }
 
@@ -196,20 +196,29 @@ fn read(file: &Path) -> Result<String, UrdfError> {
     })
 }
 
-fn convert_joint(joint: &urdf_rs::Joint) -> Result<Joint, UrdfError> {
+/// Converts a joint; one with several degrees of freedom becomes several joints with links between them.
+fn convert_joint(joint: &urdf_rs::Joint) -> Result<(Vec<Link>, Vec<Joint>), UrdfError> {
     let origin = convert_pose(&joint.origin)?;
     let axis = joint.axis.xyz.0;
     let limits = joint.limit.lower..=joint.limit.upper;
+    let compound = match joint.joint_type {
+        JointType::Floating => Some(CompoundKind::Floating),
+        JointType::Spherical => Some(CompoundKind::Spherical),
+        JointType::Planar => Some(CompoundKind::Planar { normal: axis }),
+        _ => None,
+    };
+    let [parent, child] = [&joint.parent.link, &joint.child.link];
+    if let Some(kind) = compound {
+        if joint.mimic.is_some() {
+            return Err(UrdfError::CompoundMimic);
+        }
+        return Ok(kind.links_and_joints(&joint.name, [parent, child], origin)?);
+    }
     let moved = match joint.joint_type {
-        JointType::Fixed => trajectory::Joint::fixed(origin),
-        JointType::Continuous => trajectory::Joint::revolute(origin, axis)?,
         JointType::Revolute => trajectory::Joint::revolute(origin, axis)?.with_limits(limits),
         JointType::Prismatic => trajectory::Joint::prismatic(origin, axis)?.with_limits(limits),
-        JointType::Floating | JointType::Planar | JointType::Spherical => {
-            return Err(UrdfError::JointType {
-                joint_kind: format!("{:?}", joint.joint_type).to_lowercase(),
-            });
-        }
+        JointType::Continuous => trajectory::Joint::revolute(origin, axis)?,
+        _ => trajectory::Joint::fixed(origin),
     };
     let position = match &joint.mimic {
         None => PositionRule::Independent,
@@ -219,13 +228,14 @@ fn convert_joint(joint: &urdf_rs::Joint) -> Result<Joint, UrdfError> {
             offset: mimic.offset.unwrap_or(0.0),
         },
     };
-    Ok(Joint {
+    let converted = Joint {
         name: joint.name.clone(),
-        parent: joint.parent.link.clone(),
-        child: joint.child.link.clone(),
+        parent: parent.clone(),
+        child: child.clone(),
         axis_and_limits: moved,
         position_rule: position,
-    })
+    };
+    Ok((Vec::new(), vec![converted]))
 }
 
 /// Converts a pose of a URDF, whose roll, pitch and yaw are rotations about fixed axes: first x, then y, then z.

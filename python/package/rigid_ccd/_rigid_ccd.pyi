@@ -210,6 +210,13 @@ class Robot:
         geometry: Literal["collision", "visual"] = "collision",
         meshes: Literal["exact", "hull"] = "exact",
     ) -> Robot: ...
+    @classmethod
+    def combined(
+        cls,
+        robots: Mapping[str, Robot],
+        poses: Mapping[str, _Pose] | None = None,
+        bases: Mapping[str, Literal["fixed", "planar", "floating"]] | None = None,
+    ) -> Robot: ...
     @property
     def joint_names(self) -> list[str]: ...
     @property

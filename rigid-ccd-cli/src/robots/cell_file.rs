@@ -1,22 +1,26 @@
-//! Reads what is around a robot: a TOML file of obstacles, held objects, paddings and clearances; or the parts of a glTF.
+//! Reads what is around a robot: a TOML file of obstacles, other robots, held objects, paddings and clearances; or the parts of
+//! a glTF.
 
 use anyhow::{Context, Result, anyhow, bail};
 use ccd_decomp::{BodySource, Detail, Unit};
 use rigid_ccd::glam::{DQuat, EulerRot};
 use rigid_ccd::{Body, Pose, load_parts};
-use rigid_ccd_robot::Cell;
+use rigid_ccd_robot::{Cell, CompoundKind, Link, LinkPairs, PlacedRobot, Robot, Urdf};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
 /// The content of the TOML file.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct CellFile {
-    /// Bodies at rest in the frame of the robot's base.
+pub(super) struct CellFile {
+    /// Bodies in the frame of the robot's base.
     #[serde(default)]
     obstacle: Vec<Obstacle>,
+    /// Other robots.
+    #[serde(default)]
+    robot: Vec<OtherRobot>,
     /// Bodies that links hold.
     #[serde(default)]
     attached: Vec<AttachedBody>,
@@ -37,6 +41,42 @@ struct Obstacle {
     position: [f64; 3],
     rpy: Option<[f64; 3]>,
     quaternion: Option<[f64; 4]>,
+    /// How it moves; `None` if it rests.
+    moves: Option<BaseMotion>,
+}
+
+/// A robot beside that of the command.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OtherRobot {
+    name: String,
+    urdf: String,
+    srdf: Option<String>,
+    #[serde(default)]
+    position: [f64; 3],
+    rpy: Option<[f64; 3]>,
+    quaternion: Option<[f64; 4]>,
+    /// How its base moves; `None` if it rests.
+    base: Option<BaseMotion>,
+}
+
+/// How an obstacle, or the base of a robot, moves.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum BaseMotion {
+    Planar,
+    Floating,
+}
+
+impl From<BaseMotion> for CompoundKind {
+    fn from(motion: BaseMotion) -> CompoundKind {
+        match motion {
+            BaseMotion::Planar => CompoundKind::Planar {
+                normal: [0.0, 0.0, 1.0],
+            },
+            BaseMotion::Floating => CompoundKind::Floating,
+        }
+    }
 }
 
 #[derive(Debug, Deserialize)]
@@ -60,56 +100,175 @@ struct Clearance {
     distance: f64,
 }
 
-/// Adds the content of a cell file to a cell. Bodies are named as in `--a` of `ccd query`; their files are looked for next to
-/// the cell file.
-///
-/// # Errors
-/// If the file cannot be read, or names something that there is not.
-pub(super) fn add_to(cell: &mut Cell, path: &Path) -> Result<()> {
-    let extension = path.extension().and_then(|extension| extension.to_str());
-    if matches!(extension, Some("glb" | "gltf")) {
-        for (name, body) in load_parts(path)? {
-            cell.add_obstacle(name, body, Pose::IDENTITY)?;
-        }
-        return Ok(());
-    }
-    let text = fs::read_to_string(path)?;
-    let file: CellFile = toml::from_str(&text).map_err(|error| {
-        let start = error.span().map_or(0, |span| span.start);
-        let line = 1 + text[..start].matches('\n').count();
-        anyhow!("line {line}: {}", error.message())
-    })?;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    for obstacle in file.obstacle {
-        let name = obstacle.name.clone();
-        add_obstacle(cell, folder, obstacle).with_context(|| format!("obstacle {name}"))?;
-    }
-    for attached in file.attached {
-        let name = attached.name.clone();
-        attach(cell, folder, attached).with_context(|| format!("attached body {name}"))?;
-    }
-    for (link, distance) in &file.padding {
-        cell.set_padding(link, *distance)?;
-    }
-    for Clearance { between, distance } in &file.clearance {
-        let [a, b] = between;
-        let pair = [cell.item_named(a)?, cell.item_named(b)?];
-        cell.set_clearance(pair, *distance)?;
-    }
-    Ok(())
+/// What is around a robot, with the file that says so.
+pub(super) enum CellSource<'p> {
+    Toml(CellFile, &'p Path),
+    Gltf(&'p Path),
 }
 
-fn add_obstacle(cell: &mut Cell, folder: &Path, given: Obstacle) -> Result<()> {
+impl<'p> CellSource<'p> {
+    /// Reads a cell file. The files that it names are looked for next to it, when the robots and the bodies are made.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub(super) fn read(path: &'p Path) -> Result<Self> {
+        let extension = path.extension().and_then(|extension| extension.to_str());
+        if matches!(extension, Some("glb" | "gltf")) {
+            return Ok(CellSource::Gltf(path));
+        }
+        let text = fs::read_to_string(path)?;
+        let file = toml::from_str(&text).map_err(|error| {
+            let start = error.span().map_or(0, |span| span.start);
+            let line = 1 + text[..start].matches('\n').count();
+            anyhow!("line {line}: {}", error.message())
+        })?;
+        Ok(CellSource::Toml(
+            file,
+            path.parent().unwrap_or(Path::new("")),
+        ))
+    }
+
+    /// Combines a robot with the others of the file, and with its obstacles that move. Its links and joints keep their names,
+    /// and its base is the origin. `urdf` sets the options for a URDF file.
+    ///
+    /// # Errors
+    /// If a robot or a body cannot be read, or names are not unique.
+    pub(super) fn combine(
+        &self,
+        robot: (Robot, LinkPairs),
+        urdf: impl Fn(Urdf) -> Urdf,
+    ) -> Result<(Robot, LinkPairs)> {
+        let CellSource::Toml(file, folder) = self else {
+            return Ok(robot);
+        };
+        let mut others: Vec<OwnedRobot> = Vec::new();
+        for other in &file.robot {
+            let read = || other.read(folder, &urdf);
+            others.push(read().with_context(|| format!("robot {}", other.name))?);
+        }
+        for obstacle in &file.obstacle {
+            let Some(moves) = obstacle.moves else {
+                continue;
+            };
+            let read = || obstacle.moving_robot(folder, moves);
+            others.push(read().with_context(|| format!("obstacle {}", obstacle.name))?);
+        }
+        if others.is_empty() {
+            return Ok(robot);
+        }
+        let (own, pairs) = &robot;
+        let own = PlacedRobot {
+            name: "",
+            robot: own,
+            pairs,
+            pose: Pose::IDENTITY,
+            base_motion: None,
+        };
+        let others = others.iter().map(OwnedRobot::placed);
+        let all: Vec<PlacedRobot<'_>> = std::iter::once(own).chain(others).collect();
+        Ok(Robot::combine(&all)?)
+    }
+
+    /// Adds obstacles at rest, attached bodies, paddings and clearances to a cell. Bodies are named as in `--a` of
+    /// `ccd query`.
+    ///
+    /// # Errors
+    /// If a file cannot be read, or names something that there is not.
+    pub(super) fn add_to(&self, cell: &mut Cell) -> Result<()> {
+        let (file, folder) = match self {
+            CellSource::Toml(file, folder) => (file, folder),
+            CellSource::Gltf(path) => {
+                for (name, body) in load_parts(path)? {
+                    cell.add_obstacle(name, body, Pose::IDENTITY)?;
+                }
+                return Ok(());
+            }
+        };
+        for obstacle in &file.obstacle {
+            if obstacle.moves.is_none() {
+                add_obstacle(cell, folder, obstacle)
+                    .with_context(|| format!("obstacle {}", obstacle.name))?;
+            }
+        }
+        for attached in &file.attached {
+            attach(cell, folder, attached)
+                .with_context(|| format!("attached body {}", attached.name))?;
+        }
+        for (link, distance) in &file.padding {
+            cell.set_padding(link, *distance)?;
+        }
+        for Clearance { between, distance } in &file.clearance {
+            let [a, b] = between;
+            let pair = [cell.item_named(a)?, cell.item_named(b)?];
+            cell.set_clearance(pair, *distance)?;
+        }
+        Ok(())
+    }
+}
+
+/// A robot of the file with its place.
+struct OwnedRobot {
+    name: String,
+    robot: Robot,
+    pairs: LinkPairs,
+    pose: Pose,
+    base_motion: Option<CompoundKind>,
+}
+
+impl OwnedRobot {
+    fn placed(&self) -> PlacedRobot<'_> {
+        PlacedRobot {
+            name: &self.name,
+            robot: &self.robot,
+            pairs: &self.pairs,
+            pose: self.pose,
+            base_motion: self.base_motion,
+        }
+    }
+}
+
+impl OtherRobot {
+    fn read(&self, folder: &Path, options: impl Fn(Urdf) -> Urdf) -> Result<OwnedRobot> {
+        let urdf = options(Urdf::from_path(folder.join(&self.urdf)));
+        let robot = urdf.read()?;
+        let srdf = self.srdf.as_ref().map(|srdf| folder.join(srdf));
+        Ok(OwnedRobot {
+            pairs: urdf.link_pairs(&robot, srdf.as_deref())?,
+            name: self.name.clone(),
+            robot,
+            pose: pose(self.position, self.rpy, self.quaternion)?,
+            base_motion: self.base.map(CompoundKind::from),
+        })
+    }
+}
+
+impl Obstacle {
+    /// Returns the obstacle as a robot of one link with a base that moves.
+    fn moving_robot(&self, folder: &Path, moves: BaseMotion) -> Result<OwnedRobot> {
+        let body = body_beside(folder, &self.body)?;
+        let link = Link::named("body").with_body(body, Pose::IDENTITY);
+        let robot = Robot::new(vec![link], Vec::new())?;
+        Ok(OwnedRobot {
+            name: self.name.clone(),
+            pairs: LinkPairs::from_robot(&robot),
+            robot,
+            pose: pose(self.position, self.rpy, self.quaternion)?,
+            base_motion: Some(moves.into()),
+        })
+    }
+}
+
+fn add_obstacle(cell: &mut Cell, folder: &Path, given: &Obstacle) -> Result<()> {
     let body = body_beside(folder, &given.body)?;
     let pose = pose(given.position, given.rpy, given.quaternion)?;
-    Ok(cell.add_obstacle(given.name, body, pose)?)
+    Ok(cell.add_obstacle(&given.name, body, pose)?)
 }
 
-fn attach(cell: &mut Cell, folder: &Path, given: AttachedBody) -> Result<()> {
+fn attach(cell: &mut Cell, folder: &Path, given: &AttachedBody) -> Result<()> {
     let body = body_beside(folder, &given.body)?;
     let pose = pose(given.position, given.rpy, given.quaternion)?;
     let may_touch: Vec<&str> = given.may_touch.iter().map(String::as_str).collect();
-    Ok(cell.attach(given.name, body, (&given.link, pose), &may_touch)?)
+    Ok(cell.attach(&given.name, body, (&given.link, pose), &may_touch)?)
 }
 
 /// Makes the body that a text names, in metres. A file is looked for in a folder, unless its path is absolute.

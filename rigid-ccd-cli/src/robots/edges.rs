@@ -205,10 +205,11 @@ fn recorded_options(args: &EdgesArgs, given: &ArgMatches, cell: &Cell) -> Result
     ))
 }
 
-/// Returns the checksum of the pieces of all bodies, whichever files they come from.
+/// Returns the checksum of the joints, and of the pieces of all bodies, whichever files they come from.
 fn checksum_of_bodies(cell: &Cell) -> Result<u32> {
     let at_rest = cell.robot().configuration_nearest_zero();
     let mut sum = crc32fast::Hasher::new();
+    sum.update(format!("{:?} {:?}", cell.robot().joints(), cell.link_pairs()).as_bytes());
     for (_, body, _) in cell.placed_bodies(&at_rest)? {
         for piece in body.pieces().iter() {
             sum.update(&piece.radius.to_le_bytes());

@@ -1,12 +1,12 @@
 //! Loads a robot from URDF and SRDF, and the cell around it.
 
-use super::cell_file;
+use super::cell_file::CellSource;
 use crate::files::refuse_overwriting_input;
 use crate::print_escaped_to_stderr;
 use crate::progress::Progress;
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
-use rigid_ccd_robot::{BodyElements, Cell, MeshConversion, Robot, SkipReason, Urdf};
+use rigid_ccd_robot::{BodyElements, Cell, LinkPairs, MeshConversion, Robot, SkipReason, Urdf};
 use std::path::{Path, PathBuf};
 
 /// The options that name a robot, and say how its links become bodies.
@@ -34,7 +34,7 @@ pub(crate) struct CellArgs {
     /// Pairs of links that are not checked, or nevertheless, SRDF
     #[arg(long, value_name = "SRDF")]
     srdf: Option<PathBuf>,
-    /// Obstacles, held objects, paddings and clearances, TOML; or obstacles alone, the parts of a glTF
+    /// Obstacles, other robots, held objects, paddings and clearances, TOML; or obstacles alone, the parts of a glTF
     #[arg(long, value_name = "TOML|GLTF")]
     pub(crate) cell: Option<PathBuf>,
 }
@@ -71,6 +71,11 @@ impl RobotArgs {
     }
 
     fn urdf(&self) -> Urdf {
+        self.with_options(Urdf::from_path(self.path()))
+    }
+
+    /// Sets the options for the reading of a URDF file.
+    fn with_options(&self, urdf: Urdf) -> Urdf {
         let elements = match self.geometry {
             GeometryArg::Collision => BodyElements::Collision,
             GeometryArg::Visual => BodyElements::Visual,
@@ -79,7 +84,7 @@ impl RobotArgs {
             MeshesArg::Exact => MeshConversion::Exact,
             MeshesArg::Hull => MeshConversion::OuterHull,
         };
-        let urdf = Urdf::from_path(self.path())
+        let urdf = urdf
             .with_body_element_kind(elements)
             .with_mesh_conversion(meshes);
         // The last folder that is added is searched first.
@@ -128,19 +133,12 @@ impl CellArgs {
         let robot = self.robot.load(quiet)?;
         let srdf = self.srdf.as_deref();
         let pairs = self.robot.urdf().link_pairs(&robot, srdf)?;
-        let mut cell = Cell::new(robot, pairs);
-        if let Some(file) = &self.cell {
-            cell_file::add_to(&mut cell, file).with_context(|| file.display().to_string())?;
-            if !quiet {
-                let obstacles: Vec<&str> = cell.obstacle_names().collect();
-                print_escaped_to_stderr(&format!(
-                    "{}: {} obstacles: {}",
-                    file.display(),
-                    obstacles.len(),
-                    obstacles.join(", ")
-                ));
-            }
-        }
+        let cell = match &self.cell {
+            Some(file) => self
+                .load_cell_file(file, (robot, pairs), quiet)
+                .with_context(|| file.display().to_string())?,
+            None => Cell::new(robot, pairs),
+        };
         let skipped = pairs_not_checked(&cell);
         if !cell.checks_any_pair() {
             bail!(
@@ -151,6 +149,31 @@ impl CellArgs {
         }
         if let (Some(pairs), false) = (skipped, quiet) {
             print_escaped_to_stderr(&pairs);
+        }
+        Ok(cell)
+    }
+
+    /// Makes the cell of a robot, and of what a file says is around it.
+    fn load_cell_file(&self, file: &Path, own: (Robot, LinkPairs), quiet: bool) -> Result<Cell> {
+        let source = CellSource::read(file)?;
+        let own_joint_count = own.0.free_joint_names().len();
+        let (robot, pairs) = source.combine(own, |urdf| self.robot.with_options(urdf))?;
+        let mut cell = Cell::new(robot, pairs);
+        source.add_to(&mut cell)?;
+        if !quiet {
+            let obstacles: Vec<&str> = cell.obstacle_names().collect();
+            let others: Vec<&str> = cell.robot().free_joint_names().collect();
+            let others = &others[own_joint_count..];
+            let mut text = format!(
+                "{}: {} obstacles: {}",
+                file.display(),
+                obstacles.len(),
+                obstacles.join(", ")
+            );
+            if !others.is_empty() {
+                text += &format!("; {} joints of others: {}", others.len(), others.join(", "));
+            }
+            print_escaped_to_stderr(&text);
         }
         Ok(cell)
     }

@@ -59,7 +59,7 @@ pub(crate) fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
             }
         }
     }
-    for [one, other] in LinkPairs::from_robot(robot).checked_pairs() {
+    for [one, other] in cell.link_pairs().checked_pairs() {
         for a in &robot.links()[one].bodies {
             for b in &robot.links()[other].bodies {
                 let at = |link: usize, pose: &Pose| poses[link].compose(pose);

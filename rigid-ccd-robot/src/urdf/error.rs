@@ -41,14 +41,9 @@ pub enum UrdfError {
         /// The error of the joint's kind, axis or pose.
         error: Box<UrdfError>,
     },
-    /// A joint is of a kind that is not supported.
-    #[error(
-        "a {joint_kind} joint is not supported; use revolute, continuous, prismatic or fixed joints"
-    )]
-    JointType {
-        /// The kind of the joint, as in the file.
-        joint_kind: String,
-    },
+    /// A floating, planar or spherical joint follows another one.
+    #[error("only a joint with one degree of freedom can mimic another one")]
+    CompoundMimic,
     /// The file of a mesh was not found at any of the paths that its name may mean.
     #[error("`{uri}` is not found; looked for {}", searched_paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", "))]
     MeshNotFound {

@@ -158,11 +158,11 @@ fn errors_name_file_link_and_joint() {
             .unwrap_err()
             .to_string()
     };
-    let planar =
-        r#"<joint name="drives" type="planar"><parent link="base"/><child link="upper"/></joint>"#;
+    let mimic = JOINTS_XML.replacen("type=\"revolute\"", "type=\"planar\"", 1);
+    let mimic = mimic.replacen("</joint>", r#"<mimic joint="slides"/></joint>"#, 1);
     assert_eq!(
-        message(planar),
-        "joint `drives`: a planar joint is not supported; use revolute, continuous, prismatic or fixed joints"
+        message(&mimic),
+        "joint `turns`: only a joint with one degree of freedom can mimic another one"
     );
     assert_eq!(
         message(""),
@@ -193,4 +193,41 @@ fn errors_name_file_link_and_joint() {
     fs::write(folder.path().join("arm.urdf"), "<robot").unwrap();
     let error = urdf_in_folder(&folder).read().unwrap_err().to_string();
     assert!(error.contains("arm.urdf: "), "{error}");
+}
+
+/// Tests that joints of several degrees of freedom move as URDF says.
+#[test]
+fn planar_and_floating_joints_are_chains_of_joints() {
+    let tree = |kind: &str, axis: &str| {
+        let text = format!(
+            r#"<robot name="cart"><link name="floor"/><link name="cart"/>
+            <joint name="drive" type="{kind}"><parent link="floor"/><child link="cart"/>
+            <origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/><axis xyz="{axis}"/></joint></robot>"#
+        );
+        Urdf::from_text(text, "cart.urdf").read().unwrap()
+    };
+    let pose = |robot: &Robot, positions: &[f64]| robot.pose("cart", positions).unwrap();
+    let planar = tree("planar", "0 0 1");
+    let names: Vec<&str> = planar.free_joint_names().collect();
+    assert_eq!(names, ["drive/x", "drive/y", "drive/yaw"]);
+    let moved = pose(&planar, &[2.0, 3.0, 0.5]);
+    // The frame of the joint is turned by a quarter.
+    let off = moved.translation().distance([-2.0, 2.0, 0.0].into());
+    assert!(off < 1e-12, "{moved:?}");
+    let upright = tree("planar", "1 0 0");
+    let moved = pose(&upright, &[2.0, 3.0, 0.0]);
+    let height = moved.translation();
+    // The plane is across the joint's x, which is the floor's y.
+    assert!(
+        height.y.abs() < 1e-12
+            && (height.distance([1.0, 0.0, 0.0].into()) - 13f64.sqrt()).abs() < 1e-12
+    );
+    let floating = tree("floating", "0 0 1");
+    assert_eq!(floating.free_joint_names().len(), 6);
+    let moved = pose(&floating, &[1.0, 2.0, 3.0, 0.3, 0.2, 0.1]);
+    let expected = DQuat::from_euler(EulerRot::ZYX, 0.3 + std::f64::consts::FRAC_PI_2, 0.2, 0.1);
+    assert!(moved.rotation().angle_between(expected) < 1e-7);
+    assert!(moved.translation().distance([-1.0, 1.0, 3.0].into()) < 1e-12);
+    let spherical = tree("spherical", "0 0 1");
+    assert_eq!(spherical.free_joint_names().last(), Some("drive/roll"));
 }

@@ -22,8 +22,16 @@ fn read(text: &str) -> Result<Cell> {
     fs::write(&path, text)?;
     let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
     fs::write(folder.path().join("corner.obj"), corners)?;
-    let mut cell = empty_cell();
-    add_to(&mut cell, &path)?;
+    let other = r#"<robot name="cart"><link name="deck"><collision><geometry><box size="1 1 0.2"/></geometry></collision></link>
+        <link name="mast"/><joint name="lift" type="prismatic"><parent link="deck"/><child link="mast"/>
+        <axis xyz="0 0 1"/><limit lower="0" upper="1" effort="1" velocity="1"/></joint></robot>"#;
+    fs::write(folder.path().join("cart.urdf"), other)?;
+    let cell = empty_cell();
+    let source = CellSource::read(&path)?;
+    let own = (cell.robot().clone(), cell.link_pairs().clone());
+    let (robot, pairs) = source.combine(own, |urdf| urdf)?;
+    let mut cell = Cell::new(robot, pairs);
+    source.add_to(&mut cell)?;
     Ok(cell)
 }
 
@@ -90,4 +98,57 @@ fn errors_name_what_is_wrong() {
         let message = crate::causes::message_with_causes(&error);
         assert!(message.contains(expected), "{message}");
     }
+}
+
+#[test]
+fn other_robots_and_moving_obstacles_have_positions_of_their_own() {
+    let text = "
+        [[robot]]
+        name = 'cart'
+        urdf = 'cart.urdf'
+        position = [3, 0, 0]
+        base = 'planar'
+
+        [[obstacle]]
+        name = 'ball'
+        body = 'sphere:0.1'
+        position = [0, 0, 2]
+        moves = 'floating'
+
+        [[clearance]]
+        between = ['arm', 'ball/body']
+        distance = 0.5";
+    let cell = read(text).unwrap();
+    let names: Vec<&str> = cell.robot().free_joint_names().collect();
+    let expected = [
+        "hinge",
+        "cart/base/x",
+        "cart/base/y",
+        "cart/base/yaw",
+        "cart/lift",
+        "ball/base/x",
+        "ball/base/y",
+        "ball/base/z",
+        "ball/base/yaw",
+        "ball/base/pitch",
+        "ball/base/roll",
+    ];
+    assert_eq!(names, expected);
+    let start = [0.0; 11];
+    let with = |joint: usize, position: f64| {
+        let mut end = start;
+        end[joint] = position;
+        [start, end]
+    };
+    let mut solver = cell.solver();
+    assert!(solver.is_free(&with(1, -2.3)).unwrap());
+    assert!(!solver.is_free(&with(1, -2.5)).unwrap());
+    // The ball keeps 0.5 from the arm's ball at the origin.
+    assert!(solver.is_free(&with(7, -1.29)).unwrap());
+    assert!(!solver.is_free(&with(7, -1.31)).unwrap());
+    let error = read("[[robot]]\nname = 'cart'\nurdf = 'none.urdf'").unwrap_err();
+    assert!(
+        format!("{error:#}").starts_with("robot cart: "),
+        "{error:#}"
+    );
 }

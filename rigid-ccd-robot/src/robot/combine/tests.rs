@@ -1,0 +1,154 @@
+//! Tests robots that are combined against the robots alone.
+
+use super::*;
+use crate::cell::{Cell, Item};
+use crate::pairs::SkipReason;
+use crate::solver::tests::{least_distance, random_configuration};
+use crate::test_robots::{random_pose, random_robot};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rigid_ccd::glam::{DQuat, EulerRot};
+
+const KINDS: [Option<CompoundKind>; 4] = [
+    None,
+    Some(CompoundKind::Floating),
+    Some(CompoundKind::Spherical),
+    Some(CompoundKind::Planar {
+        normal: [0.0, 0.0, 1.0],
+    }),
+];
+
+/// Returns the pose of a base that moves, by the formula for its kind.
+fn base_pose(placed: &PlacedRobot<'_>, positions: &[f64]) -> Pose {
+    let rotation =
+        |angles: &[f64]| DQuat::from_euler(EulerRot::ZYX, angles[0], angles[1], angles[2]);
+    let moved = match placed.base_motion {
+        None => Pose::IDENTITY,
+        Some(CompoundKind::Floating) => {
+            let at = [positions[0], positions[1], positions[2]];
+            Pose::new(at, rotation(&positions[3..])).unwrap()
+        }
+        Some(CompoundKind::Spherical) => Pose::new([0.0; 3], rotation(positions)).unwrap(),
+        Some(CompoundKind::Planar { .. }) => {
+            let at = [positions[0], positions[1], 0.0];
+            Pose::new(at, rotation(&[positions[2], 0.0, 0.0])).unwrap()
+        }
+    };
+    placed.pose.compose(&moved)
+}
+
+/// Tests that links of combined robots are where those of the robots alone are, seen from the moved base, and that the
+/// distance of all pairs agrees with the solver.
+#[test]
+fn links_are_where_the_base_carries_them() {
+    let mut random = Pcg64::seed_from_u64(51);
+    let (mut within_one, mut between_both) = (0, 0);
+    for _ in 0..80 {
+        let robots = [(); 2].map(|()| random_robot(&mut random));
+        let mut pairs = robots.each_ref().map(LinkPairs::from_robot);
+        if random.random_range(0..2) == 0 {
+            for pairs in &mut pairs {
+                for [one, other] in pairs.checked_pairs().collect::<Vec<_>>() {
+                    pairs.skip(one, other, SkipReason::Disabled("test".into()));
+                }
+            }
+        }
+        let placed = [0, 1].map(|k| PlacedRobot {
+            name: ["left", "right"][k],
+            robot: &robots[k],
+            pairs: &pairs[k],
+            pose: random_pose(&mut random, 1.5),
+            base_motion: KINDS[random.random_range(0..KINDS.len())],
+        });
+        let (both, pairs) = Robot::combine(&placed).unwrap();
+        let configuration = random_configuration(&mut random, &both);
+        let mut rest = &configuration[..];
+        for placed in &placed {
+            let base_count = match placed.base_motion {
+                None => 0,
+                Some(CompoundKind::Floating) => 6,
+                Some(_) => 3,
+            };
+            let (base, others) = rest.split_at(base_count);
+            let (own, others) = others.split_at(placed.robot.free_joint_names().len());
+            rest = others;
+            let base = base_pose(placed, base);
+            for link in placed.robot.links() {
+                let expected = base.compose(&placed.robot.pose(&link.name, own).unwrap());
+                let found = both
+                    .pose(&placed.prefixed(&link.name), &configuration)
+                    .unwrap();
+                let off = found.translation().distance(expected.translation());
+                let turned = found.rotation().angle_between(expected.rotation());
+                assert!(off < 1e-12 && turned < 1e-6, "{off} {turned}");
+            }
+        }
+        assert!(rest.is_empty());
+        let cell = Cell::new(both, pairs);
+        let found = cell.solver().closest_approach(&[&configuration]).unwrap();
+        let least = least_distance(&cell, &configuration);
+        assert!(
+            found.lower <= least + 1e-9 && found.upper >= least - 1e-9,
+            "{found:?} {least}"
+        );
+        let nearest = found.nearest.unwrap().items.map(Item::name);
+        let is_between = nearest[0].starts_with("left") != nearest[1].starts_with("left");
+        if is_between {
+            between_both += 1;
+        } else {
+            within_one += 1;
+        }
+    }
+    assert!(
+        within_one > 10 && between_both > 10,
+        "{within_one} {between_both}"
+    );
+}
+
+/// Tests that each robot keeps its own pairs, and that names which are not unique are refused.
+#[test]
+fn robots_keep_their_own_pairs() {
+    let mut random = Pcg64::seed_from_u64(52);
+    let robot = random_robot(&mut random);
+    let mut pairs = LinkPairs::from_robot(&robot);
+    let [a, b] = pairs.checked_pairs().next().unwrap();
+    pairs.skip(a, b, SkipReason::Disabled("test".into()));
+    let (c, d) = (
+        0,
+        robot
+            .links()
+            .iter()
+            .position(|link| link.name == "link1")
+            .unwrap(),
+    );
+    pairs.include(c, d);
+    let placed = |name| PlacedRobot {
+        name,
+        robot: &robot,
+        pairs: &pairs,
+        pose: Pose::IDENTITY,
+        base_motion: None,
+    };
+    let (both, combined) = Robot::combine(&[placed("one"), placed("two")]).unwrap();
+    let count = robot.links().len();
+    for first in [1, 1 + count] {
+        for one in 0..count {
+            for other in 0..count {
+                let (own, all) = (
+                    pairs.skip_reason(one, other),
+                    combined.skip_reason(first + one, first + other),
+                );
+                assert_eq!(own, all);
+            }
+        }
+    }
+    // Both bases rest in the world.
+    assert!(!combined.is_checked(1, 1 + count));
+    assert!(combined.is_checked(2, 1 + count));
+    assert_eq!(both.links()[1 + count].name, "two/link0");
+    let error = Robot::combine(&[placed(""), placed("")]).unwrap_err();
+    assert!(matches!(
+        error,
+        RobotError::JointNameTaken { .. } | RobotError::LinkNameTaken { .. }
+    ));
+}

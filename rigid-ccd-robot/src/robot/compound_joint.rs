@@ -1,0 +1,101 @@
+//! Joints with several degrees of freedom, as chains of joints with one each.
+
+use super::{Joint, Link, PositionRule};
+use rigid_ccd::glam::{DQuat, DVec3};
+use rigid_ccd::{InputError, Pose, trajectory};
+
+/// A kind of joint with several degrees of freedom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CompoundKind {
+    /// Slides in a plane, and rotates about its normal: the positions `x`, `y` and `yaw`.
+    Planar {
+        /// The normal of the plane, in the joint's frame. For z, `x` and `y` are along the axes of the frame.
+        normal: [f64; 3],
+    },
+    /// Moves freely: the positions `x`, `y`, `z`, `yaw`, `pitch` and `roll`.
+    Floating,
+    /// Rotates about a point: the positions `yaw`, `pitch` and `roll`.
+    Spherical,
+}
+
+impl CompoundKind {
+    /// Creates the links and joints that together connect a child link to its parent.
+    ///
+    /// The joint `drive` becomes the joints `drive/x`, `drive/y` and so on, each with a position of its own and without limits.
+    /// Rotations are by yaw about z, then pitch about the new y, then roll about the new x, as in URDF; between two
+    /// configurations each of these angles changes at a constant rate. Links between the joints have the joints' names and no
+    /// bodies, so that parent and child are not neighbours: they are checked.
+    ///
+    /// # Errors
+    /// [`InputError`] for a normal that is not finite, or has no length.
+    ///
+    /// ```
+    /// use rigid_ccd_robot::{CompoundKind, Link, Robot};
+    /// use rigid_ccd::Pose;
+    /// let drive = CompoundKind::Planar { normal: [0.0, 0.0, 1.0] };
+    /// let (mut links, joints) = drive.links_and_joints("drive", ["floor", "cart"], Pose::IDENTITY)?;
+    /// links.extend(["floor", "cart"].map(Link::named));
+    /// let cart = Robot::new(links, joints)?;
+    /// assert_eq!(cart.free_joint_names().collect::<Vec<_>>(), ["drive/x", "drive/y", "drive/yaw"]);
+    /// assert_eq!(cart.pose("cart", &[3.0, 4.0, 0.0])?.translation().to_array(), [3.0, 4.0, 0.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn links_and_joints(
+        self,
+        joint: &str,
+        [parent, child]: [&str; 2],
+        origin: Pose,
+    ) -> Result<(Vec<Link>, Vec<Joint>), InputError> {
+        let slide = |axis: DVec3| (false, axis);
+        let turn = |axis: DVec3| (true, axis);
+        let rotations = [
+            ("yaw", turn(DVec3::Z)),
+            ("pitch", turn(DVec3::Y)),
+            ("roll", turn(DVec3::X)),
+        ];
+        let slides = [
+            ("x", slide(DVec3::X)),
+            ("y", slide(DVec3::Y)),
+            ("z", slide(DVec3::Z)),
+        ];
+        let freedoms = match self {
+            CompoundKind::Spherical => rotations.to_vec(),
+            CompoundKind::Floating => [slides, rotations].concat(),
+            CompoundKind::Planar { normal } => {
+                // The joint checks the axis, and makes it a unit vector.
+                let axis = match trajectory::Joint::revolute(Pose::IDENTITY, normal)?.kind() {
+                    trajectory::JointKind::Revolute(axis) => axis,
+                    _ => DVec3::Z,
+                };
+                let turned = DQuat::from_rotation_arc(DVec3::Z, axis);
+                vec![
+                    ("x", slide(turned * DVec3::X)),
+                    ("y", slide(turned * DVec3::Y)),
+                    ("yaw", turn(axis)),
+                ]
+            }
+        };
+        let names: Vec<String> = freedoms
+            .iter()
+            .map(|(freedom, _)| format!("{joint}/{freedom}"))
+            .collect();
+        let last = names.len() - 1;
+        let joints = freedoms.iter().enumerate().map(|(k, &(_, (turns, axis)))| {
+            let origin = if k == 0 { origin } else { Pose::IDENTITY };
+            let moving = if turns {
+                trajectory::Joint::revolute(origin, axis.to_array())?
+            } else {
+                trajectory::Joint::prismatic(origin, axis.to_array())?
+            };
+            Ok(Joint {
+                name: names[k].clone(),
+                parent: if k == 0 { parent } else { &names[k - 1] }.to_owned(),
+                child: if k == last { child } else { &names[k] }.to_owned(),
+                axis_and_limits: moving,
+                position_rule: PositionRule::Independent,
+            })
+        });
+        let links = names[..last].iter().map(Link::named).collect();
+        Ok((links, joints.collect::<Result<_, InputError>>()?))
+    }
+}
