@@ -2,7 +2,7 @@
 //!
 //! | to … | see |
 //! |---|---|
-//! | read OBJ, STL, PLY, OFF or glTF | [`TriangleMesh::read`], [`Format`] |
+//! | read OBJ, STL, PLY, OFF, glTF or COLLADA | [`TriangleMesh::read`], [`Format`] |
 //! | read the parts of a file, convert units | [`MeshFile`], [`Unit`] |
 //! | move, join and measure meshes | [`TriangleMesh::transformed`], [`TriangleMesh::merge`], [`TriangleMesh::bounding_box`] |
 //! | find the faults of a mesh, and skipped content | [`Repairs`], [`Remarks`], [`TopologyDefects`], [`MeshFault`] |
@@ -39,6 +39,7 @@
 //! the file, from 0; in a scene of parts, those of one part follow those of another.
 //!
 //! # Features
+//! - `collada`: COLLADA 1.4 and 1.5, `.dae`. One crate.
 //! - `gltf`: glTF 2.0, `.gltf` and `.glb`. Five crates.
 //!
 //! # Layers

@@ -93,7 +93,7 @@ impl PyBody {
         })
     }
 
-    /// Reads a mesh file (.gltf, .glb, .obj, .stl, .ply, .off), or a prepared body (.ccd).
+    /// Reads a mesh file (.gltf, .glb, .dae, .obj, .stl, .ply, .off), or a prepared body (.ccd).
     ///
     /// Args:
     ///     path: the file.

@@ -25,7 +25,7 @@ use std::time::Instant;
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP, after_long_help = AFTER_LONG_HELP)]
 pub(super) struct DecomposeArgs {
-    /// Mesh file (.gltf, .glb, .obj, .stl, .ply or .off), or a part of one by its name or number: scene.glb#lid;
+    /// Mesh file (.gltf, .glb, .dae, .obj, .stl, .ply or .off), or a part of one by its name or number: scene.glb#lid;
     /// either with adjustments: part.stl@mm, @scale=0.001, @mirror=x, @surface
     #[arg(value_name = "MESH")]
     mesh: OsString,

@@ -18,7 +18,7 @@ use std::path::PathBuf;
 /// The options that name both bodies.
 #[derive(Clone, Debug, Args)]
 pub(super) struct BodiesArgs {
-    /// Body A: a mesh file (.gltf, .glb, .obj, .stl, .ply, .off), a part of one by its name or number
+    /// Body A: a mesh file (.gltf, .glb, .dae, .obj, .stl, .ply, .off), a part of one by its name or number
     /// (scene.glb#lid), either with adjustments (part.stl@mm, @scale=0.001, @mirror=x, @surface), a prepared body (.ccd, see `ccd decompose`), box:HX,HY,HZ (half extents), sphere:R,
     /// capsule:R,HALF_HEIGHT, cylinder:R,HALF_HEIGHT or cone:R,HALF_HEIGHT
     #[arg(long, value_name = "BODY")]

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod error;
+mod materials;
 mod packages;
 
 pub use bodies::MeshConversion;
@@ -11,6 +12,7 @@ use crate::pairs::{LinkPairs, SkipReason};
 use crate::robot::{CompoundKind, Joint, Link, LinkBody, PositionRule, Robot};
 use crate::srdf::disabled_and_enabled_pairs;
 use bodies::BodyReader;
+use materials::without_materials;
 use packages::SearchFolders;
 use rigid_ccd::glam::{DQuat, EulerRot};
 use rigid_ccd::{InputError, Pose, trajectory};
@@ -122,9 +124,11 @@ impl Urdf {
             Some(text) => text,
             None => &read(&self.path)?,
         };
-        let urdf = urdf_rs::read_from_string(text).map_err(|error| UrdfError::Syntax {
-            file: self.path.clone(),
-            error: error.to_string(),
+        let urdf = urdf_rs::read_from_string(&without_materials(text)).map_err(|error| {
+            UrdfError::Syntax {
+                file: self.path.clone(),
+                error: error.to_string(),
+            }
         })?;
         let reader = BodyReader::new(&self.search_folders, self.mesh_conversion);
         let links = urdf.links.iter().map(|link| self.link(&reader, link));

@@ -6,7 +6,7 @@ use ccd_decomp::{
 };
 use std::path::Path;
 
-/// Loads a body from a mesh file (OBJ, STL, PLY, OFF; glTF with the feature `gltf`) or a prepared body (`.ccd`).
+/// Loads a body from a mesh file (OBJ, STL, PLY, OFF; glTF and COLLADA with the features `gltf` and `collada`) or a prepared body (`.ccd`).
 ///
 /// Coordinates keep the unit of the file. All parts of a file make one body: [`load_parts`] makes one of each.
 /// A mesh becomes the fewest convex pieces that are exact: one hull, convex patches or triangles

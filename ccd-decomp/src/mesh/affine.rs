@@ -56,7 +56,7 @@ impl AffineMap {
 
     /// Returns the composition of two maps, which applies `first` before `self`. It is rounded, unless either is the
     /// identity.
-    #[cfg(feature = "gltf")]
+    #[cfg(any(feature = "collada", feature = "gltf"))]
     pub(crate) fn compose_after(&self, first: &AffineMap) -> AffineMap {
         match (self.is_identity(), first.is_identity()) {
             (true, _) => *first,

@@ -209,7 +209,7 @@ fn file_extension_advice(extension: &str) -> String {
         other => format!("{other:?} is not the extension of a mesh"),
     };
     let advice = conversion_advice(extension);
-    let advice = advice.unwrap_or("use .gltf, .glb, .obj, .stl, .ply or .off".into());
+    let advice = advice.unwrap_or("use .gltf, .glb, .dae, .obj, .stl, .ply or .off".into());
     format!("{problem}; {advice}")
 }
 
@@ -228,8 +228,8 @@ fn conversion_advice(extension: &str) -> Option<String> {
         "sldprt" | "ipt" | "catpart" | "prt" | "f3d" | "fcstd" | "x_t" | "jt" | "sat" | "dwg" => {
             "it is a file of a CAD system: export it there as .stl"
         }
-        "dae" | "fbx" | "3ds" | "x3d" | "wrl" => {
-            "it holds a scene: run `assimp export scene.dae scene.glb`, or export it as .glb"
+        "fbx" | "3ds" | "x3d" | "wrl" => {
+            "it holds a scene: run `assimp export scene.fbx scene.glb`, or export it as .glb"
         }
         "blend" | "usd" | "usda" | "usdc" | "usdz" => {
             "it holds a scene: open it in Blender, and export it as .glb"

@@ -1,5 +1,7 @@
 //! Mesh file formats. Each reader turns bytes into a mesh without access to files.
 
+#[cfg(feature = "collada")]
+mod collada;
 #[cfg(feature = "gltf")]
 mod gltf;
 mod obj;
@@ -45,6 +47,13 @@ pub enum Format {
     /// axes is hidden with its descendants, as specified. Instances make about ten million triangles at most.
     /// Compression by Draco or meshopt, and required extensions that change the shape, are errors.
     Gltf,
+    /// COLLADA 1.4 and 1.5 (`.dae`), in f64; it is read only with the Cargo feature `collada`.
+    ///
+    /// Coordinates are in the document's unit, and stay as they are: the direction that counts as up is passed over, as robots'
+    /// files expect. Parts are the geometries that the nodes of the scene place, with the name of their node. Triangles, strips,
+    /// fans and polygons are read. Lines, and geometries with a skin or morphs, are skipped with a remark. Polygons with holes,
+    /// and `lookat` and `skew`, are errors.
+    Collada,
 }
 
 /// The contents of the files that a mesh refers to, by file name.
@@ -68,6 +77,7 @@ impl Format {
             "ply" => Ok(Format::Ply),
             "off" => Ok(Format::Off),
             "gltf" | "glb" => Ok(Format::Gltf),
+            "dae" => Ok(Format::Collada),
             _ => Err(MeshFault::UnknownExtension { extension }),
         }
     }
@@ -109,6 +119,13 @@ impl Format {
             Format::Gltf => gltf::parse(&unmarked, linked),
             #[cfg(not(feature = "gltf"))]
             Format::Gltf => Err(missing_gltf_feature(linked)),
+            #[cfg(feature = "collada")]
+            Format::Collada => collada::parse(&unmarked),
+            #[cfg(not(feature = "collada"))]
+            Format::Collada => Err(MeshFault::MissingFeature {
+                format: "COLLADA",
+                cargo_feature: "collada",
+            }),
         }
     }
 }

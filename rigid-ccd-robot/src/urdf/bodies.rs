@@ -2,7 +2,7 @@
 
 use super::error::UrdfError;
 use super::packages::SearchFolders;
-use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
+use ccd_decomp::{Detail, MeshFile, Unit, body_from_mesh};
 use rigid_ccd::Body;
 use rigid_ccd::glam::{DAffine3, DVec3};
 use std::cell::RefCell;
@@ -65,7 +65,11 @@ impl<'p> BodyReader<'p> {
         if let Some(body) = self.bodies_by_mesh.borrow().get(&key) {
             return Ok(Arc::clone(body));
         }
-        let mesh = TriangleMesh::read(&file)?.transformed(DAffine3::from_scale(scale))?;
+        // A file without a unit is in metres.
+        let mesh = MeshFile::read(&file)?
+            .converted_to_unit(Unit::Metre)
+            .into_mesh()?;
+        let mesh = mesh.transformed(DAffine3::from_scale(scale))?;
         let detail = match self.mesh_conversion {
             MeshConversion::Exact => Detail::Auto,
             MeshConversion::OuterHull => Detail::OuterHull,

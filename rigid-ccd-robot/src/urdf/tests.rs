@@ -231,3 +231,20 @@ fn planar_and_floating_joints_are_chains_of_joints() {
     let spherical = tree("spherical", "0 0 1");
     assert_eq!(spherical.free_joint_names().last(), Some("drive/roll"));
 }
+
+/// Tests that a material which is wrong harms nothing, and that all else stays, comments and entities too.
+#[test]
+fn materials_are_passed_over() {
+    let text = r#"<?xml version="1.0"?><robot name="a&amp;b"><material name="m"><texture/></material><!-- <material> -->
+        <link name="one"><visual><geometry><sphere radius="1"/></geometry><material name="m"/><material name="n">
+        <color rgba="no colour"/></material></visual></link></robot>"#;
+    let robot = Urdf::from_text(text, "one.urdf")
+        .with_body_element_kind(BodyElements::Visual)
+        .read()
+        .unwrap();
+    assert_eq!(robot.links()[0].bodies.len(), 1);
+    let error = Urdf::from_text("<robot><material>", "one.urdf")
+        .read()
+        .unwrap_err();
+    assert!(error.to_string().starts_with("one.urdf: "), "{error}");
+}

@@ -31,6 +31,14 @@ const TETRAHEDRON_PLY: &str = "ply\nformat ascii 1.0\ncomment made by hand\nelem
 const TETRAHEDRON_OFF: &str = "COFF # colours\n\n4 4 6\n0 0 0 255 0 0\n1 0 0 0 0 0\n0 1 0 0 0 0\n# the tip\n0 0 1\n\
     3 0 2 1\n3 0 1 3  0.5 0.5 0.5\n3 1 2 3\n3 2 0 3\n";
 
+#[cfg(feature = "collada")]
+const TETRAHEDRON_DAE: &str = r##"<COLLADA version="1.5.0"><library_geometries><geometry><mesh>
+<source id="s"><float_array id="a">0 0 0 1 0 0 0 1 0 0 0 1</float_array><technique_common>
+<accessor source="#a" count="4" stride="3"/></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#s"/></vertices>
+<triangles count="4"><input semantic="VERTEX" source="#v"/><p>0 2 1 0 1 3 1 2 3 2 0 3</p></triangles>
+</mesh></geometry></library_geometries></COLLADA>"##;
+
 const TETRAHEDRON_POINTS: [[f32; 3]; 4] = [[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]];
 const TETRAHEDRON_FACES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
 
@@ -109,6 +117,8 @@ fn valid_files() -> Vec<(Format, Vec<u8>)> {
         (Format::Gltf, tetrahedron_gltf().text_with_embedded_buffer()),
         #[cfg(feature = "gltf")]
         (Format::Gltf, tetrahedron_gltf().glb()),
+        #[cfg(feature = "collada")]
+        (Format::Collada, TETRAHEDRON_DAE.into()),
     ]
 }
 
@@ -197,18 +207,16 @@ fn a_pointer_of_git_lfs_is_recognised() {
 /// Tests that the error for a format that is not compiled in names the Cargo feature to enable.
 #[test]
 fn a_format_that_is_not_built_is_named() {
-    let is_built = cfg!(feature = "gltf");
-    let fault = read(Format::Gltf, b"anything").unwrap_err();
-    assert_eq!(
-        matches!(fault, MeshFault::MissingFeature { .. }),
-        !is_built,
-        "{fault}"
-    );
-    assert_eq!(
-        fault.to_string().contains("feature \"gltf\""),
-        !is_built,
-        "{fault}"
-    );
+    for (format, name, is_built) in [
+        (Format::Gltf, "gltf", cfg!(feature = "gltf")),
+        (Format::Collada, "collada", cfg!(feature = "collada")),
+    ] {
+        let fault = read(format, b"anything").unwrap_err();
+        let is_missing = matches!(fault, MeshFault::MissingFeature { .. });
+        assert_eq!(is_missing, !is_built, "{fault}");
+        let names_feature = fault.to_string().contains(&format!("feature {name:?}"));
+        assert_eq!(names_feature, !is_built, "{fault}");
+    }
 }
 
 #[test]

@@ -126,7 +126,7 @@ fn faults_name_the_file() {
     assert_eq!(source_paths(&path).unwrap(), [path.as_path()]);
     let unknown = folder.write("two.gbl", TWO_OBJECTS_OBJ);
     let message = TriangleMesh::read(unknown).unwrap_err().to_string();
-    assert!(message.contains("use .gltf, .glb, .obj"), "{message}");
+    assert!(message.contains("use .gltf, .glb, .dae, .obj"), "{message}");
 }
 
 #[cfg(feature = "gltf")]

@@ -262,8 +262,8 @@ fn files_of_other_programs_are_told_how_to_convert() {
         ("PART.STP", "gmsh"),
         ("part.iges", "gmsh part.iges -2 -o part.stl"),
         ("part.sldprt", "export it there as .stl"),
-        ("scene.dae", "assimp export scene.dae scene.glb"),
-        ("scene.fbx", "assimp"),
+        ("scene.fbx", "assimp export scene.fbx scene.glb"),
+        ("scene.3ds", "assimp"),
         ("scene.blend", "Blender"),
         ("scene.usdz", "Blender"),
         ("arm.urdf", "the mesh of one link"),
@@ -271,10 +271,10 @@ fn files_of_other_programs_are_told_how_to_convert() {
         ("part.msh", "meshio"),
         (
             "part.3mf",
-            "\"3mf\" is not the extension of a mesh; use .gltf, .glb, .obj, .stl, .ply or .off",
+            "\"3mf\" is not the extension of a mesh; use .gltf, .glb, .dae, .obj, .stl, .ply or .off",
         ),
-        ("part.txt", "use .gltf, .glb, .obj"),
-        ("part", "use .gltf, .glb, .obj"),
+        ("part.txt", "use .gltf, .glb, .dae, .obj"),
+        ("part", "use .gltf, .glb, .dae, .obj"),
     ] {
         let message = TriangleMesh::read(name).unwrap_err().to_string();
         assert!(message.contains(way), "{message}");
@@ -291,6 +291,7 @@ fn a_renamed_step_file_is_told_how_to_convert() {
         Format::Ply,
         Format::Off,
         Format::Gltf,
+        Format::Collada,
     ] {
         for text in [step.to_owned(), format!("\u{feff}\r\n{step}")] {
             let fault = format

@@ -38,12 +38,13 @@ fn check(format: Format, bytes: &[u8]) {
     }
 }
 
-const FORMATS: [Format; 5] = [
+const FORMATS: [Format; 6] = [
     Format::Obj,
     Format::Stl,
     Format::Ply,
     Format::Off,
     Format::Gltf,
+    Format::Collada,
 ];
 
 proptest! {
