@@ -1,5 +1,6 @@
 //! A robot among obstacles.
 
+mod clusters;
 mod margins;
 pub(crate) mod part;
 

@@ -2,7 +2,7 @@
 
 /// The length of a stretch, in segments of the path, at which open pairs go to the engine. Each halving costs the frames of
 /// all links and a distance for each open pair; the engine costs about ten of these.
-pub(crate) const MAX_ENGINE_STRETCH_LENGTH: f64 = 1.0 / 16.0;
+pub(crate) const MAX_ENGINE_STRETCH_LENGTH: f64 = 1.0 / 32.0;
 
 /// The same for the closest approach, for which the engine has to measure a distance, and not only to decide.
 pub(crate) const MAX_APPROACH_STRETCH_LENGTH: f64 = 1.0 / 64.0;
@@ -19,10 +19,14 @@ pub(crate) const MIN_BOX_TEST_DISPLACEMENT: f64 = 0.1;
 /// the centre is then nearly in the box.
 pub(crate) const MIN_SQUARED_OFFSET: f64 = 1e-6;
 
-/// The largest number of convex hulls around parts of an obstacle that is not convex, and around parts of a link. The
-/// hulls of an obstacle are found by their boxes; those of links are all compared.
-pub(crate) const MAX_OBSTACLE_PARTS: usize = 16;
+/// The largest number of convex hulls around each connected part of an obstacle that is not convex, and around a link's body.
+/// The hulls of an obstacle are found by their boxes; those of links are all compared. More hulls fit better; each costs a
+/// distance, and the engine decides what they leave.
+pub(crate) const MAX_OBSTACLE_PARTS: usize = 4;
 pub(crate) const MAX_LINK_PARTS: usize = 1;
+
+/// The largest number of connected parts of an obstacle that have hulls of their own.
+pub(crate) const MAX_COMPONENTS: usize = 256;
 
 /// The least number of pieces that are split into two hulls.
 pub(crate) const MIN_PIECES_FOR_TWO_HULLS: usize = 16;

@@ -1,6 +1,6 @@
 //! A convex hull around a body, in the frame in which the body rests.
 
-use crate::tuning::MIN_PIECES_FOR_TWO_HULLS;
+use super::clusters::connected_clusters;
 use ccd_core::fan_triangles;
 use ccd_core::order::greater;
 use ccd_core::{Body, Facet, FacetOrigin, Facets, Piece, Pieces, Polytope, Solidity, SupportMap};
@@ -59,7 +59,8 @@ pub(crate) struct HullPart {
 }
 
 impl PlacedBody {
-    /// Creates a body in a cell, which at most `max_hulls` hulls enclose. The engine takes the triangles of a polytope
+    /// Creates a body in a cell, which hulls enclose: at most `max_hulls` around each connected part of it, or one around a link's
+    /// body. The engine takes the triangles of a polytope
     /// against other bodies of many triangles.
     pub(crate) fn new(body: Arc<Body>, pose: Pose, frame: usize, max_hulls: usize) -> Self {
         let body = match hull_surface_of_polytope(&body) {
@@ -68,7 +69,7 @@ impl PlacedBody {
                 .map_or(body, Arc::new),
             None => body,
         };
-        let clusters = clusters(body.pieces().iter().collect(), max_hulls);
+        let clusters = connected_clusters(body.pieces().iter().collect(), max_hulls);
         let hulls = clusters
             .iter()
             .map(|pieces| Arc::new(Hull::around_pieces(pieces)))
@@ -189,25 +190,6 @@ impl HullPart {
             + rotation.y_axis.abs() * extents.y
             + rotation.z_axis.abs() * extents.z
     }
-}
-
-/// Groups pieces into at most `max_count` clusters of nearby pieces. It halves the pieces at their median along the
-/// longest side of the bounding box of their middles, then halves each half in the same way.
-fn clusters(mut pieces: Vec<Piece<'_>>, max_count: usize) -> Vec<Vec<Piece<'_>>> {
-    if max_count < 2 || pieces.len() < MIN_PIECES_FOR_TWO_HULLS {
-        return vec![pieces];
-    }
-    let middle = |piece: &Piece<'_>| piece.points.iter().sum::<DVec3>() / piece.points.len() as f64;
-    let (mut min, mut max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for piece in &pieces {
-        (min, max) = (min.min(middle(piece)), max.max(middle(piece)));
-    }
-    let axis = (max - min).max_position();
-    pieces.sort_by(|a, b| middle(a)[axis].total_cmp(&middle(b)[axis]));
-    let second = pieces.split_off(pieces.len() / 2);
-    let mut all = clusters(pieces, max_count / 2);
-    all.extend(clusters(second, max_count / 2));
-    all
 }
 
 /// Returns the corners of the convex hull of some points, and a support map of them. If the hull cannot be computed,
