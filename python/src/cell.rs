@@ -192,7 +192,8 @@ impl PyCell {
         let class = py.import("rigid_ccd")?.getattr("PathDistance")?;
         let lower = answer.row.distance_lower.unwrap_or(0.0);
         let upper = answer.row.distance_upper.unwrap_or(f64::INFINITY);
-        class.call1((lower, upper, contact_object(py, &answer)?))
+        let limit = answer.limit.map(|limit| limit.to_string());
+        class.call1((lower, upper, contact_object(py, &answer)?, limit))
     }
 
     /// Divides a path into ranges in which all pairs keep their distance, ranges in which one certainly does not, and the rest.
@@ -236,14 +237,17 @@ impl PyCell {
         let (ranges, seen) = run_interruptibly(py, work, |_| Ok(()))?;
         seen?;
         let class = py.import("rigid_ccd")?.getattr("PathRange")?;
-        let ranges = ranges.map_err(|error| path_error(py, error))?;
+        let ranges = ranges.map_err(|error| path_error(py, error, path.start_time()))?;
+        // What is proven does not reach beyond the times that are told.
+        let mut start = path.start_time();
         let ranges = ranges.iter().map(|range| {
-            let clearance = match range.verdict {
-                ClearanceVerdict::Kept => "kept",
-                ClearanceVerdict::Violated => "violated",
-                ClearanceVerdict::Unverified => "unverified",
+            let (clearance, end) = match range.verdict {
+                ClearanceVerdict::Kept => ("kept", path.time(range.to)),
+                ClearanceVerdict::Violated => ("violated", path.time(range.to)),
+                ClearanceVerdict::Unverified => ("unverified", path.latest_time(range.to)),
             };
-            class.call1((path.time(range.from), path.time(range.to), clearance))
+            let from = std::mem::replace(&mut start, end);
+            class.call1((from, end, clearance))
         });
         ranges.collect()
     }
@@ -398,7 +402,7 @@ impl PyCell {
             seen?;
             found = again;
         }
-        found.map_err(|error| path_error(py, error))
+        found.map_err(|error| path_error(py, error, path.start_time()))
     }
 
     fn contents(&self) -> MutexGuard<'_, CellContents> {

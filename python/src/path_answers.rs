@@ -1,6 +1,6 @@
 //! Questions about paths by their names, and their answers as objects of Python.
 
-use crate::errors::{input_error, unresolved_error};
+use crate::errors::{Unresolved, input_error, with_attribute};
 use crate::settings::{APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES};
 use pyo3::prelude::*;
 use rigid_ccd::Error;
@@ -56,10 +56,16 @@ pub(crate) fn ended_by_deadline(found: &Result<PathAnswer, PathError>) -> bool {
     limit == Some(Limit::Deadline)
 }
 
-/// Converts an error about a path to a Python exception.
-pub(crate) fn path_error(py: Python<'_>, error: PathError) -> PyErr {
+/// Converts an error about a path to a Python exception. If a limit was reached, nothing is known after the start.
+pub(crate) fn path_error(py: Python<'_>, error: PathError, start_time: f64) -> PyErr {
     match error {
-        PathError::Query(Error::Unresolved(known)) => unresolved_error(py, &known),
+        PathError::Query(Error::Unresolved(known)) => {
+            let text = format!(
+                "a limit was reached ({}); free until {start_time}",
+                known.limit
+            );
+            with_attribute(py, Unresolved::new_err(text), "safe_until", start_time)
+        }
         error => input_error(error),
     }
 }

@@ -24,11 +24,27 @@ impl GivenPath {
         }
     }
 
-    /// Returns the time of a point: that of the curve, or segments of one unit of time each.
+    /// Returns the time of a point: that of the curve, rounded down, or segments of one unit of time each.
     pub(crate) fn time(&self, at: PathPoint) -> f64 {
         match self {
             GivenPath::Configurations(_) => at.time(),
             GivenPath::Curve(curve) => curve.time(at),
+        }
+    }
+
+    /// Returns the time of a point, rounded up.
+    pub(crate) fn latest_time(&self, at: PathPoint) -> f64 {
+        match self {
+            GivenPath::Configurations(_) => at.time(),
+            GivenPath::Curve(curve) => curve.latest_time(at),
+        }
+    }
+
+    /// Returns the time at which the path starts.
+    pub(crate) fn start_time(&self) -> f64 {
+        match self {
+            GivenPath::Configurations(_) => 0.0,
+            GivenPath::Curve(curve) => curve.times()[0],
         }
     }
 }
@@ -98,9 +114,39 @@ fn read_curve(values: &Bound<'_, PyAny>) -> PyResult<Option<JointCurve>> {
     };
     let segments: Vec<Vec<Vec<f64>>> = (0..segments).map(of_segment).collect();
     let curve = JointCurve::from_polynomials(&times, &segments);
-    curve
-        .map(Some)
-        .map_err(|error| input_error(format!("path: {error}")))
+    let curve = curve.map_err(|error| input_error(format!("path: {error}")))?;
+    check_values(values, &curve)?;
+    Ok(Some(curve))
+}
+
+/// The largest difference of a value to that of the object which the curve is, relative to values above 1.
+const MAX_VALUE_DIFFERENCE: f64 = 1e-6;
+
+/// The number of segments in which values are compared.
+const MAX_CHECKED_SEGMENTS: usize = 4;
+
+/// Refuses an object whose values are not those of its coefficients as powers, such as a `BPoly`. An object that cannot be
+/// called has no values.
+fn check_values(given: &Bound<'_, PyAny>, curve: &JointCurve) -> PyResult<()> {
+    if !given.is_callable() {
+        return Ok(());
+    }
+    for span in curve.times().windows(2).take(MAX_CHECKED_SEGMENTS) {
+        let time = span[0] + 0.375 * (span[1] - span[0]);
+        let values = flat_numbers(&given.call1((time,))?, "path(time)")?;
+        let own = curve.positions(time);
+        // Written so that NaN is refused.
+        let is_same = |(value, own): (&f64, &f64)| {
+            (value - own).abs() <= MAX_VALUE_DIFFERENCE * (1.0 + own.abs())
+        };
+        if values.len() != own.len() || !values.iter().zip(&own).all(is_same) {
+            return Err(input_error(format!(
+                "path: at {time} its values are {values:?}, and not {own:?} as its coefficients say; convert it to a \
+                 scipy.interpolate.PPoly, a BPoly by PPoly.from_bernstein_basis"
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// Configurations from an array, one after another.

@@ -325,3 +325,27 @@ def test_robots_are_combined(robot: Robot) -> None:
         Robot.combined({"a": robot}, {"b": ([0, 0, 0], [1, 0, 0, 0])})
     with pytest.raises(InputError, match="'rolling' is not fixed, planar or floating"):
         Robot.combined({"a": robot}, bases={"a": "rolling"})  # type: ignore[dict-item]
+
+
+def test_curves_are_what_their_objects_say(robot: Robot) -> None:
+    class Called(PPoly):
+        def __call__(self, time: float) -> Any:
+            return [0.5 * time, 0.0]
+
+    cell = Cell(robot)
+    cell.add("post", Body.sphere(0.1), ([0, 1.5, 0], [1, 0, 0, 0]))
+    line = [[[0.5, 0]], [[0, 0]]]
+    assert cell.is_free(Called(line, [0, 1]))
+    # A BPoly has the values at both ends as its coefficients.
+    with pytest.raises(InputError, match="convert it to a scipy.interpolate.PPoly"):
+        cell.is_free(Called([[[0, 0]], [[0.5, 0]]], [0, 1]))
+    constant = PPoly([[[0.2, 0.1]]], [0, 1])
+    assert cell.is_free(constant)
+    with pytest.raises(InputError, match="0 coefficients instead of 1"):
+        cell.is_free(PPoly(np.zeros((0, 1, 2)), [0, 1]))
+    late = PPoly(line, [-30, -29])
+    with pytest.raises(Unresolved) as caught:
+        cell.is_free(late, deadline=0)
+    assert caught.value.safe_until == -30
+    assert cell.closest_approach(late).limit is None
+    assert cell.closest_approach(late, deadline=0).limit is not None

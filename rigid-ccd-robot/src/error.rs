@@ -152,6 +152,9 @@ pub enum PathError {
         /// What is wrong there.
         error: RobotError,
     },
+    /// A joint that follows another one by a large factor jumps.
+    #[error(transparent)]
+    Curve(#[from] CurveError),
     /// A number of the [`RangeSettings`](crate::RangeSettings) is out of its range.
     #[error("{name}: {value} is not {allowed}")]
     InvalidRangeSetting {
@@ -178,13 +181,13 @@ pub enum CurveError {
         count: usize,
     },
     /// The end of a segment is not after its start.
-    #[error("segment {segment} does not end after its start")]
+    #[error("the times of segment {segment} do not increase, or are not finite")]
     TimesNotIncreasing {
         /// The number of the segment.
         segment: usize,
     },
     /// There are more or fewer segments, configurations or joints than needed.
-    #[error("{given} {what} at {index}, but {expected} are needed")]
+    #[error("{given} {what} instead of {expected}, at {index}")]
     WrongCount {
         /// What is counted.
         what: &'static str,

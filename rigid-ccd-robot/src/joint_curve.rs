@@ -3,16 +3,16 @@
 use crate::error::{CurveError, PathError, RobotError};
 use crate::robot::Robot;
 use crate::solver::PathPoint;
-use crate::solver::joint_path::{Polynomial, rounding_factor};
-use ccd_core::order::greater;
+use crate::solver::joint_path::Polynomial;
+use ccd_core::order::{greater, lesser};
 use rigid_ccd::InputError;
 use smallvec::SmallVec;
 
 /// The largest degree of a polynomial, which has a fixed place in memory.
 pub(crate) const MAX_DEGREE: usize = 9;
 
-/// The largest jump of a joint from one segment to the next, in radians or as a length, relative to its position if that is
-/// greater than 1. Coefficients of splines are rounded; a jump of this size is no motion that a path leaves out.
+/// The largest jump of a joint from one segment to the next, in radians or as a length, beyond what is rounded. Splines are
+/// rounded where they are made; a jump of this size is no motion that a path leaves out.
 const MAX_JUMP: f64 = 1e-9;
 
 /// The number of times that a segment is halved to find out whether a joint leaves its limits.
@@ -49,12 +49,13 @@ impl JointCurve {
     ///
     /// # Errors
     /// [`CurveError`] for numbers that are not finite, times that do not increase, numbers of segments, joints or coefficients
-    /// that do not fit, a degree of more than 9, and joints that jump from one segment to the next.
+    /// that do not fit, a degree of more than 9, and joints that jump from one segment to the next by more than 1e-9.
     pub fn from_polynomials(times: &[f64], segments: &[Vec<Vec<f64>>]) -> Result<Self, CurveError> {
         let joint_count = segments.first().map_or(0, Vec::len);
         let joints = segments.iter().flatten();
         let degree = joints.map(|own| own.len().saturating_sub(1)).max();
-        let degree = degree.unwrap_or(0);
+        // Constants are straight lines, too.
+        let degree = degree.unwrap_or(0).max(1);
         if degree > MAX_DEGREE {
             return Err(CurveError::DegreeTooHigh { degree });
         }
@@ -62,6 +63,9 @@ impl JointCurve {
         let mut coefficients = Vec::new();
         for (segment, (joints, span)) in segments.iter().zip(times.windows(2)).enumerate() {
             check_count("joints", segment, joints.len(), joint_count)?;
+            if joints.iter().any(Vec::is_empty) {
+                check_count("coefficients", segment, 0, 1)?;
+            }
             let mut scale = 1.0;
             for power in 0..=degree {
                 // A lower degree has zeros above it.
@@ -169,23 +173,30 @@ impl JointCurve {
                 if !own.into_iter().all(f64::is_finite) {
                     return Err(CurveError::NotFinite { segment, joint });
                 }
-                if segment == 0 {
-                    continue;
-                }
-                let before = self.polynomial(segment - 1, joint).about(1.0).constant();
-                let after = self.coefficients(segment, 0)[joint];
-                let jump = (after - before).abs();
-                // Written so that NaN is refused.
-                if !(jump <= MAX_JUMP * greater(1.0, after.abs())) {
-                    return Err(CurveError::Jump {
-                        segment,
-                        joint,
-                        jump,
-                    });
-                }
+                self.check_jump(segment, joint, 1.0)?;
             }
         }
         Ok(self)
+    }
+
+    /// Refuses a jump at the start of a segment of a joint that moves by `factor` times the given positions.
+    fn check_jump(&self, segment: usize, joint: usize, factor: f64) -> Result<(), CurveError> {
+        let Some(before) = segment.checked_sub(1) else {
+            return Ok(());
+        };
+        let before = self.polynomial(before, joint);
+        let after = self.polynomial(segment, joint);
+        let jump = factor.abs() * (after.constant() - before.about(1.0).constant()).abs();
+        let rounding = factor.abs() * (before.rounding() + after.rounding());
+        // Written so that NaN is refused.
+        if jump <= MAX_JUMP + rounding {
+            return Ok(());
+        }
+        Err(CurveError::Jump {
+            segment,
+            joint,
+            jump,
+        })
     }
 
     /// Returns the number of segments.
@@ -198,11 +209,34 @@ impl JointCurve {
         &self.times
     }
 
-    /// Returns the time of a point of the curve.
+    /// Returns the time of a point of the curve, rounded down: nothing touches before the time of a first contact.
     pub fn time(&self, point: PathPoint) -> f64 {
+        let [from, to] = self.time_span(point);
+        if point.share >= 1.0 {
+            return to;
+        }
+        greater(
+            from,
+            from + point.share * (to - from) - time_rounding([from, to]),
+        )
+    }
+
+    /// Returns the time of a point of the curve, rounded up.
+    pub fn latest_time(&self, point: PathPoint) -> f64 {
+        let [from, to] = self.time_span(point);
+        if point.share <= 0.0 {
+            return from;
+        }
+        lesser(
+            to,
+            from + point.share * (to - from) + time_rounding([from, to]),
+        )
+    }
+
+    /// Returns the start and the end of the segment of a point.
+    fn time_span(&self, point: PathPoint) -> [f64; 2] {
         let segment = point.segment.min(self.segment_count() - 1);
-        let [from, to] = [self.times[segment], self.times[segment + 1]];
-        from + point.share * (to - from)
+        [self.times[segment], self.times[segment + 1]]
     }
 
     /// Returns the positions of all joints at a time; before the start and after the end, those there.
@@ -244,6 +278,9 @@ impl JointCurve {
             return refused(start, error);
         }
         for segment in 0..self.segment_count() {
+            for source in robot.position_sources() {
+                self.check_jump(segment, source.position_index(), source.factor())?;
+            }
             for (joint, [low, high]) in robot.limits().enumerate() {
                 let polynomial = self.polynomial(segment, joint);
                 let Some((share, position)) = find_outside(&polynomial, [low, high]) else {
@@ -264,9 +301,15 @@ impl JointCurve {
     }
 }
 
+/// Bounds the rounding error of a time between two others: a difference, a product and a sum are rounded, relative to the larger
+/// of both.
+fn time_rounding([from, to]: [f64; 2]) -> f64 {
+    2.0 * f64::EPSILON * greater(from.abs(), to.abs())
+}
+
 /// Finds a share at which a polynomial is outside of limits, by more than it is rounded, and its value there.
 fn find_outside(polynomial: &Polynomial, [low, high]: [f64; 2]) -> Option<(f64, f64)> {
-    let rounding = 16.0 * f64::EPSILON * rounding_factor(polynomial.degree()) * polynomial.size();
+    let rounding = polynomial.rounding();
     let [low, high] = [low - rounding, high + rounding];
     let mut open = SmallVec::<[_; MAX_LIMIT_HALVINGS as usize + 1]>::new();
     open.push((0.0, 1.0, 0));

@@ -311,6 +311,11 @@ impl Robot {
         Ok(())
     }
 
+    /// Iterates over how the positions of all joints that move come from a configuration.
+    pub(crate) fn position_sources(&self) -> impl Iterator<Item = PositionSource> {
+        self.position_sources.iter().copied().flatten()
+    }
+
     /// Refuses a number of positions other than that of a configuration.
     pub(crate) fn check_position_count(&self, count: usize) -> Result<(), RobotError> {
         let expected = self.free_joints.len();

@@ -90,11 +90,13 @@ class PathDistance:
         lower: nothing is ever nearer than this.
         upper: the nearest pair comes at least as near as this.
         nearest: the nearest pair; None if no pair was measured.
+        limit: the limit that ended the search; None if the bounds differ by the tolerance.
     """
 
     lower: float
     upper: float
     nearest: PathContact | None
+    limit: str | None
 
 
 @dataclass(frozen=True)

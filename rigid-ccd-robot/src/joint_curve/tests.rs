@@ -87,17 +87,17 @@ fn wrong_curves_are_refused() {
     let two = [line(0.0, 1.0), line(1.0, 0.0)];
     assert!(JointCurve::from_polynomials(&[0.0, 1.0, 2.0], &two).is_ok());
     assert_eq!(refused(&[], &[]), "a curve needs at least two times, not 0");
-    assert_eq!(
-        refused(&[0.0, 1.0], &two),
-        "2 segments at 0, but 1 are needed"
-    );
+    assert_eq!(refused(&[0.0, 1.0], &two), "2 segments instead of 1, at 0");
     for wrong in [
         [0.0, 1.0, 1.0],
         [0.0, f64::NAN, 1.0],
         [0.0, 1.0, f64::INFINITY],
     ] {
         let error = refused(&wrong, &two);
-        assert!(error.ends_with("does not end after its start"), "{error}");
+        assert!(
+            error.contains("do not increase, or are not finite"),
+            "{error}"
+        );
     }
     assert_eq!(
         refused(&[0.0, 1.0, 2.0], &[line(0.0, 1.0), line(1.5, 0.0)]),
@@ -114,7 +114,7 @@ fn wrong_curves_are_refused() {
     let uneven = [line(0.0, 1.0), vec![vec![1.0], vec![0.0]]];
     assert_eq!(
         refused(&[0.0, 1.0, 2.0], &uneven),
-        "2 joints at 1, but 1 are needed"
+        "2 joints instead of 1, at 1"
     );
 }
 
@@ -155,5 +155,54 @@ fn a_curve_stays_within_the_limits() {
     assert!(
         error.to_string().contains("2 positions for 1 joints"),
         "{error}"
+    );
+}
+
+/// Tests that a constant is a curve, and that the time of a point is never late, far from 0 too.
+#[test]
+fn constants_are_curves_and_times_are_rounded_down() {
+    let constant = JointCurve::from_polynomials(&[0.0, 1.0], &[vec![vec![0.5]]]).unwrap();
+    assert_eq!(constant.positions(0.3), [0.5]);
+    let none = JointCurve::from_polynomials(&[0.0, 1.0], &[vec![vec![]]]).unwrap_err();
+    assert_eq!(none.to_string(), "0 coefficients instead of 1, at 0");
+    let start = 1e15;
+    let curve = JointCurve::from_polynomials(&[start, start + 2.0], &[vec![vec![0.0, 1.0]]]);
+    let curve = curve.unwrap();
+    for (share, latest) in [(0.0, 0.0), (0.499875, 0.99975), (1.0, 2.0)] {
+        let time = curve.time(PathPoint { segment: 0, share }) - start;
+        assert!((0.0..=latest).contains(&time), "{share}: {time}");
+        let time = curve.latest_time(PathPoint { segment: 0, share }) - start;
+        assert!((latest..=2.0).contains(&time), "{share}: {time}");
+    }
+}
+
+/// Tests that a jump which is small for a joint is refused if another joint follows it by a large factor.
+#[test]
+fn a_jump_counts_for_the_joints_that_follow() {
+    let slider = |name: &str, position_rule| Joint {
+        name: name.into(),
+        parent: "rail".into(),
+        child: format!("{name} link"),
+        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
+        position_rule,
+    };
+    let follows = PositionRule::Follows {
+        joint: "own".into(),
+        multiplier: 1e6,
+        offset: 0.0,
+    };
+    let joints = vec![
+        slider("own", PositionRule::Independent),
+        slider("other", follows),
+    ];
+    let links = ["rail", "own link", "other link"].map(Link::named).to_vec();
+    let robot = Robot::new(links, joints).unwrap();
+    let cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
+    let steps = [vec![vec![0.0]], vec![vec![5e-10]]];
+    let curve = JointCurve::from_polynomials(&[0.0, 1.0, 2.0], &steps).unwrap();
+    let error = cell.solver().is_free(&curve).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "joint 0 jumps by 0.0005 at the start of segment 1"
     );
 }

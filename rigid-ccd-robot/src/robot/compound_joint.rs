@@ -1,7 +1,7 @@
 //! Joints with several degrees of freedom, as chains of joints with one each.
 
 use super::{Joint, Link, PositionRule};
-use rigid_ccd::glam::{DQuat, DVec3};
+use rigid_ccd::glam::DVec3;
 use rigid_ccd::{InputError, Pose, trajectory};
 
 /// A kind of joint with several degrees of freedom.
@@ -9,7 +9,8 @@ use rigid_ccd::{InputError, Pose, trajectory};
 pub enum CompoundKind {
     /// Slides in a plane, and rotates about its normal: the positions `x`, `y` and `yaw`.
     Planar {
-        /// The normal of the plane, in the joint's frame. For z, `x` and `y` are along the axes of the frame.
+        /// The normal of the plane, in the joint's frame. For z, `x` and `y` are along the axes of the frame. In a URDF it is the
+        /// joint's axis, which is x if none is given; other programs take z for any axis.
         normal: [f64; 3],
     },
     /// Moves freely: the positions `x`, `y`, `z`, `yaw`, `pitch` and `roll`.
@@ -67,10 +68,16 @@ impl CompoundKind {
                     trajectory::JointKind::Revolute(axis) => axis,
                     _ => DVec3::Z,
                 };
-                let turned = DQuat::from_rotation_arc(DVec3::Z, axis);
+                // For z these are x and y.
+                let other = if axis.y.abs() < 0.9 {
+                    DVec3::Y
+                } else {
+                    DVec3::X
+                };
+                let along = other.cross(axis);
                 vec![
-                    ("x", slide(turned * DVec3::X)),
-                    ("y", slide(turned * DVec3::Y)),
+                    ("x", slide(along)),
+                    ("y", slide(axis.cross(along))),
                     ("yaw", turn(axis)),
                 ]
             }

@@ -79,12 +79,11 @@ impl JointPath {
                 let magnitudes = (0..=degree)
                     .map(|power| joint.source.magnitude(curve.coefficients(segment, power)));
                 let rounding = rounding_factor(degree) * magnitudes.sum::<f64>();
-                let middle = polynomial.about(0.5);
-                let (centre, deviation) = (middle.constant(), middle.deviation_bound(0.5));
-                let position = centre.abs() + deviation;
+                let range = polynomial.about(0.5).range(0.5, MAX_RANGE_HALVINGS);
+                let position = greater(range[0].abs(), range[1].abs());
                 let magnitude = &mut self.magnitudes[number];
                 *magnitude = magnitude.or_larger(Magnitude { position, rounding });
-                self.ranges.push([centre - deviation, centre + deviation]);
+                self.ranges.push(range);
             }
         }
     }
@@ -215,6 +214,12 @@ impl JointPath {
     }
 }
 
+/// The ratio of the bound of a polynomial's range to what is seen of it, up to which the bound is taken.
+const MAX_RANGE_WIDTH_RATIO: f64 = 2.0;
+
+/// The number of times that a segment is halved to bound a polynomial's range.
+const MAX_RANGE_HALVINGS: u32 = 6;
+
 /// Returns the factor from the sum of a polynomial's coefficients, on a segment, to the magnitude of which its values are
 /// rounded.
 ///
@@ -254,18 +259,33 @@ impl Polynomial {
         self
     }
 
-    pub(crate) fn degree(&self) -> usize {
-        self.degree
-    }
-
     #[cfg(test)]
     pub(crate) fn coefficient(&self, power: usize) -> f64 {
         self.coefficients[power]
     }
 
+    /// Bounds the rounding error of values on the segment.
+    pub(crate) fn rounding(&self) -> f64 {
+        8.0 * f64::EPSILON * rounding_factor(self.degree) * self.size()
+    }
+
     /// Returns the sum of the absolute values of all coefficients.
-    pub(crate) fn size(&self) -> f64 {
+    fn size(&self) -> f64 {
         self.coefficients.iter().map(|own| own.abs()).sum()
+    }
+
+    /// Bounds the values within a share of the middle to both sides, for the polynomial about the middle. It halves the range
+    /// as long as the bound is much wider than the values that are seen.
+    fn range(&self, half: f64, halvings: u32) -> [f64; 2] {
+        let (middle, deviation) = (self.constant(), self.deviation_bound(half));
+        let ends = [-half, half].map(|offset| self.about(offset).constant());
+        let seen = greater((ends[0] - middle).abs(), (ends[1] - middle).abs());
+        if halvings == 0 || deviation <= MAX_RANGE_WIDTH_RATIO * seen {
+            return [middle - deviation, middle + deviation];
+        }
+        let [first, last] = [-0.5 * half, 0.5 * half]
+            .map(|offset| self.about(offset).range(0.5 * half, halvings - 1));
+        [lesser(first[0], last[0]), greater(first[1], last[1])]
     }
 
     /// Returns the value at the share about which the polynomial is.

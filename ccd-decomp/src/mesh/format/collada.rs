@@ -7,14 +7,12 @@ mod geometry;
 mod nodes;
 mod transform;
 
-use crate::mesh::affine::AffineMap;
 use crate::mesh::content::allowance::ExpansionBudget;
 use crate::mesh::content::assembly::Assembly;
 use crate::mesh::content::{Content, Geometry};
 use crate::mesh::error::MeshFault;
 use crate::mesh::remark::Remarks;
 use crate::mesh::unit::Unit;
-use ccd_core::glam::{DAffine3, DVec3};
 use nodes::SceneTraversal;
 use roxmltree::{Document, Node};
 use std::collections::HashMap;
@@ -34,7 +32,6 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     if root.tag_name().name() != "COLLADA" {
         return Err(MeshFault::malformed_content("is no COLLADA document"));
     }
-    let unit = read_unit(root)?;
     let mut traversal = SceneTraversal {
         elements_by_id: elements_by_id(root),
         shape_index_by_geometry: HashMap::new(),
@@ -46,14 +43,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
             remarks: Remarks::default(),
         },
     };
-    let (unit, scale) = match unit {
-        FileUnit::Known(unit) => (unit, AffineMap::IDENTITY),
-        FileUnit::Metres(metres) => {
-            let scale = DAffine3::from_scale(DVec3::splat(metres));
-            (Unit::Metre, AffineMap::from(scale))
-        }
-    };
-    traversal.read_scene(root, scale)?;
+    let unit = read_unit(root)?;
+    traversal.read_scene(root)?;
     Ok(Content {
         unit: Some(unit),
         part_names: traversal.part_names,
@@ -61,27 +52,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     })
 }
 
-/// The unit that a document states.
-enum FileUnit {
-    Known(Unit),
-    /// Any other length, in metres.
-    Metres(f64),
-}
-
-fn read_unit(root: Node<'_, '_>) -> Result<FileUnit, MeshFault> {
+/// Reads the unit of a document, which is the metre if none is stated. Programs store its length in f32, too.
+fn read_unit(root: Node<'_, '_>) -> Result<Unit, MeshFault> {
     let asset = child_named(root, "asset");
     let unit = asset.and_then(|asset| child_named(asset, "unit"));
-    let Some(metres) = unit.and_then(|unit| unit.attribute("meter")) else {
-        return Ok(FileUnit::Known(Unit::Metre));
+    let Some(unit) = unit.filter(|unit| unit.has_attribute("meter")) else {
+        return Ok(Unit::Metre);
     };
-    let metres: f64 = match metres.trim().parse() {
-        Ok(metres) if metres > 0.0 && metres < f64::INFINITY => metres,
-        _ => {
-            return Err(MeshFault::malformed_content(format!(
-                "has a unit of {metres:?} metres"
-            )));
-        }
-    };
+    let text = unit.attribute("meter").unwrap_or_default();
+    let metres: f64 = text.trim().parse().unwrap_or(f64::NAN);
     let known = [
         (1.0, Unit::Metre),
         (0.01, Unit::Centimetre),
@@ -90,16 +69,54 @@ fn read_unit(root: Node<'_, '_>) -> Result<FileUnit, MeshFault> {
         (0.0254, Unit::Inch),
         (0.3048, Unit::Foot),
     ];
-    let same = known.into_iter().find(|(length, _)| *length == metres);
-    Ok(same.map_or(FileUnit::Metres(metres), |(_, unit)| FileUnit::Known(unit)))
+    let is_same = |length: f64| (metres - length).abs() <= f64::from(f32::EPSILON) * length;
+    let same = known.into_iter().find(|(length, _)| is_same(*length));
+    same.map(|(_, unit)| unit).ok_or_else(|| {
+        fault_at(
+            unit,
+            format!("is {text:?} metres, none of um, mm, cm, m, in and ft"),
+        )
+    })
 }
 
-/// Finds all elements with an id.
-fn elements_by_id<'a, 'd>(root: Node<'a, 'd>) -> HashMap<&'a str, Node<'a, 'd>> {
-    let elements = root.descendants();
+/// The elements of a document by their ids; `None` for an id that several elements have.
+type ElementsById<'a, 'd> = HashMap<&'a str, Option<Node<'a, 'd>>>;
+
+fn elements_by_id<'a, 'd>(root: Node<'a, 'd>) -> ElementsById<'a, 'd> {
+    let mut elements = HashMap::new();
+    for element in root.descendants() {
+        if let Some(id) = element.attribute("id") {
+            let found = elements.entry(id).or_insert(Some(element));
+            if *found != Some(element) {
+                *found = None;
+            }
+        }
+    }
     elements
-        .filter_map(|element| Some((element.attribute("id")?, element)))
-        .collect()
+}
+
+/// Returns the element that an attribute of another one names as `#id`, which has to be of a kind.
+fn referred_element<'a, 'd>(
+    elements: &ElementsById<'a, 'd>,
+    from: Node<'_, '_>,
+    attribute: &str,
+    kinds: &[&str],
+) -> Result<Node<'a, 'd>, MeshFault> {
+    let Some(name) = from.attribute(attribute) else {
+        return Err(fault_at(from, format!("has no {attribute}")));
+    };
+    let Some(id) = name.strip_prefix('#') else {
+        return Err(MeshFault::unsupported_content(
+            format!("{name:?} in another file"),
+            "a document with all that it shows",
+        ));
+    };
+    let problem = match elements.get(id) {
+        Some(Some(found)) if kinds.contains(&found.tag_name().name()) => return Ok(*found),
+        Some(None) => format!("names {name:?}, which several elements are"),
+        _ => format!("names {name:?}, which is no {}", kinds.join(" or ")),
+    };
+    Err(fault_at(from, problem))
 }
 
 fn child_named<'a, 'd>(element: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
@@ -114,7 +131,7 @@ fn children_named<'a, 'd, 'n>(
     children.filter(move |child| child.is_element() && child.tag_name().name() == name)
 }
 
-/// Returns the line of an element in the text.
+/// Returns the line of an element in the text, by counting all lines before it.
 fn line_of(element: Node<'_, '_>) -> usize {
     element.document().text_pos_at(element.range().start).row as usize
 }
@@ -128,8 +145,11 @@ fn fault_at(element: Node<'_, '_>, problem: impl Into<String>) -> MeshFault {
     )
 }
 
-/// Reads all numbers in the text of an element, on both sides of comments too.
+/// Reads all numbers in the text of an element, on both sides of comments too. It has no elements in it.
 fn numbers<T: FromStr>(element: Node<'_, '_>) -> Result<Vec<T>, MeshFault> {
+    if element.first_element_child().is_some() {
+        return Err(fault_at(element, "has elements among its numbers"));
+    }
     let texts = element.children().filter(Node::is_text);
     let words = texts.flat_map(|text| text.text().unwrap_or_default().split_ascii_whitespace());
     let numbers = words.map(|word| {

@@ -84,3 +84,48 @@ fn deviations_are_within_their_bounds() {
         "{from_middle} {from_chord}"
     );
 }
+
+/// Tests that no value is outside of a range, and that ranges are narrow even if coefficients cancel.
+#[test]
+fn ranges_enclose_all_values_and_fit() {
+    let mut random = Pcg64::seed_from_u64(33);
+    let mut widest: f64 = 0.0;
+    for number in 0..500 {
+        // Half of them are Chebyshev polynomials: values up to 1, coefficients up to a million.
+        let polynomial = if number % 2 == 0 {
+            random_polynomial(&mut random)
+        } else {
+            chebyshev(random.random_range(1..=MAX_DEGREE))
+        };
+        let range = polynomial.about(0.5).range(0.5, MAX_RANGE_HALVINGS);
+        let values = (0..=200).map(|k| value(&polynomial, f64::from(k) / 200.0));
+        let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in values {
+            (min, max) = (lesser(min, value), greater(max, value));
+        }
+        assert!(
+            range[0] <= min + 1e-9 && max <= range[1] + 1e-9,
+            "{range:?} {min} {max}"
+        );
+        widest = greater(widest, (range[1] - range[0]) / (max - min));
+    }
+    assert!(widest > 1.0 && widest < 5.0, "{widest}");
+}
+
+/// Returns the Chebyshev polynomial of a degree on shares from 0 to 1, by its recurrence.
+fn chebyshev(degree: usize) -> Polynomial {
+    let mut last = [vec![1.0], vec![-1.0, 2.0]];
+    for _ in 1..degree {
+        let [before, now] = &last;
+        let mut next = vec![0.0; now.len() + 1];
+        for (power, coefficient) in now.iter().enumerate() {
+            next[power] -= 2.0 * coefficient;
+            next[power + 1] += 4.0 * coefficient;
+        }
+        for (power, coefficient) in before.iter().enumerate() {
+            next[power] -= coefficient;
+        }
+        last = [now.clone(), next];
+    }
+    Polynomial::new(degree, |power| last[1][power])
+}

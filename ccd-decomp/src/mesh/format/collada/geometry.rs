@@ -1,13 +1,13 @@
 //! Reads the faces of a geometry.
 
-use super::{child_named, children_named, count_attribute, fault_at, line_of, numbers};
+use super::{
+    ElementsById, child_named, children_named, count_attribute, fault_at, line_of, numbers,
+    referred_element,
+};
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
 use ccd_core::glam::DVec3;
 use roxmltree::Node;
-use std::collections::HashMap;
-
-type ElementsById<'a, 'd> = HashMap<&'a str, Node<'a, 'd>>;
 
 /// Reads the mesh of a geometry: its faces, with the corners' numbers among the positions.
 pub(super) fn read_geometry(
@@ -29,20 +29,25 @@ pub(super) fn read_geometry(
     let Some(position) = positions.next() else {
         return Err(fault_at(vertices, "have no positions"));
     };
-    polygons.vertices = read_positions(source_of(position, elements, "source")?, elements)?;
+    polygons.vertices = read_positions(
+        referred_element(elements, position, "source", &["source"])?,
+        elements,
+    )?;
     for primitive in mesh.children().filter(Node::is_element) {
         match primitive.tag_name().name() {
             "lines" | "linestrips" => {
-                let what = "lines passed over";
-                let count = count_attribute(primitive, "count")?.unwrap_or(1);
-                polygons.remarks.add(what, count, Some(line_of(primitive)));
+                polygons.remarks.add("lines passed over", 1, None);
             }
             "triangles" | "polylist" | "polygons" | "trifans" | "tristrips" => {
-                let before = polygons.corner_ends.len();
                 read_primitive(primitive, &mut polygons)?;
-                check_face_count(primitive, polygons.corner_ends.len() - before)?;
             }
-            _ => {}
+            "source" | "vertices" | "extra" => {}
+            name => {
+                return Err(MeshFault::unsupported_content(
+                    format!("<{name}>"),
+                    "triangles or polygons",
+                ));
+            }
         }
     }
     // No corner may name a vertex that is not there: shapes are placed unchecked.
@@ -50,22 +55,6 @@ pub(super) fn read_geometry(
         .check_corners()
         .map_err(|fault| fault.at_element(format!("geometry at line {}", line_of(geometry))))?;
     Ok(polygons)
-}
-
-/// Returns the element that an attribute names as `#id`.
-fn source_of<'a, 'd>(
-    element: Node<'_, '_>,
-    elements: &ElementsById<'a, 'd>,
-    attribute: &str,
-) -> Result<Node<'a, 'd>, MeshFault> {
-    let name = element.attribute(attribute).unwrap_or_default();
-    let found = name.strip_prefix('#').and_then(|id| elements.get(id));
-    found.copied().ok_or_else(|| {
-        fault_at(
-            element,
-            format!("has {attribute}={name:?}, which is no element"),
-        )
-    })
 }
 
 /// Reads the positions of a source: of each group of `stride` numbers those that are named X, Y and Z, or the first three.
@@ -78,25 +67,12 @@ fn read_positions(
     let Some(accessor) = accessor else {
         return Err(fault_at(source, "has no accessor"));
     };
-    let array = source_of(accessor, elements, "source")?;
+    let array = referred_element(elements, accessor, "source", &["float_array", "int_array"])?;
     let all: Vec<f64> = numbers(array)?;
     let stride = count_attribute(accessor, "stride")?.unwrap_or(1);
     let offset = count_attribute(accessor, "offset")?.unwrap_or(0);
     let count = count_attribute(accessor, "count")?.unwrap_or(0);
-    // A parameter without a name is passed over.
-    let parameters = children_named(accessor, "param").enumerate();
-    let named: Vec<usize> = parameters
-        .filter(|(_, parameter)| {
-            parameter
-                .attribute("name")
-                .is_some_and(|name| !name.is_empty())
-        })
-        .map(|(place, _)| place)
-        .collect();
-    let [x, y, z] = match named[..] {
-        [x, y, z, ..] => [x, y, z],
-        _ => [0, 1, 2],
-    };
+    let [x, y, z] = coordinate_places(accessor);
     if stride < 3 || [x, y, z].iter().any(|place| *place >= stride) {
         return Err(fault_at(accessor, format!("has a stride of {stride}")));
     }
@@ -113,6 +89,29 @@ fn read_positions(
     Ok(groups
         .map(|group| DVec3::new(group[x], group[y], group[z]))
         .collect())
+}
+
+/// Returns the places of the coordinates in a group of numbers: those that are named X, Y and Z, the first three with a name,
+/// or the first three.
+fn coordinate_places(accessor: Node<'_, '_>) -> [usize; 3] {
+    let parameters = || children_named(accessor, "param").enumerate();
+    let named = |name: &str| {
+        let mut found = parameters().filter(|(_, param)| param.attribute("name") == Some(name));
+        found.next().map(|(place, _)| place)
+    };
+    if let (Some(x), Some(y), Some(z)) = (named("X"), named("Y"), named("Z")) {
+        return [x, y, z];
+    }
+    let has_name =
+        |param: &Node<'_, '_>| param.attribute("name").is_some_and(|name| !name.is_empty());
+    let with_names: Vec<usize> = parameters()
+        .filter(|(_, param)| has_name(param))
+        .map(|(place, _)| place)
+        .collect();
+    match with_names[..] {
+        [x, y, z, ..] => [x, y, z],
+        _ => [0, 1, 2],
+    }
 }
 
 /// Appends the faces of a primitive.
@@ -142,22 +141,21 @@ fn read_primitive(primitive: Node<'_, '_>, polygons: &mut Polygons) -> Result<()
             .map(|group| group[vertex_offset.unwrap_or(0)])
             .collect())
     };
-    if vertex_offset.is_none() {
-        // A primitive without corners needs no inputs.
-        return match lists().next() {
-            None => Ok(()),
-            Some(_) => Err(fault_at(primitive, "has no input of vertices")),
-        };
-    }
     if child_named(primitive, "ph").is_some() {
         return Err(MeshFault::unsupported_content(
             "polygons with holes (<ph>)",
             "triangles",
         ));
     }
+    if vertex_offset.is_none() && lists().next().is_some() {
+        return Err(fault_at(primitive, "has no input of vertices"));
+    }
+    let faces_before = polygons.corner_ends.len();
     let kind = primitive.tag_name().name();
+    let mut list_count = 0;
     for list in lists() {
         let corners = corners_of(list)?;
+        list_count += 1;
         match kind {
             "triangles" => {
                 let (triangles, rest) = corners.as_chunks::<3>();
@@ -169,9 +167,13 @@ fn read_primitive(primitive: Node<'_, '_>, polygons: &mut Polygons) -> Result<()
                     .for_each(|corners| polygons.push_face(*corners));
             }
             "polylist" => push_polylist(primitive, list, &corners, polygons)?,
+            _ if corners.len() < 3 => {
+                let count = corners.len();
+                return Err(fault_at(list, format!("has {count} corners")));
+            }
             "polygons" => polygons.push_face(corners),
             "trifans" => {
-                for pair in corners.get(1..).unwrap_or_default().windows(2) {
+                for pair in corners[1..].windows(2) {
                     polygons.push_face([corners[0], pair[0], pair[1]]);
                 }
             }
@@ -184,16 +186,26 @@ fn read_primitive(primitive: Node<'_, '_>, polygons: &mut Polygons) -> Result<()
             }
         }
     }
-    Ok(())
+    let found = match kind {
+        "triangles" | "polylist" => polygons.corner_ends.len() - faces_before,
+        _ => list_count,
+    };
+    check_count(primitive, found)
 }
 
-/// Refuses a primitive with fewer faces than it says. For strips and fans the number is that of strips and fans.
-fn check_face_count(primitive: Node<'_, '_>, found: usize) -> Result<(), MeshFault> {
-    let said = count_attribute(primitive, "count")?.unwrap_or(0);
+/// Refuses a primitive with fewer faces, strips or fans than it says.
+fn check_count(primitive: Node<'_, '_>, found: usize) -> Result<(), MeshFault> {
+    let of_corners = match child_named(primitive, "vcount") {
+        Some(counts) => numbers::<usize>(counts)?.len(),
+        None => 0,
+    };
+    let said = count_attribute(primitive, "count")?
+        .unwrap_or(0)
+        .max(of_corners);
     if found >= said {
         return Ok(());
     }
-    let problem = format!("has {found} faces, but count={said:?}");
+    let problem = format!("has {found} of the {said} that it says");
     Err(fault_at(primitive, problem))
 }
 

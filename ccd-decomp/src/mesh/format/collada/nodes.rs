@@ -1,6 +1,8 @@
 //! Traverses the nodes of a scene, and collects the parts that they place.
 
-use super::{child_named, children_named, fault_at, geometry, transform};
+use super::{
+    ElementsById, child_named, children_named, fault_at, geometry, referred_element, transform,
+};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::content::assembly::{Assembly, Part};
 use crate::mesh::error::MeshFault;
@@ -12,7 +14,7 @@ const MAX_DEPTH: usize = 256;
 
 /// The state of a traversal of the scene's nodes. Each geometry is read at its first use.
 pub(super) struct SceneTraversal<'a, 'd> {
-    pub(super) elements_by_id: HashMap<&'a str, Node<'a, 'd>>,
+    pub(super) elements_by_id: ElementsById<'a, 'd>,
     /// The index of the shape for each geometry that has been read.
     pub(super) shape_index_by_geometry: HashMap<NodeId, usize>,
     pub(super) part_names: Vec<Option<String>>,
@@ -21,34 +23,29 @@ pub(super) struct SceneTraversal<'a, 'd> {
 
 impl<'a, 'd> SceneTraversal<'a, 'd> {
     /// Reads the scene that the document shows or, if it names none, the first one. Without scenes it reads all geometries.
-    pub(super) fn read_scene(
-        &mut self,
-        root: Node<'a, 'd>,
-        map: AffineMap,
-    ) -> Result<(), MeshFault> {
+    pub(super) fn read_scene(&mut self, root: Node<'a, 'd>) -> Result<(), MeshFault> {
         let shown = child_named(root, "scene")
             .and_then(|scene| child_named(scene, "instance_visual_scene"));
-        let first = child_named(root, "library_visual_scenes")
-            .and_then(|library| child_named(library, "visual_scene"));
+        let all_in = |library, kind| {
+            children_named(root, library).flat_map(move |library| children_named(library, kind))
+        };
         let scene = match shown {
-            Some(instance) => Some(self.referred(instance, "visual_scene")?),
-            None => first,
+            Some(instance) => Some(self.referred(instance, "visual_scene", "url")?),
+            None => all_in("library_visual_scenes", "visual_scene").next(),
         };
         if let Some(scene) = scene {
-            return self.visit(children_named(scene, "node").collect(), map);
+            return self.visit(children_named(scene, "node").collect());
         }
-        for library in children_named(root, "library_geometries") {
-            for geometry in children_named(library, "geometry") {
-                self.place(geometry, geometry.attribute("name"), map)?;
-            }
+        for geometry in all_in("library_geometries", "geometry") {
+            self.place(geometry, geometry.attribute("name"), AffineMap::IDENTITY)?;
         }
         Ok(())
     }
 
     /// Visits nodes and all below them, parents first.
-    fn visit(&mut self, tops: Vec<Node<'a, 'd>>, map: AffineMap) -> Result<(), MeshFault> {
+    fn visit(&mut self, tops: Vec<Node<'a, 'd>>) -> Result<(), MeshFault> {
         let tops = tops.into_iter().rev();
-        let mut waiting: Vec<_> = tops.map(|node| (node, map, 0)).collect();
+        let mut waiting: Vec<_> = tops.map(|node| (node, AffineMap::IDENTITY, 0)).collect();
         while let Some((node, above, depth)) = waiting.pop() {
             if depth > MAX_DEPTH {
                 return Err(fault_at(node, "is below itself, or too deep"));
@@ -61,18 +58,19 @@ impl<'a, 'd> SceneTraversal<'a, 'd> {
                 match child.tag_name().name() {
                     "node" => below.push((child, map, depth + 1)),
                     "instance_node" => {
-                        below.push((self.referred(child, "node")?, map, depth + 1));
+                        below.push((self.referred(child, "node", "url")?, map, depth + 1));
                     }
                     "instance_geometry" => {
-                        let geometry = self.referred(child, "geometry")?;
+                        let geometry = self.referred(child, "geometry", "url")?;
                         let name = node.attribute("name").or(geometry.attribute("name"));
                         self.place(geometry, name, map)?;
                     }
                     "instance_controller" => {
-                        let what = "skins and morphs passed over";
-                        self.assembly
-                            .remarks
-                            .add(what, 1, Some(super::line_of(child)));
+                        let (geometry, bound) = self.geometry_at_rest(child)?;
+                        let name = node.attribute("name").or(geometry.attribute("name"));
+                        self.place(geometry, name, map.compose_after(&bound))?;
+                        let what = "skins and morphs taken at rest";
+                        self.assembly.remarks.add(what, 1, None);
                     }
                     _ => {}
                 }
@@ -82,23 +80,39 @@ impl<'a, 'd> SceneTraversal<'a, 'd> {
         Ok(())
     }
 
-    /// Returns the element that an instance names, which has to be of a kind.
-    fn referred(&self, instance: Node<'a, 'd>, kind: &str) -> Result<Node<'a, 'd>, MeshFault> {
-        let url = instance.attribute("url").unwrap_or_default();
-        let id = url.strip_prefix('#');
-        let Some(id) = id else {
-            return Err(MeshFault::unsupported_content(
-                format!("{url:?} in another file"),
-                "a document with all that it shows",
-            ));
-        };
-        match self.elements_by_id.get(id) {
-            Some(found) if found.tag_name().name() == kind => Ok(*found),
-            _ => Err(fault_at(
-                instance,
-                format!("names {url:?}, which is no {kind}"),
-            )),
+    /// Returns the geometry that a controller bends, and the map by which it is bound.
+    fn geometry_at_rest(
+        &self,
+        instance: Node<'a, 'd>,
+    ) -> Result<(Node<'a, 'd>, AffineMap), MeshFault> {
+        let mut bound = AffineMap::IDENTITY;
+        let mut at = self.referred(instance, "controller", "url")?;
+        for _ in 0..MAX_DEPTH {
+            let kind = at
+                .children()
+                .find(|child| ["skin", "morph"].contains(&child.tag_name().name()));
+            let Some(bending) = kind else {
+                return Err(fault_at(at, "is neither a skin nor a morph"));
+            };
+            if let Some(matrix) = child_named(bending, "bind_shape_matrix") {
+                bound = bound.compose_after(&transform::matrix(matrix)?.into());
+            }
+            if let Ok(geometry) = self.referred(bending, "geometry", "source") {
+                return Ok((geometry, bound));
+            }
+            at = self.referred(bending, "controller", "source")?;
         }
+        Err(fault_at(instance, "names a controller that bends itself"))
+    }
+
+    /// Returns the element of a kind that an attribute of another one names.
+    fn referred(
+        &self,
+        from: Node<'a, 'd>,
+        kind: &str,
+        attribute: &str,
+    ) -> Result<Node<'a, 'd>, MeshFault> {
+        referred_element(&self.elements_by_id, from, attribute, &[kind])
     }
 
     fn place(

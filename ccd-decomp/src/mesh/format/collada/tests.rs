@@ -3,6 +3,7 @@
 use super::*;
 use crate::mesh::format::Format;
 use crate::{MeshFile, TriangleMesh};
+use ccd_core::glam::DVec3;
 
 const HEAD: &str = r##"<?xml version="1.0" encoding="utf-8"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">"##;
@@ -51,9 +52,7 @@ fn all_kinds_of_primitives_have_the_same_faces() {
         assert_eq!(mesh.vertices()[3], DVec3::Z);
     }
     // A comment parts a text in two.
-    let parted = TRIANGLES
-        .replace("7 1 7 2", "7 1<!-- 7 7 -->7 2")
-        .replace("7 2 7 0", "7 2 <b/>7 0");
+    let parted = TRIANGLES.replace("7 1 7 2", "7 1<!-- 7 7 -->7 2");
     let mesh = read(&document("", &primitive("triangles", &parted), "")).unwrap();
     assert_eq!(mesh.faces(), expected);
     let fan = "<p>7 3 7 0 7 1 7 2 7 0</p>";
@@ -92,14 +91,10 @@ fn nodes_place_geometries_in_the_unit_of_the_document() {
         let off = mesh.vertices()[found].distance(expected.into());
         assert!(off < 1e-15, "{found}: {off}");
     }
-    let text = document(
-        r#"<unit meter="2.5"/>"#,
-        &primitive("triangles", TRIANGLES),
-        "",
-    );
+    // As SketchUp writes it.
+    let text = text.replace("0.0254", "0.02539999969303608");
     let file = MeshFile::from_reader(Format::Collada, text.as_bytes()).unwrap();
-    assert_eq!(file.unit(), Some(Unit::Metre));
-    assert_eq!(file.into_mesh().unwrap().vertices()[1].x, 2.5);
+    assert_eq!(file.unit(), Some(Unit::Inch));
 }
 
 #[test]
@@ -151,8 +146,52 @@ fn what_is_wrong_is_named_with_its_line() {
         ),
         (
             read(&document(r#"<unit meter="-1"/>"#, "", "")).unwrap_err(),
-            r#"has a unit of "-1" metres"#,
+            r#"is "-1" metres"#,
         ),
+        (
+            triangles("<p>7 0 7 1 <q>7</q> 7 3</p>"),
+            "has elements among its numbers",
+        ),
+        (
+            read(&document(
+                "",
+                &primitive("polylist", "<vcount>3 3</vcount>"),
+                "",
+            ))
+            .unwrap_err(),
+            "has 0 of the 2 that it says",
+        ),
+        (
+            read(&document(
+                "",
+                &primitive("trifans", "<p>7 0 7 1 7 2</p><p>7 0 7 1</p>"),
+                "",
+            ))
+            .unwrap_err(),
+            "has 2 corners",
+        ),
+        (
+            read(&document(
+                "",
+                &format!("<tristrips count='2'>{INPUTS}<p>7 0 7 1 7 2</p></tristrips>"),
+                "",
+            ))
+            .unwrap_err(),
+            "has 1 of the 2 that it says",
+        ),
+        (
+            read(&document("", &primitive("Triangles", TRIANGLES), "")).unwrap_err(),
+            "<Triangles>",
+        ),
+        (
+            read(&document("", "<polygons><ph/></polygons>", "")).unwrap_err(),
+            "<ph>",
+        ),
+        (
+            scene(r##"<node id="shape"><instance_geometry url="#shape"/></node>"##),
+            "which several elements are",
+        ),
+        (scene("<node><instance_geometry/></node>"), "has no url"),
     ] {
         assert!(error.contains(expected), "{error} instead of {expected}");
     }
@@ -187,4 +226,31 @@ fn deep_nesting_overflows_no_stack() {
         let read = read(&document("", &primitive("triangles", TRIANGLES), &scene));
         assert!(read.is_err(), "{depth}");
     }
+}
+
+/// Tests that coordinates go by their names, that a skin is taken at rest, and that the first scene may be in a second library.
+#[test]
+fn coordinates_skins_and_scenes_are_found() {
+    let triangles = primitive("triangles", TRIANGLES);
+    let text = document("", &triangles, "");
+    let swapped = text
+        .replace(r#"name="X""#, r#"name="?""#)
+        .replace(r#"name="Z""#, r#"name="X""#);
+    let swapped = swapped.replace(r#"name="?""#, r#"name="Z""#);
+    assert_eq!(read(&swapped).unwrap().vertices()[1], DVec3::Z);
+    let scene = r##"<library_controllers><controller id="bend"><skin source="#shape">
+        <bind_shape_matrix>1 0 0 7 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix></skin></controller>
+        <controller id="again"><morph source="#bend"/></controller></library_controllers><library_visual_scenes/>
+        <library_visual_scenes><visual_scene><node><translate>0 5 0</translate><instance_controller url="#again"/></node>
+        </visual_scene></library_visual_scenes>"##;
+    let mesh = read(&document("", &triangles, scene)).unwrap();
+    assert_eq!(mesh.vertices()[0].to_array(), [7.0, 5.0, 0.0]);
+    let remark = format!("{:?}", mesh.repairs());
+    assert!(
+        remark.contains("skins and morphs taken at rest"),
+        "{remark}"
+    );
+    let loops = scene.replace("#shape", "#again");
+    let error = read(&document("", &triangles, &loops)).unwrap_err();
+    assert!(error.contains("bends itself"), "{error}");
 }

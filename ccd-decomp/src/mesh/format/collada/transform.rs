@@ -45,7 +45,7 @@ pub(super) fn node_transform(node: Node<'_, '_>) -> Result<AffineMap, MeshFault>
 }
 
 /// Reads a matrix of four rows, the last of which is 0 0 0 1.
-fn matrix(element: Node<'_, '_>) -> Result<DAffine3, MeshFault> {
+pub(super) fn matrix(element: Node<'_, '_>) -> Result<DAffine3, MeshFault> {
     let rows: [f64; 16] = exactly(element)?;
     if rows[12..] != [0.0, 0.0, 0.0, 1.0] {
         return Err(fault_at(element, "does not end with 0 0 0 1"));
