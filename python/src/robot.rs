@@ -2,12 +2,12 @@
 
 use crate::arrays::flat_numbers;
 use crate::body::{PyBody, extract_body};
-use crate::combined_robot::GivenRobots;
 use crate::errors::{file_error, input_error};
 use crate::joint::PyJoint;
 use crate::link_motion::PyLinkMotion;
 use crate::motion::{GivenPose, pose_matrix, read_given_pose};
 use crate::pickle::{ConstructorCall, Reduced};
+use crate::robot_base::RobotBase;
 use crate::table::PyTable;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
@@ -15,8 +15,8 @@ use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyType};
 use rigid_ccd_robot::{
-    BodyElements, Joint, Link, LinkBody, LinkContactClass, LinkPairs, MeshConversion, Robot,
-    SkipReason, Urdf,
+    BodyElements, Joint, Link, LinkBody, LinkContactClass, LinkPairs, MeshConversion, PlacedRobot,
+    Robot, SkipReason, Urdf,
 };
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -201,13 +201,35 @@ impl PyRobot {
         poses: Option<&Bound<'_, PyMapping>>,
         bases: Option<&Bound<'_, PyMapping>>,
     ) -> PyResult<Self> {
-        let given = GivenRobots::read(robots, poses, bases)?;
-        let (robot, pairs) = given.combine()?;
-        let arguments: (_, _, _) = given.arguments(class.py())?.into();
+        let py = class.py();
+        let items = robots.items()?;
+        let given = items.iter().map(|item| item.extract());
+        let given: Vec<(String, Py<PyRobot>)> = given.collect::<PyResult<_>>()?;
+        let names: Vec<String> = given.iter().map(|(name, _)| name.clone()).collect();
+        let robot_bases = RobotBase::read_all(&names, poses, bases)?;
+        // What was read is kept for pickle, and not what the caller may change.
+        let read = [(); 3].map(|()| PyDict::new(py));
+        let mut placed = Vec::new();
+        for ((name, robot), base) in given.iter().zip(&robot_bases) {
+            let [robots, poses, bases] = &read;
+            robots.set_item(name, robot)?;
+            poses.set_item(name, base.pose)?;
+            bases.set_item(name, &base.motion_name)?;
+            let robot = robot.get();
+            placed.push(PlacedRobot {
+                name,
+                robot: &robot.robot,
+                pairs: &robot.pairs,
+                pose: base.pose.pose("poses")?,
+                base_motion: base.motion()?,
+            });
+        }
+        let (robot, pairs) = Robot::combine(&placed).map_err(input_error)?;
+        let arguments: (_, _, _) = read.into();
         Ok(PyRobot {
             robot: Arc::new(robot),
             pairs,
-            constructor_call: ConstructorCall::new(class.py(), Some("combined"), arguments)?,
+            constructor_call: ConstructorCall::new(py, Some("combined"), arguments)?,
         })
     }
 

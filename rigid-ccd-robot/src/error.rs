@@ -1,6 +1,6 @@
 //! Errors of robots: links and joints that form no tree, and positions that do not fit a robot.
 
-use crate::solver::PathPoint;
+use crate::path_point::PathPoint;
 use rigid_ccd::InputError;
 
 /// The reason why links and joints form no robot, or why a configuration does not fit a robot.

@@ -1,15 +1,12 @@
 //! Paths whose joints follow polynomials of the time, as controllers run them.
 
 use crate::error::{CurveError, PathError, RobotError};
+use crate::path_point::PathPoint;
+use crate::polynomial::{MAX_DEGREE, Polynomial};
 use crate::robot::Robot;
-use crate::solver::PathPoint;
-use crate::solver::joint_path::Polynomial;
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::InputError;
 use smallvec::SmallVec;
-
-/// The largest degree of a polynomial, which has a fixed place in memory.
-pub(crate) const MAX_DEGREE: usize = 9;
 
 /// The largest jump of a joint from one segment to the next, in radians or as a length, beyond what is rounded. Splines are
 /// rounded where they are made; a jump of this size is no motion that a path leaves out.

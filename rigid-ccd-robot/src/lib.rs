@@ -22,10 +22,11 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another, [`Robot::combine`] for several robots and moving bases |
+//! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another |
+//! | `combine` | several robots as one, on bases that may move: [`Robot::combine`] |
 //! | `cell` | a robot among obstacles: [`Cell`] |
 //! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/clearance_ranges` where a distance is kept, `solver/distance_curve` the distance over a path |
-//! | `path`, `joint_curve` | what a question is about: a [`Path`] through configurations, or a [`JointCurve`] of polynomials |
+//! | `path`, `joint_curve`, `polynomial`, `path_point` | what a question is about: a [`Path`] through configurations, or a [`JointCurve`] of polynomials |
 //! | `link_contacts` | whether two links can ever touch, by branch and bound over their joints: [`Robot::classify_link_contacts`] |
 //! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
 //! | `urdf` | a robot from a URDF file with its meshes: [`Urdf`] |
@@ -34,14 +35,17 @@
 //! | `tuning` | numbers that only cost time |
 
 mod cell;
+mod combine;
 mod error;
 mod joint_curve;
 mod link_contacts;
 mod pairs;
 mod path;
+mod path_point;
 #[cfg(feature = "tables")]
 #[doc(hidden)]
 pub mod path_rows;
+mod polynomial;
 mod robot;
 mod solver;
 mod srdf;
@@ -51,17 +55,17 @@ mod tuning;
 mod urdf;
 
 pub use cell::{Cell, Item};
+pub use combine::PlacedRobot;
 pub use error::{CurveError, PathError, RobotError};
 pub use joint_curve::JointCurve;
 pub use link_contacts::LinkContactClass;
 pub use pairs::{LinkPairs, SkipReason};
 pub use path::Path;
-pub use robot::{
-    ChainBetween, CompoundKind, Joint, Link, LinkBody, PlacedRobot, PositionRule, Robot,
-};
+pub use path_point::PathPoint;
+pub use robot::{ChainBetween, CompoundKind, Joint, Link, LinkBody, PositionRule, Robot};
 pub use solver::{
     CellSolver, ClearanceRange, ClosestApproach, DistanceRange, PathContact, PathOutcome,
-    PathPoint, RangeSettings,
+    RangeSettings,
 };
 pub use urdf::{BodyElements, MeshConversion, Urdf, UrdfError};
 

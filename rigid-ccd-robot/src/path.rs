@@ -3,7 +3,7 @@
 use crate::cell::Cell;
 use crate::error::PathError;
 use crate::joint_curve::JointCurve;
-use crate::solver::PathPoint;
+use crate::path_point::PathPoint;
 use crate::solver::joint_path::JointPath;
 
 /// A path of a robot: a slice, an array or a vector of configurations, between two of which all joints move at constant rates,

@@ -2,7 +2,8 @@
 
 use crate::error::PathError;
 use crate::path::Path;
-use crate::solver::{CellSolver, PathContact, PathOutcome, PathPoint};
+use crate::path_point::PathPoint;
+use crate::solver::{CellSolver, PathContact, PathOutcome};
 use rigid_ccd::Error;
 use rigid_ccd::answer::{ClearanceVerdict, Limit};
 use rigid_ccd::batch::Question;

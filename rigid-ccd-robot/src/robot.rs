@@ -1,12 +1,10 @@
 //! A robot: a tree of links, connected by joints.
 
 mod chain_between;
-mod combine;
 mod compound_joint;
 mod tree;
 
 pub use chain_between::ChainBetween;
-pub use combine::PlacedRobot;
 pub use compound_joint::CompoundKind;
 
 use crate::error::RobotError;

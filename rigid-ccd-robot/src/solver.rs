@@ -11,6 +11,7 @@ pub(crate) mod joint_path;
 pub(crate) mod kinematics;
 pub(crate) mod measure;
 mod open_pairs;
+pub(crate) mod pair_chain;
 pub(crate) mod part_pairs;
 pub(crate) mod placement;
 mod rounding;
@@ -21,11 +22,11 @@ pub(crate) mod violation;
 
 pub use clearance_ranges::{ClearanceRange, RangeSettings};
 pub use distance_curve::DistanceRange;
-pub use stretch::PathPoint;
 
 use crate::cell::{Cell, Item};
 use crate::error::PathError;
 use crate::path::Path;
+use crate::path_point::PathPoint;
 use part_pairs::PartPair;
 use rigid_ccd::answer::{ClearanceVerdict, HitKind, Limit, Unresolved};
 use rigid_ccd::glam::DVec3;

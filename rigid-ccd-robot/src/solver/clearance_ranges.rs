@@ -1,9 +1,10 @@
 //! The ranges of a path in which all pairs keep their distance, and those in which one of them certainly does not.
 
-use super::stretch::{PathPoint, Stretch};
+use super::stretch::Stretch;
 use super::{CellSolver, Question};
 use crate::error::PathError;
 use crate::path::Path;
+use crate::path_point::PathPoint;
 use rigid_ccd::Error;
 use rigid_ccd::answer::ClearanceVerdict;
 

@@ -1,9 +1,10 @@
 //! The least distance over each of many ranges of a path.
 
-use super::stretch::{PathPoint, Stretch};
+use super::stretch::Stretch;
 use super::{CellSolver, ClosestApproach, Question};
 use crate::error::PathError;
 use crate::path::Path;
+use crate::path_point::PathPoint;
 
 /// Bounds of the least distance in a range of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]

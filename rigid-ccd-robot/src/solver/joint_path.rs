@@ -5,8 +5,10 @@
 
 use super::kinematics::Kinematics;
 use super::rounding::Magnitude;
-use super::stretch::{PathPoint, Stretch};
-use crate::joint_curve::{JointCurve, MAX_DEGREE};
+use super::stretch::Stretch;
+use crate::joint_curve::JointCurve;
+use crate::path_point::PathPoint;
+use crate::polynomial::{Polynomial, rounding_factor};
 use ccd_core::order::{greater, lesser};
 
 /// The positions of all moving joints along a path.
@@ -79,7 +81,7 @@ impl JointPath {
                 let magnitudes = (0..=degree)
                     .map(|power| joint.source.magnitude(curve.coefficients(segment, power)));
                 let rounding = rounding_factor(degree) * magnitudes.sum::<f64>();
-                let range = polynomial.about(0.5).range(0.5, MAX_RANGE_HALVINGS);
+                let range = polynomial.range();
                 let position = greater(range[0].abs(), range[1].abs());
                 let magnitude = &mut self.magnitudes[number];
                 *magnitude = magnitude.or_larger(Magnitude { position, rounding });
@@ -213,105 +215,3 @@ impl JointPath {
         })
     }
 }
-
-/// The ratio of the bound of a polynomial's range to what is seen of it, up to which the bound is taken.
-const MAX_RANGE_WIDTH_RATIO: f64 = 2.0;
-
-/// The number of times that a segment is halved to bound a polynomial's range.
-const MAX_RANGE_HALVINGS: u32 = 6;
-
-/// Returns the factor from the sum of a polynomial's coefficients, on a segment, to the magnitude of which its values are
-/// rounded.
-///
-/// Horner's scheme rounds twice for each power, relative to the sum. So are the coefficients about a middle `m`, summed with
-/// the powers of a half `h` as a deviation: `Σ |cₙ| (m + h)ⁿ` is at most the sum, because `m + h` is at most 1.
-pub(crate) fn rounding_factor(degree: usize) -> f64 {
-    (degree + 1) as f64
-}
-
-/// The position of a joint as a polynomial of the share of a segment, about some share of it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Polynomial {
-    degree: usize,
-    /// The coefficients, that of the lowest power first.
-    coefficients: [f64; MAX_DEGREE + 1],
-}
-
-impl Polynomial {
-    pub(crate) fn new(degree: usize, coefficient: impl Fn(usize) -> f64) -> Self {
-        let mut coefficients = [0.0; MAX_DEGREE + 1];
-        for (power, own) in coefficients[..=degree].iter_mut().enumerate() {
-            *own = coefficient(power);
-        }
-        Polynomial {
-            degree,
-            coefficients,
-        }
-    }
-
-    /// Returns the same polynomial about another share: its Taylor series there, by Horner's scheme.
-    pub(crate) fn about(mut self, share: f64) -> Self {
-        for lowest in 0..self.degree {
-            for power in (lowest..self.degree).rev() {
-                self.coefficients[power] += share * self.coefficients[power + 1];
-            }
-        }
-        self
-    }
-
-    #[cfg(test)]
-    pub(crate) fn coefficient(&self, power: usize) -> f64 {
-        self.coefficients[power]
-    }
-
-    /// Bounds the rounding error of values on the segment.
-    pub(crate) fn rounding(&self) -> f64 {
-        8.0 * f64::EPSILON * rounding_factor(self.degree) * self.size()
-    }
-
-    /// Returns the sum of the absolute values of all coefficients.
-    fn size(&self) -> f64 {
-        self.coefficients.iter().map(|own| own.abs()).sum()
-    }
-
-    /// Bounds the values within a share of the middle to both sides, for the polynomial about the middle. It halves the range
-    /// as long as the bound is much wider than the values that are seen.
-    fn range(&self, half: f64, halvings: u32) -> [f64; 2] {
-        let (middle, deviation) = (self.constant(), self.deviation_bound(half));
-        let ends = [-half, half].map(|offset| self.about(offset).constant());
-        let seen = greater((ends[0] - middle).abs(), (ends[1] - middle).abs());
-        if halvings == 0 || deviation <= MAX_RANGE_WIDTH_RATIO * seen {
-            return [middle - deviation, middle + deviation];
-        }
-        let [first, last] = [-0.5 * half, 0.5 * half]
-            .map(|offset| self.about(offset).range(0.5 * half, halvings - 1));
-        [lesser(first[0], last[0]), greater(first[1], last[1])]
-    }
-
-    /// Returns the value at the share about which the polynomial is.
-    pub(crate) fn constant(&self) -> f64 {
-        self.coefficients[0]
-    }
-
-    /// Bounds how far values are from the one in the middle, within a share of it to both sides: `Σ |cᵢ| hⁱ`.
-    pub(crate) fn deviation_bound(&self, half: f64) -> f64 {
-        let rest = self.coefficients[1..=self.degree].iter().rev();
-        half * rest.fold(0.0, |sum, coefficient| coefficient.abs() + half * sum)
-    }
-
-    /// Bounds how far values are from those of the line between both ends, within a share of the middle to both sides.
-    ///
-    /// A function is at most `(2h)²/8` times its largest second derivative from its chord: `Σ i (i−1)/2 |cᵢ| hⁱ`.
-    fn chord_deviation_bound(&self, half: f64) -> f64 {
-        let curved = self.coefficients[..=self.degree].iter().enumerate().skip(2);
-        let sum = curved.rev().fold(0.0, |sum, (power, coefficient)| {
-            let pairs = (power * (power - 1) / 2) as f64;
-            pairs * coefficient.abs() + half * sum
-        });
-        // The square of a short half may be zero; each term has a few roundings.
-        half * (half * sum) * (1.0 + 1e-12)
-    }
-}
-
-#[cfg(test)]
-mod tests;

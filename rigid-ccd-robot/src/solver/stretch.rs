@@ -1,15 +1,6 @@
-//! Points and stretches of a path.
+//! Stretches of a path.
 
 use rigid_ccd::Error;
-
-/// A point of a path: the number of a segment between two configurations, and the share of the segment that is passed.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-pub struct PathPoint {
-    /// The number of the segment: 0 between the first two configurations.
-    pub segment: usize,
-    /// The share of the segment that is passed, from 0 to 1.
-    pub share: f64,
-}
 
 /// A stretch of a path. Its ends are measured in segments: 1.5 is the middle of the second one.
 ///
@@ -20,24 +11,6 @@ pub(crate) struct Stretch {
     pub(crate) to: f64,
     /// The number of times that the path was halved to get this stretch.
     pub(crate) halvings: u32,
-}
-
-impl PathPoint {
-    /// Returns the time at which a robot is at this point if each segment takes one unit of time: the number of the segment and
-    /// the share together.
-    pub fn time(self) -> f64 {
-        // Exact: the share was computed from this sum.
-        self.segment as f64 + self.share
-    }
-
-    /// Converts a number of segments; the end of a path belongs to its last segment.
-    pub(crate) fn from_path_position(at: f64, segments: usize) -> Self {
-        let segment = (at as usize).min(segments.saturating_sub(1));
-        PathPoint {
-            segment,
-            share: at - segment as f64,
-        }
-    }
 }
 
 impl Stretch {

@@ -112,6 +112,11 @@ Cell (--cell), TOML. Bodies are those of `ccd query --a`; files are looked for n
   body = \"box:0.8,0.8,0.02\"       # half extents
   position = [0, 0, -0.05]        # in the frame of the robot's base [default: 0]
   rpy = [0, 0, 1.57]              # or quaternion = [w, x, y, z] [default: none]
+  moves = \"floating\"              # or planar: it has joints of its own, table/base/x and so on [default: it rests]
+  [[robot]]                       # another one, placed as an obstacle; its joints are right/shoulder and so on
+  name = \"right\"
+  urdf = \"arm.urdf\"               # and srdf
+  base = \"planar\"                 # or floating [default: it rests]
   [[attached]]                    # an object that a link holds: as an obstacle, in the link's frame, with
   link = \"hand\"
   may_touch = [\"finger\"]

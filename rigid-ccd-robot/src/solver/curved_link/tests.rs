@@ -3,7 +3,7 @@
 use super::*;
 use crate::joint_curve::JointCurve;
 use crate::path::PathSource;
-use crate::solver::exact::pair_chain;
+use crate::solver::pair_chain::pair_chain;
 use crate::solver::tests::{random_cell, random_configuration};
 use ccd_core::order::greater;
 use rand::{RngExt, SeedableRng};

@@ -4,6 +4,7 @@ use super::{fault_at, numbers};
 use crate::mesh::affine::AffineMap;
 use crate::mesh::error::MeshFault;
 use ccd_core::glam::{DAffine3, DMat4, DQuat, DVec3};
+use ccd_core::vector::unit;
 use roxmltree::Node;
 
 /// Reads the transforms of a node, the first of which is applied last.
@@ -22,7 +23,7 @@ pub(super) fn node_transform(node: Node<'_, '_>) -> Result<AffineMap, MeshFault>
             }
             "rotate" => {
                 let [x, y, z, degrees] = exactly(element)?;
-                match DVec3::new(x, y, z).try_normalize() {
+                match unit(DVec3::new(x, y, z)) {
                     Some(axis) => {
                         DAffine3::from_quat(DQuat::from_axis_angle(axis, degrees.to_radians()))
                     }

@@ -1,8 +1,8 @@
 //! Several robots as one.
 
-use super::{CompoundKind, Joint, Link, PositionRule, Robot};
 use crate::error::RobotError;
 use crate::pairs::LinkPairs;
+use crate::robot::{CompoundKind, Joint, Link, PositionRule, Robot};
 use rigid_ccd::{Pose, trajectory};
 
 /// The name of the link that holds the bases of all robots that are combined.

@@ -97,7 +97,7 @@ fn ranges_enclose_all_values_and_fit() {
         } else {
             chebyshev(random.random_range(1..=MAX_DEGREE))
         };
-        let range = polynomial.about(0.5).range(0.5, MAX_RANGE_HALVINGS);
+        let range = polynomial.range();
         let values = (0..=200).map(|k| value(&polynomial, f64::from(k) / 200.0));
         let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
         for value in values {

@@ -1,0 +1,60 @@
+//! Where the bases of robots are that are combined, and how they move.
+
+use crate::errors::input_error;
+use crate::motion::{GivenPose, read_given_pose};
+use pyo3::prelude::*;
+use pyo3::types::PyMapping;
+use rigid_ccd_robot::CompoundKind;
+
+/// The place of a robot's base in the world, and how it moves, by the name that Python gives it.
+pub(crate) struct RobotBase {
+    pub(crate) pose: GivenPose,
+    pub(crate) motion_name: String,
+}
+
+impl RobotBase {
+    /// Reads the bases of robots with these names from dicts of the poses and the motions of some of them.
+    pub(crate) fn read_all(
+        names: &[String],
+        poses: Option<&Bound<'_, PyMapping>>,
+        motions: Option<&Bound<'_, PyMapping>>,
+    ) -> PyResult<Vec<Self>> {
+        let at_rest = || RobotBase {
+            pose: GivenPose::IDENTITY,
+            motion_name: "fixed".to_owned(),
+        };
+        let mut bases: Vec<RobotBase> = names.iter().map(|_| at_rest()).collect();
+        let number = |name: &str, what: &str| {
+            let number = names.iter().position(|other| other == name);
+            number.ok_or_else(|| input_error(format!("{what}: there is no robot '{name}'")))
+        };
+        for (name, pose) in entries(poses)? {
+            bases[number(&name, "poses")?].pose = read_given_pose(&pose, "poses")?;
+        }
+        for (name, motion) in entries(motions)? {
+            bases[number(&name, "bases")?].motion_name = motion.extract()?;
+        }
+        Ok(bases)
+    }
+
+    /// Returns how the base moves; `None` if it rests.
+    pub(crate) fn motion(&self) -> PyResult<Option<CompoundKind>> {
+        match self.motion_name.as_str() {
+            "fixed" => Ok(None),
+            "floating" => Ok(Some(CompoundKind::Floating)),
+            "planar" => Ok(Some(CompoundKind::Planar {
+                normal: [0.0, 0.0, 1.0],
+            })),
+            other => Err(input_error(format!(
+                "bases: '{other}' is not fixed, planar or floating"
+            ))),
+        }
+    }
+}
+
+type Entries<'py> = Vec<(String, Bound<'py, PyAny>)>;
+
+fn entries<'py>(given: Option<&Bound<'py, PyMapping>>) -> PyResult<Entries<'py>> {
+    let items = given.map(|given| given.items()).transpose()?;
+    items.iter().flatten().map(|item| item.extract()).collect()
+}
