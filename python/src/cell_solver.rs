@@ -105,7 +105,7 @@ impl CellWithCachedSolvers {
     }
 }
 
-/// Locks a value. After a panic a cell is as it was, and there are no solvers.
+/// Locks a value. After a panic in a question there are no solvers; a change does not panic.
 fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
     value.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -4,7 +4,7 @@ use crate::arrays::{flat_numbers, float64_array};
 use crate::cell_solver::Paths;
 use crate::errors::input_error;
 use crate::robot::PyRobot;
-use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 use rigid_ccd_robot::{JointCurve, PathPoint};
@@ -122,19 +122,19 @@ fn read_curve(values: &Bound<'_, PyAny>) -> PyResult<Option<JointCurve>> {
 /// The largest difference of a value to that of the object which the curve is, relative to values above 1.
 const MAX_VALUE_DIFFERENCE: f64 = 1e-6;
 
-/// The number of segments in which values are compared.
-const MAX_CHECKED_SEGMENTS: usize = 4;
-
-/// Refuses an object whose values are not those of its coefficients as powers, such as a `BPoly`. An object that cannot be
-/// called has no values.
+/// Refuses an object whose values are not those of its coefficients as powers, such as a `BPoly`: two values in each segment are
+/// compared. An object that cannot be called has no values.
 fn check_values(given: &Bound<'_, PyAny>, curve: &JointCurve) -> PyResult<()> {
     if !given.is_callable() {
         return Ok(());
     }
-    for span in curve.times().windows(2).take(MAX_CHECKED_SEGMENTS) {
-        let time = span[0] + 0.375 * (span[1] - span[0]);
-        let values = flat_numbers(&given.call1((time,))?, "path(time)")?;
-        let own = curve.positions(time);
+    let inside = |span: &[f64]| [0.375, 0.75].map(|share| span[0] + share * (span[1] - span[0]));
+    let times: Vec<f64> = curve.times().windows(2).flat_map(inside).collect();
+    let array = PyArray1::from_slice(given.py(), &times);
+    let values = flat_numbers(&given.call1((array,))?, "path(times)")?;
+    let joints = values.len() / times.len();
+    for (k, time) in times.iter().enumerate() {
+        let (values, own) = (&values[k * joints..][..joints], curve.positions(*time));
         // Written so that NaN is refused.
         let is_same = |(value, own): (&f64, &f64)| {
             (value - own).abs() <= MAX_VALUE_DIFFERENCE * (1.0 + own.abs())

@@ -329,8 +329,8 @@ def test_robots_are_combined(robot: Robot) -> None:
 
 def test_curves_are_what_their_objects_say(robot: Robot) -> None:
     class Called(PPoly):
-        def __call__(self, time: float) -> Any:
-            return [0.5 * time, 0.0]
+        def __call__(self, times: Any) -> Any:
+            return np.stack([0.5 * times, 0 * times], axis=1)
 
     cell = Cell(robot)
     cell.add("post", Body.sphere(0.1), ([0, 1.5, 0], [1, 0, 0, 0]))

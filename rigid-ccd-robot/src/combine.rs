@@ -5,7 +5,8 @@ use crate::pairs::LinkPairs;
 use crate::robot::{CompoundKind, Joint, Link, PositionRule, Robot};
 use rigid_ccd::{Pose, trajectory};
 
-/// The name of the link that holds the bases of all robots that are combined.
+/// The name of the link that holds the bases of all robots that are combined. It gets underscores if a robot has one of that
+/// name.
 const WORLD: &str = "world";
 
 /// A robot among others, with the place of its base.
@@ -31,7 +32,7 @@ impl Robot {
     /// positions first, with names such as `cart/base/x`. An obstacle that moves is a robot of one link, with such a base.
     ///
     /// # Errors
-    /// [`RobotError`] for names that are not unique, and for a plane without a normal.
+    /// [`RobotError`] for names that are not unique, a plane without a normal, and pairs of another robot.
     ///
     /// ```
     /// use rigid_ccd::{Body, Pose};
@@ -57,13 +58,18 @@ impl Robot {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn combine(robots: &[PlacedRobot<'_>]) -> Result<(Robot, LinkPairs), RobotError> {
-        let mut links = vec![Link::named(WORLD)];
+        let mut world = WORLD.to_owned();
+        let names = || robots.iter().flat_map(PlacedRobot::link_names);
+        while names().any(|name| name == world) {
+            world.push('_');
+        }
+        let mut links = vec![Link::named(&world)];
         let mut joints = Vec::new();
         let mut first_links = Vec::new();
         // Links of moving bases come last, so that those of a robot keep their order.
         let mut base_links = Vec::new();
         for placed in robots {
-            let (own_links, own_joints) = placed.base_joints()?;
+            let (own_links, own_joints) = placed.base_joints(&world)?;
             base_links.extend(own_links);
             joints.extend(own_joints);
             first_links.push(links.len());
@@ -84,13 +90,22 @@ impl Robot {
         let mut pairs = LinkPairs::from_robot(&combined);
         for (placed, first) in robots.iter().zip(first_links) {
             let own = first..first + placed.robot.links().len();
-            pairs.replace_within(own, placed.pairs);
+            if !pairs.replace_within(own, placed.pairs) {
+                return Err(RobotError::PairsOfAnotherRobot {
+                    robot: placed.name.to_owned(),
+                });
+            }
         }
         Ok((combined, pairs))
     }
 }
 
 impl PlacedRobot<'_> {
+    fn link_names(&self) -> impl Iterator<Item = String> {
+        let links = self.robot.links().iter();
+        links.map(|link| self.prefixed(&link.name))
+    }
+
     /// Returns a name with that of the robot before it.
     fn prefixed(&self, name: &str) -> String {
         match self.name {
@@ -100,15 +115,24 @@ impl PlacedRobot<'_> {
     }
 
     /// Returns the joints that hold the base in the world, with the links between them.
-    fn base_joints(&self) -> Result<(Vec<Link>, Vec<Joint>), RobotError> {
+    fn base_joints(&self, world: &str) -> Result<(Vec<Link>, Vec<Joint>), RobotError> {
         let base = self.prefixed(&self.robot.links()[self.robot.base()].name);
-        let name = self.prefixed("base");
+        let mut name = self.prefixed("base");
+        let has_joint = |name: &String| {
+            let joints = self.robot.joints().iter();
+            joints
+                .map(|joint| self.prefixed(&joint.name))
+                .any(|own| own == *name)
+        };
+        while has_joint(&name) {
+            name.push('_');
+        }
         if let Some(kind) = self.base_motion {
-            return Ok(kind.links_and_joints(&name, [WORLD, &base], self.pose)?);
+            return Ok(kind.links_and_joints(&name, [world, &base], self.pose)?);
         }
         let fixed = Joint {
             name,
-            parent: WORLD.to_owned(),
+            parent: world.to_owned(),
             child: base,
             axis_and_limits: trajectory::Joint::fixed(self.pose),
             position_rule: PositionRule::Independent,

@@ -21,6 +21,12 @@ pub enum RobotError {
         /// The name of the second one.
         b: String,
     },
+    /// Pairs of links that are checked are not of the robot with which they are given.
+    #[error("the pairs of links given with robot `{robot}` are of another robot")]
+    PairsOfAnotherRobot {
+        /// The name of the robot.
+        robot: String,
+    },
     /// Nothing in the cell has the given name.
     #[error("there is no link, attached body or obstacle `{name}`")]
     NoSuchItem {

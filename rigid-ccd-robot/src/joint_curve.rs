@@ -42,7 +42,8 @@ impl JointCurve {
     /// Creates a curve from polynomials of the time since each segment's start: for each segment and each joint with a position
     /// of its own its coefficients, that of the lowest power first.
     ///
-    /// The path is that of the polynomials of the share of each segment, whose coefficients are rounded.
+    /// The path is that of the polynomials of the share of each segment, whose coefficients are rounded. Where a joint jumps by
+    /// less than 1e-9 from one segment to the next, what lies between is not checked.
     ///
     /// # Errors
     /// [`CurveError`] for numbers that are not finite, times that do not increase, numbers of segments, joints or coefficients
@@ -140,10 +141,11 @@ impl JointCurve {
             let by_joint: Vec<[f64; COUNT]> = (0..joint_count)
                 .map(|joint| {
                     let ends = [segment, segment + 1].map(|row| {
-                        let mut scale = 1.0 / duration;
+                        let mut scale = 1.0;
                         derivatives.map(|rows| {
+                            let by_share = rows[row].as_ref()[joint] * scale;
                             scale *= duration;
-                            rows[row].as_ref()[joint] * scale
+                            by_share
                         })
                     });
                     interpolate(ends)
@@ -238,8 +240,8 @@ impl JointCurve {
 
     /// Returns the positions of all joints at a time; before the start and after the end, those there.
     pub fn positions(&self, time: f64) -> Vec<f64> {
-        let later = self.times[1..self.segment_count()].iter();
-        let segment = later.take_while(|&&start| start <= time).count();
+        let later = &self.times[1..self.segment_count()];
+        let segment = later.partition_point(|&start| start <= time);
         let [from, to] = [self.times[segment], self.times[segment + 1]];
         let share = ((time - from) / (to - from)).clamp(0.0, 1.0);
         let joints = 0..self.joint_count;
@@ -298,16 +300,24 @@ impl JointCurve {
     }
 }
 
-/// Bounds the rounding error of a time between two others: a difference, a product and a sum are rounded, relative to the larger
-/// of both.
+/// Bounds the rounding error of a time between two others. A difference, a product and two sums are rounded, relative to at most
+/// twice the larger of both.
 fn time_rounding([from, to]: [f64; 2]) -> f64 {
-    2.0 * f64::EPSILON * greater(from.abs(), to.abs())
+    4.0 * f64::EPSILON * greater(from.abs(), to.abs())
 }
 
-/// Finds a share at which a polynomial is outside of limits, by more than it is rounded, and its value there.
+/// Finds a share at which a polynomial is outside of limits, by more than it is rounded, and its value there. It looks at both
+/// ends, and at middles of ranges that may leave the limits, down to a millionth of the segment; no proof depends on it.
 fn find_outside(polynomial: &Polynomial, [low, high]: [f64; 2]) -> Option<(f64, f64)> {
     let rounding = polynomial.rounding();
     let [low, high] = [low - rounding, high + rounding];
+    for share in [0.0, 1.0] {
+        let value = polynomial.about(share).constant();
+        // Written so that NaN is outside.
+        if !(low <= value && value <= high) {
+            return Some((share, value));
+        }
+    }
     let mut open = SmallVec::<[_; MAX_LIMIT_HALVINGS as usize + 1]>::new();
     open.push((0.0, 1.0, 0));
     while let Some((from, to, halvings)) = open.pop() {

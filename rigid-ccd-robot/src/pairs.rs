@@ -102,13 +102,26 @@ impl LinkPairs {
     }
 
     /// Replaces what is skipped among the links of a range by what is skipped among those of a robot whose links they are.
-    pub(crate) fn replace_within(&mut self, links: Range<usize>, own: &LinkPairs) {
+    /// Returns whether they are those of such a robot, as far as its links have bodies.
+    #[must_use]
+    pub(crate) fn replace_within(&mut self, links: Range<usize>, own: &LinkPairs) -> bool {
+        let with_bodies = self
+            .links_with_bodies
+            .iter()
+            .filter(|link| links.contains(link));
+        let own_with_bodies = own.links_with_bodies.iter().map(|link| links.start + link);
+        let numbers = own.skip_reasons.keys().flatten();
+        let fit = numbers.into_iter().all(|&link| link < links.len());
+        if !fit || !with_bodies.copied().eq(own_with_bodies) {
+            return false;
+        }
         let is_within = |pair: &[usize; 2]| pair.iter().all(|link| links.contains(link));
         self.skip_reasons.retain(|pair, _| !is_within(pair));
         let own = own.skip_reasons.iter();
         let renumbered =
             own.map(|(pair, reason)| (pair.map(|link| links.start + link), reason.clone()));
         self.skip_reasons.extend(renumbered);
+        true
     }
 
     /// Iterates over all pairs of links with bodies.

@@ -205,24 +205,21 @@ fn convert_joint(joint: &urdf_rs::Joint) -> Result<(Vec<Link>, Vec<Joint>), Urdf
     let origin = convert_pose(&joint.origin)?;
     let axis = joint.axis.xyz.0;
     let limits = joint.limit.lower..=joint.limit.upper;
-    let compound = match joint.joint_type {
-        JointType::Floating => Some(CompoundKind::Floating),
-        JointType::Spherical => Some(CompoundKind::Spherical),
-        JointType::Planar => Some(CompoundKind::Planar { normal: axis }),
-        _ => None,
-    };
     let [parent, child] = [&joint.parent.link, &joint.child.link];
-    if let Some(kind) = compound {
+    let compound = |kind: CompoundKind| {
         if joint.mimic.is_some() {
             return Err(UrdfError::CompoundMimic);
         }
-        return Ok(kind.links_and_joints(&joint.name, [parent, child], origin)?);
-    }
+        Ok(kind.links_and_joints(&joint.name, [parent, child], origin)?)
+    };
     let moved = match joint.joint_type {
+        JointType::Floating => return compound(CompoundKind::Floating),
+        JointType::Spherical => return compound(CompoundKind::Spherical),
+        JointType::Planar => return compound(CompoundKind::Planar { normal: axis }),
         JointType::Revolute => trajectory::Joint::revolute(origin, axis)?.with_limits(limits),
         JointType::Prismatic => trajectory::Joint::prismatic(origin, axis)?.with_limits(limits),
         JointType::Continuous => trajectory::Joint::revolute(origin, axis)?,
-        _ => trajectory::Joint::fixed(origin),
+        JointType::Fixed => trajectory::Joint::fixed(origin),
     };
     let position = match &joint.mimic {
         None => PositionRule::Independent,

@@ -49,10 +49,10 @@ pub enum Format {
     Gltf,
     /// COLLADA 1.4 and 1.5 (`.dae`), in f64; it is read only with the Cargo feature `collada`.
     ///
-    /// Coordinates are in the document's unit, and stay as they are: the direction that counts as up is passed over, as robots'
-    /// files expect. Parts are the geometries that the nodes of the scene place, with the name of their node. Triangles, strips,
-    /// fans and polygons are read. Lines, and geometries with a skin or morphs, are skipped with a remark. Polygons with holes,
-    /// and `lookat` and `skew`, are errors.
+    /// Coordinates are in the document's unit, and stay as they are: the direction that counts as up is passed over, as rviz and
+    /// MoveIt do. Parts are the geometries that the nodes of the scene place, with the name of their node. Triangles, strips,
+    /// fans and polygons are read. Lines are skipped with a remark, and geometries with a skin or morphs are taken at rest, with
+    /// a remark. Polygons with holes, `lookat`, `skew`, and units of single elements are errors.
     Collada,
 }
 

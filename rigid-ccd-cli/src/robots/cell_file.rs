@@ -194,6 +194,16 @@ impl<'p> CellSource<'p> {
             attach(cell, folder, attached)
                 .with_context(|| format!("attached body {}", attached.name))?;
         }
+        let moves = file
+            .obstacle
+            .iter()
+            .find(|obstacle| obstacle.moves.is_some());
+        if let (Some(obstacle), false) = (moves, file.padding.is_empty()) {
+            bail!(
+                "obstacle {} moves, and [padding] is for obstacles at rest; give it a [[clearance]]",
+                obstacle.name
+            );
+        }
         for (link, distance) in &file.padding {
             cell.set_padding(link, *distance)?;
         }

@@ -59,9 +59,8 @@ pub(crate) struct HullPart {
 }
 
 impl PlacedBody {
-    /// Creates a body in a cell, which hulls enclose: at most `max_hulls` around each connected part of it, or one around a link's
-    /// body. The engine takes the triangles of a polytope
-    /// against other bodies of many triangles.
+    /// Creates a body in a cell, which hulls enclose: one, or if `max_hulls` is at least 2, up to so many around each connected
+    /// part of it. The engine takes the triangles of a polytope against other bodies of many triangles.
     pub(crate) fn new(body: Arc<Body>, pose: Pose, frame: usize, max_hulls: usize) -> Self {
         let body = match hull_surface_of_polytope(&body) {
             Some(surface) => Body::clone(&body)
@@ -69,7 +68,7 @@ impl PlacedBody {
                 .map_or(body, Arc::new),
             None => body,
         };
-        let clusters = connected_clusters(body.pieces().iter().collect(), max_hulls);
+        let clusters = connected_clusters(&body, max_hulls);
         let hulls = clusters
             .iter()
             .map(|pieces| Arc::new(Hull::around_pieces(pieces)))

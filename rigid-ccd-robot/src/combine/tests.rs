@@ -152,3 +152,36 @@ fn robots_keep_their_own_pairs() {
         RobotError::JointNameTaken { .. } | RobotError::LinkNameTaken { .. }
     ));
 }
+
+/// Tests that pairs of another robot are refused, and that links and joints may be named as those that are added.
+#[test]
+fn pairs_are_of_their_robot_and_names_are_free() {
+    let mut random = Pcg64::seed_from_u64(53);
+    let robot = random_robot(&mut random);
+    let ball =
+        Link::named("world").with_body(rigid_ccd::Body::sphere(0.1).unwrap(), Pose::IDENTITY);
+    let joint = Joint {
+        name: "base".into(),
+        parent: "world".into(),
+        child: "tip".into(),
+        axis_and_limits: trajectory::Joint::fixed(Pose::IDENTITY),
+        position_rule: PositionRule::Independent,
+    };
+    let small = Robot::new(vec![ball, Link::named("tip")], vec![joint]).unwrap();
+    let small_pairs = LinkPairs::from_robot(&small);
+    let placed = |robot, pairs| PlacedRobot {
+        name: "",
+        robot,
+        pairs,
+        pose: Pose::IDENTITY,
+        base_motion: Some(CompoundKind::Floating),
+    };
+    let (both, _) = Robot::combine(&[placed(&small, &small_pairs)]).unwrap();
+    assert_eq!(both.links()[0].name, "world_");
+    assert_eq!(both.free_joint_names().next(), Some("base_/x"));
+    let error = Robot::combine(&[placed(&robot, &small_pairs)]).unwrap_err();
+    assert!(
+        matches!(error, RobotError::PairsOfAnotherRobot { .. }),
+        "{error}"
+    );
+}

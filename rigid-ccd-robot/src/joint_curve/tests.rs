@@ -141,6 +141,15 @@ fn a_curve_stays_within_the_limits() {
     for height in [0.5, 1.0, -1.0] {
         assert!(cell.solver().is_free(&hump(height)).unwrap(), "{height}");
     }
+    let line = |rate: f64| {
+        let segments = [vec![vec![0.0, rate]]];
+        JointCurve::from_polynomials(&[0.0, 1.0], &segments).unwrap()
+    };
+    assert!(cell.solver().is_free(&line(1.0)).is_ok());
+    assert!(cell.solver().is_free(&line(1.0 + 1e-9)).is_err());
+    // A duration whose quotient and product is not 1.
+    let still = JointCurve::cubic_hermite(&[0.0, 49.0], &[[1.0], [1.0]], &[[0.0], [0.0]]).unwrap();
+    assert!(cell.solver().is_free(&still).is_ok() && still.positions(0.0) == [1.0]);
     for height in [1.001, -2.0] {
         let error = cell.solver().is_free(&hump(height)).unwrap_err();
         assert!(

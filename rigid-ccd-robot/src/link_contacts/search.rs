@@ -9,7 +9,7 @@ use crate::solver::placement::Placement;
 use crate::solver::violation::are_convex_parts_nearer;
 use crate::tuning::JOINT_AXIS_INTERVALS;
 use ccd_core::order::greater;
-use rigid_ccd::{Body, Error, Pose, Solver};
+use rigid_ccd::{Body, Error, Outcome, Pose, Solver};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -140,6 +140,7 @@ impl<'c> PairSearch<'c> {
         for number in 0..self.cell.robot_body_count() {
             if self.cell.link_of(number) == link {
                 let body = self.placed_body(number)?;
+                // A proof is about the shapes.
                 if self.solver.distance(body, other)?.outcome.upper() <= 0.0 {
                     return Ok(true);
                 }
@@ -177,7 +178,7 @@ impl<'c> PairSearch<'c> {
             let [a, b] = pair.body_numbers(self.cell.parts());
             let (a, b) = (self.placed_body(a)?, self.placed_body(b)?);
             let outcome = self.solver.distance(a, b)?.outcome;
-            if outcome.upper() <= 0.0 {
+            if touch_as_they_are(&outcome, [a.0, b.0]) {
                 look.touches_in_middle = Some(true);
             } else if !(outcome.lower() > rounding) && look.touches_in_middle == Some(false) {
                 look.touches_in_middle = None;
@@ -250,4 +251,11 @@ impl Ord for WaitingBox {
     fn cmp(&self, other: &Self) -> Ordering {
         self.0.volume_share.total_cmp(&other.0.volume_share)
     }
+}
+
+/// Returns whether two bodies touch, up to rounding. The upper bound of a distance is of the shapes that they enclose: it includes
+/// what they exceed these by.
+fn touch_as_they_are(outcome: &Outcome, bodies: [&Body; 2]) -> bool {
+    let excess: f64 = bodies.iter().map(|body| body.excess()).sum();
+    outcome.upper() <= excess * (1.0 + 4.0 * f64::EPSILON)
 }

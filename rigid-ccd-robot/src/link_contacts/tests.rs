@@ -67,8 +67,8 @@ fn limits_decide_whether_a_hinge_meets_its_stop() {
     // The rod of half length 0.4 from 0.1 to 0.9, and a post of radius 0.1 at (0, 0.8): they meet at a right angle
     // less the angle of 0.15 at the distance 0.8.
     let meet = std::f64::consts::FRAC_PI_2 - (0.15f64 / 0.8).asin();
-    let door = |limit: f64, joint_limit: f64| {
-        let rod = Body::capsule(0.05, 0.35).unwrap();
+    let capsule = || Body::capsule(0.05, 0.35).unwrap();
+    let door_with = |rod: Body, limit: f64, joint_limit: f64| {
         let lying = rigid_ccd::glam::DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2);
         let links = vec![
             Link::named("frame").with_body(
@@ -88,7 +88,15 @@ fn limits_decide_whether_a_hinge_meets_its_stop() {
         let robot = Robot::new(links, joints).unwrap();
         robot.classify_link_contacts(10_000).unwrap().remove(0).1
     };
+    let door = |limit: f64, joint_limit: f64| door_with(capsule(), limit, joint_limit);
     assert_eq!(door(meet - 1e-4, 0.0), LinkContactClass::Never);
+    // A body that exceeds its shape counts as it is.
+    let cylinder = Body::cylinder(0.05, 0.35).unwrap();
+    assert!(cylinder.excess() > 0.0);
+    assert!(matches!(
+        door_with(cylinder, meet + 0.2, 0.0),
+        LinkContactClass::Sometimes { .. }
+    ));
     assert!(matches!(
         door(meet + 1e-2, 0.0),
         LinkContactClass::Sometimes { .. }

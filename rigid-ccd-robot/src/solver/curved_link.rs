@@ -44,7 +44,7 @@ impl Trajectory for CurvedLink<'_> {
         let duration = if time > 0.0 { time } else { 1.0 };
         let chain = &self.pair_chain.chain;
         let link = chain.link(first.len(), &first, &last, duration)?;
-        link.with_joint_deviations(&deviations)
+        link.with_joint_deviations(&deviations)?
             .stretch_between(0.0, time)
     }
 }

@@ -198,7 +198,8 @@ impl JointPath {
         joint: usize,
     ) -> f64 {
         let half = 0.5 * (to - from);
-        let middle = from + half - segment as f64;
+        // A late segment has a large number.
+        let middle = (from - segment as f64) + half;
         let polynomial = self.polynomial(segment, joint);
         polynomial.about(middle).chord_deviation_bound(half)
     }

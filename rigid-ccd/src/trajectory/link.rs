@@ -4,7 +4,7 @@ mod bounds;
 
 use super::U;
 use super::chain::Chain;
-use super::checks::check_duration;
+use super::checks::{check_duration, out_of_range_error};
 use super::joint::{Direction, Joint, JointKind};
 use bounds::{JointPositionBounds, LinkBounds};
 use ccd_core::glam::{DQuat, DVec3};
@@ -121,17 +121,36 @@ impl<'c> LinkTrajectory<'c> {
         }
     }
 
-    /// Lets each joint deviate from its position at a constant rate, at any time, by at most so much: a number for each joint, in
-    /// radians or as a length. Joints without a number do not deviate.
+    /// Lets each joint deviate from its position at a constant rate, at any time, by at most so much: a number for each joint of
+    /// the chain, in radians or as a length.
     ///
     /// Joints that follow a curve are near constant rates for a short time. A [`Trajectory`] of theirs has stretches of such
     /// links.
-    #[must_use]
-    pub fn with_joint_deviations(self, deviations: &'c [f64]) -> Self {
-        LinkTrajectory {
+    ///
+    /// # Errors
+    /// [`InputError::JointCountMismatch`] for more or fewer numbers than joints, [`InputError::OutOfRange`] for one that is not
+    /// finite and at least 0.
+    pub fn with_joint_deviations(self, deviations: &'c [f64]) -> Result<Self, InputError> {
+        let joints = self.chain.joints().len();
+        if deviations.len() != joints {
+            return Err(InputError::JointCountMismatch {
+                positions: deviations.len(),
+                joints,
+            });
+        }
+        // Written so that NaN is refused.
+        let is_no_bound = |deviation: &&f64| !(**deviation >= 0.0 && **deviation < f64::INFINITY);
+        if let Some(&wrong) = deviations.iter().find(is_no_bound) {
+            return Err(out_of_range_error(
+                "deviation of a joint",
+                wrong,
+                "finite and at least 0",
+            ));
+        }
+        Ok(LinkTrajectory {
             joint_deviations: deviations,
             ..self
-        }
+        })
     }
 
     /// Bounds how far the link is from its pose at constant rates, for arms of at most this length together.

@@ -55,7 +55,22 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
 /// Reads the unit of a document, which is the metre if none is stated. Programs store its length in f32, too.
 fn read_unit(root: Node<'_, '_>) -> Result<Unit, MeshFault> {
     let asset = child_named(root, "asset");
+    let units = root
+        .descendants()
+        .filter(|element| element.tag_name().name() == "unit");
     let unit = asset.and_then(|asset| child_named(asset, "unit"));
+    let is_other = |element: &Node<'_, '_>| {
+        element.parent() != asset
+            && element
+                .parent()
+                .is_some_and(|parent| parent.tag_name().name() == "asset")
+    };
+    if let Some(other) = units.into_iter().find(is_other) {
+        return Err(fault_at(
+            other,
+            "is of a single element; give the document one unit",
+        ));
+    }
     let Some(unit) = unit.filter(|unit| unit.has_attribute("meter")) else {
         return Ok(Unit::Metre);
     };

@@ -146,6 +146,11 @@ fn other_robots_and_moving_obstacles_have_positions_of_their_own() {
     // The ball keeps 0.5 from the arm's ball at the origin.
     assert!(solver.is_free(&with(7, -1.29)).unwrap());
     assert!(!solver.is_free(&with(7, -1.31)).unwrap());
+    let error = read(&format!("{text}\n[padding]\narm = 0.1")).unwrap_err();
+    assert!(
+        error.to_string().contains("obstacle ball moves"),
+        "{error:#}"
+    );
     let error = read("[[robot]]\nname = 'cart'\nurdf = 'none.urdf'").unwrap_err();
     assert!(
         format!("{error:#}").starts_with("robot cart: "),

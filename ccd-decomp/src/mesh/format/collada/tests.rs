@@ -192,6 +192,10 @@ fn what_is_wrong_is_named_with_its_line() {
             "which several elements are",
         ),
         (scene("<node><instance_geometry/></node>"), "has no url"),
+        (
+            scene(r#"<asset><unit meter="0.001"/></asset>"#),
+            "is of a single element",
+        ),
     ] {
         assert!(error.contains(expected), "{error} instead of {expected}");
     }
