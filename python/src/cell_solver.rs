@@ -52,10 +52,7 @@ impl CellWithCachedSolvers {
             solver.set_settings(settings.clone());
             question(solver)
         };
-        let any_number = |solvers: &CellSolvers<'_>| solvers.threads() > 0;
-        let mut answers = self.with_solvers(NonZeroUsize::MIN, any_number, |solvers| {
-            solvers.map(&[()], only_question)
-        });
+        let mut answers = self.with_solvers(None, |solvers| solvers.map(&[()], only_question));
         answers.remove(0)
     }
 
@@ -71,8 +68,7 @@ impl CellWithCachedSolvers {
         let threads = threads
             .or_else(|| available_parallelism().ok())
             .unwrap_or(NonZeroUsize::MIN);
-        let is_of_count = |solvers: &CellSolvers<'_>| solvers.threads() == threads.get();
-        self.with_solvers(threads, is_of_count, |solvers| {
+        self.with_solvers(Some(threads), |solvers| {
             solvers.map(tasks, |solver, task| {
                 solver.set_settings(settings.clone());
                 answer(solver, task)
@@ -80,22 +76,24 @@ impl CellWithCachedSolvers {
         })
     }
 
-    /// Calls `work` with the solvers of the last question if they are for the cell as it is now and `suits` accepts them, and
-    /// otherwise with new ones for so many threads.
+    /// Calls `work` with solvers for so many threads, or for any number of them: those of the last question if they are for the
+    /// cell as it is now, or new ones.
     fn with_solvers<T>(
         &self,
-        threads: NonZeroUsize,
-        suits: impl Fn(&CellSolvers<'_>) -> bool,
+        threads: Option<NonZeroUsize>,
         work: impl FnOnce(&mut CellSolvers<'_>) -> T,
     ) -> T {
         let cell = self.cell();
         let last = lock(&self.solvers).take();
         let is_usable = |kept: &CellAndSolvers| {
             Arc::ptr_eq(kept.borrow_owner(), &cell)
-                && kept.with_dependent(|_, solvers| suits(solvers))
+                && kept.with_dependent(|_, solvers| {
+                    threads.is_none_or(|threads| solvers.threads() == threads.get())
+                })
         };
         let mut solvers = last.filter(is_usable).unwrap_or_else(|| {
             CellAndSolvers::new(cell, |cell| {
+                let threads = threads.unwrap_or(NonZeroUsize::MIN);
                 ParallelSolver::with_threads(threads, || cell.solver())
             })
         });

@@ -9,6 +9,9 @@ use crate::mesh::polygons::Polygons;
 use ccd_core::glam::DVec3;
 use roxmltree::Node;
 
+/// The largest offset of an input. Files have a few inputs; the offset is a size in memory.
+const MAX_INPUT_OFFSET: usize = 1000;
+
 /// Reads the mesh of a geometry: its faces, with the corners' numbers among the positions.
 pub(super) fn read_geometry(
     geometry: Node<'_, '_>,
@@ -232,6 +235,3 @@ fn push_polylist(
     }
     Err(fault_at(list, "has more corners than <vcount> says"))
 }
-
-/// The largest offset of an input. Files have a few inputs; the offset is a size in memory.
-const MAX_INPUT_OFFSET: usize = 1000;

@@ -97,10 +97,11 @@ impl<'a, 'd> SceneTraversal<'a, 'd> {
             if let Some(matrix) = child_named(bending, "bind_shape_matrix") {
                 bound = bound.compose_after(&transform::matrix(matrix)?.into());
             }
-            if let Ok(geometry) = self.referred(bending, "geometry", "source") {
-                return Ok((geometry, bound));
+            let kinds = ["geometry", "controller"];
+            at = referred_element(&self.elements_by_id, bending, "source", &kinds)?;
+            if at.tag_name().name() == "geometry" {
+                return Ok((at, bound));
             }
-            at = self.referred(bending, "controller", "source")?;
         }
         Err(fault_at(instance, "names a controller that bends itself"))
     }
