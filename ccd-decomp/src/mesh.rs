@@ -4,8 +4,8 @@ pub(crate) mod adjustments;
 pub(crate) mod affine;
 mod combine;
 #[cfg_attr(
-    not(feature = "gltf"),
-    allow(dead_code, reason = "only scenes of this format are placed")
+    not(any(feature = "collada", feature = "gltf")),
+    allow(dead_code, reason = "only scenes of these formats are placed")
 )]
 mod content;
 pub(crate) mod error;
