@@ -118,6 +118,7 @@ pub use body::piece::Piece;
 pub use body::pieces::Pieces;
 pub use body::polytope::{Facet, FacetOrigin, MeshFace, Polytope};
 pub use body::round::{EnclosingPolytope, SolidOfRevolution};
+pub use body::shell::connected_part_numbers;
 pub use body::support::{
     SupportMap, SupportScan, SupportTable, SupportTree, TABLE_DIRECTION_COUNT,
 };

@@ -8,24 +8,29 @@ use std::collections::HashMap;
 /// The six extreme points of a connected part, along x, y, z, −x, −y and −z.
 pub(crate) type ExtremePoints = [DVec3; 6];
 
+/// Returns for each piece the number of the connected part that it belongs to; pieces that share a point are connected. Parts are
+/// numbered in the order of their first pieces.
+///
+/// # Complexity
+/// Approximately linear in the number of points.
+pub fn connected_part_numbers(pieces: &Pieces) -> Vec<u32> {
+    let (mut parts, _) = connected_points(pieces);
+    let mut number_of_root = HashMap::new();
+    let numbers = (0..pieces.len()).map(|piece| {
+        let root = parts.root(pieces.point_range(piece).start);
+        let next = number_of_root.len() as u32;
+        *number_of_root.entry(root).or_insert(next)
+    });
+    numbers.collect()
+}
+
 /// Returns the six extreme points of every connected part of a body; pieces that share a point are connected.
 ///
 /// # Complexity
 /// Approximately linear in the number of points.
 pub(crate) fn part_extreme_points(pieces: &Pieces) -> Vec<ExtremePoints> {
     let points = pieces.points();
-    let (mut parts, distinct) = join_equal_points_of_equal_number(pieces);
-    let mut count = distinct.len();
-    for piece in 0..pieces.len() {
-        let range = pieces.point_range(piece);
-        for k in range.start + 1..range.end {
-            count -= usize::from(parts.join(k - 1, k));
-        }
-    }
-    // A single part needs no further joining.
-    if count > 1 {
-        join_coincident_points(points, &distinct, &mut parts);
-    }
+    let (mut parts, distinct) = connected_points(pieces);
     let mut shell_of = vec![u32::MAX; points.len()];
     let mut shells: Vec<ExtremePoints> = Vec::new();
     for k in distinct {
@@ -82,6 +87,24 @@ fn join_coincident_points(points: &[DVec3], distinct: &[u32], parts: &mut Disjoi
         let first = *known.entry(position_bits(points[k as usize])).or_insert(k);
         parts.join(first as usize, k as usize);
     }
+}
+
+/// Joins the points of each piece, and points at the same place. Returns the sets, and one point of each that was joined at first.
+fn connected_points(pieces: &Pieces) -> (DisjointSets, Vec<u32>) {
+    let points = pieces.points();
+    let (mut parts, distinct) = join_equal_points_of_equal_number(pieces);
+    let mut count = distinct.len();
+    for piece in 0..pieces.len() {
+        let range = pieces.point_range(piece);
+        for k in range.start + 1..range.end {
+            count -= usize::from(parts.join(k - 1, k));
+        }
+    }
+    // A single part needs no further joining.
+    if count > 1 {
+        join_coincident_points(points, &distinct, &mut parts);
+    }
+    (parts, distinct)
 }
 
 /// A union-find forest: every element stores the index of another element of its set, and a root stores its own.

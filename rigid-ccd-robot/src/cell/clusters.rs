@@ -1,10 +1,8 @@
 //! Groups the pieces of a body, for a convex hull around each group.
 
 use crate::tuning::{MAX_COMPONENTS, MIN_PIECES_FOR_TWO_HULLS};
-use ccd_core::{Body, Piece, Solidity};
+use ccd_core::{Body, Piece, Solidity, connected_part_numbers};
 use rigid_ccd::glam::DVec3;
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 
 /// Groups the pieces of a body, so that each point of the body is in the hull of a group.
 ///
@@ -16,7 +14,7 @@ pub(super) fn connected_clusters(body: &Body, max_count: usize) -> Vec<Vec<Piece
     if max_count < 2 || pieces.len() < MIN_PIECES_FOR_TWO_HULLS {
         return vec![pieces];
     }
-    let components = components(&pieces);
+    let components = components(body);
     if components.len() > MAX_COMPONENTS {
         let shared = halved(components, MAX_COMPONENTS, |component| {
             component.iter().map(middle).sum::<DVec3>() / component.len() as f64
@@ -41,34 +39,13 @@ pub(super) fn connected_clusters(body: &Body, max_count: usize) -> Vec<Vec<Piece
 /// leaves both hulls, and so the whole surface: the point is not inside. Between four hulls there may be a gap.
 const MAX_SOLID_CLUSTERS: usize = 2;
 
-/// Groups pieces that share points, directly or through others.
-fn components<'a>(pieces: &[Piece<'a>]) -> Vec<Vec<Piece<'a>>> {
-    let mut first_at_point = HashMap::new();
-    let mut sets = DisjointSets((0..pieces.len()).collect());
-    for (number, piece) in pieces.iter().enumerate() {
-        for point in piece.points {
-            // The bits of both zeros differ; their sum with 0 is the same one.
-            let key = point
-                .to_array()
-                .map(|coordinate| (coordinate + 0.0).to_bits());
-            match first_at_point.entry(key) {
-                Entry::Occupied(first) => sets.join(*first.get(), number),
-                Entry::Vacant(place) => {
-                    place.insert(number);
-                }
-            }
-        }
-    }
-    let mut numbers = HashMap::new();
-    let mut components: Vec<Vec<Piece<'a>>> = Vec::new();
-    for (number, piece) in pieces.iter().enumerate() {
-        let component = *numbers
-            .entry(sets.representative(number))
-            .or_insert_with(|| {
-                components.push(Vec::new());
-                components.len() - 1
-            });
-        components[component].push(*piece);
+/// Groups the pieces of a body that are connected.
+fn components(body: &Body) -> Vec<Vec<Piece<'_>>> {
+    let numbers = connected_part_numbers(body.pieces());
+    let count = numbers.iter().max().map_or(0, |&last| last as usize + 1);
+    let mut components = vec![Vec::new(); count];
+    for (piece, number) in body.pieces().iter().zip(numbers) {
+        components[number as usize].push(piece);
     }
     components
 }
@@ -97,24 +74,6 @@ fn halved<T>(
     let mut all = halved(things, max_count / 2, middle);
     all.extend(halved(second, max_count / 2, middle));
     all
-}
-
-/// Disjoint sets of numbers: for each number one of the same set, up to the set's representative.
-struct DisjointSets(Vec<usize>);
-
-impl DisjointSets {
-    fn representative(&mut self, mut number: usize) -> usize {
-        while self.0[number] != number {
-            self.0[number] = self.0[self.0[number]];
-            number = self.0[number];
-        }
-        number
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.representative(a), self.representative(b));
-        self.0[b] = a;
-    }
 }
 
 #[cfg(test)]
