@@ -260,7 +260,8 @@ impl PyCell {
     ///
     /// Returns:
     ///     A table with a row for each edge, with the columns of ``ccd edges``: `status`, `reason`, and those that the question has
-    ///     of `time` from 0 to 1, `a`, `b`, `distance_lower`, `distance_upper`, and the witnesses `witness_a_x` to `witness_b_z`.
+    ///     of `time` from 0 to 1, `a`, `b`, `distance_lower`, `distance_upper`, the witnesses `witness_a_x` to `witness_b_z`, and
+    ///     `feature_a` and `feature_b`, the parts of meshes that these are on.
     ///     With the setting `clearance` a closest approach is "kept", "violated" or "unverified".
     #[pyo3(signature = (start, end, ask = "is-free", *, threads = None, **settings))]
     fn edges(

@@ -42,7 +42,8 @@ pub(crate) fn contact_object<'py>(
     let class = py.import("rigid_ccd")?.getattr("PathContact")?;
     let (a, b) = (&row.item_a, &row.item_b);
     let time = row.time;
-    let values = (at.segment, at.share, time, a, b, witness_a, witness_b);
+    let features = (&row.feature_a, &row.feature_b);
+    let values = (at.segment, at.share, time, a, b, witness_a, witness_b, features.0, features.1);
     class.call1(values).map(Some)
 }
 

@@ -55,7 +55,9 @@ impl PathQuestion {
         let is_in_table = |name: &str| match name {
             "id" | "status" | "micros" | "reason" => true,
             "time" | "distance_lower" | "distance_upper" => self != PathQuestion::IsFree,
-            _ if name.starts_with("witness_") => self != PathQuestion::IsFree,
+            _ if name.starts_with("witness_") || name.starts_with("feature_") => {
+                self != PathQuestion::IsFree
+            }
             _ => false,
         };
         let mut columns = COLUMNS.to_vec();
@@ -206,6 +208,10 @@ impl PathAnswer {
         (self.row.item_a, self.row.item_b) = (a, b);
         let [a, b] = contact.witnesses.map(|point| point.to_array().map(Some));
         (self.row.witness_a, self.row.witness_b) = (a, b);
+        let [a, b] = contact
+            .features
+            .map(|feature| feature.map(|feature| feature.to_string()));
+        (self.row.feature_a, self.row.feature_b) = (a, b);
         self.with_point(path, contact.at)
     }
 }

@@ -28,7 +28,7 @@ use crate::error::PathError;
 use crate::path::Path;
 use crate::path_point::PathPoint;
 use part_pairs::PartPair;
-use rigid_ccd::answer::{ClearanceVerdict, HitKind, Limit, Unresolved};
+use rigid_ccd::answer::{ClearanceVerdict, Feature, HitKind, Limit, Unresolved};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Error, Hit, Outcome, Settings, Solver};
 use search::Search;
@@ -55,6 +55,9 @@ pub struct PathContact<'c> {
     pub items: [Item<'c>; 2],
     /// The nearest points of both, in the frame of the base. If both overlap they are points of two pieces that intersect.
     pub witnesses: [DVec3; 2],
+    /// The vertex, edge or face of each mesh that its witness is on, numbered as in the body. `None` for a convex body, whose
+    /// mesh may be its hull, and if one body is inside the other.
+    pub features: [Option<Feature>; 2],
     /// Bounds of the distance of the pair there; 0 if both overlap.
     pub distance_bounds: [f64; 2],
 }
@@ -251,11 +254,16 @@ impl<'c> CellSolver<'c> {
             placement.body(self.cell, bodies[0])?,
             placement.body(self.cell, bodies[1])?,
         );
+        let is_mesh = [a.0, b.0].map(|body| body.pieces().len() > 1);
         let outcome = self.distance_solver.distance(a, b)?.outcome;
+        let hit = hit_of_distance(&outcome);
+        let features = hit.and_then(|hit| hit.contact());
+        let features = features.map(|contact| [contact.feature_a, contact.feature_b]);
         Ok(PathContact {
             at: PathPoint::from_path_position(at, self.search.segment_count()),
             items: bodies.map(|body| self.cell.item_of_body(body)),
-            witnesses: witnesses(&outcome),
+            witnesses: hit.map_or([DVec3::NAN; 2], |hit| [hit.witness_a(), hit.witness_b()]),
+            features: [0, 1].map(|k| features.filter(|_| is_mesh[k]).map(|features| features[k])),
             distance_bounds: match outcome {
                 Outcome::Overlapping { .. } => [0.0; 2],
                 _ => [outcome.lower(), outcome.upper()],
@@ -264,15 +272,13 @@ impl<'c> CellSolver<'c> {
     }
 }
 
-/// Returns the nearest points of two bodies; of two pieces that intersect if the bodies overlap.
-fn witnesses(outcome: &Outcome) -> [DVec3; 2] {
-    let kind = match (*outcome, outcome.nearest_contact()) {
-        (Outcome::Overlapping { overlap, .. }, _) => HitKind::Overlapping(overlap),
-        (_, Some((_, contact))) => HitKind::Contact(contact),
-        _ => return [DVec3::NAN; 2],
+/// Returns the nearest points of two bodies as a contact; two pieces that intersect if the bodies overlap.
+fn hit_of_distance(outcome: &Outcome) -> Option<Hit> {
+    let kind = match *outcome {
+        Outcome::Overlapping { overlap, .. } => HitKind::Overlapping(overlap),
+        _ => HitKind::Contact(outcome.nearest_contact()?.1),
     };
-    let hit = Hit { time: 0.0, kind };
-    [hit.witness_a(), hit.witness_b()]
+    Some(Hit { time: 0.0, kind })
 }
 
 #[cfg(test)]

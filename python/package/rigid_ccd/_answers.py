@@ -71,6 +71,8 @@ class PathContact:
         b: the name of the other link, attached body or obstacle.
         witness_a: the point of `a` nearest to `b`, in the frame of the robot's base.
         witness_b: the point of `b` nearest to `a`.
+        feature_a, feature_b: the vertex, edge or face of the mesh that a witness is on: "v7", "e3-4" or "f5". None for a
+            convex body or a hull, and if one body is inside the other.
     """
 
     segment: int
@@ -80,6 +82,8 @@ class PathContact:
     b: str
     witness_a: Point
     witness_b: Point
+    feature_a: str | None
+    feature_b: str | None
 
 
 @dataclass(frozen=True)

@@ -83,7 +83,7 @@ fn limits_and_errors_are_rows() {
 fn columns_are_those_of_the_question() {
     let columns = |question: PathQuestion| names(&question.columns()).join(",");
     assert_eq!(columns(PathQuestion::IsFree), "id,status,micros,reason");
-    let first = "id,status,time,a,b,distance_lower,distance_upper,witness_a_x,witness_a_y,witness_a_z,witness_b_x,witness_b_y,witness_b_z,micros,reason";
+    let first = "id,status,time,a,b,distance_lower,distance_upper,witness_a_x,witness_a_y,witness_a_z,witness_b_x,witness_b_y,witness_b_z,feature_a,feature_b,micros,reason";
     assert_eq!(columns(PathQuestion::FirstContact), first);
     assert_eq!(columns(PathQuestion::ClosestApproach), first);
 }

@@ -1,6 +1,7 @@
 //! Tests of paths in random cells against sampled configurations.
 
 mod bounds;
+mod features;
 mod inputs;
 mod questions;
 

@@ -146,6 +146,8 @@ Table of results:
                             all pairs on the path
   witness_a_x ... witness_b_z
                             nearest points of both at `time`, in the frame of the base
+  feature_a, feature_b      the vertex, edge or face of the mesh that each point is on (v7, e3-4, f5); empty for a convex
+                            body or a hull, and if one body is inside the other
   micros, reason            time of this row in microseconds; why it is unresolved or an error
 is-free has the columns id, status, micros and reason.
 
