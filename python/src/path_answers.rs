@@ -43,7 +43,9 @@ pub(crate) fn contact_object<'py>(
     let (a, b) = (&row.item_a, &row.item_b);
     let time = row.time;
     let features = (&row.feature_a, &row.feature_b);
-    let values = (at.segment, at.share, time, a, b, witness_a, witness_b, features.0, features.1);
+    let values = (
+        at.segment, at.share, time, a, b, witness_a, witness_b, features.0, features.1,
+    );
     class.call1(values).map(Some)
 }
 

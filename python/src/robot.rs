@@ -4,27 +4,26 @@ use crate::arrays::flat_numbers;
 use crate::body::{PyBody, extract_body};
 use crate::errors::{file_error, input_error};
 use crate::joint::PyJoint;
+use crate::link_contact_table::link_contact_table;
 use crate::link_motion::PyLinkMotion;
 use crate::motion::{GivenPose, pose_matrix, read_given_pose};
 use crate::pickle::{ConstructorCall, Reduced};
 use crate::robot_base::RobotBase;
+use crate::robot_file::{read_robot, with_options};
 use crate::table::PyTable;
-use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
-use arrow_schema::ArrowError;
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyType};
 use rigid_ccd_robot::{
-    BodyElements, Joint, Link, LinkBody, LinkContactClass, LinkPairs, MeshConversion, PlacedRobot,
-    Robot, SkipReason, Urdf,
+    Joint, Link, LinkBody, LinkPairs, PlacedRobot, Robot, RobotFile, SkipReason,
 };
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A robot: a tree of links and joints, and the pairs of links that are checked.
 ///
 /// A configuration has one position for each of `joint_names`, in that order: radians, or metres for joints that slide. A
-/// robot comes from a file, `Robot.from_urdf`, or from its joints:
+/// robot comes from a file, `Robot.from_urdf` or `Robot.from_mjcf`, or from its joints:
 ///
 /// Args:
 ///     joints: the joints, in the order in which configurations have positions.
@@ -125,8 +124,35 @@ impl PyRobot {
     ) -> PyResult<Self> {
         let arguments = (&path, &srdf, &packages, geometry, meshes);
         let constructor_call = ConstructorCall::new(class.py(), Some("from_urdf"), arguments)?;
-        let urdf = with_options(Urdf::from_path(path), packages, geometry, meshes)?;
-        read_robot(class.py(), &urdf, srdf.as_deref(), constructor_call)
+        let file = with_options(RobotFile::from_path(path), packages, geometry, meshes)?;
+        let read = read_robot(class.py(), &file, srdf.as_deref())?;
+        Ok(PyRobot::new_read(read, constructor_call))
+    }
+
+    /// Reads a robot from an MJCF file of MuJoCo and the mesh files that it names.
+    ///
+    /// Bodies become links, and the world the link "world". The pairs of links that are checked are those of MuJoCo. A joint
+    /// follows another one if an element ``equality`` makes its position a linear function of the other's; other constraints
+    /// leave joints independent. A plane, a height field, an ellipsoid and a shape that is fitted to a mesh are errors.
+    ///
+    /// Args:
+    ///     path: the MJCF file.
+    ///     srdf: an SRDF file that names further pairs of links which are not checked.
+    ///     geometry: "collision" for geoms that can collide, or "visual" for those of the groups 0 to 2.
+    ///     meshes: "exact", or "hull" for the convex hull of each mesh, which is what MuJoCo takes.
+    ///
+    /// Raises:
+    ///     InputError: the file is no robot, or a mesh is missing; the message names the link or the joint.
+    #[classmethod]
+    #[pyo3(signature = (path, srdf = None, geometry = "collision", meshes = "exact"))]
+    fn from_mjcf(
+        class: &Bound<'_, PyType>,
+        path: PathBuf,
+        srdf: Option<PathBuf>,
+        geometry: &str,
+        meshes: &str,
+    ) -> PyResult<Self> {
+        PyRobot::from_urdf(class, path, srdf, None, geometry, meshes)
     }
 
     /// Reads a robot from the text of a URDF file, such as what xacro prints.
@@ -148,8 +174,9 @@ impl PyRobot {
     ) -> PyResult<Self> {
         let arguments = (text, &path, &srdf, &packages, geometry, meshes);
         let constructor_call = ConstructorCall::new(class.py(), Some("from_urdf_text"), arguments)?;
-        let urdf = with_options(Urdf::from_text(text, path), packages, geometry, meshes)?;
-        read_robot(class.py(), &urdf, srdf.as_deref(), constructor_call)
+        let file = with_options(RobotFile::from_text(text, path), packages, geometry, meshes)?;
+        let read = read_robot(class.py(), &file, srdf.as_deref())?;
+        Ok(PyRobot::new_read(read, constructor_call))
     }
 
     /// Reads a robot that yourdfpy has loaded. Its meshes are found as yourdfpy finds them.
@@ -349,49 +376,14 @@ impl PyRobot {
     }
 }
 
-/// Sets the options of `Robot.from_urdf`.
-fn with_options(
-    urdf: Urdf,
-    packages: Option<Vec<PathBuf>>,
-    geometry: &str,
-    meshes: &str,
-) -> PyResult<Urdf> {
-    let geometry = match geometry {
-        "collision" => BodyElements::Collision,
-        "visual" => BodyElements::Visual,
-        _ => {
-            let known = "collision or visual";
-            return Err(unknown_name_error("geometry", geometry, known));
-        }
-    };
-    let meshes = match meshes {
-        "exact" => MeshConversion::Exact,
-        "hull" => MeshConversion::OuterHull,
-        _ => return Err(unknown_name_error("meshes", meshes, "exact or hull")),
-    };
-    let urdf = urdf
-        .with_body_element_kind(geometry)
-        .with_mesh_conversion(meshes);
-    // The first folder is searched first.
-    let folders = packages.into_iter().flatten().rev();
-    Ok(folders.fold(urdf, Urdf::with_package_folder))
-}
-
-fn read_robot(
-    py: Python<'_>,
-    urdf: &Urdf,
-    srdf: Option<&Path>,
-    constructor_call: ConstructorCall,
-) -> PyResult<PyRobot> {
-    py.detach(|| {
-        let robot = urdf.read().map_err(input_error)?;
-        let pairs = urdf.link_pairs(&robot, srdf);
-        Ok(PyRobot {
-            pairs: pairs.map_err(input_error)?,
+impl PyRobot {
+    fn new_read((robot, pairs): (Robot, LinkPairs), constructor_call: ConstructorCall) -> Self {
+        PyRobot {
             robot: Arc::new(robot),
+            pairs,
             constructor_call,
-        })
-    })
+        }
+    }
 }
 
 /// Returns the link that has a name, which is new if there is none.
@@ -418,44 +410,4 @@ fn read_link_bodies(held: &Bound<'_, PyAny>) -> PyResult<Vec<(Py<PyBody>, GivenP
         Ok((body(&given)?, read_given_pose(&pose, "bodies")?))
     });
     pairs.collect()
-}
-
-fn link_contact_table(
-    robot: &Robot,
-    meetings: &[([usize; 2], LinkContactClass)],
-) -> Result<RecordBatch, ArrowError> {
-    let names = |side: usize| -> ArrayRef {
-        let links = meetings.iter().map(|(links, _)| links[side]);
-        let names = links.map(|link| Some(robot.links()[link].name.as_str()));
-        Arc::new(names.collect::<StringArray>())
-    };
-    let evidence = meetings.iter().map(|(_, meeting)| {
-        Some(match meeting {
-            LinkContactClass::Never => "never",
-            LinkContactClass::Always => "always",
-            LinkContactClass::Sometimes { .. } => "sometimes",
-            LinkContactClass::Undecided { .. } => "undecided",
-        })
-    });
-    let apart = meetings.iter().map(|(_, meeting)| match meeting {
-        LinkContactClass::Undecided {
-            proven_apart_share, ..
-        } => Some(*proven_apart_share),
-        _ => None,
-    });
-    let columns: [(&str, ArrayRef, bool); 4] = [
-        ("link_a", names(0), false),
-        ("link_b", names(1), false),
-        (
-            "evidence",
-            Arc::new(evidence.collect::<StringArray>()),
-            false,
-        ),
-        ("apart", Arc::new(apart.collect::<Float64Array>()), true),
-    ];
-    RecordBatch::try_from_iter_with_nullable(columns)
-}
-
-fn unknown_name_error(what: &str, given: &str, known: &str) -> PyErr {
-    input_error(format!("{what}: '{given}' is not {known}"))
 }

@@ -29,7 +29,7 @@
 //! | `path`, `joint_curve`, `polynomial`, `path_point` | what a question is about: a [`Path`] through configurations, or a [`JointCurve`] of polynomials |
 //! | `link_contacts` | whether two links can ever touch, by branch and bound over their joints: [`Robot::classify_link_contacts`] |
 //! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
-//! | `urdf` | a robot from a URDF file with its meshes: [`Urdf`] |
+//! | `urdf` | a robot from a URDF file with its meshes: [`RobotFile`] |
 //! | `srdf` | pairs that are not checked, from an SRDF file |
 //! | `path_rows` | answers as rows of tables, for the command and the Python package |
 //! | `tuning` | numbers that only cost time |
@@ -47,12 +47,12 @@ mod path_point;
 pub mod path_rows;
 mod polynomial;
 mod robot;
+mod robot_file;
 mod solver;
 mod srdf;
 #[cfg(test)]
 mod test_robots;
 mod tuning;
-mod urdf;
 
 pub use cell::{Cell, Item};
 pub use combine::PlacedRobot;
@@ -63,11 +63,11 @@ pub use pairs::{LinkPairs, SkipReason};
 pub use path::Path;
 pub use path_point::PathPoint;
 pub use robot::{ChainBetween, CompoundKind, Joint, Link, LinkBody, PositionRule, Robot};
+pub use robot_file::{BodyElements, MeshConversion, RobotFile, RobotFileError};
 pub use solver::{
     CellSolver, ClearanceRange, ClosestApproach, DistanceRange, PathContact, PathOutcome,
     RangeSettings,
 };
-pub use urdf::{BodyElements, MeshConversion, Urdf, UrdfError};
 
 /// The example in the README, run as a doctest.
 #[cfg(doctest)]

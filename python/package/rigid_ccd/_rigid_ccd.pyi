@@ -193,6 +193,14 @@ class Robot:
         meshes: Literal["exact", "hull"] = "exact",
     ) -> Robot: ...
     @classmethod
+    def from_mjcf(
+        cls,
+        path: str | PathLike[str],
+        srdf: str | PathLike[str] | None = None,
+        geometry: Literal["collision", "visual"] = "collision",
+        meshes: Literal["exact", "hull"] = "exact",
+    ) -> Robot: ...
+    @classmethod
     def from_urdf_text(
         cls,
         text: str,

@@ -5,7 +5,7 @@ use anyhow::{Context, Result, anyhow, bail};
 use ccd_decomp::{BodySource, Detail, Unit};
 use rigid_ccd::glam::{DQuat, EulerRot};
 use rigid_ccd::{Body, Pose, load_parts};
-use rigid_ccd_robot::{Cell, CompoundKind, Link, LinkPairs, PlacedRobot, Robot, Urdf};
+use rigid_ccd_robot::{Cell, CompoundKind, Link, LinkPairs, PlacedRobot, Robot, RobotFile};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fs;
@@ -129,21 +129,21 @@ impl<'p> CellSource<'p> {
     }
 
     /// Combines a robot with the others of the file, and with its obstacles that move. Its links and joints keep their names,
-    /// and its base is the origin. `urdf` sets the options for a URDF file.
+    /// and its base is the origin. `options` sets those for the file of a robot.
     ///
     /// # Errors
     /// If a robot or a body cannot be read, or names are not unique.
     pub(super) fn combine(
         &self,
         robot: (Robot, LinkPairs),
-        urdf: impl Fn(Urdf) -> Urdf,
+        options: impl Fn(RobotFile) -> RobotFile,
     ) -> Result<(Robot, LinkPairs)> {
         let CellSource::Toml(file, folder) = self else {
             return Ok(robot);
         };
         let mut others: Vec<OwnedRobot> = Vec::new();
         for other in &file.robot {
-            let read = || other.read(folder, &urdf);
+            let read = || other.read(folder, &options);
             others.push(read().with_context(|| format!("robot {}", other.name))?);
         }
         for obstacle in &file.obstacle {
@@ -238,12 +238,12 @@ impl OwnedRobot {
 }
 
 impl OtherRobot {
-    fn read(&self, folder: &Path, options: impl Fn(Urdf) -> Urdf) -> Result<OwnedRobot> {
-        let urdf = options(Urdf::from_path(folder.join(&self.urdf)));
-        let robot = urdf.read()?;
+    fn read(&self, folder: &Path, options: impl Fn(RobotFile) -> RobotFile) -> Result<OwnedRobot> {
+        let file = options(RobotFile::from_path(folder.join(&self.urdf)));
+        let robot = file.read()?;
         let srdf = self.srdf.as_ref().map(|srdf| folder.join(srdf));
         Ok(OwnedRobot {
-            pairs: urdf.link_pairs(&robot, srdf.as_deref())?,
+            pairs: file.link_pairs(&robot, srdf.as_deref())?,
             name: self.name.clone(),
             robot,
             pose: pose(self.position, self.rpy, self.quaternion)?,

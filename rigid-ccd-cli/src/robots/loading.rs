@@ -1,4 +1,4 @@
-//! Loads a robot from URDF and SRDF, and the cell around it.
+//! Loads a robot from URDF or MJCF and from SRDF, and the cell around it.
 
 use super::cell_file::CellSource;
 use crate::files::refuse_overwriting_input;
@@ -6,19 +6,21 @@ use crate::print_escaped_to_stderr;
 use crate::progress::Progress;
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
-use rigid_ccd_robot::{BodyElements, Cell, LinkPairs, MeshConversion, Robot, SkipReason, Urdf};
+use rigid_ccd_robot::{
+    BodyElements, Cell, LinkPairs, MeshConversion, Robot, RobotFile, SkipReason,
+};
 use std::path::{Path, PathBuf};
 
 /// The options that name a robot, and say how its links become bodies.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct RobotArgs {
-    /// Robot to read, URDF; packages are found by ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and around the file
+    /// Robot to read, URDF or MJCF; packages are found by ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and around the file
     #[arg(value_name = "URDF")]
     urdf: Option<PathBuf>,
     /// Folder of packages for `package://`, searched before all others; may be given several times
     #[arg(long, value_name = "FOLDER")]
     packages: Vec<PathBuf>,
-    /// Elements of the URDF that become bodies
+    /// Shapes of the robot that become bodies
     #[arg(long, value_enum, default_value_t)]
     geometry: GeometryArg,
     /// What a mesh of a link becomes
@@ -42,10 +44,10 @@ pub(crate) struct CellArgs {
 /// The values of `--geometry`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum GeometryArg {
-    /// The elements `collision`
+    /// Those for collision checks: elements `collision`, or geoms that can collide
     #[default]
     Collision,
-    /// The elements `visual`
+    /// Those for drawing: elements `visual`, or geoms of the groups 0 to 2
     Visual,
 }
 
@@ -65,17 +67,17 @@ impl RobotArgs {
         self.urdf.is_some()
     }
 
-    /// Returns the path of the URDF; empty if no robot is given, which commands about robots alone refuse.
+    /// Returns the path of the robot's file; empty if no robot is given, which commands about robots alone refuse.
     pub(crate) fn path(&self) -> &Path {
         self.urdf.as_deref().unwrap_or(Path::new(""))
     }
 
-    fn urdf(&self) -> Urdf {
-        self.with_options(Urdf::from_path(self.path()))
+    fn file(&self) -> RobotFile {
+        self.with_options(RobotFile::from_path(self.path()))
     }
 
-    /// Sets the options for the reading of a URDF file.
-    fn with_options(&self, urdf: Urdf) -> Urdf {
+    /// Sets the options for the reading of a robot's file.
+    fn with_options(&self, file: RobotFile) -> RobotFile {
         let elements = match self.geometry {
             GeometryArg::Collision => BodyElements::Collision,
             GeometryArg::Visual => BodyElements::Visual,
@@ -84,12 +86,12 @@ impl RobotArgs {
             MeshesArg::Exact => MeshConversion::Exact,
             MeshesArg::Hull => MeshConversion::OuterHull,
         };
-        let urdf = urdf
+        let file = file
             .with_body_element_kind(elements)
             .with_mesh_conversion(meshes);
         // The last folder that is added is searched first.
         let folders = self.packages.iter().rev();
-        folders.fold(urdf, |urdf, folder| urdf.with_package_folder(folder))
+        folders.fold(file, |file, folder| file.with_package_folder(folder))
     }
 
     /// Returns the file of the robot with the name that messages give it; meshes are left out.
@@ -101,7 +103,7 @@ impl RobotArgs {
     pub(crate) fn load(&self, quiet: bool) -> Result<Robot> {
         let progress = Progress::start_single_step("reading the robot's meshes", quiet);
         let name = || self.path().display().to_string();
-        let robot = self.urdf().read()?;
+        let robot = self.file().read()?;
         drop(progress);
         if !quiet {
             let joints: Vec<&str> = robot.free_joint_names().collect();
@@ -132,7 +134,7 @@ impl CellArgs {
     pub(crate) fn load(&self, quiet: bool) -> Result<Cell> {
         let robot = self.robot.load(quiet)?;
         let srdf = self.srdf.as_deref();
-        let pairs = self.robot.urdf().link_pairs(&robot, srdf)?;
+        let pairs = self.robot.file().link_pairs(&robot, srdf)?;
         let cell = match &self.cell {
             Some(file) => self
                 .load_cell_file(file, (robot, pairs), quiet)
@@ -143,7 +145,7 @@ impl CellArgs {
         if !cell.checks_any_pair() {
             bail!(
                 "no pair is checked: there is no obstacle, and no two links are checked; --geometry visual takes the other \
-                 elements of the URDF{}",
+                 shapes of the robot{}",
                 skipped.map_or(String::new(), |pairs| format!("; {pairs}"))
             );
         }
@@ -157,7 +159,7 @@ impl CellArgs {
     fn load_cell_file(&self, file: &Path, own: (Robot, LinkPairs), quiet: bool) -> Result<Cell> {
         let source = CellSource::read(file)?;
         let own_joint_count = own.0.free_joint_names().len();
-        let (robot, pairs) = source.combine(own, |urdf| self.robot.with_options(urdf))?;
+        let (robot, pairs) = source.combine(own, |file| self.robot.with_options(file))?;
         let mut cell = Cell::new(robot, pairs);
         source.add_to(&mut cell)?;
         if !quiet {

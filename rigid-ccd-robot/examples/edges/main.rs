@@ -12,7 +12,7 @@ use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::glam::{DQuat, DVec3};
 use rigid_ccd::{Body, Pose, Settings, Solver};
-use rigid_ccd_robot::{Cell, CellSolver, LinkPairs, PathError, Robot, SkipReason, Urdf};
+use rigid_ccd_robot::{Cell, CellSolver, LinkPairs, PathError, Robot, RobotFile, SkipReason};
 use std::error::Error;
 use std::io::Write;
 use std::path::Path;
@@ -44,7 +44,7 @@ fn steps_are_free(
 /// Returns the arm among random obstacles. Links that nearly touch in the home position are not checked.
 fn random_cell(random: &mut Pcg64) -> Result<Cell, Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/edges");
-    let robot = Urdf::from_path(folder.join("arm.urdf")).read()?;
+    let robot = RobotFile::from_path(folder.join("arm.urdf")).read()?;
     let pairs = pairs_apart_at_home(&robot)?;
     let mut cell = Cell::new(robot, pairs);
     while cell.obstacle_names().len() < OBSTACLE_COUNT {

@@ -35,7 +35,7 @@ fn files_of_a_package_are_found_around_the_urdf_and_in_given_folders() {
     assert_eq!(packages.find_file(&whole).unwrap(), found);
 
     let tip = "package://arm_description/meshes/tip.stl";
-    let Err(UrdfError::MeshNotFound {
+    let Err(RobotFileError::MeshNotFound {
         uri,
         searched_paths: tried,
     }) = packages.find_file(tip)

@@ -1,5 +1,6 @@
 use super::*;
 use crate::error::RobotError;
+use rigid_ccd::glam::{DQuat, EulerRot};
 use std::fs;
 use std::sync::Arc;
 use tempfile::TempDir;
@@ -42,8 +43,8 @@ const JOINTS_XML: &str = r#"
         <axis xyz="1 0 0"/><limit lower="0" upper="0.01" effort="1" velocity="1"/>
         <mimic joint="turns" multiplier="2"/></joint>"#;
 
-fn urdf_in_folder(folder: &TempDir) -> Urdf {
-    Urdf::from_path(folder.path().join("arm.urdf"))
+fn urdf_in_folder(folder: &TempDir) -> RobotFile {
+    RobotFile::from_path(folder.path().join("arm.urdf"))
 }
 
 #[test]
@@ -145,7 +146,7 @@ fn pairs_come_from_the_srdf() {
     .unwrap();
     let error = urdf.link_pairs(&robot, Some(&srdf)).unwrap_err();
     assert!(
-        matches!(error, UrdfError::Robot(RobotError::NoSuchLink { .. })),
+        matches!(error, RobotFileError::Robot(RobotError::NoSuchLink { .. })),
         "{error}"
     );
 }
@@ -188,7 +189,10 @@ fn errors_name_file_link_and_joint() {
         error.starts_with("link `lower`: ") && error.contains("part.obj"),
         "{error}"
     );
-    let error = Urdf::from_path("none.urdf").read().unwrap_err().to_string();
+    let error = RobotFile::from_path("none.urdf")
+        .read()
+        .unwrap_err()
+        .to_string();
     assert!(error.starts_with("none.urdf: "), "{error}");
     fs::write(folder.path().join("arm.urdf"), "<robot").unwrap();
     let error = urdf_in_folder(&folder).read().unwrap_err().to_string();
@@ -204,7 +208,7 @@ fn planar_and_floating_joints_are_chains_of_joints() {
             <joint name="drive" type="{kind}"><parent link="floor"/><child link="cart"/>
             <origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/><axis xyz="{axis}"/></joint></robot>"#
         );
-        Urdf::from_text(text, "cart.urdf").read().unwrap()
+        RobotFile::from_text(text, "cart.urdf").read().unwrap()
     };
     let pose = |robot: &Robot, positions: &[f64]| robot.pose("cart", positions).unwrap();
     let planar = tree("planar", "0 0 1");
@@ -238,12 +242,12 @@ fn materials_are_passed_over() {
     let text = r#"<?xml version="1.0"?><robot name="a&amp;b"><material name="m"><texture/></material><!-- <material> -->
         <link name="one"><visual><geometry><sphere radius="1"/></geometry><material name="m"/><material name="n">
         <color rgba="no colour"/></material></visual></link></robot>"#;
-    let robot = Urdf::from_text(text, "one.urdf")
+    let robot = RobotFile::from_text(text, "one.urdf")
         .with_body_element_kind(BodyElements::Visual)
         .read()
         .unwrap();
     assert_eq!(robot.links()[0].bodies.len(), 1);
-    let error = Urdf::from_text("<robot><material>", "one.urdf")
+    let error = RobotFile::from_text("<robot><material>", "one.urdf")
         .read()
         .unwrap_err();
     assert!(error.to_string().starts_with("one.urdf: "), "{error}");

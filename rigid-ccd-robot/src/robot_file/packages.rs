@@ -1,6 +1,6 @@
 //! Finds the files that a URDF names: `package://NAME/…`, `file://…`, or a path.
 
-use super::error::UrdfError;
+use super::error::RobotFileError;
 use std::env;
 use std::path::{Path, PathBuf};
 
@@ -37,11 +37,11 @@ impl SearchFolders {
     }
 
     /// Returns the path of an existing file, given the name that the URDF has for it.
-    pub(super) fn find_file(&self, uri: &str) -> Result<PathBuf, UrdfError> {
+    pub(super) fn find_file(&self, uri: &str) -> Result<PathBuf, RobotFileError> {
         let tried = self.possible_paths(uri);
         match tried.iter().find(|path| path.is_file()) {
             Some(path) => Ok(path.clone()),
-            None => Err(UrdfError::MeshNotFound {
+            None => Err(RobotFileError::MeshNotFound {
                 uri: uri.to_owned(),
                 searched_paths: tried,
             }),

@@ -1,4 +1,4 @@
-//! Errors of URDF and SRDF files.
+//! Errors of URDF, MJCF and SRDF files.
 
 use crate::error::RobotError;
 use ccd_decomp::{MeshError, PrepareError};
@@ -8,7 +8,7 @@ use std::path::PathBuf;
 /// The reason why a robot cannot be read, with the file, link or joint in which the error is.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum UrdfError {
+pub enum RobotFileError {
     /// A file cannot be read.
     #[error("{}: {error}", file.display())]
     Unreadable {
@@ -31,7 +31,7 @@ pub enum UrdfError {
         /// The name of the link that cannot be used.
         link: String,
         /// The error of the link's shape, mesh or pose.
-        error: Box<UrdfError>,
+        error: Box<RobotFileError>,
     },
     /// The kind, the axis or the pose of a joint cannot be used.
     #[error("joint `{joint}`: {error}")]
@@ -39,7 +39,21 @@ pub enum UrdfError {
         /// The name of the joint that cannot be used.
         joint: String,
         /// The error of the joint's kind, axis or pose.
-        error: Box<UrdfError>,
+        error: Box<RobotFileError>,
+    },
+    /// A geom of an MJCF cannot be used.
+    #[error("geom `{geom}`: {error}")]
+    Geom {
+        /// The name of the geom, or its number in its body.
+        geom: String,
+        /// The error of the geom's shape, mesh or pose.
+        error: Box<RobotFileError>,
+    },
+    /// A shape of an MJCF has no body of its kind.
+    #[error("{shape} is not supported; leave it out of the file, and model it as an obstacle")]
+    UnsupportedShape {
+        /// What the shape is.
+        shape: &'static str,
     },
     /// A floating, planar or spherical joint follows another one.
     #[error("only a joint with one degree of freedom can mimic another one")]
@@ -71,18 +85,26 @@ pub enum UrdfError {
     Robot(#[from] RobotError),
 }
 
-impl UrdfError {
+impl RobotFileError {
     /// Returns this error with the name of the link in which it occurred.
     pub(super) fn with_link_name(self, link: &str) -> Self {
-        UrdfError::Link {
+        RobotFileError::Link {
             link: link.to_owned(),
+            error: Box::new(self),
+        }
+    }
+
+    /// Returns this error with the name of the geom in which it occurred.
+    pub(super) fn with_geom_name(self, geom: &str) -> Self {
+        RobotFileError::Geom {
+            geom: geom.to_owned(),
             error: Box::new(self),
         }
     }
 
     /// Returns this error with the name of the joint in which it occurred.
     pub(super) fn with_joint_name(self, joint: &str) -> Self {
-        UrdfError::Joint {
+        RobotFileError::Joint {
             joint: joint.to_owned(),
             error: Box::new(self),
         }

@@ -1,0 +1,224 @@
+//! Reads a robot from a URDF or MJCF file, and from the mesh files that it names.
+
+mod bodies;
+mod error;
+mod materials;
+mod mjcf;
+mod packages;
+mod urdf;
+
+pub use bodies::MeshConversion;
+pub use error::RobotFileError;
+
+use crate::pairs::{LinkPairs, SkipReason};
+use crate::robot::Robot;
+use crate::srdf::disabled_and_enabled_pairs;
+use bodies::MeshBodies;
+use mjcf::MjcfModel;
+use packages::SearchFolders;
+use quick_xml::Reader;
+use quick_xml::events::Event;
+use std::borrow::Cow;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A URDF or MJCF file of a robot to read, with the choice of how its links become bodies.
+///
+/// A file whose first element is `mujoco` is an MJCF, any other a URDF. The bodies of an MJCF become links, and the world the
+/// link `world`.
+///
+/// ```
+/// use rigid_ccd_robot::{MeshConversion, RobotFile};
+/// # let text = "<robot name='door'><link name='frame'/><link name='leaf'><collision>
+/// #     <geometry><box size='0.8 0.04 2'/></geometry></collision></link>
+/// #     <joint name='hinge' type='revolute'><parent link='frame'/><child link='leaf'/>
+/// #     <axis xyz='0 0 1'/><limit lower='0' upper='1.5' effort='1' velocity='1'/></joint></robot>";
+/// # let folder = tempfile::tempdir()?;
+/// # std::fs::write(folder.path().join("door.urdf"), text)?;
+/// # std::env::set_current_dir(&folder)?;
+/// let file = RobotFile::from_path("door.urdf").with_mesh_conversion(MeshConversion::OuterHull);
+/// let robot = file.read()?;
+/// let pairs = file.link_pairs(&robot, None)?;
+/// assert_eq!(robot.limits().collect::<Vec<_>>(), [[0.0, 1.5]]);
+/// assert_eq!(pairs.checked_pairs().count(), 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct RobotFile {
+    path: PathBuf,
+    /// The text of the file, if it is not read from the path.
+    text: Option<String>,
+    search_folders: SearchFolders,
+    body_elements: BodyElements,
+    mesh_conversion: MeshConversion,
+}
+
+/// The kind of XML elements of a robot's links that become bodies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BodyElements {
+    /// The shapes for collision checks: the elements `collision` of a URDF, the geoms of an MJCF that can collide.
+    #[default]
+    Collision,
+    /// The shapes for drawing: the elements `visual` of a URDF, the geoms of the groups 0 to 2 of an MJCF.
+    Visual,
+}
+
+impl RobotFile {
+    /// Names the file to read. Its links become exact bodies of their shapes for collision checks. Packages are searched
+    /// for in the folders of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then in the folders above the file.
+    pub fn from_path(path: impl Into<PathBuf>) -> Self {
+        let path = path.into();
+        RobotFile {
+            search_folders: SearchFolders::for_urdf(&path),
+            path,
+            text: None,
+            body_elements: BodyElements::default(),
+            mesh_conversion: MeshConversion::default(),
+        }
+    }
+
+    /// Takes the text of a file that is not read. Meshes are found and messages are written as if it were at a path.
+    ///
+    /// ```
+    /// use rigid_ccd_robot::RobotFile;
+    /// let robot = RobotFile::from_text("<robot name='stone'><link name='base'/></robot>", "stone.urdf").read()?;
+    /// assert_eq!(robot.links().len(), 1);
+    /// # Ok::<(), rigid_ccd_robot::RobotFileError>(())
+    /// ```
+    pub fn from_text(text: impl Into<String>, path: impl Into<PathBuf>) -> Self {
+        RobotFile {
+            text: Some(text.into()),
+            ..RobotFile::from_path(path)
+        }
+    }
+
+    /// Adds a folder that is searched first for `package://` names. The folder is a package, or holds packages.
+    #[must_use]
+    pub fn with_package_folder(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.search_folders.prepend_folder(folder.into());
+        self
+    }
+
+    /// Sets whether the shapes for collision checks or those for drawing become bodies.
+    #[must_use]
+    pub fn with_body_element_kind(self, elements: BodyElements) -> Self {
+        RobotFile {
+            body_elements: elements,
+            ..self
+        }
+    }
+
+    /// Sets whether a mesh becomes exact pieces or its convex hull.
+    #[must_use]
+    pub fn with_mesh_conversion(self, meshes: MeshConversion) -> Self {
+        RobotFile {
+            mesh_conversion: meshes,
+            ..self
+        }
+    }
+
+    /// Reads the file and its meshes, and builds the robot.
+    ///
+    /// A cylinder becomes a polytope that encloses it; see [`Body::excess`](rigid_ccd::Body::excess). A floating, planar or
+    /// spherical joint becomes a chain of joints, see [`CompoundKind`](crate::CompoundKind).
+    ///
+    /// Of an MJCF, a joint whose position is a linear function of another joint's, by an element `equality`, follows that one.
+    /// Other constraints, such as those that close loops of bodies, leave joints independent: a path has to keep them. Ranges
+    /// of ball joints and margins of geoms are left out. A plane, a height field, an ellipsoid and a shape that is fitted to a
+    /// mesh are errors.
+    ///
+    /// # Errors
+    /// [`RobotFileError`] with the link or the joint, and with the file of a mesh.
+    pub fn read(&self) -> Result<Robot, RobotFileError> {
+        let text = self.text()?;
+        let meshes = MeshBodies::new(self.mesh_conversion);
+        match self.mjcf(&text)? {
+            Some(model) => model.robot(self.body_elements, &meshes),
+            None => urdf::read_robot(&text, self.body_elements, &meshes, &self.search_folders)
+                .map_err(|error| self.syntax_error(error))?,
+        }
+    }
+
+    /// Returns which pairs of links are checked: all pairs except neighbours, links that never move relative to each
+    /// other, and pairs that the SRDF file disables; those that it enables are checked.
+    ///
+    /// Of an MJCF, the pairs are those that MuJoCo checks: neighbours of the world are, and its elements `exclude` and `pair` and
+    /// the attributes `contype` and `conaffinity` count.
+    ///
+    /// # Errors
+    /// [`RobotFileError`] if a file cannot be read, or names a link that the robot does not have.
+    pub fn link_pairs(
+        &self,
+        robot: &Robot,
+        srdf: Option<&Path>,
+    ) -> Result<LinkPairs, RobotFileError> {
+        let mut pairs = match self.mjcf(&self.text()?)? {
+            Some(model) => model.link_pairs(robot, self.body_elements)?,
+            None => LinkPairs::from_robot(robot),
+        };
+        if let Some(file) = srdf {
+            let pairs_of_file = disabled_and_enabled_pairs(&read(file)?);
+            let [disabled, enabled] = pairs_of_file.map_err(|error| RobotFileError::Syntax {
+                file: file.to_owned(),
+                error: error.to_string(),
+            })?;
+            for pair in disabled {
+                let [one, other] = [&pair.link1, &pair.link2].map(|link| robot.link_number(link));
+                pairs.skip(one?, other?, SkipReason::Disabled(pair.reason));
+            }
+            for pair in enabled {
+                let [one, other] = [&pair.link1, &pair.link2].map(|link| robot.link_number(link));
+                pairs.include(one?, other?);
+            }
+        }
+        Ok(pairs)
+    }
+
+    fn text(&self) -> Result<Cow<'_, str>, RobotFileError> {
+        match &self.text {
+            Some(text) => Ok(Cow::Borrowed(text)),
+            None => read(&self.path).map(Cow::Owned),
+        }
+    }
+
+    /// Parses the text if it is an MJCF.
+    fn mjcf(&self, text: &str) -> Result<Option<MjcfModel>, RobotFileError> {
+        if root_element(text).as_deref() != Some(mjcf::ROOT_ELEMENT) {
+            return Ok(None);
+        }
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        let model = MjcfModel::from_text(text, folder).map_err(|error| self.syntax_error(error))?;
+        Ok(Some(model))
+    }
+
+    fn syntax_error(&self, error: String) -> RobotFileError {
+        RobotFileError::Syntax {
+            file: self.path.clone(),
+            error,
+        }
+    }
+}
+
+/// Returns the name of the first element of an XML text; `None` if there is none.
+fn root_element(text: &str) -> Option<String> {
+    let mut reader = Reader::from_str(text);
+    loop {
+        match reader.read_event().ok()? {
+            Event::Start(element) | Event::Empty(element) => {
+                return Some(String::from_utf8_lossy(element.name().as_ref()).into_owned());
+            }
+            Event::Eof => return None,
+            _ => {}
+        }
+    }
+}
+
+fn read(file: &Path) -> Result<String, RobotFileError> {
+    fs::read_to_string(file).map_err(|error| RobotFileError::Unreadable {
+        file: file.to_owned(),
+        error: error.to_string(),
+    })
+}
+
+#[cfg(test)]
+mod tests;

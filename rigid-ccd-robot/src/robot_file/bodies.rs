@@ -1,0 +1,62 @@
+//! Makes bodies of the mesh files that a robot's file names.
+
+use super::error::RobotFileError;
+use ccd_decomp::{Detail, MeshFile, Unit, body_from_mesh};
+use rigid_ccd::Body;
+use rigid_ccd::glam::DAffine3;
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// How a mesh of a robot becomes a body: exactly, or as its convex hull.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MeshConversion {
+    /// The fewest convex pieces that represent the mesh exactly: [`Detail::Auto`].
+    #[default]
+    Exact,
+    /// The convex hull, which encloses the mesh and exceeds it by a certified bound: [`Detail::OuterHull`]. It serves links
+    /// that are convex but for the rounding of their file.
+    OuterHull,
+}
+
+/// Makes bodies of meshes; a mesh that occurs several times becomes one shared body.
+pub(super) struct MeshBodies {
+    conversion: MeshConversion,
+    bodies_by_mesh: RefCell<HashMap<MeshKey, Arc<Body>>>,
+}
+
+/// The key of a shared body: the file of the mesh, and the bits of the map to which it is subjected.
+type MeshKey = (PathBuf, [u64; 12]);
+
+impl MeshBodies {
+    pub(super) fn new(conversion: MeshConversion) -> Self {
+        MeshBodies {
+            conversion,
+            bodies_by_mesh: RefCell::default(),
+        }
+    }
+
+    /// Makes the body of a mesh file, whose vertices are mapped. A map that mirrors turns the triangles as well.
+    pub(super) fn body(&self, file: PathBuf, map: DAffine3) -> Result<Arc<Body>, RobotFileError> {
+        let key = (file.clone(), map.to_cols_array().map(f64::to_bits));
+        if let Some(body) = self.bodies_by_mesh.borrow().get(&key) {
+            return Ok(Arc::clone(body));
+        }
+        // A file without a unit is in metres.
+        let mesh = MeshFile::read(&file)?
+            .converted_to_unit(Unit::Metre)
+            .into_mesh()?;
+        let detail = match self.conversion {
+            MeshConversion::Exact => Detail::Auto,
+            MeshConversion::OuterHull => Detail::OuterHull,
+        };
+        let prepared = body_from_mesh(&mesh.transformed(map)?, detail)
+            .map_err(|error| RobotFileError::Prepare { file, error })?;
+        let body = Arc::new(prepared.body);
+        self.bodies_by_mesh
+            .borrow_mut()
+            .insert(key, Arc::clone(&body));
+        Ok(body)
+    }
+}
