@@ -70,7 +70,8 @@ def as_toml(k: int, obstacle: Obstacle) -> str:
 def checks(robot: Robot, cell: Cell, steps: list[int]) -> Iterator[tuple[str, Measure]]:
     prepared = prepare(robot, cell)
     if shutil.which("ccd"):
-        yield "ccd edges --threads 1 --tolerance 1e-4 after the first round", command(robot, cell, prepared.robot.joint_names)
+        way = "ccd edges --threads 1 --tolerance 1e-4 after the first round"
+        yield way, command(robot, cell, prepared.robot.joint_names)
     yield "Cell.edges threads=1", together(lambda edges: check(prepared, edges))
 
 
@@ -80,8 +81,9 @@ def report(folder: Path, robot: Robot, cell: Cell, meshes: Meshes) -> None:
     for edges in read_edges(folder, robot, cell, None):
         measured = together(lambda edges: check(prepared, edges))(edges.pairs, 3)
         refused = np.flatnonzero(~measured.free & ~edges.touches)
-        near = max((prepared.closest_approach(edges.pairs[k], tolerance=1e-6).upper for k in refused), default=0.0)
-        wrong = f"{(measured.free & edges.touches).sum()} accepted, {len(refused)} refused at up to {near:.1e} m"
+        nearest = [prepared.closest_approach(edges.pairs[k], tolerance=1e-6).upper for k in refused]
+        accepted = (measured.free & edges.touches).sum()
+        wrong = f"{accepted} accepted, {len(refused)} refused at up to {max(nearest, default=0.0):.1e} m"
         print(f"{cell.name}, {edges.radians:g} rad: {measured.micros:.1f} us an edge, wrong: {wrong}")
     file, times = folder / f"chunks_{cell.name}.bin", []
     if not file.exists():
