@@ -1,4 +1,4 @@
-//! Robots and mechanisms as trees of links and joints, from URDF and SRDF or from code, for certified collision checks.
+//! Robots and mechanisms as trees of links and joints, from URDF, MJCF and SRDF or from code, for certified collision checks.
 //!
 //! ```
 //! use rigid_ccd_robot::{Joint, Link, PositionRule, Robot};
@@ -29,7 +29,7 @@
 //! | `path`, `joint_curve`, `polynomial`, `path_point` | what a question is about: a [`Path`] through configurations, or a [`JointCurve`] of polynomials |
 //! | `link_contacts` | whether two links can ever touch, by branch and bound over their joints: [`Robot::classify_link_contacts`] |
 //! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
-//! | `urdf` | a robot from a URDF file with its meshes: [`RobotFile`] |
+//! | `robot_file` | a robot from a URDF or MJCF file with its meshes: [`RobotFile`] |
 //! | `srdf` | pairs that are not checked, from an SRDF file |
 //! | `path_rows` | answers as rows of tables, for the command and the Python package |
 //! | `tuning` | numbers that only cost time |
