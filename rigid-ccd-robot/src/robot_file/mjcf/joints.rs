@@ -84,9 +84,10 @@ impl<'r> JointReader<'r> {
             let joint_name = joint_name.unwrap_or_else(|| format!("{name}/joint{k}"));
             let is_last = k + 1 == entry.body.joints.len();
             let ends_in_frame = joint.pos == [0.0; 3] || !turns(joint.type_);
-            let child = match is_last && ends_in_frame {
-                true => name.clone(),
-                false => format!("{name}/{joint_name}"),
+            let child = if is_last && ends_in_frame {
+                name.clone()
+            } else {
+                format!("{name}/{joint_name}")
             };
             self.add_joint(&mut chain, joint, &joint_name, child)
                 .map_err(|error| error.with_joint_name(&joint_name))?;
