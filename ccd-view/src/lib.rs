@@ -39,4 +39,6 @@ pub use page::{
     script_elements, view_scripts, views_json,
 };
 pub use shown_motion::{Keyframe, ShownMotion};
-pub use view::{Animation, AnimationGroup, GapCurve, GapSample, ShownBody, ShownContact};
+pub use view::{
+    Animation, AnimationGroup, GapCurve, GapSample, ShownBody, ShownContact, UnkeptRange,
+};

@@ -58,6 +58,23 @@ pub struct GapCurve {
     pub points: Vec<GapSample>,
     /// A proven lower bound of the distance, as pairs of time and bound, in order of time.
     pub proven: Vec<[f64; 2]>,
+    /// The unit of the distances; empty if it is not known.
+    pub unit: String,
+    /// The distance that is required, if any.
+    pub required: Option<f64>,
+    /// The ranges of time in which the required distance is not proven to be kept, in order of time.
+    pub unkept: Vec<UnkeptRange>,
+}
+
+/// A range of time in which a required distance is not proven to be kept.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct UnkeptRange {
+    /// The start of the range.
+    pub from: f64,
+    /// The end of the range.
+    pub to: f64,
+    /// Whether the distance is proven to be less than the required one everywhere in the range.
+    pub is_violated: bool,
 }
 
 /// The distance between two bodies, measured at one time.

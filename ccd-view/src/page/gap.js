@@ -21,7 +21,7 @@ class GapPlot {
     this.view = view;
     this.width = this.holder.clientWidth;
     this.right = this.width - GapPlot.RIGHT;
-    const most = Math.max(0, ...(view.gap?.points.map((point) => point.upper) ?? [])) || 1;
+    const most = Math.max(view.gap?.required ?? 0, ...(view.gap?.points.map((point) => point.upper) ?? [])) || 1;
     this.height = view.gap === null ? 46 : 170;
     this.top = most * 1.05;
     const { gap, contacts, start, duration } = view;
@@ -43,17 +43,19 @@ class GapPlot {
     this.cursor = this.svg.querySelector("#view-cursor");
   }
 
-  curves({ points, proven }, most) {
-    const parts = [];
-    const step = GapPlot.niceStep(most / 3);
+  curves({ points, proven, unit, required, unkept }, most) {
+    // A range that is too short to see is a pixel wide.
+    const parts = unkept.map(({ from, to, is_violated }) => `<rect class="${is_violated ? "violated" : "unverified"}" x="${this.x(from)}" width="${Math.max(this.x(to) - this.x(from), 1)}" y="${GapPlot.UP}" height="${this.floor() - GapPlot.UP}"/>`);
+    const step = GapPlot.niceStep(most / 4);
     for (let n = 0; n * step <= most; n += 1) {
       const y = this.y(n * step);
-      parts.push(`<line class="grid" x1="${GapPlot.LEFT}" x2="${this.right}" y1="${y}" y2="${y}"/><text x="${GapPlot.LEFT - 6}" y="${y + 4}" text-anchor="end">${GapPlot.text(n * step, step)}</text>`);
+      parts.push(`<line class="grid" x1="${GapPlot.LEFT}" x2="${this.right}" y1="${y}" y2="${y}"/><text x="${GapPlot.LEFT - 6}" y="${y + 4}" text-anchor="end">${GapPlot.text(n * step, step)} ${unit}</text>`);
     }
     const line = (list) => list.map(([t, g], k) => `${k === 0 ? "M" : "L"}${this.x(t)},${this.y(g)}`).join("");
     const ends = `L${this.x(proven.at(-1)[0])},${this.floor()}L${this.x(proven[0][0])},${this.floor()}Z`;
     parts.push(`<path class="proven-area" d="${line(proven)}${ends}"/><path class="proven" d="${line(proven)}"/>`);
     parts.push(`<path class="gap" d="${line(points.map((point) => [point.time, point.upper]))}"/>`);
+    if (required !== null) parts.push(`<line class="required" x1="${GapPlot.LEFT}" x2="${this.right}" y1="${this.y(required)}" y2="${this.y(required)}"/>`);
     return parts;
   }
 

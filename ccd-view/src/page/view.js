@@ -94,7 +94,10 @@
   }
 
   function legend(view) {
-    const named = view.bodies.length <= 12 ? view.bodies : [];
+    // The bodies of one link have the same name and colour.
+    const isFirst = ({ name, color }, k) => view.bodies.findIndex((body) => body.name === name && body.color === color) === k;
+    const parts = view.bodies.filter(isFirst);
+    const named = parts.length <= 12 ? parts : [];
     element("legend").replaceChildren(...named.map(({ name, color }) => {
       const item = document.createElement("li");
       const patch = document.createElement("span");
@@ -114,6 +117,8 @@
     legend(view);
     element("steps").hidden = view.ghost_times.length === 0;
     element("gap-words").hidden = view.gap === null;
+    element("required-words").hidden = (view.gap?.required ?? null) === null;
+    element("steps-words").hidden = view.ghost_times.length === 0;
     list.hidden = view.contacts.length < 2;
     list.replaceChildren(...view.contacts.slice(0, LISTED).map(({ words: text }, number) => {
       const item = document.createElement("li");

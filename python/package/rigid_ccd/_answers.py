@@ -90,11 +90,14 @@ class PathContact:
 class PathDistance:
     """Bounds of the least distance on a path, to within the tolerance unless a limit was reached.
 
+    Bodies that exceed their shapes, such as hulls of meshes, may touch where the shapes do not. Then the bounds are 0 and what
+    both bodies of the pair stick out by.
+
     Attributes:
         lower: nothing is ever nearer than this.
         upper: the nearest pair comes at least as near as this.
         nearest: the nearest pair; None if no pair was measured.
-        limit: the limit that ended the search; None if the bounds differ by the tolerance.
+        limit: the limit that ended the search; None if there was none.
     """
 
     lower: float

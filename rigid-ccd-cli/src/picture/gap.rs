@@ -89,6 +89,7 @@ pub fn measure_gap_over_time(
         gap: GapCurve {
             proven: survey.lower_bound_curve(&points)?,
             points,
+            ..GapCurve::default()
         },
         step_times: steps,
     })

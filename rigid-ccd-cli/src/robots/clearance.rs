@@ -1,5 +1,6 @@
 //! `ccd clearance`: proves where a mechanism keeps a clearance.
 
+mod page;
 mod report;
 
 use super::joint_values::{JointRange, length, tolerance_length};
@@ -74,9 +75,6 @@ Examples:
 
 /// Runs `ccd clearance`.
 pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
-    if args.html.is_some() && args.pose_error > 0.0 {
-        bail!("--html shows the path as it is: leave out --pose-error");
-    }
     if let Some(html) = &args.html {
         args.cell.refuse_overwriting(&[("--html", html)])?;
         if let Some(path) = &args.path {
@@ -113,10 +111,12 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     };
     printed.map_err(OutputError::standard_output_error)?;
     if let Some(html) = html {
-        let clearance = args.require.unwrap_or(0.0);
+        // A violation is no contact: the page shows where the least distance is.
+        solver.set_settings(args.settings(0.0));
         let painter = RobotPainter::new(&cell)?;
         let title = input_name(args.cell.robot.path());
-        let view = painter.animation(&mut solver, &path, clearance)?;
+        let mut view = painter.animation(&mut solver, &path, 0.0)?;
+        page::show_report(&report, &mut view);
         write_page(&painter.page(&title, vec![view]), html, args.quiet)?;
     }
     Ok(outcome(&report))

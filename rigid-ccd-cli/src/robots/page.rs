@@ -77,17 +77,18 @@ impl<'c> RobotPainter<'c> {
         let first = solver.first_contact(configurations)?;
         let seconds =
             |time: f64| path.table_time_rounded_down(time) - path.table_time_rounded_down(0.0);
-        let mut gap = GapCurve::default();
+        let mut gap = GapCurve {
+            unit: "mm".to_owned(),
+            ..GapCurve::default()
+        };
         for range in &ranges {
             let closest = &range.closest;
-            gap.proven.push([seconds(range.from.time()), closest.lower]);
-            gap.proven.push([seconds(range.to.time()), closest.lower]);
+            let (lower, upper) = (1e3 * closest.lower, 1e3 * closest.upper);
+            gap.proven.push([seconds(range.from.time()), lower]);
+            gap.proven.push([seconds(range.to.time()), lower]);
             if let Some(nearest) = closest.nearest {
-                gap.points.push(GapSample {
-                    time: seconds(nearest.at.time()),
-                    lower: closest.lower,
-                    upper: closest.upper,
-                });
+                let time = seconds(nearest.at.time());
+                gap.points.push(GapSample { time, lower, upper });
             }
         }
         let least = ranges
@@ -130,13 +131,20 @@ impl<'c> RobotPainter<'c> {
             }
         }
         let items = self.cell.placed_bodies(&path.configurations[0])?;
-        let shown = items.iter().zip(&self.mesh_numbers).zip(poses).enumerate();
-        let shown = shown.map(|(k, (((item, ..), mesh), keys))| {
+        let mut known: Vec<Item<'_>> = Vec::new();
+        let shown = items.iter().zip(&self.mesh_numbers).zip(poses);
+        let shown = shown.map(|(((item, ..), mesh), keys)| {
+            // All bodies of a link have its colour.
+            let number = known.iter().position(|other| other == item);
+            let number = number.unwrap_or_else(|| {
+                known.push(*item);
+                known.len() - 1
+            });
             let color = match item {
                 Item::Obstacle(_) => OBSTACLE_COLOR.to_owned(),
                 _ => format!(
                     "hsl({:.0}, 55%, 52%)",
-                    (150.0 + HUE_STEP * k as f64) % 360.0
+                    (150.0 + HUE_STEP * number as f64) % 360.0
                 ),
             };
             ShownBody::new(item.name(), *mesh, &color, shown_motion(&keys))
@@ -216,7 +224,7 @@ fn verdict(
     clearance: f64,
 ) -> String {
     let kept = if clearance > 0.0 {
-        format!(" with a clearance of {clearance}")
+        format!(" with a clearance of {} mm", 1e3 * clearance)
     } else {
         String::new()
     };
@@ -243,8 +251,9 @@ fn verdict(
         }
         (PathOutcome::Free, Some((distance, contact))) => {
             format!(
-                "Free{kept}, proven. Nearest: {}, {distance:.5} apart.",
-                place(&contact)
+                "Free{kept}, proven. Nearest: {}, {:.3} mm apart.",
+                place(&contact),
+                1e3 * distance
             )
         }
         (PathOutcome::Free, None) => format!("Free{kept}, proven."),

@@ -303,8 +303,12 @@ fn a_page_shows_the_robot() {
         "--html",
         "clearance.html",
     ];
-    call(&scene, &args).run_expecting_code(0);
-    assert!(scene.directory.join("clearance.html").exists());
+    call(&scene, &args)
+        .args(&["--require", "5mm", "--pose-error", "0.1mm"])
+        .run_expecting_code(0);
+    let page = fs::read_to_string(scene.directory.join("clearance.html")).unwrap();
+    assert_contains(&page, "5 mm required: kept");
+    assert_contains(&page, "\"required\":5.0,\"unkept\":[]");
     let message = call(&scene, &["view", "arm.urdf", "--joint", "knee=1"]).run_for_messages(2);
     assert_contains(&message, "--joint knee");
 }

@@ -12,6 +12,9 @@ use std::fmt;
 /// The number of halvings of each segment of a path for the curve of the distance.
 pub(super) const CURVE_HALVINGS: u32 = 6;
 
+/// The greatest number of joints by whose positions a point of the path is described. With more, it is the time on the path.
+const MAX_NAMED_JOINTS: usize = 3;
+
 /// The distances of a mechanism along a path.
 pub(super) struct Report<'a> {
     pub(super) cell: &'a Cell,
@@ -57,6 +60,11 @@ impl Report<'_> {
     /// Describes a point of the path; its positions are rounded towards those of another point.
     fn place_rounded_towards(&self, at: PathPoint, other: PathPoint) -> String {
         let others = self.moving_positions(other);
+        if others.len() > MAX_NAMED_JOINTS {
+            let [time, towards] =
+                [at, other].map(|point| 1e6 * self.path.table_time_rounded_down(point.time()));
+            return format!("time {:.6}", 1e-6 * rounded_towards(time, towards));
+        }
         let positions = self.moving_positions(at).into_iter().zip(others);
         let positions = positions.map(|((name, position), (_, towards))| {
             let text = self.position_text(name, position, towards);
@@ -84,15 +92,8 @@ impl Report<'_> {
         } else {
             (1e3, " mm")
         };
-        let shown = 1e4 * factor * position;
-        let rounded = if towards > position {
-            shown.ceil()
-        } else if towards < position {
-            shown.floor()
-        } else {
-            shown.round()
-        };
-        format!("{:.4}{unit}", 1e-4 * rounded)
+        let shown = [position, towards].map(|position| 1e4 * factor * position);
+        format!("{:.4}{unit}", 1e-4 * rounded_towards(shown[0], shown[1]))
     }
 
     fn positions_json(&self, at: PathPoint) -> Value {
@@ -180,6 +181,17 @@ impl Report<'_> {
             let names = [one, other].map(|link| robot.links()[link].name.as_str());
             (names, reason.to_string())
         })
+    }
+}
+
+/// Rounds to an integer, in the direction of another number.
+fn rounded_towards(value: f64, other: f64) -> f64 {
+    if other > value {
+        value.ceil()
+    } else if other < value {
+        value.floor()
+    } else {
+        value.round()
     }
 }
 
