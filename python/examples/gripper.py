@@ -14,7 +14,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.interpolate import CubicSpline, PPoly
 
-from rigid_ccd import Body, Cell, Joint, Motion, Robot
+from rigid_ccd import Body, Cell, Joint, Robot
 
 BAR, COUPLER, GROUND, RADIUS = 0.050, 0.020, 0.022, 0.004  # crank and rocker are as long, and all bars are as thick
 PAD, PAD_SIZE, BALL, BALL_RADIUS = [-0.006, 0.020, 0], [0.004, 0.030, 0.020], [0, 0.078, 0], 0.015
@@ -74,17 +74,15 @@ axes.set(xlim=stops[[0, -1]], ylim=(0, None), xlabel="angle of the cranks (degre
 axes.legend(frameon=False)
 figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "gripper.png", dpi=150)
 
-# %% An arm carries the gripper with the ball over a wall: bodies on one link are not compared with each other
+# %% An arm carries the gripper with the ball over a wall
 package = {path.name: path.locate() for path in files("example-robot-data") or []}
-arm = Cell(Robot.from_urdf(package["ur5_robot.urdf"], package["ur5.srdf"]))
-arm.add("wall", Body.box(size=(0.4, 0.02, 0.135)), ([0.55, 0, 0.0325], UPRIGHT))
-held = palm | {f"{side}/{name}": parts[name] for side in ("right", "left") for name in parts}
-held["right/frame"] = [(Body.sphere(BALL_RADIUS), (BALL, UPRIGHT))]
-flange = Motion.still(([0, 0, 0.041], [0.5**0.5, 0.5**0.5, 0, 0])).pose(0)
-for link, bodies in held.items():
-    for k, (body, pose) in enumerate(bodies):
-        at = flange @ gripper.pose(link, travel(touch.time)) @ Motion.still(pose).pose(0)
-        arm.attach(f"{link} {k}", body, "tool0", at, may_touch=["wrist_3_link", "ee_link"])
-edge = [[-0.8, -1.4, 1.9, -2.07, -1.57, 0], [0.8, -1.4, 1.9, -2.07, -1.57, 0]]
-assert arm.is_free(edge, tolerance=1e-5)
-print(f"An edge of the arm is free, by {1e3 * arm.closest_approach(edge, tolerance=1e-5).lower:.2f} mm")
+arm = Robot.from_urdf(package["ur5_robot.urdf"], package["ur5.srdf"])
+flange = ([0, 0, 0.041], [0.5**0.5, 0.5**0.5, 0, 0])
+both = Cell(Robot.combined({"": arm, "gripper": gripper}, {"gripper": flange}, carriers={"gripper": "tool0"}))
+both.add("wall", Body.box(size=(0.4, 0.02, 0.135)), ([0.55, 0, 0.0325], UPRIGHT))
+pads = [f"gripper/{side}/coupler" for side in ("right", "left")]
+both.attach("ball", Body.sphere(BALL_RADIUS), "gripper/palm", (BALL, UPRIGHT), may_touch=pads)
+ends = [[-0.8, -1.4, 1.9, -2.07, -1.57, 0], [0.8, -1.4, 1.9, -2.07, -1.57, 0]]
+edge = [[*end, *closed(touch.time)] for end in ends]
+assert both.is_free(edge, tolerance=1e-5)
+print(f"An edge of the arm is free, by {1e3 * both.closest_approach(edge, tolerance=1e-5).lower:.2f} mm")

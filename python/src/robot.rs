@@ -209,8 +209,11 @@ impl PyRobot {
     ///
     /// Args:
     ///     robots: a dict of robots by name. The name "" keeps the robot's own names.
-    ///     poses: a dict of poses of their bases in the world; those of bases that move are where their positions are 0.
+    ///     poses: a dict of poses of their bases, in the world or on the links that carry them; those of bases that move are where
+    ///         their positions are 0.
     ///     bases: a dict of "fixed", "planar" or "floating"; a base that is not named is fixed.
+    ///     carriers: a dict of the links that carry bases, by their names among all robots: {"gripper": "arm/flange"}. A base that
+    ///         is not named is in the world.
     ///
     /// >>> from rigid_ccd import Body, Cell, Robot
     /// >>> ball = Robot([], {"body": Body.sphere(1)})
@@ -221,38 +224,43 @@ impl PyRobot {
     /// >>> contact.a, contact.b, round(6 * contact.share, 2)
     /// ('blue/body', 'red/body', 3.0)
     #[classmethod]
-    #[pyo3(signature = (robots, poses = None, bases = None))]
+    #[pyo3(signature = (robots, poses = None, bases = None, carriers = None))]
     fn combined(
         class: &Bound<'_, PyType>,
         robots: &Bound<'_, PyMapping>,
         poses: Option<&Bound<'_, PyMapping>>,
         bases: Option<&Bound<'_, PyMapping>>,
+        carriers: Option<&Bound<'_, PyMapping>>,
     ) -> PyResult<Self> {
         let py = class.py();
         let items = robots.items()?;
         let given = items.iter().map(|item| item.extract());
         let given: Vec<(String, Py<PyRobot>)> = given.collect::<PyResult<_>>()?;
         let names: Vec<String> = given.iter().map(|(name, _)| name.clone()).collect();
-        let robot_bases = RobotBase::read_all(&names, poses, bases)?;
+        let robot_bases = RobotBase::read_all(&names, poses, bases, carriers)?;
         // What was read is kept for pickle, and not what the caller may change.
-        let read = [(); 3].map(|()| PyDict::new(py));
+        let read = [(); 4].map(|()| PyDict::new(py));
         let mut placed = Vec::new();
         for ((name, robot), base) in given.iter().zip(&robot_bases) {
-            let [robots, poses, bases] = &read;
+            let [robots, poses, bases, carriers] = &read;
             robots.set_item(name, robot)?;
             poses.set_item(name, base.pose)?;
             bases.set_item(name, &base.motion_name)?;
+            if let Some(link) = &base.carrier {
+                carriers.set_item(name, link)?;
+            }
             let robot = robot.get();
             placed.push(PlacedRobot {
                 name,
                 robot: &robot.robot,
                 pairs: &robot.pairs,
+                carrier: base.carrier.as_deref(),
                 pose: base.pose.pose("poses")?,
                 base_motion: base.motion()?,
             });
         }
         let (robot, pairs) = Robot::combine(&placed).map_err(input_error)?;
-        let arguments: (_, _, _) = read.into();
+        let arguments: (_, _, _, _) = read.into();
         Ok(PyRobot {
             robot: Arc::new(robot),
             pairs,

@@ -6,20 +6,23 @@ use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 use rigid_ccd_robot::CompoundKind;
 
-/// The place of a robot's base in the world, and how it moves, by the name that Python gives it.
+/// The place of a robot's base in the world or on a link, and how it moves, by the names that Python gives.
 pub(crate) struct RobotBase {
+    pub(crate) carrier: Option<String>,
     pub(crate) pose: GivenPose,
     pub(crate) motion_name: String,
 }
 
 impl RobotBase {
-    /// Reads the bases of robots with these names from dicts of the poses and the motions of some of them.
+    /// Reads the bases of robots with these names from dicts of the poses, the motions and the carriers of some of them.
     pub(crate) fn read_all(
         names: &[String],
         poses: Option<&Bound<'_, PyMapping>>,
         motions: Option<&Bound<'_, PyMapping>>,
+        carriers: Option<&Bound<'_, PyMapping>>,
     ) -> PyResult<Vec<Self>> {
         let at_rest = || RobotBase {
+            carrier: None,
             pose: GivenPose::IDENTITY,
             motion_name: "fixed".to_owned(),
         };
@@ -33,6 +36,9 @@ impl RobotBase {
         }
         for (name, motion) in entries(motions)? {
             bases[number(&name, "bases")?].motion_name = motion.extract()?;
+        }
+        for (name, link) in entries(carriers)? {
+            bases[number(&name, "carriers")?].carrier = Some(link.extract()?);
         }
         Ok(bases)
     }

@@ -18,9 +18,11 @@ pub struct PlacedRobot<'a> {
     pub robot: &'a Robot,
     /// The pairs of its links that are checked.
     pub pairs: &'a LinkPairs,
-    /// The pose of its base in the world; of a base that moves when its positions are 0.
+    /// The link that carries its base, by the name that it has among all robots, such as `arm/flange`; `None` for the world.
+    pub carrier: Option<&'a str>,
+    /// The pose of its base in the world or on the link that carries it; of a base that moves when its positions are 0.
     pub pose: Pose,
-    /// How its base moves in the world; `None` for one at rest.
+    /// How its base moves there; `None` for one at rest.
     pub base_motion: Option<CompoundKind>,
 }
 
@@ -29,10 +31,12 @@ impl Robot {
     /// of the second, and so on.
     ///
     /// The robots are checked against each other. Each has its own pairs of links that are checked. A base that moves has its
-    /// positions first, with names such as `cart/base/x`. An obstacle that moves is a robot of one link, with such a base.
+    /// positions first, with names such as `cart/base/x`. An obstacle that moves is a robot of one link, with such a base. A gripper
+    /// is a robot that a link of an arm carries; it is not compared with links that never move against its base.
     ///
     /// # Errors
-    /// [`RobotError`] for names that are not unique, a plane without a normal, and pairs of another robot.
+    /// [`RobotError`] for names that are not unique, carriers that are no links or that carry each other, a plane without a
+    /// normal, and pairs of another robot.
     ///
     /// ```
     /// use rigid_ccd::{Body, Pose};
@@ -46,6 +50,7 @@ impl Robot {
     ///     name,
     ///     robot: &cart,
     ///     pairs: &pairs,
+    ///     carrier: None,
     ///     pose: Pose::at([x, 0.0, 0.0])?,
     ///     base_motion: on_floor,
     /// });
@@ -69,7 +74,8 @@ impl Robot {
         // Links of moving bases come last, so that those of a robot keep their order.
         let mut base_links = Vec::new();
         for placed in robots {
-            let (own_links, own_joints) = placed.base_joints(&world)?;
+            let carrier = placed.carrier.unwrap_or(&world);
+            let (own_links, own_joints) = placed.base_joints(carrier)?;
             base_links.extend(own_links);
             joints.extend(own_joints);
             first_links.push(links.len());
@@ -114,8 +120,8 @@ impl PlacedRobot<'_> {
         }
     }
 
-    /// Returns the joints that hold the base in the world, with the links between them.
-    fn base_joints(&self, world: &str) -> Result<(Vec<Link>, Vec<Joint>), RobotError> {
+    /// Returns the joints between the link that carries the base and the base, with the links between them.
+    fn base_joints(&self, carrier: &str) -> Result<(Vec<Link>, Vec<Joint>), RobotError> {
         let base = self.prefixed(&self.robot.links()[self.robot.base()].name);
         let mut name = self.prefixed("base");
         let has_joint = |name: &String| {
@@ -128,11 +134,11 @@ impl PlacedRobot<'_> {
             name.push('_');
         }
         if let Some(kind) = self.base_motion {
-            return Ok(kind.links_and_joints(&name, [world, &base], self.pose)?);
+            return Ok(kind.links_and_joints(&name, [carrier, &base], self.pose)?);
         }
         let fixed = Joint {
             name,
-            parent: world.to_owned(),
+            parent: carrier.to_owned(),
             child: base,
             axis_and_limits: trajectory::Joint::fixed(self.pose),
             position_rule: PositionRule::Independent,

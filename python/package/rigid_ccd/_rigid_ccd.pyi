@@ -224,6 +224,7 @@ class Robot:
         robots: Mapping[str, Robot],
         poses: Mapping[str, _Pose] | None = None,
         bases: Mapping[str, Literal["fixed", "planar", "floating"]] | None = None,
+        carriers: Mapping[str, str] | None = None,
     ) -> Robot: ...
     @property
     def joint_names(self) -> list[str]: ...

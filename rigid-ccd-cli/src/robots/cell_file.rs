@@ -52,6 +52,8 @@ struct OtherRobot {
     name: String,
     urdf: String,
     srdf: Option<String>,
+    /// The link that carries its base; `None` for the world.
+    on: Option<String>,
     #[serde(default)]
     position: [f64; 3],
     rpy: Option<[f64; 3]>,
@@ -161,6 +163,7 @@ impl<'p> CellSource<'p> {
             name: "",
             robot: own,
             pairs,
+            carrier: None,
             pose: Pose::IDENTITY,
             base_motion: None,
         };
@@ -221,6 +224,7 @@ struct OwnedRobot {
     name: String,
     robot: Robot,
     pairs: LinkPairs,
+    carrier: Option<String>,
     pose: Pose,
     base_motion: Option<CompoundKind>,
 }
@@ -231,6 +235,7 @@ impl OwnedRobot {
             name: &self.name,
             robot: &self.robot,
             pairs: &self.pairs,
+            carrier: self.carrier.as_deref(),
             pose: self.pose,
             base_motion: self.base_motion,
         }
@@ -246,6 +251,7 @@ impl OtherRobot {
             pairs: file.link_pairs(&robot, srdf.as_deref())?,
             name: self.name.clone(),
             robot,
+            carrier: self.on.clone(),
             pose: pose(self.position, self.rpy, self.quaternion)?,
             base_motion: self.base.map(CompoundKind::from),
         })
@@ -262,6 +268,7 @@ impl Obstacle {
             name: self.name.clone(),
             pairs: LinkPairs::from_robot(&robot),
             robot,
+            carrier: None,
             pose: pose(self.position, self.rpy, self.quaternion)?,
             base_motion: Some(moves.into()),
         })

@@ -42,7 +42,7 @@ fn base_pose(placed: &PlacedRobot<'_>, positions: &[f64]) -> Pose {
 #[test]
 fn links_are_where_the_base_carries_them() {
     let mut random = Pcg64::seed_from_u64(51);
-    let (mut within_one, mut between_both) = (0, 0);
+    let (mut within_one, mut between_both, mut carried) = (0, 0, 0);
     for _ in 0..80 {
         let robots = [(); 2].map(|()| random_robot(&mut random));
         let mut pairs = robots.each_ref().map(LinkPairs::from_robot);
@@ -53,10 +53,16 @@ fn links_are_where_the_base_carries_them() {
                 }
             }
         }
+        // A link of the left robot carries the right one, half of the time.
+        let links = robots[0].links();
+        let link = &links[random.random_range(0..links.len())].name;
+        let carrier = format!("left/{link}");
+        let is_carried = random.random_range(0..2) == 0;
         let placed = [0, 1].map(|k| PlacedRobot {
             name: ["left", "right"][k],
             robot: &robots[k],
             pairs: &pairs[k],
+            carrier: (k == 1 && is_carried).then_some(&*carrier),
             pose: random_pose(&mut random, 1.5),
             base_motion: KINDS[random.random_range(0..KINDS.len())],
         });
@@ -72,7 +78,11 @@ fn links_are_where_the_base_carries_them() {
             let (base, others) = rest.split_at(base_count);
             let (own, others) = others.split_at(placed.robot.free_joint_names().len());
             rest = others;
-            let base = base_pose(placed, base);
+            let mut base = base_pose(placed, base);
+            if let Some(carrier) = placed.carrier {
+                carried += 1;
+                base = both.pose(carrier, &configuration).unwrap().compose(&base);
+            }
             for link in placed.robot.links() {
                 let expected = base.compose(&placed.robot.pose(&link.name, own).unwrap());
                 let found = both
@@ -100,9 +110,57 @@ fn links_are_where_the_base_carries_them() {
         }
     }
     assert!(
-        within_one > 10 && between_both > 10,
-        "{within_one} {between_both}"
+        within_one > 10 && between_both > 10 && carried > 10,
+        "{within_one} {between_both} {carried}"
     );
+}
+
+/// Tests that a gripper is compared with the arm that carries it, except for what moves with its base, and that carriers have to
+/// be links that do not carry each other.
+#[test]
+fn a_link_carries_a_robot() {
+    let ball = |name: &str| {
+        let body = rigid_ccd::Body::sphere(0.1).unwrap();
+        Link::named(name).with_body(body, Pose::IDENTITY)
+    };
+    let hinge = |parent: &str, child: &str| Joint {
+        name: format!("{parent}-{child}"),
+        parent: parent.into(),
+        child: child.into(),
+        axis_and_limits: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+        position_rule: PositionRule::Independent,
+    };
+    let arm = vec![ball("foot"), ball("hand")];
+    let arm = Robot::new(arm, vec![hinge("foot", "hand")]).unwrap();
+    let gripper = vec![ball("palm"), ball("finger")];
+    let gripper = Robot::new(gripper, vec![hinge("palm", "finger")]).unwrap();
+    let [of_arm, of_gripper] = [&arm, &gripper].map(LinkPairs::from_robot);
+    let placed = |carriers: [Option<&'static str>; 2]| {
+        let [on_arm, on_gripper] = carriers;
+        let base = |name, robot, pairs, carrier| PlacedRobot {
+            name,
+            robot,
+            pairs,
+            carrier,
+            pose: Pose::IDENTITY,
+            base_motion: None,
+        };
+        Robot::combine(&[
+            base("", &arm, &of_arm, on_gripper),
+            base("gripper", &gripper, &of_gripper, on_arm),
+        ])
+    };
+    let (both, pairs) = placed([Some("hand"), None]).unwrap();
+    let name = |link: usize| both.links()[link].name.as_str();
+    let checked: Vec<[&str; 2]> = pairs.checked_pairs().map(|pair| pair.map(name)).collect();
+    let known = [
+        ["foot", "gripper/palm"],
+        ["foot", "gripper/finger"],
+        ["hand", "gripper/finger"],
+    ];
+    assert_eq!(checked, known);
+    assert!(placed([Some("none"), None]).is_err());
+    assert!(placed([Some("hand"), Some("gripper/palm")]).is_err());
 }
 
 /// Tests that each robot keeps its own pairs, and that names which are not unique are refused.
@@ -126,6 +184,7 @@ fn robots_keep_their_own_pairs() {
         name,
         robot: &robot,
         pairs: &pairs,
+        carrier: None,
         pose: Pose::IDENTITY,
         base_motion: None,
     };
@@ -173,6 +232,7 @@ fn pairs_are_of_their_robot_and_names_are_free() {
         name: "",
         robot,
         pairs,
+        carrier: None,
         pose: Pose::IDENTITY,
         base_motion: Some(CompoundKind::Floating),
     };

@@ -151,6 +151,16 @@ fn other_robots_and_moving_obstacles_have_positions_of_their_own() {
         error.to_string().contains("obstacle ball moves"),
         "{error:#}"
     );
+    let carried = "[[robot]]\nname = 'cart'\nurdf = 'cart.urdf'\nposition = [3, 0, 0]\non = ";
+    let cell = read(&format!("{carried}'arm'")).unwrap();
+    let lift = cell.robot().pose("cart/deck", &[0.3, 0.0]).unwrap();
+    let arm = cell.robot().pose("arm", &[0.3, 0.0]).unwrap();
+    let on_arm = arm.inverse().compose(&lift).translation();
+    assert!(
+        on_arm.distance(rigid_ccd::glam::DVec3::new(3.0, 0.0, 0.0)) < 1e-12,
+        "{on_arm}"
+    );
+    assert!(read(&format!("{carried}'none'")).is_err());
     let error = read("[[robot]]\nname = 'cart'\nurdf = 'none.urdf'").unwrap_err();
     assert!(
         format!("{error:#}").starts_with("robot cart: "),
