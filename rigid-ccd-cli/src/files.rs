@@ -4,11 +4,11 @@ use super::output::{JOURNAL_EXTENSION, is_dash, is_standard_output};
 use anyhow::{Context, Result, anyhow, bail};
 use ccd_file::{PARTIAL_EXTENSION, resolve_links};
 use rigid_ccd::table::courses::MovementRows;
-use rigid_ccd::table::csv_records::CsvRecords;
 use rigid_ccd::table::motions::MotionRows;
 use rigid_ccd::table::paths::Grouping;
+use rigid_ccd::table::table_records::TableRecords;
 use std::fs::{self, File};
-use std::io::{self, Read};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Returns an error if an output, or a temporary file of the output, would overwrite an input.
@@ -37,32 +37,30 @@ pub fn refuse_overwriting_input(
     Ok(())
 }
 
-/// A reader of a table's bytes, from a file or standard input.
-pub(super) type Source = Box<dyn Read>;
-
 /// Opens a table of motions, and returns its rows and, if known, its length in bytes.
-pub fn open_motions(path: &Path) -> Result<(MotionRows<CsvRecords<Source>>, Option<u64>)> {
-    let (input, length) = open_table("--motions", path)?;
-    let rows = MotionRows::new(input).with_context(|| input_name(path))?;
+pub fn open_motions(path: &Path) -> Result<(MotionRows<TableRecords>, Option<u64>)> {
+    let (records, length) = open_table("--motions", path)?;
+    let rows = MotionRows::of(records).with_context(|| input_name(path))?;
     Ok((rows, length))
 }
 
 /// The rows of a table of motions or paths, from a file or standard input.
-pub(super) type Rows = MovementRows<CsvRecords<Source>>;
+pub(super) type Rows = MovementRows<TableRecords>;
 
 /// Opens a table of motions or paths, and returns its rows and, if known, its length in bytes.
 pub(super) fn open_movement_rows(path: &Path, grouping: Grouping) -> Result<(Rows, Option<u64>)> {
-    let (input, length) = open_table("--motions", path)?;
-    let rows = MovementRows::new(input, grouping).with_context(|| input_name(path))?;
+    let (records, length) = open_table("--motions", path)?;
+    let rows = MovementRows::of(records, grouping).with_context(|| input_name(path))?;
     Ok((rows, length))
 }
 
-/// Opens the table that an option names, and returns its bytes and, if known, their number.
-pub(super) fn open_table(option: &str, path: &Path) -> Result<(Source, Option<u64>)> {
+/// Opens the table that an option names, and returns its rows and, if known, its length in bytes.
+pub(super) fn open_table(option: &str, path: &Path) -> Result<(TableRecords, Option<u64>)> {
     let name = || input_name(path);
-    let advice = format!("give {option} a CSV file, or - for standard input");
+    let advice = format!("give {option} {TABLE_FILE}, or - for CSV from standard input");
     if is_dash(path) {
-        return Ok((Box::new(io::stdin().lock()), None));
+        let records = TableRecords::from_stream(io::stdin().lock()).with_context(name)?;
+        return Ok((records, None));
     }
     let (about, file) = File::open(path)
         .and_then(|file| Ok((file.metadata()?, file)))
@@ -72,8 +70,16 @@ pub(super) fn open_table(option: &str, path: &Path) -> Result<(Source, Option<u6
         bail!("{}: is a folder; {advice}", name());
     }
     let length = about.is_file().then_some(about.len());
-    Ok((Box::new(file), length))
+    let records = TableRecords::from_file(file).with_context(name)?;
+    Ok((records, length))
 }
+
+/// The formats of tables that this build reads from a file.
+const TABLE_FILE: &str = if cfg!(feature = "parquet") {
+    "a CSV or Parquet file"
+} else {
+    "a CSV file"
+};
 
 /// Returns the name that messages give to an input: its path, or standard input.
 pub fn input_name(path: &Path) -> String {

@@ -20,8 +20,8 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct SceneCommandArgs {
-    /// Table of the bodies, CSV: column `body` as in `ccd query --a`, columns px, vx, ... as in a table of motions
-    #[arg(value_name = "CSV")]
+    /// Table of the bodies, CSV or Parquet: column `body` as in `ccd query --a`, columns px, vx, ... as in a table of motions
+    #[arg(value_name = "TABLE")]
     scene: PathBuf,
     #[command(flatten)]
     meshes: MeshArgs,

@@ -10,9 +10,9 @@ use ccd_core::{Body, Settings};
 use ccd_decomp::BodySource;
 use rigid_ccd::scene::{Impact, PairError};
 use rigid_ccd::table::columns::{BODY_COLUMN_NAME, Columns, TableKind};
-use rigid_ccd::table::csv_records::CsvRecords;
 use rigid_ccd::table::motions::{BodyRow, RowPosition, RowProblem, body_row};
 use rigid_ccd::table::records::Records;
+use rigid_ccd::table::table_records::TableRecords;
 use rigid_ccd::{Remark, Scene};
 use std::collections::HashMap;
 use std::fs::File;
@@ -68,7 +68,7 @@ pub(super) fn read(
     for (position, row) in rows {
         scene
             .load_body_once(&row.body_text, how)
-            .with_context(|| format!("{}: line {}", name(), position.line))?;
+            .with_context(|| format!("{}: {position}", name()))?;
         scene.rows.push(row);
     }
     for file in &scene.files {
@@ -82,7 +82,7 @@ type RowWithPosition = (RowPosition, BodyRow);
 
 /// Reads the rows of a table, and returns them with remarks about probable mistakes.
 fn read_rows(path: &Path, duration: f64) -> Result<(Vec<RowWithPosition>, Vec<Remark>)> {
-    let mut records = CsvRecords::new(File::open(path)?)?;
+    let mut records = TableRecords::from_file(File::open(path)?)?;
     let header = records.header()?;
     if !header.iter().any(|column| column == BODY_COLUMN_NAME) {
         bail!(

@@ -59,6 +59,7 @@
 //! - `meshes` (default): [`load`], and [`mesh`] for everything that `ccd-decomp` does with meshes.
 //! - `gltf`: meshes from files of this format, too.
 //! - `tables`: what the command and the Python package share; no stable interface, and not in this documentation.
+//! - `parquet`: these tables from Parquet, too. `zstd`: from Parquet that is compressed with zstd.
 //! - `scenes` (default): [`Scene`], many moving bodies.
 //! - `vmarch`: the distance backend [`oracle::Vmarch`].
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.

@@ -321,7 +321,6 @@ impl Records for PathRowReader {
         }
         self.read_row_count += 1;
         self.current_row.row_index = row;
-        let line = row as u64;
-        Ok(Some(RowPosition { row, line }))
+        Ok(Some(RowPosition { row, line: None }))
     }
 }

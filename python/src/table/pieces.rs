@@ -230,10 +230,7 @@ impl RowChunk {
 /// Reads one row of a table of motions.
 fn read_row(batch: &Arc<Batch>, at: usize, columns: &Columns) -> CourseRow {
     let row = batch.first + at;
-    let position = motions::RowPosition {
-        row,
-        line: row as u64,
-    };
+    let position = motions::RowPosition { row, line: None };
     let record = Row {
         batch: Arc::clone(batch),
         row_index: at,

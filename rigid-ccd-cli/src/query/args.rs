@@ -23,8 +23,8 @@ use std::time::Duration;
 pub(crate) struct QueryArgs {
     #[command(flatten)]
     pub(super) bodies: BodiesArgs,
-    /// CSV table of motions, or of paths if it has a column `t`; - reads standard input
-    #[arg(long, value_name = "CSV")]
+    /// Table of motions, or of paths if it has a column `t`, CSV or Parquet; - reads CSV from standard input
+    #[arg(long, value_name = "TABLE")]
     pub(super) motions: PathBuf,
     /// Question that every row answers; all except first-contact need --schedule best-first
     #[arg(long, value_parser = named_value_parser(QUESTIONS), default_value_t)]

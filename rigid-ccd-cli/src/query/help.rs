@@ -17,6 +17,7 @@ Table of motions:
   Columns go by name, in any order. Every column is optional. An empty cell is an error of its row, but
   rows with an end pose leave the velocities of that body empty, and the other way round.
   Rows count from 0: in ids, in --rows and in messages. Lines of a file count from 1.
+  In Parquet, columns hold numbers, text or booleans, and an absent value is an empty cell.
   id                        name of the row in the results [default: its number]
   a_px a_py a_pz            position of A at the start [default: 0]
   a_qw a_qx a_qy a_qz       orientation of A at the start, a quaternion [default: identity]

@@ -31,8 +31,8 @@ pub(crate) struct ClearanceArgs {
     /// not named rests at 0, or at its limit nearest to 0; without any, the only joint moves over all its limits
     #[arg(long, value_name = "NAME=FROM:TO", allow_hyphen_values = true)]
     joint: Vec<JointRange>,
-    /// Table with a path, CSV, as `ccd edges` reads it; in place of ranges, for closed loops of joints
-    #[arg(long, value_name = "CSV")]
+    /// Table with a path, CSV or Parquet, as `ccd edges` reads it; in place of ranges, for closed loops of joints
+    #[arg(long, value_name = "TABLE")]
     path: Option<PathBuf>,
     /// How far points of links may be from where the path places them, such as 0.1mm
     #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length)]

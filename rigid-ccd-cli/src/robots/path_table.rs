@@ -1,12 +1,12 @@
-//! Reads a table of edges or paths of a robot: CSV with columns named like its joints.
+//! Reads a table of edges or paths of a robot, with columns named like its joints.
 
 use super::joint_values::{JointRange, check_joints};
-use crate::files::{Source, open_table};
+use crate::files::open_table;
 use crate::resumable::RowSource;
 use anyhow::{Result, bail};
-use rigid_ccd::table::csv_records::CsvRecords;
 use rigid_ccd::table::motions::{RowError, RowPosition, RowProblem, TableError};
 use rigid_ccd::table::records::{Record, Records};
+use rigid_ccd::table::table_records::TableRecords;
 use rigid_ccd_robot::Robot;
 use std::collections::HashSet;
 use std::path::Path;
@@ -27,7 +27,7 @@ pub(crate) struct TablePath {
 /// A table of edges has columns `from_JOINT` and `to_JOINT`, and a row for each edge. A table of paths has a column for each
 /// joint, and a row for each configuration; rows of one `id` follow each other.
 pub(super) struct PathTable {
-    records: CsvRecords<Source>,
+    records: TableRecords,
     columns: PathColumns,
     /// The row that begins the next path.
     next: Option<RowPosition>,
@@ -67,8 +67,7 @@ impl PathTable {
         robot: &Robot,
         at_rest: &[JointRange],
     ) -> Result<(Self, Option<u64>)> {
-        let (input, length) = open_table(option, path)?;
-        let mut records = CsvRecords::new(input)?;
+        let (mut records, length) = open_table(option, path)?;
         let columns = PathColumns::new(records.header()?, robot, at_rest)?;
         let (checksum, consumed_bytes) = (records.checksum(), records.consumed_bytes());
         let table = PathTable {
@@ -257,26 +256,17 @@ impl PathColumns {
         }
     }
 
-    fn id(&self, record: &csv::ByteRecord) -> Option<String> {
+    fn id(&self, record: &impl Record) -> Option<String> {
         self.id.and_then(|column| record.text(column))
     }
 
     /// Returns whether a row belongs to the path of the rows before it, which have an id or none.
-    fn continues(&self, id: &Option<String>, record: &csv::ByteRecord) -> bool {
+    fn continues(&self, id: &Option<String>, record: &impl Record) -> bool {
         self.end_positions.is_none() && self.id(record) == *id
     }
 
-    fn add_row(
-        &self,
-        mut path: TablePath,
-        record: &csv::ByteRecord,
-    ) -> Result<TablePath, RowProblem> {
-        if record.len() != self.header.len() {
-            return Err(RowProblem::WrongCellCount {
-                cells: record.len(),
-                column_count: self.header.len(),
-            });
-        }
+    fn add_row(&self, mut path: TablePath, record: &impl Record) -> Result<TablePath, RowProblem> {
+        record.check(&self.header)?;
         for positions in [Some(&self.positions), self.end_positions.as_ref()]
             .into_iter()
             .flatten()
@@ -303,7 +293,7 @@ impl PathColumns {
         Ok(path)
     }
 
-    fn number(&self, record: &csv::ByteRecord, column: usize) -> Result<f64, RowProblem> {
+    fn number(&self, record: &impl Record, column: usize) -> Result<f64, RowProblem> {
         let name = || self.header[column].clone();
         match record.number(column) {
             Ok(Some(number)) => Ok(number),
@@ -325,7 +315,7 @@ impl TablePath {
             configurations.push(to);
         }
         TablePath {
-            position: RowPosition { row: 0, line: 0 },
+            position: RowPosition { row: 0, line: None },
             id: String::new(),
             configurations,
             times: None,

@@ -18,8 +18,8 @@ pub(crate) struct ViewArgs {
     /// Distance that all pairs of the robot have to keep, such as 0.005 or 5mm
     #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length, requires = "urdf")]
     pub(super) clearance: f64,
-    /// Table of edges or paths of the robot, CSV, as of `ccd edges`; - reads standard input
-    #[arg(long, visible_alias = "edges", value_name = "CSV", requires = "urdf", conflicts_with_all = ["motions", "a", "b", "scene"])]
+    /// Table of edges or paths of the robot, CSV or Parquet, as of `ccd edges`; - reads CSV from standard input
+    #[arg(long, visible_alias = "edges", value_name = "TABLE", requires = "urdf", conflicts_with_all = ["motions", "a", "b", "scene"])]
     pub(super) path: Option<PathBuf>,
     /// Range over which a joint of the robot moves, or a position at which it rests, as of `ccd clearance`
     #[arg(
@@ -37,10 +37,10 @@ pub(crate) struct ViewArgs {
     b: Option<String>,
     #[command(flatten)]
     meshes: MeshArgs,
-    /// Table of motions or paths to show, CSV, as of `ccd query`; - reads standard input
+    /// Table of motions or paths to show, CSV or Parquet, as of `ccd query`; - reads CSV from standard input
     #[arg(
         long,
-        value_name = "CSV",
+        value_name = "TABLE",
         required_unless_present_any = ["scene", "urdf"],
         requires = "a"
     )]
@@ -61,8 +61,8 @@ pub(crate) struct ViewArgs {
         conflicts_with = "scene"
     )]
     pub(super) ids: Vec<String>,
-    /// Table of the bodies of one scene, CSV: column `body` as in --a, columns px, vx, ... as in a table of motions
-    #[arg(long, value_name = "CSV", conflicts_with_all = ["motions", "a", "b", "urdf"])]
+    /// Table of the bodies of one scene, CSV or Parquet: column `body` as in --a, columns px, vx, ... as in a table of motions
+    #[arg(long, value_name = "TABLE", conflicts_with_all = ["motions", "a", "b", "urdf"])]
     pub(super) scene: Option<PathBuf>,
     /// Time at which the motions of --scene end [default: 1]
     #[arg(long, value_name = "TIME", value_parser = parse_nonnegative, allow_hyphen_values = true, conflicts_with = "urdf")]

@@ -7,6 +7,8 @@ mod formats;
 mod manual;
 mod messages;
 mod outputs;
+#[cfg(feature = "parquet")]
+mod parquet_tables;
 mod questions;
 mod refusals;
 mod resume;

@@ -29,8 +29,13 @@ fn every_cause_is_reported_once() {
     let table = scene.directory.join("motions.csv");
     std::fs::write(&table, b"PAR1\x15\x04\xff\xfe\n").unwrap();
     let folder = scene.directory.to_str().unwrap();
+    let damaged = if cfg!(feature = "parquet") {
+        "cannot be read as Parquet"
+    } else {
+        "is Parquet, not CSV"
+    };
     for (motions, a, expected) in [
-        (table.to_str().unwrap(), "sphere:1", "is Parquet, not CSV"),
+        (table.to_str().unwrap(), "sphere:1", damaged),
         (folder, "sphere:1", "is a folder"),
         ("-", folder, "is a folder; name a mesh in it"),
     ] {

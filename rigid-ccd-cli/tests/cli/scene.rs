@@ -220,7 +220,7 @@ fn tables_that_are_no_scene_are_refused_in_its_words() {
         ),
         (
             "body,px\nsphere,1\n",
-            "line 2: \"sphere\" takes 1 length, not 0; use",
+            "row 0 (line 2): \"sphere\" takes 1 length, not 0; use",
         ),
     ] {
         let bodies = scene.file("scene.csv", table);

@@ -134,9 +134,10 @@ impl TableKind {
 pub struct Columns {
     table_kind: TableKind,
     names: Vec<String>,
+    /// The names of the table's columns, in its order.
+    header: Vec<String>,
     /// For each known column, the index of its cell in a row; `None` if the table does not have it.
     cell_indices: Vec<Option<usize>>,
-    len: usize,
     remark_collector: RemarkCollector,
 }
 
@@ -185,7 +186,7 @@ impl Columns {
             table_kind: form,
             names,
             cell_indices: cells,
-            len: header.len(),
+            header: header.to_owned(),
             remark_collector: RemarkCollector::default(),
         };
         columns.check_complete_groups()?;
@@ -246,9 +247,9 @@ impl Columns {
         self.table_kind.known_column_range(side, quantity)
     }
 
-    /// Returns the number of columns in the table's header.
-    pub(in crate::table) fn len(&self) -> usize {
-        self.len
+    /// Returns the names of the table's columns, in its order.
+    pub(in crate::table) fn header(&self) -> &[String] {
+        &self.header
     }
 
     pub(in crate::table) fn name(&self, slot: usize) -> &str {
@@ -258,15 +259,6 @@ impl Columns {
     /// Returns the index of a known column's cell in a row; `None` if the table does not have it.
     pub(in crate::table) fn index(&self, slot: usize) -> Option<usize> {
         self.cell_indices[slot]
-    }
-
-    /// Returns the name of the column whose cell has a given index in the row.
-    pub(in crate::table) fn name_of_column_with_cell(&self, index: usize) -> &str {
-        let slot = self
-            .cell_indices
-            .iter()
-            .position(|&cell| cell == Some(index));
-        slot.map_or("", |slot| self.name(slot))
     }
 }
 

@@ -1,6 +1,5 @@
 //! Reads a CSV table record by record, with positions and a checksum.
 
-use crate::table::columns::Columns;
 use crate::table::error::{RowProblem, TableError};
 use crate::table::foreign;
 use crate::table::lines::LineEndConverter;
@@ -50,7 +49,7 @@ impl<R: Read> CsvRecords<R> {
         if let Some(line) = records.unclosed_quote_line() {
             return Err(TableError::UnclosedQuote { row: None, line });
         }
-        add(&mut records.checksum, &records.raw_record);
+        add_record(&mut records.checksum, &records.raw_record);
         Ok(records)
     }
 
@@ -103,7 +102,7 @@ impl<R: Read> Records for CsvRecords<R> {
             let row = Some(self.row_count);
             return Err(TableError::UnclosedQuote { row, line });
         }
-        add(&mut self.checksum, &self.raw_record);
+        add_record(&mut self.checksum, &self.raw_record);
         let row = self.row_count;
         self.row_count += 1;
         // The reader also skips empty lines before the row, so the line number is computed from the row's
@@ -112,22 +111,22 @@ impl<R: Read> Records for CsvRecords<R> {
         let after = self.reader.position().line();
         Ok(Some(RowPosition {
             row,
-            line: after.saturating_sub(within + 1).max(before),
+            line: Some(after.saturating_sub(within + 1).max(before)),
         }))
     }
 }
 
 impl Record for csv::ByteRecord {
-    fn check(&self, columns: &Columns) -> Result<(), RowProblem> {
-        if self.len() != columns.len() {
+    fn check(&self, header: &[String]) -> Result<(), RowProblem> {
+        if self.len() != header.len() {
             return Err(RowProblem::WrongCellCount {
                 cells: self.len(),
-                column_count: columns.len(),
+                column_count: header.len(),
             });
         }
         match self.iter().position(|cell| str::from_utf8(cell).is_err()) {
             Some(cell) => Err(RowProblem::NotText {
-                column: columns.name_of_column_with_cell(cell).to_owned(),
+                column: header[cell].clone(),
             }),
             None => Ok(()),
         }
@@ -163,7 +162,7 @@ fn trimmed_cell(record: &csv::ByteRecord, cell: usize) -> Cow<'_, str> {
 }
 
 /// Adds the cells of a record, and the length of each cell, to a checksum.
-fn add(checksum: &mut crc32fast::Hasher, record: &csv::ByteRecord) {
+pub(super) fn add_record(checksum: &mut crc32fast::Hasher, record: &csv::ByteRecord) {
     checksum.update(record.as_slice());
     for cell in record {
         checksum.update(&(cell.len() as u64).to_le_bytes());

@@ -17,6 +17,20 @@ pub enum TableError {
         /// The name of the other format.
         other_format: &'static str,
     },
+    /// A Parquet file is damaged, or stored in a way that is not read.
+    #[error("{0}")]
+    Parquet(ParquetProblem),
+    /// Parquet comes from a stream.
+    #[error("is Parquet, which is read from a file, not from a stream; give the file's path")]
+    ParquetStream,
+    /// A column of a Parquet file has values of a type that is not read.
+    #[error("header: column `{column}` holds {found}; convert them to numbers or to text")]
+    ColumnType {
+        /// The name of the column.
+        column: String,
+        /// What the column holds, in words.
+        found: String,
+    },
     /// The file is a Git LFS pointer.
     #[error("is a Git LFS pointer, not the table itself; run `git lfs pull` to fetch the table")]
     LfsPointer,
@@ -110,6 +124,22 @@ impl From<csv::Error> for TableError {
     fn from(error: csv::Error) -> Self {
         TableError::Unreadable(error.to_string())
     }
+}
+
+/// What is wrong in a Parquet file, and where.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "cannot be read as Parquet: {}{}{problem}",
+    .row_group.map_or(String::new(), |group| format!("row group {group}: ")),
+    .column.as_ref().map_or(String::new(), |column| format!("column `{column}`: "))
+)]
+pub struct ParquetProblem {
+    /// The row group, counted from 0; `None` for the whole file.
+    pub row_group: Option<usize>,
+    /// The name of the column; `None` for all of them.
+    pub column: Option<String>,
+    /// What is wrong, in words.
+    pub problem: String,
 }
 
 /// An error in one row of a table: which row it is, and why the row cannot be answered.

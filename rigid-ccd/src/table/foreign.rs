@@ -1,8 +1,12 @@
 //! Recognises files that are not CSV by their first bytes.
 
+/// The first bytes of Parquet, which has a reader of its own if this build includes it.
+pub(super) const PARQUET_SIGNATURE: &[u8] = b"PAR1";
+
 /// The first bytes of other file formats, each with the name of the format.
-const FILE_SIGNATURES: [(&[u8], &str); 8] = [
-    (b"PAR1", "Parquet"),
+const FILE_SIGNATURES: [(&[u8], &str); 9] = [
+    (PARQUET_SIGNATURE, "Parquet"),
+    (b"PARE", "encrypted Parquet"),
     (b"ARROW1", "Arrow"),
     (b"\x1f\x8b", "gzip"),
     (b"\x28\xb5\x2f\xfd", "zstd"),

@@ -82,13 +82,20 @@ impl<R: io::Read> MotionRows<CsvRecords<R>> {
     /// # Errors
     /// The header cannot be read, or has columns that cannot be used.
     pub fn new(input: R) -> Result<Self, TableError> {
-        let records = CsvRecords::new(input)?;
-        let columns = Columns::from_header(&records.header()?, TableKind::Motions)?;
-        Ok(MotionRows { records, columns })
+        MotionRows::of(CsvRecords::new(input)?)
     }
 }
 
 impl<S: Records> MotionRows<S> {
+    /// Creates the iterator over the rows of `records`.
+    ///
+    /// # Errors
+    /// The header cannot be read, or has columns that cannot be used.
+    pub fn of(records: S) -> Result<Self, TableError> {
+        let columns = Columns::from_header(&records.header()?, TableKind::Motions)?;
+        Ok(MotionRows { records, columns })
+    }
+
     /// Skips rows without parsing them, and returns the number skipped.
     ///
     /// # Errors

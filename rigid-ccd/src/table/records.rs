@@ -1,6 +1,5 @@
 //! Interfaces for tables of any format that are read as rows of cells.
 
-use super::columns::Columns;
 use super::error::{RowProblem, TableError};
 use super::position::RowPosition;
 
@@ -41,7 +40,7 @@ pub trait Record {
     ///
     /// # Errors
     /// What is wrong with the row.
-    fn check(&self, _: &Columns) -> Result<(), RowProblem> {
+    fn check(&self, _header: &[String]) -> Result<(), RowProblem> {
         Ok(())
     }
 

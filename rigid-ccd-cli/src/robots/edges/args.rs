@@ -19,8 +19,8 @@ pub(crate) struct EdgesArgs {
     /// Distance that all pairs have to keep, such as 0.005 or 5mm
     #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length, allow_hyphen_values = true)]
     pub(super) clearance: f64,
-    /// Table of edges or paths, CSV; - reads standard input
-    #[arg(long, value_name = "CSV")]
+    /// Table of edges or paths, CSV or Parquet; - reads CSV from standard input
+    #[arg(long, value_name = "TABLE")]
     pub(super) edges: PathBuf,
     /// Position at which a joint rests that the table has no columns for, such as finger=0.04 or hip=30deg
     #[arg(long, value_name = "NAME=POSITION", allow_hyphen_values = true)]
@@ -105,6 +105,7 @@ Table of paths: a row for each configuration; rows of one id follow each other.
   t                         time of the row, later than that of the row before [default: 0, 1, 2, ...]
   JOINT                     position of the joint
 Each joint with a position of its own needs its columns, or --joint. Mimic joints have none.
+In Parquet, columns hold numbers, text or booleans, and an absent value is an empty cell.
 
 Cell (--cell), TOML. Bodies are those of `ccd query --a`; files are looked for next to the cell.
   [[obstacle]]

@@ -44,7 +44,7 @@ fn edges_are_rows() {
         panic!("{paths:?}");
     };
     let one = one.as_ref().unwrap();
-    assert_eq!((one.id.as_str(), one.position.line), ("first", 2));
+    assert_eq!((one.id.as_str(), one.position.line), ("first", Some(2)));
     assert_eq!(one.configurations, [[0.0, 2.0], [1.0, 3.0]]);
     // Edges may share an id.
     assert_eq!(

@@ -126,7 +126,7 @@ enum MotionEncoding {
 
 impl<'a, R: Record> Row<'a, R> {
     fn new(columns: &'a Columns, record: &'a R) -> Result<Self, RowProblem> {
-        record.check(columns)?;
+        record.check(columns.header())?;
         Ok(Row { columns, record })
     }
 
