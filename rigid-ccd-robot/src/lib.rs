@@ -63,7 +63,7 @@ pub use pairs::{LinkPairs, SkipReason};
 pub use path::Path;
 pub use path_point::PathPoint;
 pub use robot::{ChainBetween, CompoundKind, Joint, Link, LinkBody, PositionRule, Robot};
-pub use robot_file::{BodyElements, MeshConversion, RobotFile, RobotFileError};
+pub use robot_file::{BodyElements, MeshConversion, MjcfError, RobotFile, RobotFileError};
 pub use solver::{
     CellSolver, ClearanceRange, ClosestApproach, DistanceRange, PathContact, PathOutcome,
     RangeSettings,

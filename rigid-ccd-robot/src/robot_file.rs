@@ -1,19 +1,20 @@
 //! Reads a robot from a URDF or MJCF file, and from the mesh files that it names.
 
-mod bodies;
 mod error;
 mod materials;
+mod meshes;
 mod mjcf;
 mod packages;
 mod urdf;
 
-pub use bodies::MeshConversion;
 pub use error::RobotFileError;
+pub use meshes::MeshConversion;
+pub use mjcf::MjcfError;
 
 use crate::pairs::{LinkPairs, SkipReason};
 use crate::robot::Robot;
 use crate::srdf::disabled_and_enabled_pairs;
-use bodies::MeshBodies;
+use meshes::MeshBodies;
 use mjcf::MjcfModel;
 use packages::SearchFolders;
 use quick_xml::Reader;
@@ -187,7 +188,11 @@ impl RobotFile {
             return Ok(None);
         }
         let folder = self.path.parent().unwrap_or(Path::new(""));
-        let model = MjcfModel::from_text(text, folder).map_err(|error| self.syntax_error(error))?;
+        let model = MjcfModel::from_text(text, folder).map_err(|error| match error {
+            // The text has no name of its own.
+            RobotFileError::Mjcf(MjcfError::Syntax { error }) => self.syntax_error(error),
+            other => other,
+        })?;
         Ok(Some(model))
     }
 

@@ -1,5 +1,6 @@
 //! Errors of URDF, MJCF and SRDF files.
 
+use super::mjcf::MjcfError;
 use crate::error::RobotError;
 use ccd_decomp::{MeshError, PrepareError};
 use rigid_ccd::InputError;
@@ -12,12 +13,12 @@ pub enum RobotFileError {
     /// A file cannot be read.
     #[error("{}: {error}", file.display())]
     Unreadable {
-        /// The URDF or SRDF file that cannot be read.
+        /// The file that cannot be read.
         file: PathBuf,
         /// The operating system's message.
         error: String,
     },
-    /// A file is not a valid URDF or SRDF.
+    /// A file is not a valid URDF, MJCF or SRDF.
     #[error("{}: {error}", file.display())]
     Syntax {
         /// The file in which the parser found an error.
@@ -49,19 +50,16 @@ pub enum RobotFileError {
         /// The error of the geom's shape, mesh or pose.
         error: Box<RobotFileError>,
     },
-    /// A shape of an MJCF has no body of its kind.
-    #[error("{shape} is not supported; leave it out of the file, and model it as an obstacle")]
-    UnsupportedShape {
-        /// What the shape is.
-        shape: &'static str,
-    },
+    /// An element of an MJCF cannot be read.
+    #[error(transparent)]
+    Mjcf(#[from] MjcfError),
     /// A floating, planar or spherical joint follows another one.
     #[error("only a joint with one degree of freedom can mimic another one")]
     CompoundMimic,
     /// The file of a mesh was not found at any of the paths that its name may mean.
     #[error("`{uri}` is not found; looked for {}", searched_paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", "))]
     MeshNotFound {
-        /// The file name or `package://` name of the mesh, as the URDF gives it.
+        /// The file name or `package://` name of the mesh, as the robot's file gives it.
         uri: String,
         /// The paths that were searched for the mesh, in order.
         searched_paths: Vec<PathBuf>,

@@ -1,7 +1,7 @@
 //! Converts the links and joints of a URDF file.
 
-use super::bodies::MeshBodies;
 use super::error::RobotFileError;
+use super::meshes::MeshBodies;
 use super::packages::SearchFolders;
 use super::{BodyElements, materials::without_materials};
 use crate::robot::{CompoundKind, Joint, Link, LinkBody, PositionRule, Robot};

@@ -1,17 +1,69 @@
 //! Makes bodies of the geoms of an MJCF.
 
-use super::{MjcfModel, convert_pose};
+use super::bodies::{MjcfBody, MjcfGeom};
+use super::classes::Classes;
+use super::document::Element;
+use super::error::MjcfError;
+use super::orientation::rotation_of_z_to;
+use super::{MjcfModel, children_of_sections};
 use crate::robot::LinkBody;
 use crate::robot_file::BodyElements;
-use crate::robot_file::bodies::MeshBodies;
 use crate::robot_file::error::RobotFileError;
-use mjcf_rs::body::{Geom, GeomType};
+use crate::robot_file::meshes::MeshBodies;
+use ccd_core::vector::unit;
 use rigid_ccd::glam::{DAffine3, DQuat, DVec3};
 use rigid_ccd::{Body, Pose};
+use std::collections::HashMap;
+use std::path::Path;
 use std::sync::Arc;
 
 /// The first group of geoms that MuJoCo does not draw.
-const FIRST_HIDDEN_GROUP: i32 = 3;
+const FIRST_HIDDEN_GROUP: i64 = 3;
+
+/// A mesh that geoms name.
+pub(super) struct MeshAsset {
+    /// The file; `None` for a mesh that the model holds itself.
+    file: Option<String>,
+    /// MuJoCo moves the vertices from the reference pose to the origin, and then scales them.
+    map: DAffine3,
+}
+
+/// Reads the meshes of a model by their names. One without a name has that of its file.
+pub(super) fn read_mesh_assets(
+    root: &Element,
+    classes: &Classes,
+) -> Result<HashMap<String, MeshAsset>, MjcfError> {
+    let mut assets = HashMap::new();
+    for element in children_of_sections(root, "asset") {
+        match element.name.as_str() {
+            "mesh" => {}
+            // Pictures; a geom that is a height field or a skin is refused by itself.
+            "hfield" | "material" | "skin" | "texture" => continue,
+            // A model that may be attached, which is refused where it is.
+            "model" => continue,
+            _ => return Err(element.unknown_in("asset")),
+        }
+        let own = classes.merged(element, None)?;
+        let file = own.get("file");
+        let stem = file.and_then(|file| Path::new(file).file_stem());
+        let stem = stem.and_then(|stem| stem.to_str());
+        let Some(name) = own.get("name").or(stem) else {
+            return Err(own.invalid("name"));
+        };
+        let scale = own.array("scale")?.map_or(DVec3::ONE, DVec3::from_array);
+        let at = own.array("refpos")?.map_or(DVec3::ZERO, DVec3::from_array);
+        let [w, x, y, z] = own.array("refquat")?.unwrap_or([1.0, 0.0, 0.0, 0.0]);
+        let reference = Pose::new(at, DQuat::from_xyzw(x, y, z, w));
+        let back = reference.map_err(|_| own.invalid("refquat"))?.inverse();
+        let back = DAffine3::from_rotation_translation(back.rotation(), back.translation());
+        let asset = MeshAsset {
+            file: file.map(str::to_owned),
+            map: DAffine3::from_scale(scale) * back,
+        };
+        assets.insert(name.to_owned(), asset);
+    }
+    Ok(assets)
+}
 
 /// Makes bodies of the geoms of a model.
 pub(super) struct GeomReader<'r> {
@@ -20,106 +72,116 @@ pub(super) struct GeomReader<'r> {
     pub(super) meshes: &'r MeshBodies,
 }
 
-impl MjcfModel {
-    /// Returns whether a geom becomes a body.
-    pub(super) fn is_body(&self, geom: &Geom, elements: BodyElements) -> bool {
-        match elements {
-            BodyElements::Collision => {
-                let named = |name: &String| geom.name.as_ref() == Some(name);
-                let mut pairs = self.model.contact.pairs.iter();
-                geom.contype != 0
-                    || geom.conaffinity != 0
-                    || pairs.any(|pair| named(&pair.geom1) || named(&pair.geom2))
-            }
-            BodyElements::Visual => geom.group < FIRST_HIDDEN_GROUP,
-        }
-    }
-}
-
 impl GeomReader<'_> {
-    /// Makes the bodies of the geoms of the body with a number.
-    pub(super) fn bodies(&self, number: usize) -> Result<Vec<LinkBody>, RobotFileError> {
-        let geoms = self.mjcf.model.bodies[number].body.geoms.iter();
-        geoms
-            .enumerate()
-            .filter(|(_, geom)| self.mjcf.is_body(geom, self.elements))
-            .map(|(k, geom)| {
-                let name = || geom.name.clone().unwrap_or_else(|| k.to_string());
-                self.body(geom)
-                    .map_err(|error| error.with_geom_name(&name()))
-            })
-            .collect()
+    /// Makes the bodies of the geoms of a body.
+    pub(super) fn bodies(&self, body: &MjcfBody) -> Result<Vec<LinkBody>, RobotFileError> {
+        let mut bodies = Vec::new();
+        for (number, geom) in body.geoms.iter().enumerate() {
+            let own = self.body(geom);
+            bodies.extend(own.map_err(|error| {
+                let name = geom
+                    .name()
+                    .map_or_else(|| number.to_string(), str::to_owned);
+                error.with_geom_name(&name)
+            })?);
+        }
+        Ok(bodies)
     }
 
-    fn body(&self, geom: &Geom) -> Result<LinkBody, RobotFileError> {
-        if geom.mesh.is_some() && geom.type_ != GeomType::Mesh {
+    /// Makes the body of a geom; `None` if it is not one of the elements that become bodies.
+    fn body(&self, geom: &MjcfGeom) -> Result<Option<LinkBody>, RobotFileError> {
+        let own = &geom.attributes;
+        let is_body = match self.elements {
+            BodyElements::Collision => {
+                geom.contype != 0 || geom.conaffinity != 0 || self.mjcf.is_in_pair(geom)
+            }
+            BodyElements::Visual => own.integer_or("group", 0)? < FIRST_HIDDEN_GROUP,
+        };
+        if !is_body {
+            return Ok(None);
+        }
+        let kind = own.get("type").unwrap_or("sphere");
+        if kind == "mesh" {
+            let body = self.mesh(own.required("mesh")?)?;
+            let pose = geom.pose;
+            return Ok(Some(LinkBody { body, pose }));
+        }
+        if own.get("mesh").is_some() {
             return Err(unsupported("a shape that is fitted to a mesh"));
         }
-        let (pose, [x, y, z]) = pose_and_size(geom)?;
-        let body = match geom.type_ {
-            GeomType::Sphere => Body::sphere(x)?,
-            GeomType::Capsule => Body::capsule(x, y)?,
-            GeomType::Cylinder => Body::cylinder(x, y)?,
-            GeomType::Box => Body::cuboid([x, y, z])?,
-            GeomType::Mesh => {
-                let body = self.mesh(geom.mesh.as_deref().unwrap_or(""))?;
-                return Ok(LinkBody { body, pose });
+        let (pose, sizes) = pose_and_sizes(geom, kind)?;
+        let body = match (kind, &sizes[..]) {
+            ("sphere", &[radius, ..]) => Body::sphere(radius)?,
+            ("capsule", &[radius, half_height, ..]) => Body::capsule(radius, half_height)?,
+            ("cylinder", &[radius, half_height, ..]) => Body::cylinder(radius, half_height)?,
+            ("box", &[x, y, z]) => Body::cuboid([x, y, z])?,
+            ("plane", _) => return Err(unsupported("a plane")),
+            ("hfield", _) => return Err(unsupported("a height field")),
+            ("ellipsoid", _) => return Err(unsupported("an ellipsoid")),
+            ("sdf", _) => return Err(unsupported("a signed distance field")),
+            ("sphere" | "capsule" | "cylinder" | "box", _) => {
+                return Err(own.invalid("size").into());
             }
-            GeomType::Plane => return Err(unsupported("a plane")),
-            GeomType::Hfield => return Err(unsupported("a height field")),
-            GeomType::Ellipsoid => return Err(unsupported("an ellipsoid")),
-            GeomType::Sdf => return Err(unsupported("a signed distance field")),
+            _ => return Err(own.invalid("type").into()),
         };
-        Ok(LinkBody {
+        Ok(Some(LinkBody {
             body: Arc::new(body),
             pose,
-        })
+        }))
     }
 
     fn mesh(&self, name: &str) -> Result<Arc<Body>, RobotFileError> {
-        let missing = || RobotFileError::MeshNotFound {
-            uri: name.to_owned(),
-            searched_paths: Vec::new(),
+        let Some(asset) = self.mjcf.meshes.get(name) else {
+            return Err(MjcfError::unknown_name("mesh", name).into());
         };
-        let model = &self.mjcf.model;
-        let asset = model.assets.mesh(name).ok_or_else(missing)?;
-        let Some(file) = model.resolve_mesh_file(asset, &self.mjcf.folder) else {
+        let Some(uri) = &asset.file else {
             return Err(unsupported("a mesh without a file"));
         };
+        let file = self.mjcf.settings.mesh_file(uri);
         if !file.is_file() {
             return Err(RobotFileError::MeshNotFound {
-                uri: asset.file.clone().unwrap_or_default(),
+                uri: uri.clone(),
                 searched_paths: vec![file],
             });
         }
-        // MuJoCo moves the vertices to the reference pose, and then scales them.
-        let reference = convert_pose(asset.refpose)?.inverse();
-        let scale = DAffine3::from_scale(DVec3::from_array(asset.scale));
-        let moved =
-            DAffine3::from_rotation_translation(reference.rotation(), reference.translation());
-        self.meshes.body(file, scale * moved)
+        self.meshes.body(file, asset.map)
     }
 }
 
 /// Returns the pose of a geom and its sizes, which are halves of lengths. A geom may be given by the points between which it is.
-fn pose_and_size(geom: &Geom) -> Result<(Pose, [f64; 3]), RobotFileError> {
-    let Some([x, y, z, to_x, to_y, to_z]) = geom.fromto else {
-        return Ok((convert_pose(geom.pose)?, geom.size));
+fn pose_and_sizes(geom: &MjcfGeom, kind: &str) -> Result<(Pose, Vec<f64>), RobotFileError> {
+    let own = &geom.attributes;
+    let sizes = own.numbers("size")?.unwrap_or_default();
+    let is_shape = ["sphere", "capsule", "cylinder", "box"].contains(&kind);
+    let points = if is_shape { own.array("fromto")? } else { None };
+    let (pose, sizes) = match points {
+        None => (geom.pose, sizes),
+        Some([x, y, z, to_x, to_y, to_z]) => {
+            let (from, to) = (DVec3::new(x, y, z), DVec3::new(to_x, to_y, to_z));
+            let axis = unit(from - to).ok_or_else(|| own.invalid("fromto"))?;
+            let pose = Pose::new(0.5 * (from + to), rotation_of_z_to(axis))?;
+            let half = 0.5 * from.distance(to);
+            let width = sizes.first().copied().unwrap_or(0.0);
+            let sizes = match kind {
+                "capsule" | "cylinder" => vec![width, half],
+                "box" => vec![width, width, half],
+                _ => return Err(own.invalid("fromto").into()),
+            };
+            (geom.frame.compose(&pose), sizes)
+        }
     };
-    let (from, to) = (DVec3::new(x, y, z), DVec3::new(to_x, to_y, to_z));
-    let along = from - to;
-    let rotation = match ccd_core::vector::unit(along) {
-        Some(axis) => DQuat::from_rotation_arc(DVec3::Z, axis),
-        None => DQuat::IDENTITY,
+    let used = match kind {
+        "sphere" => 1,
+        "capsule" | "cylinder" => 2,
+        _ => 3,
     };
-    let pose = Pose::new(0.5 * (from + to), rotation)?;
-    let [width, half] = [geom.size[0], 0.5 * along.length()];
-    Ok(match geom.type_ {
-        GeomType::Capsule | GeomType::Cylinder => (pose, [width, half, 0.0]),
-        _ => (pose, [width, width, half]),
-    })
+    let is_positive = sizes.iter().take(used).all(|&size| size > 0.0);
+    if is_shape && !(is_positive && sizes.len() >= used) {
+        return Err(own.invalid("size").into());
+    }
+    Ok((pose, sizes))
 }
 
 fn unsupported(shape: &'static str) -> RobotFileError {
-    RobotFileError::UnsupportedShape { shape }
+    MjcfError::UnsupportedShape { shape }.into()
 }

@@ -1,10 +1,11 @@
 //! Makes chains of joints of the joints of an MJCF, several of which may move one body.
 
-use super::{MjcfModel, convert_pose};
+use super::MjcfModel;
+use super::bodies::{MjcfBody, MjcfJoint, MjcfJointKind};
+use super::error::MjcfError;
 use crate::robot::{CompoundKind, Joint, Link, PositionRule};
 use crate::robot_file::error::RobotFileError;
-use mjcf_rs::body::JointType;
-use mjcf_rs::equality::{Equality, EqualityJoint};
+use ccd_core::vector::unit;
 use rigid_ccd::glam::{DQuat, DVec3};
 use rigid_ccd::{InputError, Pose, trajectory};
 use std::collections::HashMap;
@@ -12,10 +13,15 @@ use std::collections::HashMap;
 /// Makes chains of joints of those of a model.
 pub(super) struct JointReader<'r> {
     mjcf: &'r MjcfModel,
-    /// The constraint by which a joint follows another one, by the joint's name.
-    leaders: HashMap<&'r str, &'r EqualityJoint>,
-    /// The position of each named joint in the model's own configuration.
-    references: HashMap<&'r str, f64>,
+    /// The rules of the joints that follow others, by their names.
+    followers: HashMap<&'r str, Follower<'r>>,
+}
+
+/// A linear function by which a joint follows another one.
+struct Follower<'r> {
+    leader: &'r str,
+    multiplier: f64,
+    offset: f64,
 }
 
 /// The joints of a body as far as they are made, from its parent on.
@@ -32,74 +38,44 @@ struct Chain<'r> {
 }
 
 impl<'r> JointReader<'r> {
-    pub(super) fn new(mjcf: &'r MjcfModel) -> Self {
-        let bodies = mjcf.model.bodies.iter();
-        let joints = bodies.flat_map(|entry| &entry.body.joints);
-        let has_one_position = |joint: &&mjcf_rs::body::Joint| {
-            matches!(joint.type_, JointType::Hinge | JointType::Slide)
-        };
-        let joints = joints.filter(has_one_position);
-        let references: HashMap<&str, f64> = joints
-            .filter_map(|joint| Some((joint.name.as_deref()?, joint.ref_)))
-            .collect();
-        let mut leaders = HashMap::new();
-        for equality in &mjcf.model.equality {
-            // The first joint is a polynomial of the second one.
-            if let Equality::Joint(constraint) = equality
-                && constraint.common.active
-                && constraint.polycoef[2..].iter().all(|&own| own == 0.0)
-                && let Some(leader) = constraint.joint2.as_deref()
-                && [leader, &constraint.joint1]
-                    .iter()
-                    .all(|&name| references.contains_key(name))
-                && !leads_to(&leaders, leader, &constraint.joint1)
-            {
-                leaders.entry(&*constraint.joint1).or_insert(constraint);
-            }
-        }
-        JointReader {
+    pub(super) fn new(mjcf: &'r MjcfModel) -> Result<Self, MjcfError> {
+        Ok(JointReader {
             mjcf,
-            leaders,
-            references,
-        }
+            followers: read_followers(mjcf)?,
+        })
     }
 
     /// Returns the joints that connect a body to its parent, and the links between them.
-    pub(super) fn joints(&self, number: usize) -> Result<(Vec<Link>, Vec<Joint>), RobotFileError> {
-        let entry = &self.mjcf.model.bodies[number];
-        let Some(parent) = entry.parent else {
+    pub(super) fn joints(
+        &self,
+        body: &MjcfBody,
+    ) -> Result<(Vec<Link>, Vec<Joint>), RobotFileError> {
+        let Some(parent) = body.parent else {
             return Ok((Vec::new(), Vec::new()));
         };
-        let name = &self.mjcf.link_names[number];
-        let frame = convert_pose(entry.body.pose).map_err(RobotFileError::from);
+        let name = &body.name;
         let mut chain = Chain {
             body: name,
             links: Vec::new(),
             joints: Vec::new(),
-            at: self.mjcf.link_names[parent].clone(),
-            frame: frame.map_err(|error| error.with_link_name(name))?,
+            at: self.mjcf.bodies[parent].name.clone(),
+            frame: body.pose,
         };
-        for (k, joint) in entry.body.joints.iter().enumerate() {
-            let joint_name = joint.name.clone();
-            let joint_name = joint_name.unwrap_or_else(|| format!("{name}/joint{k}"));
-            let is_last = k + 1 == entry.body.joints.len();
-            let ends_in_frame = joint.pos == [0.0; 3] || !turns(joint.type_);
+        for (k, joint) in body.joints.iter().enumerate() {
+            let is_last = k + 1 == body.joints.len();
+            let ends_in_frame = joint.anchor == DVec3::ZERO || !joint.kind.turns();
             let child = if is_last && ends_in_frame {
                 name.clone()
             } else {
-                format!("{name}/{joint_name}")
+                format!("{name}/{}", joint.name)
             };
-            self.add_joint(&mut chain, joint, &joint_name, child)
-                .map_err(|error| error.with_joint_name(&joint_name))?;
+            self.add_joint(&mut chain, joint, child)
+                .map_err(|error| RobotFileError::from(error).with_joint_name(&joint.name))?;
         }
         if chain.at != *name {
             let fixed = trajectory::Joint::fixed(chain.frame);
-            chain.push(
-                format!("{name}/fixed"),
-                name.clone(),
-                fixed,
-                PositionRule::Independent,
-            );
+            let rule = PositionRule::Independent;
+            chain.push(format!("{name}/fixed"), name.clone(), fixed, rule);
         }
         Ok((chain.links, chain.joints))
     }
@@ -108,41 +84,44 @@ impl<'r> JointReader<'r> {
     fn add_joint(
         &self,
         chain: &mut Chain<'_>,
-        joint: &mjcf_rs::body::Joint,
-        name: &str,
+        joint: &MjcfJoint,
         child: String,
-    ) -> Result<(), RobotFileError> {
-        let anchor = Pose::at(joint.pos)?;
-        let is_limited = joint
-            .limited
-            .resolve(self.mjcf.model.compiler.autolimits, joint.range.is_some());
-        let limited = |moving: trajectory::Joint| match joint.range {
-            Some([low, high]) if is_limited => moving.with_limits(low..=high),
-            _ => moving,
-        };
-        let turned = chain.frame.compose(&anchor);
-        match joint.type_ {
-            JointType::Hinge => {
-                let at_zero = Pose::new(DVec3::ZERO, turn_back(joint.axis, joint.ref_)?)?;
-                let moving = limited(trajectory::Joint::revolute(
-                    turned.compose(&at_zero),
-                    joint.axis,
-                )?);
-                chain.push(name.to_owned(), child, moving, self.position_rule(name));
+    ) -> Result<(), InputError> {
+        let anchor = Pose::at(joint.anchor)?;
+        let at_anchor = chain.frame.compose(&anchor);
+        let name = &joint.name;
+        match joint.kind {
+            MjcfJointKind::Hinge => {
+                let axis = unit(joint.axis).unwrap_or(DVec3::ZERO);
+                // The position is 0 where the body has been turned back from its reference.
+                let back = DQuat::from_scaled_axis(-joint.reference * axis);
+                let origin = at_anchor.compose(&Pose::new(DVec3::ZERO, back)?);
+                let moving = trajectory::Joint::revolute(origin, joint.axis)?;
+                chain.push(
+                    name.clone(),
+                    child,
+                    joint.limited(moving),
+                    self.position_rule(name),
+                );
                 chain.frame = anchor.inverse();
             }
-            JointType::Slide => {
-                let offset = -joint.ref_ * unit_axis(joint.axis)?;
-                let origin = chain.frame.compose(&Pose::at(offset)?);
-                let moving = limited(trajectory::Joint::prismatic(origin, joint.axis)?);
-                chain.push(name.to_owned(), child, moving, self.position_rule(name));
+            MjcfJointKind::Slide => {
+                let axis = unit(joint.axis).unwrap_or(DVec3::ZERO);
+                let origin = chain.frame.compose(&Pose::at(-joint.reference * axis)?);
+                let moving = trajectory::Joint::prismatic(origin, joint.axis)?;
+                chain.push(
+                    name.clone(),
+                    child,
+                    joint.limited(moving),
+                    self.position_rule(name),
+                );
                 chain.frame = Pose::IDENTITY;
             }
-            JointType::Ball => {
-                chain.push_compound(CompoundKind::Spherical, name, child, turned)?;
+            MjcfJointKind::Ball => {
+                chain.push_compound(CompoundKind::Spherical, name, child, at_anchor)?;
                 chain.frame = anchor.inverse();
             }
-            JointType::Free => {
+            MjcfJointKind::Free => {
                 // Its positions are those of the body in the world.
                 chain.push_compound(CompoundKind::Floating, name, child, Pose::IDENTITY)?;
                 chain.frame = Pose::IDENTITY;
@@ -152,15 +131,33 @@ impl<'r> JointReader<'r> {
     }
 
     fn position_rule(&self, joint: &str) -> PositionRule {
-        let Some(constraint) = self.leaders.get(joint) else {
-            return PositionRule::Independent;
-        };
-        let leader = constraint.joint2.clone().unwrap_or_default();
-        let [offset, multiplier, ..] = constraint.polycoef;
-        PositionRule::Follows {
-            offset: self.references[joint] + offset - multiplier * self.references[&*leader],
-            joint: leader,
-            multiplier,
+        match self.followers.get(joint) {
+            None => PositionRule::Independent,
+            Some(follower) => PositionRule::Follows {
+                joint: follower.leader.to_owned(),
+                multiplier: follower.multiplier,
+                offset: follower.offset,
+            },
+        }
+    }
+}
+
+impl MjcfJointKind {
+    /// Returns whether a joint turns about its anchor.
+    fn turns(self) -> bool {
+        matches!(self, MjcfJointKind::Hinge | MjcfJointKind::Ball)
+    }
+
+    fn has_one_position(self) -> bool {
+        matches!(self, MjcfJointKind::Hinge | MjcfJointKind::Slide)
+    }
+}
+
+impl MjcfJoint {
+    fn limited(&self, moving: trajectory::Joint) -> trajectory::Joint {
+        match self.limits {
+            Some([low, high]) => moving.with_limits(low..=high),
+            None => moving,
         }
     }
 }
@@ -206,36 +203,51 @@ impl Chain<'_> {
     }
 }
 
-/// Returns whether a joint follows another one, directly or through others.
-fn leads_to(leaders: &HashMap<&str, &EqualityJoint>, joint: &str, other: &str) -> bool {
-    let mut at = joint;
-    loop {
-        if at == other {
-            return true;
+/// Reads the constraints by which a joint is a linear function of another one. The first one of a joint counts, unless it closes
+/// a circle.
+fn read_followers(mjcf: &MjcfModel) -> Result<HashMap<&str, Follower<'_>>, MjcfError> {
+    let joints = mjcf.bodies.iter().flat_map(|body| &body.joints);
+    let joints: HashMap<&str, &MjcfJoint> = joints.map(|own| (own.name.as_str(), own)).collect();
+    let mut followers: HashMap<&str, Follower<'_>> = HashMap::new();
+    for own in mjcf.constraints_named("joint") {
+        let find = |name: &str| {
+            let joint = joints.get(name).copied();
+            joint.ok_or_else(|| MjcfError::unknown_name("joint", name))
+        };
+        let joint = find(own.required("joint1")?)?;
+        let Some(leader) = own.get("joint2").map(find).transpose()? else {
+            continue;
+        };
+        // Coefficients that are not given are those of equality.
+        let mut coefficients = [0.0, 1.0, 0.0, 0.0, 0.0];
+        let given = own.numbers("polycoef")?.unwrap_or_default();
+        if given.len() > coefficients.len() {
+            return Err(own.invalid("polycoef"));
         }
-        match leaders
-            .get(at)
-            .and_then(|constraint| constraint.joint2.as_deref())
-        {
-            Some(next) => at = next,
+        coefficients[..given.len()].copy_from_slice(&given);
+        let [constant, multiplier, ref higher @ ..] = coefficients;
+        let is_linear = higher.iter().all(|&own| own == 0.0);
+        let have_one = joint.kind.has_one_position() && leader.kind.has_one_position();
+        let is_active = own.truth_or("active", true)?;
+        if is_active && is_linear && have_one && !follows(&followers, &leader.name, &joint.name) {
+            followers.entry(&joint.name).or_insert(Follower {
+                leader: &leader.name,
+                multiplier,
+                offset: joint.reference + constant - multiplier * leader.reference,
+            });
+        }
+    }
+    Ok(followers)
+}
+
+/// Returns whether a joint is another one, or follows it directly or through others.
+fn follows(followers: &HashMap<&str, Follower<'_>>, joint: &str, other: &str) -> bool {
+    let mut at = joint;
+    while at != other {
+        match followers.get(at) {
+            Some(follower) => at = follower.leader,
             None => return false,
         }
     }
-}
-
-/// Returns whether a joint turns about its anchor.
-fn turns(kind: JointType) -> bool {
-    matches!(kind, JointType::Hinge | JointType::Ball)
-}
-
-fn unit_axis(axis: [f64; 3]) -> Result<DVec3, InputError> {
-    match trajectory::Joint::revolute(Pose::IDENTITY, axis)?.kind() {
-        trajectory::JointKind::Revolute(axis) => Ok(axis),
-        _ => Ok(DVec3::Z),
-    }
-}
-
-/// Returns the rotation to the position 0 of a hinge from that in the model's own configuration.
-fn turn_back(axis: [f64; 3], reference: f64) -> Result<DQuat, InputError> {
-    Ok(DQuat::from_axis_angle(unit_axis(axis)?, -reference))
+    true
 }

@@ -1,60 +1,86 @@
 //! The pairs of bodies that MuJoCo checks.
 
+use super::bodies::MjcfGeom;
+use super::error::MjcfError;
 use super::{MjcfModel, WORLD};
 use crate::pairs::{LinkPairs, SkipReason};
 use crate::robot::Robot;
 use crate::robot_file::BodyElements;
 use crate::robot_file::error::RobotFileError;
-use mjcf_rs::body::Geom;
-
-/// Returns the pairs of links that MuJoCo checks. A pair of links is checked if some of their geoms are.
-pub(super) fn link_pairs(
-    mjcf: &MjcfModel,
-    robot: &Robot,
-    elements: BodyElements,
-) -> Result<LinkPairs, RobotFileError> {
-    let names = mjcf.link_names.iter();
-    let links: Vec<usize> = names
-        .map(|name| robot.link_number(name))
-        .collect::<Result<_, _>>()?;
-    let mut pairs = LinkPairs::from_robot(robot);
-    for one in 0..links.len() {
-        for other in 0..one {
-            let [a, b] = [links[one], links[other]];
-            pairs.include(a, b);
-            if let Some(reason) = mjcf.skip_reason([one, other], elements) {
-                pairs.skip(a, b, reason);
-            }
-        }
-    }
-    for pair in &mjcf.model.contact.pairs {
-        let body = |geom: &str| mjcf.model.geom_by_name(geom).map(|(body, _)| links[body]);
-        if let (Some(a), Some(b)) = (body(&pair.geom1), body(&pair.geom2)) {
-            pairs.include(a, b);
-        }
-    }
-    Ok(pairs)
-}
 
 impl MjcfModel {
-    /// Returns why a pair of bodies is not checked; `None` if it is.
+    /// Returns the pairs of links that MuJoCo checks. A pair of links is checked if some of their geoms are.
+    pub(in crate::robot_file) fn link_pairs(
+        &self,
+        robot: &Robot,
+        elements: BodyElements,
+    ) -> Result<LinkPairs, RobotFileError> {
+        let names = self.bodies.iter().map(|body| &body.name);
+        let links: Vec<usize> = names
+            .map(|name| robot.link_number(name))
+            .collect::<Result<_, _>>()?;
+        let excluded = self.excluded_pairs()?;
+        let mut pairs = LinkPairs::from_robot(robot);
+        for one in 0..links.len() {
+            for other in 0..one {
+                let [a, b] = [links[one], links[other]];
+                pairs.include(a, b);
+                let reason = self.skip_reason([one, other], elements);
+                let exclude = || SkipReason::Disabled("exclude".to_owned());
+                let is_excluded =
+                    excluded.contains(&[one, other]) || excluded.contains(&[other, one]);
+                if let Some(reason) = reason.or_else(|| is_excluded.then(exclude)) {
+                    pairs.skip(a, b, reason);
+                }
+            }
+        }
+        for pair in self.constraints_named("pair") {
+            let mut bodies = [WORLD; 2];
+            for (body, name) in bodies.iter_mut().zip(["geom1", "geom2"]) {
+                *body = self.body_of_geom(pair.required(name)?)?;
+            }
+            pairs.include(links[bodies[0]], links[bodies[1]]);
+        }
+        Ok(pairs)
+    }
+
+    /// Returns whether an element `pair` names a geom.
+    pub(super) fn is_in_pair(&self, geom: &MjcfGeom) -> bool {
+        let is_named = |pair: &super::attributes::Attributes| {
+            let names = [pair.get("geom1"), pair.get("geom2")];
+            geom.name().is_some() && names.contains(&geom.name())
+        };
+        self.constraints_named("pair").any(is_named)
+    }
+
+    fn body_of_geom(&self, name: &str) -> Result<usize, MjcfError> {
+        let has_geom = |geoms: &[MjcfGeom]| geoms.iter().any(|geom| geom.name() == Some(name));
+        let body = self.bodies.iter().find(|body| has_geom(&body.geoms));
+        let body = body.ok_or_else(|| MjcfError::unknown_name("geom", name))?;
+        Ok(body.number)
+    }
+
+    fn excluded_pairs(&self) -> Result<Vec<[usize; 2]>, MjcfError> {
+        let excludes = self.constraints_named("exclude");
+        excludes
+            .map(|own| {
+                let body = |name: &str| self.body_named(own.required(name)?);
+                Ok([body("body1")?, body("body2")?])
+            })
+            .collect()
+    }
+
+    /// Returns why a pair of bodies is not checked, except for elements `exclude`; `None` if it is.
     fn skip_reason(&self, bodies: [usize; 2], elements: BodyElements) -> Option<SkipReason> {
         let [a, b] = bodies.map(|body| self.moving_ancestor(body));
         if a == b {
             return Some(SkipReason::NoMotion);
         }
-        let parent = |body: usize| self.model.bodies[body].parent.unwrap_or(WORLD);
+        let parent = |body: usize| self.bodies[body].parent.unwrap_or(WORLD);
         let is_child = |body: usize, of: usize| self.moving_ancestor(parent(body)) == of;
-        if a != WORLD && b != WORLD && (is_child(a, b) || is_child(b, a)) {
+        let is_near_world = a == WORLD || b == WORLD;
+        if self.settings.skips_parents && !is_near_world && (is_child(a, b) || is_child(b, a)) {
             return Some(SkipReason::Adjacent);
-        }
-        let names = bodies.map(|body| self.link_names[body].as_str());
-        let excluded = self.model.contact.excludes.iter().any(|exclude| {
-            let own = [exclude.body1.as_str(), exclude.body2.as_str()];
-            own == names || own == [names[1], names[0]]
-        });
-        if excluded {
-            return Some(SkipReason::Disabled("exclude".to_owned()));
         }
         let masks_matter = elements == BodyElements::Collision;
         (masks_matter && !self.can_collide(bodies))
@@ -63,8 +89,8 @@ impl MjcfModel {
 
     /// Returns the body itself, or the nearest one above it that moves by joints of its own; the world if none does.
     fn moving_ancestor(&self, mut body: usize) -> usize {
-        while self.model.bodies[body].body.joints.is_empty() {
-            match self.model.bodies[body].parent {
+        while self.bodies[body].joints.is_empty() {
+            match self.bodies[body].parent {
                 Some(parent) => body = parent,
                 None => return WORLD,
             }
@@ -74,10 +100,10 @@ impl MjcfModel {
 
     /// Returns whether some geoms of two bodies collide by their masks.
     fn can_collide(&self, [a, b]: [usize; 2]) -> bool {
-        let collide = |one: &Geom, other: &Geom| {
+        let collide = |one: &MjcfGeom, other: &MjcfGeom| {
             one.contype & other.conaffinity != 0 || other.contype & one.conaffinity != 0
         };
-        let [a, b] = [a, b].map(|body| &self.model.bodies[body].body.geoms);
+        let [a, b] = [a, b].map(|body| &self.bodies[body].geoms);
         a.iter()
             .any(|one| b.iter().any(|other| collide(one, other)))
     }

@@ -3,6 +3,7 @@ use crate::pairs::SkipReason;
 use crate::robot::Robot;
 use rigid_ccd::glam::{DAffine3, DQuat, DVec3};
 use rigid_ccd::{Body, Pose, Solver};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
 
 /// A model whose joints have anchors, references and axes of their own; two of them move one body.
 const LEG: &str = r#"<mujoco model="leg">
@@ -53,6 +54,10 @@ fn expected_frames([turn, tilt, slide]: [f64; 3], stone: [f64; 6]) -> [DAffine3;
         DQuat::from_rotation_z(yaw) * DQuat::from_rotation_y(pitch) * DQuat::from_rotation_x(roll);
     let stone = DAffine3::from_rotation_translation(rotation, DVec3::new(x, y, z));
     [hip, shank, stone]
+}
+
+fn affine(pose: Pose) -> DAffine3 {
+    DAffine3::from_rotation_translation(pose.rotation(), pose.translation())
 }
 
 fn largest_difference(pose: Pose, expected: DAffine3) -> f64 {
@@ -240,11 +245,181 @@ fn what_has_no_body_is_an_error_that_names_it() {
     assert_eq!(plane, format!("link `a`: geom `floor`: a plane {advice}"));
     assert!(error(r#"<geom type="ellipsoid" size="1 2 3"/>"#).contains("an ellipsoid"));
     let missing = error(r#"<geom type="mesh" mesh="none"/>"#);
-    assert!(
-        missing.contains("geom `0`: `none` is not found"),
-        "{missing}"
-    );
+    assert_eq!(missing, "link `a`: geom `0`: there is no mesh `none`");
+    // A sphere needs one number, a box three; none is 0.
+    let size = "link `a`: geom `0`: size=\"1 2\" of an element `geom` is not valid";
+    assert_eq!(error(r#"<geom type="box" size="1 2"/>"#), size);
+    assert!(error("<geom/>").contains("size=\"\""));
+    assert!(error(r#"<geom type="capsule" size="1 0"/>"#).contains("size"));
+    assert!(error(r#"<geom type="blob" size="1"/>"#).contains("type=\"blob\""));
     let syntax = file_of("<mujoco><worldbody></mujoco>").read().unwrap_err();
     assert!(matches!(syntax, RobotFileError::Syntax { .. }), "{syntax}");
     assert!(file_of("").read().is_err());
+}
+
+/// Tests that what is not known is refused wherever it may hide a shape, a joint or a pair.
+#[test]
+fn nothing_is_passed_over() {
+    let error = |world: &str, rest: &str| {
+        let text = format!("<mujoco><worldbody>{world}</worldbody>{rest}</mujoco>");
+        let file = file_of(&text);
+        let read = file.read().and_then(|robot| file.link_pairs(&robot, None));
+        read.unwrap_err().to_string()
+    };
+    let ball = r#"<geom size="1"/>"#;
+    for element in ["replicate", "composite", "flexcomp", "attach"] {
+        let known = format!("element `{element}` in `body` is not supported");
+        assert_eq!(
+            error(&format!("<body><{element}>{ball}</{element}></body>"), ""),
+            known
+        );
+    }
+    let deformable = error(ball, "<deformable/>");
+    assert_eq!(
+        deformable,
+        "element `deformable` in `mujoco` is not supported"
+    );
+    let free_child = format!("<body>{ball}<body><freejoint/>{ball}</body></body>");
+    assert!(error(&free_child, "").contains("`freejoint`"));
+    assert!(error("<joint/>", "").contains("`joint`"));
+    let limited = format!(r#"<body><joint limited="true"/>{ball}</body>"#);
+    assert!(error(&limited, "").contains("range=\"\""));
+    let class = format!(r#"<body><geom class="none" size="1"/></body>"#);
+    assert_eq!(error(&class, ""), "there is no class `none`");
+    let pair = r#"<contact><pair geom1="a" geom2="b"/></contact>"#;
+    assert_eq!(error(ball, pair), "there is no geom `a`");
+    let exclude = r#"<contact><exclude body1="world" body2="none"/></contact>"#;
+    assert_eq!(error(ball, exclude), "there is no body `none`");
+    let equality = r#"<equality><joint joint1="p"/></equality>"#;
+    assert_eq!(error(ball, equality), "there is no joint `p`");
+    assert!(error("<include file=\"none.xml\"/>", "").starts_with("none.xml: "));
+    assert!(error(r#"<geom size="1 nan"/>"#, "").contains("size=\"1 nan\""));
+}
+
+/// Tests that an element has what its class gives, number by number for sizes, and that inner classes inherit from outer ones.
+#[test]
+fn classes_give_what_an_element_leaves_out() {
+    let text = r#"<mujoco><compiler angle="radian"/>
+        <worldbody><body childclass="inner">
+            <geom size="0.1"/><geom class="outer" pos="0 0 3"/><geom type="sphere"/>
+            <joint/></body></worldbody>
+        <default><joint axis="0 1 0"/>
+            <default class="outer"><geom type="capsule" size="0.05 0.2" quat="0.6 0.8 0 0" pos="0 0 1"/><joint range="0 2"/>
+                <default class="inner"><geom euler="0 0 1"/><joint range="0 1"/></default></default></default></mujoco>"#;
+    let robot = file_of(text).read().unwrap();
+    assert_eq!(robot.limits().collect::<Vec<_>>(), [[0.0, 1.0]]);
+    let held = &robot.links()[robot.link_number("body1").unwrap()].bodies;
+    assert_eq!(held.len(), 3);
+    // A half height of 0.2 with the radius 0.1 of its own, and a position of its class with a rotation of its own.
+    assert!((held[0].body.bounding_radius() - 0.3).abs() < 1e-12);
+    let expected = Pose::new([0.0, 0.0, 1.0], DQuat::from_rotation_z(1.0)).unwrap();
+    assert!(largest_difference(held[0].pose, affine(expected)) < 1e-12);
+    let expected = Pose::new([0.0, 0.0, 3.0], DQuat::from_xyzw(0.8, 0.0, 0.0, 0.6)).unwrap();
+    assert!(largest_difference(held[1].pose, affine(expected)) < 1e-12);
+    assert!((held[2].body.bounding_radius() - 0.05).abs() < 1e-12);
+    // A rotation of another kind than that of the class is ambiguous.
+    let other = text.replace(r#"<geom size="0.1"/>"#, r#"<geom axisangle="1 0 0 1"/>"#);
+    assert!(file_of(&other).read().is_err());
+}
+
+/// Tests that rotations of all kinds, also within frames, are those of their definitions.
+#[test]
+fn orientations_are_those_of_their_definitions() {
+    let (x, y, z) = (
+        DQuat::from_rotation_x,
+        DQuat::from_rotation_y,
+        DQuat::from_rotation_z,
+    );
+    for (compiler, attribute, expected) in [
+        ("", r#"euler="90 0 30""#, x(FRAC_PI_2) * z(FRAC_PI_6)),
+        (
+            r#"eulerseq="XYZ""#,
+            r#"euler="90 0 30""#,
+            z(FRAC_PI_6) * x(FRAC_PI_2),
+        ),
+        (
+            r#"angle="radian" eulerseq="zyx""#,
+            r#"euler="0.1 0.2 0.3""#,
+            z(0.1) * y(0.2) * x(0.3),
+        ),
+        ("", r#"axisangle="0 0 2 30""#, z(FRAC_PI_6)),
+        ("", r#"xyaxes="0 2 0 -1 1 0""#, z(FRAC_PI_2)),
+        ("", r#"zaxis="0 -3 0""#, x(FRAC_PI_2)),
+        ("", r#"zaxis="0 0 -1""#, x(2.0 * FRAC_PI_2)),
+        ("", r#"quat="3 0 0 3""#, z(FRAC_PI_2)),
+    ] {
+        let text = format!(
+            r#"<mujoco><compiler {compiler}/><worldbody>
+            <frame pos="1 0 0" quat="0.6 0 0 0.8"><frame pos="0 1 0">
+                <body name="a" {attribute}><joint pos="0 0 1" axis="1 0 0"/><geom size="1"/></body></frame></frame>
+            <body name="b"><frame pos="1 0 0" quat="0.6 0 0 0.8"><joint name="b" pos="0 0 1" axis="1 0 0"/>
+                <geom type="box" size="1 1 1" {attribute}/></frame></body></worldbody></mujoco>"#
+        );
+        let robot = file_of(&text).read().unwrap();
+        let frame =
+            DAffine3::from_rotation_translation(DQuat::from_xyzw(0.0, 0.0, 0.8, 0.6), DVec3::X);
+        let turned = frame * DAffine3::from_translation(DVec3::Y) * DAffine3::from_quat(expected);
+        let moved = turned * joint_about(DVec3::Z, x(0.3));
+        let found = robot.pose("a", &[0.3, 0.4]).unwrap();
+        assert!(
+            largest_difference(found, moved) < 1e-12,
+            "{attribute} {found:?}"
+        );
+        let axis = DQuat::from_xyzw(0.0, 0.0, 0.8, 0.6) * DVec3::X;
+        let anchor = frame.transform_point3(DVec3::Z);
+        let moved = joint_about(anchor, DQuat::from_axis_angle(axis, 0.4));
+        let found = robot.pose("b", &[0.3, 0.4]).unwrap();
+        assert!(
+            largest_difference(found, moved) < 1e-12,
+            "{attribute} {found:?}"
+        );
+        let held = &robot.links()[robot.link_number("b").unwrap()].bodies[0];
+        let expected = frame * DAffine3::from_quat(expected);
+        assert!(
+            largest_difference(held.pose, expected) < 1e-12,
+            "{attribute}"
+        );
+    }
+}
+
+/// Tests that included elements are where their `include` is, wherever settings and classes stand.
+#[test]
+fn files_are_included() {
+    let folder = tempfile::tempdir().unwrap();
+    let part = r#"<mujocoinclude><body name="part"><joint range="0 1"/><geom class="thin" type="capsule"/></body></mujocoinclude>"#;
+    std::fs::write(folder.path().join("part.xml"), part).unwrap();
+    let text = r#"<mujoco><worldbody><body name="a"><geom size="1"/><include file="part.xml"/></body></worldbody>
+        <compiler angle="radian"/><default><default class="thin"><geom size="0.1 0.4"/></default></default></mujoco>"#;
+    let path = folder.path().join("model.xml");
+    let robot = RobotFile::from_text(text, &path).read().unwrap();
+    assert_eq!(robot.limits().collect::<Vec<_>>(), [[0.0, 1.0]]);
+    let part = &robot.links()[robot.link_number("part").unwrap()];
+    assert!((part.bodies[0].body.bounding_radius() - 0.5).abs() < 1e-12);
+    // A file that includes itself ends.
+    std::fs::write(
+        folder.path().join("loop.xml"),
+        "<x><include file='loop.xml'/></x>",
+    )
+    .unwrap();
+    let text = "<mujoco><include file='loop.xml'/></mujoco>";
+    let error = RobotFile::from_text(text, &path).read().unwrap_err();
+    assert!(error.to_string().contains("include itself"), "{error}");
+}
+
+#[test]
+fn parents_are_checked_if_the_model_says_so_and_mocap_bodies_move() {
+    let text = r#"<mujoco><option><flag filterparent="disable"/></option><worldbody>
+        <body name="a"><joint/><geom size="1"/><body name="b"><joint/><geom size="1"/></body></body>
+        <body name="target" mocap="true" pos="0 0 9"><geom size="1"/></body></worldbody></mujoco>"#;
+    assert_eq!(
+        checked_names(text, BodyElements::Collision),
+        ["a b", "a target", "b target"]
+    );
+    let robot = file_of(text).read().unwrap();
+    assert_eq!(robot.free_joint_names().len(), 8);
+    let with_parents = text.replace("disable", "enable");
+    assert_eq!(
+        checked_names(&with_parents, BodyElements::Collision).len(),
+        2
+    );
 }

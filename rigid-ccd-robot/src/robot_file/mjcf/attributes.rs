@@ -1,0 +1,130 @@
+//! The attributes of an element of an MJCF file, with those of its class.
+
+use super::error::MjcfError;
+use roxmltree::Node;
+use std::collections::BTreeMap;
+
+/// The attributes that give a rotation; an element has one of them at most.
+pub(super) const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
+
+/// The attributes of an element by their names.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Attributes {
+    /// The name of the element.
+    pub(super) element: String,
+    values: BTreeMap<String, String>,
+}
+
+impl Attributes {
+    pub(super) fn read(node: Node<'_, '_>) -> Self {
+        let values = node.attributes();
+        Attributes {
+            element: node.tag_name().name().to_owned(),
+            values: values
+                .map(|own| (own.name().to_owned(), own.value().trim().to_owned()))
+                .collect(),
+        }
+    }
+
+    /// Returns these attributes with those of a class that they do not give. A size may give only the first of its numbers.
+    pub(super) fn over(&self, class: &Attributes) -> Result<Self, MjcfError> {
+        let mut values = class.values.clone();
+        let own_orientation = ORIENTATIONS
+            .iter()
+            .find(|own| self.values.contains_key(**own));
+        if let Some(own) = own_orientation {
+            let others = ORIENTATIONS.iter().filter(|other| other != &own);
+            for other in others
+                .filter(|other| values.contains_key(**other))
+                .copied()
+                .collect::<Vec<_>>()
+            {
+                // MuJoCo takes any other one in place of a quaternion, and else that of the class.
+                if other != "quat" {
+                    return Err(self.invalid(own));
+                }
+                values.remove(other);
+            }
+        }
+        for (name, value) in &self.values {
+            let merged = match values.get(name) {
+                Some(of_class) if name == "size" => {
+                    let rest = of_class
+                        .split_whitespace()
+                        .skip(value.split_whitespace().count());
+                    let all = value.split_whitespace().chain(rest);
+                    all.collect::<Vec<_>>().join(" ")
+                }
+                _ => value.clone(),
+            };
+            values.insert(name.clone(), merged);
+        }
+        Ok(Attributes {
+            element: self.element.clone(),
+            values,
+        })
+    }
+
+    /// Returns the text of an attribute; an empty one counts as none.
+    pub(super) fn get(&self, name: &str) -> Option<&str> {
+        let value = self.values.get(name).map(String::as_str);
+        value.filter(|value| !value.is_empty())
+    }
+
+    /// Returns the text of an attribute that has to be there.
+    pub(super) fn required(&self, name: &str) -> Result<&str, MjcfError> {
+        self.get(name).ok_or_else(|| self.invalid(name))
+    }
+
+    /// Returns the numbers of an attribute.
+    pub(super) fn numbers(&self, name: &str) -> Result<Option<Vec<f64>>, MjcfError> {
+        let Some(text) = self.get(name) else {
+            return Ok(None);
+        };
+        let numbers = text
+            .split_whitespace()
+            .map(|number| number.parse::<f64>().ok());
+        let finite = numbers.map(|number| number.filter(|number| number.is_finite()));
+        let numbers: Option<Vec<f64>> = finite.collect();
+        numbers.map(Some).ok_or_else(|| self.invalid(name))
+    }
+
+    /// Returns the numbers of an attribute that has a fixed number of them.
+    pub(super) fn array<const COUNT: usize>(
+        &self,
+        name: &str,
+    ) -> Result<Option<[f64; COUNT]>, MjcfError> {
+        let Some(numbers) = self.numbers(name)? else {
+            return Ok(None);
+        };
+        let array = numbers.try_into().map_err(|_| self.invalid(name))?;
+        Ok(Some(array))
+    }
+
+    /// Returns a whole number, or another one if there is none.
+    pub(super) fn integer_or(&self, name: &str, other: i64) -> Result<i64, MjcfError> {
+        match self.get(name) {
+            Some(text) => text.parse().map_err(|_| self.invalid(name)),
+            None => Ok(other),
+        }
+    }
+
+    /// Returns whether an attribute is `true`, or another value if there is none.
+    pub(super) fn truth_or(&self, name: &str, other: bool) -> Result<bool, MjcfError> {
+        match self.get(name) {
+            Some("true" | "1") => Ok(true),
+            Some("false" | "0") => Ok(false),
+            None => Ok(other),
+            Some(_) => Err(self.invalid(name)),
+        }
+    }
+
+    /// Returns the error of an attribute.
+    pub(super) fn invalid(&self, name: &str) -> MjcfError {
+        MjcfError::InvalidAttribute {
+            element: self.element.clone(),
+            attribute: name.to_owned(),
+            value: self.values.get(name).cloned().unwrap_or_default(),
+        }
+    }
+}

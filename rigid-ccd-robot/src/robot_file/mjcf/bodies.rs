@@ -1,0 +1,232 @@
+//! The bodies of an MJCF file, with their joints and geoms.
+
+use super::WORLD;
+use super::attributes::Attributes;
+use super::classes::Classes;
+use super::document::Element;
+use super::error::MjcfError;
+use super::orientation::{pose_of, read_pose};
+use super::settings::Settings;
+use rigid_ccd::Pose;
+use rigid_ccd::glam::DVec3;
+
+/// A body of a model.
+pub(super) struct MjcfBody {
+    /// The number of the body, and of its parent; the world has none.
+    pub(super) number: usize,
+    pub(super) parent: Option<usize>,
+    pub(super) name: String,
+    /// The pose in the frame of the parent, while all joints are at their references.
+    pub(super) pose: Pose,
+    pub(super) joints: Vec<MjcfJoint>,
+    pub(super) geoms: Vec<MjcfGeom>,
+}
+
+/// A joint of a body.
+pub(super) struct MjcfJoint {
+    /// The name, or that of the body with the joint's number.
+    pub(super) name: String,
+    pub(super) kind: MjcfJointKind,
+    /// The anchor and the axis in the body's frame.
+    pub(super) anchor: DVec3,
+    pub(super) axis: DVec3,
+    /// The limits of the position; `None` for a joint without.
+    pub(super) limits: Option<[f64; 2]>,
+    /// The position in which the body has its pose.
+    pub(super) reference: f64,
+}
+
+/// How a joint moves its body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum MjcfJointKind {
+    Hinge,
+    Slide,
+    Ball,
+    Free,
+}
+
+/// A geom of a body, with the pose of its frame.
+pub(super) struct MjcfGeom {
+    pub(super) attributes: Attributes,
+    pub(super) pose: Pose,
+    /// The pose of the frame around it, in which points are given.
+    pub(super) frame: Pose,
+    pub(super) contype: i64,
+    pub(super) conaffinity: i64,
+}
+
+impl MjcfGeom {
+    pub(super) fn name(&self) -> Option<&str> {
+        self.attributes.get("name")
+    }
+}
+
+/// Reads the bodies of a model: the world first, and others after their parents.
+pub(super) fn read_bodies(
+    root: &Element,
+    settings: &Settings,
+    classes: &Classes,
+) -> Result<Vec<MjcfBody>, MjcfError> {
+    let mut reader = Reader {
+        settings,
+        classes,
+        bodies: vec![MjcfBody {
+            number: WORLD,
+            parent: None,
+            name: "world".to_owned(),
+            pose: Pose::IDENTITY,
+            joints: Vec::new(),
+            geoms: Vec::new(),
+        }],
+    };
+    for world in root.children.iter().filter(|own| own.name == "worldbody") {
+        reader.add_children(world, WORLD, Pose::IDENTITY, None)?;
+    }
+    Ok(reader.bodies)
+}
+
+struct Reader<'r> {
+    settings: &'r Settings,
+    classes: &'r Classes,
+    bodies: Vec<MjcfBody>,
+}
+
+impl Reader<'_> {
+    /// Adds what is in an element to the body with a number. `frame` is the pose of the element's frame in the body's, and
+    /// `class` the class of elements in it that have none.
+    fn add_children(
+        &mut self,
+        element: &Element,
+        number: usize,
+        frame: Pose,
+        class: Option<&str>,
+    ) -> Result<(), MjcfError> {
+        for child in &element.children {
+            let own = self.classes.merged(child, class)?;
+            let class = own.get("childclass").or(class);
+            match child.name.as_str() {
+                "body" => self.add_body(child, &own, number, frame, class)?,
+                "frame" => {
+                    let inner = frame.compose(&read_pose(&own, self.settings)?);
+                    self.add_children(child, number, inner, class)?;
+                }
+                "geom" => {
+                    let geom = self.geom(own, frame)?;
+                    self.bodies[number].geoms.push(geom);
+                }
+                "joint" | "freejoint" => {
+                    let joint = self.joint(&own, number, frame)?;
+                    self.bodies[number].joints.push(joint);
+                }
+                // No shapes and no joints.
+                "camera" | "inertial" | "light" | "plugin" | "site" => {}
+                _ => return Err(child.unknown_in(&element.name)),
+            }
+        }
+        Ok(())
+    }
+
+    fn add_body(
+        &mut self,
+        element: &Element,
+        own: &Attributes,
+        parent: usize,
+        frame: Pose,
+        class: Option<&str>,
+    ) -> Result<(), MjcfError> {
+        let number = self.bodies.len();
+        let name = own
+            .get("name")
+            .map_or_else(|| format!("body{number}"), str::to_owned);
+        let pose = frame.compose(&read_pose(own, self.settings)?);
+        let mut joints = Vec::new();
+        // Whoever steers the simulation moves it freely.
+        if own.truth_or("mocap", false)? {
+            joints.push(MjcfJoint {
+                name: format!("{name}/mocap"),
+                kind: MjcfJointKind::Free,
+                anchor: DVec3::ZERO,
+                axis: DVec3::Z,
+                limits: None,
+                reference: 0.0,
+            });
+        }
+        self.bodies.push(MjcfBody {
+            number,
+            parent: Some(parent),
+            name,
+            pose,
+            joints,
+            geoms: Vec::new(),
+        });
+        self.add_children(element, number, Pose::IDENTITY, class)
+    }
+
+    fn geom(&self, attributes: Attributes, frame: Pose) -> Result<MjcfGeom, MjcfError> {
+        Ok(MjcfGeom {
+            pose: frame.compose(&read_pose(&attributes, self.settings)?),
+            frame,
+            contype: attributes.integer_or("contype", 1)?,
+            conaffinity: attributes.integer_or("conaffinity", 1)?,
+            attributes,
+        })
+    }
+
+    fn joint(&self, own: &Attributes, number: usize, frame: Pose) -> Result<MjcfJoint, MjcfError> {
+        let body = &self.bodies[number];
+        let kind = match own.get("type") {
+            _ if own.element == "freejoint" => MjcfJointKind::Free,
+            None | Some("hinge") => MjcfJointKind::Hinge,
+            Some("slide") => MjcfJointKind::Slide,
+            Some("ball") => MjcfJointKind::Ball,
+            Some("free") => MjcfJointKind::Free,
+            Some(_) => return Err(own.invalid("type")),
+        };
+        // The world has no joints, and a free body is in the world and has no other joint.
+        let is_free = kind == MjcfJointKind::Free
+            || body
+                .joints
+                .iter()
+                .any(|own| own.kind == MjcfJointKind::Free);
+        if number == WORLD || is_free && (body.parent != Some(WORLD) || !body.joints.is_empty()) {
+            return Err(own.invalid("type"));
+        }
+        let anchor = pose_of(
+            own,
+            "pos",
+            own.array("pos")?.unwrap_or([0.0; 3]),
+            frame.rotation(),
+        )?;
+        let axis = own.array("axis")?.map_or(DVec3::Z, DVec3::from_array);
+        let scale = |position: f64| match kind {
+            MjcfJointKind::Hinge => self.settings.radians(position),
+            _ => position,
+        };
+        let [reference] = own.array("ref")?.unwrap_or([0.0]);
+        Ok(MjcfJoint {
+            name: own.get("name").map_or_else(
+                || format!("{}/joint{}", body.name, body.joints.len()),
+                str::to_owned,
+            ),
+            kind,
+            anchor: frame.transform_point(anchor.translation()),
+            axis: frame.rotation() * axis,
+            limits: self.limits(own)?.map(|limits| limits.map(scale)),
+            reference: scale(reference),
+        })
+    }
+
+    fn limits(&self, own: &Attributes) -> Result<Option<[f64; 2]>, MjcfError> {
+        let range: Option<[f64; 2]> = own.array("range")?;
+        let is_limited = match own.get("limited") {
+            None | Some("auto") => self.settings.limits_follow_ranges && range.is_some(),
+            Some(_) => own.truth_or("limited", false)?,
+        };
+        match range {
+            Some([low, high]) if is_limited && low <= high => Ok(range),
+            // A limit without a range is none.
+            _ if is_limited => Err(own.invalid("range")),
+            _ => Ok(None),
+        }
+    }
+}

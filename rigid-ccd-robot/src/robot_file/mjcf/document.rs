@@ -1,0 +1,97 @@
+//! The elements of an MJCF file, with those of the files that it includes in their places.
+
+use super::attributes::Attributes;
+use super::error::MjcfError;
+use crate::robot_file::error::RobotFileError;
+use roxmltree::{Document, Node, ParsingOptions};
+use std::fs;
+use std::path::Path;
+
+/// The largest depth of elements and of files that include each other. Deeper ones would exhaust the stack.
+const MAX_DEPTH: usize = 200;
+
+/// The largest number of elements, so that files that include each other several times end.
+const MAX_ELEMENTS: usize = 1 << 20;
+
+/// An element of an MJCF file.
+pub(super) struct Element {
+    pub(super) name: String,
+    pub(super) attributes: Attributes,
+    pub(super) children: Vec<Element>,
+}
+
+impl Element {
+    /// Returns the error that this element is not known in one with this name.
+    pub(super) fn unknown_in(&self, parent: &str) -> MjcfError {
+        MjcfError::UnknownElement {
+            element: self.name.clone(),
+            parent: parent.to_owned(),
+        }
+    }
+}
+
+/// Parses the text of a file, and the files that it includes from a folder. Returns its first element.
+pub(super) fn parse(text: &str, folder: &Path) -> Result<Element, RobotFileError> {
+    let mut reader = Reader {
+        folder,
+        element_count: 0,
+    };
+    let document = parse_xml(text).map_err(|error| MjcfError::Syntax { error })?;
+    let mut elements = reader.elements(document.root_element(), 0)?;
+    Ok(elements.swap_remove(0))
+}
+
+fn parse_xml(text: &str) -> Result<Document<'_>, String> {
+    let options = ParsingOptions {
+        allow_dtd: false,
+        ..ParsingOptions::default()
+    };
+    Document::parse_with_options(text, options).map_err(|error| error.to_string())
+}
+
+struct Reader<'r> {
+    folder: &'r Path,
+    element_count: usize,
+}
+
+impl Reader<'_> {
+    /// Converts an element. An `include` becomes what is in the first element of its file.
+    fn elements(
+        &mut self,
+        node: Node<'_, '_>,
+        depth: usize,
+    ) -> Result<Vec<Element>, RobotFileError> {
+        self.element_count += 1;
+        if depth > MAX_DEPTH || self.element_count > MAX_ELEMENTS {
+            return Err(MjcfError::TooManyElements.into());
+        }
+        let attributes = Attributes::read(node);
+        if node.tag_name().name() == "include" {
+            let file = self.folder.join(attributes.required("file")?);
+            let text = fs::read_to_string(&file).map_err(|error| RobotFileError::Unreadable {
+                file: file.clone(),
+                error: error.to_string(),
+            })?;
+            let document =
+                parse_xml(&text).map_err(|error| RobotFileError::Syntax { file, error })?;
+            return self.children(document.root_element(), depth + 1);
+        }
+        Ok(vec![Element {
+            name: node.tag_name().name().to_owned(),
+            attributes,
+            children: self.children(node, depth + 1)?,
+        }])
+    }
+
+    fn children(
+        &mut self,
+        node: Node<'_, '_>,
+        depth: usize,
+    ) -> Result<Vec<Element>, RobotFileError> {
+        let mut children = Vec::new();
+        for child in node.children().filter(Node::is_element) {
+            children.extend(self.elements(child, depth)?);
+        }
+        Ok(children)
+    }
+}

@@ -1,0 +1,88 @@
+//! Poses of elements of an MJCF file.
+
+use super::attributes::{Attributes, ORIENTATIONS};
+use super::error::MjcfError;
+use super::settings::Settings;
+use ccd_core::vector::unit;
+use rigid_ccd::Pose;
+use rigid_ccd::glam::{DMat3, DQuat, DVec3};
+
+/// Returns the pose of an element: its position, and one of the attributes that give a rotation.
+pub(super) fn read_pose(own: &Attributes, settings: &Settings) -> Result<Pose, MjcfError> {
+    let position = own.array("pos")?.unwrap_or([0.0; 3]);
+    pose_of(own, "pos", position, read_rotation(own, settings)?)
+}
+
+/// Makes a pose; an error names the attribute.
+pub(super) fn pose_of(
+    own: &Attributes,
+    attribute: &str,
+    position: [f64; 3],
+    rotation: DQuat,
+) -> Result<Pose, MjcfError> {
+    Pose::new(position, rotation).map_err(|_| own.invalid(attribute))
+}
+
+fn read_rotation(own: &Attributes, settings: &Settings) -> Result<DQuat, MjcfError> {
+    let mut given = ORIENTATIONS.iter().filter(|name| own.get(name).is_some());
+    let Some(name) = given.next() else {
+        return Ok(DQuat::IDENTITY);
+    };
+    let invalid = || own.invalid(name);
+    if given.next().is_some() {
+        return Err(invalid());
+    }
+    let direction = |v: [f64; 3]| unit(DVec3::from_array(v)).ok_or_else(invalid);
+    let numbers = own.numbers(name)?.unwrap_or_default();
+    match (*name, &numbers[..]) {
+        ("quat", &[w, x, y, z]) => Ok(DQuat::from_xyzw(x, y, z, w)),
+        ("axisangle", &[x, y, z, angle]) => {
+            let axis = direction([x, y, z])?;
+            Ok(DQuat::from_axis_angle(axis, settings.radians(angle)))
+        }
+        ("xyaxes", &[a, b, c, d, e, f]) => {
+            let x = direction([a, b, c])?;
+            let y = DVec3::new(d, e, f);
+            let y = direction((y - x * x.dot(y)).to_array())?;
+            Ok(DQuat::from_mat3(&DMat3::from_cols(x, y, x.cross(y))))
+        }
+        ("zaxis", &[x, y, z]) => Ok(rotation_of_z_to(direction([x, y, z])?)),
+        ("euler", &[a, b, c]) => {
+            let mut rotation = DQuat::IDENTITY;
+            for (axis, angle) in settings.euler_axes.into_iter().zip([a, b, c]) {
+                let along = match axis.to_ascii_lowercase() {
+                    'x' => DVec3::X,
+                    'y' => DVec3::Y,
+                    _ => DVec3::Z,
+                };
+                let turn = DQuat::from_axis_angle(along, settings.radians(angle));
+                rotation = if axis.is_ascii_lowercase() {
+                    rotation * turn
+                } else {
+                    turn * rotation
+                };
+            }
+            Ok(rotation)
+        }
+        _ => Err(invalid()),
+    }
+}
+
+/// Returns the rotation by the least angle that turns the z axis to a unit vector. It has the direction of the vector however
+/// small the angle is.
+pub(super) fn rotation_of_z_to(axis: DVec3) -> DQuat {
+    let across = DVec3::Z.cross(axis);
+    if across == DVec3::ZERO {
+        let half_turn = DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0);
+        return if axis.z < 0.0 {
+            half_turn
+        } else {
+            DQuat::IDENTITY
+        };
+    }
+    let angle = across.length().atan2(axis.z);
+    match unit(across) {
+        Some(along) => DQuat::from_axis_angle(along, angle),
+        None => DQuat::IDENTITY,
+    }
+}

@@ -1,0 +1,96 @@
+//! The settings of an MJCF file that change what its numbers and names mean.
+
+use super::attributes::Attributes;
+use super::children_of_sections;
+use super::document::Element;
+use super::error::MjcfError;
+use std::path::{Path, PathBuf};
+
+/// The settings of a model: of its sections `compiler`, and of the flags in its sections `option`.
+pub(super) struct Settings {
+    has_degrees: bool,
+    /// The axes about which an attribute `euler` turns; those in lower case turn with the body.
+    pub(super) euler_axes: [char; 3],
+    /// Whether a joint with a range is limited unless it says otherwise.
+    pub(super) limits_follow_ranges: bool,
+    /// Whether a body is not compared with its parent.
+    pub(super) skips_parents: bool,
+    mesh_folder: PathBuf,
+    /// Whether meshes are found by their file names alone.
+    strips_paths: bool,
+}
+
+impl Settings {
+    pub(super) fn read(root: &Element, folder: &Path) -> Result<Self, MjcfError> {
+        let mut settings = Settings {
+            has_degrees: true,
+            euler_axes: ['x', 'y', 'z'],
+            limits_follow_ranges: true,
+            skips_parents: true,
+            mesh_folder: folder.to_owned(),
+            strips_paths: false,
+        };
+        let compilers = root.children.iter().filter(|own| own.name == "compiler");
+        let compilers: Vec<&Attributes> = compilers.map(|own| &own.attributes).collect();
+        for compiler in &compilers {
+            settings.set(compiler)?;
+        }
+        let last = |name: &str| compilers.iter().rev().find_map(|own| own.get(name));
+        if let Some(own) = last("meshdir").or(last("assetdir")) {
+            settings.mesh_folder = folder.join(own);
+        }
+        for flag in children_of_sections(root, "option").filter(|own| own.name == "flag") {
+            match flag.attributes.get("filterparent") {
+                Some("disable") => settings.skips_parents = false,
+                Some("enable") => settings.skips_parents = true,
+                None => {}
+                Some(_) => return Err(flag.attributes.invalid("filterparent")),
+            }
+        }
+        Ok(settings)
+    }
+
+    fn set(&mut self, compiler: &Attributes) -> Result<(), MjcfError> {
+        match compiler.get("angle") {
+            Some("radian") => self.has_degrees = false,
+            Some("degree") => self.has_degrees = true,
+            None => {}
+            Some(_) => return Err(compiler.invalid("angle")),
+        }
+        if compiler.get("coordinate").is_some_and(|own| own != "local") {
+            return Err(compiler.invalid("coordinate"));
+        }
+        if let Some(text) = compiler.get("eulerseq") {
+            let axes: Vec<char> = text.chars().collect();
+            let known = |axis: &char| "xyzXYZ".contains(*axis);
+            let [a, b, c] = axes[..] else {
+                return Err(compiler.invalid("eulerseq"));
+            };
+            self.euler_axes = [a, b, c];
+            if !self.euler_axes.iter().all(known) {
+                return Err(compiler.invalid("eulerseq"));
+            }
+        }
+        self.limits_follow_ranges = compiler.truth_or("autolimits", self.limits_follow_ranges)?;
+        self.strips_paths = compiler.truth_or("strippath", self.strips_paths)?;
+        Ok(())
+    }
+
+    /// Converts an angle of the file to radians.
+    pub(super) fn radians(&self, angle: f64) -> f64 {
+        if self.has_degrees {
+            angle.to_radians()
+        } else {
+            angle
+        }
+    }
+
+    /// Returns the path of a mesh file.
+    pub(super) fn mesh_file(&self, file: &str) -> PathBuf {
+        let path = Path::new(file);
+        match path.file_name().filter(|_| self.strips_paths) {
+            Some(name) => self.mesh_folder.join(name),
+            None => self.mesh_folder.join(path),
+        }
+    }
+}
