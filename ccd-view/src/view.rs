@@ -58,8 +58,8 @@ pub struct GapCurve {
     pub points: Vec<GapSample>,
     /// A proven lower bound of the distance, as pairs of time and bound, in order of time.
     pub proven: Vec<[f64; 2]>,
-    /// The unit of the distances; empty if it is not known.
-    pub unit: String,
+    /// The unit of the distances; `None` if it is not known.
+    pub unit: Option<String>,
     /// The distance that is required, if any.
     pub required: Option<f64>,
     /// The ranges of time in which the required distance is not proven to be kept, in order of time.

@@ -125,15 +125,16 @@ impl PyRobot {
         let arguments = (&path, &srdf, &packages, geometry, meshes);
         let constructor_call = ConstructorCall::new(class.py(), Some("from_urdf"), arguments)?;
         let file = with_options(RobotFile::from_path(path), packages, geometry, meshes)?;
-        let read = read_robot(class.py(), &file, srdf.as_deref())?;
-        Ok(PyRobot::new_read(read, constructor_call))
+        PyRobot::read(class.py(), &file, srdf, constructor_call)
     }
 
     /// Reads a robot from an MJCF file of MuJoCo and the mesh files that it names.
     ///
     /// Bodies become links, and the world the link "world". The pairs of links that are checked are those of MuJoCo. A joint
     /// follows another one if an element ``equality`` makes its position a linear function of the other's; other constraints
-    /// leave joints independent. A plane, a height field, an ellipsoid and a shape that is fitted to a mesh are errors.
+    /// leave joints independent. Ranges of ball joints and margins are left out. The positions of a free joint are those of its
+    /// body in the world. A plane, a height field, an ellipsoid, a shape that is fitted to a mesh, and an element that is not known
+    /// are errors.
     ///
     /// Args:
     ///     path: the MJCF file.
@@ -152,7 +153,10 @@ impl PyRobot {
         geometry: &str,
         meshes: &str,
     ) -> PyResult<Self> {
-        PyRobot::from_urdf(class, path, srdf, None, geometry, meshes)
+        let arguments = (&path, &srdf, geometry, meshes);
+        let constructor_call = ConstructorCall::new(class.py(), Some("from_mjcf"), arguments)?;
+        let file = with_options(RobotFile::from_path(path), None, geometry, meshes)?;
+        PyRobot::read(class.py(), &file, srdf, constructor_call)
     }
 
     /// Reads a robot from the text of a URDF file, such as what xacro prints.
@@ -175,8 +179,7 @@ impl PyRobot {
         let arguments = (text, &path, &srdf, &packages, geometry, meshes);
         let constructor_call = ConstructorCall::new(class.py(), Some("from_urdf_text"), arguments)?;
         let file = with_options(RobotFile::from_text(text, path), packages, geometry, meshes)?;
-        let read = read_robot(class.py(), &file, srdf.as_deref())?;
-        Ok(PyRobot::new_read(read, constructor_call))
+        PyRobot::read(class.py(), &file, srdf, constructor_call)
     }
 
     /// Reads a robot that yourdfpy has loaded. Its meshes are found as yourdfpy finds them.
@@ -385,12 +388,18 @@ impl PyRobot {
 }
 
 impl PyRobot {
-    fn new_read((robot, pairs): (Robot, LinkPairs), constructor_call: ConstructorCall) -> Self {
-        PyRobot {
+    fn read(
+        py: Python<'_>,
+        file: &RobotFile,
+        srdf: Option<PathBuf>,
+        constructor_call: ConstructorCall,
+    ) -> PyResult<Self> {
+        let (robot, pairs) = read_robot(py, file, srdf.as_deref())?;
+        Ok(PyRobot {
             robot: Arc::new(robot),
             pairs,
             constructor_call,
-        }
+        })
     }
 }
 

@@ -22,6 +22,7 @@ use quick_xml::events::Event;
 use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
+use urdf::UrdfReader;
 
 /// A URDF or MJCF file of a robot to read, with the choice of how its links become bodies.
 ///
@@ -125,8 +126,9 @@ impl RobotFile {
     ///
     /// Of an MJCF, a joint whose position is a linear function of another joint's, by an element `equality`, follows that one.
     /// Other constraints, such as those that close loops of bodies, leave joints independent: a path has to keep them. Ranges
-    /// of ball joints and margins of geoms are left out. A plane, a height field, an ellipsoid and a shape that is fitted to a
-    /// mesh are errors.
+    /// of ball joints and margins of geoms are left out. The positions of a free joint are those of its body in the world, and of
+    /// a `mocap` body as well. A plane, a height field, an ellipsoid, a shape that is fitted to a mesh, and an element that is not
+    /// known are errors.
     ///
     /// # Errors
     /// [`RobotFileError`] with the link or the joint, and with the file of a mesh.
@@ -135,8 +137,15 @@ impl RobotFile {
         let meshes = MeshBodies::new(self.mesh_conversion);
         match self.mjcf(&text)? {
             Some(model) => model.robot(self.body_elements, &meshes),
-            None => urdf::read_robot(&text, self.body_elements, &meshes, &self.search_folders)
-                .map_err(|error| self.syntax_error(error))?,
+            None => {
+                let reader = UrdfReader {
+                    elements: self.body_elements,
+                    meshes: &meshes,
+                    folders: &self.search_folders,
+                };
+                let urdf = urdf::parse(&text).map_err(|error| self.syntax_error(error))?;
+                reader.robot(&urdf)
+            }
         }
     }
 

@@ -49,7 +49,7 @@ class GapPlot {
     const step = GapPlot.niceStep(most / 4);
     for (let n = 0; n * step <= most; n += 1) {
       const y = this.y(n * step);
-      parts.push(`<line class="grid" x1="${GapPlot.LEFT}" x2="${this.right}" y1="${y}" y2="${y}"/><text x="${GapPlot.LEFT - 6}" y="${y + 4}" text-anchor="end">${GapPlot.text(n * step, step)} ${unit}</text>`);
+      parts.push(`<line class="grid" x1="${GapPlot.LEFT}" x2="${this.right}" y1="${y}" y2="${y}"/><text x="${GapPlot.LEFT - 6}" y="${y + 4}" text-anchor="end">${GapPlot.text(n * step, step)} ${unit ?? ""}</text>`);
     }
     const line = (list) => list.map(([t, g], k) => `${k === 0 ? "M" : "L"}${this.x(t)},${this.y(g)}`).join("");
     const ends = `L${this.x(proven.at(-1)[0])},${this.floor()}L${this.x(proven[0][0])},${this.floor()}Z`;

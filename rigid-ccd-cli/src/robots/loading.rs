@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug, Args)]
 pub(crate) struct RobotArgs {
     /// Robot to read, URDF or MJCF; packages are found by ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and around the file
-    #[arg(value_name = "URDF")]
+    #[arg(value_name = "ROBOT")]
     urdf: Option<PathBuf>,
     /// Folder of packages for `package://`, searched before all others; may be given several times
     #[arg(long, value_name = "FOLDER")]
@@ -96,7 +96,7 @@ impl RobotArgs {
 
     /// Returns the file of the robot with the name that messages give it; meshes are left out.
     pub(crate) fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
-        std::iter::once(("URDF", self.path()))
+        std::iter::once(("ROBOT", self.path()))
     }
 
     /// Reads the robot, and prints what its links are, unless `quiet`.

@@ -78,7 +78,7 @@ impl<'c> RobotPainter<'c> {
         let seconds =
             |time: f64| path.table_time_rounded_down(time) - path.table_time_rounded_down(0.0);
         let mut gap = GapCurve {
-            unit: "mm".to_owned(),
+            unit: Some("mm".to_owned()),
             ..GapCurve::default()
         };
         for range in &ranges {

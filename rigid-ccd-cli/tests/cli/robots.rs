@@ -162,7 +162,7 @@ fn an_interrupted_run_goes_on() {
 fn inputs_are_not_overwritten() {
     let scene = folder();
     for (file, option) in [
-        ("arm.urdf", "URDF"),
+        ("arm.urdf", "ROBOT"),
         ("cell.toml", "--cell"),
         ("moves.csv", "--edges"),
     ] {
@@ -172,7 +172,7 @@ fn inputs_are_not_overwritten() {
         assert_contains(&message, &format!("overwrite the file of {option}"));
     }
     let message = call(&scene, &["acm", "arm.urdf", "--out", "arm.urdf"]).run_for_messages(2);
-    assert_contains(&message, "overwrite the file of URDF");
+    assert_contains(&message, "overwrite the file of ROBOT");
     let message = call(
         &scene,
         &[

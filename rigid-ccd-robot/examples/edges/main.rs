@@ -16,9 +16,9 @@ use std::{error::Error, path::Path, time::Instant};
 fn main() -> Result<(), Box<dyn Error>> {
     let count = std::env::args().nth(1).map_or(Ok(50), |arg| arg.parse())?;
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/edges");
-    let urdf = RobotFile::from_path(folder.join("arm.urdf"));
-    let robot = urdf.read()?;
-    let pairs = urdf.link_pairs(&robot, Some(&folder.join("arm.srdf")))?;
+    let file = RobotFile::from_path(folder.join("arm.urdf"));
+    let robot = file.read()?;
+    let pairs = file.link_pairs(&robot, Some(&folder.join("arm.srdf")))?;
     let mut cell = Cell::new(robot, pairs);
     let mut random = Pcg64::seed_from_u64(1);
     for k in 0..20 {
@@ -70,8 +70,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         });
         let took = begin.elapsed();
         let pairs = free.iter().zip(&certified);
-        let wrong = pairs.filter(|(free, certified)| **free && !**certified);
-        println!("{steps} steps accept {} more: {took:.1?}", wrong.count());
+        let more = pairs.filter(|(free, certified)| **free && !**certified);
+        println!("{steps} steps accept {} more: {took:.1?}", more.count());
     }
     Ok(())
 }

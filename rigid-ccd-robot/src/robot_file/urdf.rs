@@ -10,32 +10,21 @@ use rigid_ccd::{Body, InputError, Pose, trajectory};
 use std::sync::Arc;
 use urdf_rs::{Geometry, JointType};
 
-/// Builds the robot of the text of a URDF file. A message of the parser is an error of its own.
-pub(super) fn read_robot(
-    text: &str,
-    elements: BodyElements,
-    meshes: &MeshBodies,
-    folders: &SearchFolders,
-) -> Result<Result<Robot, RobotFileError>, String> {
+/// Parses the text of a URDF file.
+pub(super) fn parse(text: &str) -> Result<urdf_rs::Robot, String> {
     let urdf = urdf_rs::read_from_string(&without_materials(text));
-    let urdf = urdf.map_err(|error| error.to_string())?;
-    let reader = LinkReader {
-        elements,
-        meshes,
-        folders,
-    };
-    Ok(reader.robot(&urdf))
+    urdf.map_err(|error| error.to_string())
 }
 
-/// Makes links of those of a URDF.
-struct LinkReader<'r> {
-    elements: BodyElements,
-    meshes: &'r MeshBodies,
-    folders: &'r SearchFolders,
+/// Makes a robot of a URDF.
+pub(super) struct UrdfReader<'r> {
+    pub(super) elements: BodyElements,
+    pub(super) meshes: &'r MeshBodies,
+    pub(super) folders: &'r SearchFolders,
 }
 
-impl LinkReader<'_> {
-    fn robot(&self, urdf: &urdf_rs::Robot) -> Result<Robot, RobotFileError> {
+impl UrdfReader<'_> {
+    pub(super) fn robot(&self, urdf: &urdf_rs::Robot) -> Result<Robot, RobotFileError> {
         let links = urdf.links.iter().map(|link| self.link(link));
         let mut links: Vec<Link> = links.collect::<Result<_, _>>()?;
         let mut joints = Vec::new();

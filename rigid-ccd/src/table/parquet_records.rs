@@ -65,7 +65,7 @@ impl<R: ChunkReader + 'static> ParquetRecords<R> {
     pub(super) fn new(input: R) -> Result<Self, TableError> {
         let file_byte_count = input.len();
         let file = guarded(|| SerializedFileReader::new(input))
-            .map_err(|error| damage(None, None, &error))?;
+            .map_err(|error| parquet_error(None, None, &error))?;
         let schema = file.metadata().file_metadata().schema_descr();
         let header = column_names(schema);
         let cell_kinds = cell_kinds(schema)?;
@@ -116,8 +116,8 @@ impl<R: ChunkReader + 'static> ParquetRecords<R> {
             let group = self.file.get_row_group(group)?;
             group.get_column_page_reader(column)
         });
-        let pages =
-            pages.map_err(|error| damage(Some(group), Some(&self.header[column]), &error))?;
+        let pages = pages
+            .map_err(|error| parquet_error(Some(group), Some(&self.header[column]), &error))?;
         let pages = CheckedPages::new(pages, &descriptor, self.group_row_counts[group]);
         let reader = get_column_reader(descriptor.clone(), Box::new(pages));
         let kind = self.cell_kinds[column];
@@ -157,7 +157,7 @@ impl RowGroup {
         let count = left.min(DECODED_ROW_COUNT);
         for (column, name) in self.columns.iter_mut().zip(header) {
             guarded(|| column.decode(count))
-                .map_err(|error| damage(Some(self.index), Some(name), &error))?;
+                .map_err(|error| parquet_error(Some(self.index), Some(name), &error))?;
         }
         self.undecoded_row_count -= count as u64;
         (self.decoded_row_count, self.next_decoded) = (count, 0);
@@ -240,7 +240,7 @@ fn check_group(
 ) -> Result<u64, TableError> {
     if group.num_columns() != header.len() {
         let problem = format!("has {} of {} columns", group.num_columns(), header.len());
-        return Err(damage(Some(index), None, &problem));
+        return Err(parquet_error(Some(index), None, &problem));
     }
     for (column, name) in group.columns().iter().zip(header) {
         let codec = match column.compression() {
@@ -253,15 +253,15 @@ fn check_group(
             _ => "another method than snappy, gzip, lz4_raw and zstd",
         };
         let problem = format!("is compressed with {codec}; write the table with snappy");
-        return Err(damage(Some(index), Some(name), &problem));
+        return Err(parquet_error(Some(index), Some(name), &problem));
     }
     u64::try_from(group.num_rows()).map_err(|_| {
         let problem = format!("has {} rows", group.num_rows());
-        damage(Some(index), None, &problem)
+        parquet_error(Some(index), None, &problem)
     })
 }
 
-fn damage(
+fn parquet_error(
     row_group: Option<usize>,
     column: Option<&str>,
     problem: &dyn fmt::Display,

@@ -22,6 +22,9 @@ enum Format {
 impl TableRecords {
     /// Opens a table from a file. Parquet needs a regular file, not a pipe.
     ///
+    /// The first Parquet file replaces the hook that the process calls for panics, by one that calls it for all but those of the
+    /// Parquet library, which become errors.
+    ///
     /// # Errors
     /// Those of [`TableRecords::from_stream`], [`TableError::Parquet`], [`TableError::ColumnType`].
     pub fn from_file(mut file: File) -> Result<Self, TableError> {

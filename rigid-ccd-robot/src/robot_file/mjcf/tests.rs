@@ -284,8 +284,8 @@ fn nothing_is_passed_over() {
     assert!(error("<joint/>", "").contains("`joint`"));
     let limited = format!(r#"<body><joint limited="true"/>{ball}</body>"#);
     assert!(error(&limited, "").contains("range=\"\""));
-    let class = format!(r#"<body><geom class="none" size="1"/></body>"#);
-    assert_eq!(error(&class, ""), "there is no class `none`");
+    let class = r#"<body><geom class="none" size="1"/></body>"#;
+    assert_eq!(error(class, ""), "there is no class `none`");
     let pair = r#"<contact><pair geom1="a" geom2="b"/></contact>"#;
     assert_eq!(error(ball, pair), "there is no geom `a`");
     let exclude = r#"<contact><exclude body1="world" body2="none"/></contact>"#;

@@ -147,9 +147,16 @@ fn is_negative(big_endian: &[u8]) -> bool {
     big_endian.first().is_some_and(|&byte| byte >= 0x80)
 }
 
-/// Writes a whole number of units of 10^-scale.
+/// Writes a whole number of units of 10^-scale with all its decimals, such as 1.50.
 fn write_decimal(out: &mut Vec<u8>, units: i128, scale: u32) -> std::io::Result<()> {
-    write!(out, "{units}e-{scale}")
+    let sign = if units < 0 { "-" } else { "" };
+    let width = scale as usize + 1;
+    let digits = format!("{:0>width$}", units.unsigned_abs());
+    let (whole, decimals) = digits.split_at(digits.len() - scale as usize);
+    match decimals {
+        "" => write!(out, "{sign}{whole}"),
+        _ => write!(out, "{sign}{whole}.{decimals}"),
+    }
 }
 
 /// Bytes of variable or of fixed length.
