@@ -1,15 +1,18 @@
 //! Reads a robot from a URDF or MJCF file, and from the mesh files that it names.
 
+mod body_elements;
 mod error;
 mod materials;
 mod meshes;
 mod mjcf;
+mod mjcf_error;
 mod packages;
 mod urdf;
 
+pub use body_elements::BodyElements;
 pub use error::RobotFileError;
 pub use meshes::MeshConversion;
-pub use mjcf::MjcfError;
+pub use mjcf_error::MjcfError;
 
 use crate::pairs::{LinkPairs, SkipReason};
 use crate::robot::Robot;
@@ -53,16 +56,6 @@ pub struct RobotFile {
     search_folders: SearchFolders,
     body_elements: BodyElements,
     mesh_conversion: MeshConversion,
-}
-
-/// The kind of XML elements of a robot's links that become bodies.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum BodyElements {
-    /// The shapes for collision checks: the elements `collision` of a URDF, the geoms of an MJCF that can collide.
-    #[default]
-    Collision,
-    /// The shapes for drawing: the elements `visual` of a URDF, the geoms of the groups 0 to 2 of an MJCF.
-    Visual,
 }
 
 impl RobotFile {

@@ -1,6 +1,6 @@
 //! Errors of URDF, MJCF and SRDF files.
 
-use super::mjcf::MjcfError;
+use super::mjcf_error::MjcfError;
 use crate::error::RobotError;
 use ccd_decomp::{MeshError, PrepareError};
 use rigid_ccd::InputError;

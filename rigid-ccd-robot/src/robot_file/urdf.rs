@@ -1,9 +1,10 @@
 //! Converts the links and joints of a URDF file.
 
+use super::body_elements::BodyElements;
 use super::error::RobotFileError;
+use super::materials::without_materials;
 use super::meshes::MeshBodies;
 use super::packages::SearchFolders;
-use super::{BodyElements, materials::without_materials};
 use crate::robot::{CompoundKind, Joint, Link, LinkBody, PositionRule, Robot};
 use rigid_ccd::glam::{DAffine3, DQuat, DVec3, EulerRot};
 use rigid_ccd::{Body, InputError, Pose, trajectory};

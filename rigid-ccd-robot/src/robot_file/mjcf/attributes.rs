@@ -1,6 +1,6 @@
 //! The attributes of an element of an MJCF file, with those of its class.
 
-use super::error::MjcfError;
+use crate::robot_file::mjcf_error::MjcfError;
 use roxmltree::Node;
 use std::collections::BTreeMap;
 

@@ -1,14 +1,16 @@
 //! The bodies of an MJCF file, with their joints and geoms.
 
-use super::WORLD;
 use super::attributes::Attributes;
 use super::classes::Classes;
 use super::document::Element;
-use super::error::MjcfError;
 use super::orientation::{pose_of, read_pose};
 use super::settings::Settings;
+use crate::robot_file::mjcf_error::MjcfError;
 use rigid_ccd::Pose;
 use rigid_ccd::glam::DVec3;
+
+/// The number of the body that does not move.
+pub(super) const WORLD: usize = 0;
 
 /// A body of a model.
 pub(super) struct MjcfBody {

@@ -2,7 +2,7 @@
 
 use super::attributes::Attributes;
 use super::document::Element;
-use super::error::MjcfError;
+use crate::robot_file::mjcf_error::MjcfError;
 use std::collections::BTreeMap;
 
 /// The class of elements without one.

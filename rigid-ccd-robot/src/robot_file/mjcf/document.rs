@@ -1,8 +1,8 @@
 //! The elements of an MJCF file, with those of the files that it includes in their places.
 
 use super::attributes::Attributes;
-use super::error::MjcfError;
 use crate::robot_file::error::RobotFileError;
+use crate::robot_file::mjcf_error::MjcfError;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::fs;
 use std::path::Path;
@@ -28,6 +28,15 @@ impl Element {
             parent: parent.to_owned(),
         }
     }
+}
+
+/// Iterates over the children of all sections of a model that have a name.
+pub(super) fn children_of_sections<'r>(
+    root: &'r Element,
+    section: &'r str,
+) -> impl Iterator<Item = &'r Element> {
+    let sections = root.children.iter().filter(move |own| own.name == section);
+    sections.flat_map(|section| &section.children)
 }
 
 /// Parses the text of a file, and the files that it includes from a folder. Returns its first element.

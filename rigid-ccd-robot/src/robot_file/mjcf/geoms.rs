@@ -1,69 +1,20 @@
 //! Makes bodies of the geoms of an MJCF.
 
 use super::bodies::{MjcfBody, MjcfGeom};
-use super::classes::Classes;
-use super::document::Element;
-use super::error::MjcfError;
+use super::model::MjcfModel;
 use super::orientation::rotation_of_z_to;
-use super::{MjcfModel, children_of_sections};
 use crate::robot::LinkBody;
-use crate::robot_file::BodyElements;
+use crate::robot_file::body_elements::BodyElements;
 use crate::robot_file::error::RobotFileError;
 use crate::robot_file::meshes::MeshBodies;
+use crate::robot_file::mjcf_error::MjcfError;
 use ccd_core::vector::unit;
-use rigid_ccd::glam::{DAffine3, DQuat, DVec3};
+use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Pose};
-use std::collections::HashMap;
-use std::path::Path;
 use std::sync::Arc;
 
 /// The first group of geoms that MuJoCo does not draw.
 const FIRST_HIDDEN_GROUP: i64 = 3;
-
-/// A mesh that geoms name.
-pub(super) struct MeshAsset {
-    /// The file; `None` for a mesh that the model holds itself.
-    file: Option<String>,
-    /// MuJoCo moves the vertices from the reference pose to the origin, and then scales them.
-    map: DAffine3,
-}
-
-/// Reads the meshes of a model by their names. One without a name has that of its file.
-pub(super) fn read_mesh_assets(
-    root: &Element,
-    classes: &Classes,
-) -> Result<HashMap<String, MeshAsset>, MjcfError> {
-    let mut assets = HashMap::new();
-    for element in children_of_sections(root, "asset") {
-        match element.name.as_str() {
-            "mesh" => {}
-            // Pictures; a geom that is a height field or a skin is refused by itself.
-            "hfield" | "material" | "skin" | "texture" => continue,
-            // A model that may be attached, which is refused where it is.
-            "model" => continue,
-            _ => return Err(element.unknown_in("asset")),
-        }
-        let own = classes.merged(element, None)?;
-        let file = own.get("file");
-        let stem = file.and_then(|file| Path::new(file).file_stem());
-        let stem = stem.and_then(|stem| stem.to_str());
-        let Some(name) = own.get("name").or(stem) else {
-            return Err(own.invalid("name"));
-        };
-        let scale = own.array("scale")?.map_or(DVec3::ONE, DVec3::from_array);
-        let at = own.array("refpos")?.map_or(DVec3::ZERO, DVec3::from_array);
-        let [w, x, y, z] = own.array("refquat")?.unwrap_or([1.0, 0.0, 0.0, 0.0]);
-        let reference = Pose::new(at, DQuat::from_xyzw(x, y, z, w));
-        let back = reference.map_err(|_| own.invalid("refquat"))?.inverse();
-        let back = DAffine3::from_rotation_translation(back.rotation(), back.translation());
-        let asset = MeshAsset {
-            file: file.map(str::to_owned),
-            map: DAffine3::from_scale(scale) * back,
-        };
-        assets.insert(name.to_owned(), asset);
-    }
-    Ok(assets)
-}
 
 /// Makes bodies of the geoms of a model.
 pub(super) struct GeomReader<'r> {

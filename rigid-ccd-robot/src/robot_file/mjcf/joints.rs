@@ -1,10 +1,10 @@
 //! Makes chains of joints of the joints of an MJCF, several of which may move one body.
 
-use super::MjcfModel;
 use super::bodies::{MjcfBody, MjcfJoint, MjcfJointKind};
-use super::error::MjcfError;
+use super::model::MjcfModel;
 use crate::robot::{CompoundKind, Joint, Link, PositionRule};
 use crate::robot_file::error::RobotFileError;
+use crate::robot_file::mjcf_error::MjcfError;
 use ccd_core::vector::unit;
 use rigid_ccd::glam::{DQuat, DVec3};
 use rigid_ccd::{InputError, Pose, trajectory};

@@ -1,8 +1,8 @@
 //! Poses of elements of an MJCF file.
 
 use super::attributes::{Attributes, ORIENTATIONS};
-use super::error::MjcfError;
 use super::settings::Settings;
+use crate::robot_file::mjcf_error::MjcfError;
 use ccd_core::vector::unit;
 use rigid_ccd::Pose;
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};

@@ -1,12 +1,13 @@
 //! The pairs of bodies that MuJoCo checks.
 
-use super::bodies::MjcfGeom;
-use super::error::MjcfError;
-use super::{MjcfModel, WORLD};
+use super::attributes::Attributes;
+use super::bodies::{MjcfGeom, WORLD};
+use super::model::MjcfModel;
 use crate::pairs::{LinkPairs, SkipReason};
 use crate::robot::Robot;
-use crate::robot_file::BodyElements;
+use crate::robot_file::body_elements::BodyElements;
 use crate::robot_file::error::RobotFileError;
+use crate::robot_file::mjcf_error::MjcfError;
 
 impl MjcfModel {
     /// Returns the pairs of links that MuJoCo checks. A pair of links is checked if some of their geoms are.
@@ -46,7 +47,7 @@ impl MjcfModel {
 
     /// Returns whether an element `pair` names a geom.
     pub(super) fn is_in_pair(&self, geom: &MjcfGeom) -> bool {
-        let is_named = |pair: &super::attributes::Attributes| {
+        let is_named = |pair: &Attributes| {
             let names = [pair.get("geom1"), pair.get("geom2")];
             geom.name().is_some() && names.contains(&geom.name())
         };

@@ -1,9 +1,8 @@
 //! The settings of an MJCF file that change what its numbers and names mean.
 
 use super::attributes::Attributes;
-use super::children_of_sections;
-use super::document::Element;
-use super::error::MjcfError;
+use super::document::{Element, children_of_sections};
+use crate::robot_file::mjcf_error::MjcfError;
 use std::path::{Path, PathBuf};
 
 /// The settings of a model: of its sections `compiler`, and of the flags in its sections `option`.

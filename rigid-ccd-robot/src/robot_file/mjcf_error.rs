@@ -48,7 +48,7 @@ pub enum MjcfError {
 }
 
 impl MjcfError {
-    pub(super) fn unknown_name(kind: &'static str, name: &str) -> Self {
+    pub(crate) fn unknown_name(kind: &'static str, name: &str) -> Self {
         MjcfError::UnknownName {
             kind,
             name: name.to_owned(),

@@ -1,0 +1,83 @@
+//! What an MJCF file says of a robot.
+
+use super::assets::{MeshAsset, read_mesh_assets};
+use super::attributes::Attributes;
+use super::bodies::{MjcfBody, read_bodies};
+use super::classes::Classes;
+use super::document::parse;
+use super::settings::Settings;
+use crate::robot_file::error::RobotFileError;
+use crate::robot_file::mjcf_error::MjcfError;
+use std::collections::HashMap;
+use std::path::Path;
+
+/// What an MJCF file says of a robot.
+pub(in crate::robot_file) struct MjcfModel {
+    pub(super) settings: Settings,
+    /// The bodies; the world is first, and others follow their parents.
+    pub(super) bodies: Vec<MjcfBody>,
+    pub(super) meshes: HashMap<String, MeshAsset>,
+    /// The elements of `contact` and `equality`, with the attributes of their classes.
+    constraints: Vec<Attributes>,
+}
+
+/// Sections of a model that say nothing of shapes, joints or pairs.
+const OTHER_SECTIONS: [&str; 12] = [
+    "actuator",
+    "asset",
+    "compiler",
+    "custom",
+    "default",
+    "extension",
+    "keyframe",
+    "option",
+    "sensor",
+    "size",
+    "statistic",
+    "visual",
+];
+
+impl MjcfModel {
+    /// Reads the text of a file, which includes files of a folder.
+    pub(in crate::robot_file) fn from_text(
+        text: &str,
+        folder: &Path,
+    ) -> Result<Self, RobotFileError> {
+        let root = parse(text, folder)?;
+        let settings = Settings::read(&root, folder)?;
+        let classes = Classes::read(&root)?;
+        let mut constraints = Vec::new();
+        for section in &root.children {
+            match section.name.as_str() {
+                "contact" | "equality" => {
+                    for element in &section.children {
+                        constraints.push(classes.merged(element, None)?);
+                    }
+                }
+                // A tendon is no shape; it may hold two joints together, which then are independent.
+                "worldbody" | "tendon" => {}
+                other if OTHER_SECTIONS.contains(&other) => {}
+                _ => return Err(section.unknown_in("mujoco").into()),
+            }
+        }
+        Ok(MjcfModel {
+            bodies: read_bodies(&root, &settings, &classes)?,
+            meshes: read_mesh_assets(&root, &classes)?,
+            constraints,
+            settings,
+        })
+    }
+
+    /// Returns the number of the body that has a name.
+    pub(super) fn body_named(&self, name: &str) -> Result<usize, MjcfError> {
+        let number = self.bodies.iter().position(|body| body.name == name);
+        number.ok_or_else(|| MjcfError::unknown_name("body", name))
+    }
+
+    /// Iterates over the elements of `contact` and `equality` with a name.
+    pub(super) fn constraints_named(&self, element: &str) -> impl Iterator<Item = &Attributes> {
+        self.constraints
+            .iter()
+            .filter(move |own| own.element == element)
+    }
+}
