@@ -97,11 +97,14 @@ impl PathTable {
             configurations: Vec::new(),
             times: self.columns.time.map(|_| Vec::new()),
         });
-        if let Some(id) = &given_id
-            && self.columns.end_positions.is_none()
-            && !self.known_ids.insert(id.clone())
-        {
-            path = Err((position, RowProblem::PathNotConsecutive { id: id.clone() }));
+        if self.columns.end_positions.is_none() && self.columns.id.is_some() {
+            path = match &given_id {
+                None => Err((position, RowProblem::NoId)),
+                Some(id) if !self.known_ids.insert(id.clone()) => {
+                    Err((position, RowProblem::PathNotConsecutive { id: id.clone() }))
+                }
+                Some(_) => path,
+            };
         }
         let mut at = position;
         loop {

@@ -70,7 +70,8 @@ fn paths_are_rows_of_one_id() {
 
 #[test]
 fn bad_rows_are_errors_of_their_paths() {
-    let text = "id,t,hip,rail\na,0,0,0\na,0,1,1\nb,0,x,0\nc,0,,0\nd,0,0\na,5,0,0\ne,0,1,2\n";
+    let text =
+        "id,t,hip,rail\na,0,0,0\na,0,1,1\nb,0,x,0\nc,0,,0\nd,0,0\na,5,0,0\n,6,1,2\ne,0,1,2\n";
     let paths = read(text, &[]);
     let words = [
         "not later",
@@ -78,12 +79,13 @@ fn bad_rows_are_errors_of_their_paths() {
         "no value",
         "3 cells",
         "a",
+        "each row of a path needs its name",
     ];
     for (path, expected) in paths.iter().zip(words) {
         let error = path.as_ref().unwrap_err();
         assert!(error.to_string().contains(expected), "{error}");
     }
-    assert!(paths[5].is_ok() && paths.len() == 6);
+    assert!(paths[6].is_ok() && paths.len() == 7);
 }
 
 #[test]

@@ -220,15 +220,14 @@ impl Reader<'_> {
 
     fn limits(&self, own: &Attributes) -> Result<Option<[f64; 2]>, MjcfError> {
         let range: Option<[f64; 2]> = own.array("range")?;
-        let is_limited = match own.get("limited") {
-            None | Some("auto") => self.settings.limits_follow_ranges && range.is_some(),
-            Some(_) => own.truth_or("limited", false)?,
-        };
-        match range {
-            Some([low, high]) if is_limited && low <= high => Ok(range),
-            // A limit without a range is none.
-            _ if is_limited => Err(own.invalid("range")),
-            _ => Ok(None),
+        let proper = range.filter(|[low, high]| low < high);
+        match own.get("limited") {
+            // A range without a length is none.
+            None | Some("auto") => Ok(proper.filter(|_| self.settings.limits_follow_ranges)),
+            Some(_) if own.truth_or("limited", false)? => {
+                proper.map(Some).ok_or_else(|| own.invalid("range"))
+            }
+            Some(_) => Ok(None),
         }
     }
 }

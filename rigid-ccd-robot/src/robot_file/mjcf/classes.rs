@@ -65,11 +65,21 @@ impl Classes {
         element: &Element,
         of_body: Option<&str>,
     ) -> Result<Attributes, MjcfError> {
-        let name = element.attributes.get("class").or(of_body).unwrap_or(MAIN);
-        let Some(class) = self.0.get(name) else {
-            return Err(MjcfError::unknown_name("class", name));
+        self.merged_as(&element.name, element, of_body)
+    }
+
+    /// Like [`Classes::merged`], for an element for which classes have another name.
+    pub(super) fn merged_as(
+        &self,
+        name: &str,
+        element: &Element,
+        of_body: Option<&str>,
+    ) -> Result<Attributes, MjcfError> {
+        let class = element.attributes.get("class").or(of_body).unwrap_or(MAIN);
+        let Some(class) = self.0.get(class) else {
+            return Err(MjcfError::unknown_name("class", class));
         };
-        match class.get(&element.name) {
+        match class.get(name) {
             Some(of_class) => element.attributes.over(of_class),
             None => Ok(element.attributes.clone()),
         }

@@ -49,9 +49,15 @@ impl MjcfModel {
         let mut constraints = Vec::new();
         for section in &root.children {
             match section.name.as_str() {
-                "contact" | "equality" => {
+                "contact" => {
                     for element in &section.children {
                         constraints.push(classes.merged(element, None)?);
+                    }
+                }
+                // Classes have one name for all kinds of equalities.
+                "equality" => {
+                    for element in &section.children {
+                        constraints.push(classes.merged_as("equality", element, None)?);
                     }
                 }
                 // A tendon is no shape; it may hold two joints together, which then are independent.

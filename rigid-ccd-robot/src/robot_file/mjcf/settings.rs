@@ -34,8 +34,11 @@ impl Settings {
         for compiler in &compilers {
             settings.set(compiler)?;
         }
-        let last = |name: &str| compilers.iter().rev().find_map(|own| own.get(name));
-        if let Some(own) = last("meshdir").or(last("assetdir")) {
+        // The last one counts, and of one element that of meshes.
+        let folders = compilers
+            .iter()
+            .filter_map(|own| own.get("meshdir").or(own.get("assetdir")));
+        if let Some(own) = folders.last() {
             settings.mesh_folder = folder.join(own);
         }
         for flag in children_of_sections(root, "option").filter(|own| own.name == "flag") {

@@ -423,3 +423,32 @@ fn parents_are_checked_if_the_model_says_so_and_mocap_bodies_move() {
         2
     );
 }
+
+/// Tests that the last folder counts, that a range without a length is none, and that classes switch equalities off.
+#[test]
+fn settings_are_those_that_mujoco_takes() {
+    let folder = tempfile::tempdir().unwrap();
+    let tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    std::fs::create_dir(folder.path().join("second")).unwrap();
+    std::fs::write(folder.path().join("second/part.obj"), tetrahedron).unwrap();
+    let text = r#"<mujoco><compiler meshdir="first"/><compiler assetdir="second"/>
+        <equality><joint joint1="p" joint2="q"/></equality>
+        <default><equality active="false"/><joint range="0 0"/></default>
+        <asset><mesh file="part.obj"/></asset><worldbody><body><geom type="mesh" mesh="part"/>
+        <joint name="p"/><joint name="q" type="slide" range="1 -1"/></body></worldbody></mujoco>"#;
+    let robot = RobotFile::from_text(text, folder.path().join("model.xml"))
+        .read()
+        .unwrap();
+    assert_eq!(robot.free_joint_names().collect::<Vec<_>>(), ["p", "q"]);
+    assert!(
+        robot
+            .limits()
+            .all(|[low, high]| low == f64::NEG_INFINITY && high == f64::INFINITY)
+    );
+    // Elements within each other to any depth are an error.
+    let deep = format!(
+        "<mujoco><worldbody>{}</worldbody></mujoco>",
+        "<body>".repeat(60_000) + &"</body>".repeat(60_000)
+    );
+    assert!(file_of(&deep).read().is_err());
+}

@@ -129,10 +129,21 @@ fn missing_values() -> ParquetError {
     ParquetError::EOF("the number of values is not the number of rows".to_owned())
 }
 
+/// The length of the longest text of a cell. A dictionary holds a text once for many rows, each of which gets its own: a small file
+/// could take all memory.
+const MAX_TEXT_BYTES: usize = 1 << 16;
+
 /// Writes text, or the decimal number that big-endian bytes hold.
 fn write_bytes(out: &mut Vec<u8>, value: &impl AsBytes, kind: CellKind) -> std::io::Result<()> {
     let bytes = value.bytes();
     let CellKind::Decimal { scale } = kind else {
+        if bytes.len() > MAX_TEXT_BYTES {
+            let problem = format!(
+                "a text of {} bytes; the longest that is read has {MAX_TEXT_BYTES}",
+                bytes.len()
+            );
+            return Err(std::io::Error::other(problem));
+        }
         return out.write_all(bytes);
     };
     let mut wide = [if is_negative(bytes) { 0xff } else { 0 }; 16];

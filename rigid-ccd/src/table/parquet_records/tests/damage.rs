@@ -135,3 +135,23 @@ fn a_panic_becomes_an_error() {
     assert_eq!(error.to_string(), "Parquet error: damaged data");
     assert_eq!(guarded(|| Ok(3)).unwrap(), 3);
 }
+
+/// Tests that a dictionary of one long text is refused, and does not become a text for each row.
+#[test]
+fn long_texts_are_refused() {
+    let table = |length: usize| {
+        let text = "x".repeat(length);
+        written(
+            "message table { required binary id (UTF8); }",
+            WriterProperties::default(),
+            &[vec![Column::texts(vec![Some(text); 1_000])]],
+        )
+    };
+    let read = |length: usize| {
+        let mut records = ParquetRecords::new(table(length)).unwrap();
+        records.advance().map(|row| row.is_some())
+    };
+    assert!(read(1 << 16).unwrap());
+    let error = read((1 << 16) + 1).unwrap_err().to_string();
+    assert!(error.contains("a text of 65537 bytes"), "{error}");
+}
