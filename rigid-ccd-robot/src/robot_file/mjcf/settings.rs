@@ -35,10 +35,10 @@ impl Settings {
             settings.set(compiler)?;
         }
         // The last one counts, and of one element that of meshes.
-        let folders = compilers
+        let mut folders = compilers
             .iter()
             .filter_map(|own| own.get("meshdir").or(own.get("assetdir")));
-        if let Some(own) = folders.last() {
+        if let Some(own) = folders.next_back() {
             settings.mesh_folder = folder.join(own);
         }
         for flag in children_of_sections(root, "option").filter(|own| own.name == "flag") {
