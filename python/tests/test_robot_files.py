@@ -52,7 +52,8 @@ def test_a_link_carries_a_robot(tmp_path: Path) -> None:
 def test_contacts_name_the_features_of_meshes() -> None:
     slide = Joint.prismatic("slide", "base", "ball", axis=[0, 0, 1])
     cell = Cell(Robot([slide], {"ball": Body.sphere(0.1)}))
-    roof = Body([[-1, -1, 0], [1, -1, 0], [1, 1, 0.5], [-1, 1, 0.5], [0, 3, 0]], [[0, 1, 2], [0, 2, 3], [3, 2, 4]])
+    corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0.5], [-1, 1, 0.5], [0, 3, 0]])
+    roof = Body(corners, [[0, 1, 2], [0, 2, 3], [3, 2, 4]])
     cell.add("roof", roof, ([-0.5, -0.3, -2], UPRIGHT))
     touch = cell.first_contact([[0.0], [-3.0]])
     # The ball is over the first triangle, and has no features itself.
