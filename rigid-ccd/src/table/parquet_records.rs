@@ -33,6 +33,7 @@ pub(super) struct ParquetRecords<R: ChunkReader + 'static> {
     file_byte_count: u64,
     /// The number of rows of each row group.
     group_row_counts: Vec<u64>,
+    file_row_count: u128,
     header: Vec<String>,
     cell_kinds: Vec<CellKind>,
     next_group: usize,
@@ -71,7 +72,7 @@ impl<R: ChunkReader + 'static> ParquetRecords<R> {
         let cell_kinds = cell_kinds(schema)?;
         let groups = file.metadata().row_groups();
         let group_row_counts = groups.iter().enumerate();
-        let group_row_counts = group_row_counts
+        let group_row_counts: Vec<u64> = group_row_counts
             .map(|(index, group)| check_group(index, group, &header))
             .collect::<Result<_, _>>()?;
         let mut checksum = crc32fast::Hasher::new();
@@ -79,6 +80,7 @@ impl<R: ChunkReader + 'static> ParquetRecords<R> {
         Ok(ParquetRecords {
             file,
             file_byte_count,
+            file_row_count: group_row_counts.iter().copied().map(u128::from).sum(),
             group_row_counts,
             header,
             cell_kinds,
@@ -198,9 +200,8 @@ impl<R: ChunkReader + 'static> Records for ParquetRecords<R> {
 
     /// Returns the share of the file that corresponds to the share of the rows: a row's bytes are not in one place.
     fn consumed_bytes(&self) -> u64 {
-        let rows = self.group_row_counts.iter().map(|&count| u128::from(count));
         let share = u128::from(self.file_byte_count) * self.row_count as u128;
-        u64::try_from(share / rows.sum::<u128>().max(1)).unwrap_or(self.file_byte_count)
+        u64::try_from(share / self.file_row_count.max(1)).unwrap_or(self.file_byte_count)
     }
 }
 

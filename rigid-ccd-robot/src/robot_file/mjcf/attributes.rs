@@ -29,21 +29,13 @@ impl Attributes {
     /// Returns these attributes with those of a class that they do not give. A size may give only the first of its numbers.
     pub(super) fn over(&self, class: &Attributes) -> Result<Self, MjcfError> {
         let mut values = class.values.clone();
-        let own_orientation = ORIENTATIONS
-            .iter()
-            .find(|own| self.values.contains_key(**own));
-        if let Some(own) = own_orientation {
-            let others = ORIENTATIONS.iter().filter(|other| other != &own);
-            for other in others
-                .filter(|other| values.contains_key(**other))
-                .copied()
-                .collect::<Vec<_>>()
-            {
+        let is_own = |name: &&str| self.values.contains_key(*name);
+        if let Some(own) = ORIENTATIONS.into_iter().find(is_own) {
+            for other in ORIENTATIONS {
                 // MuJoCo takes any other one in place of a quaternion, and else that of the class.
-                if other != "quat" {
+                if other != own && values.remove(other).is_some() && other != "quat" {
                     return Err(self.invalid(own));
                 }
-                values.remove(other);
             }
         }
         for (name, value) in &self.values {

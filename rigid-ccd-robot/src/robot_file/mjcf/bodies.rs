@@ -3,7 +3,7 @@
 use super::attributes::Attributes;
 use super::classes::Classes;
 use super::document::Element;
-use super::orientation::{pose_of, read_pose};
+use super::orientation::read_pose;
 use super::settings::Settings;
 use crate::robot_file::mjcf_error::MjcfError;
 use rigid_ccd::Pose;
@@ -193,12 +193,7 @@ impl Reader<'_> {
         if number == WORLD || is_free && (body.parent != Some(WORLD) || !body.joints.is_empty()) {
             return Err(own.invalid("type"));
         }
-        let anchor = pose_of(
-            own,
-            "pos",
-            own.array("pos")?.unwrap_or([0.0; 3]),
-            frame.rotation(),
-        )?;
+        let anchor = own.array("pos")?.map_or(DVec3::ZERO, DVec3::from_array);
         let axis = own.array("axis")?.map_or(DVec3::Z, DVec3::from_array);
         let scale = |position: f64| match kind {
             MjcfJointKind::Hinge => self.settings.radians(position),
@@ -211,7 +206,7 @@ impl Reader<'_> {
                 str::to_owned,
             ),
             kind,
-            anchor: frame.transform_point(anchor.translation()),
+            anchor: frame.transform_point(anchor),
             axis: frame.rotation() * axis,
             limits: self.limits(own)?.map(|limits| limits.map(scale)),
             reference: scale(reference),

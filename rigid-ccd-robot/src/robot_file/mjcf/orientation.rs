@@ -10,17 +10,7 @@ use rigid_ccd::glam::{DMat3, DQuat, DVec3};
 /// Returns the pose of an element: its position, and one of the attributes that give a rotation.
 pub(super) fn read_pose(own: &Attributes, settings: &Settings) -> Result<Pose, MjcfError> {
     let position = own.array("pos")?.unwrap_or([0.0; 3]);
-    pose_of(own, "pos", position, read_rotation(own, settings)?)
-}
-
-/// Makes a pose; an error names the attribute.
-pub(super) fn pose_of(
-    own: &Attributes,
-    attribute: &str,
-    position: [f64; 3],
-    rotation: DQuat,
-) -> Result<Pose, MjcfError> {
-    Pose::new(position, rotation).map_err(|_| own.invalid(attribute))
+    Pose::new(position, read_rotation(own, settings)?).map_err(|_| own.invalid("pos"))
 }
 
 fn read_rotation(own: &Attributes, settings: &Settings) -> Result<DQuat, MjcfError> {
