@@ -4,6 +4,7 @@ pub(crate) mod bound;
 pub(crate) mod gap;
 #[cfg(feature = "nalgebra")]
 mod interop;
+pub(crate) mod kind;
 pub(crate) mod path;
 pub(crate) mod period;
 pub(crate) mod pose;

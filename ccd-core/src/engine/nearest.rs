@@ -93,8 +93,11 @@ impl<'p> NearestSearch<'p> {
             }
             match pair {
                 NextStep::Split(split) => {
-                    let expansion = bound_child_distances(&self.node_context, &split, self.clock);
-                    self.enqueue(Siblings::new(&expansion, split, 0.0))?;
+                    self.enqueue(bound_child_distances(
+                        &self.node_context,
+                        &split,
+                        self.clock,
+                    ))?;
                 }
                 NextStep::MeasurePieces(a, b) => self.measure_pieces([a, b], oracle, meter)?,
             }

@@ -10,5 +10,6 @@ pub(crate) mod clock;
 pub(crate) mod common;
 pub(crate) mod eight_pairs;
 pub(crate) mod expand;
+pub(crate) mod free_times;
 pub(crate) mod shape;
 pub(crate) mod siblings;

@@ -1,45 +1,64 @@
 //! A priority queue of pairs, ordered by clock.
 
 use super::capacity::clear_and_shrink;
-use crate::math::order::greater;
+use crate::math::order::{greater, lesser};
 
 /// A priority queue of items by their clocks. Among equal clocks pairs of pieces come first, then the newest item, for
 /// a depth-first search.
+///
+/// It is a radix heap `[AMOT90]` with digits of six bits: an item is in the bucket of the highest digit in which its
+/// clock differs from the floor, which is the clock of the next item. The clocks of a search never decrease, so that
+/// items only move to lower buckets as the floor rises. An item is added without a comparison, and most items are never
+/// moved.
 #[derive(Debug)]
 pub(crate) struct Queue<T> {
     items: Vec<T>,
-    vacant_slots: Vec<u32>,
-    /// The key of the next item; `VACANT_KEY` if the queue is empty.
-    least_key: Key,
-    /// A tournament tree: the keys of the items, then the least of every four keys of the level before, up to a single
-    /// four. The steps are the same for every change, so that no branch is mispredicted. In a heap, each step down has
-    /// an unpredictable branch.
-    tournament_levels: Vec<Vec<[Key; 4]>>,
-    /// The number of levels in use.
-    level_count: usize,
-    last_serial: u32,
+    /// The clock and the list of each item.
+    links: Vec<Link>,
+    /// The list of vacant slots.
+    vacant: u32,
+    /// The bits of a clock. No item has an earlier one.
+    floor: u64,
+    /// The list of the pairs of pieces whose clock is the floor, the newest first.
+    pieces_at_floor: u32,
+    /// The lists of the other items, the newest first: for each place of the highest digit in which the clock differs
+    /// from the floor, and for each value of that digit. Items at the floor are in the lists of the lowest digit.
+    buckets: [[u32; RADIX]; DIGIT_COUNT],
+    /// The values that occur for each digit, as bits.
+    occupied_values: [u64; DIGIT_COUNT],
+    /// The digits that occur, as bits.
+    occupied_digits: u16,
 }
 
-/// The sort key of an item: its clock, rank, age and index, from the highest bits to the lowest. It has 64 bits of
-/// clock (clocks are not negative, so their bits have the order of the numbers), 1 bit of rank, 31 bits of age, 32 bits
-/// of index.
-type Key = u128;
+/// The place of an item in the queue.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    /// The clock as bits. Clocks are not negative, so their bits have the order of the numbers.
+    clock_bits: u64,
+    /// The next slot of the same list, or [`END`].
+    next: u32,
+    rank: Rank,
+}
 
-/// The key of an empty slot, greater than all others.
-const VACANT_KEY: Key = Key::MAX;
+/// The number of bits of a digit.
+const DIGIT_BITS: usize = 6;
+const RADIX: usize = 1 << DIGIT_BITS;
+const DIGIT_COUNT: usize = (u64::BITS as usize).div_ceil(DIGIT_BITS);
 
-/// The largest number of items that can wait at once.
-const MAX_ITEMS: usize = u32::MAX as usize;
+/// The end of a list.
+const END: u32 = u32::MAX;
 
 impl<T> Default for Queue<T> {
     fn default() -> Self {
         Queue {
             items: Vec::new(),
-            vacant_slots: Vec::new(),
-            least_key: VACANT_KEY,
-            tournament_levels: Vec::new(),
-            level_count: 0,
-            last_serial: 0,
+            links: Vec::new(),
+            vacant: END,
+            floor: 0,
+            pieces_at_floor: END,
+            buckets: [[END; RADIX]; DIGIT_COUNT],
+            occupied_values: [0; DIGIT_COUNT],
+            occupied_digits: 0,
         }
     }
 }
@@ -48,11 +67,13 @@ impl<T> Queue<T> {
     /// Removes all items, and keeps [some of the memory](clear_and_shrink).
     pub(crate) fn clear(&mut self) {
         clear_and_shrink(&mut self.items);
-        clear_and_shrink(&mut self.vacant_slots);
-        self.least_key = VACANT_KEY;
-        self.tournament_levels.iter_mut().for_each(clear_and_shrink);
-        self.level_count = 0;
-        self.last_serial = 0;
+        clear_and_shrink(&mut self.links);
+        self.vacant = END;
+        self.floor = 0;
+        self.pieces_at_floor = END;
+        while let Some((digit, value)) = self.lowest_bucket() {
+            self.take_bucket(digit, value);
+        }
     }
 
     /// Returns the largest number of items that waited at once.
@@ -60,140 +81,204 @@ impl<T> Queue<T> {
         self.items.len() as u64
     }
 
-    fn least_slot(&self) -> u32 {
-        assert!(self.least_key != VACANT_KEY, "no item waits");
-        slot(self.least_key)
-    }
-
-    fn make_newest_key(&mut self, clock: f64, rank: Rank, place: u32) -> Key {
-        self.last_serial = self.last_serial.wrapping_add(1);
-        key(clock, rank, self.last_serial, place)
-    }
-
-    /// Sets the key of a slot, and updates the least keys on all levels above it.
+    /// Adds an item to the list of its clock and rank.
     #[inline]
-    fn set_key(&mut self, place: u32, key: Key) {
-        let (mut at, mut least) = (place as usize, key);
-        for level in &mut self.tournament_levels[..self.level_count] {
-            let four = &mut level[at / 4];
-            four[at % 4] = least;
-            least = least_of_four(four);
-            at /= 4;
-        }
-        self.least_key = least;
+    fn insert(&mut self, slot: u32, clock_bits: u64, rank: Rank) {
+        let differing_bits = clock_bits ^ self.floor;
+        let list = if differing_bits == 0 && rank == Rank::PiecePair {
+            &mut self.pieces_at_floor
+        } else {
+            let digit = (differing_bits | 1).ilog2() as usize / DIGIT_BITS;
+            let value = digit_value(clock_bits, digit);
+            self.occupied_digits |= 1 << digit;
+            self.occupied_values[digit] |= 1 << value;
+            &mut self.buckets[digit][value]
+        };
+        self.links[slot as usize] = Link {
+            clock_bits,
+            next: *list,
+            rank,
+        };
+        *list = slot;
     }
 
-    /// Adds a slot for the key of the last item.
+    /// Adds an item whose clock may be before all others.
     #[inline]
-    fn add_slot(&mut self) {
-        let mut last = self.items.len() - 1;
-        if last == 0 || last == 1 << (2 * self.level_count) {
-            self.add_level();
+    fn insert_any(&mut self, slot: u32, clock: f64, rank: Rank) {
+        // This also turns a negative zero into a zero, whose bits come first in the order.
+        let clock_bits = greater(0.0, clock).to_bits();
+        if clock_bits < self.floor {
+            self.lower_floor(clock_bits);
         }
-        for level in &mut self.tournament_levels[..self.level_count] {
-            if !last.is_multiple_of(4) {
-                break;
-            }
-            last /= 4;
-            if level.len() == last {
-                level.push([VACANT_KEY; 4]);
-            }
+        self.insert(slot, clock_bits, rank);
+    }
+
+    /// Returns the digit and its value of the bucket with the least clocks; `None` if all are empty.
+    #[inline]
+    fn lowest_bucket(&self) -> Option<(usize, usize)> {
+        if self.occupied_digits == 0 {
+            return None;
+        }
+        let digit = self.occupied_digits.trailing_zeros() as usize;
+        let value = self.occupied_values[digit].trailing_zeros() as usize % RADIX;
+        Some((digit, value))
+    }
+
+    /// Empties a bucket, and returns its list.
+    #[inline]
+    fn take_bucket(&mut self, digit: usize, value: usize) -> u32 {
+        self.mark_empty(digit, value);
+        std::mem::replace(&mut self.buckets[digit][value], END)
+    }
+
+    #[inline]
+    fn mark_empty(&mut self, digit: usize, value: usize) {
+        self.occupied_values[digit] &= !(1 << value);
+        if self.occupied_values[digit] == 0 {
+            self.occupied_digits &= !(1 << digit);
         }
     }
 
+    /// Returns the slot of the next item, with the floor raised to its clock; [`END`] if no item waits.
+    #[inline]
+    fn next_slot(&mut self) -> u32 {
+        if self.pieces_at_floor != END {
+            return self.pieces_at_floor;
+        }
+        let at_floor = self.buckets[0][digit_value(self.floor, 0)];
+        if at_floor != END {
+            return at_floor;
+        }
+        self.raise_floor();
+        if self.pieces_at_floor != END {
+            self.pieces_at_floor
+        } else {
+            self.buckets[0][digit_value(self.floor, 0)]
+        }
+    }
+
+    /// Raises the floor to the least clock: the items of the lowest bucket move to lower ones.
+    fn raise_floor(&mut self) {
+        let Some((digit, value)) = self.lowest_bucket() else {
+            return;
+        };
+        let newest = self.take_bucket(digit, value);
+        let (oldest, least) = self.reverse(newest);
+        self.floor = least;
+        self.insert_list(oldest);
+    }
+
+    /// Reverses a list, and returns it with its least clock.
+    #[inline]
+    fn reverse(&mut self, mut list: u32) -> (u32, u64) {
+        let (mut reversed, mut least) = (END, u64::MAX);
+        while let Some(link) = self.links.get_mut(list as usize) {
+            least = lesser(least, link.clock_bits);
+            let next = std::mem::replace(&mut link.next, reversed);
+            (reversed, list) = (list, next);
+        }
+        (reversed, least)
+    }
+
+    /// Adds the items of a list that begins with the oldest, one after the other.
+    #[inline]
+    fn insert_list(&mut self, mut list: u32) {
+        while let Some(&link) = self.links.get(list as usize) {
+            self.insert(list, link.clock_bits, link.rank);
+            list = link.next;
+        }
+    }
+
+    /// Sorts all items into buckets again, for a clock before all others.
     #[cold]
-    fn add_level(&mut self) {
-        if self.tournament_levels.len() == self.level_count {
-            self.tournament_levels.push(Vec::new());
+    fn lower_floor(&mut self, floor: u64) {
+        let mut lists = vec![std::mem::replace(&mut self.pieces_at_floor, END)];
+        while let Some((digit, value)) = self.lowest_bucket() {
+            lists.push(self.take_bucket(digit, value));
         }
-        self.tournament_levels[self.level_count].push([
-            self.least_key,
-            VACANT_KEY,
-            VACANT_KEY,
-            VACANT_KEY,
-        ]);
-        self.level_count += 1;
+        self.floor = floor;
+        for newest in lists {
+            let (oldest, _) = self.reverse(newest);
+            self.insert_list(oldest);
+        }
+    }
+
+    /// Takes the next item out of its list, and returns its slot and rank; `None` if no item waits.
+    #[inline]
+    fn take_next(&mut self) -> Option<(u32, Rank)> {
+        let slot = self.next_slot();
+        let Link { next, rank, .. } = *self.links.get(slot as usize)?;
+        if self.pieces_at_floor != END {
+            self.pieces_at_floor = next;
+        } else {
+            let value = digit_value(self.floor, 0);
+            self.buckets[0][value] = next;
+            if next == END {
+                self.mark_empty(0, value);
+            }
+        }
+        Some((slot, rank))
     }
 }
 
+/// Returns the value of a digit of a clock's bits.
+#[inline]
+fn digit_value(clock_bits: u64, digit: usize) -> usize {
+    (clock_bits >> (DIGIT_BITS * digit)) as usize % RADIX
+}
+
 impl<T> Worklist<T> for Queue<T> {
-    #[inline]
+    // The item is made in its place, not moved there.
+    #[inline(always)]
     fn push(&mut self, clock: f64, rank: Rank, item: T) -> Result<(), QueueFull> {
-        let place = match self.vacant_slots.pop() {
-            Some(place) => {
-                self.items[place as usize] = item;
-                place
+        let slot = self.vacant;
+        let slot = if let Some(link) = self.links.get(slot as usize) {
+            self.vacant = link.next;
+            self.items[slot as usize] = item;
+            slot
+        } else {
+            if self.items.len() >= END as usize {
+                return Err(QueueFull);
             }
-            None if self.items.len() < MAX_ITEMS => {
-                self.items.push(item);
-                self.add_slot();
-                (self.items.len() - 1) as u32
-            }
-            None => return Err(QueueFull),
+            self.items.push(item);
+            self.links.push(Link {
+                clock_bits: 0,
+                next: END,
+                rank,
+            });
+            (self.items.len() - 1) as u32
         };
-        let key = self.make_newest_key(clock, rank, place);
-        self.set_key(place, key);
+        self.insert_any(slot, clock, rank);
         Ok(())
     }
 
     #[inline]
     fn peek_next(&mut self) -> Option<(f64, &mut T)> {
-        let item = self.items.get_mut(slot(self.least_key) as usize)?;
-        Some((clock_of_key(self.least_key), item))
+        let slot = self.next_slot();
+        let item = self.items.get_mut(slot as usize)?;
+        Some((f64::from_bits(self.floor), item))
     }
 
     #[inline]
     fn postpone(&mut self, clock: f64) {
-        let place = self.least_slot();
-        let low = self.least_key as u64;
-        self.set_key(place, Key::from(clock.to_bits()) << 64 | Key::from(low));
-    }
-
-    #[inline]
-    fn postpone_as_newest(&mut self, clock: f64, rank: Rank) {
-        let place = self.least_slot();
-        let key = self.make_newest_key(clock, rank, place);
-        self.set_key(place, key);
+        let (slot, rank) = self.take_next().expect("an item waits");
+        self.insert_any(slot, clock, rank);
     }
 
     #[inline]
     fn replace_next(&mut self, clock: f64, rank: Rank, item: T) {
-        let place = self.least_slot();
-        self.items[place as usize] = item;
-        self.postpone_as_newest(clock, rank);
+        let (slot, _) = self.take_next().expect("an item waits");
+        self.items[slot as usize] = item;
+        self.insert_any(slot, clock, rank);
     }
 
     #[inline]
     fn remove_next(&mut self) {
-        if self.least_key != VACANT_KEY {
-            let place = slot(self.least_key);
-            self.vacant_slots.push(place);
-            self.set_key(place, VACANT_KEY);
+        if let Some((slot, _)) = self.take_next() {
+            self.links[slot as usize].next = self.vacant;
+            self.vacant = slot;
         }
     }
-}
-
-/// Returns the least of four keys, without a branch.
-#[inline]
-fn least_of_four(&[a, b, c, d]: &[Key; 4]) -> Key {
-    let lower = if b < a { b } else { a };
-    let upper = if d < c { d } else { c };
-    if upper < lower { upper } else { lower }
-}
-
-fn clock_of_key(key: Key) -> f64 {
-    f64::from_bits((key >> 64) as u64)
-}
-
-fn slot(key: Key) -> u32 {
-    key as u32
-}
-
-fn key(clock: f64, rank: Rank, serial: u32, place: u32) -> Key {
-    let age = u64::from(!serial & (u32::MAX >> 1));
-    let low = (rank as u64) << 63 | age << 32 | u64::from(place);
-    // `max` also turns a negative zero into a zero, whose bits come first in the order.
-    u128::from(greater(0.0, clock).to_bits()) << 64 | u128::from(low)
 }
 
 /// A collection of waiting items, from which a search takes the next one.
@@ -204,17 +289,11 @@ pub(crate) trait Worklist<T> {
     /// Returns the next item and its clock.
     fn peek_next(&mut self) -> Option<(f64, &mut T)>;
 
-    /// Changes the clock of the next item to a later one.
+    /// Changes the clock of the next item to a later one. The item is then the newest with that clock.
     ///
     /// # Panics
     /// When no item waits.
     fn postpone(&mut self, clock: f64);
-
-    /// Changes the clock of the next item, and makes it the newest of all items.
-    ///
-    /// # Panics
-    /// When no item waits.
-    fn postpone_as_newest(&mut self, clock: f64, rank: Rank);
 
     /// Replaces the next item by a new item with a clock of its own.
     ///

@@ -152,60 +152,60 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
         if let Err(limit) = meter.count_visit_and_check_limits(problem) {
             return ControlFlow::Break(question.on_limit(problem, s, limit));
         }
-        let (next, rest) = match item {
+        let siblings = match item {
             WaitingItem::Pieces(pair) => {
                 let advance = advance(problem, *oracle, meter, pair, s);
                 match question.on_advance(problem, *oracle, meter, advance)? {
                     clock if clock >= 1.0 => waiting.remove_next(),
-                    clock => waiting.postpone_as_newest(clock, Rank::PiecePair),
+                    clock => waiting.postpone(clock),
                 }
                 return ControlFlow::Continue(());
             }
-            WaitingItem::Siblings(siblings) => {
-                if let Some((clock, alone)) = look.advance_least_pair(problem, siblings, s) {
-                    let rest = siblings.clock();
-                    let waits =
-                        self.requeue_rest_and_push_new(rest, (clock, WaitingItem::Siblings(alone)));
-                    return continue_unless_full(waits, problem, question, s);
-                }
-                // The remaining siblings wait for their own clocks.
-                (siblings.take_next_step(problem, s), siblings.clock())
-            }
+            WaitingItem::Siblings(siblings) => siblings,
         };
-        let new = match next {
+        if let Some((clock, alone)) = look.advance_least_pair(problem, siblings, s) {
+            let rest = siblings.clock();
+            let waits = self.requeue_rest_and_push(rest, clock, WaitingItem::Siblings(alone));
+            return continue_unless_full(waits, problem, question, s);
+        }
+        let next = siblings.take_next_step(problem, s);
+        // The remaining siblings wait for their own clocks.
+        let rest = siblings.clock();
+        let waits = match next {
             NextStep::Split(split) => {
-                let expansion = expand(common, &split, s);
-                let mut siblings = Siblings::new(&expansion, split, s);
+                let mut siblings = expand(common, &split, s);
                 look.finish_proven_pairs(problem, &split, s, &mut siblings, meter);
-                (siblings.clock(), WaitingItem::Siblings(siblings))
+                let clock = siblings.clock();
+                self.requeue_rest_and_push(rest, clock, WaitingItem::Siblings(siblings))
             }
             NextStep::MeasurePieces(a, b) => {
                 let mut pair = Pair::new(a, b);
                 let advance = advance(problem, *oracle, meter, &mut pair, s);
                 let clock = question.on_advance(problem, *oracle, meter, advance)?;
-                (clock, WaitingItem::Pieces(pair))
+                self.requeue_rest_and_push(rest, clock, WaitingItem::Pieces(pair))
             }
         };
-        let waits = self.requeue_rest_and_push_new(rest, new);
         continue_unless_full(waits, problem, question, s)
     }
 
     /// Lets what remains of the examined item wait on, and adds the item that follows from it. Items with a clock after the
     /// end are dropped.
     #[inline(always)]
-    fn requeue_rest_and_push_new(
+    fn requeue_rest_and_push(
         &mut self,
         rest: f64,
-        (clock, new): (f64, WaitingItem<O::Cache>),
+        clock: f64,
+        item: WaitingItem<O::Cache>,
     ) -> Result<(), QueueFull> {
+        let rank = item.rank();
         // Written so that NaN is not the end.
         match (rest >= 1.0, clock >= 1.0) {
             (false, false) => {
                 self.worklist.postpone(rest);
-                self.worklist.push(clock, new.rank(), new)?;
+                self.worklist.push(clock, rank, item)?;
             }
             (false, true) => self.worklist.postpone(rest),
-            (true, false) => self.worklist.replace_next(clock, new.rank(), new),
+            (true, false) => self.worklist.replace_next(clock, rank, item),
             (true, true) => self.worklist.remove_next(),
         }
         Ok(())

@@ -1,5 +1,6 @@
 //! The motion of one body in the frame of another.
 
+use super::kind::MotionKind;
 use super::path::Path;
 use super::track::sin_cos;
 use crate::math::simd::{PackedMatrix, PackedVector, PaddedVec3, pad_vector, padded_columns};
@@ -99,7 +100,7 @@ impl RelativePath {
     }
 
     #[inline(always)]
-    pub(crate) fn state_at<L: Simd>(&self, level: L, s: f64) -> RelativeState<L> {
+    pub(crate) fn state_at<L: Simd, K: MotionKind>(&self, level: L, s: f64) -> RelativeState<L> {
         match &self.motion_terms {
             RelativeMotionTerms::AtMostOneTurns {
                 rotation,
@@ -108,8 +109,15 @@ impl RelativePath {
                 acceleration,
                 spin,
             } => {
-                let angle = sin_cos(rotation.angular_speed * s);
-                let acceleration = acceleration.map(|change| change.vector_at_angle(level, angle));
+                // Without rotation, the sine and the cosine are those of 0.
+                let angle = if K::does_split_body_turn(true) || K::does_other_body_turn(true) {
+                    sin_cos(rotation.angular_speed * s)
+                } else {
+                    (0.0, 1.0)
+                };
+                let acceleration = acceleration
+                    .filter(|_| K::MAY_ACCELERATE)
+                    .map(|change| change.vector_at_angle(level, angle));
                 let [travel, change] = displacement_and_velocity(
                     change.vector_at_angle(level, angle),
                     acceleration,
@@ -130,10 +138,12 @@ impl RelativePath {
                 offset_rate: change,
                 acceleration,
                 spin,
-            } => {
+            } if K::BOTH_MAY_TURN => {
                 let inverse = inverse.matrix(level, sin_cos(inverse.angular_speed * s));
                 let other = other.matrix(level, sin_cos(other.angular_speed * s));
-                let acceleration = acceleration.map(|change| PackedVector::load(level, &change));
+                let acceleration = acceleration
+                    .filter(|_| K::MAY_ACCELERATE)
+                    .map(|change| PackedVector::load(level, &change));
                 let [travel, change] =
                     displacement_and_velocity(PackedVector::load(level, change), acceleration, s);
                 RelativeState {
@@ -144,6 +154,7 @@ impl RelativePath {
                     spin: inverse * PackedVector::load(level, spin),
                 }
             }
+            RelativeMotionTerms::BothTurn { .. } => unreachable!("one body turns at most"),
         }
     }
 

@@ -239,9 +239,9 @@ const COSINE_COEFFICIENTS: [f64; 7] = [
 /// Each is off by at most 2u, as [`distance_rounding`](crate::rounding::distance_rounding) counts.
 #[inline(always)]
 pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
-    // Angles are not negative: truncation rounds down, and needs no library call.
-    let turns = (angle * FRAC_2_PI + 0.5) as i32;
-    let quarter = f64::from(turns);
+    // A number beyond 2⁵² has no fraction: the sum rounds to the nearest integer, which is in its lowest bits.
+    let sum = angle * FRAC_2_PI + ROUNDING_SUMMAND;
+    let (turns, quarter) = (sum.to_bits(), sum - ROUNDING_SUMMAND);
     // The first difference is exact, and the sum off by 2⁻⁶⁷ at most; the last step adds a relative 2⁻⁵³.
     let r = (angle - quarter * HALF_PI_PARTS[0])
         - (quarter * HALF_PI_PARTS[1] + quarter * HALF_PI_PARTS[2]);
@@ -254,13 +254,21 @@ pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
     };
     let sine = r + r * square * sum(&SINE_COEFFICIENTS);
     let cosine = 1.0 - (0.5 * square - fourth * sum(&COSINE_COEFFICIENTS));
-    match turns & 3 {
-        0 => (sine, cosine),
-        1 => (cosine, -sine),
-        2 => (-sine, -cosine),
-        _ => (-cosine, sine),
-    }
+    let (sine, cosine) = if turns & 1 == 0 {
+        (sine, cosine)
+    } else {
+        (cosine, -sine)
+    };
+    // Two quarters of a turn change both signs.
+    let sign = (turns & 2) << 62;
+    (
+        f64::from_bits(sine.to_bits() ^ sign),
+        f64::from_bits(cosine.to_bits() ^ sign),
+    )
 }
+
+/// A number to which the addition of another rounds the other to an integer.
+const ROUNDING_SUMMAND: f64 = 1.5 * (1u64 << 52) as f64;
 
 #[cfg(test)]
 mod tests;

@@ -86,10 +86,6 @@ impl<T> Worklist<T> for Stack<T> {
         self.last().0 = clock;
     }
 
-    fn postpone_as_newest(&mut self, clock: f64, _: Rank) {
-        self.last().0 = clock;
-    }
-
     fn replace_next(&mut self, clock: f64, _: Rank, item: T) {
         *self.last() = (clock, item);
     }

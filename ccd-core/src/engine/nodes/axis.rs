@@ -2,7 +2,7 @@
 
 use super::shape::{Children, OtherNode};
 use crate::math::simd::{LEAST_DIVISOR, Vec3x8, select_vectors, splat};
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
 /// Unit axes of eight pairs, the gaps along them, and the extents of both nodes towards each other.
 #[derive(Clone, Copy)]
@@ -13,31 +13,103 @@ pub(crate) struct AxesX8<L: Simd> {
     pub(crate) other_extent: f32x8<L>,
 }
 
-/// Returns for each pair the axis with the widest gap among three: the normals of the two nodes, and the vector between
-/// their centres or nearest edges.
-///
-/// The result is homogeneous in the axis: a zero vector gives no gap, and any other length gives a sound one.
+/// Gaps between eight pairs, and the extents of both nodes across them.
+#[derive(Clone, Copy)]
+pub(crate) struct GapAndExtents<L: Simd> {
+    pub(crate) gap: f32x8<L>,
+    pub(crate) child_extent: f32x8<L>,
+    pub(crate) other_extent: f32x8<L>,
+}
+
+impl<L: Simd> GapAndExtents<L> {
+    #[inline(always)]
+    fn of(axis: &AxesX8<L>) -> Self {
+        GapAndExtents {
+            gap: axis.gap,
+            child_extent: axis.child_extent,
+            other_extent: axis.other_extent,
+        }
+    }
+
+    #[inline(always)]
+    fn or_wider(self, other: Self) -> Self {
+        let pick = other.gap.simd_gt(self.gap);
+        GapAndExtents {
+            gap: pick.select(other.gap, self.gap),
+            child_extent: pick.select(other.child_extent, self.child_extent),
+            other_extent: pick.select(other.other_extent, self.other_extent),
+        }
+    }
+}
+
+/// Three axes for each of eight pairs: the normals of the two nodes, and the vector between their centres or nearest
+/// edges.
+pub(crate) struct ThreeAxesX8<L: Simd> {
+    own: AxesX8<L>,
+    others: AxesX8<L>,
+    between: AxesX8<L>,
+}
+
+impl<L: Simd> ThreeAxesX8<L> {
+    /// Returns the axes, with the gaps along them.
+    ///
+    /// Each is homogeneous: a zero vector gives no gap, and any other length than 1 gives a sound one.
+    #[inline(always)]
+    pub(crate) fn new<C: Children, P: OtherNode>(
+        children: &C,
+        other: &P,
+        offset: Vec3x8<L>,
+    ) -> Self {
+        let level = offset.simd_level();
+        let between = children.offset_from_nearest_point(other.offset_to_nearest_point(offset));
+        let between = unit_axes_and_gaps(children, other, offset, between);
+        let own = OrientedAxes::new(children.likely_separating_axis(level), offset);
+        let own = own.with_extents(
+            children.extent_along_normal(own.n),
+            other.extent_along(own.n),
+        );
+        let others = Vec3x8::splat(level, other.likely_separating_axis());
+        let others = OrientedAxes::new(others, offset);
+        let others = others.with_extents(
+            children.extent_along(others.n),
+            other.extent_along_normal(others.n),
+        );
+        ThreeAxesX8 {
+            own,
+            others,
+            between,
+        }
+    }
+
+    /// Returns for each pair the widest gap, and the extents of both nodes along its axis.
+    #[inline(always)]
+    pub(crate) fn widest_gap(&self) -> GapAndExtents<L> {
+        let own = GapAndExtents::of(&self.own);
+        // The gap along the axis between the nodes is available last.
+        own.or_wider(GapAndExtents::of(&self.others))
+            .or_wider(GapAndExtents::of(&self.between))
+    }
+
+    /// Returns for each pair the axis along which the gap takes longest to close to the required gap, if it closes at
+    /// the rate of the centres' velocities.
+    #[inline(always)]
+    pub(crate) fn longest_closing_time(&self, velocity: Vec3x8<L>, required_gap: f32) -> AxesX8<L> {
+        let [own, others, between] = [&self.own, &self.others, &self.between];
+        let own_time = closing_time(own, velocity, required_gap);
+        let others_time = closing_time(others, velocity, required_gap);
+        let between_time = closing_time(between, velocity, required_gap);
+        let pick = others_time.simd_gt(own_time);
+        let normal = select_axes(pick, *others, *own);
+        let normal_time = pick.select(others_time, own_time);
+        select_axes(between_time.simd_gt(normal_time), *between, normal)
+    }
+}
+
+/// Returns the times in which the gaps along axes close at the rate of the centres' velocities. Gaps that open get a time
+/// beyond all others.
 #[inline(always)]
-pub(crate) fn widest_gap_axis<L: Simd, C: Children, P: OtherNode>(
-    children: &C,
-    other: &P,
-    offset: Vec3x8<L>,
-) -> AxesX8<L> {
-    let level = offset.simd_level();
-    let between = children.offset_from_nearest_point(other.offset_to_nearest_point(offset));
-    let between = unit_axes_and_gaps(children, other, offset, between);
-    let own = oriented_towards(children.likely_separating_axis(level), offset);
-    let own = AxesX8::new(
-        own,
-        offset,
-        children.extent_along_normal(own),
-        other.extent_along(own),
-    );
-    let others = oriented_towards(Vec3x8::splat(level, other.likely_separating_axis()), offset);
-    let reach = other.extent_along_normal(others);
-    let others = AxesX8::new(others, offset, children.extent_along(others), reach);
-    // The gap along the axis between the nodes is available last.
-    wider_gap_axis(wider_gap_axis(own, others), between)
+fn closing_time<L: Simd>(axis: &AxesX8<L>, velocity: Vec3x8<L>, required_gap: f32) -> f32x8<L> {
+    (axis.gap - required_gap) / axis.n.dot(velocity).max(LEAST_DIVISOR)
 }
 
 /// Returns the axis between the centres at their time of nearest approach, for a straight relative displacement
@@ -87,21 +159,47 @@ impl<L: Simd> AxesX8<L> {
     }
 }
 
-/// Returns `n` or `−n`, whichever points along `offset`.
-#[inline(always)]
-pub(crate) fn oriented_towards<L: Simd>(n: Vec3x8<L>, offset: Vec3x8<L>) -> Vec3x8<L> {
-    let level = n.simd_level();
-    let away = n.dot(offset).simd_lt(0.0);
-    n * away.select(splat(level, -1.0), splat(level, 1.0))
+/// Axes that point along the offset between two nodes, and the offset along them.
+#[derive(Clone, Copy)]
+pub(crate) struct OrientedAxes<L: Simd> {
+    pub(crate) n: Vec3x8<L>,
+    offset_along_axis: f32x8<L>,
 }
 
+impl<L: Simd> OrientedAxes<L> {
+    /// Takes `n` or `−n`, whichever points along `offset`.
+    #[inline(always)]
+    pub(crate) fn new(n: Vec3x8<L>, offset: Vec3x8<L>) -> Self {
+        let level = n.simd_level();
+        let along = n.dot(offset);
+        let sign = along
+            .simd_lt(0.0)
+            .select(splat(level, -1.0), splat(level, 1.0));
+        OrientedAxes {
+            n: n * sign,
+            // To the bit, this is also the product with the oriented axis.
+            offset_along_axis: along * sign,
+        }
+    }
+
+    #[inline(always)]
+    fn with_extents(self, child_extent: f32x8<L>, other_extent: f32x8<L>) -> AxesX8<L> {
+        AxesX8 {
+            n: self.n,
+            gap: self.offset_along_axis - child_extent - other_extent,
+            child_extent,
+            other_extent,
+        }
+    }
+}
+
+/// Selects axes of `a` where the mask is set, and axes of `b` elsewhere.
 #[inline(always)]
-fn wider_gap_axis<L: Simd>(a: AxesX8<L>, b: AxesX8<L>) -> AxesX8<L> {
-    let pick = b.gap.simd_gt(a.gap);
+fn select_axes<L: Simd>(mask: mask32x8<L>, a: AxesX8<L>, b: AxesX8<L>) -> AxesX8<L> {
     AxesX8 {
-        n: select_vectors(pick, b.n, a.n),
-        gap: pick.select(b.gap, a.gap),
-        child_extent: pick.select(b.child_extent, a.child_extent),
-        other_extent: pick.select(b.other_extent, a.other_extent),
+        n: select_vectors(mask, a.n, b.n),
+        gap: mask.select(a.gap, b.gap),
+        child_extent: mask.select(a.child_extent, b.child_extent),
+        other_extent: mask.select(a.other_extent, b.other_extent),
     }
 }

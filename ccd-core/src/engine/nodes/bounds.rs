@@ -3,14 +3,13 @@
 //! All vectors here are relative to the origin of the split group, in its body's frame, in f32, with one lane per
 //! child. The slacks of [`RelativeMotionF32`] cover the rounding of every gap and rate.
 
-use super::axis::{self, AxesX8};
+use super::axis::{AxesX8, ThreeAxesX8, closest_approach_axis};
 use super::eight_pairs::{EightPairs, LargerBody, RelativeMotionF32};
+use super::free_times::FreeTimes;
 use super::shape::{Children, OtherNode};
-use crate::body::tree::LANES;
-use crate::math::order::lesser;
 use crate::math::simd::splat;
 use crate::tuning::{ADDED_THICKNESS_PER_RADIUS, MIN_REVISIT_DISTANCE_RATIO, MIN_REVISIT_SWEEP};
-use fearless_simd::{ExtractToken, Simd, f32x8, mask32x8, prelude::*, u32x8};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
 /// The free times of eight pairs of nodes, and the choices for the next step of each pair.
 #[derive(Clone, Copy, Debug)]
@@ -28,8 +27,8 @@ pub(crate) struct EightPairFreeTimes {
 
 /// Computes the free times of the pairs in `lanes`, and chooses the next step for each pair.
 ///
-/// Fixed planes are perpendicular to two axes: the one with the widest gap now, and the one between the centres at
-/// the time when they are nearest. The first suits approaching pairs, the second passing ones. Beside nodes that are
+/// Fixed planes are perpendicular to two axes: the one of three along which the gap takes longest to close, and the one
+/// between the centres at the time when they are nearest. The first suits approaching pairs, the second passing ones. Beside nodes that are
 /// much larger, planes that turn with the body of these nodes are tried, too.
 #[inline(always)]
 pub(crate) fn bound_eight_pairs<L: Simd, C: Children, P: OtherNode>(
@@ -40,19 +39,21 @@ pub(crate) fn bound_eight_pairs<L: Simd, C: Children, P: OtherNode>(
     lanes: u8,
 ) -> EightPairFreeTimes {
     let pairs = EightPairs::new(level, children, other, motion);
-    let widest = axis::widest_gap_axis(children, other, pairs.offset);
+    let axes = ThreeAxesX8::new(children, other, pairs.offset);
+    let widest = axes.widest_gap();
+    let slowest = axes.longest_closing_time(pairs.velocity, motion.required_gap);
     let travel = pairs.velocity * splat(level, motion.remaining_time);
-    let passing = axis::closest_approach_axis(children, other, pairs.offset, travel);
+    let passing = closest_approach_axis(children, other, pairs.offset, travel);
     let radius = children.radius(level);
     let revisit =
         widest.gap - motion.required_gap - (radius + other.radius()) * MIN_REVISIT_DISTANCE_RATIO;
     let split_child = (widest.child_extent + radius * ADDED_THICKNESS_PER_RADIUS)
         - (widest.other_extent + ADDED_THICKNESS_PER_RADIUS * other.radius());
     let mut free = pairs
-        .fixed_plane_free_times(widest)
+        .fixed_plane_free_times(slowest)
         .max(pairs.fixed_plane_free_times(passing));
     let mut revisit = mask_bits(revisit.simd_gt(0.0));
-    if let Some(past) = FlybyPairs::new(&pairs, widest) {
+    if let Some(past) = FlybyPairs::new(&pairs, slowest) {
         free = free.max(past.turning_plane_time);
         revisit |= mask_bits(past.revisit_mask(free, widest.gap - motion.required_gap));
     }
@@ -139,92 +140,6 @@ impl<L: Simd> FlybyPairs<L> {
         let clear = apart - self.small_radius * MIN_REVISIT_DISTANCE_RATIO;
         swept.simd_gt(0.0) | self.large_node_is_piece & clear.simd_gt(0.0)
     }
-}
-
-/// The free times of eight pairs, the times for which they stay apart, as bits of f32. The lowest bits of each hold the
-/// pair's lane, and the time is rounded down to make room, so that the least value also names its lane. Bits of
-/// non-negative numbers have the order of the numbers. Comparing them as integers also distinguishes numbers next to
-/// zero if the processor is set to flush those to zero.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(32))]
-pub(crate) struct FreeTimes([u32; LANES]);
-
-const LANE_INDEX_MASK: u32 = LANES as u32 - 1;
-
-/// The value of a finished pair, greater than all others.
-const FINISHED_BITS: u32 = f32::INFINITY.to_bits() | LANE_INDEX_MASK;
-
-impl FreeTimes {
-    /// Creates the times of a single pair, in the first lane, with a free time of 0.
-    pub(crate) fn single_in_first_lane() -> Self {
-        FreeTimes::single_in_lane(0)
-    }
-
-    /// Creates the times of up to eight pairs, one for each lane. Lanes that are not in `used` count as finished.
-    #[inline(always)]
-    pub(crate) fn pack<L: Simd>(free: f32x8<L>, used: u8) -> Self {
-        let level = free.token();
-        let lanes: u32x8<L> = [0, 1, 2, 3, 4, 5, 6, 7].simd_into(level);
-        // Written so that NaN counts as zero, and negative zero as zero.
-        let free = free.simd_gt(0.0).select(free, splat(level, 0.0));
-        let used = mask32x8::from_bitmask(level, used.into());
-        let free: u32x8<L> = used.select(free, splat(level, f32::INFINITY)).bitcast();
-        FreeTimes(*(free & !LANE_INDEX_MASK | lanes))
-    }
-
-    /// Returns the least free time; infinity if all pairs are finished.
-    #[inline]
-    pub(crate) fn least_time(&self) -> f32 {
-        unpack_time(self.least_bits())
-    }
-
-    /// Creates the times of a single pair in this lane, with a free time of 0.
-    pub(crate) fn single_in_lane(lane: usize) -> Self {
-        let mut times = [FINISHED_BITS; LANES];
-        times[lane] = lane as u32;
-        FreeTimes(times)
-    }
-
-    /// Returns the lane with the least free time.
-    #[inline]
-    pub(crate) fn least_lane(&self) -> usize {
-        (self.least_bits() & LANE_INDEX_MASK) as usize
-    }
-
-    /// Marks the pair with the least free time as finished, and returns its lane.
-    #[inline]
-    pub(crate) fn finish_least_lane(&mut self) -> usize {
-        let least = self.least_bits();
-        // All lanes are written at once, so that the next read need not wait for a single store.
-        for bits in &mut self.0 {
-            *bits = if *bits == least { FINISHED_BITS } else { *bits };
-        }
-        (least & LANE_INDEX_MASK) as usize
-    }
-
-    /// Returns the least of the eight values, by halving the lanes until one is left.
-    #[inline]
-    fn least_bits(&self) -> u32 {
-        let [a, b, c, d, e, f, g, h] = self.0;
-        let [a, b, c, d] = [lesser(a, e), lesser(b, f), lesser(c, g), lesser(d, h)];
-        lesser(lesser(a, c), lesser(b, d))
-    }
-
-    /// Marks the pair in a lane as finished.
-    pub(crate) fn finish_lane(&mut self, lane: usize) {
-        self.0[lane] = FINISHED_BITS;
-    }
-
-    /// Returns the free time of a lane.
-    pub(crate) fn time_of_lane(&self, lane: usize) -> f32 {
-        unpack_time(self.0[lane])
-    }
-}
-
-/// Returns the free time in a packed value, without the bits of its lane.
-#[inline]
-fn unpack_time(bits: u32) -> f32 {
-    f32::from_bits(bits & !LANE_INDEX_MASK)
 }
 
 #[cfg(test)]

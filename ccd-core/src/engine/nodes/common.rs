@@ -18,9 +18,10 @@ pub(crate) struct NodeContext<'p> {
     /// The motion of B relative to A, and of A relative to B. Each is computed at the first split of its body: queries
     /// of a few pieces need neither.
     relative_paths: [OnceCell<RelativePath>; 2],
-    /// The angular velocities of A and of B in their own frames, and the angular speeds, rounded up; `None` for a body
-    /// that does not turn.
-    angular_velocities: [Option<(Vec3, f32)>; 2],
+    /// What moves.
+    pub(crate) motion: QueryMotion,
+    /// The angular velocities of A and of B.
+    spins: [Spin; 2],
     /// The gap `Problem::kept_gap` that every pair of nodes keeps until its clock, rounded up.
     pub(crate) kept_gap: f32,
     /// The gap `Problem::kept_node_gap`, rounded up. The clock of a pair of nodes stops at this gap, or at the sum of
@@ -65,13 +66,10 @@ impl<'p> NodeContext<'p> {
         NodeContext {
             problem,
             relative_paths: [const { OnceCell::new() }; 2],
-            angular_velocities: [&problem.a.path, &problem.b.path].map(|path| {
-                path.is_turning().then(|| {
-                    (
-                        path.local_angular_velocity.as_vec3(),
-                        round_up_to_f32(path.angular_speed),
-                    )
-                })
+            motion: QueryMotion::of(problem),
+            spins: [&problem.a.path, &problem.b.path].map(|path| Spin {
+                angular_velocity: path.local_angular_velocity.as_vec3(),
+                angular_speed: round_up_to_f32(path.angular_speed),
             }),
             kept_gap: round_up_to_f32(problem.kept_gap()),
             guaranteed_node_gap: round_up_to_f32(problem.kept_node_gap()),
@@ -97,11 +95,51 @@ impl<'p> NodeContext<'p> {
             .get_or_init(|| RelativePath::new(path(body), path(body.other())))
     }
 
-    /// Returns the angular velocity of a body in its own frame, and its angular speed, rounded up; `None` if the body
-    /// does not turn.
+    /// Returns the angular velocity of a body.
     #[inline(always)]
-    pub(crate) fn spin(&self, body: WhichBody) -> Option<(Vec3, f32)> {
-        self.angular_velocities[body as usize]
+    pub(crate) fn spin(&self, body: WhichBody) -> &Spin {
+        &self.spins[body as usize]
+    }
+}
+
+/// What the bodies of a query do beside moving straight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum QueryMotion {
+    NeitherTurns,
+    OneTurns(WhichBody),
+    BothTurn,
+    /// One centre accelerates relative to the other; the bodies may turn or not.
+    Accelerates,
+}
+
+impl QueryMotion {
+    fn of(problem: &Problem<'_>) -> Self {
+        let (a, b) = (&problem.a.path, &problem.b.path);
+        if a.acceleration != b.acceleration {
+            return QueryMotion::Accelerates;
+        }
+        match (a.is_turning(), b.is_turning()) {
+            (false, false) => QueryMotion::NeitherTurns,
+            (true, false) => QueryMotion::OneTurns(WhichBody::A),
+            (false, true) => QueryMotion::OneTurns(WhichBody::B),
+            (true, true) => QueryMotion::BothTurn,
+        }
+    }
+}
+
+/// The angular velocity of a body in f32.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spin {
+    /// The angular velocity in the body's own frame.
+    pub(crate) angular_velocity: Vec3,
+    /// The angular speed, rounded up; 0 for a body that does not turn.
+    pub(crate) angular_speed: f32,
+}
+
+impl Spin {
+    #[inline(always)]
+    pub(crate) fn is_turning(&self) -> bool {
+        self.angular_speed > 0.0
     }
 }
 

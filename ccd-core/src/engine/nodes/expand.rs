@@ -2,27 +2,25 @@
 //! pair's clock.
 
 use super::bounds::{EightPairFreeTimes, bound_eight_pairs};
-use super::common::NodeContext;
+use super::common::{NodeContext, QueryMotion};
 use super::eight_pairs::{BodyRotation, LargerBody, RelativeMotionF32};
 use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
+use super::siblings::Siblings;
 use crate::body::tree::{
     GroupHeader, LANES, Node, NodeChildren, NodeId, NodeOrTriangle, round_up_to_f32, unit_normal,
 };
 use crate::math::order::greater;
 use crate::math::simd::{PackedMatrix, PackedVector, as_vec3};
+use crate::motion::kind::{
+    AnyMotion, BothTurn, MotionKind, OtherBodyTurns, SplitBodyTurns, Straight,
+};
 use crate::motion::relative::{RelativePath, RelativeState};
 use crate::problem::{BodyWithPath, WhichBody};
-use crate::rounding::{GAP_ERROR_PER_DISTANCE_F32, GAP_ERROR_PER_RADIUS_F32};
+use crate::rounding::{GAP_ERROR_PER_DISTANCE_F32, GAP_ERROR_PER_RADIUS_F32, UNIT_ROUNDOFF_F32};
 use crate::vectorize;
 use fearless_simd::{Simd, f32x4};
 use glam::{DVec3, Vec3};
-
-/// The result of a split: the bounds of the node's children against the other node, and the first child.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Expansion {
-    pub(crate) bounds: EightPairFreeTimes,
-    pub(crate) first_child: NodeId,
-}
+use std::marker::PhantomData;
 
 /// A node to split, and the other body's node with which its children are paired.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +49,8 @@ impl Split {
 ///
 /// # Panics
 /// When the node is a single piece.
-pub(crate) fn expand(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansion {
+#[inline]
+pub(crate) fn expand(common: &NodeContext<'_>, split: &Split, s: f64) -> Siblings {
     bound_children(common, split, s, ClosingRate::RateOfMotion)
 }
 
@@ -60,11 +59,8 @@ pub(crate) fn expand(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansi
 ///
 /// # Panics
 /// When the node is a single piece.
-pub(crate) fn bound_child_distances(common: &NodeContext<'_>, split: &Split, s: f64) -> Expansion {
-    let mut expansion = bound_children(common, split, s, ClosingRate::UnitClosingRate);
-    // A second visit would give the same result.
-    expansion.bounds.revisit_mask = 0;
-    expansion
+pub(crate) fn bound_child_distances(common: &NodeContext<'_>, split: &Split, s: f64) -> Siblings {
+    bound_children(common, split, s, ClosingRate::UnitClosingRate).with_free_times_as_distances()
 }
 
 /// The rate at which gaps are assumed to close.
@@ -76,27 +72,52 @@ enum ClosingRate {
     UnitClosingRate,
 }
 
-/// Computes the free times of a split node's children, with the best vector instructions. This function alone contains
-/// the kernels, compiled once for each set of instructions.
-#[inline(never)]
+/// Computes the free times of a split node's children, by the kernel for what moves in the query.
+#[inline]
 fn bound_children(
     common: &NodeContext<'_>,
     split: &Split,
     s: f64,
     closing_rate: ClosingRate,
-) -> Expansion {
-    vectorize!(common.problem.simd_level, level => bound_children_at_level(level, common, split, s, closing_rate))
+) -> Siblings {
+    match common.motion {
+        QueryMotion::OneTurns(body) if body == split.body => {
+            bound_children_of_kind::<SplitBodyTurns>(common, split, s, closing_rate)
+        }
+        QueryMotion::OneTurns(_) => {
+            bound_children_of_kind::<OtherBodyTurns>(common, split, s, closing_rate)
+        }
+        QueryMotion::NeitherTurns => {
+            bound_children_of_kind::<Straight>(common, split, s, closing_rate)
+        }
+        QueryMotion::BothTurn => bound_children_of_kind::<BothTurn>(common, split, s, closing_rate),
+        QueryMotion::Accelerates => {
+            bound_children_of_kind::<AnyMotion>(common, split, s, closing_rate)
+        }
+    }
+}
+
+/// Computes the free times with the best vector instructions. This function alone contains the kernels, compiled once for
+/// each set of instructions and kind of motion.
+#[inline(never)]
+fn bound_children_of_kind<K: MotionKind>(
+    common: &NodeContext<'_>,
+    split: &Split,
+    s: f64,
+    closing_rate: ClosingRate,
+) -> Siblings {
+    vectorize!(common.problem.simd_level, level => bound_children_at_level::<_, K>(level, common, split, s, closing_rate))
 }
 
 #[inline(always)]
-fn bound_children_at_level<L: Simd>(
+fn bound_children_at_level<L: Simd, K: MotionKind>(
     level: L,
     common: &NodeContext<'_>,
     split: &Split,
     s: f64,
     closing_rate: ClosingRate,
-) -> Expansion {
-    let motion = RelativeMotion::new(level, common, split, s, closing_rate);
+) -> Siblings {
+    let motion = RelativeMotion::<L, K>::new(level, common, split, s, closing_rate);
     let body = motion.split_body.body;
     let tree = body.tree();
     let NodeOrTriangle::Node(node) = tree.get(split.node) else {
@@ -115,14 +136,11 @@ fn bound_children_at_level<L: Simd>(
         }
         NodeChildren::Piece(_) => unreachable!("a single piece has no children"),
     };
-    Expansion {
-        bounds,
-        first_child: first,
-    }
+    Siblings::new(&bounds, first, *split, s)
 }
 
 /// The relative motion of the two bodies at a clock, in the frame of the body whose node is split.
-struct RelativeMotion<'p, L: Simd> {
+struct RelativeMotion<'p, L: Simd, K> {
     simd_level: L,
     node_context: &'p NodeContext<'p>,
     split: &'p Split,
@@ -134,9 +152,10 @@ struct RelativeMotion<'p, L: Simd> {
     /// The time left to the end of the duration.
     horizon: f32,
     closing_rate: ClosingRate,
+    kind: PhantomData<K>,
 }
 
-impl<'p, L: Simd> RelativeMotion<'p, L> {
+impl<'p, L: Simd, K: MotionKind> RelativeMotion<'p, L, K> {
     // The struct is half a kilobyte, made once a visit. It is built in place, not moved.
     #[inline(always)]
     fn new(
@@ -153,10 +172,11 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
             split,
             split_body: split.body.body_in_problem(common.problem),
             other_body: split.body.other().body_in_problem(common.problem),
-            relative_state: view.state_at(level, s),
+            relative_state: view.state_at::<L, K>(level, s),
             relative_path: view,
             horizon: (1.0 - s) as f32,
             closing_rate,
+            kind: PhantomData,
         }
     }
 
@@ -188,8 +208,8 @@ impl<'p, L: Simd> RelativeMotion<'p, L> {
 }
 
 /// The relative motion in coordinates about the origin of a group.
-struct GroupMotion<'m, L: Simd> {
-    motion: &'m RelativeMotion<'m, L>,
+struct GroupMotion<'m, L: Simd, K> {
+    motion: &'m RelativeMotion<'m, L, K>,
     header: &'m GroupHeader,
     /// The rotation from the other body's frame to the split body's frame.
     rotation: PackedMatrix<L>,
@@ -200,7 +220,7 @@ struct GroupMotion<'m, L: Simd> {
     other_rotation_centre: PackedVector<L>,
 }
 
-impl<L: Simd> GroupMotion<'_, L> {
+impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
     #[inline(always)]
     fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> EightPairFreeTimes {
         let motion = match self.motion.closing_rate {
@@ -266,31 +286,32 @@ impl<L: Simd> GroupMotion<'_, L> {
 
     #[inline(always)]
     fn split_body_rotation(&self) -> BodyRotation {
-        match self.motion.node_context.spin(self.motion.split.body) {
-            Some((spin, rate)) => BodyRotation {
+        let spin = self.motion.node_context.spin(self.motion.split.body);
+        if K::does_split_body_turn(spin.is_turning()) {
+            BodyRotation {
                 is_turning: true,
-                spin,
-                angular_speed: rate,
+                spin: spin.angular_velocity,
+                angular_speed: spin.angular_speed,
                 rotation_centre: self.rotation_centre,
-            },
-            None => BodyRotation::NO_ROTATION,
+            }
+        } else {
+            BodyRotation::NO_ROTATION
         }
     }
 
     #[inline(always)]
     fn other_rotation(&self) -> BodyRotation {
-        match self
-            .motion
-            .node_context
-            .spin(self.motion.split.body.other())
-        {
-            Some((_, rate)) => BodyRotation {
+        let other = self.motion.split.body.other();
+        let spin = self.motion.node_context.spin(other);
+        if K::does_other_body_turn(spin.is_turning()) {
+            BodyRotation {
                 is_turning: true,
                 spin: self.motion.relative_state.spin.as_vec3(),
-                angular_speed: rate,
+                angular_speed: spin.angular_speed,
                 rotation_centre: self.other_rotation_centre.as_vec3(),
-            },
-            None => BodyRotation::NO_ROTATION,
+            }
+        } else {
+            BodyRotation::NO_ROTATION
         }
     }
 
@@ -303,7 +324,7 @@ impl<L: Simd> GroupMotion<'_, L> {
         let rounding = self.rounding(centre, radius);
         // Large nodes, whose gaps have a rounding above the rest of the tolerance, keep the gap of pieces.
         let slack = greater(
-            (common.kept_gap + rounding).next_up(),
+            round_up_positive(common.kept_gap + rounding),
             common.guaranteed_node_gap,
         );
         RelativeMotionF32 {
@@ -351,8 +372,14 @@ impl<L: Simd> GroupMotion<'_, L> {
         let [x, y, z] = centre.abs().to_array();
         let rounding = GAP_ERROR_PER_DISTANCE_F32 * (x + y + z)
             + GAP_ERROR_PER_RADIUS_F32 * (radius + self.header.max_distance_from_origin);
-        (rounding + self.motion.node_context.rounding).next_up()
+        round_up_positive(rounding + self.motion.node_context.rounding)
     }
+}
+
+/// Returns a number above `x`, which is positive and the result of operations that each round by 1u; two of them at most. Unlike [`f32::next_up`], it takes a single instruction. Of numbers so small that it returns them unchanged, sums are exact.
+#[inline(always)]
+fn round_up_positive(x: f32) -> f32 {
+    x * (1.0 + 2.0 * UNIT_ROUNDOFF_F32)
 }
 
 #[cfg(test)]

@@ -1,20 +1,22 @@
 //! The pairs that one split creates: they wait in the queue together, and are removed one by one.
 
-use super::bounds::FreeTimes;
-use super::expand::{Expansion, Split};
+use super::bounds::EightPairFreeTimes;
+use super::expand::Split;
+use super::free_times::FreeTimes;
 use crate::body::tree::{LANES, NodeId};
 use crate::math::order::greater;
 use crate::problem::{BodyWithPath, Problem, WhichBody};
+use crate::rounding::UNIT_ROUNDOFF_F64;
 
 /// Up to eight waiting pairs: the children of a split node, each with the same node of the other body.
 #[derive(Debug)]
 pub(crate) struct Siblings {
     /// For each pair, how long after `start_clock` it is certified apart; infinite for a finished pair.
-    free_times: FreeTimes,
+    pub(super) free_times: FreeTimes,
     start_clock: f64,
     /// The split that created the pairs.
     split: Split,
-    first_child: NodeId,
+    pub(super) first_child: NodeId,
     /// The children that are to be split before the other node, as bits.
     split_child_mask: u8,
     /// True if the other node is a single piece, and cannot be split.
@@ -53,7 +55,7 @@ impl Siblings {
     /// Creates the pair of both roots, of which the root of `body` is split first.
     pub(crate) fn roots(body: WhichBody) -> Self {
         Siblings {
-            free_times: FreeTimes::single_in_first_lane(),
+            free_times: FreeTimes::single_in_lane(0),
             start_clock: 0.0,
             split: Split::with_all_children(body, 0, 0),
             first_child: 0,
@@ -64,34 +66,43 @@ impl Siblings {
         }
     }
 
-    /// Creates the pairs that a split at clock `s` results in.
-    #[inline]
-    pub(crate) fn new(expansion: &Expansion, split: Split, s: f64) -> Self {
+    /// Creates the pairs of the children of a node that is split at clock `s`, from their bounds.
+    #[inline(always)]
+    pub(crate) fn new(
+        bounds: &EightPairFreeTimes,
+        first_child: NodeId,
+        split: Split,
+        s: f64,
+    ) -> Self {
         Siblings {
-            free_times: expansion.bounds.free_times,
+            free_times: bounds.free_times,
             start_clock: s,
             split,
-            first_child: expansion.first_child,
-            split_child_mask: expansion.bounds.split_child_mask,
-            other_is_piece: expansion.bounds.other_is_piece,
-            revisit_mask: expansion.bounds.revisit_mask,
+            first_child,
+            split_child_mask: bounds.split_child_mask,
+            other_is_piece: bounds.other_is_piece,
+            revisit_mask: bounds.revisit_mask,
             advance_count: 0,
+        }
+    }
+
+    /// Returns the pairs with the clock 0 at the start and without second visits, which would give the same result: their
+    /// free times are distances.
+    pub(crate) fn with_free_times_as_distances(self) -> Self {
+        Siblings {
+            start_clock: 0.0,
+            revisit_mask: 0,
+            ..self
         }
     }
 
     /// Returns the least clock of the pairs, rounded down; infinite if all are finished.
     #[inline]
     pub(crate) fn clock(&self) -> f64 {
-        let free = self.free_times.least_time();
-        if free > 0.0 {
-            // One step down undoes the rounding of the sum.
-            greater(
-                self.start_clock,
-                (self.start_clock + f64::from(free)).next_down(),
-            )
-        } else {
-            self.start_clock
-        }
+        let sum = self.start_clock + f64::from(self.free_times.least_time());
+        // One step down undoes the rounding of the sum. This product is that step; the sum of numbers so small that it
+        // is not has no rounding.
+        greater(self.start_clock, sum * (1.0 - UNIT_ROUNDOFF_F64))
     }
 
     /// Returns the nodes of A and of B that are proven apart for the shortest time.

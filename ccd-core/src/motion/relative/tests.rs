@@ -3,6 +3,7 @@
 use super::{RelativePath, RelativeState};
 use crate::math::simd::{PackedMatrix, PackedVector, padded_columns};
 use crate::motion::Motion;
+use crate::motion::kind::AnyMotion;
 use crate::motion::path::Path;
 use crate::motion::pose::Pose;
 use crate::settings::VectorInstructions;
@@ -52,7 +53,7 @@ fn relative_state_of_point<L: Simd>(
         velocity,
         acceleration,
         spin,
-    } = view.state_at(level, s);
+    } = view.state_at::<L, AnyMotion>(level, s);
     let point = rotation * (PackedVector::new(level, point) - view.other_rotation_centre(level));
     let acceleration = acceleration.unwrap_or(PackedVector::new(level, DVec3::ZERO));
     [

@@ -143,7 +143,7 @@ fn budgets_end_a_search_with_a_time_that_is_safe() {
 fn false_claims_and_give_ups_never_make_bodies_free() {
     let mut rng = rng(4);
     let (mut unresolved, mut others) = (0, 0);
-    for number in 0..300 {
+    for number in 0..400 {
         let mut scene = scene(&mut rng, SCENE_KINDS[number % 3], 8);
         scene.settings.budget = 20_000;
         let problem = scene.problem();

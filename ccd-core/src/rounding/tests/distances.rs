@@ -224,7 +224,7 @@ fn worst_views() {
         let [x, y] = [from, to].map(|side| side.body.pieces().points()[0]);
         let arm = y - to.path.centre;
         let found = crate::vectorize!(level, level => {
-            let seen = view.state_at(level, s);
+            let seen = view.state_at::<_, crate::motion::kind::AnyMotion>(level, s);
             let arm = crate::math::simd::PackedVector::new(level, arm);
             (seen.rotation * arm + seen.offset).to_dvec3()
         });

@@ -1,6 +1,5 @@
 //! Compares every gap, rate and free time in f32 with its value in f64 along the same axis.
 
-mod free_times;
 mod setting;
 mod shares;
 mod splits;
@@ -8,7 +7,7 @@ mod worst;
 
 use super::*;
 use crate::body::tree::LANES;
-use crate::engine::nodes::axis::AxesX8;
+use crate::engine::nodes::axis::{self, AxesX8};
 use crate::engine::nodes::clock;
 use crate::math::order::{greater, lesser};
 use crate::math::simd::{Vec3x8, load};
@@ -181,9 +180,9 @@ fn values_along_three_axes<L: Simd, C: Children, P: OtherNode>(
     some: Vec3,
 ) -> [AxisValues; 3] {
     let pairs = sample.pairs(level);
-    let some = axis::oriented_towards(Vec3x8::splat(level, some), pairs.offset);
+    let some = axis::OrientedAxes::new(Vec3x8::splat(level, some), pairs.offset).n;
     let axes = [
-        widest_gap_axis(&pairs),
+        slowest_closing_axis(&pairs),
         closest_approach_axis(&pairs),
         axis::unit_axes_and_gaps(pairs.children, pairs.other_node, pairs.offset, some),
     ];
@@ -193,8 +192,11 @@ fn values_along_three_axes<L: Simd, C: Children, P: OtherNode>(
 type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P>;
 
 #[inline(never)]
-fn widest_gap_axis<L: Simd, C: Children, P: OtherNode>(pairs: &Pairs<'_, L, C, P>) -> AxesX8<L> {
-    axis::widest_gap_axis(pairs.children, pairs.other_node, pairs.offset)
+fn slowest_closing_axis<L: Simd, C: Children, P: OtherNode>(
+    pairs: &Pairs<'_, L, C, P>,
+) -> AxesX8<L> {
+    let axes = axis::ThreeAxesX8::new(pairs.children, pairs.other_node, pairs.offset);
+    axes.longest_closing_time(pairs.velocity, pairs.motion.required_gap)
 }
 
 #[inline(never)]

@@ -150,15 +150,21 @@ impl SceneAudit<'_> {
                 WhichBody::B => (ids[1], ids[0]),
             };
             let s = self.clock(rng);
-            let expansion = expand(
-                &NodeContext::new(self.problem),
-                &Split::with_all_children(split, node, other),
-                s,
+            let common = NodeContext::new(self.problem);
+            let all = Split::with_all_children(split, node, other);
+            let siblings = expand(&common, &all, s);
+            assert_eq!(
+                siblings.free_times,
+                bound_children_of_kind::<AnyMotion>(&common, &all, s, ClosingRate::RateOfMotion)
+                    .free_times,
+                "{:?}: the kernel of {:?}",
+                self.name,
+                common.motion
             );
-            self.check_expansion(&expansion, split, node, other, s, tally);
+            self.check_expansion(&siblings, split, node, other, s, tally);
             let count = self.child_count_and_kind(split, node).0;
-            let lane = self.choose_child(rng, &expansion, count);
-            ids[split as usize] = expansion.first_child + lane;
+            let lane = self.choose_child(rng, &siblings, count);
+            ids[split as usize] = siblings.first_child + lane;
         }
     }
 
@@ -174,8 +180,8 @@ impl SceneAudit<'_> {
     }
 
     /// Chooses the child with which the descent continues, mostly the one with the least free time.
-    fn choose_child(&self, rng: &mut Pcg64, expansion: &Expansion, count: u32) -> u32 {
-        let free = |k: &u32| expansion.bounds.free_times.time_of_lane(*k as usize);
+    fn choose_child(&self, rng: &mut Pcg64, siblings: &Siblings, count: u32) -> u32 {
+        let free = |k: &u32| siblings.free_times.time_of_lane(*k as usize);
         let least = (0..count).min_by(|i, j| free(i).total_cmp(&free(j)));
         if rng.random_bool(0.8) {
             least.unwrap_or(0)
@@ -199,7 +205,7 @@ impl SceneAudit<'_> {
 
     fn check_expansion(
         &self,
-        expansion: &Expansion,
+        siblings: &Siblings,
         split: WhichBody,
         node: NodeId,
         other: NodeId,
@@ -209,11 +215,11 @@ impl SceneAudit<'_> {
         let still = expand_with_fixed_planes(self.problem, split, node, other, s);
         let (count, triangles) = self.child_count_and_kind(split, node);
         for lane in 0..count {
-            let free = expansion.bounds.free_times.time_of_lane(lane as usize);
+            let free = siblings.free_times.time_of_lane(lane as usize);
             assert!(free >= 0.0, "{:?}: {free}", self.name);
             let pair = BoundedPair {
                 split,
-                child: expansion.first_child + lane,
+                child: siblings.first_child + lane,
                 other_node: other,
                 start_clock: s,
                 end_clock: lesser(1.0, s + f64::from(free)),
@@ -382,7 +388,7 @@ fn expand_with_fixed_planes(
     let common = NodeContext::new(problem);
     let split_all = Split::with_all_children(split, node, other);
     vectorize!(problem.simd_level, level => {
-        let motion = RelativeMotion::new(level, &common, &split_all, s, ClosingRate::RateOfMotion);
+        let motion = RelativeMotion::<_, AnyMotion>::new(level, &common, &split_all, s, ClosingRate::RateOfMotion);
         match below.children {
             NodeChildren::Boxes(group) => {
                 let group = tree.box_group(group);
@@ -402,7 +408,7 @@ fn expand_with_fixed_planes(
 /// other node's excludes planes that turn.
 #[inline(always)]
 fn bound_with_fixed_planes<L: Simd, C: Children>(
-    motion: &RelativeMotion<'_, L>,
+    motion: &RelativeMotion<'_, L, AnyMotion>,
     group: &C,
     members: &GroupHeader,
 ) -> EightPairFreeTimes {

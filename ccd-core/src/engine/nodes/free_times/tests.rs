@@ -1,7 +1,7 @@
 //! Tests that `FreeTimes` returns its lanes in the order of a sorted list.
 
+use super::{FreeTimes, LANE_INDEX_MASK};
 use crate::body::tree::LANES;
-use crate::engine::nodes::bounds::{FreeTimes, LANE_INDEX_MASK};
 use crate::math::simd::load;
 use crate::settings::VectorInstructions;
 use crate::tests::scene::{Pcg64, RngExt, rng};
