@@ -41,6 +41,10 @@ pub const MAX_NEWTON_STEPS: usize = 16;
 /// Measured: pairs of knots are visited 2 % more often, and a first visit takes half of the time.
 pub const SUFFICIENT_FIRST_FREE_TIME: f64 = 1.0 / 65536.0;
 
+/// The least share of a gap that has to be closed by the present rate alone, not by its change, for the time in closed form
+/// to be used. Otherwise the points are followed, and the time is longer.
+pub const MIN_CLOSED_BY_RATE_SHARE: f64 = 0.75;
+
 /// The largest number of distance measurements in each of two phases of the search for the time of closest approach of
 /// two pieces. The first phase brackets the time between two clocks, the second narrows the bracket. Each measurement
 /// may halve the interval; a few suffice for smooth distances. No answer depends on it.

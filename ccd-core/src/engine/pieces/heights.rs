@@ -46,7 +46,7 @@ pub(crate) struct PointHeight {
 }
 
 /// The largest number of points of a piece for which all pairs of points are bounded one by one.
-const MAX_TRACKED_POINTS: usize = 3;
+pub(super) const MAX_TRACKED_POINTS: usize = 3;
 
 /// The tracks of up to three points; unused entries repeat the last.
 #[derive(Clone, Copy, Debug)]

@@ -99,12 +99,17 @@ impl<'p> Snapshot<'p> {
     }
 
     /// Like [`Snapshot::free_time`], for the first visit of two pieces. If the fixed plane perpendicular to the claim's
-    /// axis keeps them apart for a while, no other plane is tried. Most pairs are visited only once.
+    /// axis keeps them apart for a while at the present rate, no point is followed, and no other plane is tried. Most
+    /// pairs are visited only once.
     pub(crate) fn first_visit_free_time(&self, checked: &CheckedClaim, kept: f64) -> Option<f64> {
         let direct = self.plane_of_claim(checked, kept);
-        match self.fixed_plane_free_time(direct.normal, direct.gap_excess)? {
-            free if free >= SUFFICIENT_FIRST_FREE_TIME => Some(free),
-            free => self.longest_free_time(checked, kept, &direct, free),
+        match self.free_time_at_present_rate(&direct) {
+            Some(free) if free >= self.time_left() => None,
+            Some(free) if free >= SUFFICIENT_FIRST_FREE_TIME => Some(free),
+            _ => match self.fixed_plane_free_time(direct.normal, direct.gap_excess)? {
+                free if free >= SUFFICIENT_FIRST_FREE_TIME => Some(free),
+                free => self.longest_free_time(checked, kept, &direct, free),
+            },
         }
     }
 
@@ -334,7 +339,7 @@ impl<'p> Snapshot<'p> {
             .set(self.height_evaluation_count.get() + points);
     }
 
-    fn time_left(&self) -> f64 {
+    pub(super) fn time_left(&self) -> f64 {
         1.0 - self.clock
     }
 

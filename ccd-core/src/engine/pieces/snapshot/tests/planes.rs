@@ -130,9 +130,13 @@ fn the_plane_of_the_longest_time_counts() {
         );
         turning += usize::from(free_time_or_infinity(free) > fixed);
         passes += usize::from(fixed > along(&&direct));
-        let expected = match along(&&direct) {
-            first if first >= SUFFICIENT_FIRST_FREE_TIME => first,
-            _ => free_time_or_infinity(free),
+        let sufficient = |time: &f64| *time >= SUFFICIENT_FIRST_FREE_TIME;
+        let expected = match snapshot.free_time_at_present_rate(&direct) {
+            Some(first) if first >= snapshot.time_left() => f64::INFINITY,
+            first => first
+                .filter(sufficient)
+                .or(Some(along(&&direct)).filter(sufficient))
+                .unwrap_or(free_time_or_infinity(free)),
         };
         let first = free_time_or_infinity(snapshot.first_visit_free_time(&checked, kept));
         assert_eq!(first, expected, "{:?}", direct.normal);
