@@ -98,12 +98,12 @@ impl<O: DistanceOracle> SearchHandler<O> for ProvenFacts {
 
     #[inline]
     fn stop_before_clock(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
-        if s > 0.0 {
-            self.check_containment_once_apart(problem)
-                .map_or(ControlFlow::Continue(()), ControlFlow::Break)
-        } else {
-            ControlFlow::Continue(())
+        if s > 0.0
+            && let Some(inside) = self.check_containment_once_apart(problem)
+        {
+            return ControlFlow::Break(inside);
         }
+        ControlFlow::Continue(())
     }
 
     fn on_advance(

@@ -56,13 +56,21 @@ impl ProvenFacts {
     }
 
     /// Records that no pair is in contact at the start; returns the outcome if one body is inside the other.
+    #[inline]
     pub(crate) fn check_containment_once_apart(
         &mut self,
         problem: &Problem<'_>,
     ) -> Option<Outcome> {
-        if std::mem::replace(&mut self.apart_at_start, true) {
+        if self.apart_at_start {
             return None;
         }
+        self.check_containment_at_start(problem)
+    }
+
+    // Out of the search's loop, which would otherwise copy an outcome at every visit.
+    #[cold]
+    fn check_containment_at_start(&mut self, problem: &Problem<'_>) -> Option<Outcome> {
+        self.apart_at_start = true;
         // Bodies that are let go were examined when their contact was found.
         match problem.start_policy {
             StartPolicy::Leave => None,
