@@ -8,6 +8,9 @@ pub(crate) trait MotionKind: Copy {
     const BOTH_MAY_TURN: bool;
     /// Whether one centre may accelerate relative to the other.
     const MAY_ACCELERATE: bool;
+    /// Whether the bodies stand still in their poses. Gaps then count as closing at one unit of length per unit of time, so
+    /// that free times are distances.
+    const STANDS_STILL: bool;
 
     /// Returns whether the body turns whose node is split, given that of the query's body.
     fn does_split_body_turn(turns: bool) -> bool;
@@ -26,6 +29,7 @@ macro_rules! known_motion_kinds {
         impl MotionKind for $name {
             const BOTH_MAY_TURN: bool = $split && $other;
             const MAY_ACCELERATE: bool = false;
+            const STANDS_STILL: bool = false;
 
             #[inline(always)]
             fn does_split_body_turn(_: bool) -> bool {
@@ -51,21 +55,34 @@ known_motion_kinds! {
     BothTurn: true, true;
 }
 
-/// Any motion, also with accelerations.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct AnyMotion;
+/// Defines kinds of motion of which only that is known when the program is compiled whether the bodies stand still.
+macro_rules! open_motion_kinds {
+    ($($(#[$doc:meta])* $name:ident: $still:literal;)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub(crate) struct $name;
 
-impl MotionKind for AnyMotion {
-    const BOTH_MAY_TURN: bool = true;
-    const MAY_ACCELERATE: bool = true;
+        impl MotionKind for $name {
+            const BOTH_MAY_TURN: bool = true;
+            const MAY_ACCELERATE: bool = true;
+            const STANDS_STILL: bool = $still;
 
-    #[inline(always)]
-    fn does_split_body_turn(turns: bool) -> bool {
-        turns
-    }
+            #[inline(always)]
+            fn does_split_body_turn(turns: bool) -> bool {
+                turns
+            }
 
-    #[inline(always)]
-    fn does_other_body_turn(turns: bool) -> bool {
-        turns
-    }
+            #[inline(always)]
+            fn does_other_body_turn(turns: bool) -> bool {
+                turns
+            }
+        }
+    )*};
+}
+
+open_motion_kinds! {
+    /// Any motion, also with accelerations.
+    AnyMotion: false;
+    /// The bodies stand still in the poses of an instant of any motion.
+    StandStill: true;
 }

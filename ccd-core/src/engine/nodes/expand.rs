@@ -12,7 +12,7 @@ use crate::body::tree::{
 use crate::math::order::greater;
 use crate::math::simd::{PackedMatrix, PackedVector, as_vec3};
 use crate::motion::kind::{
-    AnyMotion, BothTurn, MotionKind, OtherBodyTurns, SplitBodyTurns, Straight,
+    AnyMotion, BothTurn, MotionKind, OtherBodyTurns, SplitBodyTurns, StandStill, Straight,
 };
 use crate::motion::relative::{RelativePath, RelativeState};
 use crate::problem::{BodyWithPath, WhichBody};
@@ -45,13 +45,22 @@ impl Split {
     }
 }
 
-/// Computes for how long each child of a node stays apart from the other node, from clock `s` on.
+/// Computes for how long each child of a node stays apart from the other node, from clock `s` on, by the kernel for what moves
+/// in the query.
 ///
 /// # Panics
 /// When the node is a single piece.
 #[inline]
 pub(crate) fn expand(common: &NodeContext<'_>, split: &Split, s: f64) -> Siblings {
-    bound_children(common, split, s, ClosingRate::RateOfMotion)
+    match common.motion {
+        QueryMotion::OneTurns(body) if body == split.body => {
+            bound_children_of_kind::<SplitBodyTurns>(common, split, s)
+        }
+        QueryMotion::OneTurns(_) => bound_children_of_kind::<OtherBodyTurns>(common, split, s),
+        QueryMotion::NeitherTurns => bound_children_of_kind::<Straight>(common, split, s),
+        QueryMotion::BothTurn => bound_children_of_kind::<BothTurn>(common, split, s),
+        QueryMotion::Accelerates => bound_children_of_kind::<AnyMotion>(common, split, s),
+    }
 }
 
 /// Computes lower bounds of the distances of the children from the other node at clock `s`. They are returned as free
@@ -60,41 +69,7 @@ pub(crate) fn expand(common: &NodeContext<'_>, split: &Split, s: f64) -> Sibling
 /// # Panics
 /// When the node is a single piece.
 pub(crate) fn bound_child_distances(common: &NodeContext<'_>, split: &Split, s: f64) -> Siblings {
-    bound_children(common, split, s, ClosingRate::UnitClosingRate).with_free_times_as_distances()
-}
-
-/// The rate at which gaps are assumed to close.
-#[derive(Clone, Copy, Debug)]
-enum ClosingRate {
-    /// The rate due to the motion of the bodies.
-    RateOfMotion,
-    /// One unit of length per unit of time, along every axis, so that the free time is the distance.
-    UnitClosingRate,
-}
-
-/// Computes the free times of a split node's children, by the kernel for what moves in the query.
-#[inline]
-fn bound_children(
-    common: &NodeContext<'_>,
-    split: &Split,
-    s: f64,
-    closing_rate: ClosingRate,
-) -> Siblings {
-    match common.motion {
-        QueryMotion::OneTurns(body) if body == split.body => {
-            bound_children_of_kind::<SplitBodyTurns>(common, split, s, closing_rate)
-        }
-        QueryMotion::OneTurns(_) => {
-            bound_children_of_kind::<OtherBodyTurns>(common, split, s, closing_rate)
-        }
-        QueryMotion::NeitherTurns => {
-            bound_children_of_kind::<Straight>(common, split, s, closing_rate)
-        }
-        QueryMotion::BothTurn => bound_children_of_kind::<BothTurn>(common, split, s, closing_rate),
-        QueryMotion::Accelerates => {
-            bound_children_of_kind::<AnyMotion>(common, split, s, closing_rate)
-        }
-    }
+    bound_children_of_kind::<StandStill>(common, split, s).with_free_times_as_distances()
 }
 
 /// Computes the free times with the best vector instructions. This function alone contains the kernels, compiled once for
@@ -104,9 +79,8 @@ fn bound_children_of_kind<K: MotionKind>(
     common: &NodeContext<'_>,
     split: &Split,
     s: f64,
-    closing_rate: ClosingRate,
 ) -> Siblings {
-    vectorize!(common.problem.simd_level, level => bound_children_at_level::<_, K>(level, common, split, s, closing_rate))
+    vectorize!(common.problem.simd_level, level => bound_children_at_level::<_, K>(level, common, split, s))
 }
 
 #[inline(always)]
@@ -115,9 +89,8 @@ fn bound_children_at_level<L: Simd, K: MotionKind>(
     common: &NodeContext<'_>,
     split: &Split,
     s: f64,
-    closing_rate: ClosingRate,
 ) -> Siblings {
-    let motion = RelativeMotion::<L, K>::new(level, common, split, s, closing_rate);
+    let motion = RelativeMotion::<L, K>::new(level, common, split, s);
     let body = motion.split_body.body;
     let tree = body.tree();
     let NodeOrTriangle::Node(node) = tree.get(split.node) else {
@@ -151,20 +124,13 @@ struct RelativeMotion<'p, L: Simd, K> {
     relative_path: &'p RelativePath,
     /// The time left to the end of the duration.
     horizon: f32,
-    closing_rate: ClosingRate,
     kind: PhantomData<K>,
 }
 
 impl<'p, L: Simd, K: MotionKind> RelativeMotion<'p, L, K> {
     // The struct is half a kilobyte, made once a visit. It is built in place, not moved.
     #[inline(always)]
-    fn new(
-        level: L,
-        common: &'p NodeContext<'_>,
-        split: &'p Split,
-        s: f64,
-        closing_rate: ClosingRate,
-    ) -> Self {
+    fn new(level: L, common: &'p NodeContext<'_>, split: &'p Split, s: f64) -> Self {
         let view = common.relative_path_from(split.body);
         RelativeMotion {
             simd_level: level,
@@ -175,7 +141,6 @@ impl<'p, L: Simd, K: MotionKind> RelativeMotion<'p, L, K> {
             relative_state: view.state_at::<L, K>(level, s),
             relative_path: view,
             horizon: (1.0 - s) as f32,
-            closing_rate,
             kind: PhantomData,
         }
     }
@@ -223,11 +188,10 @@ struct GroupMotion<'m, L: Simd, K> {
 impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
     #[inline(always)]
     fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> EightPairFreeTimes {
-        let motion = match self.motion.closing_rate {
-            ClosingRate::RateOfMotion => self.motion_in_f32(other.centre(), other.radius()),
-            ClosingRate::UnitClosingRate => {
-                self.unit_closing_rate_motion(other.centre(), other.radius())
-            }
+        let motion = if K::STANDS_STILL {
+            self.unit_closing_rate_motion(other.centre(), other.radius())
+        } else {
+            self.motion_in_f32(other.centre(), other.radius())
         };
         let lanes = self.motion.split.lane_mask & u8::MAX >> (LANES as u32 - self.header.count);
         bound_eight_pairs(self.motion.simd_level, group, other, &motion, lanes)

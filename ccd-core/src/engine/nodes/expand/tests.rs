@@ -155,8 +155,7 @@ impl SceneAudit<'_> {
             let siblings = expand(&common, &all, s);
             assert_eq!(
                 siblings.free_times,
-                bound_children_of_kind::<AnyMotion>(&common, &all, s, ClosingRate::RateOfMotion)
-                    .free_times,
+                bound_children_of_kind::<AnyMotion>(&common, &all, s).free_times,
                 "{:?}: the kernel of {:?}",
                 self.name,
                 common.motion
@@ -388,7 +387,7 @@ fn expand_with_fixed_planes(
     let common = NodeContext::new(problem);
     let split_all = Split::with_all_children(split, node, other);
     vectorize!(problem.simd_level, level => {
-        let motion = RelativeMotion::<_, AnyMotion>::new(level, &common, &split_all, s, ClosingRate::RateOfMotion);
+        let motion = RelativeMotion::<_, AnyMotion>::new(level, &common, &split_all, s);
         match below.children {
             NodeChildren::Boxes(group) => {
                 let group = tree.box_group(group);
