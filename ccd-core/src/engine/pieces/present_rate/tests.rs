@@ -1,6 +1,7 @@
 //! Compares the times in closed form with those for which the points are followed.
 
 use super::*;
+use crate::math::order::lesser;
 use crate::tests::scene::{RngExt, SceneKind, random_direction, random_power_of_ten, rng, scene};
 
 #[test]
@@ -36,11 +37,11 @@ fn times_are_proven_and_hardly_shorter_than_those_of_points_that_are_followed() 
         assert!(free > 0.0, "{number}");
         // The points are followed up to the last percent.
         assert!(
-            free.min(left) <= longest * (1.0 + 1.0 / 32.0),
+            lesser(free, left) <= longest * (1.0 + 1.0 / 32.0),
             "{number}: {free:e} beyond {longest:e}"
         );
         found += 1;
-        close += usize::from(free >= 0.7 * longest.min(left));
+        close += usize::from(free >= 0.7 * lesser(longest, left));
     }
     assert!(4 * found > all && found < all, "{found} of {all}");
     assert!(10 * close > 9 * found, "{close} of {found}");
