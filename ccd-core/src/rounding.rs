@@ -91,6 +91,13 @@ pub fn margin_rounding(margin: f64) -> f64 {
     96.0 * UNIT_ROUNDOFF_F64 * margin
 }
 
+/// The least rotation during a query, in radians, with which a body counts as turning. A lesser one displaces a point by
+/// less than 1e-100 of its distance from the centre, far below [`UNIT_ROUNDOFF_F64`] of it.
+///
+/// A part of a path turns by its share of the rotation, and that must not underflow, as its other coefficients do not: it
+/// stays above 1e-300 for shares above 1e-200.
+pub const LEAST_ROTATION: f64 = 1e-100;
+
 /// The relative error of a motion's pose that is computed for a time other than its start. It is relative to the
 /// lengths of its position, its centre and its travel; as an angle, it is relative to a radian more than its rotation.
 ///

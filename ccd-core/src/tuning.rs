@@ -210,3 +210,9 @@ pub const SPLITS_BEFORE_SCREW: u64 = 512;
 /// Unit: triangles. Smaller: boxes grow; at 16 queries visit a percent more nodes. Larger: longer to build, boxes
 /// hardly shrink.
 pub const MAX_SAMPLED_TRIANGLES: usize = 64;
+
+/// The rate at which a gap counts as closing if it opens, for the comparison of separating axes.
+///
+/// Unit: lengths of the scene per duration. It is small beside any motion, and the quotient of a gap and this rate does not
+/// overflow in f32 for gaps up to 3e20.
+pub const LEAST_CLOSING_RATE: f32 = 1e-18;

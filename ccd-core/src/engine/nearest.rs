@@ -12,7 +12,7 @@ use super::queue::{QueueFull, Rank, Worklist};
 use crate::answer::{Contact, Limit};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
-use crate::math::order::lesser;
+use crate::math::order::{greater, lesser};
 use crate::problem::Problem;
 use crate::rounding::SKIPPED_PAIR_ALLOWANCE;
 use lists::SearchBuffers;
@@ -86,18 +86,15 @@ impl<'p> NearestSearch<'p> {
         oracle: &mut O,
         meter: &mut Meter,
     ) -> ControlFlow<EarlyEndReason> {
-        let mut next = Some(NextStep::roots(self.problem));
-        while let Some(pair) = next {
+        let mut next = Some((0.0, NextStep::roots(self.problem)));
+        while let Some((distance, pair)) = next {
             if let Err(limit) = meter.count_visit_and_check_limits(self.problem) {
                 return ControlFlow::Break(EarlyEndReason::Limit(limit));
             }
             match pair {
                 NextStep::Split(split) => {
-                    self.enqueue(bound_child_distances(
-                        &self.node_context,
-                        &split,
-                        self.clock,
-                    ))?;
+                    let children = bound_child_distances(&self.node_context, &split, self.clock);
+                    self.enqueue(distance, children)?;
                 }
                 NextStep::MeasurePieces(a, b) => self.measure_pieces([a, b], oracle, meter)?,
             }
@@ -106,8 +103,9 @@ impl<'p> NearestSearch<'p> {
         ControlFlow::Continue(())
     }
 
-    fn enqueue(&mut self, siblings: Siblings) -> ControlFlow<EarlyEndReason> {
-        let distance = siblings.clock();
+    /// Adds the children of a pair with the lower bound `distance`, which is one of theirs too.
+    fn enqueue(&mut self, distance: f64, siblings: Siblings) -> ControlFlow<EarlyEndReason> {
+        let distance = greater(distance, siblings.clock());
         if !(distance < self.upper_bound()) {
             return ControlFlow::Continue(());
         }
@@ -121,8 +119,9 @@ impl<'p> NearestSearch<'p> {
         }
     }
 
-    /// Returns the waiting pair with the least lower bound; `None` if no pair can be nearer than the one found.
-    fn next_pair(&mut self) -> Option<NextStep> {
+    /// Returns the waiting pair with the least lower bound, and that bound; `None` if no pair can be nearer than the one
+    /// found.
+    fn next_pair(&mut self) -> Option<(f64, NextStep)> {
         let (upper, search_radius) = (self.upper_bound(), self.search_radius());
         let (distance, siblings) = self.buffers.waiting_pairs.peek_next()?;
         // Pairs without a distance may intersect.
@@ -131,11 +130,11 @@ impl<'p> NearestSearch<'p> {
             return None;
         }
         let next = siblings.take_next_step(self.problem, distance);
-        match siblings.clock() {
-            distance if distance < upper => self.buffers.waiting_pairs.postpone(distance),
+        match greater(distance, siblings.clock()) {
+            rest if rest < upper => self.buffers.waiting_pairs.postpone(rest),
             _ => self.buffers.waiting_pairs.remove_next(),
         }
-        Some(next)
+        Some((distance, next))
     }
 
     /// Measures two pieces by the oracle, and then updates the bounds of the search, or ends the search. The search

@@ -7,6 +7,7 @@ use super::pose::Frame;
 use super::track::sin_cos;
 use crate::math::order::greater;
 use crate::math::vector::{length, unit};
+use crate::rounding::LEAST_ROTATION;
 use glam::{DMat3, DVec3};
 
 /// A motion in a problem's units, with the rotation `R(s) = cos(ω s) A + sin(ω s) B + C` about a centre at `start + s ·
@@ -41,10 +42,13 @@ impl Path {
     pub(crate) fn new(motion: &Motion, origin: DVec3, duration: f64) -> Self {
         let start = Frame::from(motion.start());
         let spin = motion.spin() * duration;
+        // A lesser rotation is lost in any rounding of positions, and that of a part of the path would underflow.
+        let turns = length(spin) >= LEAST_ROTATION;
+        let spin = if turns { spin } else { DVec3::ZERO };
         let rate = length(spin);
         let axis = unit(spin).unwrap_or(DVec3::ZERO);
         // The rotation of a body that does not turn has only the constant part.
-        let [cosine, sine, constant] = if rate > 0.0 {
+        let [cosine, sine, constant] = if turns {
             let constant = outer_product(axis) * start.rotation;
             let sine = cross_matrix(axis) * start.rotation;
             [start.rotation - constant, sine, constant]

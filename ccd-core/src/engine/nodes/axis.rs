@@ -2,6 +2,7 @@
 
 use super::shape::{Children, OtherNode};
 use crate::math::simd::{LEAST_DIVISOR, Vec3x8, select_vectors, splat};
+use crate::tuning::LEAST_CLOSING_RATE;
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
 /// Unit axes of eight pairs, the gaps along them, and the extents of both nodes towards each other.
@@ -105,11 +106,11 @@ impl<L: Simd> ThreeAxesX8<L> {
     }
 }
 
-/// Returns the times in which the gaps along axes close at the rate of the centres' velocities. Gaps that open get a time
-/// beyond all others.
+/// Returns the times in which the gaps along axes close at the rate of the centres' velocities. Of gaps that open, the wider
+/// one gets the longer time.
 #[inline(always)]
 fn closing_time<L: Simd>(axis: &AxesX8<L>, velocity: Vec3x8<L>, required_gap: f32) -> f32x8<L> {
-    (axis.gap - required_gap) / axis.n.dot(velocity).max(LEAST_DIVISOR)
+    (axis.gap - required_gap) / axis.n.dot(velocity).max(LEAST_CLOSING_RATE)
 }
 
 /// Returns the axis between the centres at their time of nearest approach, for a straight relative displacement

@@ -137,3 +137,17 @@ fn worst_part() {
     );
     found.assert_tight_bound(100.0);
 }
+
+#[test]
+fn parts_of_the_least_rotations_are_rigid() {
+    for turn in [5e-324, 1e-320, 1e-200, 0.99e-100, 1.01e-100, 1e-30] {
+        let motion = Motion::new(Pose::IDENTITY, DVec3::X, turn * DVec3::Y).unwrap();
+        let part = Path::new(&motion, DVec3::ZERO, 1.0).subpath([0.25, 0.25 + 1e-6]);
+        let off = part.frame(0.5).rotation - DMat3::IDENTITY;
+        assert!(
+            off.abs().to_cols_array().iter().all(|x| *x < 1e-15),
+            "{turn}: {off}"
+        );
+        assert_eq!(part.is_turning(), turn > 1e-100, "{turn}");
+    }
+}

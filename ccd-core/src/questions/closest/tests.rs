@@ -6,16 +6,20 @@ mod required;
 
 use super::*;
 use crate::answer::ClearanceVerdict;
+use crate::body::Body;
 use crate::body::piece::ConvexCombination;
 use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::engine::answer::EngineSchedule;
 use crate::math::order::lesser;
 use crate::motion::Motion;
 use crate::schedule::BestFirst;
+use crate::settings::Settings;
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 use crate::tests::scene::{
-    RngExt, SceneKind, distance, random_direction, random_power_of_ten, rng, scene,
+    RngExt, SceneKind, body, distance, random_direction, random_power_of_ten, rng, scene,
 };
+use glam::DVec3;
+use std::f64::consts::TAU;
 
 const SCENE_KINDS: [SceneKind; 4] = [
     SceneKind::RandomMotion,
@@ -279,4 +283,52 @@ fn bodies_at_rest_have_a_distance() {
         }
     }
     assert!(apart > 100 && overlapping > 10, "{apart} {overlapping}");
+}
+
+/// Returns a sphere of triangles, open at its poles.
+fn open_sphere(radius: f64, rings: u32, sectors: u32) -> Body {
+    let point = |i: u32, j: u32| {
+        let (down, round) = (
+            f64::from(i) / f64::from(rings),
+            f64::from(j) / f64::from(sectors),
+        );
+        let ((s, c), (y, x)) = ((3.0 * down + 0.07).sin_cos(), (round * TAU).sin_cos());
+        radius * DVec3::new(s * x, s * y, c)
+    };
+    let quads = (0..rings).flat_map(|i| (0..sectors).map(move |j| (i, j)));
+    let triangles: Vec<_> = quads
+        .flat_map(|(i, j)| {
+            let [p, q, r, s] = [
+                point(i, j),
+                point(i + 1, j),
+                point(i + 1, j + 1),
+                point(i, j + 1),
+            ];
+            [[p, q, r], [p, r, s]]
+        })
+        .collect();
+    body(&triangles)
+}
+
+#[test]
+fn the_work_of_a_distance_does_not_depend_on_the_unit_of_length() {
+    let visits = [1.0, 1024.0, 1.0 / 1024.0].map(|unit| {
+        let [outer, inner] = [open_sphere(1.6 * unit, 24, 20), open_sphere(unit, 12, 8)];
+        let settings = Settings {
+            tolerance: 1e-6 * unit,
+            ..Settings::DEFAULT
+        };
+        let problem = Problem::of_moving_bodies(
+            (&outer, Motion::STILL),
+            (&inner, Motion::STILL),
+            1.0,
+            &settings,
+        );
+        closest_approach_answer(&problem.unwrap()).stats.iterations
+    });
+    let [one, large, small] = visits;
+    assert!(one > 500, "{visits:?}");
+    for other in [large, small] {
+        assert!(other.abs_diff(one) * 50 <= one, "{visits:?}");
+    }
 }

@@ -136,6 +136,32 @@ fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Settings) {
 }
 
 #[test]
+fn a_rotation_too_small_to_divide_does_not_hide_a_contact() {
+    let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let [p, q, r, s] = [
+        corner(-1.0, -1.0),
+        corner(1.0, -1.0),
+        corner(1.0, 1.0),
+        corner(-1.0, 1.0),
+    ];
+    let square = body(&[[p, q, r], [p, r, s]]);
+    let start = Pose::at(DVec3::new(2.3, 0.0, 0.5)).unwrap();
+    let whirling = Motion::new(start, -DVec3::Z, 5e5 * DVec3::Z).unwrap();
+    for spin in [0.0, 5e-324, 1e-320, 1e-300, 1e-101, 1e-99] {
+        let other = Motion::new(Pose::IDENTITY, DVec3::ZERO, spin * DVec3::X).unwrap();
+        for [a, b] in [[whirling, other], [other, whirling]] {
+            let problem =
+                Problem::of_moving_bodies((&square, a), (&square, b), 1.0, &Settings::DEFAULT);
+            let outcome = solve(&problem.unwrap()).outcome;
+            assert!(
+                matches!(outcome, Outcome::Contact { time, .. } if (0.49..0.5).contains(&time)),
+                "{spin}: {outcome:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn answers_of_many_turns_hold_at_sampled_times() {
     let mut rng = rng(3);
     let (mut hits, mut late, mut misses, mut repeated) = (0, 0, 0, 0);
