@@ -94,7 +94,7 @@ pub fn margin_rounding(margin: f64) -> f64 {
 /// The least rotation during a query, in radians, with which a body counts as turning. A lesser one displaces a point by
 /// less than 1e-100 of its distance from the centre, far below [`UNIT_ROUNDOFF_F64`] of it.
 ///
-/// A part of a path turns by its share of the rotation, and that must not underflow, as its other coefficients do not: it
+/// A part of a path turns by its share of the rotation. That must not underflow, as the other coefficients do not: it
 /// stays above 1e-300 for shares above 1e-200.
 pub const LEAST_ROTATION: f64 = 1e-100;
 

@@ -41,8 +41,8 @@ pub const MAX_NEWTON_STEPS: usize = 16;
 /// Measured: pairs of knots are visited 2 % more often, and a first visit takes half of the time.
 pub const SUFFICIENT_FIRST_FREE_TIME: f64 = 1.0 / 65536.0;
 
-/// The least share of a gap that has to be closed by the present rate alone, not by its change, for the time in closed form
-/// to be used. Otherwise the points are followed, and the time is longer.
+/// The least share of a gap that has to be closed by the present rate alone, not by its change, for the time in closed
+/// form to be used. Otherwise the points are followed, and the time is longer.
 pub const MIN_CLOSED_BY_RATE_SHARE: f64 = 0.75;
 
 /// The largest number of distance measurements in each of two phases of the search for the time of closest approach of
@@ -213,6 +213,6 @@ pub const MAX_SAMPLED_TRIANGLES: usize = 64;
 
 /// The rate at which a gap counts as closing if it opens, for the comparison of separating axes.
 ///
-/// Unit: lengths of the scene per duration. It is small beside any motion, and the quotient of a gap and this rate does not
-/// overflow in f32 for gaps up to 3e20.
+/// Unit: lengths of the scene per duration. It is small beside any motion, and the quotient of a gap and this rate does
+/// not overflow in f32 for gaps up to 3e20.
 pub const LEAST_CLOSING_RATE: f32 = 1e-18;

@@ -1,15 +1,15 @@
-//! Kinds of relative motion. The bounds of nodes are compiled once for each kind, so that a query pays only for what moves in
-//! it.
+//! Kinds of relative motion. The bounds of nodes are compiled once for each kind, so that a query pays only for what
+//! moves in it.
 
-/// A kind of relative motion, as seen from the body whose node is split. What is known when the program is compiled takes no
-/// instruction.
+/// A kind of relative motion, as seen from the body whose node is split. What is known when the program is compiled
+/// takes no instruction.
 pub(crate) trait MotionKind: Copy {
     /// Whether both bodies may turn.
     const BOTH_MAY_TURN: bool;
     /// Whether one centre may accelerate relative to the other.
     const MAY_ACCELERATE: bool;
-    /// Whether the bodies stand still in their poses. Gaps then count as closing at one unit of length per unit of time, so
-    /// that free times are distances.
+    /// Whether the bodies stand still in their poses. Gaps then count as closing at one unit of length per unit of
+    /// time, so that free times are distances.
     const STANDS_STILL: bool;
 
     /// Returns whether the body turns whose node is split, given that of the query's body.

@@ -106,8 +106,8 @@ impl<L: Simd> ThreeAxesX8<L> {
     }
 }
 
-/// Returns the times in which the gaps along axes close at the rate of the centres' velocities. Of gaps that open, the wider
-/// one gets the longer time.
+/// Returns the times in which the gaps along axes close at the rate of the centres' velocities. Of gaps that open, the
+/// wider one gets the longer time.
 #[inline(always)]
 fn closing_time<L: Simd>(axis: &AxesX8<L>, velocity: Vec3x8<L>, required_gap: f32) -> f32x8<L> {
     (axis.gap - required_gap) / axis.n.dot(velocity).max(LEAST_CLOSING_RATE)

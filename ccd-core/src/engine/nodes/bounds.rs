@@ -28,8 +28,8 @@ pub(crate) struct EightPairFreeTimes {
 /// Computes the free times of the pairs in `lanes`, and chooses the next step for each pair.
 ///
 /// Fixed planes are perpendicular to two axes: the one of three along which the gap takes longest to close, and the one
-/// between the centres at the time when they are nearest. The first suits approaching pairs, the second passing ones. Beside nodes that are
-/// much larger, planes that turn with the body of these nodes are tried, too.
+/// between the centres at the time when they are nearest. The first suits approaching pairs, the second passing ones.
+/// Beside nodes that are much larger, planes that turn with the body of these nodes are tried, too.
 #[inline(always)]
 pub(crate) fn bound_eight_pairs<L: Simd, C: Children, P: OtherNode>(
     level: L,

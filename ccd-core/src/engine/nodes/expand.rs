@@ -45,8 +45,8 @@ impl Split {
     }
 }
 
-/// Computes for how long each child of a node stays apart from the other node, from clock `s` on, by the kernel for what moves
-/// in the query.
+/// Computes for how long each child of a node stays apart from the other node, from clock `s` on, by the kernel for
+/// what moves in the query.
 ///
 /// # Panics
 /// When the node is a single piece.
@@ -72,8 +72,8 @@ pub(crate) fn bound_child_distances(common: &NodeContext<'_>, split: &Split, s: 
     bound_children_of_kind::<StandStill>(common, split, s).with_free_times_as_distances()
 }
 
-/// Computes the free times with the best vector instructions. This function alone contains the kernels, compiled once for
-/// each set of instructions and kind of motion.
+/// Computes the free times with the best vector instructions. This function alone contains the kernels, compiled once
+/// for each set of instructions and kind of motion.
 #[inline(never)]
 fn bound_children_of_kind<K: MotionKind>(
     common: &NodeContext<'_>,
@@ -340,7 +340,8 @@ impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
     }
 }
 
-/// Returns a number above `x`, which is positive and the result of operations that each round by 1u; two of them at most. Unlike [`f32::next_up`], it takes a single instruction. Of numbers so small that it returns them unchanged, sums are exact.
+/// Returns the next number above `x`, or the one after it, as much as a sum rounds. `x` is positive. Of numbers so small
+/// that they are returned unchanged, sums are exact. In contrast to [`f32::next_up`], this is one instruction.
 #[inline(always)]
 fn round_up_positive(x: f32) -> f32 {
     x * (1.0 + 2.0 * UNIT_ROUNDOFF_F32)

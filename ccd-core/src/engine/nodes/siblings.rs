@@ -86,8 +86,8 @@ impl Siblings {
         }
     }
 
-    /// Returns the pairs with the clock 0 at the start and without second visits, which would give the same result: their
-    /// free times are distances.
+    /// Returns the pairs with the clock 0 at the start and without second visits, which would give the same result:
+    /// their free times are distances.
     pub(crate) fn with_free_times_as_distances(self) -> Self {
         Siblings {
             start_clock: 0.0,

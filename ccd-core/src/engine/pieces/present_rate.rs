@@ -1,5 +1,5 @@
-//! How long a fixed plane keeps two pieces apart at the present rate, in closed form. It is shorter than the time for which
-//! the points are followed, by a few percent of that of most pairs, and takes a tenth of the instructions.
+//! How long a fixed plane keeps two pieces apart at the present rate, in closed form. For most pairs this is shorter by
+//! a few percent than the time for which points are followed, and takes a tenth of the instructions.
 
 use super::heights::MAX_TRACKED_POINTS;
 use super::snapshot::{SeparatingPlane, Snapshot};
