@@ -13,3 +13,4 @@ pub(crate) mod expand;
 pub(crate) mod free_times;
 pub(crate) mod shape;
 pub(crate) mod siblings;
+pub(crate) mod split;

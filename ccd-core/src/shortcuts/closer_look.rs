@@ -5,8 +5,8 @@
 use super::screw::Screw;
 use super::{Shortcut, flat_nodes};
 use crate::engine::meter::Meter;
-use crate::engine::nodes::expand::Split;
 use crate::engine::nodes::siblings::Siblings;
+use crate::engine::nodes::split::Split;
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::GAP_ERROR_PER_RADIUS_F32;
 use crate::tuning::{F64_FALLBACK_THRESHOLD, MAX_NEWTON_STEPS, SPLITS_BEFORE_SCREW};

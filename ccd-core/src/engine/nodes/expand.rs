@@ -6,8 +6,9 @@ use super::common::{NodeContext, QueryMotion};
 use super::eight_pairs::{BodyRotation, LargerBody, RelativeMotionF32};
 use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
 use super::siblings::Siblings;
+use super::split::Split;
 use crate::body::tree::{
-    GroupHeader, LANES, Node, NodeChildren, NodeId, NodeOrTriangle, round_up_to_f32, unit_normal,
+    GroupHeader, LANES, Node, NodeChildren, NodeOrTriangle, round_up_to_f32, unit_normal,
 };
 use crate::math::order::greater;
 use crate::math::simd::{PackedMatrix, PackedVector, as_vec3};
@@ -15,35 +16,12 @@ use crate::motion::kind::{
     AnyMotion, BothTurn, MotionKind, OtherBodyTurns, SplitBodyTurns, StandStill, Straight,
 };
 use crate::motion::relative::{RelativePath, RelativeState};
-use crate::problem::{BodyWithPath, WhichBody};
+use crate::problem::BodyWithPath;
 use crate::rounding::{GAP_ERROR_PER_DISTANCE_F32, GAP_ERROR_PER_RADIUS_F32, UNIT_ROUNDOFF_F32};
 use crate::vectorize;
 use fearless_simd::{Simd, f32x4};
 use glam::{DVec3, Vec3};
 use std::marker::PhantomData;
-
-/// A node to split, and the other body's node with which its children are paired.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Split {
-    /// The body to which the split node belongs.
-    pub(crate) body: WhichBody,
-    pub(crate) node: NodeId,
-    pub(crate) other_node: NodeId,
-    /// The children to bound against the other node: bit `k` stands for child `k`.
-    pub(crate) lane_mask: u8,
-}
-
-impl Split {
-    /// Creates the split of a node in which all its children are bounded.
-    pub(crate) fn with_all_children(body: WhichBody, node: NodeId, other: NodeId) -> Self {
-        Split {
-            body,
-            node,
-            other_node: other,
-            lane_mask: u8::MAX,
-        }
-    }
-}
 
 /// Computes for how long each child of a node stays apart from the other node, from clock `s` on, by the kernel for
 /// what moves in the query.

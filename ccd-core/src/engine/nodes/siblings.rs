@@ -1,8 +1,8 @@
 //! The pairs that one split creates: they wait in the queue together, and are removed one by one.
 
 use super::bounds::EightPairFreeTimes;
-use super::expand::Split;
 use super::free_times::FreeTimes;
+use super::split::Split;
 use crate::body::tree::{LANES, NodeId};
 use crate::math::order::greater;
 use crate::problem::{BodyWithPath, Problem, WhichBody};

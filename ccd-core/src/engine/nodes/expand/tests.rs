@@ -1,8 +1,9 @@
 //! Checks the free times of all lanes against sampled distances of triangles in f64.
 
 use super::*;
+use crate::body::tree::NodeId;
 use crate::math::order::{greater, lesser};
-use crate::problem::Problem;
+use crate::problem::{Problem, WhichBody};
 use crate::tests::nearest::{Triangle, nearest_points};
 use crate::tests::scene::{Pcg64, RngExt, Scene, SceneKind, rng, scene};
 use crate::tuning::MIN_TURNING_PLANE_RADIUS_RATIO;
