@@ -142,14 +142,15 @@ impl<T> Queue<T> {
     /// Returns the slot of the next item, with the floor raised to its clock; [`END`] if no item waits.
     #[inline]
     fn next_slot(&mut self) -> u32 {
-        if self.pieces_at_floor != END {
-            return self.pieces_at_floor;
+        if self.slot_at_floor() == END {
+            self.raise_floor();
         }
-        let at_floor = self.buckets[0][digit_value(self.floor, 0)];
-        if at_floor != END {
-            return at_floor;
-        }
-        self.raise_floor();
+        self.slot_at_floor()
+    }
+
+    /// Returns the slot of the first item whose clock is the floor; [`END`] if there is none.
+    #[inline]
+    fn slot_at_floor(&self) -> u32 {
         if self.pieces_at_floor != END {
             self.pieces_at_floor
         } else {

@@ -4,85 +4,96 @@
 /// A kind of relative motion, as seen from the body whose node is split. What is known when the program is compiled
 /// takes no instruction.
 pub(crate) trait MotionKind: Copy {
-    /// Whether both bodies may turn.
-    const BOTH_MAY_TURN: bool;
+    /// Whether the body turns whose node is split.
+    const SPLIT_BODY: Turning;
+    /// Whether the other body turns.
+    const OTHER_BODY: Turning;
     /// Whether one centre may accelerate relative to the other.
-    const MAY_ACCELERATE: bool;
+    const MAY_ACCELERATE: bool = false;
     /// Whether the bodies stand still in their poses. Gaps then count as closing at one unit of length per unit of
     /// time, so that free times are distances.
-    const STANDS_STILL: bool;
-
-    /// Returns whether the body turns whose node is split, given that of the query's body.
-    fn does_split_body_turn(turns: bool) -> bool;
-
-    /// Returns whether the other body turns, given that of the query's body.
-    fn does_other_body_turn(turns: bool) -> bool;
+    const STANDS_STILL: bool = false;
 }
 
-/// Defines kinds of motion that are known when the program is compiled: of the split body and of the other one.
-macro_rules! known_motion_kinds {
-    ($($(#[$doc:meta])* $name:ident: $split:literal, $other:literal;)*) => {$(
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug)]
-        pub(crate) struct $name;
+/// What is known about the rotation of a body when the program is compiled.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Turning {
+    Never,
+    Always,
+    AsTheQuerySays,
+}
 
-        impl MotionKind for $name {
-            const BOTH_MAY_TURN: bool = $split && $other;
-            const MAY_ACCELERATE: bool = false;
-            const STANDS_STILL: bool = false;
-
-            #[inline(always)]
-            fn does_split_body_turn(_: bool) -> bool {
-                $split
-            }
-
-            #[inline(always)]
-            fn does_other_body_turn(_: bool) -> bool {
-                $other
-            }
+impl Turning {
+    /// Returns whether the body turns, given whether that of the query does.
+    #[inline(always)]
+    pub(crate) fn resolve(self, query_turns: bool) -> bool {
+        match self {
+            Turning::Never => false,
+            Turning::Always => true,
+            Turning::AsTheQuerySays => query_turns,
         }
-    )*};
+    }
+
+    /// Returns whether the body may turn.
+    #[inline(always)]
+    pub(crate) fn is_possible(self) -> bool {
+        self.resolve(true)
+    }
 }
 
-known_motion_kinds! {
-    /// Neither body turns.
-    Straight: false, false;
-    /// Only the body turns whose node is split.
-    SplitBodyTurns: true, false;
-    /// Only the other body turns.
-    OtherBodyTurns: false, true;
-    /// Both bodies turn.
-    BothTurn: true, true;
+/// Neither body turns.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Straight;
+
+impl MotionKind for Straight {
+    const SPLIT_BODY: Turning = Turning::Never;
+    const OTHER_BODY: Turning = Turning::Never;
 }
 
-/// Defines kinds of motion of which only that is known when the program is compiled whether the bodies stand still.
-macro_rules! open_motion_kinds {
-    ($($(#[$doc:meta])* $name:ident: $still:literal;)*) => {$(
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug)]
-        pub(crate) struct $name;
+/// Only the body turns whose node is split.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SplitBodyTurns;
 
-        impl MotionKind for $name {
-            const BOTH_MAY_TURN: bool = true;
-            const MAY_ACCELERATE: bool = true;
-            const STANDS_STILL: bool = $still;
-
-            #[inline(always)]
-            fn does_split_body_turn(turns: bool) -> bool {
-                turns
-            }
-
-            #[inline(always)]
-            fn does_other_body_turn(turns: bool) -> bool {
-                turns
-            }
-        }
-    )*};
+impl MotionKind for SplitBodyTurns {
+    const SPLIT_BODY: Turning = Turning::Always;
+    const OTHER_BODY: Turning = Turning::Never;
 }
 
-open_motion_kinds! {
-    /// Any motion, also with accelerations.
-    AnyMotion: false;
-    /// The bodies stand still in the poses of an instant of any motion.
-    StandStill: true;
+/// Only the other body turns.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OtherBodyTurns;
+
+impl MotionKind for OtherBodyTurns {
+    const SPLIT_BODY: Turning = Turning::Never;
+    const OTHER_BODY: Turning = Turning::Always;
+}
+
+/// Both bodies turn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BothTurn;
+
+impl MotionKind for BothTurn {
+    const SPLIT_BODY: Turning = Turning::Always;
+    const OTHER_BODY: Turning = Turning::Always;
+}
+
+/// Any motion, also with accelerations.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AnyMotion;
+
+impl MotionKind for AnyMotion {
+    const SPLIT_BODY: Turning = Turning::AsTheQuerySays;
+    const OTHER_BODY: Turning = Turning::AsTheQuerySays;
+    const MAY_ACCELERATE: bool = true;
+}
+
+/// The bodies stand still in the poses of an instant of any motion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StandStill;
+
+impl MotionKind for StandStill {
+    const SPLIT_BODY: Turning = Turning::AsTheQuerySays;
+    const OTHER_BODY: Turning = Turning::AsTheQuerySays;
+    const MAY_ACCELERATE: bool = true;
+    const STANDS_STILL: bool = true;
 }

@@ -110,7 +110,7 @@ impl RelativePath {
                 spin,
             } => {
                 // Without rotation, the sine and the cosine are those of 0.
-                let angle = if K::does_split_body_turn(true) || K::does_other_body_turn(true) {
+                let angle = if K::SPLIT_BODY.is_possible() || K::OTHER_BODY.is_possible() {
                     sin_cos(rotation.angular_speed * s)
                 } else {
                     (0.0, 1.0)
@@ -138,7 +138,7 @@ impl RelativePath {
                 offset_rate: change,
                 acceleration,
                 spin,
-            } if K::BOTH_MAY_TURN => {
+            } if K::SPLIT_BODY.is_possible() && K::OTHER_BODY.is_possible() => {
                 let inverse = inverse.matrix(level, sin_cos(inverse.angular_speed * s));
                 let other = other.matrix(level, sin_cos(other.angular_speed * s));
                 let acceleration = acceleration

@@ -11,7 +11,7 @@ use crate::schedule::BestFirst;
 use crate::settings::Settings;
 use crate::tests::nearest::Triangle;
 use crate::tests::oracle::ExhaustiveOracle;
-use crate::tests::scene::{SceneKind, body, distance, rng, scene};
+use crate::tests::scene::{SceneKind, body, distance, rng, scene, sheet};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -87,21 +87,6 @@ fn pose_at(place: [f64; 3]) -> Pose {
 
 fn motion_from(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> Motion {
     Motion::new(pose_at(place), velocity, spin).unwrap()
-}
-
-/// Returns the triangles of a grid surface with corners at `point(i, j)`, two for each square of the grid.
-fn sheet(rows: usize, columns: usize, point: impl Fn(f64, f64) -> [f64; 3]) -> Vec<Triangle> {
-    let point = |i: usize, j: usize| {
-        DVec3::from_array(point(i as f64 / rows as f64, j as f64 / columns as f64))
-    };
-    let squares = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));
-    squares
-        .flat_map(|(i, j)| {
-            let [a, b] = [point(i, j), point(i + 1, j)];
-            let [c, d] = [point(i + 1, j + 1), point(i, j + 1)];
-            [[a, b, c], [a, c, d]]
-        })
-        .collect()
 }
 
 fn plate(half: f64, squares: usize) -> Body {

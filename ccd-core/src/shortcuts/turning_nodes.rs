@@ -112,7 +112,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         let rate_slack =
             sweep.max_distance_from_centre * (RATE_ERROR_F32 * spin) + motion.rate_allowance;
         let free = clock::free_time(
-            axis.gap - motion.required_gap,
+            axis.across.gap - motion.required_gap,
             motion.closed_gap_threshold,
             sweep.approach_rate_bound + rate_slack,
             second_derivative * SECOND_DERIVATIVE_FACTOR_F32 + LEAST_SECOND_DERIVATIVE_F32,

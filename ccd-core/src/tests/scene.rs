@@ -256,6 +256,25 @@ pub(crate) fn distance(problem: &Problem<'_>, s: f64) -> f64 {
     pairs.fold(f64::INFINITY, lesser)
 }
 
+/// Returns the triangles of a grid surface with corners at `point(i, j)`, two for each square of the grid.
+pub(crate) fn sheet(
+    rows: usize,
+    columns: usize,
+    point: impl Fn(f64, f64) -> [f64; 3],
+) -> Vec<Triangle> {
+    let point = |i: usize, j: usize| {
+        DVec3::from_array(point(i as f64 / rows as f64, j as f64 / columns as f64))
+    };
+    let squares = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));
+    squares
+        .flat_map(|(i, j)| {
+            let [a, b] = [point(i, j), point(i + 1, j)];
+            let [c, d] = [point(i + 1, j + 1), point(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        })
+        .collect()
+}
+
 /// The kind of motion of two bodies while they are near each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SceneKind {
@@ -267,6 +286,17 @@ pub(crate) enum SceneKind {
     Sliding,
     /// A large body turns, and a small body is near it, at rest or in motion.
     NearRim,
+}
+
+impl SceneKind {
+    /// Returns one of the three kinds in which the bodies pass each other, in turn.
+    pub(crate) fn passing(number: usize) -> Self {
+        [
+            SceneKind::RandomMotion,
+            SceneKind::NearRim,
+            SceneKind::Sliding,
+        ][number % 3]
+    }
 }
 
 /// Draws a scene of two bodies with up to `most` triangles each, which come near each other.

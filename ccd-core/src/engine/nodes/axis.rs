@@ -5,16 +5,14 @@ use crate::math::simd::{LEAST_DIVISOR, Vec3x8, select_vectors, splat};
 use crate::tuning::LEAST_CLOSING_RATE;
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
-/// Unit axes of eight pairs, the gaps along them, and the extents of both nodes towards each other.
+/// Unit axes of eight pairs, and the gaps along them.
 #[derive(Clone, Copy)]
 pub(crate) struct AxesX8<L: Simd> {
     pub(crate) n: Vec3x8<L>,
-    pub(crate) gap: f32x8<L>,
-    pub(crate) child_extent: f32x8<L>,
-    pub(crate) other_extent: f32x8<L>,
+    pub(crate) across: GapAndExtents<L>,
 }
 
-/// Gaps between eight pairs, and the extents of both nodes across them.
+/// Gaps between eight pairs along their axes, and the extents of both nodes towards each other.
 #[derive(Clone, Copy)]
 pub(crate) struct GapAndExtents<L: Simd> {
     pub(crate) gap: f32x8<L>,
@@ -23,22 +21,39 @@ pub(crate) struct GapAndExtents<L: Simd> {
 }
 
 impl<L: Simd> GapAndExtents<L> {
+    /// Creates the gaps of nodes with these extents, whose centres are `offset` apart along their axes.
     #[inline(always)]
-    fn of(axis: &AxesX8<L>) -> Self {
+    fn new(offset: f32x8<L>, child_extent: f32x8<L>, other_extent: f32x8<L>) -> Self {
         GapAndExtents {
-            gap: axis.gap,
-            child_extent: axis.child_extent,
-            other_extent: axis.other_extent,
+            gap: offset - child_extent - other_extent,
+            child_extent,
+            other_extent,
+        }
+    }
+
+    /// Selects values of `self` where the mask is set, and values of `other` elsewhere.
+    #[inline(always)]
+    fn select(self, mask: mask32x8<L>, other: Self) -> Self {
+        GapAndExtents {
+            gap: mask.select(self.gap, other.gap),
+            child_extent: mask.select(self.child_extent, other.child_extent),
+            other_extent: mask.select(self.other_extent, other.other_extent),
         }
     }
 
     #[inline(always)]
     fn or_wider(self, other: Self) -> Self {
-        let pick = other.gap.simd_gt(self.gap);
-        GapAndExtents {
-            gap: pick.select(other.gap, self.gap),
-            child_extent: pick.select(other.child_extent, self.child_extent),
-            other_extent: pick.select(other.other_extent, self.other_extent),
+        other.select(other.gap.simd_gt(self.gap), self)
+    }
+}
+
+impl<L: Simd> AxesX8<L> {
+    /// Selects axes of `self` where the mask is set, and axes of `other` elsewhere.
+    #[inline(always)]
+    fn select(self, mask: mask32x8<L>, other: Self) -> Self {
+        AxesX8 {
+            n: select_vectors(mask, self.n, other.n),
+            across: self.across.select(mask, other.across),
         }
     }
 }
@@ -85,24 +100,23 @@ impl<L: Simd> ThreeAxesX8<L> {
     /// Returns for each pair the widest gap, and the extents of both nodes along its axis.
     #[inline(always)]
     pub(crate) fn widest_gap(&self) -> GapAndExtents<L> {
-        let own = GapAndExtents::of(&self.own);
         // The gap along the axis between the nodes is available last.
-        own.or_wider(GapAndExtents::of(&self.others))
-            .or_wider(GapAndExtents::of(&self.between))
+        let of_normals = self.own.across.or_wider(self.others.across);
+        of_normals.or_wider(self.between.across)
     }
 
     /// Returns for each pair the axis along which the gap takes longest to close to the required gap, if it closes at
     /// the rate of the centres' velocities.
     #[inline(always)]
     pub(crate) fn longest_closing_time(&self, velocity: Vec3x8<L>, required_gap: f32) -> AxesX8<L> {
-        let [own, others, between] = [&self.own, &self.others, &self.between];
-        let own_time = closing_time(own, velocity, required_gap);
-        let others_time = closing_time(others, velocity, required_gap);
-        let between_time = closing_time(between, velocity, required_gap);
+        let own_time = closing_time(&self.own, velocity, required_gap);
+        let others_time = closing_time(&self.others, velocity, required_gap);
+        let between_time = closing_time(&self.between, velocity, required_gap);
         let pick = others_time.simd_gt(own_time);
-        let normal = select_axes(pick, *others, *own);
+        let normal = self.others.select(pick, self.own);
         let normal_time = pick.select(others_time, own_time);
-        select_axes(between_time.simd_gt(normal_time), *between, normal)
+        self.between
+            .select(between_time.simd_gt(normal_time), normal)
     }
 }
 
@@ -110,7 +124,7 @@ impl<L: Simd> ThreeAxesX8<L> {
 /// wider one gets the longer time.
 #[inline(always)]
 fn closing_time<L: Simd>(axis: &AxesX8<L>, velocity: Vec3x8<L>, required_gap: f32) -> f32x8<L> {
-    (axis.gap - required_gap) / axis.n.dot(velocity).max(LEAST_CLOSING_RATE)
+    (axis.across.gap - required_gap) / axis.n.dot(velocity).max(LEAST_CLOSING_RATE)
 }
 
 /// Returns the axis between the centres at their time of nearest approach, for a straight relative displacement
@@ -138,25 +152,19 @@ pub(crate) fn unit_axes_and_gaps<L: Simd, C: Children, P: OtherNode>(
     offset: Vec3x8<L>,
     v: Vec3x8<L>,
 ) -> AxesX8<L> {
-    let axis = AxesX8::new(v, offset, children.extent_along(v), other.extent_along(v));
+    let across = GapAndExtents::new(
+        v.dot(offset),
+        children.extent_along(v),
+        other.extent_along(v),
+    );
     let unit = v.reciprocal_length();
     AxesX8 {
         n: v * unit,
-        gap: axis.gap * unit,
-        child_extent: axis.child_extent * unit,
-        other_extent: axis.other_extent * unit,
-    }
-}
-
-impl<L: Simd> AxesX8<L> {
-    #[inline(always)]
-    fn new(n: Vec3x8<L>, offset: Vec3x8<L>, split_reach: f32x8<L>, other_reach: f32x8<L>) -> Self {
-        AxesX8 {
-            n,
-            gap: n.dot(offset) - split_reach - other_reach,
-            child_extent: split_reach,
-            other_extent: other_reach,
-        }
+        across: GapAndExtents {
+            gap: across.gap * unit,
+            child_extent: across.child_extent * unit,
+            other_extent: across.other_extent * unit,
+        },
     }
 }
 
@@ -187,20 +195,7 @@ impl<L: Simd> OrientedAxes<L> {
     fn with_extents(self, child_extent: f32x8<L>, other_extent: f32x8<L>) -> AxesX8<L> {
         AxesX8 {
             n: self.n,
-            gap: self.offset_along_axis - child_extent - other_extent,
-            child_extent,
-            other_extent,
+            across: GapAndExtents::new(self.offset_along_axis, child_extent, other_extent),
         }
-    }
-}
-
-/// Selects axes of `a` where the mask is set, and axes of `b` elsewhere.
-#[inline(always)]
-fn select_axes<L: Simd>(mask: mask32x8<L>, a: AxesX8<L>, b: AxesX8<L>) -> AxesX8<L> {
-    AxesX8 {
-        n: select_vectors(mask, a.n, b.n),
-        gap: mask.select(a.gap, b.gap),
-        child_extent: mask.select(a.child_extent, b.child_extent),
-        other_extent: mask.select(a.other_extent, b.other_extent),
     }
 }

@@ -114,7 +114,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
                 self.other_rotational_speed_bound,
             );
         }
-        let apart = axis.gap - motion.required_gap;
+        let apart = axis.across.gap - motion.required_gap;
         if let Some(acceleration) = motion.acceleration {
             let along = axis.n.dot(Vec3x8::splat(axis.n.simd_level(), acceleration));
             let rounding = splat(axis.n.simd_level(), RATE_ERROR_F32 * acceleration.length());

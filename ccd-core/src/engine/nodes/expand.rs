@@ -229,7 +229,7 @@ impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
     #[inline(always)]
     fn split_body_rotation(&self) -> BodyRotation {
         let spin = self.motion.node_context.spin(self.motion.split.body);
-        if K::does_split_body_turn(spin.is_turning()) {
+        if K::SPLIT_BODY.resolve(spin.is_turning()) {
             BodyRotation {
                 is_turning: true,
                 spin: spin.angular_velocity,
@@ -245,7 +245,7 @@ impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
     fn other_rotation(&self) -> BodyRotation {
         let other = self.motion.split.body.other();
         let spin = self.motion.node_context.spin(other);
-        if K::does_other_body_turn(spin.is_turning()) {
+        if K::OTHER_BODY.resolve(spin.is_turning()) {
             BodyRotation {
                 is_turning: true,
                 spin: self.motion.relative_state.spin.as_vec3(),

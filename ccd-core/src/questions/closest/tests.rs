@@ -16,9 +16,8 @@ use crate::schedule::BestFirst;
 use crate::settings::Settings;
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
 use crate::tests::scene::{
-    RngExt, SceneKind, body, distance, random_direction, random_power_of_ten, rng, scene,
+    RngExt, SceneKind, body, distance, random_direction, random_power_of_ten, rng, scene, sheet,
 };
-use glam::DVec3;
 use std::f64::consts::TAU;
 
 const SCENE_KINDS: [SceneKind; 4] = [
@@ -286,28 +285,11 @@ fn bodies_at_rest_have_a_distance() {
 }
 
 /// Returns a sphere of triangles, open at its poles.
-fn open_sphere(radius: f64, rings: u32, sectors: u32) -> Body {
-    let point = |i: u32, j: u32| {
-        let (down, round) = (
-            f64::from(i) / f64::from(rings),
-            f64::from(j) / f64::from(sectors),
-        );
-        let ((s, c), (y, x)) = ((3.0 * down + 0.07).sin_cos(), (round * TAU).sin_cos());
-        radius * DVec3::new(s * x, s * y, c)
-    };
-    let quads = (0..rings).flat_map(|i| (0..sectors).map(move |j| (i, j)));
-    let triangles: Vec<_> = quads
-        .flat_map(|(i, j)| {
-            let [p, q, r, s] = [
-                point(i, j),
-                point(i + 1, j),
-                point(i + 1, j + 1),
-                point(i, j + 1),
-            ];
-            [[p, q, r], [p, r, s]]
-        })
-        .collect();
-    body(&triangles)
+fn open_sphere(radius: f64, rings: usize, sectors: usize) -> Body {
+    body(&sheet(rings, sectors, |u, v| {
+        let ((s, c), (y, x)) = ((3.0 * u + 0.07).sin_cos(), (v * TAU).sin_cos());
+        [radius * s * x, radius * s * y, radius * c]
+    }))
 }
 
 #[test]

@@ -222,7 +222,7 @@ fn values_along_axis<L: Simd, C: Children, P: OtherNode>(
         + pairs.other_node.extent_along(o);
     AxisValues {
         axis: [*axis.n.x, *axis.n.y, *axis.n.z],
-        gap: *axis.gap,
+        gap: *axis.across.gap,
         rate: *rate,
         cross_product_lengths: [*m.length(), *o.length()],
         free_times: [

@@ -9,16 +9,8 @@ fn times_are_proven_and_hardly_shorter_than_those_of_points_that_are_followed() 
     let mut rng = rng(31);
     let (mut all, mut found, mut close) = (0, 0, 0);
     for number in 0..30_000 {
-        let kind = [
-            SceneKind::RandomMotion,
-            SceneKind::NearRim,
-            SceneKind::Sliding,
-        ][number % 3];
-        let mut scene = scene(&mut rng, kind, 2);
-        if number % 4 == 0 {
-            let size = random_power_of_ten(&mut rng, -2.0, 1.0);
-            scene.accelerations = [0, 1].map(|_| random_direction(&mut rng) * size);
-        }
+        let kind = SceneKind::passing(number);
+        let scene = scene(&mut rng, kind, 2).with_occasional_accelerations(&mut rng);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.0..1.0);
         let snapshot = Snapshot::new(&problem, 0, 0, clock);

@@ -16,11 +16,7 @@ fn an_axis_separates_for_as_long_as_it_says() {
     let mut rng = rng(1);
     let (mut some, mut forever, mut used) = (0, 0, 0);
     for number in 0..20_000 {
-        let kind = [
-            SceneKind::RandomMotion,
-            SceneKind::NearRim,
-            SceneKind::Sliding,
-        ][number % 3];
+        let kind = SceneKind::passing(number);
         let scene = scene(&mut rng, kind, 2);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.0..1.0);
@@ -67,11 +63,7 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
     let mut rng = rng(2);
     let (mut some, mut forever) = (0, 0);
     for number in 0..20_000 {
-        let kind = [
-            SceneKind::RandomMotion,
-            SceneKind::NearRim,
-            SceneKind::Sliding,
-        ][number % 3];
+        let kind = SceneKind::passing(number);
         let scene = scene(&mut rng, kind, 2);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.9..1.0);

@@ -46,11 +46,7 @@ fn a_directed_time_is_the_gap_over_both_advances() {
     let mut rng = rng(7);
     let mut counts = [[0; 2]; 2];
     for number in 0..3_000 {
-        let kind = [
-            SceneKind::RandomMotion,
-            SceneKind::NearRim,
-            SceneKind::Sliding,
-        ][number % 3];
+        let kind = SceneKind::passing(number);
         let scene = scene(&mut rng, kind, 2);
         let problem = scene.problem();
         let snapshot = Snapshot::new(&problem, 0, 0, scene.clock * rng.random_range(0.0..1.0));

@@ -89,11 +89,7 @@ fn the_plane_of_the_longest_time_counts() {
     let mut rng = rng(5);
     let (mut turning, mut passes, mut at_once) = (0, 0, [0; 2]);
     for number in 0..6_000 {
-        let kind = [
-            SceneKind::RandomMotion,
-            SceneKind::NearRim,
-            SceneKind::Sliding,
-        ][number % 3];
+        let kind = SceneKind::passing(number);
         let scene = scene(&mut rng, kind, 2).with_occasional_accelerations(&mut rng);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.9..1.0);
@@ -209,11 +205,7 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
     let mut rng = rng(13);
     let mut counts = [0; 3];
     for number in 0..3_000 {
-        let kind = [
-            SceneKind::RandomMotion,
-            SceneKind::NearRim,
-            SceneKind::Sliding,
-        ][number % 3];
+        let kind = SceneKind::passing(number);
         let mut scene = scene(&mut rng, kind, 2);
         if number % 2 == 0 {
             let (start, velocity) = (scene.motions[0].start(), scene.motions[0].velocity());
