@@ -148,9 +148,12 @@ pub const GAP_ERROR_PER_DISTANCE_F32: f32 = 12.0 * UNIT_ROUNDOFF_F32;
 ///
 /// A box's half sizes are measured along axes rounded to f32, which are orthogonal to 2u (3.5u of
 /// its radius). Three products with three half sizes, each projected by three operations, add `√3
-/// (3 + 3)u`. The other node's axes are rotated by a matrix rounded once, with five operations,
-/// which adds `√3 · 7u`. Together with the vector to a child (6u) that is 20u of the split side,
-/// 28u of the other one; 32u are taken. Triangles need less.
+/// (3 + 3)u`. That is 14u. On the split side, the vector to a child adds 6u. The other node's axes are rotated by a
+/// matrix rounded once, with five operations, which adds `√3 · 7u`: 26u.
+///
+/// Normals count as unit vectors. The other node's normal is rounded once and rotated (8u), a triangle's is divided by
+/// its length (a square in three operations, root, quotient and product: 5u). Half sizes and radii are off by that
+/// share: 28u of the split side, 31u of the other one; 32u are taken. Triangles need less.
 pub const GAP_ERROR_PER_RADIUS_F32: f32 = 32.0 * UNIT_ROUNDOFF_F32;
 
 /// The error of a rate of approach computed in f32, relative to the largest speed of a point that the rate is computed

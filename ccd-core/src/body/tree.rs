@@ -18,6 +18,7 @@ pub(crate) use slab::Slab;
 pub(crate) use whole::BodyBox;
 
 use super::pieces::Pieces;
+use fearless_simd::Simd;
 use glam::DVec3;
 
 /// A bounding volume tree in the body's frame, with up to eight children per node. Node 0 is the root. Ids after those
@@ -88,11 +89,16 @@ impl Tree {
 
     /// Creates the group of triangles with this index, in the layout for vector instructions.
     #[inline(always)]
-    pub(crate) fn triangle_group(&self, index: u32, pieces: &Pieces) -> TriangleGroup {
+    pub(crate) fn triangle_group<L: Simd>(
+        &self,
+        level: L,
+        index: u32,
+        pieces: &Pieces,
+    ) -> TriangleGroup {
         let row = &self.triangle_groups[index as usize];
         let first = row.header.first_child as usize - self.nodes.len();
         let triangles = pieces.points_of(first..first + row.header.count as usize);
-        TriangleGroup::new(row, triangles.as_chunks().0)
+        TriangleGroup::new(level, row, triangles.as_chunks().0)
     }
 
     /// Returns the origin, the reach and the children's ids of a group of triangles.

@@ -140,11 +140,13 @@ impl<T> Queue<T> {
     }
 
     /// Returns the slot of the next item, with the floor raised to its clock; [`END`] if no item waits.
-    #[inline]
+    #[inline(always)]
     fn next_slot(&mut self) -> u32 {
-        if self.slot_at_floor() == END {
-            self.raise_floor();
+        let slot = self.slot_at_floor();
+        if slot != END {
+            return slot;
         }
+        self.raise_floor();
         self.slot_at_floor()
     }
 
@@ -159,11 +161,23 @@ impl<T> Queue<T> {
     }
 
     /// Raises the floor to the least clock: the items of the lowest bucket move to lower ones.
+    #[inline(never)]
     fn raise_floor(&mut self) {
         let Some((digit, value)) = self.lowest_bucket() else {
             return;
         };
         let newest = self.take_bucket(digit, value);
+        let link = self.links[newest as usize];
+        if link.next == END {
+            self.floor = link.clock_bits;
+            self.insert(newest, link.clock_bits, link.rank);
+        } else {
+            self.redistribute(newest);
+        }
+    }
+
+    /// Raises the floor to the least clock of a list that begins with the newest item, and adds its items.
+    fn redistribute(&mut self, newest: u32) {
         let (oldest, least) = self.reverse(newest);
         self.floor = least;
         self.insert_list(oldest);

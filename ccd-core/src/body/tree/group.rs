@@ -1,10 +1,12 @@
 //! The nodes of the wide tree, and groups of eight children in arrays by coordinate, for vector instructions.
 
 use crate::math::order::greater;
+use crate::math::simd::PackedVector;
 use crate::math::vector::{length, normal};
 use crate::rounding::{
     MAX_FLAT_NODE_THICKNESS_F32, RAY_BOX_WIDENING_F64, SQUARED_LENGTH_RANGE, UNIT_ROUNDOFF_F64,
 };
+use fearless_simd::Simd;
 use glam::{DVec3, Vec3};
 
 /// The number of children in a group.
@@ -136,16 +138,21 @@ impl StoredTriangleGroup {
 impl TriangleGroup {
     /// Creates the group in the layout for vector instructions, from its stored data and its triangles' corners.
     #[inline(always)]
-    pub(crate) fn new(row: &StoredTriangleGroup, triangles: &[[DVec3; 3]]) -> Self {
+    pub(crate) fn new<L: Simd>(
+        level: L,
+        row: &StoredTriangleGroup,
+        triangles: &[[DVec3; 3]],
+    ) -> Self {
         let mut group = TriangleGroup {
             corners: [[[0.0; LANES]; 3]; 3],
             radius: row.radius,
             header: row.header,
         };
-        let origin = row.header.origin;
+        let origin = PackedVector::new(level, row.header.origin);
         for (lane, triangle) in triangles.iter().enumerate() {
             for (rows, corner) in group.corners.iter_mut().zip(triangle) {
-                set_lane(rows, lane, (*corner - origin).as_vec3());
+                let way = PackedVector::new(level, *corner) - origin;
+                set_lane(rows, lane, way.as_vec3());
             }
         }
         group

@@ -6,11 +6,13 @@ use crate::body::polytope::Polytope;
 use crate::body::{Body, Solidity};
 use crate::math::order::greater;
 use crate::math::vector::length;
+use crate::settings::VectorInstructions;
 use crate::tests::nearest::Triangle;
 use crate::tests::scene::{
     Pcg64, RngExt, SoupKind, body, random_direction, random_point_in_ball, random_power_of_ten,
     random_triangle_soup, rng,
 };
+use crate::vectorize;
 use glam::{DVec3, Vec3};
 
 /// The relative tolerance of the checks, which covers the rounding of their own f64 arithmetic.
@@ -68,7 +70,8 @@ fn assert_subtree_bounds_pieces(
             }
         }
         NodeChildren::Triangles(group) => {
-            let group = &tree.triangle_group(group, pieces);
+            let level = VectorInstructions::Best.simd_level();
+            let group = &vectorize!(level, level => tree.triangle_group(level, group, pieces));
             for child in child_ids(&group.header) {
                 let lane = (child - group.header.first_child) as usize;
                 let inside = assert_subtree_bounds_pieces(tree, pieces, child, seen);

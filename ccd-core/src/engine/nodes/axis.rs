@@ -40,11 +40,6 @@ impl<L: Simd> GapAndExtents<L> {
             other_extent: mask.select(self.other_extent, other.other_extent),
         }
     }
-
-    #[inline(always)]
-    fn or_wider(self, other: Self) -> Self {
-        other.select(other.gap.simd_gt(self.gap), self)
-    }
 }
 
 impl<L: Simd> AxesX8<L> {
@@ -58,66 +53,41 @@ impl<L: Simd> AxesX8<L> {
     }
 }
 
-/// Three axes for each of eight pairs: the normals of the two nodes, and the vector between their centres or nearest
-/// edges.
-pub(crate) struct ThreeAxesX8<L: Simd> {
-    own: AxesX8<L>,
-    others: AxesX8<L>,
-    between: AxesX8<L>,
-}
-
-impl<L: Simd> ThreeAxesX8<L> {
-    /// Returns the axes, with the gaps along them.
-    ///
-    /// Each is homogeneous: a zero vector gives no gap, and any other length than 1 gives a sound one.
-    #[inline(always)]
-    pub(crate) fn new<C: Children, P: OtherNode>(
-        children: &C,
-        other: &P,
-        offset: Vec3x8<L>,
-    ) -> Self {
-        let level = offset.simd_level();
-        let between = children.offset_from_nearest_point(other.offset_to_nearest_point(offset));
-        let between = unit_axes_and_gaps(children, other, offset, between);
-        let own = OrientedAxes::new(children.likely_separating_axis(level), offset);
-        let own = own.with_extents(
-            children.extent_along_normal(own.n),
-            other.extent_along(own.n),
-        );
-        let others = Vec3x8::splat(level, other.likely_separating_axis());
-        let others = OrientedAxes::new(others, offset);
-        let others = others.with_extents(
-            children.extent_along(others.n),
-            other.extent_along_normal(others.n),
-        );
-        ThreeAxesX8 {
-            own,
-            others,
-            between,
-        }
-    }
-
-    /// Returns for each pair the widest gap, and the extents of both nodes along its axis.
-    #[inline(always)]
-    pub(crate) fn widest_gap(&self) -> GapAndExtents<L> {
-        // The gap along the axis between the nodes is available last.
-        let of_normals = self.own.across.or_wider(self.others.across);
-        of_normals.or_wider(self.between.across)
-    }
-
-    /// Returns for each pair the axis along which the gap takes longest to close to the required gap, if it closes at
-    /// the rate of the centres' velocities.
-    #[inline(always)]
-    pub(crate) fn longest_closing_time(&self, velocity: Vec3x8<L>, required_gap: f32) -> AxesX8<L> {
-        let own_time = closing_time(&self.own, velocity, required_gap);
-        let others_time = closing_time(&self.others, velocity, required_gap);
-        let between_time = closing_time(&self.between, velocity, required_gap);
-        let pick = others_time.simd_gt(own_time);
-        let normal = self.others.select(pick, self.own);
-        let normal_time = pick.select(others_time, own_time);
-        self.between
-            .select(between_time.simd_gt(normal_time), normal)
-    }
+/// Returns for each of eight pairs the axis along which the gap takes longest to close to the required gap, if it closes
+/// at the rate of the centres' velocities. There are three: the normals of the two nodes, and the vector between their
+/// centres or nearest edges.
+///
+/// Each is homogeneous: a zero vector gives no gap, and any other length than 1 gives a sound one.
+#[inline(always)]
+pub(crate) fn slowest_closing_axis<L: Simd, C: Children, P: OtherNode>(
+    children: &C,
+    other: &P,
+    offset: Vec3x8<L>,
+    velocity: Vec3x8<L>,
+    required_gap: f32,
+) -> AxesX8<L> {
+    let level = offset.simd_level();
+    // Each axis is compared before the next one is computed, so that few values wait in registers.
+    let own = OrientedAxes::new(children.likely_separating_axis(level), offset);
+    let own = own.with_extents(
+        children.extent_along_normal(own.n),
+        other.extent_along_unit(own.n),
+    );
+    let own_time = closing_time(&own, velocity, required_gap);
+    let others = Vec3x8::splat(level, other.likely_separating_axis());
+    let others = OrientedAxes::new(others, offset);
+    let others = others.with_extents(
+        children.extent_along_unit(others.n),
+        other.extent_along_normal(others.n),
+    );
+    let others_time = closing_time(&others, velocity, required_gap);
+    let pick = others_time.simd_gt(own_time);
+    let (slower, slower_time) = (others.select(pick, own), pick.select(others_time, own_time));
+    let between = other.offset_to_nearest_point(offset, children.max_distance_from_origin());
+    let between = children.offset_from_nearest_point(between, other.radius());
+    let between = unit_axes_and_gaps(children, other, offset, between);
+    let between_time = closing_time(&between, velocity, required_gap);
+    between.select(between_time.simd_gt(slower_time), slower)
 }
 
 /// Returns the times in which the gaps along axes close at the rate of the centres' velocities. Of gaps that open, the
@@ -127,18 +97,18 @@ fn closing_time<L: Simd>(axis: &AxesX8<L>, velocity: Vec3x8<L>, required_gap: f3
     (axis.across.gap - required_gap) / axis.n.dot(velocity).max(LEAST_CLOSING_RATE)
 }
 
-/// Returns the axis between the centres at their time of nearest approach, for a straight relative displacement
-/// `travel`.
+/// Returns the axis between the centres at their time of nearest approach within `remaining_time`, for straight paths.
 #[inline(always)]
 pub(crate) fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
     offset: Vec3x8<L>,
-    travel: Vec3x8<L>,
+    velocity: Vec3x8<L>,
+    remaining_time: f32,
 ) -> AxesX8<L> {
-    let nearest = offset.dot(travel) / travel.dot(travel).max(LEAST_DIVISOR);
-    let nearest = nearest.min(1.0).max(0.0);
-    unit_axes_and_gaps(children, other, offset, offset - travel * nearest)
+    let nearest = offset.dot(velocity) / velocity.dot(velocity).max(LEAST_DIVISOR);
+    let nearest = nearest.min(remaining_time).max(0.0);
+    unit_axes_and_gaps(children, other, offset, offset - velocity * nearest)
 }
 
 /// Returns the axes along given vectors of any length, with the gaps along them.

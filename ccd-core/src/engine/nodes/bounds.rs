@@ -3,7 +3,7 @@
 //! All vectors here are relative to the origin of the split group, in its body's frame, in f32, with one lane per
 //! child. The slacks of [`RelativeMotionF32`] cover the rounding of every gap and rate.
 
-use super::axis::{AxesX8, ThreeAxesX8, closest_approach_axis};
+use super::axis::{AxesX8, closest_approach_axis, slowest_closing_axis};
 use super::eight_pairs::{EightPairs, LargerBody, RelativeMotionF32};
 use super::free_times::FreeTimes;
 use super::shape::{Children, OtherNode};
@@ -39,23 +39,32 @@ pub(crate) fn bound_eight_pairs<L: Simd, C: Children, P: OtherNode>(
     lanes: u8,
 ) -> EightPairFreeTimes {
     let pairs = EightPairs::new(level, children, other, motion);
-    let axes = ThreeAxesX8::new(children, other, pairs.offset);
-    let widest = axes.widest_gap();
-    let slowest = axes.longest_closing_time(pairs.velocity, motion.required_gap);
-    let travel = pairs.velocity * splat(level, motion.remaining_time);
-    let passing = closest_approach_axis(children, other, pairs.offset, travel);
+    let passing = closest_approach_axis(
+        children,
+        other,
+        pairs.offset,
+        pairs.velocity,
+        motion.remaining_time,
+    );
+    let passing_time = pairs.fixed_plane_free_times(passing);
+    let slowest = slowest_closing_axis(
+        children,
+        other,
+        pairs.offset,
+        pairs.velocity,
+        motion.required_gap,
+    );
     let radius = children.radius(level);
-    let revisit =
-        widest.gap - motion.required_gap - (radius + other.radius()) * MIN_REVISIT_DISTANCE_RATIO;
-    let split_child = (widest.child_extent + radius * ADDED_THICKNESS_PER_RADIUS)
-        - (widest.other_extent + ADDED_THICKNESS_PER_RADIUS * other.radius());
-    let mut free = pairs
-        .fixed_plane_free_times(slowest)
-        .max(pairs.fixed_plane_free_times(passing));
+    let revisit = slowest.across.gap
+        - motion.required_gap
+        - (radius + other.radius()) * MIN_REVISIT_DISTANCE_RATIO;
+    let split_child = (slowest.across.child_extent + radius * ADDED_THICKNESS_PER_RADIUS)
+        - (slowest.across.other_extent + ADDED_THICKNESS_PER_RADIUS * other.radius());
+    let mut free = pairs.fixed_plane_free_times(slowest).max(passing_time);
     let mut revisit = mask_bits(revisit.simd_gt(0.0));
     if let Some(past) = FlybyPairs::new(&pairs, slowest) {
         free = free.max(past.turning_plane_time);
-        revisit |= mask_bits(past.revisit_mask(free, widest.gap - motion.required_gap));
+        revisit |= mask_bits(past.revisit_mask(free, slowest.across.gap - motion.required_gap));
     }
     let split_child = if other.is_piece() {
         u8::MAX

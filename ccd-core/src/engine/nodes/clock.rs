@@ -14,9 +14,11 @@ pub(crate) fn free_time<L: Simd>(
     second_derivative: f32x8<L>,
 ) -> f32x8<L> {
     let root = (rate * rate + second_derivative * 2.0 * apart).sqrt();
-    let approaching = apart * (2.0 * FREE_TIME_FACTOR_F32) / (rate + root);
-    let receding = (root - rate) / (second_derivative * (1.0 / FREE_TIME_FACTOR_F32));
-    let tau = rate.simd_gt(0.0).select(approaching, receding);
+    // Two forms of the same solution, of which each cancels where the other one does not.
+    let approaches = rate.simd_gt(0.0);
+    let numerator = approaches.select(apart * 2.0, root - rate);
+    let divisor = approaches.select(rate + root, second_derivative);
+    let tau = numerator * FREE_TIME_FACTOR_F32 / divisor;
     // An overflowed root proves nothing.
     let proven = apart.simd_gt(closed) & tau.simd_gt(0.0) & root.simd_le(f32::MAX);
     proven.select(tau, splat(apart.token(), 0.0))

@@ -81,7 +81,7 @@ fn bound_children_at_level<L: Simd, K: MotionKind>(
             (motion.bound_group(group, members), members.first_child)
         }
         NodeChildren::Triangles(group) => {
-            let group = &tree.triangle_group(group, body.pieces());
+            let group = &tree.triangle_group(level, group, body.pieces());
             let members = &group.header;
             (motion.bound_group(group, members), members.first_child)
         }
@@ -214,15 +214,16 @@ impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
             self.to_group_point(b),
             self.to_group_point(c),
         );
-        let (a, b, c) = (a.to_dvec3(), b.to_dvec3(), c.to_dvec3());
-        let centre = (a + b + c) / 3.0;
+        let centre = (a + b + c) * (1.0 / 3.0);
         let (p, q, r) = (a - centre, b - centre, c - centre);
-        let farthest = greater(p.length_squared(), q.length_squared());
+        let corners = [p.to_dvec3(), q.to_dvec3(), r.to_dvec3()];
+        let [from_p, from_q, from_r] = corners.map(DVec3::length_squared);
+        let farthest = greater(greater(from_p, from_q), from_r);
         OtherTriangle {
             centre: centre.as_vec3(),
             corners: [p.as_vec3(), q.as_vec3(), r.as_vec3()],
-            normal: unit_normal([a, b, c]),
-            radius: round_up_to_f32(greater(farthest, r.length_squared()).sqrt()).next_up(),
+            normal: unit_normal(corners),
+            radius: round_up_to_f32(farthest.sqrt()).next_up(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::body::tree::{BoxGroup, TriangleGroup};
 use crate::math::simd::{LEAST_DIVISOR, Vec3x8, load, select_vectors, splat};
+use crate::tuning::MIN_LARGE_TRIANGLE_RATIO;
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use glam::Vec3;
 
@@ -14,14 +15,22 @@ pub(crate) trait Children {
     fn radius<L: Simd>(&self, level: L) -> f32x8<L>;
     /// Returns `max n·(x − centre)` over each child's points `x`.
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
+    /// Like `Children::extent_along`, for unit vectors, or zero.
+    #[inline(always)]
+    fn extent_along_unit<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        self.extent_along(n)
+    }
     /// Like `Children::extent_along`, for axes that are the children's normals or their negatives.
     #[inline(always)]
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         self.extent_along(n)
     }
     /// Returns the vectors from each child's nearest point to a target point, as likely separating axes; `to` leads
-    /// from the children's centres to the target.
-    fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L>;
+    /// from the children's centres to the target. Children that are not much larger than `target_radius` may take
+    /// their centres for the nearest points.
+    fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>, target_radius: f32) -> Vec3x8<L>;
+    /// Returns an upper bound of the distances of the children's points from the group's origin.
+    fn max_distance_from_origin(&self) -> f32;
     /// Returns which children are single pieces, and cannot be split.
     fn leaf_children_mask<L: Simd>(&self, level: L) -> mask32x8<L>;
 }
@@ -35,32 +44,53 @@ pub(crate) trait OtherNode {
     fn radius(&self) -> f32;
     /// Returns `max n·(centre − y)` over the node's points `y`: the node's extent along −n.
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
+    /// Like `OtherNode::extent_along`, for unit vectors, or zero.
+    #[inline(always)]
+    fn extent_along_unit<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        self.extent_along(n)
+    }
     /// Like `OtherNode::extent_along`, for axes that are the node's normal or its negative.
     #[inline(always)]
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         self.extent_along(n)
     }
     /// Returns the vectors from given points to the node's nearest points, as likely separating axes; `offset` leads
-    /// from the given points to the node's centre.
-    fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L>;
+    /// from the given points to the node's centre. A node that is not much larger than `source_radius` may take its
+    /// centre for the nearest point.
+    fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>, source_radius: f32) -> Vec3x8<L>;
     /// Returns whether the node is a single piece, and cannot be split.
     fn is_piece(&self) -> bool;
 }
 
-/// Returns the lesser of the extents of a grown box and of a ball along n: `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`. The box
-/// has half extents hₖ along uₖ, and is grown by r.
-#[inline(always)]
-fn lesser_extent_of_box_and_ball<L: Simd>(
-    n: Vec3x8<L>,
+/// A box that is grown by a radius, and a ball with the same centre around it.
+struct GrownBox<L: Simd> {
     axes: [Vec3x8<L>; 3],
-    half: [f32x8<L>; 3],
-    [rounding, radius]: [f32x8<L>; 2],
-) -> f32x8<L> {
-    let x = half[0] * n.dot(axes[0]).abs();
-    let xy = half[1] * n.dot(axes[1]).abs() + x;
-    let boxed = half[2] * n.dot(axes[2]).abs() + xy;
-    let length = n.length();
-    (rounding * length + boxed).min(radius * length)
+    half_extents: [f32x8<L>; 3],
+    rounding_radius: f32x8<L>,
+    radius: f32x8<L>,
+}
+
+impl<L: Simd> GrownBox<L> {
+    /// Returns the lesser of the extents of the box and of the ball along n: `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`.
+    #[inline(always)]
+    fn extent_along(&self, n: Vec3x8<L>) -> f32x8<L> {
+        let length = n.length();
+        (self.rounding_radius * length + self.ungrown_extent_along(n)).min(self.radius * length)
+    }
+
+    /// Like `extent_along`, for unit vectors, or zero.
+    #[inline(always)]
+    fn extent_along_unit(&self, n: Vec3x8<L>) -> f32x8<L> {
+        (self.rounding_radius + self.ungrown_extent_along(n)).min(self.radius)
+    }
+
+    /// Returns the extent of the box before it is grown.
+    #[inline(always)]
+    fn ungrown_extent_along(&self, n: Vec3x8<L>) -> f32x8<L> {
+        let ([u, v, w], [x, y, z]) = (self.axes, self.half_extents);
+        let xy = y * n.dot(v).abs() + x * n.dot(u).abs();
+        z * n.dot(w).abs() + xy
+    }
 }
 
 impl Children for BoxGroup {
@@ -77,24 +107,20 @@ impl Children for BoxGroup {
         load(level, &self.radius)
     }
     #[inline(always)]
-    fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>, _: f32) -> Vec3x8<L> {
         to
     }
     #[inline(always)]
+    fn max_distance_from_origin(&self) -> f32 {
+        self.header.max_distance_from_origin
+    }
+    #[inline(always)]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
-        let level = n.simd_level();
-        let ([u, v, w], [x, y, z]) = (&self.axes, &self.half_extents);
-        let axes = [
-            Vec3x8::load(level, u),
-            Vec3x8::load(level, v),
-            Vec3x8::load(level, w),
-        ];
-        let half = [load(level, x), load(level, y), load(level, z)];
-        let grown = [
-            load(level, &self.rounding_radius),
-            load(level, &self.radius),
-        ];
-        lesser_extent_of_box_and_ball(n, axes, half, grown)
+        self.boxes(n.simd_level()).extent_along(n)
+    }
+    #[inline(always)]
+    fn extent_along_unit<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        self.boxes(n.simd_level()).extent_along_unit(n)
     }
     #[inline(always)]
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -104,6 +130,23 @@ impl Children for BoxGroup {
     #[inline(always)]
     fn leaf_children_mask<L: Simd>(&self, level: L) -> mask32x8<L> {
         mask32x8::from_bitmask(level, self.leaf_mask.into())
+    }
+}
+
+impl BoxGroup {
+    #[inline(always)]
+    fn boxes<L: Simd>(&self, level: L) -> GrownBox<L> {
+        let ([u, v, w], [x, y, z]) = (&self.axes, &self.half_extents);
+        GrownBox {
+            axes: [
+                Vec3x8::load(level, u),
+                Vec3x8::load(level, v),
+                Vec3x8::load(level, w),
+            ],
+            half_extents: [load(level, x), load(level, y), load(level, z)],
+            rounding_radius: load(level, &self.rounding_radius),
+            radius: load(level, &self.radius),
+        }
     }
 }
 
@@ -125,10 +168,16 @@ impl Children for TriangleGroup {
         load(level, &self.radius)
     }
     #[inline(always)]
-    fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>, target_radius: f32) -> Vec3x8<L> {
+        if self.header.max_distance_from_origin <= MIN_LARGE_TRIANGLE_RATIO * target_radius {
+            return to;
+        }
         let level = to.simd_level();
-        let to = self.centre(level) + to;
-        to - nearest_on_edges(self.triangle_corners(level), to)
+        offset_from_edges(self.triangle_corners(level), self.centre(level) + to)
+    }
+    #[inline(always)]
+    fn max_distance_from_origin(&self) -> f32 {
+        self.header.max_distance_from_origin
     }
     #[inline(always)]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -181,7 +230,7 @@ impl OtherNode for OtherBox {
         self.radius
     }
     #[inline(always)]
-    fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>, _: f32) -> Vec3x8<L> {
         let [u, v, w] = splat_vectors(offset.simd_level(), self.axes);
         let x = offset
             .dot(u)
@@ -199,14 +248,11 @@ impl OtherNode for OtherBox {
     }
     #[inline(always)]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
-        let level = n.simd_level();
-        let [x, y, z] = self.half_extents;
-        let half = [splat(level, x), splat(level, y), splat(level, z)];
-        let grown = [
-            splat(level, self.rounding_radius),
-            splat(level, self.radius),
-        ];
-        lesser_extent_of_box_and_ball(n, splat_vectors(level, self.axes), half, grown)
+        self.splat(n.simd_level()).extent_along(n)
+    }
+    #[inline(always)]
+    fn extent_along_unit<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
+        self.splat(n.simd_level()).extent_along_unit(n)
     }
     #[inline(always)]
     fn extent_along_normal<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -215,6 +261,19 @@ impl OtherNode for OtherBox {
     #[inline(always)]
     fn is_piece(&self) -> bool {
         self.is_piece
+    }
+}
+
+impl OtherBox {
+    /// Copies the box to all lanes.
+    #[inline(always)]
+    fn splat<L: Simd>(&self, level: L) -> GrownBox<L> {
+        GrownBox {
+            axes: splat_vectors(level, self.axes),
+            half_extents: self.half_extents.map(|half| splat(level, half)),
+            rounding_radius: splat(level, self.rounding_radius),
+            radius: splat(level, self.radius),
+        }
     }
 }
 
@@ -241,10 +300,13 @@ impl OtherNode for OtherTriangle {
         self.radius
     }
     #[inline(always)]
-    fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>) -> Vec3x8<L> {
+    fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>, source_radius: f32) -> Vec3x8<L> {
+        if self.radius <= MIN_LARGE_TRIANGLE_RATIO * source_radius {
+            return offset;
+        }
         let level = offset.simd_level();
-        let from = Vec3x8::splat(level, Vec3::ZERO) - offset;
-        offset + nearest_on_edges(splat_vectors(level, self.corners), from)
+        let zero = Vec3x8::splat(level, Vec3::ZERO);
+        zero - offset_from_edges(splat_vectors(level, self.corners), zero - offset)
     }
     #[inline(always)]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
@@ -266,30 +328,25 @@ fn splat_vectors<L: Simd>(level: L, [a, b, c]: [Vec3; 3]) -> [Vec3x8<L>; 3] {
     ]
 }
 
-/// Returns the points on triangles' edges that are nearest to `to`. If an interior point is nearer, the triangle's
-/// normal is the better axis anyway.
+/// Returns the vectors to `to` from the nearest points of triangles' edges. If an interior point is nearer, the
+/// triangle's normal is the better axis anyway.
 #[inline(always)]
-fn nearest_on_edges<L: Simd>([a, b, c]: [Vec3x8<L>; 3], to: Vec3x8<L>) -> Vec3x8<L> {
-    let (p, q, r) = (
-        nearest_on_segment(a, b, to),
-        nearest_on_segment(b, c, to),
-        nearest_on_segment(c, a, to),
-    );
-    let first = nearer_points(p, q, to);
-    nearer_points(first, r, to)
+fn offset_from_edges<L: Simd>([a, b, c]: [Vec3x8<L>; 3], to: Vec3x8<L>) -> Vec3x8<L> {
+    let (a, b, c) = (to - a, to - b, to - c);
+    let first = shorter_vectors(offset_from_edge(a, b), offset_from_edge(b, c));
+    shorter_vectors(first, offset_from_edge(c, a))
 }
 
-/// Returns the point nearest to `to` on the segment from `a` to `b`, for each of eight lanes.
+/// Returns the vector to a point from the nearest point of an edge, for each of eight lanes; `from_p` and `from_q` lead
+/// to the point from the ends of the edge.
 #[inline(always)]
-fn nearest_on_segment<L: Simd>(a: Vec3x8<L>, b: Vec3x8<L>, to: Vec3x8<L>) -> Vec3x8<L> {
-    let edge = b - a;
-    let t = (to - a).dot(edge) / edge.dot(edge).max(LEAST_DIVISOR);
-    a + edge * t.min(1.0).max(0.0)
+fn offset_from_edge<L: Simd>(from_p: Vec3x8<L>, from_q: Vec3x8<L>) -> Vec3x8<L> {
+    let edge = from_p - from_q;
+    let t = from_p.dot(edge) / edge.dot(edge).max(LEAST_DIVISOR);
+    from_p - edge * t.min(1.0).max(0.0)
 }
 
 #[inline(always)]
-fn nearer_points<L: Simd>(p: Vec3x8<L>, q: Vec3x8<L>, to: Vec3x8<L>) -> Vec3x8<L> {
-    let (from_p, from_q) = (p - to, q - to);
-    let pick = from_p.dot(from_p).simd_lt(from_q.dot(from_q));
-    select_vectors(pick, p, q)
+fn shorter_vectors<L: Simd>(v: Vec3x8<L>, w: Vec3x8<L>) -> Vec3x8<L> {
+    select_vectors(v.dot(v).simd_lt(w.dot(w)), v, w)
 }

@@ -195,16 +195,26 @@ type Pairs<'a, L, C, P> = EightPairs<'a, L, C, P>;
 fn slowest_closing_axis<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
 ) -> AxesX8<L> {
-    let axes = axis::ThreeAxesX8::new(pairs.children, pairs.other_node, pairs.offset);
-    axes.longest_closing_time(pairs.velocity, pairs.motion.required_gap)
+    axis::slowest_closing_axis(
+        pairs.children,
+        pairs.other_node,
+        pairs.offset,
+        pairs.velocity,
+        pairs.motion.required_gap,
+    )
 }
 
 #[inline(never)]
 fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
     pairs: &Pairs<'_, L, C, P>,
 ) -> AxesX8<L> {
-    let travel = pairs.velocity * splat(pairs.offset.simd_level(), pairs.motion.remaining_time);
-    axis::closest_approach_axis(pairs.children, pairs.other_node, pairs.offset, travel)
+    axis::closest_approach_axis(
+        pairs.children,
+        pairs.other_node,
+        pairs.offset,
+        pairs.velocity,
+        pairs.motion.remaining_time,
+    )
 }
 
 #[inline(never)]

@@ -396,7 +396,7 @@ fn expand_with_fixed_planes(
             }
             NodeChildren::Triangles(group) => {
                 let pieces = split.body_in_problem(problem).body.pieces();
-                let group = &tree.triangle_group(group, pieces);
+                let group = &tree.triangle_group(level, group, pieces);
                 bound_with_fixed_planes(&motion, group, &group.header)
             }
             NodeChildren::Piece(_) => panic!("a node to split"),

@@ -13,9 +13,11 @@ use crate::rounding::{
     ARM_INCREASE_PER_DISTANCE, GAP_ERROR_PER_DISTANCE_F32, GAP_ERROR_PER_RADIUS_F32, LEAST_GAP_F32,
     RATE_ERROR_F32,
 };
+use crate::settings::VectorInstructions;
 use crate::tests::scene::{
     RngExt, random_direction, random_point_in_ball, random_power_of_ten, random_rotation,
 };
+use crate::vectorize;
 use glam::{DMat3, DVec3, Vec3};
 
 fn spin(rng: &mut impl RngExt) -> DVec3 {
@@ -226,8 +228,9 @@ impl PairConfiguration {
             .iter()
             .map(|s| [s.points[0], s.points[1], s.points[6]])
             .collect();
+        let level = VectorInstructions::Best.simd_level();
         let row = StoredTriangleGroup::new(&corners, 0, self.origin);
-        let group = TriangleGroup::new(&row, &corners);
+        let group = vectorize!(level, level => TriangleGroup::new(level, &row, &corners));
         let children = corners.iter().map(|t| self.child(t)).collect();
         let far = self.other_solid(other);
         let [a, b, c] = [far.points[0], far.points[1], far.points[2]];

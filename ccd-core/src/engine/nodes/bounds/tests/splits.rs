@@ -1,11 +1,10 @@
 //! Tests which pairs the bounds choose to visit again, and which nodes to split, against choices computed in f64.
 
 use super::setting::{PairConfiguration, Shape};
-use super::{EightPairSample, values_along_three_axes};
+use super::{EightPairSample, slowest_closing_axis, values_along_three_axes};
 use crate::body::tree::LANES;
-use crate::engine::nodes::axis::{GapAndExtents, ThreeAxesX8};
 use crate::engine::nodes::bounds::{EightPairFreeTimes, bound_eight_pairs};
-use crate::engine::nodes::eight_pairs::{EightPairs, LargerBody};
+use crate::engine::nodes::eight_pairs::LargerBody;
 use crate::engine::nodes::shape::{Children, OtherNode};
 use crate::math::order::greater;
 use crate::settings::VectorInstructions;
@@ -46,26 +45,19 @@ fn bounds<L: Simd, C: Children, P: OtherNode>(
     )
 }
 
-#[inline(never)]
-fn widest_gap<L: Simd, C: Children, P: OtherNode>(
-    pairs: &EightPairs<'_, L, C, P>,
-) -> GapAndExtents<L> {
-    ThreeAxesX8::new(pairs.children, pairs.other_node, pairs.offset).widest_gap()
-}
-
 impl<C: Children, P: OtherNode> EightPairSample<C, P> {
     fn split_choice_inputs(&self) -> SplitChoiceInputs {
         let level = VectorInstructions::Best.simd_level();
         let [along, passing, _] =
             vectorize!(level, level => values_along_three_axes(level, self, Vec3::X));
         vectorize!(level, level => {
-            let widest = widest_gap(&self.pairs(level));
+            let across = slowest_closing_axis(&self.pairs(level)).across;
             SplitChoiceInputs {
                 radius: *self.group.radius(level),
                 arm_lengths: *self.motion.other_rotation.distances_from_centre(self.group.centre(level)),
-                child_extent: *widest.child_extent,
-                other_extent: *widest.other_extent,
-                gap: *widest.gap,
+                child_extent: *across.child_extent,
+                other_extent: *across.other_extent,
+                gap: *across.gap,
                 free_times: [along.free_times[0], passing.free_times[0], along.free_times[1], along.free_times[2]],
                 piece_mask: self.group.leaf_children_mask(level).to_bitmask() as u8,
                 computed_bounds: bounds(level, self),
