@@ -17,26 +17,31 @@ use glam::DVec3;
 /// their approach.
 pub(crate) fn free_time(problem: &Problem<'_>, [a, b]: [NodeId; 2], s: f64) -> f64 {
     let sides = [(&problem.a, a), (&problem.b, b)];
-    if !sides.iter().all(|(side, id)| may_be_flat(side, *id)) {
+    let [Some(radius_a), Some(radius_b)] = sides.map(|(side, id)| radius_if_flat(side, id)) else {
+        return 0.0;
+    };
+    let rounding = f64::from(GAP_ERROR_PER_RADIUS_F32) * (radius_a + radius_b);
+    if !(rounding > F64_FALLBACK_THRESHOLD * problem.kept_node_gap()) {
         return 0.0;
     }
     let [Some(a), Some(b)] = sides.map(|(side, id)| PlacedFlatNode::new(side, id, s)) else {
         return 0.0;
     };
-    let rounding =
-        f64::from(GAP_ERROR_PER_RADIUS_F32) * (a.node.bounding_radius + b.node.bounding_radius);
-    if !(rounding > F64_FALLBACK_THRESHOLD * problem.kept_node_gap()) {
-        return 0.0;
-    }
     let along = |n: DVec3| free_time_along(problem, &a, &b, n, s);
     greater(along(a.normal), along(b.normal))
 }
 
-/// Returns whether a node is a single triangle, or its box is thin enough for all its triangles to lie in one plane.
-fn may_be_flat(side: &BodyWithPath<'_>, id: NodeId) -> bool {
+/// Returns the radius of a single triangle, or of a node whose box is thin enough for all its triangles to lie in one
+/// plane; `None` for other nodes.
+fn radius_if_flat(side: &BodyWithPath<'_>, id: NodeId) -> Option<f64> {
     match side.body.tree().get(id) {
-        NodeOrTriangle::Node(node) => node.is_thin(),
-        NodeOrTriangle::Triangle(_) => true,
+        NodeOrTriangle::Node(node) => node.is_thin().then_some(f64::from(node.radius)),
+        NodeOrTriangle::Triangle(piece) => {
+            let corners = side.body.pieces().triangle(piece as usize);
+            let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+            let squares = corners.map(|corner| corner.distance_squared(centre));
+            Some(squares.into_iter().fold(0.0, greater).sqrt())
+        }
     }
 }
 
