@@ -114,6 +114,10 @@ pub const ADDED_THICKNESS_PER_RADIUS: f32 = 0.5;
 /// would take three times as many for a figure on a board of 12 triangles.
 pub const MIN_LARGE_TRIANGLE_RATIO: f32 = 4.0;
 
+/// The least height of a triangle that is not thin, in units of its longest edge. The centres of two slivers say nothing
+/// about the way between them.
+pub const MIN_HEIGHT_OF_FULL_TRIANGLE: f64 = 0.25;
+
 /// The longest time for which a separating plane that turns with a body is used, as a share of the duration. The bounds
 /// along the plane have to cover the motion of the bodies in that time.
 pub const MAX_TURNING_PLANE_TIME: f32 = 1.0 / 16.0;

@@ -12,7 +12,7 @@ mod whole;
 pub(crate) use build::TreeLayout;
 pub(crate) use group::{
     BoxGroup, GroupHeader, LANES, Node, NodeChildren, StoredTriangleGroup, TriangleGroup,
-    round_up_to_f32, unit_normal,
+    is_thin_triangle, round_up_to_f32, unit_normal,
 };
 pub(crate) use slab::Slab;
 pub(crate) use whole::BodyBox;

@@ -6,6 +6,7 @@ use crate::math::vector::{length, normal};
 use crate::rounding::{
     MAX_FLAT_NODE_THICKNESS_F32, RAY_BOX_WIDENING_F64, SQUARED_LENGTH_RANGE, UNIT_ROUNDOFF_F64,
 };
+use crate::tuning::MIN_HEIGHT_OF_FULL_TRIANGLE;
 use fearless_simd::Simd;
 use glam::{DVec3, Vec3};
 
@@ -36,6 +37,7 @@ pub(crate) struct StoredTriangleGroup {
     pub(crate) header: GroupHeader,
     /// The radius of each triangle's ball, as in [`TriangleGroup`].
     radius: [f32; LANES],
+    has_thin_triangles: bool,
 }
 
 /// The corners of up to eight triangles, relative to an origin, in arrays by coordinate for vector instructions. The
@@ -50,6 +52,8 @@ pub(crate) struct TriangleGroup {
     /// The radius of the ball around the mean of the corners, for each triangle.
     pub(crate) radius: [f32; LANES],
     pub(crate) header: GroupHeader,
+    /// Whether one of the triangles is [thin](is_thin_triangle).
+    pub(crate) has_thin_triangles: bool,
 }
 
 /// The fields that both kinds of groups have: the origin of coordinates, and the ids of the children.
@@ -120,6 +124,7 @@ impl StoredTriangleGroup {
                 count: triangles.len() as u32,
             },
             radius: [0.0; LANES],
+            has_thin_triangles: triangles.iter().copied().any(is_thin_triangle),
         };
         for (triangle, radius) in triangles.iter().zip(&mut row.radius) {
             let corners = triangle.map(|p| p - origin);
@@ -147,6 +152,7 @@ impl TriangleGroup {
             corners: [[[0.0; LANES]; 3]; 3],
             radius: row.radius,
             header: row.header,
+            has_thin_triangles: row.has_thin_triangles,
         };
         let origin = PackedVector::new(level, row.header.origin);
         for (lane, triangle) in triangles.iter().enumerate() {
@@ -157,6 +163,19 @@ impl TriangleGroup {
         }
         group
     }
+}
+
+/// Returns whether a triangle is a sliver: its least height is less than a [share](MIN_HEIGHT_OF_FULL_TRIANGLE) of its
+/// longest edge.
+#[inline(always)]
+pub(crate) fn is_thin_triangle([a, b, c]: [DVec3; 3]) -> bool {
+    let (p, q) = (b - a, c - a);
+    let longest = greater(
+        greater(p.length_squared(), q.length_squared()),
+        b.distance_squared(c),
+    );
+    // Written so that NaN is thin.
+    !(p.cross(q).length_squared() >= MIN_HEIGHT_OF_FULL_TRIANGLE.powi(2) * longest * longest)
 }
 
 /// Returns the unit normal of a triangle, or zero if it is degenerate.

@@ -8,7 +8,8 @@ use super::shape::{Children, OtherBox, OtherNode, OtherTriangle};
 use super::siblings::Siblings;
 use super::split::Split;
 use crate::body::tree::{
-    GroupHeader, LANES, Node, NodeChildren, NodeOrTriangle, round_up_to_f32, unit_normal,
+    GroupHeader, LANES, Node, NodeChildren, NodeOrTriangle, is_thin_triangle, round_up_to_f32,
+    unit_normal,
 };
 use crate::math::order::greater;
 use crate::math::simd::{PackedMatrix, PackedVector, as_vec3};
@@ -223,6 +224,7 @@ impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
             centre: centre.as_vec3(),
             corners: [p.as_vec3(), q.as_vec3(), r.as_vec3()],
             normal: unit_normal(corners),
+            is_thin: is_thin_triangle(corners),
             radius: round_up_to_f32(farthest.sqrt()).next_up(),
         }
     }

@@ -26,7 +26,7 @@ pub(crate) trait Children {
         self.extent_along(n)
     }
     /// Returns the vectors from each child's nearest point to a target point, as likely separating axes; `to` leads
-    /// from the children's centres to the target. Children that are not much larger than `target_radius` may take
+    /// from the children's centres to the target. Children that are neither thin nor much larger than `target_radius` may take
     /// their centres for the nearest points.
     fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>, target_radius: f32) -> Vec3x8<L>;
     /// Returns an upper bound of the distances of the children's points from the group's origin.
@@ -55,7 +55,7 @@ pub(crate) trait OtherNode {
         self.extent_along(n)
     }
     /// Returns the vectors from given points to the node's nearest points, as likely separating axes; `offset` leads
-    /// from the given points to the node's centre. A node that is not much larger than `source_radius` may take its
+    /// from the given points to the node's centre. A node that is neither thin nor much larger than `source_radius` may take its
     /// centre for the nearest point.
     fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>, source_radius: f32) -> Vec3x8<L>;
     /// Returns whether the node is a single piece, and cannot be split.
@@ -169,7 +169,9 @@ impl Children for TriangleGroup {
     }
     #[inline(always)]
     fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>, target_radius: f32) -> Vec3x8<L> {
-        if self.header.max_distance_from_origin <= MIN_LARGE_TRIANGLE_RATIO * target_radius {
+        if !self.has_thin_triangles
+            && self.header.max_distance_from_origin <= MIN_LARGE_TRIANGLE_RATIO * target_radius
+        {
             return to;
         }
         let level = to.simd_level();
@@ -284,6 +286,8 @@ pub(crate) struct OtherTriangle {
     pub(crate) corners: [Vec3; 3],
     pub(crate) normal: Vec3,
     pub(crate) radius: f32,
+    /// Whether the triangle is a sliver.
+    pub(crate) is_thin: bool,
 }
 
 impl OtherNode for OtherTriangle {
@@ -301,7 +305,7 @@ impl OtherNode for OtherTriangle {
     }
     #[inline(always)]
     fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>, source_radius: f32) -> Vec3x8<L> {
-        if self.radius <= MIN_LARGE_TRIANGLE_RATIO * source_radius {
+        if !self.is_thin && self.radius <= MIN_LARGE_TRIANGLE_RATIO * source_radius {
             return offset;
         }
         let level = offset.simd_level();

@@ -2,8 +2,8 @@
 
 use super::{EightPairSample, Solid};
 use crate::body::tree::{
-    BoxGroup, LANES, Node, NodeChildren, StoredTriangleGroup, TriangleGroup, round_up_to_f32,
-    unit_normal,
+    BoxGroup, LANES, Node, NodeChildren, StoredTriangleGroup, TriangleGroup, is_thin_triangle,
+    round_up_to_f32, unit_normal,
 };
 use crate::engine::nodes::eight_pairs::BodyRotation;
 use crate::engine::nodes::eight_pairs::RelativeMotionF32;
@@ -240,6 +240,7 @@ impl PairConfiguration {
             centre: centre.as_vec3(),
             corners: arms.map(DVec3::as_vec3),
             normal: unit_normal([a, b, c]),
+            is_thin: is_thin_triangle([a, b, c]),
             radius: round_up_to_f32(arms.map(DVec3::length).into_iter().fold(0.0, greater))
                 .next_up(),
         };
