@@ -23,7 +23,7 @@ pub(crate) struct Queue<T> {
     pieces_at_floor: u32,
     /// The lists of the other items, the newest first: for each place of the highest digit in which the clock differs
     /// from the floor, and for each value of that digit. Items at the floor are in the lists of the lowest digit.
-    buckets: Box<[[u32; RADIX]; DIGIT_COUNT]>,
+    buckets: [[u32; RADIX]; DIGIT_COUNT],
     /// The values that occur for each digit, as bits.
     occupied_values: [u64; DIGIT_COUNT],
     /// The digits that occur, as bits.
@@ -56,8 +56,7 @@ impl<T> Default for Queue<T> {
             vacant: END,
             floor: 0,
             pieces_at_floor: END,
-            // Beside the queue: a scene moves the searches of its pairs, each with a queue.
-            buckets: Box::new([[END; RADIX]; DIGIT_COUNT]),
+            buckets: [[END; RADIX]; DIGIT_COUNT],
             occupied_values: [0; DIGIT_COUNT],
             occupied_digits: 0,
         }
