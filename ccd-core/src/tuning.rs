@@ -100,7 +100,7 @@ pub const MIN_NEWTON_GROWTH: f64 = 1.0 / 64.0;
 pub const RESTING_SLACK_PER_ROUNDING: f64 = 1.0 / 16.0;
 
 /// The distance of two nodes beyond which the pair is advanced once more rather than split, in units of the sum of
-/// their radii. Measured: 0.5 suits meshes on meshes as well as meshes on a thin board. A smaller value makes large
+/// their radii. Measured: 0.5 to 1 suit meshes on meshes as well as meshes on a thin board. A smaller value makes large
 /// nodes creep past each other, a larger one splits nodes that only pass.
 pub const MIN_REVISIT_DISTANCE_RATIO: f32 = 0.7;
 
