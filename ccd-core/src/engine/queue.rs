@@ -23,7 +23,10 @@ pub(crate) struct Queue<T> {
     pieces_at_floor: u32,
     /// The lists of the other items, the newest first: for each place of the highest digit in which the clock differs
     /// from the floor, and for each value of that digit. Items at the floor are in the lists of the lowest digit.
-    buckets: [[u32; RADIX]; DIGIT_COUNT],
+    ///
+    /// They are absent until an item is added, and lie beside the queue: a scene moves the searches of its pairs, each
+    /// with a queue.
+    buckets: Option<Box<Buckets>>,
     /// The values that occur for each digit, as bits.
     occupied_values: [u64; DIGIT_COUNT],
     /// The digits that occur, as bits.
@@ -45,6 +48,9 @@ const DIGIT_BITS: usize = 6;
 const RADIX: usize = 1 << DIGIT_BITS;
 const DIGIT_COUNT: usize = (u64::BITS as usize).div_ceil(DIGIT_BITS);
 
+/// The list of each digit and value.
+type Buckets = [[u32; RADIX]; DIGIT_COUNT];
+
 /// The end of a list.
 const END: u32 = u32::MAX;
 
@@ -56,7 +62,7 @@ impl<T> Default for Queue<T> {
             vacant: END,
             floor: 0,
             pieces_at_floor: END,
-            buckets: [[END; RADIX]; DIGIT_COUNT],
+            buckets: None,
             occupied_values: [0; DIGIT_COUNT],
             occupied_digits: 0,
         }
@@ -92,7 +98,7 @@ impl<T> Queue<T> {
             let value = digit_value(clock_bits, digit);
             self.occupied_digits |= 1 << digit;
             self.occupied_values[digit] |= 1 << value;
-            &mut self.buckets[digit][value]
+            &mut buckets(&mut self.buckets)[digit][value]
         };
         self.links[slot as usize] = Link {
             clock_bits,
@@ -128,7 +134,7 @@ impl<T> Queue<T> {
     #[inline]
     fn take_bucket(&mut self, digit: usize, value: usize) -> u32 {
         self.mark_empty(digit, value);
-        std::mem::replace(&mut self.buckets[digit][value], END)
+        std::mem::replace(&mut buckets(&mut self.buckets)[digit][value], END)
     }
 
     #[inline]
@@ -154,10 +160,10 @@ impl<T> Queue<T> {
     #[inline]
     fn slot_at_floor(&self) -> u32 {
         if self.pieces_at_floor != END {
-            self.pieces_at_floor
-        } else {
-            self.buckets[0][digit_value(self.floor, 0)]
+            return self.pieces_at_floor;
         }
+        let buckets = self.buckets.as_ref();
+        buckets.map_or(END, |buckets| buckets[0][digit_value(self.floor, 0)])
     }
 
     /// Raises the floor to the least clock: the items of the lowest bucket move to lower ones.
@@ -227,13 +233,19 @@ impl<T> Queue<T> {
             self.pieces_at_floor = next;
         } else {
             let value = digit_value(self.floor, 0);
-            self.buckets[0][value] = next;
+            buckets(&mut self.buckets)[0][value] = next;
             if next == END {
                 self.mark_empty(0, value);
             }
         }
         Some((slot, rank))
     }
+}
+
+/// Returns the lists, which are empty at first.
+#[inline]
+fn buckets(buckets: &mut Option<Box<Buckets>>) -> &mut Buckets {
+    buckets.get_or_insert_with(|| Box::new([[END; RADIX]; DIGIT_COUNT]))
 }
 
 /// Returns the value of a digit of a clock's bits.
