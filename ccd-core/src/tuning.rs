@@ -180,8 +180,9 @@ pub const MAX_PLATEAU_POINTS: usize = 32;
 
 /// The distance from a facet up to which a nearest point counts as on the facet, in units of the piece's size. It only
 /// decides which feature a contact names. Nearest points are combinations of corners, off by a few
-/// [`UNIT_ROUNDOFF_F64`](crate::rounding::UNIT_ROUNDOFF_F64) of that size, which a flat piece magnifies.
-pub const POINT_ON_FACET_TOLERANCE: f64 = 1e-9;
+/// [`UNIT_ROUNDOFF_F64`](crate::rounding::UNIT_ROUNDOFF_F64) of that size, and oracles find them to 1e-13 of it. With a
+/// larger value, a point of a virtual facet next to a corner is said to be on a face that it is off.
+pub const POINT_ON_FACET_TOLERANCE: f64 = 1e-12;
 
 /// The angle below which a Jacobi rotation is skipped when principal axes are computed, in radians.
 ///

@@ -1,7 +1,5 @@
 //! Half-edges of triangles, and the edges that they form.
 
-use rayon::prelude::*;
-
 /// The number of a half-edge, less than 2³¹. The half-edge `3 f + k` runs along face `f` from its corner `k` to the
 /// next corner.
 pub(crate) type HalfEdge = u32;
@@ -11,7 +9,7 @@ pub(crate) type HalfEdge = u32;
 pub(crate) struct SortedHalfEdges(Vec<EdgeUse>);
 
 /// A half-edge, with the undirected edge on which it lies.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct EdgeUse {
     /// The end vertices of the edge, the smaller number first.
     ends: [u32; 2],
@@ -32,25 +30,40 @@ impl EdgeUse {
 }
 
 impl SortedHalfEdges {
-    /// Sorts the half-edges of some triangles by edge, without those from a vertex to itself. O(n log n) in the number
-    /// of triangles.
+    /// Sorts the half-edges of some triangles by edge, without those from a vertex to itself. O(n) in the number of
+    /// triangles if vertices have few edges, O(n log n) otherwise.
     pub(crate) fn new(triangles: &[[u32; 3]]) -> Self {
         let half_edges = (0..)
             .zip(triangles)
             .flat_map(|(t, &[a, b, c])| (3 * t..).zip([(a, b), (b, c), (c, a)]));
-        let mut uses: Vec<EdgeUse> = half_edges
+        let uses = half_edges
             .filter(|(_, (v, w))| v != w)
             .map(|(half_edge, (v, w))| EdgeUse {
                 ends: [v.min(w), v.max(w)],
                 half_edge,
                 is_backward: v > w,
-            })
-            .collect();
-        uses.par_sort_unstable_by_key(|of| {
-            let [lower, upper] = of.ends.map(u64::from);
-            (lower << 32 | upper, of.half_edge)
-        });
-        SortedHalfEdges(uses)
+            });
+        // A bin holds the uses of one smaller end, or of several if vertex numbers are sparse.
+        let last = triangles.iter().flatten().max().map_or(0, |&v| v as usize);
+        let bits = (last / (triangles.len() + 1)).checked_ilog2();
+        let bin = |of: &EdgeUse| of.ends[0] as usize >> bits.map_or(0, |bits| bits + 1);
+        let mut places = vec![0; 2 * triangles.len() + 3];
+        for of in uses.clone() {
+            places[bin(&of) + 1] += 1;
+        }
+        for k in 1..places.len() {
+            places[k] += places[k - 1];
+        }
+        let mut sorted = vec![EdgeUse::default(); places[places.len() - 1]];
+        for of in uses {
+            let place = &mut places[bin(&of)];
+            sorted[*place] = of;
+            *place += 1;
+        }
+        for of_bin in sorted.chunk_by_mut(|one, next| bin(one) == bin(next)) {
+            of_bin.sort_unstable_by_key(|of| (of.ends, of.half_edge));
+        }
+        SortedHalfEdges(sorted)
     }
 
     /// Iterates over the edges: for each, its two end vertices, and the half-edges on it in ascending order.

@@ -23,8 +23,8 @@ use error::{MeshError, MeshFault};
 use format::Format;
 use mesh_file::MeshFile;
 use polygons::Polygons;
+use rayon::prelude::*;
 use repair::{Repairs, covered_collapsed_face_flags, duplicate_face_flags};
-use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
 
@@ -124,6 +124,8 @@ impl TriangleMesh {
         let positions = weld_index_by_vertex(&vertices);
         let drop_duplicate = duplicate_face_flags(&all_faces, &positions);
         let drop_collapsed = covered_collapsed_face_flags(&all_faces, &positions);
+        let is_flat = |face: &[u32; 3]| has_zero_area(face.map(|v| vertices[v as usize]));
+        let is_flat: Vec<bool> = all_faces.par_iter().map(is_flat).collect();
         let mut faces = Vec::with_capacity(all_faces.len());
         let mut face_ids = Vec::with_capacity(all_faces.len());
         for (k, (face, id)) in all_faces.into_iter().zip(all_ids).enumerate() {
@@ -132,7 +134,7 @@ impl TriangleMesh {
             } else if drop_collapsed[k] {
                 repairs.collapsed_faces.add(id);
             } else {
-                if has_zero_area(face.map(|v| vertices[v as usize])) {
+                if is_flat[k] {
                     repairs.zero_area_faces.add(id);
                 }
                 faces.push(face);
@@ -198,12 +200,19 @@ impl TriangleMesh {
 
 /// Returns, for each vertex, the index of the first vertex at exactly the same point; 0 and −0 are equal.
 fn weld_index_by_vertex(vertices: &[DVec3]) -> Vec<u32> {
-    let mut first = HashMap::with_capacity(vertices.len());
-    let number = |(vertex, point): (usize, &DVec3)| {
-        let key = point.to_array().map(|x| (x + 0.0).to_bits());
-        *first.entry(key).or_insert(vertex as u32)
+    let with_position = |(vertex, point): (usize, &DVec3)| {
+        (point.to_array().map(|x| (x + 0.0).to_bits()), vertex as u32)
     };
-    vertices.iter().enumerate().map(number).collect()
+    let vertices = vertices.par_iter().enumerate();
+    let mut by_position: Vec<([u64; 3], u32)> = vertices.map(with_position).collect();
+    by_position.par_sort_unstable();
+    let mut first = vec![0; by_position.len()];
+    for at_one_point in by_position.chunk_by(|one, next| one.0 == next.0) {
+        for &(_, vertex) in at_one_point {
+            first[vertex as usize] = at_one_point[0].1;
+        }
+    }
+    first
 }
 
 #[cfg(test)]

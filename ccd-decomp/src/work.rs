@@ -38,9 +38,18 @@ impl WorkBudget {
     /// # Errors
     /// [`WorkBudgetExhausted`] if none are left.
     pub(crate) fn check(&self) -> Result<(), WorkBudgetExhausted> {
-        match self.remaining_steps.get() {
-            0 => Err(WorkBudgetExhausted),
-            _ => Ok(()),
+        self.check_exceeds(0)
+    }
+
+    /// Returns an error if at most `steps` steps are left, so that they cannot be [spent](WorkBudget::spend).
+    ///
+    /// # Errors
+    /// [`WorkBudgetExhausted`] if no more are left.
+    pub(crate) fn check_exceeds(&self, steps: usize) -> Result<(), WorkBudgetExhausted> {
+        if self.remaining_steps.get() > steps as u64 {
+            Ok(())
+        } else {
+            Err(WorkBudgetExhausted)
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::remark::Remarks;
 use crate::hull::polygons::with_smallest_corner_first;
 use crate::tally::CountWithExamples;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::fmt;
@@ -110,7 +111,7 @@ impl fmt::Display for Repairs {
 pub(crate) fn duplicate_face_flags(faces: &[[u32; 3]], positions: &[u32]) -> Vec<bool> {
     let key = |face: &[u32; 3]| with_smallest_corner_first(face.map(|v| positions[v as usize]));
     let mut keyed: Vec<([u32; 3], u32)> = faces.iter().map(key).zip(0..).collect();
-    keyed.sort_unstable();
+    keyed.par_sort_unstable();
     let mut duplicate = vec![false; faces.len()];
     for pair in keyed.windows(2) {
         duplicate[pair[1].1 as usize] = pair[0].0 == pair[1].0;

@@ -20,6 +20,10 @@ pub(crate) fn crossings(
 ) -> Result<Vec<(u32, u32)>, WorkBudgetExhausted> {
     let mut found = Vec::new();
     let fanned = FannedPolygons::from_manifold(manifold);
+    if fanned.is_none() {
+        // The two faces at each edge are a pair that is tested. Building the search trees takes longer than many tests.
+        work.check_exceeds(manifold.faces().len() / 2 * 3 * STEPS_PER_PAIR)?;
+    }
     for face in 0..manifold.faces().len() as u32 {
         let near = Region::from_triangle(manifold.triangle(face));
         let mut pair = |other: u32| {

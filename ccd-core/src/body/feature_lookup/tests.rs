@@ -70,3 +70,20 @@ fn names_agree_with_a_scan_of_all_facets() {
     }
     assert!(faces > 300 && edges > 300, "{faces} {edges}");
 }
+
+#[test]
+fn a_point_next_to_a_corner_of_a_face_is_not_on_the_face() {
+    let pieces = prism_with_virtual_facets();
+    let piece = pieces.get(0);
+    // A chord through the prism, from a corner of a face: the share of its other end, and whether the face counts.
+    let chord_point = |share: f64| {
+        let mut point = ConvexCombination::EMPTY;
+        point.add_weighted_point(1, 1.0 - share);
+        point.add_weighted_point(20, share);
+        point
+    };
+    for (share, on_face) in [(4e-10, false), (1e-11, false), (1e-14, true)] {
+        let feature = find_mesh_feature(&piece, &chord_point(share), |corner| corner);
+        assert_eq!(feature.is_some(), on_face, "{share}: {feature:?}");
+    }
+}

@@ -8,7 +8,7 @@ use super::{
 use crate::body::hierarchy::{Hierarchy, HierarchyNode};
 use crate::body::piece::Piece;
 use crate::body::pieces::Pieces;
-use crate::body::threads::parallel_for_each;
+use crate::body::threads::{join, parallel_for_each};
 use crate::error::InputError;
 use crate::math::order::greater;
 use glam::DVec3;
@@ -104,8 +104,11 @@ impl TreeLayout {
         hierarchy: &Hierarchy,
     ) -> Result<(Self, Pieces), InputError> {
         let ranges = PieceRanges::new(hierarchy, pieces.len())?;
-        let layout = TreeLayout::build_layout(hierarchy, &ranges, pieces.are_all_triangles());
-        Ok((layout, pieces.with_piece_order(&ranges.order)))
+        Ok(join(
+            pieces.len(),
+            || TreeLayout::build_layout(hierarchy, &ranges, pieces.are_all_triangles()),
+            || pieces.with_piece_order(&ranges.order),
+        ))
     }
 
     fn build_layout(hierarchy: &Hierarchy, ranges: &PieceRanges, triangles: bool) -> Self {

@@ -1,7 +1,7 @@
 //! Builds a tree by agglomeration: clusters that are each other's nearest neighbours become siblings, pass by pass, until one
 //! is left (`[PLOC18]`).
 
-use crate::tolerance::{MIN_MERGED_SHARE, MORTON_SEARCH_RADIUS};
+use crate::tolerance::{MIN_MERGED_SHARE, MORTON_SEARCH_RADIUS, MORTON_SHIFTS};
 use ccd_core::HierarchyNode;
 use ccd_core::glam::{DVec3, Vec3A};
 use rayon::prelude::*;
@@ -27,36 +27,56 @@ pub(super) struct Cluster {
 /// # Complexity
 /// O(n) for each pass, of which there are O(log n): each merges at least a share of the clusters.
 pub(super) fn agglomerate(mut row: Vec<Cluster>) -> Vec<HierarchyNode> {
-    row = sorted_along_morton_curve(&row);
+    row = order_along_morton_curve(&row, 0.0)
+        .into_iter()
+        .map(|cluster| row[cluster as usize])
+        .collect();
+    let mut curves = MORTON_SHIFTS.map(|shift| order_along_morton_curve(&row, shift));
     let Some(&first) = row.first() else {
         return Vec::new();
     };
     let mut tree = vec![first.node; 2 * row.len() - 1];
     // The tree is filled from its end.
     let mut free = tree.len();
+    let mut search = NeighbourSearch::default();
+    // The place of each cluster in the next row. The second of two that merge has none.
+    let mut next_places = Vec::new();
     while row.len() > 1 {
-        let mut partners = nearest_neighbours(&row);
-        if mutual_count(&partners) < MIN_MERGED_SHARE * row.len() as f32 {
+        search.find_nearest(&row, &curves);
+        let partners = &mut search.nearest;
+        if mutual_count(partners) < MIN_MERGED_SHARE * row.len() as f32 {
             // Few are each other's nearest, as along a curve whose spacing shrinks.
-            partners = (0..row.len()).map(|index| index ^ 1).collect();
-        }
-        let mut next = Vec::with_capacity(row.len());
-        for (index, &own) in row.iter().enumerate() {
-            let partner = partners[index];
-            // The last one of an odd number has no partner.
-            if partners.get(partner) != Some(&index) {
-                next.push(own);
-            } else if partner < index {
-                let other = row[partner];
-                free -= 2;
-                (tree[free], tree[free + 1]) = (own.node, other.node);
-                next.push(Cluster {
-                    node: HierarchyNode::Inner(free as u32, free as u32 + 1),
-                    ..merged(own, other)
-                });
+            for (index, partner) in (0..).zip(&mut *partners) {
+                partner.place = index ^ 1;
             }
         }
-        row = next;
+        next_places.clear();
+        let mut count = 0;
+        for index in 0..row.len() {
+            let mut cluster = row[index];
+            let partner = partners[index].place as usize;
+            // The last one of an odd number has no partner.
+            if partners.get(partner).map(|of| of.place) == Some(index as u32) {
+                if partner < index {
+                    next_places.push(u32::MAX);
+                    continue;
+                }
+                free -= 2;
+                (tree[free], tree[free + 1]) = (cluster.node, row[partner].node);
+                cluster = merged(cluster, row[partner]);
+                cluster.node = HierarchyNode::Inner(free as u32, free as u32 + 1);
+            }
+            next_places.push(count as u32);
+            row[count] = cluster;
+            count += 1;
+        }
+        row.truncate(count);
+        curves.par_iter_mut().for_each(|curve| {
+            curve.retain_mut(|cluster| {
+                *cluster = next_places[*cluster as usize];
+                *cluster != u32::MAX
+            });
+        });
     }
     tree[0] = row[0].node;
     tree
@@ -74,61 +94,102 @@ fn merged(one: Cluster, other: Cluster) -> Cluster {
 }
 
 /// Returns the number of clusters in pairs that are each other's partners.
-fn mutual_count(partners: &[usize]) -> f32 {
-    let mutual = partners.iter().enumerate();
+fn mutual_count(partners: &[Neighbour]) -> f32 {
+    let mutual = partners.iter().zip(0..);
     mutual
-        .filter(|(index, partner)| partners[**partner] == *index)
+        .filter(|&(partner, index)| partners[partner.place as usize].place == index)
         .count() as f32
 }
 
-/// Finds the nearest neighbour of each cluster in a row among those within the search radius. Of several that are as near, the
-/// nearest in the row counts, and of two of these the later one for an even place, the earlier one for an odd place: clusters
-/// with one centre find their partners in one pass.
-fn nearest_neighbours(row: &[Cluster]) -> Vec<usize> {
-    let centres: Vec<Vec3A> = row.iter().map(|cluster| cluster.centre).collect();
-    let nearest = |index: usize| {
-        let distance = |other: usize| centres[other].distance_squared(centres[index]);
-        let (mut least, mut best) = (f32::INFINITY, index);
+/// The neighbour of a cluster: its place in a row, and its squared distance.
+#[derive(Clone, Copy, Debug)]
+struct Neighbour {
+    distance: f32,
+    place: u32,
+}
+
+/// A search for nearest neighbours, whose memory is reused by one pass after the other.
+#[derive(Default)]
+struct NeighbourSearch {
+    /// The nearest neighbour of each cluster of the row.
+    nearest: Vec<Neighbour>,
+    /// The centres along one of the other curves, and the nearest neighbours among them.
+    centres: Vec<Vec3A>,
+    nearest_along_curve: Vec<Neighbour>,
+}
+
+impl NeighbourSearch {
+    /// Finds the nearest neighbour of each cluster in a row among those near it in the row or along one of the other curves.
+    /// Of several that are as near, one near it in the row counts, then one along the first of the curves.
+    fn find_nearest(&mut self, row: &[Cluster], curves: &[Vec<u32>]) {
+        row.par_iter()
+            .with_min_len(CLUSTERS_PER_TASK)
+            .map(|cluster| cluster.centre)
+            .collect_into_vec(&mut self.centres);
+        find_nearest_in_row(&self.centres, &mut self.nearest);
+        for curve in curves {
+            curve
+                .par_iter()
+                .with_min_len(CLUSTERS_PER_TASK)
+                .map(|&place| row[place as usize].centre)
+                .collect_into_vec(&mut self.centres);
+            find_nearest_in_row(&self.centres, &mut self.nearest_along_curve);
+            for (&place, found) in curve.iter().zip(&self.nearest_along_curve) {
+                let known = &mut self.nearest[place as usize];
+                if found.distance < known.distance {
+                    *known = Neighbour {
+                        place: curve[found.place as usize],
+                        ..*found
+                    };
+                }
+            }
+        }
+    }
+}
+
+/// Finds the nearest neighbour of each centre among those within the search radius. Of several that are as near, the nearest in
+/// the row counts, and of two of these the later one for an even place, the earlier one for an odd place: clusters with one
+/// centre find their partners in one pass.
+fn find_nearest_in_row(centres: &[Vec3A], nearest: &mut Vec<Neighbour>) {
+    let find = |index: usize| {
+        let (mut distance, mut best) = (f32::INFINITY, index);
         for step in 1..=MORTON_SEARCH_RADIUS {
-            let beside = [index.checked_sub(step), Some(index + step)];
+            // A place before the first one is out of range, too.
+            let beside = [index.wrapping_sub(step), index + step];
             // The one that counts is compared first.
-            let beside = if index.is_multiple_of(2) {
-                [beside[1], beside[0]]
-            } else {
-                beside
-            };
-            for other in beside
-                .into_iter()
-                .flatten()
-                .filter(|&other| other < row.len())
-            {
-                let distance = distance(other);
-                if distance < least {
-                    (least, best) = (distance, other);
+            let first = usize::from(index.is_multiple_of(2));
+            for other in [beside[first], beside[1 - first]] {
+                if let Some(centre) = centres.get(other) {
+                    let square = centre.distance_squared(centres[index]);
+                    if square < distance {
+                        (distance, best) = (square, other);
+                    }
                 }
             }
         }
         // Without a number, the neighbour is the other one of its pair.
         if best == index {
-            (index ^ 1).min(row.len() - 1)
-        } else {
-            best
+            best = (index ^ 1).min(centres.len() - 1);
+        }
+        Neighbour {
+            distance,
+            place: best as u32,
         }
     };
-    let indices = (0..row.len()).into_par_iter();
+    let indices = (0..centres.len()).into_par_iter();
     indices
         .with_min_len(CLUSTERS_PER_TASK)
-        .map(nearest)
-        .collect()
+        .map(find)
+        .collect_into_vec(nearest);
 }
 
-/// Returns clusters sorted by the Morton codes of their centres.
-fn sorted_along_morton_curve(clusters: &[Cluster]) -> Vec<Cluster> {
-    let code = |cluster: &Cluster| morton_code(cluster.centre.as_dvec3());
-    let mut order: Vec<(u64, u64)> = clusters.iter().map(code).zip(0..).collect();
+/// Returns the indices of clusters, sorted by the Morton codes of their centres. The centres are moved by `shift` along each
+/// coordinate, in a cube of twice the size.
+fn order_along_morton_curve(clusters: &[Cluster], shift: f64) -> Vec<u32> {
+    let code = |cluster: &Cluster| morton_code(0.5 * (cluster.centre.as_dvec3() + shift));
+    let mut order: Vec<(u64, u32)> = clusters.iter().map(code).zip(0..).collect();
     order.par_sort_unstable();
-    let clusters = order.iter().map(|&(_, cluster)| clusters[cluster as usize]);
-    clusters.collect()
+    order.into_iter().map(|(_, cluster)| cluster).collect()
 }
 
 /// Returns the Morton code of a point: the interleaved 21 leading bits of its coordinates in the unit interval.
