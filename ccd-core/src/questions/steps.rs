@@ -59,12 +59,14 @@ enum ResumableSearchKind<'a, O: DistanceOracle> {
 
 /// A search in steps, about two bodies with constant velocities.
 struct IncrementalSearch<'a, O: DistanceOracle> {
+    /// The problem that reports a contact at the start. A scene moves its searches, so that what few of them have lies
+    /// beside them.
     problem: Problem<'a>,
-    /// The problem that is searched at present: it reports a contact at the start, or ignores it.
-    current_problem: Problem<'a>,
+    /// The problem that is searched once there was a contact at the start that is to be ignored.
+    problem_after_start: Option<Box<Problem<'a>>>,
     /// The progress over the periods of repeating motions, and the periods that are searched at present; `None` if the
     /// motions do not repeat.
-    periodic_search_and_problem: Option<(PeriodicSearch<'a>, Problem<'a>)>,
+    periodic_search_and_problem: Option<Box<(PeriodicSearch<'a>, Problem<'a>)>>,
     /// The policy for a contact at the start, until it has been applied.
     start_policy: StartPolicy,
     schedule: BestFirst<O>,
@@ -143,15 +145,15 @@ impl<'a, O: DistanceOracle> FirstContactSearch<'a, O> {
 }
 
 impl<'a, O: DistanceOracle> IncrementalSearch<'a, O> {
-    fn new(problem: Problem<'a>, mut memory: BestFirst<O>) -> Self {
+    fn new(mut problem: Problem<'a>, mut memory: BestFirst<O>) -> Self {
         let mut meter = Meter::new(&problem);
         meter.scratch = memory.scratch.take();
         memory.queue.clear();
-        let current = problem.reporting_start_contact();
+        let start_policy = std::mem::replace(&mut problem.start_policy, StartPolicy::Report);
         IncrementalSearch {
-            periodic_search_and_problem: start_periodic_search(&current),
-            current_problem: current,
-            start_policy: problem.start_policy,
+            periodic_search_and_problem: start_periodic_search(&problem),
+            start_policy,
+            problem_after_start: None,
             problem,
             schedule: memory,
             meter,
@@ -208,7 +210,8 @@ impl<'a, O: DistanceOracle> IncrementalSearch<'a, O> {
             self.state = None;
             let outcome = match &mut self.periodic_search_and_problem {
                 None => outcome,
-                Some((rounds, part)) => {
+                Some(periodic) => {
+                    let (rounds, part) = &mut **periodic;
                     match rounds.start_next_round_or_finish(&outcome, &mut self.meter) {
                         ControlFlow::Break(outcome) => outcome,
                         ControlFlow::Continue(()) => {
@@ -218,8 +221,10 @@ impl<'a, O: DistanceOracle> IncrementalSearch<'a, O> {
                     }
                 }
             };
+            let current = self.problem_after_start.as_deref();
+            let current = current.unwrap_or(&self.problem);
             let parting = problem_ignoring_start_contact(
-                &self.current_problem,
+                current,
                 self.start_policy,
                 &outcome,
                 oracle,
@@ -228,15 +233,14 @@ impl<'a, O: DistanceOracle> IncrementalSearch<'a, O> {
             match parting {
                 Some(parting) => {
                     self.periodic_search_and_problem = start_periodic_search(&parting);
-                    self.current_problem = parting;
+                    self.problem_after_start = Some(Box::new(parting));
                     self.start_policy = StartPolicy::Report;
                 }
                 None => {
-                    let tolerance = if self.start_policy == self.problem.start_policy {
-                        self.problem.tolerance
-                    } else {
-                        achieved_tolerance(&self.current_problem, &outcome)
-                    };
+                    let parting = self.problem_after_start.as_deref();
+                    let tolerance = parting.map_or(self.problem.tolerance, |parting| {
+                        achieved_tolerance(parting, &outcome)
+                    });
                     return ControlFlow::Break((outcome, tolerance));
                 }
             }
@@ -248,8 +252,11 @@ impl<'a, O: DistanceOracle> IncrementalSearch<'a, O> {
     fn run(&mut self, oracle: &mut O, until: f64) -> ControlFlow<Outcome, f64> {
         // The time of the clock that is reached is rounded down, but not to before the requested time.
         let (problem, until) = match &self.periodic_search_and_problem {
-            Some((_, part)) => (part, until * (1.0 + 4.0 * f64::EPSILON)),
-            None => (&self.current_problem, until.next_up()),
+            Some(periodic) => (&periodic.1, until * (1.0 + 4.0 * f64::EPSILON)),
+            None => {
+                let current = self.problem_after_start.as_deref();
+                (current.unwrap_or(&self.problem), until.next_up())
+            }
         };
         let clock = problem.clock_of_time(until);
         let until = (clock * (1.0 + 4.0 * f64::EPSILON)).next_up();
@@ -284,10 +291,12 @@ impl<'a, O: DistanceOracle> IncrementalSearch<'a, O> {
     }
 }
 
-fn start_periodic_search<'a>(problem: &Problem<'a>) -> Option<(PeriodicSearch<'a>, Problem<'a>)> {
+fn start_periodic_search<'a>(
+    problem: &Problem<'a>,
+) -> Option<Box<(PeriodicSearch<'a>, Problem<'a>)>> {
     let rounds = PeriodicSearch::for_problem(problem)?;
     let part = rounds.problem_of_round();
-    Some((rounds, part))
+    Some(Box::new((rounds, part)))
 }
 
 #[cfg(test)]
