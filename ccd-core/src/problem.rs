@@ -169,6 +169,12 @@ impl<'a> Problem<'a> {
         turns(&self.a) || turns(&self.b)
     }
 
+    /// Returns whether each body consists of a single piece.
+    pub(crate) fn have_one_piece_each(&self) -> bool {
+        let is_one = |side: &BodyWithPath<'_>| side.body.pieces().len() == 1;
+        is_one(&self.a) && is_one(&self.b)
+    }
+
     /// Returns piece `a` of A and piece `b` of B.
     pub(crate) fn pieces(&self, [a, b]: [u32; 2]) -> [Piece<'a>; 2] {
         let piece = |side: &BodyWithPath<'a>, k: u32| side.body.piece(k);

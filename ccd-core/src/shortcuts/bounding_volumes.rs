@@ -111,9 +111,8 @@ fn least_length_parameter(from: DVec3, change: DVec3) -> f64 {
 /// # Guarantee
 /// The result is true only for bodies that are never in contact, up to the tolerance, nor inside each other.
 fn boxes_keep_apart(problem: &Problem<'_>) -> bool {
-    let whole = |side: &BodyWithPath<'_>| side.body.tree().piece(0).is_some();
     // The search proves two single pieces apart as fast by itself.
-    if whole(&problem.a) && whole(&problem.b) {
+    if problem.have_one_piece_each() {
         return false;
     }
     let [a, b] = [&problem.a, &problem.b].map(|side| PlacedNode::body_box(side, 0.0));

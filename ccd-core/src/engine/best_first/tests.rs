@@ -169,6 +169,38 @@ fn check_contact_bounds(problem: &Problem<'_>, s: f64, contact: &Contact) {
     assert!((separation.normal.length() - 1.0).abs() < 1e-15);
 }
 
+/// Tests that the search for two bodies of one piece each begins with their distance: no bound of boxes comes before it.
+#[test]
+fn two_single_triangles_are_measured_at_each_visit() {
+    let triangle = |z| [DVec3::new(0.0, 0.0, z), DVec3::X, DVec3::Y];
+    let body = |z| Body::new(&pieces(&[triangle(z)]), Solidity::Surface).unwrap();
+    let (a, b) = (body(0.0), body(0.5));
+    let towards = |speed: f64| {
+        let start = Pose::at(0.2 * DVec3::Z).unwrap();
+        Motion::new(start, -speed * DVec3::Z, 0.01 * DVec3::X).unwrap()
+    };
+    for (speed, meets) in [(4.0, true), (0.05, false)] {
+        let problem = Problem::new(
+            [(&a, Motion::STILL), (&b, towards(speed))],
+            1.0,
+            &Settings::DEFAULT.to_query_settings(),
+        );
+        let answer = solve(&problem.unwrap());
+        let met = matches!(answer.outcome, Outcome::Contact { .. });
+        assert_eq!(met, meets, "{:?}", answer.outcome);
+        let Stats {
+            iterations,
+            oracle_calls,
+            ..
+        } = answer.stats;
+        assert!(
+            iterations > 0 && iterations == oracle_calls,
+            "{:?}",
+            answer.stats
+        );
+    }
+}
+
 #[test]
 fn budgets_end_a_query_with_a_time_that_is_safe_and_grows() {
     let mut rng = rng(2);

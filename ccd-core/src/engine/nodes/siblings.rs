@@ -40,9 +40,11 @@ impl NextStep {
     /// Returns the first step of a search, for the pair of both roots. If both can be split, the smaller one is, as a
     /// large node is best kept whole as long as possible.
     pub(crate) fn roots(problem: &Problem<'_>) -> Self {
+        if problem.have_one_piece_each() {
+            return NextStep::MeasurePieces(0, 0);
+        }
         let (a, b) = (problem.a.body.tree(), problem.b.body.tree());
         let body = match (a.piece(0), b.piece(0)) {
-            (Some(a), Some(b)) => return NextStep::MeasurePieces(a, b),
             (None, None) if !(b.radius() < a.radius()) => WhichBody::A,
             (None, Some(_)) => WhichBody::A,
             _ => WhichBody::B,

@@ -255,7 +255,7 @@ fn the_naive_schedule_agrees() {
 fn steps_lead_to_the_same_answer() {
     let mut rng = rng(5);
     let mut steps = 0;
-    for number in 0..200 {
+    for number in 0..300 {
         let ([a, b], motions, config) = scene(&mut rng, number);
         let query = Query::new((&a, motions[0]), (&b, motions[1]), 3.0, &config).unwrap();
         let whole = BestFirst::default()
