@@ -7,7 +7,7 @@ use glam::DVec3;
 pub(crate) struct TouchingPlane {
     /// The unit normal from A to B, in A's frame and in B's frame: the plane may move with either body.
     pub(crate) normals: [DVec3; 2],
-    /// The least gap along the normal that pieces have to keep for their contact to be ignored: the gap at the start,
-    /// minus rounding.
+    /// The least gap along the normal that pieces have to keep for their contact to be ignored: the distance at the
+    /// start, minus rounding.
     pub(crate) required_gap: f64,
 }

@@ -109,9 +109,8 @@ pub(crate) fn problem_ignoring_start_contact<'a, O: DistanceOracle>(
             let contact =
                 convert_contact_to_given_bodies(problem, oracle, meter, *contact, within, at_start);
             let gap = contact.separation.lower - problem.margin;
-            Some(
-                problem.ignoring_start_contact(gap, TouchingPlane::from_contact(problem, &contact)),
-            )
+            let plane = TouchingPlane::from_contact(problem, &contact, oracle, meter);
+            Some(problem.ignoring_start_contact(gap, plane))
         }
         _ => None,
     }

@@ -2,9 +2,13 @@
 //! is therefore no obstacle.
 
 use super::snapshot::{SeparatingPlane, Snapshot};
-use crate::answer::Contact;
+use crate::answer::{Contact, Separation};
 use crate::body::facing::Facing;
+use crate::distance::oracle::DistanceOracle;
+use crate::distance::separation::sharp::improve_axis;
+use crate::engine::meter::Meter;
 use crate::math::order::greater;
+use crate::math::vector::distance;
 use crate::problem::{Problem, WhichBody};
 use crate::rounding::MIN_APPROACH_PER_ROUNDING;
 use crate::touching_plane::TouchingPlane;
@@ -23,20 +27,39 @@ pub(crate) struct TouchingPlaneState {
 impl TouchingPlane {
     /// Creates the plane perpendicular to the normal of a contact at the start; `None` if the bodies may overlap along
     /// it.
-    pub(crate) fn from_contact(problem: &Problem<'_>, contact: &Contact) -> Option<Self> {
-        let normal = contact.separation.normal;
+    pub(crate) fn from_contact<O: DistanceOracle>(
+        problem: &Problem<'_>,
+        contact: &Contact,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> Option<Self> {
         let given = problem.with_given_bodies();
         let problem = given.as_ref().unwrap_or(problem);
         let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, 0.0);
         let [frame_a, frame_b] = &snapshot.frames;
-        let from =
-            frame_a.inverse_transform_point(problem.to_problem_point(contact.separation.witness_a));
-        let gap = snapshot.gap_along_normal(normal, from);
+        let Separation {
+            mut normal,
+            witness_a,
+            witness_b,
+            ..
+        } = contact.separation;
+        let from = frame_a.inverse_transform_point(problem.to_problem_point(witness_a));
         let resting = MIN_APPROACH_PER_ROUNDING * problem.rounding;
+        let distance = distance(witness_a, witness_b);
+        let mut gap = snapshot.gap_along_normal(normal, from);
+        // A tilted normal loses some of the distance. A rotation may undo the tilt, and so hide that the bodies approach.
+        if gap < distance - 0.5 * resting
+            && let Some(checked) = snapshot.query_oracle(oracle, &mut O::Cache::default(), meter)
+        {
+            let better = improve_axis(&snapshot.pieces, &checked, problem.rounding);
+            if better.lower > gap {
+                (normal, gap) = (frame_a.rotation * better.axis, better.lower);
+            }
+        }
         // Written so that NaN is an overlap.
         (gap >= -resting).then(|| TouchingPlane {
             normals: [frame_a, frame_b].map(|frame| frame.inverse_transform_vector(normal)),
-            required_gap: gap - resting,
+            required_gap: greater(gap, distance) - resting,
         })
     }
 }
@@ -139,3 +162,6 @@ impl Snapshot<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
