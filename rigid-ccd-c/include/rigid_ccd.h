@@ -1,0 +1,461 @@
+/* The C interface of rigid-ccd: certified continuous collision detection of rigid bodies.
+ *
+ * When do two moving bodies first touch? No contact happens before the reported time, in floating point.
+ * Functions return a status; rccd_last_error() has the reason of a failure. A query that reaches a limit has not failed:
+ * its outcome is RCCD_OUTCOME_UNRESOLVED, with a time until which nothing touches.
+ *
+ * Lengths are in any one unit, times in the motions' unit, angles in radians. Bodies and trajectories may be shared by
+ * threads; each thread needs a solver of its own. Written by cbindgen from the crate rigid-ccd-c: do not edit.
+ */
+
+#ifndef RIGID_CCD_H
+#define RIGID_CCD_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+// Whether a call has worked.
+enum rccd_status
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // The call has worked. A query that reached a limit has worked too: its answer is unresolved.
+    RCCD_STATUS_OK = 0,
+    // An argument is null, or no value of its type.
+    RCCD_STATUS_INVALID_ARGUMENT = 1,
+    // A number, such as a radius or a duration, is out of range.
+    RCCD_STATUS_INVALID_INPUT = 2,
+    // A body cannot be made from the mesh or file.
+    RCCD_STATUS_INVALID_BODY = 3,
+    // A defect of this library. The objects of the call may be freed, and nothing else.
+    RCCD_STATUS_PANIC = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rccd_status rccd_status;
+#else
+typedef int32_t rccd_status;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What a query has found.
+enum rccd_outcome
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // The bodies stay apart over the whole duration.
+    RCCD_OUTCOME_FREE = 0,
+    // The bodies are in contact at `time`; for a first contact nothing touches before.
+    RCCD_OUTCOME_CONTACT = 1,
+    // The bodies are within margin + tolerance at the start.
+    RCCD_OUTCOME_TOUCHING = 2,
+    // The bodies overlap at the start.
+    RCCD_OUTCOME_OVERLAPPING = 3,
+    // The bodies are in contact at `time` first, and at `last_time` last.
+    RCCD_OUTCOME_INTERVAL = 4,
+    // The least distance is from `lower` to `upper`, the latter at `time`.
+    RCCD_OUTCOME_LEAST_DISTANCE = 5,
+    // A limit was reached before the answer was known; until `safe_until` nothing touches.
+    RCCD_OUTCOME_UNRESOLVED = 6,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rccd_outcome rccd_outcome;
+#else
+typedef int32_t rccd_outcome;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// The limit that has ended a query.
+enum rccd_limit
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // No limit was reached.
+    RCCD_LIMIT_NONE = 0,
+    // The budget is spent.
+    RCCD_LIMIT_BUDGET = 1,
+    // The deadline has passed.
+    RCCD_LIMIT_DEADLINE = 2,
+    // The query was stopped.
+    RCCD_LIMIT_STOPPED = 3,
+    // No further step can be certified.
+    RCCD_LIMIT_STALLED = 4,
+    // The distance of two pieces could not be computed.
+    RCCD_LIMIT_ORACLE_GAVE_UP = 5,
+    // Rounding leaves it undecided whether the bodies overlap at the start.
+    RCCD_LIMIT_OVERLAP_UNDECIDED = 6,
+    // A limit that this interface has no name for.
+    RCCD_LIMIT_OTHER = 255,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rccd_limit rccd_limit;
+#else
+typedef int32_t rccd_limit;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// The kind of a feature, which says what its indices mean.
+enum rccd_feature_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // There is no feature: both indices are 0.
+    RCCD_FEATURE_KIND_NONE = 0,
+    // The vertex `first` of the mesh.
+    RCCD_FEATURE_KIND_VERTEX = 1,
+    // The edge between the vertices `first` and `second`.
+    RCCD_FEATURE_KIND_EDGE = 2,
+    // The face `first` of the mesh.
+    RCCD_FEATURE_KIND_FACE = 3,
+    // The piece `first`, whose facets are unknown or no faces of the mesh.
+    RCCD_FEATURE_KIND_PIECE = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rccd_feature_kind rccd_feature_kind;
+#else
+typedef uint32_t rccd_feature_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// How triangles in arrays become a body.
+enum rccd_detail
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // The fewest exact pieces: one hull for a convex solid, else patches or triangles, whichever is faster.
+    RCCD_DETAIL_AUTO = 0,
+    // One piece for each triangle. A closed mesh is solid.
+    RCCD_DETAIL_TRIANGLES = 1,
+    // One piece for each triangle. A closed mesh is hollow.
+    RCCD_DETAIL_SURFACE = 2,
+    // One piece, the convex hull. It encloses any mesh, and queries account for what it exceeds.
+    RCCD_DETAIL_OUTER_HULL = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rccd_detail rccd_detail;
+#else
+typedef uint32_t rccd_detail;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What to do about bodies that are in contact at the start.
+enum rccd_start_policy
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // The contact is the answer.
+    RCCD_START_POLICY_REPORT = 0,
+    // The contact is ignored until the bodies approach.
+    RCCD_START_POLICY_LEAVE = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rccd_start_policy rccd_start_policy;
+#else
+typedef uint32_t rccd_start_policy;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// A body: the shape that moves. Many queries and threads may share it.
+typedef struct rccd_body rccd_body;
+
+// A solver: settings, and memory that it reuses from query to query. Each thread needs its own.
+typedef struct rccd_solver rccd_solver;
+
+// A trajectory. Many queries and threads may share it.
+typedef struct rccd_trajectory rccd_trajectory;
+
+// A position and an orientation of a body in the world.
+typedef struct rccd_pose {
+    // The position of the body's origin.
+    double position[3];
+    // The orientation as a quaternion in the order x, y, z, w, of any length but zero.
+    double orientation[4];
+} rccd_pose;
+
+// A motion at constant velocities: the centre of rotation moves straight, and the body turns about it.
+typedef struct rccd_motion {
+    // The pose at time 0.
+    struct rccd_pose start;
+    // The velocity of the centre of rotation.
+    double velocity[3];
+    // The angular velocity in the world, in radians per unit of time.
+    double spin[3];
+    // The centre of rotation, in the body's frame.
+    double centre[3];
+} rccd_motion;
+
+// The settings of queries. Get them from `rccd_settings_default`, then change what differs.
+typedef struct rccd_settings {
+    // The size of this struct in the caller's header; `rccd_settings_default` sets it.
+    size_t size;
+    // A contact is reported at a distance of at most margin + tolerance. In the unit of length of the bodies.
+    double tolerance;
+    // The distance at which bodies count as touching; 0 reports actual contact.
+    double margin;
+    // The largest amount of work, in visits of about a microsecond or less.
+    uint64_t budget;
+    // The time in seconds after which a query ends as unresolved; infinity for none.
+    double deadline;
+    // One of `rccd_start_policy`.
+    uint32_t start_policy;
+} rccd_settings;
+
+// A body and what moves it: a motion or a trajectory. With neither the body rests at the origin.
+typedef struct rccd_moving_body {
+    // The body.
+    const struct rccd_body *body;
+    // Its motion, or null.
+    const struct rccd_motion *motion;
+    // Its trajectory, or null.
+    const struct rccd_trajectory *trajectory;
+} rccd_moving_body;
+
+// A feature of a body, by the numbers of the mesh, from 0.
+typedef struct rccd_feature {
+    // What the indices mean.
+    rccd_feature_kind kind;
+    // The vertex, face or piece; the first vertex of an edge.
+    uint32_t first;
+    // The second vertex of an edge; 0 for others.
+    uint32_t second;
+} rccd_feature;
+
+// An answer. Numbers that the outcome does not have are NaN.
+typedef struct rccd_answer {
+    // The size of this struct in the caller's header; set it before the call.
+    size_t size;
+    // What the query has found.
+    rccd_outcome outcome;
+    // The limit that has ended it.
+    rccd_limit limit;
+    // The time of the contact, or of the least distance found.
+    double time;
+    // The time of the last contact of an interval.
+    double last_time;
+    // The time until which nothing touches: the duration for free bodies, the time of a first contact, or what was proven
+    // before a limit.
+    double safe_until;
+    // A lower bound of the distance that was asked for; for contacts, of the distance at all times.
+    double lower;
+    // An upper bound of that distance; infinite if none is known.
+    double upper;
+    // The unit normal from the first body to the second at the contact or at the least distance, in the world.
+    double normal[3];
+    // The point of the first body that is nearest to the second one.
+    double witness_a[3];
+    // The point of the second body that is nearest to the first one.
+    double witness_b[3];
+    // What of the first body is in contact.
+    struct rccd_feature feature_a;
+    // What of the second body is in contact.
+    struct rccd_feature feature_b;
+    // The distance beyond the margin within which a contact is reported; for distances, their accuracy.
+    double tolerance;
+    // The work that the query took, in the unit of the budget.
+    uint64_t work;
+} rccd_answer;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// Makes a ball around the origin.
+//
+// # Safety
+// `out` is null, or points to a place for a handle.
+rccd_status rccd_body_sphere(double radius, struct rccd_body **out);
+
+// Makes a capsule along z: the points within `radius` of the segment from `−half_length` to `half_length`.
+//
+// # Safety
+// `out` is null, or points to a place for a handle.
+rccd_status rccd_body_capsule(double radius, double half_length, struct rccd_body **out);
+
+// Makes a box around the origin, from half of its length along x, y and z.
+//
+// # Safety
+// `out` is null, or points to a place for a handle.
+rccd_status rccd_body_box(double half_x, double half_y, double half_z, struct rccd_body **out);
+
+// Makes a cylinder along z, as a polytope about it. Queries account for what the polytope exceeds.
+//
+// # Safety
+// `out` is null, or points to a place for a handle.
+rccd_status rccd_body_cylinder(double radius, double half_length, struct rccd_body **out);
+
+// Makes a cone along z, as a polytope about it, with its base at `−half_length` and its apex at `half_length`. Queries
+// account for what the polytope exceeds.
+//
+// # Safety
+// `out` is null, or points to a place for a handle.
+rccd_status rccd_body_cone(double radius,
+                           double half_length,
+                           struct rccd_body **out);
+
+// Makes a body of triangles. `vertices` has three numbers for each vertex, `triangles` three indices of vertices for each
+// triangle; `detail` is one of `rccd_detail`.
+//
+// # Safety
+// `vertices` is null or points to `3 · vertex_count` numbers, `triangles` is null or points to `3 · triangle_count` indices,
+// and `out` is null or points to a place for a handle.
+rccd_status rccd_body_from_triangles(const double *vertices,
+                                     size_t vertex_count,
+                                     const uint32_t *triangles,
+                                     size_t triangle_count,
+                                     uint32_t detail,
+                                     struct rccd_body **out);
+
+// Loads a body from a file: OBJ, STL, PLY, OFF, or a body that was prepared by `ccd decompose`.
+//
+// # Safety
+// `path` is null or a text that ends with a zero, and `out` is null or points to a place for a handle.
+rccd_status rccd_body_load(const char *path, struct rccd_body **out);
+
+// Frees a body; null is nothing.
+//
+// # Safety
+// The handle is null, or comes from this library, is not in use, and has not been freed.
+void rccd_body_free(struct rccd_body *body);
+
+// Stores the number of convex pieces of a body.
+//
+// # Safety
+// `body` is null or a handle; `out` is null or points to a place for a number.
+rccd_status rccd_body_piece_count(const struct rccd_body *body, size_t *out);
+
+// Returns the motion of a body that rests at the origin, to be changed before use.
+struct rccd_motion rccd_motion_at_rest(void);
+
+// Computes the motion from one pose at time 0 to another at time `duration`, by the shortest rotation about `centre`, a
+// point in the body's frame that moves straight. Null stands for the body's origin.
+//
+// # Safety
+// `start` and `end` are null or point to poses, `centre` is null or points to three numbers, and `out` is null or points
+// to a place for a motion.
+rccd_status rccd_motion_between(const struct rccd_pose *start,
+                                const struct rccd_pose *end,
+                                const double *centre,
+                                double duration,
+                                struct rccd_motion *out);
+
+// Returns the default settings: tolerance 0.001, margin 0, contacts at the start reported, no deadline.
+struct rccd_settings rccd_settings_default(void);
+
+// Makes a solver with these settings; null stands for the default ones.
+//
+// # Safety
+// `settings` is null or points to settings; `out` is null or points to a place for a handle.
+rccd_status rccd_solver_new(const struct rccd_settings *settings, struct rccd_solver **out);
+
+// Changes the settings of the queries that follow; null stands for the default ones.
+//
+// # Safety
+// `solver` is null or a handle that no other call uses; `settings` is null or points to settings.
+rccd_status rccd_solver_set_settings(struct rccd_solver *solver, const struct rccd_settings *settings);
+
+// Frees a solver; null is nothing.
+//
+// # Safety
+// The handle is null, or comes from this library, is not in use, and has not been freed.
+void rccd_solver_free(struct rccd_solver *solver);
+
+// Finds the first contact of two moving bodies, from time 0 to `duration`. Nothing touches before it.
+//
+// # Safety
+// `solver` is null or a handle that no other call uses; `a` and `b` are null or point to moving bodies whose pointers are
+// null or point to values of their types; `answer` is null or points to an answer whose `size` is set.
+rccd_status rccd_first_contact(struct rccd_solver *solver,
+                               const struct rccd_moving_body *a,
+                               const struct rccd_moving_body *b,
+                               double duration,
+                               struct rccd_answer *answer);
+
+// Finds some contact of two moving bodies, perhaps not the first one, or proves that there is none. For bodies that touch
+// it costs less than the first contact.
+//
+// # Safety
+// That of `rccd_first_contact`.
+rccd_status rccd_any_contact(struct rccd_solver *solver,
+                             const struct rccd_moving_body *a,
+                             const struct rccd_moving_body *b,
+                             double duration,
+                             struct rccd_answer *answer);
+
+// Finds when two moving bodies first and last touch. They do not touch before the first time nor after the last.
+//
+// # Safety
+// That of `rccd_first_contact`.
+rccd_status rccd_contact_interval(struct rccd_solver *solver,
+                                  const struct rccd_moving_body *a,
+                                  const struct rccd_moving_body *b,
+                                  double duration,
+                                  struct rccd_answer *answer);
+
+// Brackets the least distance of two moving bodies to within the tolerance. With a duration of 0 it is the distance at the
+// start.
+//
+// # Safety
+// That of `rccd_first_contact`.
+rccd_status rccd_closest_approach(struct rccd_solver *solver,
+                                  const struct rccd_moving_body *a,
+                                  const struct rccd_moving_body *b,
+                                  double duration,
+                                  struct rccd_answer *answer);
+
+// Decides whether two moving bodies keep a distance: the outcome is free if they do, and a contact if they do not. If the
+// bounds of the distance are too far apart to decide, it is the least distance.
+//
+// # Safety
+// That of `rccd_first_contact`.
+rccd_status rccd_keeps_clearance(struct rccd_solver *solver,
+                                 const struct rccd_moving_body *a,
+                                 const struct rccd_moving_body *b,
+                                 double duration,
+                                 double clearance,
+                                 struct rccd_answer *answer);
+
+// Returns the message of the last call of this thread that has not worked, in UTF-8; it is empty before. The text is valid
+// until the next call of this thread that does not work.
+const char *rccd_last_error(void);
+
+// Makes a path through poses, each at its time, in ascending order. Between two poses the body's origin moves straight,
+// and the body takes the shortest rotation. It rests before the first pose and after the last one.
+//
+// # Safety
+// `times` and `poses` are null or point to `count` values; `out` is null or points to a place for a handle.
+rccd_status rccd_trajectory_through_poses(const double *times,
+                                          const struct rccd_pose *poses,
+                                          size_t count,
+                                          struct rccd_trajectory **out);
+
+// Makes the trajectory of a thrown body: a motion whose centre accelerates, in free fall for instance.
+//
+// # Safety
+// `thrown` is null or points to a motion, `acceleration` is null or points to three numbers, and `out` is null or points to
+// a place for a handle.
+rccd_status rccd_trajectory_thrown(const struct rccd_motion *thrown,
+                                   const double *acceleration,
+                                   struct rccd_trajectory **out);
+
+// Frees a trajectory; null is nothing.
+//
+// # Safety
+// The handle is null, or comes from this library, is not in use, and has not been freed.
+void rccd_trajectory_free(struct rccd_trajectory *trajectory);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* RIGID_CCD_H */

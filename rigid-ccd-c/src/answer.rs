@@ -1,0 +1,171 @@
+//! Answers as one struct for all questions.
+
+use crate::feature::RccdFeature;
+use rigid_ccd::answer::{Contact, Limit, Overlap};
+use rigid_ccd::{Answer, Outcome};
+
+/// What a query has found.
+#[repr(i32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RccdOutcome {
+    /// The bodies stay apart over the whole duration.
+    Free = 0,
+    /// The bodies are in contact at `time`; for a first contact nothing touches before.
+    Contact = 1,
+    /// The bodies are within margin + tolerance at the start.
+    Touching = 2,
+    /// The bodies overlap at the start.
+    Overlapping = 3,
+    /// The bodies are in contact at `time` first, and at `last_time` last.
+    Interval = 4,
+    /// The least distance is from `lower` to `upper`, the latter at `time`.
+    LeastDistance = 5,
+    /// A limit was reached before the answer was known; until `safe_until` nothing touches.
+    Unresolved = 6,
+}
+
+/// The limit that has ended a query.
+#[repr(i32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RccdLimit {
+    /// No limit was reached.
+    None = 0,
+    /// The budget is spent.
+    Budget = 1,
+    /// The deadline has passed.
+    Deadline = 2,
+    /// The query was stopped.
+    Stopped = 3,
+    /// No further step can be certified.
+    Stalled = 4,
+    /// The distance of two pieces could not be computed.
+    OracleGaveUp = 5,
+    /// Rounding leaves it undecided whether the bodies overlap at the start.
+    OverlapUndecided = 6,
+    /// A limit that this interface has no name for.
+    Other = 255,
+}
+
+/// An answer. Numbers that the outcome does not have are NaN.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RccdAnswer {
+    /// The size of this struct in the caller's header; set it before the call.
+    pub size: usize,
+    /// What the query has found.
+    pub outcome: RccdOutcome,
+    /// The limit that has ended it.
+    pub limit: RccdLimit,
+    /// The time of the contact, or of the least distance found.
+    pub time: f64,
+    /// The time of the last contact of an interval.
+    pub last_time: f64,
+    /// The time until which nothing touches: the duration for free bodies, the time of a first contact, or what was proven
+    /// before a limit.
+    pub safe_until: f64,
+    /// A lower bound of the distance that was asked for; for contacts, of the distance at all times.
+    pub lower: f64,
+    /// An upper bound of that distance; infinite if none is known.
+    pub upper: f64,
+    /// The unit normal from the first body to the second at the contact or at the least distance, in the world.
+    pub normal: [f64; 3],
+    /// The point of the first body that is nearest to the second one.
+    pub witness_a: [f64; 3],
+    /// The point of the second body that is nearest to the first one.
+    pub witness_b: [f64; 3],
+    /// What of the first body is in contact.
+    pub feature_a: RccdFeature,
+    /// What of the second body is in contact.
+    pub feature_b: RccdFeature,
+    /// The distance beyond the margin within which a contact is reported; for distances, their accuracy.
+    pub tolerance: f64,
+    /// The work that the query took, in the unit of the budget.
+    pub work: u64,
+}
+
+impl RccdAnswer {
+    /// Converts the answer to a query over a duration.
+    pub(crate) fn new(answer: &Answer, duration: f64) -> Self {
+        let outcome = &answer.outcome;
+        let (kind, safe_until) = kind_and_safe_until(outcome, duration);
+        let last_time = match outcome {
+            Outcome::Interval { last, .. } => last.time,
+            _ => f64::NAN,
+        };
+        let without_contact = RccdAnswer {
+            size: size_of::<RccdAnswer>(),
+            outcome: kind,
+            limit: outcome.limit().map_or(RccdLimit::None, RccdLimit::from),
+            time: outcome.time().unwrap_or(f64::NAN),
+            last_time,
+            safe_until,
+            lower: outcome.lower(),
+            upper: outcome.upper(),
+            normal: [f64::NAN; 3],
+            witness_a: [f64::NAN; 3],
+            witness_b: [f64::NAN; 3],
+            feature_a: RccdFeature::NONE,
+            feature_b: RccdFeature::NONE,
+            tolerance: answer.tolerance,
+            work: answer.stats.budgeted_work(),
+        };
+        match contact(outcome) {
+            Ok(Some(contact)) => RccdAnswer {
+                normal: contact.separation.normal.to_array(),
+                witness_a: contact.separation.witness_a.to_array(),
+                witness_b: contact.separation.witness_b.to_array(),
+                feature_a: contact.feature_a.into(),
+                feature_b: contact.feature_b.into(),
+                ..without_contact
+            },
+            Ok(None) => without_contact,
+            Err(inside) => RccdAnswer {
+                witness_a: inside,
+                witness_b: inside,
+                ..without_contact
+            },
+        }
+    }
+}
+
+fn kind_and_safe_until(outcome: &Outcome, duration: f64) -> (RccdOutcome, f64) {
+    match *outcome {
+        Outcome::Free { .. } => (RccdOutcome::Free, duration),
+        Outcome::Contact { time, .. } => (RccdOutcome::Contact, time),
+        Outcome::Touching { .. } => (RccdOutcome::Touching, 0.0),
+        Outcome::Overlapping { .. } => (RccdOutcome::Overlapping, 0.0),
+        Outcome::Interval { first, .. } => (RccdOutcome::Interval, first.time),
+        // Written so that NaN proves nothing.
+        Outcome::LeastDistance { lower, .. } if lower > 0.0 => {
+            (RccdOutcome::LeastDistance, duration)
+        }
+        Outcome::LeastDistance { .. } => (RccdOutcome::LeastDistance, 0.0),
+        Outcome::Unresolved(known) => (RccdOutcome::Unresolved, known.safe_until),
+    }
+}
+
+/// Returns the pieces in contact, if there are any; an error with the common point if one body is inside the other.
+fn contact(outcome: &Outcome) -> Result<Option<Contact>, [f64; 3]> {
+    match *outcome {
+        Outcome::Overlapping {
+            overlap: Overlap::AInsideB(point) | Overlap::BInsideA(point),
+            ..
+        } => Err(point.to_array()),
+        Outcome::Overlapping { overlap, .. } => Ok(overlap.contact()),
+        _ => Ok(outcome.nearest_contact().map(|(_, contact)| contact)),
+    }
+}
+
+impl From<Limit> for RccdLimit {
+    fn from(limit: Limit) -> Self {
+        match limit {
+            Limit::Budget => RccdLimit::Budget,
+            Limit::Deadline => RccdLimit::Deadline,
+            Limit::Stopped => RccdLimit::Stopped,
+            Limit::Stalled => RccdLimit::Stalled,
+            Limit::OracleGaveUp => RccdLimit::OracleGaveUp,
+            Limit::OverlapUndecided => RccdLimit::OverlapUndecided,
+            _ => RccdLimit::Other,
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Follows the pointers that C passes.
+
+use crate::status::Failure;
+use std::ffi::{CStr, c_char};
+
+/// Returns the value that a pointer points to.
+///
+/// # Safety
+/// The pointer is null, or points to a value that nobody changes during the call.
+pub(crate) unsafe fn reference<'a, T>(name: &str, pointer: *const T) -> Result<&'a T, Failure> {
+    check_aligned(name, pointer)?;
+    // SAFETY: the caller's contract; the pointer is aligned.
+    unsafe { pointer.as_ref() }.ok_or_else(|| null(name))
+}
+
+/// Returns the value that a pointer points to, to change it.
+///
+/// # Safety
+/// The pointer is null, or points to a value that nobody else uses during the call.
+pub(crate) unsafe fn exclusive<'a, T>(name: &str, pointer: *mut T) -> Result<&'a mut T, Failure> {
+    check_aligned(name, pointer)?;
+    // SAFETY: the caller's contract; the pointer is aligned.
+    unsafe { pointer.as_mut() }.ok_or_else(|| null(name))
+}
+
+/// Returns an array; an empty one may be null.
+///
+/// # Safety
+/// The pointer is null, or points to `count` values that nobody changes during the call.
+pub(crate) unsafe fn array<'a, T>(
+    name: &str,
+    pointer: *const T,
+    count: usize,
+) -> Result<&'a [T], Failure> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    if pointer.is_null() {
+        return Err(null(name));
+    }
+    check_aligned(name, pointer)?;
+    let bytes = count.checked_mul(size_of::<T>());
+    if bytes.is_none_or(|bytes| bytes > isize::MAX as usize) {
+        return Err(Failure::argument(format!("{name} is too long")));
+    }
+    // SAFETY: the caller's contract; the array is aligned and not longer than memory.
+    Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
+}
+
+/// Returns a text in UTF-8.
+///
+/// # Safety
+/// The pointer is null, or points to a text that ends with a zero and that nobody changes during the call.
+pub(crate) unsafe fn text<'a>(name: &str, pointer: *const c_char) -> Result<&'a str, Failure> {
+    if pointer.is_null() {
+        return Err(null(name));
+    }
+    // SAFETY: the caller's contract.
+    let text = unsafe { CStr::from_ptr(pointer) };
+    text.to_str()
+        .map_err(|_| Failure::argument(format!("{name} is not UTF-8")))
+}
+
+/// Moves a value to the heap, and stores the handle where `out` points to.
+///
+/// # Safety
+/// `out` is null, or points to a place for a handle.
+pub(crate) unsafe fn give<T>(out: *mut *mut T, value: T) -> Result<(), Failure> {
+    // SAFETY: the caller's contract.
+    let out = unsafe { exclusive("the place for the result", out) }?;
+    *out = Box::into_raw(Box::new(value));
+    Ok(())
+}
+
+/// Frees what [`give`] has given; null is nothing.
+///
+/// # Safety
+/// The handle is null, or comes from [`give`] and has not been freed.
+pub(crate) unsafe fn free<T>(handle: *mut T) {
+    if !handle.is_null() {
+        // SAFETY: the caller's contract.
+        drop(unsafe { Box::from_raw(handle) });
+    }
+}
+
+fn null(name: &str) -> Failure {
+    Failure::argument(format!("{name} is null"))
+}
+
+fn check_aligned<T>(name: &str, pointer: *const T) -> Result<(), Failure> {
+    if pointer.is_aligned() {
+        Ok(())
+    } else {
+        Err(Failure::argument(format!("{name} is not aligned")))
+    }
+}

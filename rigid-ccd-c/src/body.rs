@@ -1,0 +1,190 @@
+//! Bodies: shapes, triangles in arrays, and files.
+
+use crate::arguments::{array, free, give, reference, text};
+use crate::status::{Failure, RccdStatus, status_of};
+use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
+use rigid_ccd::{Body, InputError, load};
+use std::ffi::c_char;
+
+/// A body: the shape that moves. Many queries and threads may share it.
+pub struct RccdBody(pub(crate) Body);
+
+/// How triangles in arrays become a body.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RccdDetail {
+    /// The fewest exact pieces: one hull for a convex solid, else patches or triangles, whichever is faster.
+    Auto = 0,
+    /// One piece for each triangle. A closed mesh is solid.
+    Triangles = 1,
+    /// One piece for each triangle. A closed mesh is hollow.
+    Surface = 2,
+    /// One piece, the convex hull. It encloses any mesh, and queries account for what it exceeds.
+    OuterHull = 3,
+}
+
+/// Makes a ball around the origin.
+///
+/// # Safety
+/// `out` is null, or points to a place for a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_body_sphere(radius: f64, out: *mut *mut RccdBody) -> RccdStatus {
+    // SAFETY: the contract of this function.
+    unsafe { give_shape(Body::sphere(radius), out) }
+}
+
+/// Makes a capsule along z: the points within `radius` of the segment from `−half_length` to `half_length`.
+///
+/// # Safety
+/// `out` is null, or points to a place for a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_body_capsule(
+    radius: f64,
+    half_length: f64,
+    out: *mut *mut RccdBody,
+) -> RccdStatus {
+    // SAFETY: the contract of this function.
+    unsafe { give_shape(Body::capsule(radius, half_length), out) }
+}
+
+/// Makes a box around the origin, from half of its length along x, y and z.
+///
+/// # Safety
+/// `out` is null, or points to a place for a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_body_box(
+    half_x: f64,
+    half_y: f64,
+    half_z: f64,
+    out: *mut *mut RccdBody,
+) -> RccdStatus {
+    // SAFETY: the contract of this function.
+    unsafe { give_shape(Body::cuboid([half_x, half_y, half_z]), out) }
+}
+
+/// Makes a cylinder along z, as a polytope about it. Queries account for what the polytope exceeds.
+///
+/// # Safety
+/// `out` is null, or points to a place for a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_body_cylinder(
+    radius: f64,
+    half_length: f64,
+    out: *mut *mut RccdBody,
+) -> RccdStatus {
+    // SAFETY: the contract of this function.
+    unsafe { give_shape(Body::cylinder(radius, half_length), out) }
+}
+
+/// Makes a cone along z, as a polytope about it, with its base at `−half_length` and its apex at `half_length`. Queries
+/// account for what the polytope exceeds.
+///
+/// # Safety
+/// `out` is null, or points to a place for a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_body_cone(
+    radius: f64,
+    half_length: f64,
+    out: *mut *mut RccdBody,
+) -> RccdStatus {
+    // SAFETY: the contract of this function.
+    unsafe { give_shape(Body::cone(radius, half_length), out) }
+}
+
+/// Makes a body of triangles. `vertices` has three numbers for each vertex, `triangles` three indices of vertices for each
+/// triangle; `detail` is one of `rccd_detail`.
+///
+/// # Safety
+/// `vertices` is null or points to `3 · vertex_count` numbers, `triangles` is null or points to `3 · triangle_count` indices,
+/// and `out` is null or points to a place for a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_body_from_triangles(
+    vertices: *const f64,
+    vertex_count: usize,
+    triangles: *const u32,
+    triangle_count: usize,
+    detail: u32,
+    out: *mut *mut RccdBody,
+) -> RccdStatus {
+    status_of(|| {
+        let detail = parse_detail(detail)?;
+        // SAFETY: the contract of this function.
+        let vertices = unsafe { array("vertices", vertices.cast::<[f64; 3]>(), vertex_count) }?;
+        // SAFETY: the contract of this function.
+        let triangles =
+            unsafe { array("triangles", triangles.cast::<[u32; 3]>(), triangle_count) }?;
+        let mesh = TriangleMesh::new(vertices.to_vec(), triangles).map_err(Failure::body)?;
+        let body = body_from_mesh(&mesh, detail).map_err(Failure::body)?.body;
+        // SAFETY: the contract of this function.
+        unsafe { give(out, RccdBody(body)) }
+    })
+}
+
+/// Loads a body from a file: OBJ, STL, PLY, OFF, or a body that was prepared by `ccd decompose`.
+///
+/// # Safety
+/// `path` is null or a text that ends with a zero, and `out` is null or points to a place for a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_body_load(
+    path: *const c_char,
+    out: *mut *mut RccdBody,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let path = unsafe { text("path", path) }?;
+        let body = load(path).map_err(Failure::body)?;
+        // SAFETY: the contract of this function.
+        unsafe { give(out, RccdBody(body)) }
+    })
+}
+
+/// Frees a body; null is nothing.
+///
+/// # Safety
+/// The handle is null, or comes from this library, is not in use, and has not been freed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_body_free(body: *mut RccdBody) {
+    // SAFETY: the contract of this function.
+    unsafe { free(body) }
+}
+
+/// Stores the number of convex pieces of a body.
+///
+/// # Safety
+/// `body` is null or a handle; `out` is null or points to a place for a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_body_piece_count(
+    body: *const RccdBody,
+    out: *mut usize,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let body = unsafe { reference("body", body) }?;
+        // SAFETY: the contract of this function.
+        *unsafe { crate::arguments::exclusive("the place for the number", out) }? =
+            body.0.pieces().len();
+        Ok(())
+    })
+}
+
+/// # Safety
+/// `out` is null, or points to a place for a handle.
+unsafe fn give_shape(body: Result<Body, InputError>, out: *mut *mut RccdBody) -> RccdStatus {
+    status_of(|| {
+        let body = body.map_err(Failure::input)?;
+        // SAFETY: the contract of this function.
+        unsafe { give(out, RccdBody(body)) }
+    })
+}
+
+fn parse_detail(detail: u32) -> Result<Detail, Failure> {
+    match detail {
+        detail if detail == RccdDetail::Auto as u32 => Ok(Detail::Auto),
+        detail if detail == RccdDetail::Triangles as u32 => Ok(Detail::Triangles),
+        detail if detail == RccdDetail::Surface as u32 => Ok(Detail::Surface),
+        detail if detail == RccdDetail::OuterHull as u32 => Ok(Detail::OuterHull),
+        other => Err(Failure::argument(format!(
+            "detail {other} is none of rccd_detail"
+        ))),
+    }
+}

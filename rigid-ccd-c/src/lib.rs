@@ -1,0 +1,37 @@
+//! The C interface of `rigid-ccd`. Programs include `include/rigid_ccd.h`, which is written from this crate.
+//!
+//! | to … | file |
+//! |---|---|
+//! | see whether a call has worked, and why not | `status.rs` |
+//! | follow the pointers that C passes | `arguments.rs` |
+//! | make bodies, from shapes, arrays and files | `body.rs` |
+//! | move them at constant velocities | `motion.rs` |
+//! | move them along trajectories | `trajectory.rs` |
+//! | set tolerances and limits | `settings.rs` |
+//! | ask | `solver.rs` |
+//! | read answers | `answer.rs`, `feature.rs` |
+//!
+//! # Contract of all functions
+//! A function never panics into C, never calls back, and keeps no pointer to its arguments, except that a query borrows
+//! bodies and trajectories while it runs. A pointer is null or points to a value of its type, which lives during the call;
+//! a handle comes from this library and has not been freed. Null where it is not allowed is an error, not undefined. Handles
+//! may be shared between threads as `const` pointers; a solver belongs to one thread at a time.
+
+mod answer;
+mod arguments;
+mod body;
+mod feature;
+mod motion;
+mod settings;
+mod solver;
+mod status;
+mod trajectory;
+
+pub use answer::{RccdAnswer, RccdLimit, RccdOutcome};
+pub use body::*;
+pub use feature::{RccdFeature, RccdFeatureKind};
+pub use motion::{RccdMotion, RccdPose, rccd_motion_at_rest, rccd_motion_between};
+pub use settings::{RccdSettings, RccdStartPolicy, rccd_settings_default};
+pub use solver::*;
+pub use status::{RccdStatus, rccd_last_error};
+pub use trajectory::*;

@@ -1,0 +1,95 @@
+//! Poses, and motions at constant velocities.
+
+use crate::arguments::{exclusive, reference};
+use crate::status::{Failure, RccdStatus, status_of};
+use rigid_ccd::{InputError, Motion, Pose};
+
+/// A position and an orientation of a body in the world.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RccdPose {
+    /// The position of the body's origin.
+    pub position: [f64; 3],
+    /// The orientation as a quaternion in the order x, y, z, w, of any length but zero.
+    pub orientation: [f64; 4],
+}
+
+/// A motion at constant velocities: the centre of rotation moves straight, and the body turns about it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RccdMotion {
+    /// The pose at time 0.
+    pub start: RccdPose,
+    /// The velocity of the centre of rotation.
+    pub velocity: [f64; 3],
+    /// The angular velocity in the world, in radians per unit of time.
+    pub spin: [f64; 3],
+    /// The centre of rotation, in the body's frame.
+    pub centre: [f64; 3],
+}
+
+impl RccdPose {
+    pub(crate) fn to_pose(self) -> Result<Pose, InputError> {
+        Pose::new(self.position, self.orientation)
+    }
+}
+
+impl RccdMotion {
+    pub(crate) fn to_motion(self) -> Result<Motion, InputError> {
+        Motion::about(self.start.to_pose()?, self.velocity, self.spin, self.centre)
+    }
+
+    fn from_motion(motion: &Motion) -> Self {
+        let start = motion.start();
+        RccdMotion {
+            start: RccdPose {
+                position: start.translation().to_array(),
+                orientation: start.rotation().to_array(),
+            },
+            velocity: motion.velocity().to_array(),
+            spin: motion.spin().to_array(),
+            centre: motion.centre().to_array(),
+        }
+    }
+}
+
+/// Returns the motion of a body that rests at the origin, to be changed before use.
+#[unsafe(no_mangle)]
+pub extern "C" fn rccd_motion_at_rest() -> RccdMotion {
+    RccdMotion::from_motion(&Motion::STILL)
+}
+
+/// Computes the motion from one pose at time 0 to another at time `duration`, by the shortest rotation about `centre`, a
+/// point in the body's frame that moves straight. Null stands for the body's origin.
+///
+/// # Safety
+/// `start` and `end` are null or point to poses, `centre` is null or points to three numbers, and `out` is null or points
+/// to a place for a motion.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_motion_between(
+    start: *const RccdPose,
+    end: *const RccdPose,
+    centre: *const f64,
+    duration: f64,
+    out: *mut RccdMotion,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let (start, end) = unsafe { (reference("start", start)?, reference("end", end)?) };
+        let centre = if centre.is_null() {
+            [0.0; 3]
+        } else {
+            // SAFETY: the contract of this function.
+            *unsafe { reference("centre", centre.cast::<[f64; 3]>()) }?
+        };
+        let poses = start
+            .to_pose()
+            .and_then(|start| Ok((start, end.to_pose()?)));
+        let motion = poses
+            .and_then(|(start, end)| Motion::between(start, end, centre, duration))
+            .map_err(Failure::input)?;
+        // SAFETY: the contract of this function.
+        *unsafe { exclusive("the place for the motion", out) }? = RccdMotion::from_motion(&motion);
+        Ok(())
+    })
+}

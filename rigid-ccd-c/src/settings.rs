@@ -1,0 +1,86 @@
+//! Settings: tolerance, margin, and limits of the work.
+
+use crate::status::Failure;
+use rigid_ccd::{Settings, StartPolicy};
+use std::time::Duration;
+
+/// What to do about bodies that are in contact at the start.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RccdStartPolicy {
+    /// The contact is the answer.
+    Report = 0,
+    /// The contact is ignored until the bodies approach.
+    Leave = 1,
+}
+
+/// The settings of queries. Get them from `rccd_settings_default`, then change what differs.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RccdSettings {
+    /// The size of this struct in the caller's header; `rccd_settings_default` sets it.
+    pub size: usize,
+    /// A contact is reported at a distance of at most margin + tolerance. In the unit of length of the bodies.
+    pub tolerance: f64,
+    /// The distance at which bodies count as touching; 0 reports actual contact.
+    pub margin: f64,
+    /// The largest amount of work, in visits of about a microsecond or less.
+    pub budget: u64,
+    /// The time in seconds after which a query ends as unresolved; infinity for none.
+    pub deadline: f64,
+    /// One of `rccd_start_policy`.
+    pub start_policy: u32,
+}
+
+impl RccdSettings {
+    pub(crate) fn to_settings(self) -> Result<Settings, Failure> {
+        if self.size != size_of::<Self>() {
+            let text =
+                "size of settings: rccd_settings_default sets it, for the header of this library";
+            return Err(Failure::argument(text));
+        }
+        let start_policy = match self.start_policy {
+            policy if policy == RccdStartPolicy::Report as u32 => StartPolicy::Report,
+            policy if policy == RccdStartPolicy::Leave as u32 => StartPolicy::Leave,
+            other => {
+                let text = format!("start_policy {other} is none of rccd_start_policy");
+                return Err(Failure::argument(text));
+            }
+        };
+        let deadline = match self.deadline {
+            f64::INFINITY => None,
+            seconds => Some(Duration::try_from_secs_f64(seconds).map_err(|_| {
+                Failure::input(format!("deadline {seconds} is out of range: at least 0"))
+            })?),
+        };
+        let settings = Settings {
+            tolerance: self.tolerance,
+            margin: self.margin,
+            budget: self.budget,
+            deadline,
+            start_policy,
+            ..Settings::DEFAULT
+        };
+        settings.check().map_err(Failure::input)?;
+        Ok(settings)
+    }
+}
+
+/// Returns the default settings: tolerance 0.001, margin 0, contacts at the start reported, no deadline.
+#[unsafe(no_mangle)]
+pub extern "C" fn rccd_settings_default() -> RccdSettings {
+    let Settings {
+        tolerance,
+        margin,
+        budget,
+        ..
+    } = Settings::DEFAULT;
+    RccdSettings {
+        size: size_of::<RccdSettings>(),
+        tolerance,
+        margin,
+        budget,
+        deadline: f64::INFINITY,
+        start_policy: RccdStartPolicy::Report as u32,
+    }
+}

@@ -1,0 +1,147 @@
+//! Tests that wrong arguments are errors with a message, and change nothing.
+
+use crate::support::{empty_answer, last_error, moving, ok, sphere};
+use rigid_ccd_c::*;
+use std::ptr::{dangling, null, null_mut};
+
+/// Asserts that a call has failed for an argument, with a message that names it.
+#[track_caller]
+fn refused(status: RccdStatus, named: &str) {
+    let message = last_error();
+    assert_eq!(status, RccdStatus::InvalidArgument, "{message}");
+    assert!(
+        message.contains(named),
+        "{message:?} does not name {named:?}"
+    );
+}
+
+#[test]
+fn null_and_wrong_sizes_are_refused_with_their_names() {
+    let (solver, ball) = (crate::support::solver(None), sphere(0.5));
+    let motion = rccd_motion_at_rest();
+    let body = moving(&ball, &motion);
+    let without_body = RccdMovingBody {
+        body: null(),
+        ..body
+    };
+    let mut answer = empty_answer();
+    let before = answer;
+    let mut of_no_size = RccdAnswer { size: 0, ..answer };
+    // SAFETY: pointers are null or to values of their types.
+    unsafe {
+        let s = solver.pointer();
+        refused(
+            rccd_first_contact(null_mut(), &body, &body, 1.0, &mut answer),
+            "solver",
+        );
+        refused(
+            rccd_first_contact(s, null(), &body, 1.0, &mut answer),
+            "a is null",
+        );
+        refused(
+            rccd_any_contact(s, &body, null(), 1.0, &mut answer),
+            "b is null",
+        );
+        refused(
+            rccd_contact_interval(s, &body, &without_body, 1.0, &mut answer),
+            "body is null",
+        );
+        refused(
+            rccd_closest_approach(s, &body, &body, 1.0, null_mut()),
+            "answer is null",
+        );
+        refused(
+            rccd_first_contact(s, &body, &body, 1.0, &mut of_no_size),
+            "size",
+        );
+        refused(rccd_body_sphere(1.0, null_mut()), "result is null");
+        refused(rccd_body_load(null(), null_mut()), "path is null");
+        let mut out = null_mut();
+        refused(
+            rccd_body_from_triangles(null(), 3, null(), 1, 0, &mut out),
+            "vertices is null",
+        );
+        refused(
+            rccd_body_from_triangles(null(), 0, null(), 0, 9, &mut out),
+            "detail 9",
+        );
+        let many = usize::MAX / 8;
+        let somewhere = dangling();
+        refused(
+            rccd_body_from_triangles(somewhere, many, null(), 0, 0, &mut out),
+            "too long",
+        );
+        let not_aligned = somewhere.wrapping_byte_add(1);
+        refused(
+            rccd_body_from_triangles(not_aligned, 1, null(), 0, 0, &mut out),
+            "not aligned",
+        );
+        assert!(out.is_null());
+        let settings = RccdSettings {
+            start_policy: 7,
+            ..rccd_settings_default()
+        };
+        refused(rccd_solver_set_settings(s, &settings), "start_policy 7");
+        let settings = RccdSettings {
+            size: 8,
+            ..rccd_settings_default()
+        };
+        refused(rccd_solver_set_settings(s, &settings), "size of settings");
+    }
+    assert_eq!(answer, before);
+}
+
+#[test]
+fn numbers_out_of_range_are_refused() {
+    let (solver, ball) = (crate::support::solver(None), sphere(0.5));
+    let motion = rccd_motion_at_rest();
+    let mut no_rotation = motion;
+    no_rotation.start.orientation = [0.0; 4];
+    let mut answer = empty_answer();
+    // SAFETY: pointers are null or to values of their types.
+    unsafe {
+        let s = solver.pointer();
+        let mut out = null_mut();
+        let bad = RccdStatus::InvalidInput;
+        assert_eq!(rccd_body_sphere(f64::NAN, &mut out), bad);
+        assert_eq!(rccd_body_box(1.0, -1.0, 1.0, &mut out), bad);
+        let (one, other) = (moving(&ball, &motion), moving(&ball, &no_rotation));
+        assert_eq!(rccd_first_contact(s, &one, &one, -1.0, &mut answer), bad);
+        assert_eq!(rccd_first_contact(s, &one, &other, 1.0, &mut answer), bad);
+        assert!(last_error().contains("quaternion"), "{}", last_error());
+        for deadline in [f64::NAN, -1.0, 1e300] {
+            let settings = RccdSettings {
+                deadline,
+                ..rccd_settings_default()
+            };
+            assert_eq!(rccd_solver_set_settings(s, &settings), bad);
+        }
+        let nothing = [0.0f64; 3];
+        let no_triangles = rccd_body_from_triangles(nothing.as_ptr(), 1, null(), 0, 0, &mut out);
+        assert_eq!(no_triangles, RccdStatus::InvalidBody);
+        assert_eq!(
+            rccd_body_load(c"no such file.obj".as_ptr(), &mut out),
+            RccdStatus::InvalidBody
+        );
+        assert!(
+            last_error().contains("no such file.obj"),
+            "{}",
+            last_error()
+        );
+        assert!(out.is_null());
+    }
+}
+
+#[test]
+fn freeing_null_is_nothing_and_bodies_are_counted() {
+    let ball = sphere(1.0);
+    let mut count = 0;
+    // SAFETY: null, or pointers to values that live here.
+    unsafe {
+        rccd_body_free(null_mut());
+        rccd_solver_free(null_mut());
+        rccd_trajectory_free(null_mut());
+        ok(rccd_body_piece_count(ball.pointer(), &mut count));
+    }
+    assert_eq!(count, 1);
+}

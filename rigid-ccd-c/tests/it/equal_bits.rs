@@ -1,0 +1,210 @@
+//! Tests that every question through the interface has the same bits as in Rust.
+
+use crate::support::{Handle, Random, moving, ok};
+use rigid_ccd::trajectory::{Ballistic, Poses};
+use rigid_ccd::{Answer, Body, Motion, Outcome, Pose, Settings, Solver, StartPolicy};
+use rigid_ccd_c::*;
+use std::ptr::null;
+
+type Question = unsafe extern "C" fn(
+    *mut RccdSolver,
+    *const RccdMovingBody,
+    *const RccdMovingBody,
+    f64,
+    *mut RccdAnswer,
+) -> RccdStatus;
+
+/// Returns the answer to a question by the interface.
+fn ask(
+    solver: &Handle<RccdSolver>,
+    bodies: [RccdMovingBody; 2],
+    duration: f64,
+    question: Question,
+) -> RccdAnswer {
+    let mut answer = crate::support::empty_answer();
+    // SAFETY: all pointers are to values that live here.
+    ok(unsafe {
+        question(
+            solver.pointer(),
+            &bodies[0],
+            &bodies[1],
+            duration,
+            &mut answer,
+        )
+    });
+    answer
+}
+
+fn assert_equal(c: &RccdAnswer, rust: &Answer, what: &str) {
+    let bits = |number: f64| number.to_bits();
+    let outcome = &rust.outcome;
+    let time = outcome.time().unwrap_or(f64::NAN);
+    assert_eq!(bits(c.time), bits(time), "{what}: {c:?} {rust:?}");
+    assert_eq!(bits(c.lower), bits(outcome.lower()), "{what}");
+    assert_eq!(bits(c.upper), bits(outcome.upper()), "{what}");
+    assert_eq!(bits(c.tolerance), bits(rust.tolerance), "{what}");
+    assert_eq!(c.work, rust.stats.budgeted_work(), "{what}");
+    if let Some((_, contact)) = outcome.nearest_contact() {
+        let seen = contact.separation;
+        for (ours, theirs) in [
+            (c.normal, seen.normal),
+            (c.witness_a, seen.witness_a),
+            (c.witness_b, seen.witness_b),
+        ] {
+            assert_eq!(
+                ours.map(f64::to_bits),
+                theirs.to_array().map(f64::to_bits),
+                "{what}"
+            );
+        }
+        assert_ne!(c.feature_a.kind, RccdFeatureKind::None);
+    }
+    let kind = match outcome {
+        Outcome::Free { .. } => RccdOutcome::Free,
+        Outcome::Contact { .. } => RccdOutcome::Contact,
+        Outcome::Touching { .. } => RccdOutcome::Touching,
+        Outcome::Overlapping { .. } => RccdOutcome::Overlapping,
+        Outcome::Interval { .. } => RccdOutcome::Interval,
+        Outcome::LeastDistance { .. } => RccdOutcome::LeastDistance,
+        Outcome::Unresolved(_) => RccdOutcome::Unresolved,
+    };
+    assert_eq!(c.outcome, kind, "{what}");
+}
+
+#[test]
+fn answers_about_motions_have_the_bits_of_rust() {
+    let mut random = Random::new(1);
+    let (soup, mesh) = crate::support::random_mesh(&mut random, 60);
+    let rust_bodies = [
+        mesh,
+        Body::sphere(0.4).unwrap(),
+        Body::cylinder(0.3, 0.5).unwrap(),
+    ];
+    let c_bodies = [
+        soup,
+        crate::support::sphere(0.4),
+        crate::support::cylinder(0.3, 0.5),
+    ];
+    let settings = Settings {
+        tolerance: 1e-5,
+        margin: 0.01,
+        start_policy: StartPolicy::Leave,
+        ..Settings::DEFAULT
+    };
+    let c_settings = RccdSettings {
+        tolerance: 1e-5,
+        margin: 0.01,
+        start_policy: RccdStartPolicy::Leave as u32,
+        ..rccd_settings_default()
+    };
+    let mut rust = Solver::new().with_settings(settings.clone());
+    let c = crate::support::solver(Some(&c_settings));
+    let mut counts = [0; 7];
+    for number in 0..400 {
+        let motions = [random.motion(), random.motion()];
+        let rust_motions = motions.map(|motion| crate::support::to_rust(&motion));
+        let [i, j] = [(); 2].map(|()| random.index(3));
+        let [a, b] = [
+            (&rust_bodies[i], rust_motions[0]),
+            (&rust_bodies[j], rust_motions[1]),
+        ];
+        let bodies = [
+            moving(&c_bodies[i], &motions[0]),
+            moving(&c_bodies[j], &motions[1]),
+        ];
+        let asked: [(&str, Question, Answer); 4] = [
+            (
+                "first",
+                rccd_first_contact,
+                rust.first_contact(a, b, 1.0).unwrap(),
+            ),
+            (
+                "any",
+                rccd_any_contact,
+                rust.any_contact(a, b, 1.0).unwrap(),
+            ),
+            (
+                "interval",
+                rccd_contact_interval,
+                rust.contact_interval(a, b, 1.0).unwrap(),
+            ),
+            (
+                "closest",
+                rccd_closest_approach,
+                rust.closest_approach(a, b, 1.0).unwrap(),
+            ),
+        ];
+        for (name, question, answer) in asked {
+            let found = ask(&c, bodies, 1.0, question);
+            counts[found.outcome as usize] += 1;
+            assert_equal(&found, &answer, &format!("{number} {name}"));
+        }
+        rust.set_settings(Settings {
+            clearance: Some(0.2),
+            ..settings.clone()
+        });
+        let answer = rust.closest_approach(a, b, 1.0).unwrap();
+        rust.set_settings(settings.clone());
+        let mut found = crate::support::empty_answer();
+        // SAFETY: all pointers are to values that live here.
+        ok(unsafe {
+            rccd_keeps_clearance(c.pointer(), &bodies[0], &bodies[1], 1.0, 0.2, &mut found)
+        });
+        assert_equal(&found, &answer, &format!("{number} clearance"));
+    }
+    assert!(counts[RccdOutcome::Free as usize] > 50, "{counts:?}");
+    assert!(counts[RccdOutcome::Contact as usize] > 50, "{counts:?}");
+    assert!(counts[RccdOutcome::Interval as usize] > 50, "{counts:?}");
+}
+
+#[test]
+fn answers_about_trajectories_have_the_bits_of_rust() {
+    let mut random = Random::new(2);
+    let (soup, mesh) = crate::support::random_mesh(&mut random, 30);
+    let mut rust = Solver::new();
+    let c = crate::support::solver(None);
+    let mut hits = 0;
+    for number in 0..60 {
+        let [thrown, first, second] = [(); 3].map(|()| random.motion());
+        let poses = [first.start, second.start];
+        let pose = |pose: &RccdPose| Pose::new(pose.position, pose.orientation).unwrap();
+        let falls = Ballistic::new(crate::support::to_rust(&thrown), [0.0, 0.0, -3.0]).unwrap();
+        let path = Poses::new(vec![(0.0, pose(&poses[0])), (1.0, pose(&poses[1]))]).unwrap();
+        let c_falls = crate::support::thrown(&thrown, [0.0, 0.0, -3.0]);
+        let c_path = crate::support::through_poses(&[0.0, 1.0], &poses);
+        let along = |trajectory: &Handle<RccdTrajectory>| RccdMovingBody {
+            body: soup.pointer(),
+            motion: null(),
+            trajectory: trajectory.pointer(),
+        };
+        let answer = rust
+            .first_contact((&mesh, &falls), (&mesh, &path), 1.0)
+            .unwrap();
+        let found = ask(
+            &c,
+            [along(&c_falls), along(&c_path)],
+            1.0,
+            rccd_first_contact,
+        );
+        assert_equal(&found, &answer, &number.to_string());
+        hits += i32::from(found.outcome == RccdOutcome::Contact);
+    }
+    assert!(hits > 10, "{hits}");
+}
+
+#[test]
+fn motions_between_poses_have_the_bits_of_rust() {
+    let mut random = Random::new(3);
+    for _ in 0..100 {
+        let [from, to] = [(); 2].map(|()| random.motion().start);
+        let centre = [0.1, -0.2, 0.3];
+        let pose = |pose: &RccdPose| Pose::new(pose.position, pose.orientation).unwrap();
+        let motion = Motion::between(pose(&from), pose(&to), centre, 2.0).unwrap();
+        let mut found = rccd_motion_at_rest();
+        // SAFETY: all pointers are to values that live here.
+        ok(unsafe { rccd_motion_between(&from, &to, centre.as_ptr(), 2.0, &mut found) });
+        assert_eq!(found.velocity, motion.velocity().to_array());
+        assert_eq!(found.spin, motion.spin().to_array());
+        assert_eq!(found.centre, centre);
+    }
+}

@@ -1,0 +1,7 @@
+//! Tests of the interface, from Rust, as C calls it.
+
+mod arguments;
+mod equal_bits;
+mod header;
+mod memory;
+mod support;
