@@ -169,11 +169,27 @@ typedef uint32_t rccd_start_policy;
 // A body: the shape that moves. Many queries and threads may share it.
 typedef struct rccd_body rccd_body;
 
+// A robot among obstacles that rest in the frame of its base. Obstacles and bodies that the robot holds have names, which no
+// link has. Solvers keep the cell as it was when they were made.
+typedef struct rccd_cell rccd_cell;
+
+// A solver for paths in a cell as it was when the solver was made. It keeps memory from one question to the next. Each thread
+// needs its own.
+typedef struct rccd_cell_solver rccd_cell_solver;
+
 // A solver: settings, and memory that it reuses from query to query. Each thread needs its own.
 typedef struct rccd_solver rccd_solver;
 
 // A trajectory. Many queries and threads may share it.
 typedef struct rccd_trajectory rccd_trajectory;
+
+// A text in UTF-8 that belongs to a cell or to a solver, and that does not end with a zero.
+typedef struct rccd_text {
+    // The first byte; null for no text.
+    const char *data;
+    // The number of bytes.
+    size_t length;
+} rccd_text;
 
 // A position and an orientation of a body in the world.
 typedef struct rccd_pose {
@@ -182,18 +198,6 @@ typedef struct rccd_pose {
     // The orientation as a quaternion in the order x, y, z, w, of any length but zero.
     double orientation[4];
 } rccd_pose;
-
-// A motion at constant velocities: the centre of rotation moves straight, and the body turns about it.
-typedef struct rccd_motion {
-    // The pose at time 0.
-    struct rccd_pose start;
-    // The velocity of the centre of rotation.
-    double velocity[3];
-    // The angular velocity in the world, in radians per unit of time.
-    double spin[3];
-    // The centre of rotation, in the body's frame.
-    double centre[3];
-} rccd_motion;
 
 // The settings of queries. Get them from `rccd_settings_default`, then change what differs.
 typedef struct rccd_settings {
@@ -211,16 +215,6 @@ typedef struct rccd_settings {
     uint32_t start_policy;
 } rccd_settings;
 
-// A body and what moves it: a motion or a trajectory. With neither the body rests at the origin.
-typedef struct rccd_moving_body {
-    // The body.
-    const struct rccd_body *body;
-    // Its motion, or null.
-    const struct rccd_motion *motion;
-    // Its trajectory, or null.
-    const struct rccd_trajectory *trajectory;
-} rccd_moving_body;
-
 // A feature of a body, by the numbers of the mesh, from 0.
 typedef struct rccd_feature {
     // What the indices mean.
@@ -230,6 +224,59 @@ typedef struct rccd_feature {
     // The second vertex of an edge; 0 for others.
     uint32_t second;
 } rccd_feature;
+
+// An answer about a path. Numbers that the outcome does not have are NaN, and names are null.
+typedef struct rccd_path_answer {
+    // The size of this struct in the caller's header; set it before the call.
+    size_t size;
+    // What was found: free, a contact, the least distance, or unresolved.
+    rccd_outcome outcome;
+    // The limit that has ended the search.
+    rccd_limit limit;
+    // The number of the segment of the contact, or of the least distance found; the first segment is 0. For a free path it
+    // is the last one, and for an unresolved one it is that until whose `share` the path is free.
+    size_t segment;
+    // The share of that segment that is passed, from 0 to 1. Nothing touches before a first contact.
+    double share;
+    // A lower bound of the distance: at the contact, or on the whole path.
+    double lower;
+    // An upper bound of it.
+    double upper;
+    // The link, held body or obstacle that touches or is nearest; it belongs to the solver.
+    struct rccd_text item_a;
+    // The other one.
+    struct rccd_text item_b;
+    // The point of the first one that is nearest to the other, in the frame of the robot's base.
+    double witness_a[3];
+    // The point of the other one that is nearest to the first.
+    double witness_b[3];
+    // What of the first one's mesh is in contact.
+    struct rccd_feature feature_a;
+    // What of the other one's mesh is in contact.
+    struct rccd_feature feature_b;
+} rccd_path_answer;
+
+// A motion at constant velocities: the centre of rotation moves straight, and the body turns about it.
+typedef struct rccd_motion {
+    // The pose at time 0.
+    struct rccd_pose start;
+    // The velocity of the centre of rotation.
+    double velocity[3];
+    // The angular velocity in the world, in radians per unit of time.
+    double spin[3];
+    // The centre of rotation, in the body's frame.
+    double centre[3];
+} rccd_motion;
+
+// A body and what moves it: a motion or a trajectory. With neither the body rests at the origin.
+typedef struct rccd_moving_body {
+    // The body.
+    const struct rccd_body *body;
+    // Its motion, or null.
+    const struct rccd_motion *motion;
+    // Its trajectory, or null.
+    const struct rccd_trajectory *trajectory;
+} rccd_moving_body;
 
 // An answer. Numbers that the outcome does not have are NaN.
 typedef struct rccd_answer {
@@ -333,6 +380,127 @@ void rccd_body_free(struct rccd_body *body);
 // # Safety
 // `body` is null or a handle; `out` is null or points to a place for a number.
 rccd_status rccd_body_piece_count(const struct rccd_body *body, size_t *out);
+
+// Loads the robot of a URDF or MJCF file, with its meshes, as a cell without obstacles. All pairs of links are checked but
+// neighbours, links that never move relative to each other, and those that an SRDF file disables; null stands for no such
+// file. `package_folder` is searched first for `package://` names; null stands for none.
+//
+// # Safety
+// Each text is null or ends with a zero; `out` is null or points to a place for a handle.
+rccd_status rccd_cell_load(const char *robot,
+                           const char *srdf,
+                           const char *package_folder,
+                           struct rccd_cell **out);
+
+// Frees a cell; null is nothing. Its solvers stay as they are.
+//
+// # Safety
+// The handle is null, or comes from this library, is not in use, and has not been freed.
+void rccd_cell_free(struct rccd_cell *cell);
+
+// Stores the number of free joints, which is the number of positions of a configuration.
+//
+// # Safety
+// `cell` is null or a handle; `out` is null or points to a place for a number.
+rccd_status rccd_cell_joint_count(const struct rccd_cell *cell, size_t *out);
+
+// Stores the name and the limits of a free joint, by its number in configurations. Joints without limits have infinite ones.
+//
+// # Safety
+// `cell` is null or a handle; `name`, `lower` and `upper` are null or point to places for their values.
+rccd_status rccd_cell_joint(const struct rccd_cell *cell,
+                            size_t number,
+                            struct rccd_text *name,
+                            double *lower,
+                            double *upper);
+
+// Adds an obstacle at a pose in the frame of the robot's base. The cell shares the body, which may be freed.
+//
+// # Safety
+// `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero; `body` is null or a
+// handle; `pose` is null or points to a pose.
+rccd_status rccd_cell_add_obstacle(struct rccd_cell *cell,
+                                   const char *name,
+                                   const struct rccd_body *body,
+                                   const struct rccd_pose *pose);
+
+// Moves an obstacle to a pose in the frame of the robot's base.
+//
+// # Safety
+// `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero; `pose` is null or points
+// to a pose.
+rccd_status rccd_cell_move_obstacle(struct rccd_cell *cell,
+                                    const char *name,
+                                    const struct rccd_pose *pose);
+
+// Removes an obstacle.
+//
+// # Safety
+// `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero.
+rccd_status rccd_cell_remove_obstacle(struct rccd_cell *cell, const char *name);
+
+// Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. It may touch that link,
+// links that no joint moves against it, and those that are named.
+//
+// # Safety
+// `cell` is null or a handle that no other call uses; `name` and `link` are null or texts that end with a zero; `body` is null
+// or a handle; `pose` is null or points to a pose; `may_touch` is null or points to `may_touch_count` such texts.
+rccd_status rccd_cell_attach(struct rccd_cell *cell,
+                             const char *name,
+                             const struct rccd_body *body,
+                             const char *link,
+                             const struct rccd_pose *pose,
+                             const char *const *may_touch,
+                             size_t may_touch_count);
+
+// Removes a body that is attached to a link.
+//
+// # Safety
+// `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero.
+rccd_status rccd_cell_detach(struct rccd_cell *cell, const char *name);
+
+// Makes a solver for a cell with these settings; null stands for the default ones. The margin is the distance at which bodies
+// count as touching, and a deadline is for a whole question. Contacts at the start are always reported.
+//
+// # Safety
+// `cell` is null or a handle; `settings` is null or points to settings; `out` is null or points to a place for a handle.
+rccd_status rccd_cell_solver_new(const struct rccd_cell *cell,
+                                 const struct rccd_settings *settings,
+                                 struct rccd_cell_solver **out);
+
+// Changes the settings of the questions that follow; null stands for the default ones.
+//
+// # Safety
+// `solver` is null or a handle that no other call uses; `settings` is null or points to settings.
+rccd_status rccd_cell_solver_set_settings(struct rccd_cell_solver *solver,
+                                          const struct rccd_settings *settings);
+
+// Frees a solver; null is nothing.
+//
+// # Safety
+// The handle is null, or comes from this library, is not in use, and has not been freed.
+void rccd_cell_solver_free(struct rccd_cell_solver *solver);
+
+// Finds the first contact on a path through `count` configurations, one after the other, between which all joints move at
+// constant rates. One configuration is a robot at rest, two are an edge. Nothing touches before the contact; if a limit is
+// reached, nothing touches before the point of the answer.
+//
+// # Safety
+// `solver` is null or a handle that no other call uses; `configurations` is null or points to `count` times as many numbers as
+// the robot has free joints; `answer` is null or points to an answer whose `size` is set.
+rccd_status rccd_cell_first_contact(struct rccd_cell_solver *solver,
+                                    const double *configurations,
+                                    size_t count,
+                                    struct rccd_path_answer *answer);
+
+// Brackets how near any pair comes to touching on a path, to within the tolerance. The margin plays no role.
+//
+// # Safety
+// That of `rccd_cell_first_contact`.
+rccd_status rccd_cell_closest_approach(struct rccd_cell_solver *solver,
+                                       const double *configurations,
+                                       size_t count,
+                                       struct rccd_path_answer *answer);
 
 // Returns the motion of a body that rests at the origin, to be changed before use.
 struct rccd_motion rccd_motion_at_rest(void);

@@ -5,9 +5,10 @@ use crate::status::{Failure, RccdStatus, status_of};
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
 use rigid_ccd::{Body, InputError, load};
 use std::ffi::c_char;
+use std::sync::Arc;
 
 /// A body: the shape that moves. Many queries and threads may share it.
-pub struct RccdBody(pub(crate) Body);
+pub struct RccdBody(pub(crate) Arc<Body>);
 
 /// How triangles in arrays become a body.
 #[repr(u32)]
@@ -116,7 +117,7 @@ pub unsafe extern "C" fn rccd_body_from_triangles(
         let mesh = TriangleMesh::new(vertices.to_vec(), triangles).map_err(Failure::body)?;
         let body = body_from_mesh(&mesh, detail).map_err(Failure::body)?.body;
         // SAFETY: the contract of this function.
-        unsafe { give(out, RccdBody(body)) }
+        unsafe { give(out, RccdBody(Arc::new(body))) }
     })
 }
 
@@ -134,7 +135,7 @@ pub unsafe extern "C" fn rccd_body_load(
         let path = unsafe { text("path", path) }?;
         let body = load(path).map_err(Failure::body)?;
         // SAFETY: the contract of this function.
-        unsafe { give(out, RccdBody(body)) }
+        unsafe { give(out, RccdBody(Arc::new(body))) }
     })
 }
 
@@ -173,7 +174,7 @@ unsafe fn give_shape(body: Result<Body, InputError>, out: *mut *mut RccdBody) ->
     status_of(|| {
         let body = body.map_err(Failure::input)?;
         // SAFETY: the contract of this function.
-        unsafe { give(out, RccdBody(body)) }
+        unsafe { give(out, RccdBody(Arc::new(body))) }
     })
 }
 

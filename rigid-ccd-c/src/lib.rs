@@ -8,8 +8,10 @@
 //! | move them at constant velocities | `motion.rs` |
 //! | move them along trajectories | `trajectory.rs` |
 //! | set tolerances and limits | `settings.rs` |
-//! | ask | `solver.rs` |
+//! | ask about two bodies | `solver.rs` |
 //! | read answers | `answer.rs`, `feature.rs` |
+//! | put a robot among obstacles | `cell.rs` |
+//! | ask about its paths | `cell_solver.rs`, `path_answer.rs` |
 //!
 //! # Contract of all functions
 //! A function never panics into C, never calls back, and keeps no pointer to its arguments, except that a query borrows
@@ -20,8 +22,11 @@
 mod answer;
 mod arguments;
 mod body;
+mod cell;
+mod cell_solver;
 mod feature;
 mod motion;
+mod path_answer;
 mod settings;
 mod solver;
 mod status;
@@ -29,8 +34,11 @@ mod trajectory;
 
 pub use answer::{RccdAnswer, RccdLimit, RccdOutcome};
 pub use body::*;
+pub use cell::*;
+pub use cell_solver::*;
 pub use feature::{RccdFeature, RccdFeatureKind};
 pub use motion::{RccdMotion, RccdPose, rccd_motion_at_rest, rccd_motion_between};
+pub use path_answer::RccdPathAnswer;
 pub use settings::{RccdSettings, RccdStartPolicy, rccd_settings_default};
 pub use solver::*;
 pub use status::{RccdStatus, rccd_last_error};

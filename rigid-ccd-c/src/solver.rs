@@ -231,7 +231,7 @@ unsafe fn moving_body<'a>(
     // SAFETY: the contract of this function.
     let moving = unsafe { reference(name, moving) }?;
     // SAFETY: the contract of this function.
-    let body = &unsafe { reference("the body", moving.body) }?.0;
+    let body = &*unsafe { reference("the body", moving.body) }?.0;
     match (moving.motion.is_null(), moving.trajectory.is_null()) {
         (true, true) => Ok((body, Motion::STILL).into()),
         (false, true) => {
@@ -251,9 +251,11 @@ unsafe fn moving_body<'a>(
     }
 }
 
+/// Reads settings; null stands for the default ones.
+///
 /// # Safety
 /// `settings` is null or points to settings.
-unsafe fn read_settings(settings: *const RccdSettings) -> Result<Settings, Failure> {
+pub(crate) unsafe fn read_settings(settings: *const RccdSettings) -> Result<Settings, Failure> {
     if settings.is_null() {
         return Ok(Settings::DEFAULT);
     }

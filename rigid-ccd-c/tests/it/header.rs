@@ -71,12 +71,6 @@ fn the_headers_compile_without_a_warning() {
 }
 
 #[test]
-fn the_readme_shows_the_example_that_is_tested() {
-    let read = |file: &str| std::fs::read_to_string(folder().join(file)).unwrap();
-    assert!(read("README.md").contains(&read("examples/first_contact.cpp")));
-}
-
-#[test]
 fn a_program_in_c_answers() {
     let printed = build_and_run("cc", "-std=c99", "first_contact.c");
     assert!(printed.starts_with("contact at 0.99"), "{printed}");

@@ -1,6 +1,7 @@
 //! Tests of the interface, from Rust, as C calls it.
 
 mod arguments;
+mod cells;
 mod equal_bits;
 mod header;
 mod memory;

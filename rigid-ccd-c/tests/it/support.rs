@@ -17,7 +17,7 @@ impl<T> Handle<T> {
         self.pointer
     }
 
-    fn new(
+    pub(crate) fn new(
         free: unsafe extern "C" fn(*mut T),
         make: impl FnOnce(*mut *mut T) -> RccdStatus,
     ) -> Self {

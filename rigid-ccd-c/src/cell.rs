@@ -1,0 +1,276 @@
+//! Cells: a robot among obstacles, from URDF or MJCF files.
+
+use crate::arguments::{array, exclusive, free, give, reference, text};
+use crate::body::RccdBody;
+use crate::motion::RccdPose;
+use crate::status::{Failure, RccdStatus, status_of};
+use rigid_ccd::Pose;
+use rigid_ccd_robot::{Cell, RobotFile};
+use std::ffi::c_char;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A robot among obstacles that rest in the frame of its base. Obstacles and bodies that the robot holds have names, which no
+/// link has. Solvers keep the cell as it was when they were made.
+pub struct RccdCell(pub(crate) Arc<Cell>);
+
+/// A text in UTF-8 that belongs to a cell or to a solver, and that does not end with a zero.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct RccdText {
+    /// The first byte; null for no text.
+    pub data: *const c_char,
+    /// The number of bytes.
+    pub length: usize,
+}
+
+impl RccdText {
+    pub(crate) const NONE: RccdText = RccdText {
+        data: std::ptr::null(),
+        length: 0,
+    };
+}
+
+impl From<&str> for RccdText {
+    fn from(text: &str) -> Self {
+        RccdText {
+            data: text.as_ptr().cast(),
+            length: text.len(),
+        }
+    }
+}
+
+/// Loads the robot of a URDF or MJCF file, with its meshes, as a cell without obstacles. All pairs of links are checked but
+/// neighbours, links that never move relative to each other, and those that an SRDF file disables; null stands for no such
+/// file. `package_folder` is searched first for `package://` names; null stands for none.
+///
+/// # Safety
+/// Each text is null or ends with a zero; `out` is null or points to a place for a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_load(
+    robot: *const c_char,
+    srdf: *const c_char,
+    package_folder: *const c_char,
+    out: *mut *mut RccdCell,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let mut file = RobotFile::from_path(unsafe { text("robot", robot) }?);
+        if !package_folder.is_null() {
+            // SAFETY: the contract of this function.
+            file = file.with_package_folder(unsafe { text("package_folder", package_folder) }?);
+        }
+        let srdf = if srdf.is_null() {
+            None
+        } else {
+            // SAFETY: the contract of this function.
+            Some(Path::new(unsafe { text("srdf", srdf) }?))
+        };
+        let robot = file.read().map_err(Failure::body)?;
+        let pairs = file.link_pairs(&robot, srdf).map_err(Failure::body)?;
+        // SAFETY: the contract of this function.
+        unsafe { give(out, RccdCell(Arc::new(Cell::new(robot, pairs)))) }
+    })
+}
+
+/// Frees a cell; null is nothing. Its solvers stay as they are.
+///
+/// # Safety
+/// The handle is null, or comes from this library, is not in use, and has not been freed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_free(cell: *mut RccdCell) {
+    // SAFETY: the contract of this function.
+    unsafe { free(cell) }
+}
+
+/// Stores the number of free joints, which is the number of positions of a configuration.
+///
+/// # Safety
+/// `cell` is null or a handle; `out` is null or points to a place for a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_joint_count(
+    cell: *const RccdCell,
+    out: *mut usize,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let cell = unsafe { reference("cell", cell) }?;
+        // SAFETY: the contract of this function.
+        *unsafe { exclusive("the place for the number", out) }? = joint_count(&cell.0);
+        Ok(())
+    })
+}
+
+/// Stores the name and the limits of a free joint, by its number in configurations. Joints without limits have infinite ones.
+///
+/// # Safety
+/// `cell` is null or a handle; `name`, `lower` and `upper` are null or point to places for their values.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_joint(
+    cell: *const RccdCell,
+    number: usize,
+    name: *mut RccdText,
+    lower: *mut f64,
+    upper: *mut f64,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let robot = unsafe { reference("cell", cell) }?.0.robot();
+        let joint = robot.free_joint_names().zip(robot.limits()).nth(number);
+        let Some((joint, [least, greatest])) = joint else {
+            return Err(Failure::argument(format!(
+                "there is no free joint {number}"
+            )));
+        };
+        // SAFETY: the contract of this function.
+        unsafe {
+            *exclusive("name", name)? = joint.into();
+            *exclusive("lower", lower)? = least;
+            *exclusive("upper", upper)? = greatest;
+        }
+        Ok(())
+    })
+}
+
+/// Adds an obstacle at a pose in the frame of the robot's base. The cell shares the body, which may be freed.
+///
+/// # Safety
+/// `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero; `body` is null or a
+/// handle; `pose` is null or points to a pose.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_add_obstacle(
+    cell: *mut RccdCell,
+    name: *const c_char,
+    body: *const RccdBody,
+    pose: *const RccdPose,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let (name, body, pose) = unsafe {
+            (
+                text("name", name)?,
+                reference("body", body)?,
+                read_pose(pose)?,
+            )
+        };
+        // SAFETY: the contract of this function.
+        let cell = unsafe { change(cell) }?;
+        cell.add_obstacle(name, Arc::clone(&body.0), pose)
+            .map_err(Failure::input)
+    })
+}
+
+/// Moves an obstacle to a pose in the frame of the robot's base.
+///
+/// # Safety
+/// `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero; `pose` is null or points
+/// to a pose.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_move_obstacle(
+    cell: *mut RccdCell,
+    name: *const c_char,
+    pose: *const RccdPose,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let (name, pose) = unsafe { (text("name", name)?, read_pose(pose)?) };
+        // SAFETY: the contract of this function.
+        unsafe { change(cell) }?
+            .move_obstacle(name, pose)
+            .map_err(Failure::input)
+    })
+}
+
+/// Removes an obstacle.
+///
+/// # Safety
+/// `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_remove_obstacle(
+    cell: *mut RccdCell,
+    name: *const c_char,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let name = unsafe { text("name", name) }?;
+        // SAFETY: the contract of this function.
+        unsafe { change(cell) }?
+            .remove_obstacle(name)
+            .map_err(Failure::input)
+    })
+}
+
+/// Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. It may touch that link,
+/// links that no joint moves against it, and those that are named.
+///
+/// # Safety
+/// `cell` is null or a handle that no other call uses; `name` and `link` are null or texts that end with a zero; `body` is null
+/// or a handle; `pose` is null or points to a pose; `may_touch` is null or points to `may_touch_count` such texts.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_attach(
+    cell: *mut RccdCell,
+    name: *const c_char,
+    body: *const RccdBody,
+    link: *const c_char,
+    pose: *const RccdPose,
+    may_touch: *const *const c_char,
+    may_touch_count: usize,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let (name, link, body, pose) = unsafe {
+            (
+                text("name", name)?,
+                text("link", link)?,
+                reference("body", body)?,
+                read_pose(pose)?,
+            )
+        };
+        // SAFETY: the contract of this function.
+        let links = unsafe { array("may_touch", may_touch, may_touch_count) }?.iter();
+        // SAFETY: the contract of this function.
+        let links = links.map(|&link| unsafe { text("a link of may_touch", link) });
+        let links = links.collect::<Result<Vec<_>, _>>()?;
+        // SAFETY: the contract of this function.
+        let cell = unsafe { change(cell) }?;
+        cell.attach(name, Arc::clone(&body.0), (link, pose), &links)
+            .map_err(Failure::input)
+    })
+}
+
+/// Removes a body that is attached to a link.
+///
+/// # Safety
+/// `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_detach(cell: *mut RccdCell, name: *const c_char) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let name = unsafe { text("name", name) }?;
+        // SAFETY: the contract of this function.
+        unsafe { change(cell) }?
+            .detach(name)
+            .map_err(Failure::input)
+    })
+}
+
+pub(crate) fn joint_count(cell: &Cell) -> usize {
+    cell.robot().free_joint_names().len()
+}
+
+/// Returns the cell to change: a copy if a solver has it.
+///
+/// # Safety
+/// The pointer is null, or a handle that no other call uses.
+unsafe fn change<'a>(cell: *mut RccdCell) -> Result<&'a mut Cell, Failure> {
+    // SAFETY: the contract of this function.
+    Ok(Arc::make_mut(&mut unsafe { exclusive("cell", cell) }?.0))
+}
+
+/// # Safety
+/// The pointer is null, or points to a pose.
+unsafe fn read_pose(pose: *const RccdPose) -> Result<Pose, Failure> {
+    // SAFETY: the contract of this function.
+    let pose = unsafe { reference("pose", pose) }?;
+    pose.to_pose().map_err(Failure::input)
+}

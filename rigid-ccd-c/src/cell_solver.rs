@@ -1,0 +1,180 @@
+//! Questions about paths of a robot in a cell.
+
+use crate::arguments::{array, exclusive, free, give, reference};
+use crate::cell::{RccdCell, joint_count};
+use crate::path_answer::RccdPathAnswer;
+use crate::settings::RccdSettings;
+use crate::solver::read_settings;
+use crate::status::{Failure, RccdStatus, status_of};
+use rigid_ccd_robot::{Cell, CellSolver};
+use std::sync::Arc;
+
+/// A solver for paths in a cell as it was when the solver was made. It keeps memory from one question to the next. Each thread
+/// needs its own.
+pub struct RccdCellSolver {
+    /// It borrows `cell`, and is dropped before.
+    solver: CellSolver<'static>,
+    cell: Arc<Cell>,
+    path: Vec<Configuration>,
+}
+
+/// A configuration of the caller's, for the time of a call.
+struct Configuration {
+    positions: *const f64,
+    count: usize,
+}
+
+impl AsRef<[f64]> for Configuration {
+    fn as_ref(&self) -> &[f64] {
+        // SAFETY: it is made from a slice, is used within the call that made it, and is removed at its end.
+        unsafe { std::slice::from_raw_parts(self.positions, self.count) }
+    }
+}
+
+/// Makes a solver for a cell with these settings; null stands for the default ones. The margin is the distance at which bodies
+/// count as touching, and a deadline is for a whole question. Contacts at the start are always reported.
+///
+/// # Safety
+/// `cell` is null or a handle; `settings` is null or points to settings; `out` is null or points to a place for a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_solver_new(
+    cell: *const RccdCell,
+    settings: *const RccdSettings,
+    out: *mut *mut RccdCellSolver,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let cell = Arc::clone(&unsafe { reference("cell", cell) }?.0);
+        // SAFETY: the contract of this function.
+        let settings = unsafe { read_settings(settings) }?;
+        // SAFETY: the cell does not move while this struct holds it, nobody changes a shared cell, and the solver, which is the
+        // first field, is dropped before it.
+        let borrowed: &'static Cell = unsafe { &*Arc::as_ptr(&cell) };
+        let solver = RccdCellSolver {
+            solver: borrowed.solver().with_settings(settings),
+            cell,
+            path: Vec::new(),
+        };
+        // SAFETY: the contract of this function.
+        unsafe { give(out, solver) }
+    })
+}
+
+/// Changes the settings of the questions that follow; null stands for the default ones.
+///
+/// # Safety
+/// `solver` is null or a handle that no other call uses; `settings` is null or points to settings.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_solver_set_settings(
+    solver: *mut RccdCellSolver,
+    settings: *const RccdSettings,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let settings = unsafe { read_settings(settings) }?;
+        // SAFETY: the contract of this function.
+        unsafe { exclusive("solver", solver) }?
+            .solver
+            .set_settings(settings);
+        Ok(())
+    })
+}
+
+/// Frees a solver; null is nothing.
+///
+/// # Safety
+/// The handle is null, or comes from this library, is not in use, and has not been freed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_solver_free(solver: *mut RccdCellSolver) {
+    // SAFETY: the contract of this function.
+    unsafe { free(solver) }
+}
+
+/// Finds the first contact on a path through `count` configurations, one after the other, between which all joints move at
+/// constant rates. One configuration is a robot at rest, two are an edge. Nothing touches before the contact; if a limit is
+/// reached, nothing touches before the point of the answer.
+///
+/// # Safety
+/// `solver` is null or a handle that no other call uses; `configurations` is null or points to `count` times as many numbers as
+/// the robot has free joints; `answer` is null or points to an answer whose `size` is set.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_first_contact(
+    solver: *mut RccdCellSolver,
+    configurations: *const f64,
+    count: usize,
+    answer: *mut RccdPathAnswer,
+) -> RccdStatus {
+    // SAFETY: the contract of this function.
+    unsafe {
+        ask(solver, configurations, count, answer, |solver, path| {
+            let outcome = solver.first_contact(path).map_err(Failure::input)?;
+            Ok(RccdPathAnswer::from_outcome(
+                &outcome,
+                path.len().saturating_sub(1),
+            ))
+        })
+    }
+}
+
+/// Brackets how near any pair comes to touching on a path, to within the tolerance. The margin plays no role.
+///
+/// # Safety
+/// That of `rccd_cell_first_contact`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_closest_approach(
+    solver: *mut RccdCellSolver,
+    configurations: *const f64,
+    count: usize,
+    answer: *mut RccdPathAnswer,
+) -> RccdStatus {
+    // SAFETY: the contract of this function.
+    unsafe {
+        ask(solver, configurations, count, answer, |solver, path| {
+            let approach = solver.closest_approach(path).map_err(Failure::input)?;
+            Ok(RccdPathAnswer::from_approach(&approach))
+        })
+    }
+}
+
+/// Asks a question about a path, and stores the answer.
+///
+/// # Safety
+/// That of [`rccd_cell_first_contact`].
+unsafe fn ask(
+    solver: *mut RccdCellSolver,
+    configurations: *const f64,
+    count: usize,
+    out: *mut RccdPathAnswer,
+    question: impl FnOnce(&mut CellSolver<'static>, &[Configuration]) -> Result<RccdPathAnswer, Failure>,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let solver = unsafe { exclusive("solver", solver) }?;
+        // SAFETY: the contract of this function.
+        let out = unsafe { exclusive("the place for the answer", out) }?;
+        if out.size < size_of::<RccdPathAnswer>() {
+            let text = "size of the answer is not set, or from an older header";
+            return Err(Failure::argument(text));
+        }
+        let joints = joint_count(&solver.cell);
+        let total = count.checked_mul(joints);
+        let total = total.ok_or_else(|| Failure::argument("configurations is too long"))?;
+        // SAFETY: the contract of this function.
+        let positions = unsafe { array("configurations", configurations, total) }?;
+        solver.path.clear();
+        solver.path.extend((0..count).map(|k| {
+            let positions = &positions[k * joints..(k + 1) * joints];
+            Configuration {
+                positions: positions.as_ptr(),
+                count: joints,
+            }
+        }));
+        let answer = question(&mut solver.solver, &solver.path);
+        solver.path.clear();
+        *out = RccdPathAnswer {
+            size: out.size,
+            ..answer?
+        };
+        Ok(())
+    })
+}

@@ -1,0 +1,114 @@
+//! Answers about paths as one struct for all questions.
+
+use crate::answer::{RccdLimit, RccdOutcome};
+use crate::cell::RccdText;
+use crate::feature::RccdFeature;
+use rigid_ccd_robot::{ClosestApproach, PathContact, PathOutcome};
+
+/// An answer about a path. Numbers that the outcome does not have are NaN, and names are null.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct RccdPathAnswer {
+    /// The size of this struct in the caller's header; set it before the call.
+    pub size: usize,
+    /// What was found: free, a contact, the least distance, or unresolved.
+    pub outcome: RccdOutcome,
+    /// The limit that has ended the search.
+    pub limit: RccdLimit,
+    /// The number of the segment of the contact, or of the least distance found; the first segment is 0. For a free path it
+    /// is the last one, and for an unresolved one it is that until whose `share` the path is free.
+    pub segment: usize,
+    /// The share of that segment that is passed, from 0 to 1. Nothing touches before a first contact.
+    pub share: f64,
+    /// A lower bound of the distance: at the contact, or on the whole path.
+    pub lower: f64,
+    /// An upper bound of it.
+    pub upper: f64,
+    /// The link, held body or obstacle that touches or is nearest; it belongs to the solver.
+    pub item_a: RccdText,
+    /// The other one.
+    pub item_b: RccdText,
+    /// The point of the first one that is nearest to the other, in the frame of the robot's base.
+    pub witness_a: [f64; 3],
+    /// The point of the other one that is nearest to the first.
+    pub witness_b: [f64; 3],
+    /// What of the first one's mesh is in contact.
+    pub feature_a: RccdFeature,
+    /// What of the other one's mesh is in contact.
+    pub feature_b: RccdFeature,
+}
+
+impl RccdPathAnswer {
+    const EMPTY: RccdPathAnswer = RccdPathAnswer {
+        size: size_of::<RccdPathAnswer>(),
+        outcome: RccdOutcome::Free,
+        limit: RccdLimit::None,
+        segment: 0,
+        share: f64::NAN,
+        lower: f64::NAN,
+        upper: f64::NAN,
+        item_a: RccdText::NONE,
+        item_b: RccdText::NONE,
+        witness_a: [f64::NAN; 3],
+        witness_b: [f64::NAN; 3],
+        feature_a: RccdFeature::NONE,
+        feature_b: RccdFeature::NONE,
+    };
+
+    pub(crate) fn from_outcome(outcome: &PathOutcome<'_>, segments: usize) -> Self {
+        match outcome {
+            PathOutcome::Free => RccdPathAnswer {
+                segment: segments.saturating_sub(1),
+                share: 1.0,
+                ..RccdPathAnswer::EMPTY
+            },
+            PathOutcome::Contact(contact) => RccdPathAnswer {
+                outcome: RccdOutcome::Contact,
+                ..RccdPathAnswer::from_contact(contact)
+            },
+            PathOutcome::Unresolved { free_until, limit } => RccdPathAnswer {
+                outcome: RccdOutcome::Unresolved,
+                limit: (*limit).into(),
+                segment: free_until.segment,
+                share: free_until.share,
+                ..RccdPathAnswer::EMPTY
+            },
+        }
+    }
+
+    pub(crate) fn from_approach(approach: &ClosestApproach<'_>) -> Self {
+        let nearest = approach.nearest.as_ref();
+        RccdPathAnswer {
+            outcome: match approach.limit {
+                Some(_) => RccdOutcome::Unresolved,
+                None => RccdOutcome::LeastDistance,
+            },
+            limit: approach.limit.map_or(RccdLimit::None, RccdLimit::from),
+            lower: approach.lower,
+            upper: approach.upper,
+            ..nearest.map_or(RccdPathAnswer::EMPTY, RccdPathAnswer::from_contact)
+        }
+    }
+
+    fn from_contact(contact: &PathContact<'_>) -> Self {
+        let [item_a, item_b] = contact.items.map(|item| RccdText::from(item.name()));
+        let [witness_a, witness_b] = contact.witnesses.map(|at| at.to_array());
+        let [feature_a, feature_b] = contact
+            .features
+            .map(|feature| feature.map_or(RccdFeature::NONE, RccdFeature::from));
+        let [lower, upper] = contact.distance_bounds;
+        RccdPathAnswer {
+            segment: contact.at.segment,
+            share: contact.at.share,
+            lower,
+            upper,
+            item_a,
+            item_b,
+            witness_a,
+            witness_b,
+            feature_a,
+            feature_b,
+            ..RccdPathAnswer::EMPTY
+        }
+    }
+}
