@@ -8,9 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -239,6 +237,97 @@ private:
         return answer;
     }
     std::unique_ptr<rccd_solver, void (*)(rccd_solver *)> handle_;
+};
+
+// A robot among obstacles that rest in the frame of its base. Solvers keep the cell as it was when they were made.
+class Cell {
+public:
+    // Loads the robot of a URDF or MJCF file, with its meshes. The SRDF file and the folder that is searched first for
+    // `package://` names may be empty.
+    static Cell load(const std::string &robot, const std::string &srdf = "", const std::string &package_folder = "") {
+        rccd_cell *handle = nullptr;
+        check(rccd_cell_load(robot.c_str(), or_null(srdf), or_null(package_folder), &handle));
+        return Cell(handle);
+    }
+    // Returns the number of positions of a configuration.
+    std::size_t joint_count() const {
+        std::size_t count = 0;
+        check(rccd_cell_joint_count(get(), &count));
+        return count;
+    }
+    void add_obstacle(const std::string &name, const Body &body, const Pose &pose) {
+        check(rccd_cell_add_obstacle(handle_.get(), name.c_str(), body.get(), &pose));
+    }
+    void move_obstacle(const std::string &name, const Pose &pose) {
+        check(rccd_cell_move_obstacle(handle_.get(), name.c_str(), &pose));
+    }
+    void remove_obstacle(const std::string &name) { check(rccd_cell_remove_obstacle(handle_.get(), name.c_str())); }
+    // Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame.
+    void attach(const std::string &name, const Body &body, const std::string &link, const Pose &pose,
+                const std::vector<std::string> &may_touch = {}) {
+        std::vector<const char *> links;
+        for (const std::string &touched : may_touch) links.push_back(touched.c_str());
+        check(rccd_cell_attach(handle_.get(), name.c_str(), body.get(), link.c_str(), &pose, links.data(), links.size()));
+    }
+    void detach(const std::string &name) { check(rccd_cell_detach(handle_.get(), name.c_str())); }
+    const rccd_cell *get() const noexcept { return handle_.get(); }
+
+private:
+    explicit Cell(rccd_cell *handle) : handle_(handle, rccd_cell_free) {}
+    static const char *or_null(const std::string &text) { return text.empty() ? nullptr : text.c_str(); }
+    std::unique_ptr<rccd_cell, void (*)(rccd_cell *)> handle_;
+};
+
+// An answer about a path, with the fields of rccd_path_answer.
+struct PathAnswer : rccd_path_answer {
+    PathAnswer() : rccd_path_answer{} { size = sizeof(rccd_path_answer); }
+    bool free() const noexcept { return outcome == Outcome::RCCD_OUTCOME_FREE; }
+    bool resolved() const noexcept { return outcome != Outcome::RCCD_OUTCOME_UNRESOLVED; }
+    bool hit() const noexcept { return outcome == Outcome::RCCD_OUTCOME_CONTACT; }
+    std::string name_a() const { return name(item_a); }
+    std::string name_b() const { return name(item_b); }
+
+private:
+    static std::string name(const rccd_text &text) {
+        return text.data ? std::string(text.data, text.length) : std::string();
+    }
+};
+
+// A solver for paths in a cell. It keeps memory from one question to the next; each thread needs its own.
+class CellSolver {
+public:
+    explicit CellSolver(const Cell &cell, const Settings &settings = {})
+        : handle_(nullptr, rccd_cell_solver_free), joint_count_(cell.joint_count()) {
+        rccd_cell_solver *handle = nullptr;
+        check(rccd_cell_solver_new(cell.get(), &settings, &handle));
+        handle_.reset(handle);
+    }
+    void set_settings(const Settings &settings) { check(rccd_cell_solver_set_settings(handle_.get(), &settings)); }
+    // Finds the first contact on a path through configurations, one after the other in one array.
+    PathAnswer first_contact(View<double> configurations) { return ask(rccd_cell_first_contact, configurations); }
+    // Brackets how near any pair comes to touching on such a path.
+    PathAnswer closest_approach(View<double> configurations) { return ask(rccd_cell_closest_approach, configurations); }
+    // Returns the share of the edge between two configurations that is certainly free: 1 if all of it is.
+    double measure_edge(View<double> start, View<double> end) {
+        edge_.assign(start.data(), start.data() + start.size());
+        edge_.insert(edge_.end(), end.data(), end.data() + end.size());
+        const PathAnswer answer = first_contact(edge_);
+        return answer.free() ? 1.0 : answer.share;
+    }
+
+private:
+    template <typename Question>
+    PathAnswer ask(Question question, View<double> configurations) {
+        if (joint_count_ == 0 || configurations.size() % joint_count_ != 0)
+            throw std::invalid_argument("a path is as many positions as the robot has joints, for each configuration");
+        PathAnswer answer;
+        const std::size_t count = configurations.size() / joint_count_;
+        check(question(handle_.get(), configurations.data(), count, &answer));
+        return answer;
+    }
+    std::unique_ptr<rccd_cell_solver, void (*)(rccd_cell_solver *)> handle_;
+    std::size_t joint_count_;
+    std::vector<double> edge_;
 };
 
 } // namespace rigid_ccd

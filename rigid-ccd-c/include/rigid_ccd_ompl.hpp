@@ -1,0 +1,108 @@
+// A motion validator for OMPL that no motion in contact passes: planners get certified edges, and the last valid state is
+// certified too. For state spaces of joint positions, which interpolate linearly: RealVectorStateSpace.
+#ifndef RIGID_CCD_OMPL_HPP
+#define RIGID_CCD_OMPL_HPP
+
+#include "rigid_ccd.hpp"
+
+#include <ompl/base/MotionValidator.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/StateValidityChecker.h>
+
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace rigid_ccd {
+
+// The solvers of a cell, of which each call takes one: planners may have many threads.
+class SolverPool {
+public:
+    explicit SolverPool(const Cell &cell, const Settings &settings = {}) : cell_(cell), settings_(settings) {}
+
+    // Calls a function with a solver of its own.
+    template <typename Call>
+    auto with_solver(Call &&call) {
+        Loan loan(*this);
+        return call(loan.solver);
+    }
+
+private:
+    struct Loan {
+        explicit Loan(SolverPool &from) : pool(from), solver(from.take()) {}
+        Loan(const Loan &) = delete;
+        Loan &operator=(const Loan &) = delete;
+        ~Loan() {
+            const std::lock_guard<std::mutex> lock(pool.mutex_);
+            pool.spare_.push_back(std::move(solver));
+        }
+        SolverPool &pool;
+        CellSolver solver;
+    };
+    CellSolver take() {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (spare_.empty()) return CellSolver(cell_, settings_);
+        CellSolver solver = std::move(spare_.back());
+        spare_.pop_back();
+        return solver;
+    }
+    const Cell &cell_;
+    Settings settings_;
+    std::mutex mutex_;
+    std::vector<CellSolver> spare_;
+};
+
+// Accepts an edge if nothing touches on all of it. The cell is not to change while the validator lives.
+class OmplMotionValidator : public ompl::base::MotionValidator {
+public:
+    OmplMotionValidator(const ompl::base::SpaceInformationPtr &space, const Cell &cell, const Settings &settings = {})
+        : ompl::base::MotionValidator(space), pool_(cell, settings) {}
+
+    bool checkMotion(const ompl::base::State *from, const ompl::base::State *to) const override {
+        return count(free_share(from, to) >= 1.0);
+    }
+
+    // The last valid state is the last one before which the edge is certainly free.
+    bool checkMotion(const ompl::base::State *from, const ompl::base::State *to,
+                     std::pair<ompl::base::State *, double> &last_valid) const override {
+        const double share = free_share(from, to);
+        if (share >= 1.0) return count(true);
+        last_valid.second = share;
+        if (last_valid.first != nullptr) si_->getStateSpace()->interpolate(from, to, share, last_valid.first);
+        return count(false);
+    }
+
+private:
+    bool count(bool is_valid) const {
+        (is_valid ? valid_ : invalid_) += 1;
+        return is_valid;
+    }
+    double free_share(const ompl::base::State *from, const ompl::base::State *to) const {
+        std::vector<double> start, end;
+        si_->getStateSpace()->copyToReals(start, from);
+        si_->getStateSpace()->copyToReals(end, to);
+        return pool_.with_solver([&](CellSolver &solver) { return solver.measure_edge(start, end); });
+    }
+    mutable SolverPool pool_;
+};
+
+// Accepts a state if the robot touches nothing there.
+class OmplStateValidityChecker : public ompl::base::StateValidityChecker {
+public:
+    OmplStateValidityChecker(const ompl::base::SpaceInformationPtr &space, const Cell &cell, const Settings &settings = {})
+        : ompl::base::StateValidityChecker(space), pool_(cell, settings) {}
+
+    bool isValid(const ompl::base::State *state) const override {
+        std::vector<double> positions;
+        si_->getStateSpace()->copyToReals(positions, state);
+        if (!si_->satisfiesBounds(state)) return false;
+        return pool_.with_solver([&](CellSolver &solver) { return solver.first_contact(positions).free(); });
+    }
+
+private:
+    mutable SolverPool pool_;
+};
+
+} // namespace rigid_ccd
+
+#endif
