@@ -1,7 +1,7 @@
 //! What calls return: a status, and a message that the thread can read.
 
 use std::cell::RefCell;
-use std::ffi::{CStr, CString, c_char};
+use std::ffi::{CString, c_char};
 use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -68,7 +68,8 @@ pub(crate) fn status_of(call: impl FnOnce() -> Result<(), Failure>) -> RccdStatu
         },
     };
     let text = failure.message.replace('\0', " ");
-    MESSAGE.with_borrow_mut(|message| *message = CString::new(text).unwrap_or_default());
+    // A thread that ends has no place for a message any more.
+    let _ = MESSAGE.try_with(|message| message.replace(CString::new(text).unwrap_or_default()));
     failure.status
 }
 
@@ -82,5 +83,6 @@ fn panic_message(panic: &dyn std::any::Any) -> String {
 /// until the next call of this thread that does not work.
 #[unsafe(no_mangle)]
 pub extern "C" fn rccd_last_error() -> *const c_char {
-    MESSAGE.with_borrow(|message| CStr::as_ptr(message))
+    let message = MESSAGE.try_with(|message| message.borrow().as_ptr());
+    message.unwrap_or(c"".as_ptr())
 }
