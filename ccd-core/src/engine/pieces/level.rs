@@ -8,7 +8,6 @@ use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::sharp::improve_axis;
 use crate::engine::meter::Meter;
 use crate::math::order::greater;
-use crate::math::vector::distance;
 use crate::problem::{Problem, WhichBody};
 use crate::rounding::MIN_APPROACH_PER_ROUNDING;
 use crate::touching_plane::TouchingPlane;
@@ -39,13 +38,14 @@ impl TouchingPlane {
         let [frame_a, frame_b] = &snapshot.frames;
         let Separation {
             mut normal,
+            upper,
             witness_a,
-            witness_b,
             ..
         } = contact.separation;
         let from = frame_a.inverse_transform_point(problem.to_problem_point(witness_a));
         let resting = MIN_APPROACH_PER_ROUNDING * problem.rounding;
-        let distance = distance(witness_a, witness_b);
+        // Not from the witnesses, which far from the world's origin are rounded by more.
+        let distance = upper - problem.rounding;
         let mut gap = snapshot.gap_along_normal(normal, from);
         // A tilted normal loses some of the distance. A rotation may undo the tilt, and so hide that the bodies approach.
         if gap < distance - 0.5 * resting
