@@ -66,10 +66,37 @@ pub(crate) unsafe fn text<'a>(name: &str, pointer: *const c_char) -> Result<&'a 
 /// # Safety
 /// `out` is null, or points to a place for a handle.
 pub(crate) unsafe fn give<T>(out: *mut *mut T, value: T) -> Result<(), Failure> {
-    // SAFETY: the caller's contract.
-    let out = unsafe { exclusive("the place for the result", out) }?;
-    *out = Box::into_raw(Box::new(value));
+    check_place("the place for the result", out)?;
+    // SAFETY: the caller's contract; the place is neither null nor misaligned.
+    unsafe { out.write(Box::into_raw(Box::new(value))) };
     Ok(())
+}
+
+/// Stores a value in a place that need not hold one yet.
+///
+/// # Safety
+/// `out` is null, or points to a place for the value.
+pub(crate) unsafe fn store<T>(name: &str, out: *mut T, value: T) -> Result<(), Failure> {
+    check_place(name, out)?;
+    // SAFETY: the caller's contract; the place is neither null nor misaligned.
+    unsafe { out.write(value) };
+    Ok(())
+}
+
+/// Returns the size that the caller has set in the first field of an answer, if there is room for one of this library. The
+/// other fields need not hold values yet.
+///
+/// # Safety
+/// `out` is null, or points to a place for an answer, which begins with its size.
+pub(crate) unsafe fn size_of_place<T>(out: *mut T) -> Result<usize, Failure> {
+    check_place("the place for the answer", out)?;
+    // SAFETY: the caller's contract; the place is neither null nor misaligned.
+    let size = unsafe { out.cast::<usize>().read() };
+    if size < size_of::<T>() {
+        let text = "size of the answer is not set, or from an older header";
+        return Err(Failure::argument(text));
+    }
+    Ok(size)
 }
 
 /// Frees what [`give`] has given; null is nothing.
@@ -81,6 +108,13 @@ pub(crate) unsafe fn free<T>(handle: *mut T) {
         // SAFETY: the caller's contract.
         drop(unsafe { Box::from_raw(handle) });
     }
+}
+
+fn check_place<T>(name: &str, out: *mut T) -> Result<(), Failure> {
+    if out.is_null() {
+        return Err(null(name));
+    }
+    check_aligned(name, out)
 }
 
 fn null(name: &str) -> Failure {

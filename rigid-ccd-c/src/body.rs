@@ -1,6 +1,6 @@
 //! Bodies: shapes, triangles in arrays, and files.
 
-use crate::arguments::{array, free, give, reference, text};
+use crate::arguments::{array, free, give, reference, store, text};
 use crate::status::{Failure, RccdStatus, status_of};
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
 use rigid_ccd::{Body, InputError, load};
@@ -161,10 +161,9 @@ pub unsafe extern "C" fn rccd_body_piece_count(
     status_of(|| {
         // SAFETY: the contract of this function.
         let body = unsafe { reference("body", body) }?;
+        let count = body.0.pieces().len();
         // SAFETY: the contract of this function.
-        *unsafe { crate::arguments::exclusive("the place for the number", out) }? =
-            body.0.pieces().len();
-        Ok(())
+        unsafe { store("the place for the number", out, count) }
     })
 }
 

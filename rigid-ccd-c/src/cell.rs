@@ -1,6 +1,6 @@
 //! Cells: a robot among obstacles, from URDF or MJCF files.
 
-use crate::arguments::{array, exclusive, free, give, reference, text};
+use crate::arguments::{array, exclusive, free, give, reference, store, text};
 use crate::body::RccdBody;
 use crate::motion::RccdPose;
 use crate::status::{Failure, RccdStatus, status_of};
@@ -96,8 +96,7 @@ pub unsafe extern "C" fn rccd_cell_joint_count(
         // SAFETY: the contract of this function.
         let cell = unsafe { reference("cell", cell) }?;
         // SAFETY: the contract of this function.
-        *unsafe { exclusive("the place for the number", out) }? = joint_count(&cell.0);
-        Ok(())
+        unsafe { store("the place for the number", out, joint_count(&cell.0)) }
     })
 }
 
@@ -124,11 +123,10 @@ pub unsafe extern "C" fn rccd_cell_joint(
         };
         // SAFETY: the contract of this function.
         unsafe {
-            *exclusive("name", name)? = joint.into();
-            *exclusive("lower", lower)? = least;
-            *exclusive("upper", upper)? = greatest;
+            store("name", name, joint.into())?;
+            store("lower", lower, least)?;
+            store("upper", upper, greatest)
         }
-        Ok(())
     })
 }
 

@@ -1,6 +1,6 @@
 //! Questions about paths of a robot in a cell.
 
-use crate::arguments::{array, exclusive, free, give, reference};
+use crate::arguments::{array, exclusive, free, give, reference, size_of_place, store};
 use crate::cell::{RccdCell, joint_count};
 use crate::path_answer::RccdPathAnswer;
 use crate::settings::RccdSettings;
@@ -151,11 +151,7 @@ unsafe fn ask(
         // SAFETY: the contract of this function.
         let solver = unsafe { exclusive("solver", solver) }?;
         // SAFETY: the contract of this function.
-        let out = unsafe { exclusive("the place for the answer", out) }?;
-        if out.size < size_of::<RccdPathAnswer>() {
-            let text = "size of the answer is not set, or from an older header";
-            return Err(Failure::argument(text));
-        }
+        let size = unsafe { size_of_place(out) }?;
         let joints = joint_count(&solver.cell);
         let total = count.checked_mul(joints);
         let total = total.ok_or_else(|| Failure::argument("configurations is too long"))?;
@@ -171,10 +167,8 @@ unsafe fn ask(
         }));
         let answer = question(&mut solver.solver, &solver.path);
         solver.path.clear();
-        *out = RccdPathAnswer {
-            size: out.size,
-            ..answer?
-        };
-        Ok(())
+        let answer = RccdPathAnswer { size, ..answer? };
+        // SAFETY: the contract of this function.
+        unsafe { store("the place for the answer", out, answer) }
     })
 }

@@ -1,6 +1,6 @@
 //! Poses, and motions at constant velocities.
 
-use crate::arguments::{exclusive, reference};
+use crate::arguments::{reference, store};
 use crate::status::{Failure, RccdStatus, status_of};
 use rigid_ccd::{InputError, Motion, Pose};
 
@@ -89,7 +89,12 @@ pub unsafe extern "C" fn rccd_motion_between(
             .and_then(|(start, end)| Motion::between(start, end, centre, duration))
             .map_err(Failure::input)?;
         // SAFETY: the contract of this function.
-        *unsafe { exclusive("the place for the motion", out) }? = RccdMotion::from_motion(&motion);
-        Ok(())
+        unsafe {
+            store(
+                "the place for the motion",
+                out,
+                RccdMotion::from_motion(&motion),
+            )
+        }
     })
 }

@@ -1,7 +1,7 @@
 //! Solvers, and the questions about two moving bodies.
 
 use crate::answer::RccdAnswer;
-use crate::arguments::{exclusive, free, give, reference};
+use crate::arguments::{exclusive, free, give, reference, size_of_place, store};
 use crate::body::RccdBody;
 use crate::motion::RccdMotion;
 use crate::settings::RccdSettings;
@@ -205,18 +205,14 @@ unsafe fn ask(
         // SAFETY: the contract of this function.
         let [a, b] = unsafe { [moving_body("a", bodies[0])?, moving_body("b", bodies[1])?] };
         // SAFETY: the contract of this function.
-        let out = unsafe { exclusive("the place for the answer", out) }?;
-        if out.size < size_of::<RccdAnswer>() {
-            return Err(Failure::argument(
-                "size of the answer is not set, or from an older header",
-            ));
-        }
+        let size = unsafe { size_of_place(out) }?;
         let answer = question(solver, a, b).map_err(Failure::input)?;
-        *out = RccdAnswer {
-            size: out.size,
+        let answer = RccdAnswer {
+            size,
             ..RccdAnswer::new(&answer, duration)
         };
-        Ok(())
+        // SAFETY: the contract of this function.
+        unsafe { store("the place for the answer", out, answer) }
     })
 }
 

@@ -132,6 +132,24 @@ fn numbers_out_of_range_are_refused() {
     }
 }
 
+/// Tests that an answer of which C has set nothing but the size is filled.
+#[test]
+fn a_place_for_an_answer_holds_none_before() {
+    let (solver, ball) = (crate::support::solver(None), sphere(0.5));
+    let motion = rccd_motion_at_rest();
+    let body = moving(&ball, &motion);
+    let mut place = std::mem::MaybeUninit::<RccdAnswer>::uninit();
+    let out = place.as_mut_ptr();
+    // SAFETY: the place is written as bytes, and then by the call.
+    let answer = unsafe {
+        out.write_bytes(0xaa, 1);
+        (&raw mut (*out).size).write(size_of::<RccdAnswer>());
+        ok(rccd_first_contact(solver.pointer(), &body, &body, 1.0, out));
+        place.assume_init()
+    };
+    assert_eq!(answer.outcome, RccdOutcome::Overlapping);
+}
+
 #[test]
 fn freeing_null_is_nothing_and_bodies_are_counted() {
     let ball = sphere(1.0);
