@@ -177,8 +177,14 @@ typedef struct rccd_cell rccd_cell;
 // needs its own.
 typedef struct rccd_cell_solver rccd_cell_solver;
 
+// A path of a robot whose joints follow polynomials of the time. Many questions and threads may share it.
+typedef struct rccd_joint_curve rccd_joint_curve;
+
 // A solver: settings, and memory that it reuses from query to query. Each thread needs its own.
 typedef struct rccd_solver rccd_solver;
+
+// A flag that stops the queries of all solvers whose settings name it. Any thread may set and clear it at any time.
+typedef struct rccd_stop rccd_stop;
 
 // A trajectory. Many queries and threads may share it.
 typedef struct rccd_trajectory rccd_trajectory;
@@ -213,7 +219,20 @@ typedef struct rccd_settings {
     double deadline;
     // One of `rccd_start_policy`.
     uint32_t start_policy;
+    // A flag that stops queries, or null. Solvers share it: it may be freed.
+    const struct rccd_stop *stop;
 } rccd_settings;
+
+// A path of a robot: either configurations one after the other, between which all joints move at constant rates, or a curve.
+// One configuration is a robot at rest, two are an edge.
+typedef struct rccd_path {
+    // The positions of the robot's free joints, for each configuration; null for a curve.
+    const double *configurations;
+    // The number of configurations.
+    size_t configuration_count;
+    // The curve, or null.
+    const struct rccd_joint_curve *curve;
+} rccd_path;
 
 // A feature of a body, by the numbers of the mesh, from 0.
 typedef struct rccd_feature {
@@ -313,6 +332,17 @@ typedef struct rccd_answer {
     uint64_t work;
 } rccd_answer;
 
+// How a body turns while its origin follows a curve: orientations, each at its time, in ascending order, and between two of
+// them the shortest rotation at a constant rate.
+typedef struct rccd_turns {
+    // The times.
+    const double *times;
+    // For each time a quaternion in the order x, y, z, w.
+    const double *orientations;
+    // The number of times.
+    size_t count;
+} rccd_turns;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -363,11 +393,24 @@ rccd_status rccd_body_from_triangles(const double *vertices,
                                      uint32_t detail,
                                      struct rccd_body **out);
 
-// Loads a body from a file: OBJ, STL, PLY, OFF, or a body that was prepared by `ccd decompose`.
+// Prepares a body of triangles, and stores it in a file, by convention `NAME.ccd`. `rccd_body_load` reads it without the work
+// of the preparation, and gives the same answers. The arguments are those of `rccd_body_from_triangles`.
+//
+// # Safety
+// Those of `rccd_body_from_triangles`; `path` is null or a text that ends with a zero.
+rccd_status rccd_body_prepare(const double *vertices,
+                              size_t vertex_count,
+                              const uint32_t *triangles,
+                              size_t triangle_count,
+                              uint32_t detail,
+                              const char *path);
+
+// Loads a body from a file: OBJ, STL, PLY, OFF, or one that `rccd_body_prepare` or `ccd decompose` has stored.
 //
 // # Safety
 // `path` is null or a text that ends with a zero, and `out` is null or points to a place for a handle.
-rccd_status rccd_body_load(const char *path, struct rccd_body **out);
+rccd_status rccd_body_load(const char *path,
+                           struct rccd_body **out);
 
 // Frees a body; null is nothing.
 //
@@ -459,11 +502,27 @@ rccd_status rccd_cell_attach(struct rccd_cell *cell,
 // `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero.
 rccd_status rccd_cell_detach(struct rccd_cell *cell, const char *name);
 
+// Sets how much farther than the margin obstacles have to stay from a link; 0 takes it back.
+//
+// # Safety
+// `cell` is null or a handle that no other call uses; `link` is null or a text that ends with a zero.
+rccd_status rccd_cell_set_padding(struct rccd_cell *cell, const char *link, double distance);
+
+// Sets the distance at which two links, held bodies or obstacles count as touching, instead of margin and paddings. Two links
+// that were not checked are checked from now on.
+//
+// # Safety
+// `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
+rccd_status rccd_cell_set_clearance(struct rccd_cell *cell,
+                                    const char *a,
+                                    const char *b,
+                                    double distance);
+
 // Makes a solver for a cell with these settings; null stands for the default ones. The margin is the distance at which bodies
 // count as touching, and a deadline is for a whole question. Contacts at the start are always reported.
 //
 // # Safety
-// `cell` is null or a handle; `settings` is null or points to settings; `out` is null or points to a place for a handle.
+// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points to a place for a handle.
 rccd_status rccd_cell_solver_new(const struct rccd_cell *cell,
                                  const struct rccd_settings *settings,
                                  struct rccd_cell_solver **out);
@@ -471,7 +530,7 @@ rccd_status rccd_cell_solver_new(const struct rccd_cell *cell,
 // Changes the settings of the questions that follow; null stands for the default ones.
 //
 // # Safety
-// `solver` is null or a handle that no other call uses; `settings` is null or points to settings.
+// `solver` is null or a handle that no other call uses; `settings` is null or points to settings, whose flag is null or a handle.
 rccd_status rccd_cell_solver_set_settings(struct rccd_cell_solver *solver,
                                           const struct rccd_settings *settings);
 
@@ -481,26 +540,68 @@ rccd_status rccd_cell_solver_set_settings(struct rccd_cell_solver *solver,
 // The handle is null, or comes from this library, is not in use, and has not been freed.
 void rccd_cell_solver_free(struct rccd_cell_solver *solver);
 
-// Finds the first contact on a path through `count` configurations, one after the other, between which all joints move at
-// constant rates. One configuration is a robot at rest, two are an edge. Nothing touches before the contact; if a limit is
-// reached, nothing touches before the point of the answer.
+// Finds the first contact on a path. Nothing touches before it; if a limit is reached, nothing touches before the point of the
+// answer.
 //
 // # Safety
-// `solver` is null or a handle that no other call uses; `configurations` is null or points to `count` times as many numbers as
-// the robot has free joints; `answer` is null or points to an answer whose `size` is set.
+// `solver` is null or a handle that no other call uses; `path` is null or points to a path, whose configurations are null or
+// point to as many numbers as the robot has free joints for each configuration, and whose curve is null or a handle; `answer`
+// is null or points to an answer whose `size` is set.
 rccd_status rccd_cell_first_contact(struct rccd_cell_solver *solver,
-                                    const double *configurations,
-                                    size_t count,
+                                    const struct rccd_path *path,
                                     struct rccd_path_answer *answer);
 
-// Brackets how near any pair comes to touching on a path, to within the tolerance. The margin plays no role.
+// Finds some contact on a path, perhaps not the first one, or proves that there is none: what a planner asks about an edge. If
+// a limit is reached, nothing is known of the path.
+//
+// # Safety
+// That of `rccd_cell_first_contact`.
+rccd_status rccd_cell_any_contact(struct rccd_cell_solver *solver,
+                                  const struct rccd_path *path,
+                                  struct rccd_path_answer *answer);
+
+// Brackets how near any pair comes to touching on a path, to within the tolerance. Margin, paddings and clearances play no
+// role.
 //
 // # Safety
 // That of `rccd_cell_first_contact`.
 rccd_status rccd_cell_closest_approach(struct rccd_cell_solver *solver,
-                                       const double *configurations,
-                                       size_t count,
+                                       const struct rccd_path *path,
                                        struct rccd_path_answer *answer);
+
+// Makes a curve through configurations, each at its time, in ascending order: cubic polynomials with the given velocities
+// there, or quintic ones if accelerations are given, too. Null stands for no accelerations.
+//
+// # Safety
+// `times` is null or points to `count` numbers; `positions`, `velocities` and `accelerations` are null or point to
+// `count · joint_count` numbers, those of a configuration one after the other; `out` is null or points to a place for a handle.
+rccd_status rccd_joint_curve_through(const double *times,
+                                     const double *positions,
+                                     const double *velocities,
+                                     const double *accelerations,
+                                     size_t count,
+                                     size_t joint_count,
+                                     struct rccd_joint_curve **out);
+
+// Makes a curve from polynomials of the time since each segment's start, of a degree of at most 9: for each segment, and for
+// each joint within it, `degree + 1` coefficients, that of the lowest power first. `times` are the ends of all segments, one
+// more than segments.
+//
+// # Safety
+// `times` is null or points to `segment_count + 1` numbers; `coefficients` is null or points to
+// `segment_count · joint_count · (degree + 1)` numbers; `out` is null or points to a place for a handle.
+rccd_status rccd_joint_curve_from_polynomials(const double *times,
+                                              const double *coefficients,
+                                              size_t segment_count,
+                                              size_t joint_count,
+                                              size_t degree,
+                                              struct rccd_joint_curve **out);
+
+// Frees a curve; null is nothing.
+//
+// # Safety
+// The handle is null, or comes from this library, is not in use, and has not been freed.
+void rccd_joint_curve_free(struct rccd_joint_curve *curve);
 
 // Returns the motion of a body that rests at the origin, to be changed before use.
 struct rccd_motion rccd_motion_at_rest(void);
@@ -523,14 +624,16 @@ struct rccd_settings rccd_settings_default(void);
 // Makes a solver with these settings; null stands for the default ones.
 //
 // # Safety
-// `settings` is null or points to settings; `out` is null or points to a place for a handle.
-rccd_status rccd_solver_new(const struct rccd_settings *settings, struct rccd_solver **out);
+// `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points to a place for a handle.
+rccd_status rccd_solver_new(const struct rccd_settings *settings,
+                            struct rccd_solver **out);
 
 // Changes the settings of the queries that follow; null stands for the default ones.
 //
 // # Safety
-// `solver` is null or a handle that no other call uses; `settings` is null or points to settings.
-rccd_status rccd_solver_set_settings(struct rccd_solver *solver, const struct rccd_settings *settings);
+// `solver` is null or a handle that no other call uses; `settings` is null or points to settings, whose flag is null or a handle.
+rccd_status rccd_solver_set_settings(struct rccd_solver *solver,
+                                     const struct rccd_settings *settings);
 
 // Frees a solver; null is nothing.
 //
@@ -597,6 +700,30 @@ rccd_status rccd_keeps_clearance(struct rccd_solver *solver,
 // until the next call of this thread that does not work.
 const char *rccd_last_error(void);
 
+// Makes a flag, which is not set.
+//
+// # Safety
+// `out` is null, or points to a place for a handle.
+rccd_status rccd_stop_new(struct rccd_stop **out);
+
+// Sets the flag: queries end as unresolved, and further ones do at once, until it is cleared.
+//
+// # Safety
+// `stop` is null or a handle.
+rccd_status rccd_stop_set(const struct rccd_stop *stop);
+
+// Clears the flag.
+//
+// # Safety
+// `stop` is null or a handle.
+rccd_status rccd_stop_clear(const struct rccd_stop *stop);
+
+// Frees a flag; null is nothing. Solvers whose settings name it keep it as it is.
+//
+// # Safety
+// The handle is null, or comes from this library, is not in use, and has not been freed.
+void rccd_stop_free(struct rccd_stop *stop);
+
 // Makes a path through poses, each at its time, in ascending order. Between two poses the body's origin moves straight,
 // and the body takes the shortest rotation. It rests before the first pose and after the last one.
 //
@@ -615,6 +742,30 @@ rccd_status rccd_trajectory_through_poses(const double *times,
 rccd_status rccd_trajectory_thrown(const struct rccd_motion *thrown,
                                    const double *acceleration,
                                    struct rccd_trajectory **out);
+
+// Makes the trajectory of a body whose origin follows a Bézier curve of any degree from time 0 to `duration`. `points` are the
+// control points, three numbers each. With null for `turns` the body does not turn.
+//
+// # Safety
+// `points` is null or points to `3 · count` numbers; `turns` is null or points to turns, whose times and orientations are null
+// or point to as many numbers as their count says; `out` is null or points to a place for a handle.
+rccd_status rccd_trajectory_bezier(const double *points,
+                                   size_t count,
+                                   double duration,
+                                   const struct rccd_turns *turns,
+                                   struct rccd_trajectory **out);
+
+// Makes the trajectory of a body whose origin follows a uniform cubic B-spline from time 0 to `duration`. `points` are at least
+// four control points, three numbers each: the curve begins near the second one and ends near the last but one. With null for
+// `turns` the body does not turn.
+//
+// # Safety
+// That of `rccd_trajectory_bezier`.
+rccd_status rccd_trajectory_b_spline(const double *points,
+                                     size_t count,
+                                     double duration,
+                                     const struct rccd_turns *turns,
+                                     struct rccd_trajectory **out);
 
 // Frees a trajectory; null is nothing.
 //

@@ -1,5 +1,6 @@
-// Certified continuous collision detection of rigid bodies, for C++17: handles that free themselves, and exceptions.
-// Header only, over rigid_ccd.h, where the structs and the meaning of their fields are.
+// Certified continuous collision detection of rigid bodies, for C++17: handles that free themselves, and exceptions or expected
+// values by choice. Header only, over rigid_ccd.h, where the structs and the meaning of their fields are. Robots are in
+// rigid_ccd_cell.hpp.
 #ifndef RIGID_CCD_HPP
 #define RIGID_CCD_HPP
 
@@ -13,6 +14,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #if __has_include(<Eigen/Geometry>)
@@ -25,16 +27,80 @@ namespace rigid_ccd {
 // A failure of a call. A query that reaches a limit is none: its answer is unresolved.
 class Error : public std::runtime_error {
 public:
-    explicit Error(rccd_status status) : std::runtime_error(rccd_last_error()), status_(status) {}
+    // The failure of the last call of this thread.
+    explicit Error(rccd_status status) : Error(status, rccd_last_error()) {}
+    Error(rccd_status status, const std::string &message) : std::runtime_error(message), status_(status) {}
     rccd_status status() const noexcept { return status_; }
 
 private:
     rccd_status status_;
 };
 
-inline void check(rccd_status status) {
-    if (status != RCCD_STATUS_OK) throw Error(status);
+#ifdef RIGID_CCD_EXPECTED
+// A value or the error instead of it, with the names of std::expected of C++23.
+template <typename T>
+class Expected {
+public:
+    Expected(T value) : content_(std::in_place_index<0>, std::move(value)) {}
+    Expected(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
+    bool has_value() const noexcept { return content_.index() == 0; }
+    explicit operator bool() const noexcept { return has_value(); }
+    // What follows needs a value.
+    T &operator*() { return *std::get_if<0>(&content_); }
+    const T &operator*() const { return *std::get_if<0>(&content_); }
+    T *operator->() { return std::get_if<0>(&content_); }
+    const T *operator->() const { return std::get_if<0>(&content_); }
+    // Needs an error.
+    const Error &error() const { return *std::get_if<1>(&content_); }
+
+private:
+    std::variant<T, Error> content_;
+};
+
+// What a function returns that can fail: a value, or the error. Nothing throws.
+template <typename T>
+using Result = Expected<T>;
+#else
+// What a function returns that can fail: the value. A failure is an exception, rigid_ccd::Error. With RIGID_CCD_EXPECTED
+// defined before this header is included, it is Expected<T> instead, and the header works without exceptions.
+template <typename T>
+using Result = T;
+#endif
+
+// What a function returns that can fail and has no value.
+struct Done {};
+
+namespace detail {
+
+template <typename T>
+Result<T> fail(Error error) {
+#ifdef RIGID_CCD_EXPECTED
+    return error;
+#else
+    throw error;
+#endif
 }
+
+// Returns what a function makes after a call has worked.
+template <typename Make>
+auto after(rccd_status status, Make &&make) -> Result<decltype(make())> {
+    if (status != RCCD_STATUS_OK) return fail<decltype(make())>(Error(status));
+    return make();
+}
+
+inline Result<Done> done(rccd_status status) {
+    return after(status, [] { return Done{}; });
+}
+
+// Returns an object around a handle that a call gives.
+template <typename Object, typename Handle, typename Give>
+Result<Object> hold(Give &&give) {
+    Handle *handle = nullptr;
+    const rccd_status status = give(&handle);
+    return after(status, [&] { return Object(handle); });
+}
+
+} // namespace detail
 
 // An array that belongs to somebody else, as std::span of C++20.
 template <typename T>
@@ -73,10 +139,10 @@ inline Motion at_rest(const Pose &pose) {
 
 // Returns the motion from one pose at time 0 to another at time `duration`, by the shortest rotation about a point of the
 // body, in its frame, that moves straight.
-inline Motion between(const Pose &start, const Pose &end, double duration, const Vector &centre = {0, 0, 0}) {
+inline Result<Motion> between(const Pose &start, const Pose &end, double duration, const Vector &centre = {0, 0, 0}) {
     Motion motion;
-    check(rccd_motion_between(&start, &end, centre.data(), duration, &motion));
-    return motion;
+    const rccd_status status = rccd_motion_between(&start, &end, centre.data(), duration, &motion);
+    return detail::after(status, [&] { return motion; });
 }
 
 #ifdef RIGID_CCD_HAS_EIGEN
@@ -91,49 +157,57 @@ inline Pose to_pose(const Eigen::Isometry3d &pose) {
 // A body: the shape that moves. Copies share it, threads may too.
 class Body {
 public:
-    static Body sphere(double radius) {
+    static Result<Body> sphere(double radius) {
         return make([&](rccd_body **out) { return rccd_body_sphere(radius, out); });
     }
-    static Body capsule(double radius, double half_length) {
+    static Result<Body> capsule(double radius, double half_length) {
         return make([&](rccd_body **out) { return rccd_body_capsule(radius, half_length, out); });
     }
-    static Body box(const Vector &half) {
+    static Result<Body> box(const Vector &half) {
         return make([&](rccd_body **out) { return rccd_body_box(half[0], half[1], half[2], out); });
     }
-    static Body cylinder(double radius, double half_length) {
+    static Result<Body> cylinder(double radius, double half_length) {
         return make([&](rccd_body **out) { return rccd_body_cylinder(radius, half_length, out); });
     }
-    static Body cone(double radius, double half_length) {
+    static Result<Body> cone(double radius, double half_length) {
         return make([&](rccd_body **out) { return rccd_body_cone(radius, half_length, out); });
     }
     // Makes a body of triangles, which are indices of vertices.
-    static Body from_triangles(View<Vector> vertices, View<Triangle> triangles,
-                               std::uint32_t detail = static_cast<std::uint32_t>(RCCD_DETAIL_AUTO)) {
-        static_assert(sizeof(Vector) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::uint32_t));
-        const double *points = vertices.size() ? vertices.data()->data() : nullptr;
-        const std::uint32_t *corners = triangles.size() ? triangles.data()->data() : nullptr;
+    static Result<Body> from_triangles(View<Vector> vertices, View<Triangle> triangles,
+                                       std::uint32_t detail = static_cast<std::uint32_t>(RCCD_DETAIL_AUTO)) {
         return make([&](rccd_body **out) {
-            return rccd_body_from_triangles(points, vertices.size(), corners, triangles.size(), detail, out);
+            return rccd_body_from_triangles(numbers(vertices), vertices.size(), numbers(triangles), triangles.size(),
+                                            detail, out);
         });
     }
+    // Prepares a body of triangles, and stores it in a file that `load` reads without that work.
+    static Result<Done> prepare(View<Vector> vertices, View<Triangle> triangles, const std::string &path,
+                                std::uint32_t detail = static_cast<std::uint32_t>(RCCD_DETAIL_AUTO)) {
+        return detail::done(rccd_body_prepare(numbers(vertices), vertices.size(), numbers(triangles),
+                                              triangles.size(), detail, path.c_str()));
+    }
     // Loads a body from a file.
-    static Body load(const std::string &path) {
+    static Result<Body> load(const std::string &path) {
         return make([&](rccd_body **out) { return rccd_body_load(path.c_str(), out); });
     }
-    std::size_t piece_count() const {
+    Result<std::size_t> piece_count() const {
         std::size_t count = 0;
-        check(rccd_body_piece_count(get(), &count));
-        return count;
+        const rccd_status status = rccd_body_piece_count(get(), &count);
+        return detail::after(status, [&] { return count; });
     }
+    // Takes a handle.
+    explicit Body(rccd_body *handle) : handle_(handle, rccd_body_free) {}
     const rccd_body *get() const noexcept { return handle_.get(); }
 
 private:
-    explicit Body(rccd_body *handle) : handle_(handle, rccd_body_free) {}
     template <typename Make>
-    static Body make(Make &&make) {
-        rccd_body *handle = nullptr;
-        check(make(&handle));
-        return Body(handle);
+    static Result<Body> make(Make &&make) {
+        return detail::hold<Body, rccd_body>(make);
+    }
+    template <typename Number, std::size_t COUNT>
+    static const Number *numbers(View<std::array<Number, COUNT>> rows) {
+        static_assert(sizeof(std::array<Number, COUNT>) == COUNT * sizeof(Number));
+        return rows.size() ? rows.data()->data() : nullptr;
     }
     std::shared_ptr<const rccd_body> handle_;
 };
@@ -142,27 +216,41 @@ private:
 class Trajectory {
 public:
     // A path through poses, each at its time, in ascending order.
-    static Trajectory through_poses(View<double> times, View<Pose> poses) {
-        if (times.size() != poses.size()) throw std::invalid_argument("as many times as poses are needed");
+    static Result<Trajectory> through_poses(View<double> times, View<Pose> poses) {
+        if (times.size() != poses.size())
+            return detail::fail<Trajectory>({RCCD_STATUS_INVALID_ARGUMENT, "as many times as poses are needed"});
         return make([&](rccd_trajectory **out) {
             return rccd_trajectory_through_poses(times.data(), poses.data(), poses.size(), out);
         });
     }
     // A motion whose centre accelerates, in free fall for instance.
-    static Trajectory thrown(const Motion &thrown, const Vector &acceleration) {
+    static Result<Trajectory> thrown(const Motion &thrown, const Vector &acceleration) {
         return make([&](rccd_trajectory **out) {
             return rccd_trajectory_thrown(&thrown, acceleration.data(), out);
         });
     }
+    // A body whose origin follows a Bézier curve by its control points.
+    static Result<Trajectory> bezier(View<Vector> points, double duration, const rccd_turns *turns = nullptr) {
+        const double *numbers = points.size() ? points.data()->data() : nullptr;
+        return make([&](rccd_trajectory **out) {
+            return rccd_trajectory_bezier(numbers, points.size(), duration, turns, out);
+        });
+    }
+    // A body whose origin follows a uniform cubic B-spline by its control points.
+    static Result<Trajectory> b_spline(View<Vector> points, double duration, const rccd_turns *turns = nullptr) {
+        const double *numbers = points.size() ? points.data()->data() : nullptr;
+        return make([&](rccd_trajectory **out) {
+            return rccd_trajectory_b_spline(numbers, points.size(), duration, turns, out);
+        });
+    }
+    // Takes a handle.
+    explicit Trajectory(rccd_trajectory *handle) : handle_(handle, rccd_trajectory_free) {}
     const rccd_trajectory *get() const noexcept { return handle_.get(); }
 
 private:
-    explicit Trajectory(rccd_trajectory *handle) : handle_(handle, rccd_trajectory_free) {}
     template <typename Make>
-    static Trajectory make(Make &&make) {
-        rccd_trajectory *handle = nullptr;
-        check(make(&handle));
-        return Trajectory(handle);
+    static Result<Trajectory> make(Make &&make) {
+        return detail::hold<Trajectory, rccd_trajectory>(make);
     }
     std::shared_ptr<const rccd_trajectory> handle_;
 };
@@ -197,137 +285,66 @@ struct Settings : rccd_settings {
     Settings() : rccd_settings(rccd_settings_default()) {}
 };
 
+// A flag that stops the queries of all solvers whose settings name it: `settings.stop = flag.get()`. Any thread may use it.
+class Stop {
+public:
+    static Result<Stop> make() { return detail::hold<Stop, rccd_stop>(rccd_stop_new); }
+    // Takes a handle.
+    explicit Stop(rccd_stop *handle) : handle_(handle, rccd_stop_free) {}
+    void set() const noexcept { rccd_stop_set(get()); }
+    void clear() const noexcept { rccd_stop_clear(get()); }
+    const rccd_stop *get() const noexcept { return handle_.get(); }
+
+private:
+    std::shared_ptr<const rccd_stop> handle_;
+};
+
 // A solver: settings, and memory that it reuses from query to query. Each thread needs its own.
 class Solver {
 public:
-    explicit Solver(const Settings &settings = {}) : handle_(nullptr, rccd_solver_free) {
-        rccd_solver *handle = nullptr;
-        check(rccd_solver_new(&settings, &handle));
-        handle_.reset(handle);
+    static Result<Solver> make(const Settings &settings = {}) {
+        return detail::hold<Solver, rccd_solver>([&](rccd_solver **out) { return rccd_solver_new(&settings, out); });
     }
-    void set_settings(const Settings &settings) { check(rccd_solver_set_settings(handle_.get(), &settings)); }
+    // Takes a handle.
+    explicit Solver(rccd_solver *handle) : handle_(handle, rccd_solver_free) {}
+#ifndef RIGID_CCD_EXPECTED
+    explicit Solver(const Settings &settings = {}) : Solver(make(settings)) {}
+#endif
+    Result<Done> set_settings(const Settings &settings) {
+        return detail::done(rccd_solver_set_settings(handle_.get(), &settings));
+    }
     // Finds the first contact from time 0 to `duration`. Nothing touches before it.
-    Answer first_contact(const MovingBody &a, const MovingBody &b, double duration) {
+    Result<Answer> first_contact(const MovingBody &a, const MovingBody &b, double duration) {
         return ask(rccd_first_contact, a, b, duration);
     }
     // Finds some contact, perhaps not the first one, or proves that there is none.
-    Answer any_contact(const MovingBody &a, const MovingBody &b, double duration) {
+    Result<Answer> any_contact(const MovingBody &a, const MovingBody &b, double duration) {
         return ask(rccd_any_contact, a, b, duration);
     }
     // Finds when the bodies first and last touch.
-    Answer contact_interval(const MovingBody &a, const MovingBody &b, double duration) {
+    Result<Answer> contact_interval(const MovingBody &a, const MovingBody &b, double duration) {
         return ask(rccd_contact_interval, a, b, duration);
     }
     // Brackets the least distance; with a duration of 0 the distance at the start.
-    Answer closest_approach(const MovingBody &a, const MovingBody &b, double duration) {
+    Result<Answer> closest_approach(const MovingBody &a, const MovingBody &b, double duration) {
         return ask(rccd_closest_approach, a, b, duration);
     }
     // Decides whether the bodies keep a distance.
-    Answer keeps_clearance(const MovingBody &a, const MovingBody &b, double duration, double clearance) {
+    Result<Answer> keeps_clearance(const MovingBody &a, const MovingBody &b, double duration, double clearance) {
         Answer answer;
-        check(rccd_keeps_clearance(handle_.get(), a.get(), b.get(), duration, clearance, &answer));
-        return answer;
+        const rccd_status status =
+            rccd_keeps_clearance(handle_.get(), a.get(), b.get(), duration, clearance, &answer);
+        return detail::after(status, [&] { return answer; });
     }
 
 private:
     template <typename Question>
-    Answer ask(Question question, const MovingBody &a, const MovingBody &b, double duration) {
+    Result<Answer> ask(Question question, const MovingBody &a, const MovingBody &b, double duration) {
         Answer answer;
-        check(question(handle_.get(), a.get(), b.get(), duration, &answer));
-        return answer;
+        const rccd_status status = question(handle_.get(), a.get(), b.get(), duration, &answer);
+        return detail::after(status, [&] { return answer; });
     }
     std::unique_ptr<rccd_solver, void (*)(rccd_solver *)> handle_;
-};
-
-// A robot among obstacles that rest in the frame of its base. Solvers keep the cell as it was when they were made.
-class Cell {
-public:
-    // Loads the robot of a URDF or MJCF file, with its meshes. The SRDF file and the folder that is searched first for
-    // `package://` names may be empty.
-    static Cell load(const std::string &robot, const std::string &srdf = "", const std::string &package_folder = "") {
-        rccd_cell *handle = nullptr;
-        check(rccd_cell_load(robot.c_str(), or_null(srdf), or_null(package_folder), &handle));
-        return Cell(handle);
-    }
-    // Returns the number of positions of a configuration.
-    std::size_t joint_count() const {
-        std::size_t count = 0;
-        check(rccd_cell_joint_count(get(), &count));
-        return count;
-    }
-    void add_obstacle(const std::string &name, const Body &body, const Pose &pose) {
-        check(rccd_cell_add_obstacle(handle_.get(), name.c_str(), body.get(), &pose));
-    }
-    void move_obstacle(const std::string &name, const Pose &pose) {
-        check(rccd_cell_move_obstacle(handle_.get(), name.c_str(), &pose));
-    }
-    void remove_obstacle(const std::string &name) { check(rccd_cell_remove_obstacle(handle_.get(), name.c_str())); }
-    // Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame.
-    void attach(const std::string &name, const Body &body, const std::string &link, const Pose &pose,
-                const std::vector<std::string> &may_touch = {}) {
-        std::vector<const char *> links;
-        for (const std::string &touched : may_touch) links.push_back(touched.c_str());
-        check(rccd_cell_attach(handle_.get(), name.c_str(), body.get(), link.c_str(), &pose, links.data(), links.size()));
-    }
-    void detach(const std::string &name) { check(rccd_cell_detach(handle_.get(), name.c_str())); }
-    const rccd_cell *get() const noexcept { return handle_.get(); }
-
-private:
-    explicit Cell(rccd_cell *handle) : handle_(handle, rccd_cell_free) {}
-    static const char *or_null(const std::string &text) { return text.empty() ? nullptr : text.c_str(); }
-    std::unique_ptr<rccd_cell, void (*)(rccd_cell *)> handle_;
-};
-
-// An answer about a path, with the fields of rccd_path_answer.
-struct PathAnswer : rccd_path_answer {
-    PathAnswer() : rccd_path_answer{} { size = sizeof(rccd_path_answer); }
-    bool free() const noexcept { return outcome == Outcome::RCCD_OUTCOME_FREE; }
-    bool resolved() const noexcept { return outcome != Outcome::RCCD_OUTCOME_UNRESOLVED; }
-    bool hit() const noexcept { return outcome == Outcome::RCCD_OUTCOME_CONTACT; }
-    std::string name_a() const { return name(item_a); }
-    std::string name_b() const { return name(item_b); }
-
-private:
-    static std::string name(const rccd_text &text) {
-        return text.data ? std::string(text.data, text.length) : std::string();
-    }
-};
-
-// A solver for paths in a cell. It keeps memory from one question to the next; each thread needs its own.
-class CellSolver {
-public:
-    explicit CellSolver(const Cell &cell, const Settings &settings = {})
-        : handle_(nullptr, rccd_cell_solver_free), joint_count_(cell.joint_count()) {
-        rccd_cell_solver *handle = nullptr;
-        check(rccd_cell_solver_new(cell.get(), &settings, &handle));
-        handle_.reset(handle);
-    }
-    void set_settings(const Settings &settings) { check(rccd_cell_solver_set_settings(handle_.get(), &settings)); }
-    // Finds the first contact on a path through configurations, one after the other in one array.
-    PathAnswer first_contact(View<double> configurations) { return ask(rccd_cell_first_contact, configurations); }
-    // Brackets how near any pair comes to touching on such a path.
-    PathAnswer closest_approach(View<double> configurations) { return ask(rccd_cell_closest_approach, configurations); }
-    // Returns the share of the edge between two configurations that is certainly free: 1 if all of it is.
-    double measure_edge(View<double> start, View<double> end) {
-        edge_.assign(start.data(), start.data() + start.size());
-        edge_.insert(edge_.end(), end.data(), end.data() + end.size());
-        const PathAnswer answer = first_contact(edge_);
-        return answer.free() ? 1.0 : answer.share;
-    }
-
-private:
-    template <typename Question>
-    PathAnswer ask(Question question, View<double> configurations) {
-        if (joint_count_ == 0 || configurations.size() % joint_count_ != 0)
-            throw std::invalid_argument("a path is as many positions as the robot has joints, for each configuration");
-        PathAnswer answer;
-        const std::size_t count = configurations.size() / joint_count_;
-        check(question(handle_.get(), configurations.data(), count, &answer));
-        return answer;
-    }
-    std::unique_ptr<rccd_cell_solver, void (*)(rccd_cell_solver *)> handle_;
-    std::size_t joint_count_;
-    std::vector<double> edge_;
 };
 
 } // namespace rigid_ccd

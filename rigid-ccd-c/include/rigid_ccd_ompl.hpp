@@ -3,54 +3,20 @@
 #ifndef RIGID_CCD_OMPL_HPP
 #define RIGID_CCD_OMPL_HPP
 
-#include "rigid_ccd.hpp"
+#include "rigid_ccd_cell.hpp"
+
+#ifdef RIGID_CCD_EXPECTED
+#error "OMPL needs exceptions: include this header where RIGID_CCD_EXPECTED is not defined"
+#endif
 
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/StateValidityChecker.h>
 
-#include <mutex>
 #include <utility>
 #include <vector>
 
 namespace rigid_ccd {
-
-// The solvers of a cell, of which each call takes one: planners may have many threads.
-class SolverPool {
-public:
-    explicit SolverPool(const Cell &cell, const Settings &settings = {}) : cell_(cell), settings_(settings) {}
-
-    // Calls a function with a solver of its own.
-    template <typename Call>
-    auto with_solver(Call &&call) {
-        Loan loan(*this);
-        return call(loan.solver);
-    }
-
-private:
-    struct Loan {
-        explicit Loan(SolverPool &from) : pool(from), solver(from.take()) {}
-        Loan(const Loan &) = delete;
-        Loan &operator=(const Loan &) = delete;
-        ~Loan() {
-            const std::lock_guard<std::mutex> lock(pool.mutex_);
-            pool.spare_.push_back(std::move(solver));
-        }
-        SolverPool &pool;
-        CellSolver solver;
-    };
-    CellSolver take() {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (spare_.empty()) return CellSolver(cell_, settings_);
-        CellSolver solver = std::move(spare_.back());
-        spare_.pop_back();
-        return solver;
-    }
-    const Cell &cell_;
-    Settings settings_;
-    std::mutex mutex_;
-    std::vector<CellSolver> spare_;
-};
 
 // Accepts an edge if nothing touches on all of it. The cell is not to change while the validator lives.
 class OmplMotionValidator : public ompl::base::MotionValidator {
@@ -81,7 +47,7 @@ private:
         std::vector<double> start, end;
         si_->getStateSpace()->copyToReals(start, from);
         si_->getStateSpace()->copyToReals(end, to);
-        return pool_.with_solver([&](CellSolver &solver) { return solver.measure_edge(start, end); });
+        return pool_.with_solver([&](CellSolver &solver) { return solver.measure_edge(start, end).alpha(); });
     }
     mutable SolverPool pool_;
 };

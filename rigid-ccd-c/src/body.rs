@@ -2,7 +2,7 @@
 
 use crate::arguments::{array, free, give, reference, store, text};
 use crate::status::{Failure, RccdStatus, status_of};
-use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
+use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh, prepare};
 use rigid_ccd::{Body, InputError, load};
 use std::ffi::c_char;
 use std::sync::Arc;
@@ -107,21 +107,43 @@ pub unsafe extern "C" fn rccd_body_from_triangles(
     detail: u32,
     out: *mut *mut RccdBody,
 ) -> RccdStatus {
+    let counts = [vertex_count, triangle_count];
     status_of(|| {
         let detail = parse_detail(detail)?;
         // SAFETY: the contract of this function.
-        let vertices = unsafe { array("vertices", vertices.cast::<[f64; 3]>(), vertex_count) }?;
-        // SAFETY: the contract of this function.
-        let triangles =
-            unsafe { array("triangles", triangles.cast::<[u32; 3]>(), triangle_count) }?;
-        let mesh = TriangleMesh::new(vertices.to_vec(), triangles).map_err(Failure::body)?;
+        let mesh = unsafe { read_mesh(vertices, triangles, counts) }?;
         let body = body_from_mesh(&mesh, detail).map_err(Failure::body)?.body;
         // SAFETY: the contract of this function.
         unsafe { give(out, RccdBody(Arc::new(body))) }
     })
 }
 
-/// Loads a body from a file: OBJ, STL, PLY, OFF, or a body that was prepared by `ccd decompose`.
+/// Prepares a body of triangles, and stores it in a file, by convention `NAME.ccd`. `rccd_body_load` reads it without the work
+/// of the preparation, and gives the same answers. The arguments are those of `rccd_body_from_triangles`.
+///
+/// # Safety
+/// Those of `rccd_body_from_triangles`; `path` is null or a text that ends with a zero.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_body_prepare(
+    vertices: *const f64,
+    vertex_count: usize,
+    triangles: *const u32,
+    triangle_count: usize,
+    detail: u32,
+    path: *const c_char,
+) -> RccdStatus {
+    let counts = [vertex_count, triangle_count];
+    status_of(|| {
+        let detail = parse_detail(detail)?;
+        // SAFETY: the contract of this function.
+        let (path, mesh) =
+            unsafe { (text("path", path)?, read_mesh(vertices, triangles, counts)?) };
+        let content = prepare(&mesh, detail).map_err(Failure::body)?;
+        content.save(path).map_err(Failure::body)
+    })
+}
+
+/// Loads a body from a file: OBJ, STL, PLY, OFF, or one that `rccd_body_prepare` or `ccd decompose` has stored.
 ///
 /// # Safety
 /// `path` is null or a text that ends with a zero, and `out` is null or points to a place for a handle.
@@ -175,6 +197,23 @@ unsafe fn give_shape(body: Result<Body, InputError>, out: *mut *mut RccdBody) ->
         // SAFETY: the contract of this function.
         unsafe { give(out, RccdBody(Arc::new(body))) }
     })
+}
+
+/// # Safety
+/// `vertices` is null or points to three numbers for each vertex, `triangles` is null or points to three for each triangle.
+unsafe fn read_mesh(
+    vertices: *const f64,
+    triangles: *const u32,
+    [vertex_count, triangle_count]: [usize; 2],
+) -> Result<TriangleMesh, Failure> {
+    // SAFETY: the contract of this function.
+    let (vertices, triangles) = unsafe {
+        (
+            array("vertices", vertices.cast::<[f64; 3]>(), vertex_count)?,
+            array("triangles", triangles.cast::<[u32; 3]>(), triangle_count)?,
+        )
+    };
+    TriangleMesh::new(vertices.to_vec(), triangles).map_err(Failure::body)
 }
 
 fn parse_detail(detail: u32) -> Result<Detail, Failure> {

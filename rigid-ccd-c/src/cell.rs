@@ -252,6 +252,51 @@ pub unsafe extern "C" fn rccd_cell_detach(cell: *mut RccdCell, name: *const c_ch
     })
 }
 
+/// Sets how much farther than the margin obstacles have to stay from a link; 0 takes it back.
+///
+/// # Safety
+/// `cell` is null or a handle that no other call uses; `link` is null or a text that ends with a zero.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_set_padding(
+    cell: *mut RccdCell,
+    link: *const c_char,
+    distance: f64,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let link = unsafe { text("link", link) }?;
+        // SAFETY: the contract of this function.
+        unsafe { change(cell) }?
+            .set_padding(link, distance)
+            .map_err(Failure::input)
+    })
+}
+
+/// Sets the distance at which two links, held bodies or obstacles count as touching, instead of margin and paddings. Two links
+/// that were not checked are checked from now on.
+///
+/// # Safety
+/// `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_set_clearance(
+    cell: *mut RccdCell,
+    a: *const c_char,
+    b: *const c_char,
+    distance: f64,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let (a, b) = unsafe { (text("a", a)?, text("b", b)?) };
+        // SAFETY: the contract of this function.
+        let cell = unsafe { change(cell) }?;
+        let pair = cell
+            .item_named(a)
+            .and_then(|a| Ok([a, cell.item_named(b)?]));
+        pair.and_then(|pair| cell.set_clearance(pair, distance))
+            .map_err(Failure::input)
+    })
+}
+
 pub(crate) fn joint_count(cell: &Cell) -> usize {
     cell.robot().free_joint_names().len()
 }

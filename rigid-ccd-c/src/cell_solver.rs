@@ -1,12 +1,13 @@
 //! Questions about paths of a robot in a cell.
 
-use crate::arguments::{array, exclusive, free, give, reference, size_of_place, store};
+use crate::arguments::{exclusive, free, give, reference, size_of_place, store};
 use crate::cell::{RccdCell, joint_count};
+use crate::path::{PathMemory, RccdPath};
 use crate::path_answer::RccdPathAnswer;
 use crate::settings::RccdSettings;
 use crate::solver::read_settings;
 use crate::status::{Failure, RccdStatus, status_of};
-use rigid_ccd_robot::{Cell, CellSolver};
+use rigid_ccd_robot::{Cell, CellSolver, Path};
 use std::sync::Arc;
 
 /// A solver for paths in a cell as it was when the solver was made. It keeps memory from one question to the next. Each thread
@@ -15,27 +16,14 @@ pub struct RccdCellSolver {
     /// It borrows `cell`, and is dropped before.
     solver: CellSolver<'static>,
     cell: Arc<Cell>,
-    path: Vec<Configuration>,
-}
-
-/// A configuration of the caller's, for the time of a call.
-struct Configuration {
-    positions: *const f64,
-    count: usize,
-}
-
-impl AsRef<[f64]> for Configuration {
-    fn as_ref(&self) -> &[f64] {
-        // SAFETY: it is made from a slice, is used within the call that made it, and is removed at its end.
-        unsafe { std::slice::from_raw_parts(self.positions, self.count) }
-    }
+    path: PathMemory,
 }
 
 /// Makes a solver for a cell with these settings; null stands for the default ones. The margin is the distance at which bodies
 /// count as touching, and a deadline is for a whole question. Contacts at the start are always reported.
 ///
 /// # Safety
-/// `cell` is null or a handle; `settings` is null or points to settings; `out` is null or points to a place for a handle.
+/// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points to a place for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_solver_new(
     cell: *const RccdCell,
@@ -53,7 +41,7 @@ pub unsafe extern "C" fn rccd_cell_solver_new(
         let solver = RccdCellSolver {
             solver: borrowed.solver().with_settings(settings),
             cell,
-            path: Vec::new(),
+            path: PathMemory::default(),
         };
         // SAFETY: the contract of this function.
         unsafe { give(out, solver) }
@@ -63,7 +51,7 @@ pub unsafe extern "C" fn rccd_cell_solver_new(
 /// Changes the settings of the questions that follow; null stands for the default ones.
 ///
 /// # Safety
-/// `solver` is null or a handle that no other call uses; `settings` is null or points to settings.
+/// `solver` is null or a handle that no other call uses; `settings` is null or points to settings, whose flag is null or a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_solver_set_settings(
     solver: *mut RccdCellSolver,
@@ -90,46 +78,62 @@ pub unsafe extern "C" fn rccd_cell_solver_free(solver: *mut RccdCellSolver) {
     unsafe { free(solver) }
 }
 
-/// Finds the first contact on a path through `count` configurations, one after the other, between which all joints move at
-/// constant rates. One configuration is a robot at rest, two are an edge. Nothing touches before the contact; if a limit is
-/// reached, nothing touches before the point of the answer.
+/// Finds the first contact on a path. Nothing touches before it; if a limit is reached, nothing touches before the point of the
+/// answer.
 ///
 /// # Safety
-/// `solver` is null or a handle that no other call uses; `configurations` is null or points to `count` times as many numbers as
-/// the robot has free joints; `answer` is null or points to an answer whose `size` is set.
+/// `solver` is null or a handle that no other call uses; `path` is null or points to a path, whose configurations are null or
+/// point to as many numbers as the robot has free joints for each configuration, and whose curve is null or a handle; `answer`
+/// is null or points to an answer whose `size` is set.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_first_contact(
     solver: *mut RccdCellSolver,
-    configurations: *const f64,
-    count: usize,
+    path: *const RccdPath,
     answer: *mut RccdPathAnswer,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
     unsafe {
-        ask(solver, configurations, count, answer, |solver, path| {
+        ask(solver, path, answer, |solver, path| {
             let outcome = solver.first_contact(path).map_err(Failure::input)?;
-            Ok(RccdPathAnswer::from_outcome(
-                &outcome,
-                path.len().saturating_sub(1),
-            ))
+            Ok(RccdPathAnswer::from_outcome(&outcome, path.segment_count()))
         })
     }
 }
 
-/// Brackets how near any pair comes to touching on a path, to within the tolerance. The margin plays no role.
+/// Finds some contact on a path, perhaps not the first one, or proves that there is none: what a planner asks about an edge. If
+/// a limit is reached, nothing is known of the path.
+///
+/// # Safety
+/// That of `rccd_cell_first_contact`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_any_contact(
+    solver: *mut RccdCellSolver,
+    path: *const RccdPath,
+    answer: *mut RccdPathAnswer,
+) -> RccdStatus {
+    // SAFETY: the contract of this function.
+    unsafe {
+        ask(solver, path, answer, |solver, path| {
+            let found = solver.any_contact(path);
+            RccdPathAnswer::from_any_contact(found, path.segment_count())
+        })
+    }
+}
+
+/// Brackets how near any pair comes to touching on a path, to within the tolerance. Margin, paddings and clearances play no
+/// role.
 ///
 /// # Safety
 /// That of `rccd_cell_first_contact`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_closest_approach(
     solver: *mut RccdCellSolver,
-    configurations: *const f64,
-    count: usize,
+    path: *const RccdPath,
     answer: *mut RccdPathAnswer,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
     unsafe {
-        ask(solver, configurations, count, answer, |solver, path| {
+        ask(solver, path, answer, |solver, path| {
             let approach = solver.closest_approach(path).map_err(Failure::input)?;
             Ok(RccdPathAnswer::from_approach(&approach))
         })
@@ -142,33 +146,29 @@ pub unsafe extern "C" fn rccd_cell_closest_approach(
 /// That of [`rccd_cell_first_contact`].
 unsafe fn ask(
     solver: *mut RccdCellSolver,
-    configurations: *const f64,
-    count: usize,
+    path: *const RccdPath,
     out: *mut RccdPathAnswer,
-    question: impl FnOnce(&mut CellSolver<'static>, &[Configuration]) -> Result<RccdPathAnswer, Failure>,
+    question: impl FnOnce(&mut CellSolver<'static>, &dyn Path) -> Result<RccdPathAnswer, Failure>,
 ) -> RccdStatus {
     status_of(|| {
         // SAFETY: the contract of this function.
-        let solver = unsafe { exclusive("solver", solver) }?;
+        let RccdCellSolver {
+            solver,
+            cell,
+            path: memory,
+        } = unsafe { exclusive("solver", solver) }?;
         // SAFETY: the contract of this function.
         let size = unsafe { size_of_place(out) }?;
-        let joints = joint_count(&solver.cell);
-        let total = count.checked_mul(joints);
-        let total = total.ok_or_else(|| Failure::argument("configurations is too long"))?;
+        let call = |path: &dyn Path| question(solver, path);
         // SAFETY: the contract of this function.
-        let positions = unsafe { array("configurations", configurations, total) }?;
-        solver.path.clear();
-        solver.path.extend((0..count).map(|k| {
-            let positions = &positions[k * joints..(k + 1) * joints];
-            Configuration {
-                positions: positions.as_ptr(),
-                count: joints,
-            }
-        }));
-        let answer = question(&mut solver.solver, &solver.path);
-        solver.path.clear();
-        let answer = RccdPathAnswer { size, ..answer? };
+        let answer = unsafe { memory.with_path(path, joint_count(cell), call) }?;
         // SAFETY: the contract of this function.
-        unsafe { store("the place for the answer", out, answer) }
+        unsafe {
+            store(
+                "the place for the answer",
+                out,
+                RccdPathAnswer { size, ..answer },
+            )
+        }
     })
 }

@@ -9,9 +9,10 @@
 //! | move them along trajectories | `trajectory.rs` |
 //! | set tolerances and limits | `settings.rs` |
 //! | ask about two bodies | `solver.rs` |
+//! | stop a query from another thread | `stop.rs` |
 //! | read answers | `answer.rs`, `feature.rs` |
 //! | put a robot among obstacles | `cell.rs` |
-//! | ask about its paths | `cell_solver.rs`, `path_answer.rs` |
+//! | ask about its paths | `cell_solver.rs`, `path.rs`, `joint_curve.rs`, `path_answer.rs` |
 //!
 //! # Contract of all functions
 //! A function never panics into C, never calls back, and keeps no pointer to its arguments, except that a query borrows
@@ -25,11 +26,14 @@ mod body;
 mod cell;
 mod cell_solver;
 mod feature;
+mod joint_curve;
 mod motion;
+mod path;
 mod path_answer;
 mod settings;
 mod solver;
 mod status;
+mod stop;
 mod trajectory;
 
 pub use answer::{RccdAnswer, RccdLimit, RccdOutcome};
@@ -37,9 +41,12 @@ pub use body::*;
 pub use cell::*;
 pub use cell_solver::*;
 pub use feature::{RccdFeature, RccdFeatureKind};
+pub use joint_curve::*;
 pub use motion::{RccdMotion, RccdPose, rccd_motion_at_rest, rccd_motion_between};
+pub use path::RccdPath;
 pub use path_answer::RccdPathAnswer;
 pub use settings::{RccdSettings, RccdStartPolicy, rccd_settings_default};
 pub use solver::*;
 pub use status::{RccdStatus, rccd_last_error};
+pub use stop::*;
 pub use trajectory::*;

@@ -3,7 +3,9 @@
 use crate::answer::{RccdLimit, RccdOutcome};
 use crate::cell::RccdText;
 use crate::feature::RccdFeature;
-use rigid_ccd_robot::{ClosestApproach, PathContact, PathOutcome};
+use crate::status::Failure;
+use rigid_ccd::Error;
+use rigid_ccd_robot::{ClosestApproach, PathContact, PathError, PathOutcome, PathPoint};
 
 /// An answer about a path. Numbers that the outcome does not have are NaN, and names are null.
 #[repr(C)]
@@ -74,6 +76,26 @@ impl RccdPathAnswer {
                 ..RccdPathAnswer::EMPTY
             },
         }
+    }
+
+    /// Converts an answer of which a limit is an error.
+    pub(crate) fn from_any_contact(
+        found: Result<Option<PathContact<'_>>, PathError>,
+        segments: usize,
+    ) -> Result<Self, Failure> {
+        let outcome = match found {
+            Ok(Some(contact)) => PathOutcome::Contact(contact),
+            Ok(None) => PathOutcome::Free,
+            Err(PathError::Query(Error::Unresolved(known))) => PathOutcome::Unresolved {
+                free_until: PathPoint {
+                    segment: 0,
+                    share: 0.0,
+                },
+                limit: known.limit,
+            },
+            Err(error) => return Err(Failure::input(error)),
+        };
+        Ok(RccdPathAnswer::from_outcome(&outcome, segments))
     }
 
     pub(crate) fn from_approach(approach: &ClosestApproach<'_>) -> Self {

@@ -1,7 +1,10 @@
 //! Settings: tolerance, margin, and limits of the work.
 
+use crate::arguments::reference;
 use crate::status::Failure;
+use crate::stop::RccdStop;
 use rigid_ccd::{Settings, StartPolicy};
+use std::sync::Arc;
 use std::time::Duration;
 
 /// What to do about bodies that are in contact at the start.
@@ -30,10 +33,16 @@ pub struct RccdSettings {
     pub deadline: f64,
     /// One of `rccd_start_policy`.
     pub start_policy: u32,
+    /// A flag that stops queries, or null. Solvers share it: it may be freed.
+    pub stop: *const RccdStop,
 }
 
 impl RccdSettings {
-    pub(crate) fn to_settings(self) -> Result<Settings, Failure> {
+    /// Converts the settings, and shares their flag.
+    ///
+    /// # Safety
+    /// `stop` is null or a handle.
+    pub(crate) unsafe fn to_settings(self) -> Result<Settings, Failure> {
         if self.size != size_of::<Self>() {
             let text =
                 "size of settings: rccd_settings_default sets it, for the header of this library";
@@ -53,7 +62,14 @@ impl RccdSettings {
                 Failure::input(format!("deadline {seconds} is out of range: at least 0"))
             })?),
         };
+        let stop = if self.stop.is_null() {
+            None
+        } else {
+            // SAFETY: the contract of this function.
+            Some(Arc::clone(&unsafe { reference("stop", self.stop) }?.0))
+        };
         let settings = Settings {
+            stop,
             tolerance: self.tolerance,
             margin: self.margin,
             budget: self.budget,
@@ -82,5 +98,6 @@ pub extern "C" fn rccd_settings_default() -> RccdSettings {
         budget,
         deadline: f64::INFINITY,
         start_policy: RccdStartPolicy::Report as u32,
+        stop: std::ptr::null(),
     }
 }

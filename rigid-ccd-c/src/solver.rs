@@ -31,7 +31,7 @@ pub struct RccdMovingBody {
 /// Makes a solver with these settings; null stands for the default ones.
 ///
 /// # Safety
-/// `settings` is null or points to settings; `out` is null or points to a place for a handle.
+/// `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points to a place for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_solver_new(
     settings: *const RccdSettings,
@@ -52,7 +52,7 @@ pub unsafe extern "C" fn rccd_solver_new(
 /// Changes the settings of the queries that follow; null stands for the default ones.
 ///
 /// # Safety
-/// `solver` is null or a handle that no other call uses; `settings` is null or points to settings.
+/// `solver` is null or a handle that no other call uses; `settings` is null or points to settings, whose flag is null or a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_solver_set_settings(
     solver: *mut RccdSolver,
@@ -250,11 +250,11 @@ unsafe fn moving_body<'a>(
 /// Reads settings; null stands for the default ones.
 ///
 /// # Safety
-/// `settings` is null or points to settings.
+/// `settings` is null or points to settings, whose flag is null or a handle.
 pub(crate) unsafe fn read_settings(settings: *const RccdSettings) -> Result<Settings, Failure> {
     if settings.is_null() {
         return Ok(Settings::DEFAULT);
     }
     // SAFETY: the contract of this function.
-    unsafe { reference("settings", settings) }?.to_settings()
+    unsafe { reference("settings", settings)?.to_settings() }
 }

@@ -3,7 +3,8 @@
 use crate::arguments::{array, free, give, reference};
 use crate::motion::{RccdMotion, RccdPose};
 use crate::status::{Failure, RccdStatus, status_of};
-use rigid_ccd::trajectory::{Ballistic, Poses, Trajectory};
+use rigid_ccd::InputError;
+use rigid_ccd::trajectory::{Ballistic, Curve, OrientationCurve, Poses, Spline, Trajectory};
 
 /// A trajectory. Many queries and threads may share it.
 pub struct RccdTrajectory(Box<dyn Trajectory + Send + Sync>);
@@ -63,6 +64,57 @@ pub unsafe extern "C" fn rccd_trajectory_thrown(
     })
 }
 
+/// How a body turns while its origin follows a curve: orientations, each at its time, in ascending order, and between two of
+/// them the shortest rotation at a constant rate.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct RccdTurns {
+    /// The times.
+    pub times: *const f64,
+    /// For each time a quaternion in the order x, y, z, w.
+    pub orientations: *const f64,
+    /// The number of times.
+    pub count: usize,
+}
+
+/// Makes the trajectory of a body whose origin follows a Bézier curve of any degree from time 0 to `duration`. `points` are the
+/// control points, three numbers each. With null for `turns` the body does not turn.
+///
+/// # Safety
+/// `points` is null or points to `3 · count` numbers; `turns` is null or points to turns, whose times and orientations are null
+/// or point to as many numbers as their count says; `out` is null or points to a place for a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_trajectory_bezier(
+    points: *const f64,
+    count: usize,
+    duration: f64,
+    turns: *const RccdTurns,
+    out: *mut *mut RccdTrajectory,
+) -> RccdStatus {
+    let curve = |points: &[[f64; 3]]| Curve::bezier(points, duration);
+    // SAFETY: the contract of this function.
+    unsafe { give_spline(points, count, curve, turns, out) }
+}
+
+/// Makes the trajectory of a body whose origin follows a uniform cubic B-spline from time 0 to `duration`. `points` are at least
+/// four control points, three numbers each: the curve begins near the second one and ends near the last but one. With null for
+/// `turns` the body does not turn.
+///
+/// # Safety
+/// That of `rccd_trajectory_bezier`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_trajectory_b_spline(
+    points: *const f64,
+    count: usize,
+    duration: f64,
+    turns: *const RccdTurns,
+    out: *mut *mut RccdTrajectory,
+) -> RccdStatus {
+    let curve = |points: &[[f64; 3]]| Curve::b_spline(points, duration);
+    // SAFETY: the contract of this function.
+    unsafe { give_spline(points, count, curve, turns, out) }
+}
+
 /// Frees a trajectory; null is nothing.
 ///
 /// # Safety
@@ -71,4 +123,49 @@ pub unsafe extern "C" fn rccd_trajectory_thrown(
 pub unsafe extern "C" fn rccd_trajectory_free(trajectory: *mut RccdTrajectory) {
     // SAFETY: the contract of this function.
     unsafe { free(trajectory) }
+}
+
+/// # Safety
+/// That of [`rccd_trajectory_bezier`].
+unsafe fn give_spline(
+    points: *const f64,
+    count: usize,
+    curve: impl FnOnce(&[[f64; 3]]) -> Result<Curve, InputError>,
+    turns: *const RccdTurns,
+    out: *mut *mut RccdTrajectory,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let points = unsafe { array("points", points.cast::<[f64; 3]>(), count) }?;
+        let curve = curve(points).map_err(Failure::input)?;
+        let turns = if turns.is_null() {
+            OrientationCurve::NONE
+        } else {
+            // SAFETY: the contract of this function.
+            unsafe { reference("turns", turns)?.to_curve() }?
+        };
+        // SAFETY: the contract of this function.
+        unsafe { give(out, RccdTrajectory(Box::new(Spline::new(curve, turns)))) }
+    })
+}
+
+impl RccdTurns {
+    /// # Safety
+    /// `times` is null or points to `count` numbers, and `orientations` to four times as many.
+    unsafe fn to_curve(self) -> Result<OrientationCurve, Failure> {
+        // SAFETY: the contract of this function.
+        let (times, orientations) = unsafe {
+            (
+                array("times of turns", self.times, self.count)?,
+                array(
+                    "orientations",
+                    self.orientations.cast::<[f64; 4]>(),
+                    self.count,
+                )?,
+            )
+        };
+        let keys = times.iter().copied().zip(orientations.iter().copied());
+        let keys: Vec<(f64, [f64; 4])> = keys.collect();
+        OrientationCurve::piecewise_slerp(&keys).map_err(Failure::input)
+    }
 }

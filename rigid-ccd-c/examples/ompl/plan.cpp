@@ -34,11 +34,9 @@ ob::StateSpacePtr joint_space(const rigid_ccd::Cell &cell) {
     const auto joints = static_cast<unsigned>(cell.joint_count());
     ob::RealVectorBounds bounds(joints);
     for (unsigned k = 0; k < joints; ++k) {
-        rccd_text name;
-        double lower = 0, upper = 0;
-        rigid_ccd::check(rccd_cell_joint(cell.get(), k, &name, &lower, &upper));
-        bounds.setLow(k, std::max(lower, -3.0));
-        bounds.setHigh(k, std::min(upper, 3.0));
+        const rigid_ccd::Joint joint = cell.joint(k);
+        bounds.setLow(k, std::max(joint.lower, -3.0));
+        bounds.setHigh(k, std::min(joint.upper, 3.0));
     }
     auto space = std::make_shared<ob::RealVectorStateSpace>(joints);
     space->setBounds(bounds);

@@ -1,6 +1,6 @@
 //! Tests that wrong arguments are errors with a message, and change nothing.
 
-use crate::support::{empty_answer, last_error, moving, ok, sphere};
+use crate::support::{Handle, empty_answer, last_error, moving, ok, sphere};
 use rigid_ccd_c::*;
 use std::ptr::{dangling, null, null_mut};
 
@@ -162,4 +162,58 @@ fn freeing_null_is_nothing_and_bodies_are_counted() {
         ok(rccd_body_piece_count(ball.pointer(), &mut count));
     }
     assert_eq!(count, 1);
+}
+
+#[test]
+fn prepared_bodies_answer_as_those_that_were_stored() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("body.ccd");
+    let path = std::ffi::CString::new(path.to_str().unwrap()).unwrap();
+    let vertices = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [1.0, 1.0, 0.5],
+    ];
+    let triangles = [[0_u32, 1, 2], [1, 3, 2]];
+    let detail = RccdDetail::Triangles as u32;
+    // SAFETY: the counts are those of the arrays.
+    unsafe {
+        let (points, corners) = (vertices.as_ptr().cast(), triangles.as_ptr().cast());
+        ok(rccd_body_prepare(
+            points,
+            4,
+            corners,
+            2,
+            detail,
+            path.as_ptr(),
+        ));
+        let loaded = Handle::new(rccd_body_free, |out| rccd_body_load(path.as_ptr(), out));
+        let made = Handle::new(rccd_body_free, |out| {
+            rccd_body_from_triangles(points, 4, corners, 2, detail, out)
+        });
+        let (solver, ball) = (crate::support::solver(None), sphere(0.25));
+        let mut falls = rccd_motion_at_rest();
+        falls.start.position = [0.6, 0.6, 2.0];
+        falls.velocity = [0.0, 0.0, -1.0];
+        let rests = rccd_motion_at_rest();
+        let [a, b] = [&loaded, &made].map(|body| {
+            let mut answer = empty_answer();
+            let (ball, body) = (moving(&ball, &falls), moving(body, &rests));
+            ok(rccd_first_contact(
+                solver.pointer(),
+                &ball,
+                &body,
+                2.0,
+                &mut answer,
+            ));
+            answer
+        });
+        assert_eq!(a.outcome, RccdOutcome::Contact);
+        assert_eq!(a.time.to_bits(), b.time.to_bits());
+        refused(
+            rccd_body_prepare(points, 4, corners, 2, detail, null()),
+            "path is null",
+        );
+    }
 }

@@ -1,7 +1,7 @@
 //! Tests that every question through the interface has the same bits as in Rust.
 
 use crate::support::{Handle, Random, moving, ok};
-use rigid_ccd::trajectory::{Ballistic, Poses};
+use rigid_ccd::trajectory::{Ballistic, Curve, OrientationCurve, Poses, Spline};
 use rigid_ccd::{Answer, Body, Motion, Outcome, Pose, Settings, Solver, StartPolicy};
 use rigid_ccd_c::*;
 use std::ptr::null;
@@ -207,4 +207,61 @@ fn motions_between_poses_have_the_bits_of_rust() {
         assert_eq!(found.spin, motion.spin().to_array());
         assert_eq!(found.centre, centre);
     }
+}
+
+#[test]
+fn answers_about_splines_have_the_bits_of_rust() {
+    let mut random = Random::new(5);
+    let (soup, mesh) = crate::support::random_mesh(&mut random, 30);
+    let mut rust = Solver::new();
+    let c = crate::support::solver(None);
+    let mut hits = 0;
+    for number in 0..60 {
+        let points = [(); 5].map(|()| random.vector(1.5));
+        let keys = [0.0, 0.4, 1.0].map(|time| (time, [(); 4].map(|()| random.number())));
+        let (times, orientations) = (keys.map(|(time, _)| time), keys.map(|(_, turn)| turn));
+        let turns = RccdTurns {
+            times: times.as_ptr(),
+            orientations: orientations.as_ptr().cast(),
+            count: 3,
+        };
+        let is_bezier = number % 2 == 0;
+        let curve = if is_bezier {
+            Curve::bezier(&points, 1.0)
+        } else {
+            Curve::b_spline(&points, 1.0)
+        };
+        let orientation_curve = OrientationCurve::piecewise_slerp(&keys).unwrap();
+        let spline = Spline::new(curve.unwrap(), orientation_curve);
+        let make = if is_bezier {
+            rccd_trajectory_bezier
+        } else {
+            rccd_trajectory_b_spline
+        };
+        // SAFETY: the counts are those of the arrays.
+        let c_spline = Handle::new(rccd_trajectory_free, |out| unsafe {
+            make(points.as_ptr().cast(), 5, 1.0, &turns, out)
+        });
+        let still = rccd_motion_at_rest();
+        let along = RccdMovingBody {
+            body: soup.pointer(),
+            motion: null(),
+            trajectory: c_spline.pointer(),
+        };
+        let rests = (&mesh, Motion::STILL);
+        let answer = rust.first_contact((&mesh, &spline), rests, 1.0).unwrap();
+        let found = ask(&c, [along, moving(&soup, &still)], 1.0, rccd_first_contact);
+        assert_equal(&found, &answer, &number.to_string());
+        hits += i32::from(found.outcome == RccdOutcome::Contact);
+    }
+    assert!(hits > 10, "{hits}");
+    let no_turns = RccdTurns {
+        times: null(),
+        orientations: null(),
+        count: 0,
+    };
+    let (point, mut out) = ([0.0; 3], std::ptr::null_mut());
+    // SAFETY: one point; no turns.
+    let refused = unsafe { rccd_trajectory_bezier(point.as_ptr(), 1, 1.0, &no_turns, &mut out) };
+    assert_eq!(refused, RccdStatus::InvalidInput);
 }

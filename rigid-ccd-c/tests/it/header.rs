@@ -36,21 +36,23 @@ fn run(command: &mut Command) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Builds an example, and returns what it prints.
-fn build_and_run(compiler: &str, standard: &str, example: &str) -> String {
-    let program = std::env::temp_dir().join(format!("rigid_ccd_{}_{example}", std::process::id()));
+/// Builds a program of this folder, and returns what it prints.
+fn build_and_run(compiler: &str, options: &[&str], source: &str, arguments: &[&str]) -> String {
+    let folder_of_program = tempfile::tempdir().unwrap();
+    let program = folder_of_program.path().join("program");
     run(Command::new(compiler)
-        .args([standard, "-O1"])
+        .args(options)
+        .arg("-O1")
         .args(WARNINGS)
         .arg(format!("-I{}", folder().join("include").display()))
         .arg("-o")
         .arg(&program)
-        .arg(folder().join("examples").join(example))
+        .arg(folder().join(source))
         .arg(static_library())
         .args(["-lpthread", "-ldl", "-lm"]));
-    let printed = run(Command::new(&program).current_dir(folder().join("../rigid-ccd")));
-    std::fs::remove_file(program).unwrap();
-    printed
+    run(Command::new(&program)
+        .args(arguments)
+        .current_dir(folder().join("../rigid-ccd")))
 }
 
 #[test]
@@ -61,24 +63,46 @@ fn the_headers_compile_without_a_warning() {
         ("c++", "-std=c++17", "c++", "rigid_ccd.h"),
         ("c++", "-std=c++17", "c++", "rigid_ccd.hpp"),
         ("c++", "-std=c++20", "c++", "rigid_ccd.hpp"),
+        ("c++", "-std=c++17", "c++", "rigid_ccd_cell.hpp"),
+        ("c++", "-std=c++20", "c++", "rigid_ccd_cell.hpp"),
     ] {
         run(Command::new(compiler)
             .args([standard, "-fsyntax-only", "-x", language])
             .args(WARNINGS)
-            .arg("-Wno-pragma-once-outside-header")
             .arg(folder().join("include").join(header)));
     }
 }
 
 #[test]
 fn a_program_in_c_answers() {
-    let printed = build_and_run("cc", "-std=c99", "first_contact.c");
+    let printed = build_and_run("cc", &["-std=c99"], "examples/first_contact.c", &[]);
     assert!(printed.starts_with("contact at 0.99"), "{printed}");
 }
 
 #[test]
 fn a_program_in_cpp_answers() {
-    let printed = build_and_run("c++", "-std=c++17", "first_contact.cpp");
+    let printed = build_and_run("c++", &["-std=c++17"], "examples/first_contact.cpp", &[]);
     assert!(printed.starts_with("contact at 0.99"), "{printed}");
     assert!(printed.contains("no triangles"), "{printed}");
+}
+
+#[test]
+fn failures_are_values_without_exceptions() {
+    let options = ["-std=c++17", "-fno-exceptions"];
+    let printed = build_and_run("c++", &options, "tests/programs/expected.cpp", &[]);
+    let expected = "2.00; radius is -1";
+    assert!(printed.contains("no such file.urdf"), "{printed}");
+    assert!(printed.starts_with(expected), "{printed}");
+}
+
+#[test]
+fn robots_in_cpp_answer() {
+    let arguments = ["../rigid-ccd-robot/examples/edges/arm.urdf", "link7"];
+    let printed = build_and_run(
+        "c++",
+        &["-std=c++17"],
+        "tests/programs/cells.cpp",
+        &arguments,
+    );
+    assert!(printed.ends_with("of 50 edges are free\n"), "{printed}");
 }

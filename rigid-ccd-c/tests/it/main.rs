@@ -5,4 +5,6 @@ mod cells;
 mod equal_bits;
 mod header;
 mod memory;
+mod paths;
 mod support;
+mod support_cells;

@@ -1,0 +1,275 @@
+// Robots among obstacles, for C++17: are the edges of a planner, and the motions of a controller, free?
+// Header only, over rigid_ccd.h and rigid_ccd.hpp.
+#ifndef RIGID_CCD_CELL_HPP
+#define RIGID_CCD_CELL_HPP
+
+#include "rigid_ccd.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace rigid_ccd {
+
+// A free joint. Limits that it does not have are infinite.
+struct Joint {
+    std::string name;
+    double lower, upper;
+};
+
+// A robot among obstacles that rest in the frame of its base. Solvers keep the cell as it was when they were made.
+class Cell {
+public:
+    // Loads the robot of a URDF or MJCF file, with its meshes. The SRDF file and the folder that is searched first for
+    // `package://` names may be empty.
+    static Result<Cell> load(const std::string &robot, const std::string &srdf = "",
+                             const std::string &package_folder = "") {
+        return detail::hold<Cell, rccd_cell>([&](rccd_cell **out) {
+            return rccd_cell_load(robot.c_str(), or_null(srdf), or_null(package_folder), out);
+        });
+    }
+    // Takes a handle.
+    explicit Cell(rccd_cell *handle) : handle_(handle, rccd_cell_free) {}
+    // Returns the number of positions of a configuration.
+    std::size_t joint_count() const {
+        std::size_t count = 0;
+        rccd_cell_joint_count(get(), &count);
+        return count;
+    }
+    // Returns a free joint by its number in configurations.
+    Result<Joint> joint(std::size_t number) const {
+        rccd_text name{};
+        Joint joint{};
+        const rccd_status status = rccd_cell_joint(get(), number, &name, &joint.lower, &joint.upper);
+        return detail::after(status, [&] {
+            joint.name.assign(name.data, name.length);
+            return joint;
+        });
+    }
+    Result<Done> add_obstacle(const std::string &name, const Body &body, const Pose &pose) {
+        return detail::done(rccd_cell_add_obstacle(handle_.get(), name.c_str(), body.get(), &pose));
+    }
+    Result<Done> move_obstacle(const std::string &name, const Pose &pose) {
+        return detail::done(rccd_cell_move_obstacle(handle_.get(), name.c_str(), &pose));
+    }
+    Result<Done> remove_obstacle(const std::string &name) {
+        return detail::done(rccd_cell_remove_obstacle(handle_.get(), name.c_str()));
+    }
+    // Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame.
+    Result<Done> attach(const std::string &name, const Body &body, const std::string &link, const Pose &pose,
+                        const std::vector<std::string> &may_touch = {}) {
+        std::vector<const char *> links;
+        for (const std::string &touched : may_touch) links.push_back(touched.c_str());
+        return detail::done(rccd_cell_attach(handle_.get(), name.c_str(), body.get(), link.c_str(), &pose,
+                                             links.data(), links.size()));
+    }
+    Result<Done> detach(const std::string &name) { return detail::done(rccd_cell_detach(handle_.get(), name.c_str())); }
+    // Sets how much farther than the margin obstacles have to stay from a link.
+    Result<Done> set_padding(const std::string &link, double distance) {
+        return detail::done(rccd_cell_set_padding(handle_.get(), link.c_str(), distance));
+    }
+    // Sets the distance at which a pair counts as touching, instead of margin and paddings.
+    Result<Done> set_clearance(const std::string &a, const std::string &b, double distance) {
+        return detail::done(rccd_cell_set_clearance(handle_.get(), a.c_str(), b.c_str(), distance));
+    }
+    const rccd_cell *get() const noexcept { return handle_.get(); }
+
+private:
+    static const char *or_null(const std::string &text) { return text.empty() ? nullptr : text.c_str(); }
+    std::unique_ptr<rccd_cell, void (*)(rccd_cell *)> handle_;
+};
+
+// A path whose joints follow polynomials of the time. Copies share it, threads may too.
+class JointCurve {
+public:
+    // A curve through configurations, one after the other in one array, each at its time, with the velocities there: cubic
+    // polynomials, or quintic ones with accelerations.
+    static Result<JointCurve> through(View<double> times, View<double> positions, View<double> velocities,
+                                      View<double> accelerations = {}) {
+        const std::size_t joints = times.size() ? positions.size() / times.size() : 0;
+        const std::size_t total = joints * times.size();
+        if (positions.size() != total || velocities.size() != total ||
+            (accelerations.data() != nullptr && accelerations.size() != total))
+            return detail::fail<JointCurve>(
+                {RCCD_STATUS_INVALID_ARGUMENT, "a curve is a position of each joint at each time, and as many velocities"});
+        return detail::hold<JointCurve, rccd_joint_curve>([&](rccd_joint_curve **out) {
+            return rccd_joint_curve_through(times.data(), positions.data(), velocities.data(), accelerations.data(),
+                                            times.size(), joints, out);
+        });
+    }
+    // Takes a handle.
+    explicit JointCurve(rccd_joint_curve *handle) : handle_(handle, rccd_joint_curve_free) {}
+    const rccd_joint_curve *get() const noexcept { return handle_.get(); }
+
+private:
+    std::shared_ptr<const rccd_joint_curve> handle_;
+};
+
+// An answer about a path, with the fields of rccd_path_answer.
+struct PathAnswer : rccd_path_answer {
+    PathAnswer() : rccd_path_answer{} { size = sizeof(rccd_path_answer); }
+    bool free() const noexcept { return outcome == Outcome::RCCD_OUTCOME_FREE; }
+    bool resolved() const noexcept { return outcome != Outcome::RCCD_OUTCOME_UNRESOLVED; }
+    bool hit() const noexcept { return outcome == Outcome::RCCD_OUTCOME_CONTACT; }
+    std::string name_a() const { return name(item_a); }
+    std::string name_b() const { return name(item_b); }
+
+private:
+    static std::string name(const rccd_text &text) {
+        return text.data ? std::string(text.data, text.length) : std::string();
+    }
+};
+
+// How much of an edge is certainly free, with the names of Drake's EdgeMeasure.
+class EdgeMeasure {
+public:
+    explicit EdgeMeasure(double alpha) : alpha_(alpha) {}
+    bool completely_free() const noexcept { return alpha_ >= 1; }
+    // Returns whether at least the start of the edge is free.
+    bool partially_free() const noexcept { return alpha_ > 0; }
+    // Returns the share of the edge that is free; 0 if not even its start is known to be.
+    double alpha() const noexcept { return alpha_; }
+
+private:
+    double alpha_;
+};
+
+// A solver for paths in a cell. It keeps memory from one question to the next; each thread needs its own.
+class CellSolver {
+public:
+    static Result<CellSolver> make(const Cell &cell, const Settings &settings = {}) {
+        rccd_cell_solver *handle = nullptr;
+        const rccd_status status = rccd_cell_solver_new(cell.get(), &settings, &handle);
+        return detail::after(status, [&] { return CellSolver(handle, cell.joint_count()); });
+    }
+    // Takes a handle of a solver for a robot of so many free joints.
+    CellSolver(rccd_cell_solver *handle, std::size_t joint_count)
+        : handle_(handle, rccd_cell_solver_free), joint_count_(joint_count), edge_(2 * joint_count) {}
+#ifndef RIGID_CCD_EXPECTED
+    explicit CellSolver(const Cell &cell, const Settings &settings = {}) : CellSolver(make(cell, settings)) {}
+#endif
+    Result<Done> set_settings(const Settings &settings) {
+        return detail::done(rccd_cell_solver_set_settings(handle_.get(), &settings));
+    }
+    // Finds the first contact on a path: configurations, one after the other in one array, or a curve.
+    Result<PathAnswer> first_contact(View<double> configurations) { return ask(rccd_cell_first_contact, configurations); }
+    Result<PathAnswer> first_contact(const JointCurve &curve) { return ask(rccd_cell_first_contact, curve); }
+    // Finds some contact on such a path, perhaps not the first one, or proves that there is none.
+    Result<PathAnswer> any_contact(View<double> configurations) { return ask(rccd_cell_any_contact, configurations); }
+    Result<PathAnswer> any_contact(const JointCurve &curve) { return ask(rccd_cell_any_contact, curve); }
+    // Brackets how near any pair comes to touching on such a path.
+    Result<PathAnswer> closest_approach(View<double> configurations) {
+        return ask(rccd_cell_closest_approach, configurations);
+    }
+    Result<PathAnswer> closest_approach(const JointCurve &curve) { return ask(rccd_cell_closest_approach, curve); }
+    // Returns how much of the edge between two configurations is certainly free.
+    Result<EdgeMeasure> measure_edge(View<double> start, View<double> end) {
+        if (start.size() != joint_count_ || end.size() != joint_count_)
+            return detail::fail<EdgeMeasure>(wrong_size());
+        std::copy(start.data(), start.data() + joint_count_, edge_.begin());
+        std::copy(end.data(), end.data() + joint_count_, edge_.begin() + static_cast<std::ptrdiff_t>(joint_count_));
+        PathAnswer answer;
+        const rccd_path edge = {edge_.data(), 2, nullptr};
+        const rccd_status status = rccd_cell_first_contact(handle_.get(), &edge, &answer);
+        return detail::after(status, [&] { return EdgeMeasure(answer.free() ? 1.0 : answer.share); });
+    }
+
+private:
+    static Error wrong_size() {
+        return {RCCD_STATUS_INVALID_ARGUMENT, "a configuration is a position of each free joint of the robot"};
+    }
+    template <typename Question>
+    Result<PathAnswer> ask(Question question, View<double> configurations) {
+        if (joint_count_ == 0 || configurations.size() % joint_count_ != 0)
+            return detail::fail<PathAnswer>(wrong_size());
+        return ask(question, rccd_path{configurations.data(), configurations.size() / joint_count_, nullptr});
+    }
+    template <typename Question>
+    Result<PathAnswer> ask(Question question, const JointCurve &curve) {
+        return ask(question, rccd_path{nullptr, 0, curve.get()});
+    }
+    template <typename Question>
+    Result<PathAnswer> ask(Question question, const rccd_path &path) {
+        PathAnswer answer;
+        const rccd_status status = question(handle_.get(), &path, &answer);
+        return detail::after(status, [&] { return answer; });
+    }
+    std::unique_ptr<rccd_cell_solver, void (*)(rccd_cell_solver *)> handle_;
+    std::size_t joint_count_;
+    std::vector<double> edge_;
+};
+
+#ifndef RIGID_CCD_EXPECTED
+// The solvers of a cell, of which each call takes one: planners may have many threads. The cell is not to change while the pool
+// lives.
+class SolverPool {
+public:
+    explicit SolverPool(const Cell &cell, const Settings &settings = {}) : cell_(cell), settings_(settings) {}
+
+    // Calls a function with a solver of its own.
+    template <typename Call>
+    auto with_solver(Call &&call) {
+        Loan loan(*this);
+        return call(loan.solver);
+    }
+
+    // Measures edges on several threads: for each edge the configurations of its start and of its end, one after the other.
+    std::vector<EdgeMeasure> measure_edges(View<double> edges, unsigned thread_count) {
+        const std::size_t joints = cell_.joint_count(), count = joints ? edges.size() / (2 * joints) : 0;
+        std::vector<EdgeMeasure> measured(count, EdgeMeasure(0));
+        std::atomic<std::size_t> next{0};
+        std::mutex failure_mutex;
+        std::optional<Error> failure;
+        const auto work = [&] {
+            try {
+                with_solver([&](CellSolver &solver) {
+                    for (std::size_t k = next++; k < count; k = next++) {
+                        const double *edge = edges.data() + 2 * joints * k;
+                        measured[k] = solver.measure_edge({edge, joints}, {edge + joints, joints});
+                    }
+                });
+            } catch (const Error &error) {
+                const std::lock_guard<std::mutex> lock(failure_mutex);
+                failure = error;
+                next = count;
+            }
+        };
+        std::vector<std::thread> threads;
+        for (unsigned k = 1; k < thread_count; ++k) threads.emplace_back(work);
+        work();
+        for (std::thread &thread : threads) thread.join();
+        if (failure) throw *failure;
+        return measured;
+    }
+
+private:
+    struct Loan {
+        explicit Loan(SolverPool &from) : pool(from), solver(from.take()) {}
+        Loan(const Loan &) = delete;
+        Loan &operator=(const Loan &) = delete;
+        ~Loan() {
+            const std::lock_guard<std::mutex> lock(pool.mutex_);
+            pool.spare_.push_back(std::move(solver));
+        }
+        SolverPool &pool;
+        CellSolver solver;
+    };
+    CellSolver take() {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (spare_.empty()) return CellSolver(cell_, settings_);
+        CellSolver solver = std::move(spare_.back());
+        spare_.pop_back();
+        return solver;
+    }
+    const Cell &cell_;
+    Settings settings_;
+    std::mutex mutex_;
+    std::vector<CellSolver> spare_;
+};
+#endif
+
+} // namespace rigid_ccd
+
+#endif

@@ -1,0 +1,77 @@
+//! Paths that questions are about.
+
+use crate::arguments::{array, reference};
+use crate::joint_curve::RccdJointCurve;
+use crate::status::Failure;
+use rigid_ccd_robot::Path;
+
+/// A path of a robot: either configurations one after the other, between which all joints move at constant rates, or a curve.
+/// One configuration is a robot at rest, two are an edge.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct RccdPath {
+    /// The positions of the robot's free joints, for each configuration; null for a curve.
+    pub configurations: *const f64,
+    /// The number of configurations.
+    pub configuration_count: usize,
+    /// The curve, or null.
+    pub curve: *const RccdJointCurve,
+}
+
+/// The memory for the configurations of a path, which a solver keeps from one call to the next.
+#[derive(Default)]
+pub(crate) struct PathMemory(Vec<Configuration>);
+
+/// A configuration of the caller's, for the time of a call.
+struct Configuration {
+    positions: *const f64,
+    count: usize,
+}
+
+impl AsRef<[f64]> for Configuration {
+    fn as_ref(&self) -> &[f64] {
+        // SAFETY: it is made from a slice, is used within the call that made it, and is removed at its end.
+        unsafe { std::slice::from_raw_parts(self.positions, self.count) }
+    }
+}
+
+impl PathMemory {
+    /// Calls a function with a path of a robot that has `joint_count` free joints.
+    ///
+    /// # Safety
+    /// `path` is null or points to a path, whose pointers are null or point to values of their types and numbers, which nobody
+    /// changes during the call.
+    pub(crate) unsafe fn with_path<R>(
+        &mut self,
+        path: *const RccdPath,
+        joint_count: usize,
+        call: impl FnOnce(&dyn Path) -> Result<R, Failure>,
+    ) -> Result<R, Failure> {
+        // SAFETY: the contract of this function.
+        let path = unsafe { reference("path", path) }?;
+        if !path.curve.is_null() {
+            if !path.configurations.is_null() {
+                return Err(Failure::argument(
+                    "path has both configurations and a curve",
+                ));
+            }
+            // SAFETY: the contract of this function.
+            return call(&unsafe { reference("curve", path.curve) }?.0);
+        }
+        let total = path.configuration_count.checked_mul(joint_count);
+        let total = total.ok_or_else(|| Failure::argument("configurations is too long"))?;
+        // SAFETY: the contract of this function.
+        let positions = unsafe { array("configurations", path.configurations, total) }?;
+        self.0.clear();
+        self.0.extend((0..path.configuration_count).map(|k| {
+            let positions = &positions[k * joint_count..(k + 1) * joint_count];
+            Configuration {
+                positions: positions.as_ptr(),
+                count: joint_count,
+            }
+        }));
+        let result = call(&self.0);
+        self.0.clear();
+        result
+    }
+}

@@ -1,0 +1,228 @@
+//! Tests that questions about paths of robots have the bits of Rust, do not allocate once warm, and keep their deadline's
+//! promise.
+
+use crate::support::{Handle, Random, last_error, ok};
+use crate::support_cells::*;
+use rigid_ccd::Settings;
+use rigid_ccd_c::*;
+use rigid_ccd_robot::{JointCurve, PathOutcome};
+use std::ptr::null;
+
+#[test]
+fn paths_have_the_bits_of_rust() {
+    let (cell, rust) = cells();
+    let solver = cell_solver(&cell, &rccd_settings_default());
+    let mut rust_solver = rust.solver().with_settings(Settings::DEFAULT);
+    let mut random = Random::new(7);
+    let (mut free, mut hits) = (0, 0);
+    for number in 0..300 {
+        let path: Vec<_> = (0..1 + number % 4)
+            .map(|_| configuration(&mut random))
+            .collect();
+        let found = first_contact(&solver, &path);
+        match rust_solver.first_contact(&path).unwrap() {
+            PathOutcome::Free => {
+                free += 1;
+                assert_eq!(found.outcome, RccdOutcome::Free, "{number}");
+                assert_eq!(
+                    (found.segment, found.share),
+                    (path.len().saturating_sub(2), 1.0)
+                );
+            }
+            PathOutcome::Contact(contact) => {
+                hits += 1;
+                assert_eq!(found.outcome, RccdOutcome::Contact, "{number}");
+                assert_eq!(found.segment, contact.at.segment);
+                assert_eq!(found.share.to_bits(), contact.at.share.to_bits());
+                let names = [found.item_a, found.item_b].map(text);
+                assert_eq!(names, contact.items.map(|item| item.name().to_owned()));
+                assert_eq!([found.lower, found.upper], contact.distance_bounds);
+                assert_eq!(found.witness_a, contact.witnesses[0].to_array());
+            }
+            PathOutcome::Unresolved { .. } => panic!("{number}"),
+        }
+        let any = ask(rccd_cell_any_contact, &solver, &through(&path));
+        let rust_any = rust_solver.any_contact(&path).unwrap();
+        assert_eq!(any.outcome == RccdOutcome::Contact, rust_any.is_some());
+        if let Some(contact) = rust_any {
+            assert_eq!(any.share.to_bits(), contact.at.share.to_bits());
+        }
+        let near = ask(rccd_cell_closest_approach, &solver, &through(&path));
+        let approach = rust_solver.closest_approach(&path).unwrap();
+        assert_eq!(near.outcome, RccdOutcome::LeastDistance);
+        assert_eq!([near.lower, near.upper], [approach.lower, approach.upper]);
+    }
+    assert!(free > 50 && hits > 50, "{free} {hits}");
+}
+
+#[test]
+fn warm_paths_do_not_allocate() {
+    let (cell, _) = cells();
+    let solver = cell_solver(&cell, &rccd_settings_default());
+    let mut random = Random::new(8);
+    let paths: Vec<_> = (0..100)
+        .map(|_| [(); 4].map(|()| configuration(&mut random)))
+        .collect();
+    let round = || {
+        for path in &paths {
+            first_contact(&solver, path);
+        }
+    };
+    round();
+    let counted = allocation_counter::measure(round);
+    assert_eq!(counted.count_total, 0, "{counted:?}");
+}
+
+/// Tests that a path whose deadline or budget ends the search is free until the point that the answer names.
+#[test]
+fn a_limit_leaves_a_certified_prefix() {
+    let (cell, rust) = cells();
+    // Far below the gap that a prefix is proven to keep.
+    let fine = Settings {
+        tolerance: 1e-9,
+        ..Settings::DEFAULT
+    };
+    let mut rust_solver = rust.solver().with_settings(fine);
+    let mut random = Random::new(9);
+    let (mut unresolved, mut prefixes) = (0, 0);
+    for number in 0..300 {
+        let path = [(); 6].map(|()| configuration(&mut random));
+        let settings = RccdSettings {
+            tolerance: 1e-6,
+            deadline: [0.0, 1e-6, 1e-5, 1e-4][number % 4],
+            ..rccd_settings_default()
+        };
+        let found = first_contact(&cell_solver(&cell, &settings), &path);
+        if found.outcome != RccdOutcome::Unresolved {
+            continue;
+        }
+        assert_eq!(found.limit, RccdLimit::Deadline, "{number}");
+        unresolved += 1;
+        let mut prefix = path[..=found.segment].to_vec();
+        let [from, to] = [path[found.segment], path[found.segment + 1]];
+        prefix.push([0, 1].map(|k| from[k] + (to[k] - from[k]) * found.share * (1.0 - 1e-9)));
+        prefixes += usize::from(found.segment > 0 || found.share > 0.0);
+        let outcome = rust_solver.first_contact(&prefix).unwrap();
+        let begins_in_contact = found.segment == 0 && found.share == 0.0;
+        assert!(
+            outcome == PathOutcome::Free || begins_in_contact,
+            "{number}: {found:?}"
+        );
+    }
+    assert!(unresolved > 30, "{unresolved} {prefixes}");
+}
+
+/// Tests that curves are those of Rust, with and without accelerations, and by their polynomials.
+#[test]
+fn curves_have_the_bits_of_rust() {
+    let (cell, rust) = cells();
+    let solver = cell_solver(&cell, &rccd_settings_default());
+    let mut rust_solver = rust.solver().with_settings(Settings::DEFAULT);
+    let mut random = Random::new(17);
+    let (mut free, mut hits) = (0, 0);
+    for number in 0..100 {
+        // Slow enough for the limits of the joints.
+        let mut rows = |size: f64| [(); 3].map(|()| configuration(&mut random).map(|q| size * q));
+        let times = [0.0, 0.5, 1.25];
+        let (positions, velocities, accelerations) = (rows(0.8), rows(0.1), rows(0.1));
+        let is_quintic = number % 2 == 1;
+        let curve = if is_quintic {
+            JointCurve::quintic_hermite(&times, &positions, &velocities, &accelerations)
+        } else {
+            JointCurve::cubic_hermite(&times, &positions, &velocities)
+        };
+        let given = if is_quintic {
+            accelerations.as_ptr().cast()
+        } else {
+            null()
+        };
+        // SAFETY: the arrays have three rows of two numbers.
+        let handle = Handle::new(rccd_joint_curve_free, |out| unsafe {
+            let (positions, velocities) = (positions.as_ptr().cast(), velocities.as_ptr().cast());
+            rccd_joint_curve_through(times.as_ptr(), positions, velocities, given, 3, 2, out)
+        });
+        let path = RccdPath {
+            configurations: null(),
+            configuration_count: 0,
+            curve: handle.pointer(),
+        };
+        let found = ask(rccd_cell_first_contact, &solver, &path);
+        match rust_solver.first_contact(&curve.unwrap()).unwrap() {
+            PathOutcome::Free => {
+                free += 1;
+                assert_eq!(found.outcome, RccdOutcome::Free, "{number}");
+            }
+            PathOutcome::Contact(contact) => {
+                hits += 1;
+                assert_eq!(found.segment, contact.at.segment, "{number}");
+                assert_eq!(found.share.to_bits(), contact.at.share.to_bits());
+            }
+            PathOutcome::Unresolved { .. } => panic!("{number}"),
+        }
+    }
+    assert!(free > 20 && hits > 20, "{free} {hits}");
+}
+
+/// Tests that a curve of polynomials is the edge that it describes.
+#[test]
+fn polynomials_of_degree_one_are_an_edge() {
+    let (cell, _) = cells();
+    let solver = cell_solver(&cell, &rccd_settings_default());
+    let (times, coefficients) = ([2.0, 4.0], [[0.0, 0.6], [0.0, 0.0]]);
+    // SAFETY: one segment of two joints with two coefficients each.
+    let curve = Handle::new(rccd_joint_curve_free, |out| unsafe {
+        let coefficients = coefficients.as_ptr().cast();
+        rccd_joint_curve_from_polynomials(times.as_ptr(), coefficients, 1, 2, 1, out)
+    });
+    let path = RccdPath {
+        configurations: null(),
+        configuration_count: 0,
+        curve: curve.pointer(),
+    };
+    let found = ask(rccd_cell_first_contact, &solver, &path);
+    let edge = first_contact(&solver, &[[0.0, 0.0], [1.2, 0.0]]);
+    assert_eq!(found.outcome, RccdOutcome::Contact);
+    assert!(
+        (found.share - edge.share).abs() < 1e-3,
+        "{found:?} {edge:?}"
+    );
+    let both = RccdPath {
+        configurations: [0.0; 2].as_ptr(),
+        ..path
+    };
+    let mut answer = empty_answer();
+    // SAFETY: pointers are to values that live here.
+    let refused = unsafe { rccd_cell_first_contact(solver.pointer(), &both, &mut answer) };
+    assert_eq!(refused, RccdStatus::InvalidArgument);
+    assert!(last_error().contains("both"), "{}", last_error());
+}
+
+#[test]
+fn a_flag_stops_pairs_and_paths_until_it_is_cleared() {
+    let (cell, _) = cells();
+    // SAFETY: the place is a local variable.
+    let stop = Handle::new(rccd_stop_free, |out| unsafe { rccd_stop_new(out) });
+    let settings = RccdSettings {
+        stop: stop.pointer(),
+        ..rccd_settings_default()
+    };
+    let solver = cell_solver(&cell, &settings);
+    let edge = [[0.0, 0.0], [1.2, 0.0]];
+    assert_eq!(first_contact(&solver, &edge).outcome, RccdOutcome::Contact);
+    // SAFETY: the handle lives here.
+    ok(unsafe { rccd_stop_set(stop.pointer()) });
+    for question in [
+        rccd_cell_first_contact as Question,
+        rccd_cell_any_contact,
+        rccd_cell_closest_approach,
+    ] {
+        let found = ask(question, &solver, &through(&edge));
+        assert_eq!(found.outcome, RccdOutcome::Unresolved);
+        assert_eq!(found.limit, RccdLimit::Stopped);
+    }
+    // SAFETY: the handle lives here.
+    ok(unsafe { rccd_stop_clear(stop.pointer()) });
+    // The solver shares the flag.
+    drop(stop);
+    assert_eq!(first_contact(&solver, &edge).outcome, RccdOutcome::Contact);
+}

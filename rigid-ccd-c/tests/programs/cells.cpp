@@ -1,0 +1,66 @@
+// The questions about robots: edges measured one by one and on several threads, curves, and failures as exceptions.
+#include "rigid_ccd_cell.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace {
+
+int line = 0;
+void expect(bool holds) {
+    ++line;
+    if (holds) return;
+    std::fprintf(stderr, "expectation %d fails\n", line);
+    std::exit(1);
+}
+
+} // namespace
+
+int main(int, char **argv) {
+    auto cell = rigid_ccd::Cell::load(argv[1]);
+    const std::size_t joints = cell.joint_count();
+    const std::vector<double> start(joints, 0.0), end(joints, 0.3);
+    rigid_ccd::CellSolver before(cell);
+    expect(before.measure_edge(start, end).completely_free());
+    expect(std::string(cell.joint(0).name).size() > 0 && cell.joint(0).lower < cell.joint(0).upper);
+
+    cell.add_obstacle("everywhere", rigid_ccd::Body::sphere(10), rigid_ccd::pose_at({0, 0, 0}));
+    rigid_ccd::CellSolver inside(cell);
+    expect(!inside.measure_edge(start, end).partially_free());
+    expect(inside.first_contact(start).hit() && inside.any_contact(start).name_b() == "everywhere");
+    cell.move_obstacle("everywhere", rigid_ccd::pose_at({100, 0, 0}));
+    expect(rigid_ccd::CellSolver(cell).closest_approach(start).lower > 0);
+    cell.set_clearance("everywhere", argv[2], 1000);
+    expect(rigid_ccd::CellSolver(cell).first_contact(start).hit());
+    cell.remove_obstacle("everywhere");
+
+    std::vector<double> edges;
+    for (int k = 0; k < 50; ++k) {
+        edges.insert(edges.end(), start.begin(), start.end());
+        edges.insert(edges.end(), joints, 0.03 * k);
+    }
+    rigid_ccd::SolverPool pool(cell);
+    const auto one = pool.measure_edges(edges, 1), two = pool.measure_edges(edges, 2);
+    expect(one.size() == 50 && two.size() == 50);
+    std::size_t free = 0;
+    for (std::size_t k = 0; k < 50; ++k) {
+        expect(one[k].alpha() == two[k].alpha());
+        free += one[k].completely_free();
+    }
+    edges.back() = 1e9;
+    bool thrown = false;
+    try {
+        pool.measure_edges(edges, 2);
+    } catch (const rigid_ccd::Error &error) {
+        thrown = error.status() == rccd_status::RCCD_STATUS_INVALID_INPUT;
+    }
+    expect(thrown);
+
+    const std::vector<double> times = {0, 1}, velocities(2 * joints, 0.0);
+    std::vector<double> positions = start;
+    positions.insert(positions.end(), end.begin(), end.end());
+    const auto curve = rigid_ccd::JointCurve::through(times, positions, velocities);
+    expect(before.first_contact(curve).free() && before.any_contact(curve).free());
+    std::printf("%zu of 50 edges are free\n", free);
+}
