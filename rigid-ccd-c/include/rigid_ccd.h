@@ -205,9 +205,9 @@ typedef struct rccd_pose {
     double orientation[4];
 } rccd_pose;
 
-// The settings of queries. Get them from `rccd_settings_default`, then change what differs.
+// The settings of queries. Set `size`, call `rccd_settings_default`, then change what differs.
 typedef struct rccd_settings {
-    // The size of this struct in the caller's header; `rccd_settings_default` sets it.
+    // The size of this struct in the caller's header; set it first.
     size_t size;
     // A contact is reported at a distance of at most margin + tolerance. In the unit of length of the bodies.
     double tolerance;
@@ -569,6 +569,20 @@ rccd_status rccd_cell_closest_approach(struct rccd_cell_solver *solver,
                                        const struct rccd_path *path,
                                        struct rccd_path_answer *answer);
 
+// Writes a record of an answer to `rccd_cell_first_contact` to a file, as JSON: the path and the settings in full, digests of
+// all bodies of the cell, the answer. `ccd replay` asks the same again, without the deadline, and says whether the answer holds.
+// The cell is to be as it was when the solver was made. Null stands for the default settings.
+//
+// # Safety
+// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `path` is as in
+// `rccd_cell_first_contact`; `answer` is null or points to an answer of it, whose solver lives; `file` is null or a text that
+// ends with a zero.
+rccd_status rccd_evidence_write(const struct rccd_cell *cell,
+                                const struct rccd_settings *settings,
+                                const struct rccd_path *path,
+                                const struct rccd_path_answer *answer,
+                                const char *file);
+
 // Makes a curve through configurations, each at its time, in ascending order: cubic polynomials with the given velocities
 // there, or quintic ones if accelerations are given, too. Null stands for no accelerations.
 //
@@ -618,8 +632,12 @@ rccd_status rccd_motion_between(const struct rccd_pose *start,
                                 double duration,
                                 struct rccd_motion *out);
 
-// Returns the default settings: tolerance 0.001, margin 0, contacts at the start reported, no deadline.
-struct rccd_settings rccd_settings_default(void);
+// Fills settings, whose `size` is set, with the default ones: tolerance 0.001, margin 0, contacts at the start reported, no
+// deadline.
+//
+// # Safety
+// `settings` is null or points to a place of the size that its first field says.
+rccd_status rccd_settings_default(struct rccd_settings *settings);
 
 // Makes a solver with these settings; null stands for the default ones.
 //

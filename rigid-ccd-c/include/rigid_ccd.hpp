@@ -282,7 +282,10 @@ struct Answer : rccd_answer {
 
 // Settings, which begin as the default ones.
 struct Settings : rccd_settings {
-    Settings() : rccd_settings(rccd_settings_default()) {}
+    Settings() : rccd_settings{} {
+        size = sizeof(rccd_settings);
+        rccd_settings_default(this);
+    }
 };
 
 // A flag that stops the queries of all solvers whose settings name it: `settings.stop = flag.get()`. Any thread may use it.

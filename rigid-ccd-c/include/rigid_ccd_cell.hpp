@@ -201,6 +201,12 @@ private:
     std::vector<double> edge_;
 };
 
+// Writes a record of an answer to `first_contact` to a file, which `ccd replay` asks again.
+inline Result<Done> write_evidence(const Cell &cell, const Settings &settings, const rccd_path &path,
+                                   const PathAnswer &answer, const std::string &file) {
+    return detail::done(rccd_evidence_write(cell.get(), &settings, &path, &answer, file.c_str()));
+}
+
 #ifndef RIGID_CCD_EXPECTED
 // The solvers of a cell, of which each call takes one: planners may have many threads. The cell is not to change while the pool
 // lives.

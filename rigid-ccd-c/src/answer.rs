@@ -1,6 +1,7 @@
 //! Answers as one struct for all questions.
 
 use crate::feature::RccdFeature;
+use crate::growing::Growing;
 use rigid_ccd::answer::{Contact, Limit, Overlap};
 use rigid_ccd::{Answer, Outcome};
 
@@ -81,6 +82,27 @@ pub struct RccdAnswer {
     pub tolerance: f64,
     /// The work that the query took, in the unit of the budget.
     pub work: u64,
+}
+
+impl RccdLimit {
+    /// Returns the name of a limit by its number, as Rust displays it.
+    pub(crate) fn name_of(number: i32) -> String {
+        let limits = [
+            Limit::Budget,
+            Limit::Deadline,
+            Limit::Stopped,
+            Limit::Stalled,
+            Limit::OracleGaveUp,
+            Limit::OverlapUndecided,
+        ];
+        let limit = (limits.into_iter()).find(|&limit| RccdLimit::from(limit) as i32 == number);
+        limit.map_or_else(|| format!("limit {number}"), |limit| limit.to_string())
+    }
+}
+
+// SAFETY: it is `repr(C)`, begins with its size, and is of the first version.
+unsafe impl Growing for RccdAnswer {
+    const FIRST_SIZE: usize = size_of::<RccdAnswer>();
 }
 
 impl RccdAnswer {

@@ -83,22 +83,6 @@ pub(crate) unsafe fn store<T>(name: &str, out: *mut T, value: T) -> Result<(), F
     Ok(())
 }
 
-/// Returns the size that the caller has set in the first field of an answer, if there is room for one of this library. The
-/// other fields need not hold values yet.
-///
-/// # Safety
-/// `out` is null, or points to a place for an answer, which begins with its size.
-pub(crate) unsafe fn size_of_place<T>(out: *mut T) -> Result<usize, Failure> {
-    check_place("the place for the answer", out)?;
-    // SAFETY: the caller's contract; the place is neither null nor misaligned.
-    let size = unsafe { out.cast::<usize>().read() };
-    if size < size_of::<T>() {
-        let text = "size of the answer is not set, or from an older header";
-        return Err(Failure::argument(text));
-    }
-    Ok(size)
-}
-
 /// Frees what [`give`] has given; null is nothing.
 ///
 /// # Safety
@@ -110,7 +94,8 @@ pub(crate) unsafe fn free<T>(handle: *mut T) {
     }
 }
 
-fn check_place<T>(name: &str, out: *mut T) -> Result<(), Failure> {
+/// Returns an error for a pointer that is null or not aligned.
+pub(crate) fn check_place<T>(name: &str, out: *mut T) -> Result<(), Failure> {
     if out.is_null() {
         return Err(null(name));
     }

@@ -31,6 +31,18 @@ impl RccdText {
     };
 }
 
+impl RccdText {
+    /// Copies a text that this library has given.
+    ///
+    /// # Safety
+    /// What it belongs to lives.
+    pub(crate) unsafe fn to_owned(self) -> Result<String, Failure> {
+        // SAFETY: the contract of this function.
+        let bytes = unsafe { array("a name", self.data.cast::<u8>(), self.length) }?;
+        Ok(String::from_utf8_lossy(bytes).into_owned())
+    }
+}
+
 impl From<&str> for RccdText {
     fn from(text: &str) -> Self {
         RccdText {

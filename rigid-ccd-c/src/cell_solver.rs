@@ -1,7 +1,8 @@
 //! Questions about paths of a robot in a cell.
 
-use crate::arguments::{exclusive, free, give, reference, size_of_place, store};
+use crate::arguments::{exclusive, free, give, reference};
 use crate::cell::{RccdCell, joint_count};
+use crate::growing;
 use crate::path::{PathMemory, RccdPath};
 use crate::path_answer::RccdPathAnswer;
 use crate::settings::RccdSettings;
@@ -158,17 +159,12 @@ unsafe fn ask(
             path: memory,
         } = unsafe { exclusive("solver", solver) }?;
         // SAFETY: the contract of this function.
-        let size = unsafe { size_of_place(out) }?;
+        let size = unsafe { growing::size_of_place("the answer", out) }?;
         let call = |path: &dyn Path| question(solver, path);
         // SAFETY: the contract of this function.
         let answer = unsafe { memory.with_path(path, joint_count(cell), call) }?;
         // SAFETY: the contract of this function.
-        unsafe {
-            store(
-                "the place for the answer",
-                out,
-                RccdPathAnswer { size, ..answer },
-            )
-        }
+        unsafe { growing::store(out, size, &answer) };
+        Ok(())
     })
 }

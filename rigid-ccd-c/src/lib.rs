@@ -3,7 +3,7 @@
 //! | to … | file |
 //! |---|---|
 //! | see whether a call has worked, and why not | `status.rs` |
-//! | follow the pointers that C passes | `arguments.rs` |
+//! | follow the pointers that C passes | `arguments.rs`, `growing.rs` |
 //! | make bodies, from shapes, arrays and files | `body.rs` |
 //! | move them at constant velocities | `motion.rs` |
 //! | move them along trajectories | `trajectory.rs` |
@@ -13,6 +13,7 @@
 //! | read answers | `answer.rs`, `feature.rs` |
 //! | put a robot among obstacles | `cell.rs` |
 //! | ask about its paths | `cell_solver.rs`, `path.rs`, `joint_curve.rs`, `path_answer.rs` |
+//! | record an answer, to be asked again later | `evidence.rs` |
 //!
 //! # Contract of all functions
 //! A function never panics into C, never calls back, and keeps no pointer to its arguments, except that a query borrows
@@ -25,7 +26,9 @@ mod arguments;
 mod body;
 mod cell;
 mod cell_solver;
+mod evidence;
 mod feature;
+mod growing;
 mod joint_curve;
 mod motion;
 mod path;
@@ -40,6 +43,7 @@ pub use answer::{RccdAnswer, RccdLimit, RccdOutcome};
 pub use body::*;
 pub use cell::*;
 pub use cell_solver::*;
+pub use evidence::rccd_evidence_write;
 pub use feature::{RccdFeature, RccdFeatureKind};
 pub use joint_curve::*;
 pub use motion::{RccdMotion, RccdPose, rccd_motion_at_rest, rccd_motion_between};

@@ -4,6 +4,7 @@ use crate::arguments::{array, reference};
 use crate::joint_curve::RccdJointCurve;
 use crate::status::Failure;
 use rigid_ccd_robot::Path;
+use rigid_ccd_robot::evidence::RecordedPath;
 
 /// A path of a robot: either configurations one after the other, between which all joints move at constant rates, or a curve.
 /// One configuration is a robot at rest, two are an edge.
@@ -35,18 +36,23 @@ impl AsRef<[f64]> for Configuration {
     }
 }
 
-impl PathMemory {
-    /// Calls a function with a path of a robot that has `joint_count` free joints.
+/// What a path of the interface points to.
+enum Pointed<'a> {
+    Curve(&'a RccdJointCurve),
+    /// As many as the number says; none of them has positions if the robot has no free joint.
+    Configurations(&'a [f64], usize),
+}
+
+impl RccdPath {
+    /// Follows the pointers of a path of a robot that has `joint_count` free joints.
     ///
     /// # Safety
     /// `path` is null or points to a path, whose pointers are null or point to values of their types and numbers, which nobody
     /// changes during the call.
-    pub(crate) unsafe fn with_path<R>(
-        &mut self,
+    unsafe fn follow<'a>(
         path: *const RccdPath,
         joint_count: usize,
-        call: impl FnOnce(&dyn Path) -> Result<R, Failure>,
-    ) -> Result<R, Failure> {
+    ) -> Result<Pointed<'a>, Failure> {
         // SAFETY: the contract of this function.
         let path = unsafe { reference("path", path) }?;
         if !path.curve.is_null() {
@@ -56,22 +62,63 @@ impl PathMemory {
                 ));
             }
             // SAFETY: the contract of this function.
-            return call(&unsafe { reference("curve", path.curve) }?.0);
+            return Ok(Pointed::Curve(unsafe { reference("curve", path.curve) }?));
         }
         let total = path.configuration_count.checked_mul(joint_count);
         let total = total.ok_or_else(|| Failure::argument("configurations is too long"))?;
         // SAFETY: the contract of this function.
         let positions = unsafe { array("configurations", path.configurations, total) }?;
-        self.0.clear();
-        self.0.extend((0..path.configuration_count).map(|k| {
-            let positions = &positions[k * joint_count..(k + 1) * joint_count];
-            Configuration {
-                positions: positions.as_ptr(),
-                count: joint_count,
+        Ok(Pointed::Configurations(positions, path.configuration_count))
+    }
+
+    /// Copies a path to a record.
+    ///
+    /// # Safety
+    /// That of [`RccdPath::follow`].
+    pub(crate) unsafe fn record(
+        path: *const RccdPath,
+        joint_count: usize,
+    ) -> Result<RecordedPath, Failure> {
+        // SAFETY: the contract of this function.
+        Ok(match unsafe { RccdPath::follow(path, joint_count) }? {
+            Pointed::Curve(curve) => RecordedPath::Curve(curve.0.clone()),
+            Pointed::Configurations(positions, count) => {
+                let rows: Vec<&[f64]> = rows(positions, count, joint_count).collect();
+                RecordedPath::configurations(&rows)
             }
+        })
+    }
+}
+
+impl PathMemory {
+    /// Calls a function with a path of a robot that has `joint_count` free joints.
+    ///
+    /// # Safety
+    /// That of [`RccdPath::follow`].
+    pub(crate) unsafe fn with_path<R>(
+        &mut self,
+        path: *const RccdPath,
+        joint_count: usize,
+        call: impl FnOnce(&dyn Path) -> Result<R, Failure>,
+    ) -> Result<R, Failure> {
+        // SAFETY: the contract of this function.
+        let (positions, count) = match unsafe { RccdPath::follow(path, joint_count) }? {
+            Pointed::Curve(curve) => return call(&curve.0),
+            Pointed::Configurations(positions, count) => (positions, count),
+        };
+        self.0.clear();
+        let rows = rows(positions, count, joint_count);
+        self.0.extend(rows.map(|positions| Configuration {
+            positions: positions.as_ptr(),
+            count: joint_count,
         }));
         let result = call(&self.0);
         self.0.clear();
         result
     }
+}
+
+/// Returns configurations that are one after the other.
+fn rows(positions: &[f64], count: usize, length: usize) -> impl Iterator<Item = &[f64]> {
+    (0..count).map(move |k| &positions[k * length..(k + 1) * length])
 }

@@ -1,10 +1,13 @@
 //! Answers about paths as one struct for all questions.
 
 use crate::answer::{RccdLimit, RccdOutcome};
+use crate::arguments::check_place;
 use crate::cell::RccdText;
 use crate::feature::RccdFeature;
+use crate::growing::{self, Growing};
 use crate::status::Failure;
 use rigid_ccd::Error;
+use rigid_ccd_robot::evidence::RecordedAnswer;
 use rigid_ccd_robot::{ClosestApproach, PathContact, PathError, PathOutcome, PathPoint};
 
 /// An answer about a path. Numbers that the outcome does not have are NaN, and names are null.
@@ -38,6 +41,11 @@ pub struct RccdPathAnswer {
     pub feature_a: RccdFeature,
     /// What of the other one's mesh is in contact.
     pub feature_b: RccdFeature,
+}
+
+// SAFETY: it is `repr(C)`, begins with its size, and is of the first version.
+unsafe impl Growing for RccdPathAnswer {
+    const FIRST_SIZE: usize = size_of::<RccdPathAnswer>();
 }
 
 impl RccdPathAnswer {
@@ -131,6 +139,46 @@ impl RccdPathAnswer {
             feature_a,
             feature_b,
             ..RccdPathAnswer::EMPTY
+        }
+    }
+
+    /// Copies an answer to a record.
+    ///
+    /// # Safety
+    /// `answer` is null or points to an answer of this library, whose solver lives.
+    pub(crate) unsafe fn record(answer: *const RccdPathAnswer) -> Result<RecordedAnswer, Failure> {
+        // SAFETY: the contract of this function. Outcome and limit are read as numbers, for the caller may have set any.
+        let (segment, share, outcome, limit, [a, b]) = unsafe {
+            check_place("answer", answer.cast_mut())?;
+            growing::size_of_place("answer", answer.cast_mut())?;
+            (
+                (*answer).segment,
+                (*answer).share,
+                (&raw const (*answer).outcome).cast::<i32>().read(),
+                (&raw const (*answer).limit).cast::<i32>().read(),
+                [(*answer).item_a, (*answer).item_b],
+            )
+        };
+        if outcome == RccdOutcome::Free as i32 {
+            Ok(RecordedAnswer::Free)
+        } else if outcome == RccdOutcome::Contact as i32 {
+            // SAFETY: the contract of this function.
+            let items = unsafe { [a.to_owned()?, b.to_owned()?] };
+            Ok(RecordedAnswer::Contact {
+                segment,
+                share,
+                items,
+            })
+        } else if outcome == RccdOutcome::Unresolved as i32 {
+            let limit = RccdLimit::name_of(limit);
+            Ok(RecordedAnswer::Unresolved {
+                limit,
+                segment,
+                share,
+            })
+        } else {
+            let text = format!("the outcome {outcome} of the answer is none of a first contact");
+            Err(Failure::argument(text))
         }
     }
 }

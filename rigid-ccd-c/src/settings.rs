@@ -1,7 +1,8 @@
 //! Settings: tolerance, margin, and limits of the work.
 
 use crate::arguments::reference;
-use crate::status::Failure;
+use crate::growing::{self, Growing};
+use crate::status::{Failure, RccdStatus, status_of};
 use crate::stop::RccdStop;
 use rigid_ccd::{Settings, StartPolicy};
 use std::sync::Arc;
@@ -17,11 +18,11 @@ pub enum RccdStartPolicy {
     Leave = 1,
 }
 
-/// The settings of queries. Get them from `rccd_settings_default`, then change what differs.
+/// The settings of queries. Set `size`, call `rccd_settings_default`, then change what differs.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RccdSettings {
-    /// The size of this struct in the caller's header; `rccd_settings_default` sets it.
+    /// The size of this struct in the caller's header; set it first.
     pub size: usize,
     /// A contact is reported at a distance of at most margin + tolerance. In the unit of length of the bodies.
     pub tolerance: f64,
@@ -37,17 +38,17 @@ pub struct RccdSettings {
     pub stop: *const RccdStop,
 }
 
+// SAFETY: it is `repr(C)`, begins with its size, and is of the first version.
+unsafe impl Growing for RccdSettings {
+    const FIRST_SIZE: usize = size_of::<RccdSettings>();
+}
+
 impl RccdSettings {
     /// Converts the settings, and shares their flag.
     ///
     /// # Safety
     /// `stop` is null or a handle.
     pub(crate) unsafe fn to_settings(self) -> Result<Settings, Failure> {
-        if self.size != size_of::<Self>() {
-            let text =
-                "size of settings: rccd_settings_default sets it, for the header of this library";
-            return Err(Failure::argument(text));
-        }
         let start_policy = match self.start_policy {
             policy if policy == RccdStartPolicy::Report as u32 => StartPolicy::Report,
             policy if policy == RccdStartPolicy::Leave as u32 => StartPolicy::Leave,
@@ -82,22 +83,38 @@ impl RccdSettings {
     }
 }
 
-/// Returns the default settings: tolerance 0.001, margin 0, contacts at the start reported, no deadline.
-#[unsafe(no_mangle)]
-pub extern "C" fn rccd_settings_default() -> RccdSettings {
-    let Settings {
-        tolerance,
-        margin,
-        budget,
-        ..
-    } = Settings::DEFAULT;
-    RccdSettings {
-        size: size_of::<RccdSettings>(),
-        tolerance,
-        margin,
-        budget,
-        deadline: f64::INFINITY,
-        start_policy: RccdStartPolicy::Report as u32,
-        stop: std::ptr::null(),
+impl RccdSettings {
+    pub(crate) fn default() -> Self {
+        let Settings {
+            tolerance,
+            margin,
+            budget,
+            ..
+        } = Settings::DEFAULT;
+        RccdSettings {
+            size: size_of::<RccdSettings>(),
+            tolerance,
+            margin,
+            budget,
+            deadline: f64::INFINITY,
+            start_policy: RccdStartPolicy::Report as u32,
+            stop: std::ptr::null(),
+        }
     }
+}
+
+/// Fills settings, whose `size` is set, with the default ones: tolerance 0.001, margin 0, contacts at the start reported, no
+/// deadline.
+///
+/// # Safety
+/// `settings` is null or points to a place of the size that its first field says.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_settings_default(settings: *mut RccdSettings) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let size = unsafe { growing::size_of_place("settings", settings) }?;
+        // SAFETY: the contract of this function.
+        unsafe { growing::store(settings, size, &RccdSettings::default()) };
+        Ok(())
+    })
 }

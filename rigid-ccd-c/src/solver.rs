@@ -1,8 +1,9 @@
 //! Solvers, and the questions about two moving bodies.
 
 use crate::answer::RccdAnswer;
-use crate::arguments::{exclusive, free, give, reference, size_of_place, store};
+use crate::arguments::{exclusive, free, give, reference};
 use crate::body::RccdBody;
+use crate::growing;
 use crate::motion::RccdMotion;
 use crate::settings::RccdSettings;
 use crate::status::{Failure, RccdStatus, status_of};
@@ -205,14 +206,11 @@ unsafe fn ask(
         // SAFETY: the contract of this function.
         let [a, b] = unsafe { [moving_body("a", bodies[0])?, moving_body("b", bodies[1])?] };
         // SAFETY: the contract of this function.
-        let size = unsafe { size_of_place(out) }?;
+        let size = unsafe { growing::size_of_place("the answer", out) }?;
         let answer = question(solver, a, b).map_err(Failure::input)?;
-        let answer = RccdAnswer {
-            size,
-            ..RccdAnswer::new(&answer, duration)
-        };
         // SAFETY: the contract of this function.
-        unsafe { store("the place for the answer", out, answer) }
+        unsafe { growing::store(out, size, &RccdAnswer::new(&answer, duration)) };
+        Ok(())
     })
 }
 
@@ -256,5 +254,5 @@ pub(crate) unsafe fn read_settings(settings: *const RccdSettings) -> Result<Sett
         return Ok(Settings::DEFAULT);
     }
     // SAFETY: the contract of this function.
-    unsafe { reference("settings", settings)?.to_settings() }
+    unsafe { growing::read("settings", settings, RccdSettings::default())?.to_settings() }
 }

@@ -46,7 +46,7 @@ use decompose::DecomposeArgs;
 use man::ManArgs;
 use query::QueryArgs;
 use rigid_ccd::Remark;
-use robots::{AcmArgs, ClearanceArgs, EdgesArgs};
+use robots::{AcmArgs, ClearanceArgs, EdgesArgs, ReplayArgs};
 use scene::SceneCommandArgs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -71,6 +71,7 @@ Examples:
   ccd edges arm.urdf --cell cell.toml --edges moves.csv --out results.csv
   ccd clearance arm.urdf --joint elbow=-30deg:60deg --require 5mm
   ccd acm arm.urdf --out arm.srdf
+  ccd replay arm.urdf --cell cell.toml --record stop.json
   ccd decompose knot.obj --pieces patches --out knot.ccd
   ccd completions bash > ~/.local/share/bash-completion/completions/ccd
 
@@ -90,6 +91,8 @@ enum Command {
     Clearance(Box<ClearanceArgs>),
     /// Decide which pairs of a robot's links can touch, and write those that need no check as SRDF
     Acm(AcmArgs),
+    /// Ask recorded questions about a robot again, and say whether the recorded answers hold
+    Replay(Box<ReplayArgs>),
     /// Split a mesh into convex pieces; print statistics, write the pieces or the prepared body
     Decompose(DecomposeArgs),
     /// Print a completion script for a shell
@@ -123,6 +126,7 @@ pub fn main() -> ExitCode {
         Command::Edges(args) => robots::run_edges(&args, of_command),
         Command::Clearance(args) => robots::run_clearance(&args),
         Command::Acm(args) => robots::run_acm(&args),
+        Command::Replay(args) => robots::run_replay(&args),
         Command::Decompose(args) => decompose::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),

@@ -8,6 +8,7 @@ mod joint_values;
 mod loading;
 mod page;
 mod path_table;
+mod replay;
 mod robot_paths;
 
 pub(super) use acm::{AcmArgs, run as run_acm};
@@ -16,4 +17,5 @@ pub(super) use edges::{DEFAULT_PATH_TOLERANCE, EdgesArgs, run as run_edges};
 pub(super) use joint_values::{JointRange, length};
 pub(super) use loading::CellArgs;
 pub(super) use page::RobotPainter;
+pub(super) use replay::{ReplayArgs, run as run_replay};
 pub(super) use robot_paths::RobotPaths;

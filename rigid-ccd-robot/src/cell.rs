@@ -325,6 +325,13 @@ impl Cell {
         }
     }
 
+    /// Returns all pairs of bodies that are compared, each with the distance at which it counts as touching.
+    pub(crate) fn compared_pairs(&self, margin: f64) -> impl Iterator<Item = ([usize; 2], f64)> {
+        let pairs = (0..self.bodies.len()).flat_map(|a| (0..a).map(move |b| [b, a]));
+        let compared = pairs.filter(|&[a, b]| self.is_compared(a, b));
+        compared.map(move |pair| (pair, self.margin(pair, margin)))
+    }
+
     /// Returns whether two of the robot's bodies are checked against each other.
     fn is_checked(&self, a: usize, b: usize) -> bool {
         let [a, b] = [

@@ -6,6 +6,7 @@ use crate::polynomial::{MAX_DEGREE, Polynomial};
 use crate::robot::Robot;
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::InputError;
+use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 /// The largest jump of a joint from one segment to the next, in radians or as a length, beyond what is rounded. Splines are
@@ -27,7 +28,8 @@ const MAX_LIMIT_HALVINGS: u32 = 20;
 /// assert_eq!(curve.positions(1.0), [0.5]);
 /// # Ok::<(), rigid_ccd_robot::CurveError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "CurveNumbers")]
 pub struct JointCurve {
     /// The times at which segments begin, and the end of the last one.
     times: Vec<f64>,
@@ -36,6 +38,43 @@ pub struct JointCurve {
     /// The coefficients of each segment, of powers of the share of its time; for each power, lowest first, those of all
     /// joints.
     coefficients: Vec<f64>,
+}
+
+/// The numbers of a curve that was stored, which are not checked yet.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CurveNumbers {
+    times: Vec<f64>,
+    joint_count: usize,
+    degree: usize,
+    coefficients: Vec<f64>,
+}
+
+impl TryFrom<CurveNumbers> for JointCurve {
+    type Error = CurveError;
+
+    fn try_from(stored: CurveNumbers) -> Result<Self, CurveError> {
+        let CurveNumbers {
+            times,
+            joint_count,
+            degree,
+            coefficients,
+        } = stored;
+        if !(1..=MAX_DEGREE).contains(&degree) {
+            return Err(CurveError::DegreeTooHigh { degree });
+        }
+        let segments = times.len().saturating_sub(1);
+        check_times(&times, segments)?;
+        let expected = (segments * (degree + 1)).saturating_mul(joint_count);
+        check_count("coefficients", 0, coefficients.len(), expected)?;
+        JointCurve {
+            times,
+            joint_count,
+            degree,
+            coefficients,
+        }
+        .checked()
+    }
 }
 
 impl JointCurve {

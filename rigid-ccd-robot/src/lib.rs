@@ -32,11 +32,13 @@
 //! | `robot_file` | a robot from a URDF or MJCF file with its meshes: [`RobotFile`] |
 //! | `srdf` | pairs that are not checked, from an SRDF file |
 //! | `path_rows` | answers as rows of tables, for the command and the Python package |
+//! | `evidence` | records of answers, to be asked again later: [`evidence::Evidence`] |
 //! | `tuning` | numbers that only cost time |
 
 mod cell;
 mod combine;
 mod error;
+pub mod evidence;
 mod joint_curve;
 mod link_contacts;
 mod pairs;

@@ -1,6 +1,6 @@
 //! Tests that wrong arguments are errors with a message, and change nothing.
 
-use crate::support::{Handle, empty_answer, last_error, moving, ok, sphere};
+use crate::support::{Handle, default_settings, empty_answer, last_error, moving, ok, sphere};
 use rigid_ccd_c::*;
 use std::ptr::{dangling, null, null_mut};
 
@@ -79,12 +79,12 @@ fn null_and_wrong_sizes_are_refused_with_their_names() {
         assert!(out.is_null());
         let settings = RccdSettings {
             start_policy: 7,
-            ..rccd_settings_default()
+            ..default_settings()
         };
         refused(rccd_solver_set_settings(s, &settings), "start_policy 7");
         let settings = RccdSettings {
             size: 8,
-            ..rccd_settings_default()
+            ..default_settings()
         };
         refused(rccd_solver_set_settings(s, &settings), "size of settings");
     }
@@ -112,7 +112,7 @@ fn numbers_out_of_range_are_refused() {
         for deadline in [f64::NAN, -1.0, 1e300] {
             let settings = RccdSettings {
                 deadline,
-                ..rccd_settings_default()
+                ..default_settings()
             };
             assert_eq!(rccd_solver_set_settings(s, &settings), bad);
         }

@@ -1,6 +1,6 @@
 //! Tests of cells: what is in them, what solvers keep of them, and what is refused.
 
-use crate::support::{last_error, ok};
+use crate::support::{default_settings, last_error, ok};
 use crate::support_cells::*;
 use rigid_ccd_c::*;
 use std::ptr::null;
@@ -8,7 +8,7 @@ use std::ptr::null;
 #[test]
 fn cells_keep_what_solvers_saw_and_refuse_what_is_wrong() {
     let (cell, _) = cells();
-    let solver = cell_solver(&cell, &rccd_settings_default());
+    let solver = cell_solver(&cell, &default_settings());
     let reach = [[0.0, 0.0], [1.2, 0.0]];
     assert_eq!(first_contact(&solver, &reach).outcome, RccdOutcome::Contact);
     // SAFETY: pointers are null or to values that live here.
@@ -16,7 +16,7 @@ fn cells_keep_what_solvers_saw_and_refuse_what_is_wrong() {
         let pointer = cell.pointer();
         ok(rccd_cell_remove_obstacle(pointer, c"ball".as_ptr()));
         assert_eq!(first_contact(&solver, &reach).outcome, RccdOutcome::Contact);
-        let of_now = cell_solver(&cell, &rccd_settings_default());
+        let of_now = cell_solver(&cell, &default_settings());
         assert_eq!(first_contact(&of_now, &reach).outcome, RccdOutcome::Free);
 
         let gone = rccd_cell_remove_obstacle(pointer, c"ball".as_ptr());
@@ -74,7 +74,7 @@ fn cells_keep_what_solvers_saw_and_refuse_what_is_wrong() {
 fn paddings_and_clearances_keep_obstacles_away() {
     let (cell, _) = cells();
     let at = [[0.0, 0.0]];
-    let rests = || first_contact(&cell_solver(&cell, &rccd_settings_default()), &at);
+    let rests = || first_contact(&cell_solver(&cell, &default_settings()), &at);
     assert_eq!(rests().outcome, RccdOutcome::Free);
     // SAFETY: pointers are to values that live here.
     unsafe {
@@ -99,7 +99,7 @@ fn held_bodies_move_with_their_link() {
         orientation: [0.0, 0.0, 0.0, 1.0],
     };
     let edge = [[-0.1, 0.0], [-0.4, 0.0]];
-    let touches = || first_contact(&cell_solver(&cell, &rccd_settings_default()), &edge);
+    let touches = || first_contact(&cell_solver(&cell, &default_settings()), &edge);
     assert_eq!(touches().outcome, RccdOutcome::Free);
     // SAFETY: pointers are to values that live here.
     unsafe {

@@ -1,6 +1,6 @@
 //! Tests that every question through the interface has the same bits as in Rust.
 
-use crate::support::{Handle, Random, moving, ok};
+use crate::support::{Handle, Random, default_settings, moving, ok};
 use rigid_ccd::trajectory::{Ballistic, Curve, OrientationCurve, Poses, Spline};
 use rigid_ccd::{Answer, Body, Motion, Outcome, Pose, Settings, Solver, StartPolicy};
 use rigid_ccd_c::*;
@@ -95,7 +95,7 @@ fn answers_about_motions_have_the_bits_of_rust() {
         tolerance: 1e-5,
         margin: 0.01,
         start_policy: RccdStartPolicy::Leave as u32,
-        ..rccd_settings_default()
+        ..default_settings()
     };
     let mut rust = Solver::new().with_settings(settings.clone());
     let c = crate::support::solver(Some(&c_settings));

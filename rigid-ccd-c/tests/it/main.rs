@@ -1,10 +1,12 @@
 //! Tests of the interface, from Rust, as C calls it.
 
+mod abi;
 mod arguments;
 mod cells;
 mod equal_bits;
 mod header;
 mod memory;
 mod paths;
+mod programs;
 mod support;
 mod support_cells;

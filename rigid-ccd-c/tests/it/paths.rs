@@ -1,17 +1,19 @@
 //! Tests that questions about paths of robots have the bits of Rust, do not allocate once warm, and keep their deadline's
 //! promise.
 
-use crate::support::{Handle, Random, last_error, ok};
+use crate::support::{Handle, Random, default_settings, last_error, ok};
 use crate::support_cells::*;
 use rigid_ccd::Settings;
 use rigid_ccd_c::*;
+use rigid_ccd_robot::evidence::{Evidence, RecordedAnswer, Verdict};
 use rigid_ccd_robot::{JointCurve, PathOutcome};
+use std::ffi::CString;
 use std::ptr::null;
 
 #[test]
 fn paths_have_the_bits_of_rust() {
     let (cell, rust) = cells();
-    let solver = cell_solver(&cell, &rccd_settings_default());
+    let solver = cell_solver(&cell, &default_settings());
     let mut rust_solver = rust.solver().with_settings(Settings::DEFAULT);
     let mut random = Random::new(7);
     let (mut free, mut hits) = (0, 0);
@@ -58,7 +60,7 @@ fn paths_have_the_bits_of_rust() {
 #[test]
 fn warm_paths_do_not_allocate() {
     let (cell, _) = cells();
-    let solver = cell_solver(&cell, &rccd_settings_default());
+    let solver = cell_solver(&cell, &default_settings());
     let mut random = Random::new(8);
     let paths: Vec<_> = (0..100)
         .map(|_| [(); 4].map(|()| configuration(&mut random)))
@@ -90,7 +92,7 @@ fn a_limit_leaves_a_certified_prefix() {
         let settings = RccdSettings {
             tolerance: 1e-6,
             deadline: [0.0, 1e-6, 1e-5, 1e-4][number % 4],
-            ..rccd_settings_default()
+            ..default_settings()
         };
         let found = first_contact(&cell_solver(&cell, &settings), &path);
         if found.outcome != RccdOutcome::Unresolved {
@@ -116,7 +118,7 @@ fn a_limit_leaves_a_certified_prefix() {
 #[test]
 fn curves_have_the_bits_of_rust() {
     let (cell, rust) = cells();
-    let solver = cell_solver(&cell, &rccd_settings_default());
+    let solver = cell_solver(&cell, &default_settings());
     let mut rust_solver = rust.solver().with_settings(Settings::DEFAULT);
     let mut random = Random::new(17);
     let (mut free, mut hits) = (0, 0);
@@ -167,7 +169,7 @@ fn curves_have_the_bits_of_rust() {
 #[test]
 fn polynomials_of_degree_one_are_an_edge() {
     let (cell, _) = cells();
-    let solver = cell_solver(&cell, &rccd_settings_default());
+    let solver = cell_solver(&cell, &default_settings());
     let (times, coefficients) = ([2.0, 4.0], [[0.0, 0.6], [0.0, 0.0]]);
     // SAFETY: one segment of two joints with two coefficients each.
     let curve = Handle::new(rccd_joint_curve_free, |out| unsafe {
@@ -204,7 +206,7 @@ fn a_flag_stops_pairs_and_paths_until_it_is_cleared() {
     let stop = Handle::new(rccd_stop_free, |out| unsafe { rccd_stop_new(out) });
     let settings = RccdSettings {
         stop: stop.pointer(),
-        ..rccd_settings_default()
+        ..default_settings()
     };
     let solver = cell_solver(&cell, &settings);
     let edge = [[0.0, 0.0], [1.2, 0.0]];
@@ -225,4 +227,62 @@ fn a_flag_stops_pairs_and_paths_until_it_is_cleared() {
     // The solver shares the flag.
     drop(stop);
     assert_eq!(first_contact(&solver, &edge).outcome, RccdOutcome::Contact);
+}
+
+#[test]
+fn records_of_answers_are_replayed_in_rust() {
+    let (cell, rust) = cells();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("stop.json");
+    let name = CString::new(file.to_str().unwrap()).unwrap();
+    let settings = RccdSettings {
+        tolerance: 1e-4,
+        deadline: 1.0,
+        ..default_settings()
+    };
+    let solver = cell_solver(&cell, &settings);
+    let write = |path: &RccdPath, answer: &RccdPathAnswer| {
+        // SAFETY: all pointers are to values that live here.
+        unsafe { rccd_evidence_write(cell.pointer(), &settings, path, answer, name.as_ptr()) }
+    };
+    let edge = [[0.0, 0.0], [1.2, 0.0]];
+    let mut answer = first_contact(&solver, &edge);
+    assert_eq!(answer.outcome, RccdOutcome::Contact);
+    ok(write(&through(&edge), &answer));
+    let read = || Evidence::from_json(&std::fs::read_to_string(&file).unwrap()).unwrap();
+    let record = read();
+    assert_eq!(record.settings.deadline, Some(1.0));
+    assert_eq!(record.replay(&rust).unwrap().verdict, Verdict::SameAnswer);
+
+    // As if the deadline had passed when half of what is free was known.
+    answer.outcome = RccdOutcome::Unresolved;
+    answer.limit = RccdLimit::Deadline;
+    answer.share *= 0.5;
+    ok(write(&through(&edge), &answer));
+    let expected = RecordedAnswer::Unresolved {
+        limit: "deadline".to_owned(),
+        segment: 0,
+        share: answer.share,
+    };
+    assert_eq!(read().answer, expected);
+    assert_eq!(read().replay(&rust).unwrap().verdict, Verdict::Holds);
+
+    answer.outcome = RccdOutcome::Interval;
+    assert_eq!(write(&through(&edge), &answer), RccdStatus::InvalidArgument);
+    assert!(last_error().contains("outcome 4"), "{}", last_error());
+    assert_eq!(write(&through(&[]), &answer), RccdStatus::InvalidArgument);
+    // SAFETY: null is refused.
+    let refused = unsafe {
+        rccd_evidence_write(
+            cell.pointer(),
+            &settings,
+            &through(&edge),
+            null(),
+            name.as_ptr(),
+        )
+    };
+    assert_eq!(refused, RccdStatus::InvalidArgument);
+    answer.outcome = RccdOutcome::Free;
+    let beyond = [[5.0, 0.0]];
+    assert_eq!(write(&through(&beyond), &answer), RccdStatus::InvalidInput);
 }

@@ -96,6 +96,16 @@ pub(crate) fn to_rust(motion: &RccdMotion) -> Motion {
     Motion::about(pose, motion.velocity, motion.spin, motion.centre).unwrap()
 }
 
+/// Returns the default settings.
+pub(crate) fn default_settings() -> RccdSettings {
+    // SAFETY: zero is a value of each field.
+    let mut settings: RccdSettings = unsafe { std::mem::zeroed() };
+    settings.size = size_of::<RccdSettings>();
+    // SAFETY: a local variable whose size is set.
+    ok(unsafe { rccd_settings_default(&mut settings) });
+    settings
+}
+
 /// Returns an answer to be filled, as C makes it: zero but for its size.
 pub(crate) fn empty_answer() -> RccdAnswer {
     let feature = RccdFeature {

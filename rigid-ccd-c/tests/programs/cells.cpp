@@ -62,5 +62,13 @@ int main(int, char **argv) {
     positions.insert(positions.end(), end.begin(), end.end());
     const auto curve = rigid_ccd::JointCurve::through(times, positions, velocities);
     expect(before.first_contact(curve).free() && before.any_contact(curve).free());
+    bool refused = false;
+    try {
+        const rigid_ccd::PathAnswer answer = before.first_contact(start);
+        rigid_ccd::write_evidence(cell, {}, {start.data(), 1, nullptr}, answer, "/no such folder/stop.json");
+    } catch (const rigid_ccd::Error &error) {
+        refused = std::string(error.what()).find("no such folder") != std::string::npos;
+    }
+    expect(refused);
     std::printf("%zu of 50 edges are free\n", free);
 }

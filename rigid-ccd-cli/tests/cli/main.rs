@@ -11,6 +11,7 @@ mod outputs;
 mod parquet_tables;
 mod questions;
 mod refusals;
+mod replay;
 mod resume;
 mod robots;
 mod scene;

@@ -1,0 +1,233 @@
+//! Compares each answer of the interface with that of Rust, bit by bit, and the times of both.
+
+use crate::folder::{
+    Handle, cell_solver, cells, check, default_settings, empty_path_answer, read_numbers,
+    rust_settings, text,
+};
+use anyhow::{Context, Result, ensure};
+use rigid_ccd::table::motions::{MotionTable, Motions};
+use rigid_ccd::{Body, Motion, Outcome, Pose, Solver, load};
+use rigid_ccd_c::*;
+use rigid_ccd_robot::{CellSolver, PathOutcome};
+use std::fs::File;
+use std::path::Path;
+use std::ptr::null;
+use std::time::{Duration, Instant};
+
+/// The pairs of a folder of scenes: body A, body B, motions.
+const SCENES: [(&str, &str, &str); 7] = [
+    ("knot2880", "knot2880", "knots"),
+    ("knot11520", "knot11520", "knots"),
+    ("knot34560", "knot34560", "knots"),
+    ("ring", "ring", "rings"),
+    ("bunny70k", "bunny70k", "bunnies"),
+    ("bunny26k", "bunny26k", "bunnies"),
+    ("santa", "board", "santa"),
+];
+
+/// The least times of one question, through the interface and in Rust.
+struct Times([Duration; 2]);
+
+impl Times {
+    /// Asks both, in turn, and in changing order.
+    fn measure(repeat: usize, mut ask: impl FnMut(usize) -> Result<()>) -> Result<Self> {
+        let mut least = [Duration::MAX; 2];
+        for round in 0..repeat.max(1) {
+            for turn in 0..2 {
+                let which = (turn + round) % 2;
+                let start = Instant::now();
+                ask(which)?;
+                least[which] = least[which].min(start.elapsed());
+            }
+        }
+        Ok(Times(least))
+    }
+}
+
+/// Prints the times of many questions.
+fn print(name: &str, times: &[Times], hits: usize) {
+    let total = |which: usize| times.iter().map(|t| t.0[which].as_secs_f64()).sum::<f64>();
+    let mut ratios: Vec<f64> = times
+        .iter()
+        .map(|Times([c, rust])| c.as_secs_f64() / rust.as_secs_f64())
+        .collect();
+    ratios.sort_by(f64::total_cmp);
+    println!(
+        "{name}: {} rows with equal bits, {hits} in contact; time over Rust: {:.4} in the sum, {:.4} in the median",
+        times.len(),
+        total(0) / total(1),
+        ratios[ratios.len() / 2],
+    );
+}
+
+/// Compares all rows of a folder of scenes, at two tolerances.
+pub(crate) fn compare_scenes(folder: &Path, repeat: usize) -> Result<()> {
+    for tolerance in [1e-3, 1e-6] {
+        for (a, b, motions) in SCENES {
+            let rows = MotionTable::read(File::open(folder.join(format!("{motions}.csv")))?)?.rows;
+            let bodies = [a, b].map(|name| folder.join(format!("{name}.obj")));
+            let rust = [load(&bodies[0])?, load(&bodies[1])?];
+            let load = |path: &Path| {
+                let path = text(path)?;
+                // SAFETY: the path ends with a zero.
+                Handle::new(rccd_body_free, |out| unsafe {
+                    rccd_body_load(path.as_ptr(), out)
+                })
+            };
+            let c = [load(&bodies[0])?, load(&bodies[1])?];
+            let name = format!("{a} {tolerance:e}");
+            compare_rows(&name, &rows, (&c, &rust), tolerance, repeat)?;
+        }
+    }
+    Ok(())
+}
+
+fn compare_rows<P>(
+    name: &str,
+    rows: &[(P, Motions)],
+    (c, rust): (&[Handle<RccdBody>; 2], &[Body; 2]),
+    tolerance: f64,
+    repeat: usize,
+) -> Result<()> {
+    let settings = RccdSettings {
+        tolerance,
+        ..default_settings()
+    };
+    // SAFETY: the settings live here.
+    let solver = Handle::new(rccd_solver_free, |out| unsafe {
+        rccd_solver_new(&settings, out)
+    })?;
+    let mut rust_solver = Solver::new().with_settings(rust_settings(tolerance));
+    let (mut times, mut hits) = (Vec::new(), 0);
+    for (_, row) in rows {
+        let motions = [row.a, row.b].map(|motion| numbers_of(&motion));
+        let rust_motions = [motion_of(&motions[0])?, motion_of(&motions[1])?];
+        // SAFETY: zero is a value of each field.
+        let mut answer: RccdAnswer = unsafe { std::mem::zeroed() };
+        answer.size = size_of::<RccdAnswer>();
+        let mut outcome = None;
+        let moving = [0, 1].map(|k| RccdMovingBody {
+            body: c[k].0,
+            motion: &motions[k],
+            trajectory: null(),
+        });
+        times.push(Times::measure(repeat, |which| {
+            if which == 0 {
+                let [a, b] = &moving;
+                // SAFETY: the pointers are to values that live here.
+                check(unsafe { rccd_first_contact(solver.0, a, b, row.duration, &mut answer) })
+            } else {
+                let [a, b] = [0, 1].map(|k| (&rust[k], rust_motions[k]));
+                outcome = Some(rust_solver.first_contact(a, b, row.duration)?);
+                Ok(())
+            }
+        })?);
+        let expected = outcome.context("an answer of Rust")?;
+        let time = expected.outcome.time().unwrap_or(f64::NAN);
+        ensure!(
+            answer.time.to_bits() == time.to_bits()
+                && answer.lower.to_bits() == expected.outcome.lower().to_bits()
+                && answer.upper.to_bits() == expected.outcome.upper().to_bits()
+                && answer.work == expected.stats.budgeted_work(),
+            "row {} differs: {answer:?}, {expected:?}",
+            row.id
+        );
+        if let Outcome::Contact { contact, .. } = expected.outcome {
+            hits += 1;
+            let bits = |point: [f64; 3]| point.map(f64::to_bits);
+            let separation = contact.separation;
+            let same = bits(answer.witness_a) == bits(separation.witness_a.to_array())
+                && bits(answer.witness_b) == bits(separation.witness_b.to_array());
+            ensure!(same, "row {} has other witnesses", row.id);
+        }
+    }
+    print(name, &times, hits);
+    Ok(())
+}
+
+fn numbers_of(motion: &Motion) -> RccdMotion {
+    RccdMotion {
+        start: RccdPose {
+            position: motion.start().translation().to_array(),
+            orientation: motion.start().rotation().to_array(),
+        },
+        velocity: motion.velocity().to_array(),
+        spin: motion.spin().to_array(),
+        centre: motion.centre().to_array(),
+    }
+}
+
+fn motion_of(numbers: &RccdMotion) -> Result<Motion> {
+    let start = Pose::new(numbers.start.position, numbers.start.orientation)?;
+    Ok(Motion::about(
+        start,
+        numbers.velocity,
+        numbers.spin,
+        numbers.centre,
+    )?)
+}
+
+/// Compares all edges of a folder of a robot.
+pub(crate) fn compare_edges(folder: &Path, meshes: &Path, repeat: usize) -> Result<()> {
+    for name in ["A", "B"] {
+        let (cell, rust) = cells(folder, meshes, name)?;
+        let joints = rust.robot().free_joint_names().len();
+        let tolerance = 1e-6;
+        let settings = RccdSettings {
+            tolerance,
+            ..default_settings()
+        };
+        let solver = cell_solver(&cell, &settings)?;
+        let mut rust_solver = rust.solver().with_settings(rust_settings(tolerance));
+        for length in ["0.1", "0.5", "2.0"] {
+            let numbers = read_numbers(&folder.join(format!("edges_{name}_{length}.bin")))?;
+            let (mut times, mut hits) = (Vec::new(), 0);
+            for edge in numbers.chunks_exact(2 * joints) {
+                let (time, hit) = compare_edge(&solver, &mut rust_solver, edge, joints, repeat)?;
+                times.push(time);
+                hits += usize::from(hit);
+            }
+            print(&format!("edges {name} {length}"), &times, hits);
+        }
+    }
+    Ok(())
+}
+
+/// Returns the times of an edge, and whether it touches.
+fn compare_edge(
+    solver: &Handle<RccdCellSolver>,
+    rust: &mut CellSolver<'_>,
+    edge: &[f64],
+    joints: usize,
+    repeat: usize,
+) -> Result<(Times, bool)> {
+    let path = RccdPath {
+        configurations: edge.as_ptr(),
+        configuration_count: 2,
+        curve: null(),
+    };
+    let ends = [&edge[..joints], &edge[joints..]];
+    let (mut answer, mut outcome) = (empty_path_answer(), None);
+    let times = Times::measure(repeat, |which| {
+        if which == 0 {
+            // SAFETY: the pointers are to values that live here.
+            check(unsafe { rccd_cell_first_contact(solver.0, &path, &mut answer) })
+        } else {
+            outcome = Some(rust.first_contact(&ends)?);
+            Ok(())
+        }
+    })?;
+    let same = match outcome.context("an answer of Rust")? {
+        PathOutcome::Free => answer.outcome == RccdOutcome::Free,
+        PathOutcome::Contact(contact) => {
+            let bits = |point: [f64; 3]| point.map(f64::to_bits);
+            answer.outcome == RccdOutcome::Contact
+                && answer.share.to_bits() == contact.at.share.to_bits()
+                && bits(answer.witness_a) == bits(contact.witnesses[0].to_array())
+                && bits(answer.witness_b) == bits(contact.witnesses[1].to_array())
+        }
+        PathOutcome::Unresolved { .. } => answer.outcome == RccdOutcome::Unresolved,
+    };
+    ensure!(same, "an edge differs: {answer:?}");
+    Ok((times, answer.outcome == RccdOutcome::Contact))
+}

@@ -1,0 +1,50 @@
+//! Records of answers about paths, which `ccd replay` asks again.
+
+use crate::arguments::{reference, text};
+use crate::cell::{RccdCell, joint_count};
+use crate::path::RccdPath;
+use crate::path_answer::RccdPathAnswer;
+use crate::settings::RccdSettings;
+use crate::solver::read_settings;
+use crate::status::{Failure, RccdStatus, status_of};
+use rigid_ccd_robot::evidence::Evidence;
+use std::ffi::c_char;
+
+/// Writes a record of an answer to `rccd_cell_first_contact` to a file, as JSON: the path and the settings in full, digests of
+/// all bodies of the cell, the answer. `ccd replay` asks the same again, without the deadline, and says whether the answer holds.
+/// The cell is to be as it was when the solver was made. Null stands for the default settings.
+///
+/// # Safety
+/// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `path` is as in
+/// `rccd_cell_first_contact`; `answer` is null or points to an answer of it, whose solver lives; `file` is null or a text that
+/// ends with a zero.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_evidence_write(
+    cell: *const RccdCell,
+    settings: *const RccdSettings,
+    path: *const RccdPath,
+    answer: *const RccdPathAnswer,
+    file: *const c_char,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let (cell, settings, file) = unsafe {
+            (
+                reference("cell", cell)?,
+                read_settings(settings)?,
+                text("file", file)?,
+            )
+        };
+        // SAFETY: the contract of this function.
+        let (path, answer) = unsafe {
+            (
+                RccdPath::record(path, joint_count(&cell.0))?,
+                RccdPathAnswer::record(answer)?,
+            )
+        };
+        let record = Evidence::new(&cell.0, &settings, path, answer).map_err(Failure::input)?;
+        let json = record.to_json().map_err(Failure::input)?;
+        ccd_file::write(file, |out| out.write_all(json.as_bytes()))
+            .map_err(|error| Failure::input(format!("{file}: {error}")))
+    })
+}

@@ -1,0 +1,164 @@
+//! Structs that begin with their size, and that later versions of the library extend at their end.
+
+use crate::arguments::check_place;
+use crate::status::Failure;
+
+/// A struct whose first field is its size in the caller's header. Programs that were built against an older header go on to work:
+/// what they do not know is not written, and what they do not set is the default.
+///
+/// # Safety
+/// It is `repr(C)`, its first field is a `usize`, and its fields up to the first size keep their places for ever.
+pub(crate) unsafe trait Growing: Copy {
+    /// The size in the first version of the library.
+    const FIRST_SIZE: usize;
+}
+
+/// Reads a struct, whose fields beyond its size are those of `default`.
+///
+/// # Safety
+/// `pointer` is null, or points to a struct of the size that its first field says, whose fields have values of their types.
+pub(crate) unsafe fn read<T: Growing>(
+    name: &str,
+    pointer: *const T,
+    default: T,
+) -> Result<T, Failure> {
+    check_place(name, pointer.cast_mut())?;
+    // SAFETY: the caller's contract; the pointer is neither null nor misaligned.
+    let size = unsafe { pointer.cast::<usize>().read() };
+    if !(T::FIRST_SIZE..=size_of::<T>()).contains(&size) {
+        let text = format!("size of {name} is not set, or from a header of a later version");
+        return Err(Failure::argument(text));
+    }
+    let mut value = default;
+    // SAFETY: the struct has `size` bytes, and the copy at least as many.
+    unsafe {
+        let to = (&raw mut value).cast::<u8>();
+        to.copy_from_nonoverlapping(pointer.cast::<u8>(), size);
+    }
+    Ok(value)
+}
+
+/// Returns the size that the caller has set in the first field of a place, whose other fields need not hold values yet.
+///
+/// # Safety
+/// `out` is null, or points to a place that begins with its size.
+pub(crate) unsafe fn size_of_place<T: Growing>(name: &str, out: *mut T) -> Result<usize, Failure> {
+    check_place(name, out)?;
+    // SAFETY: the caller's contract; the place is neither null nor misaligned.
+    let size = unsafe { out.cast::<usize>().read() };
+    if size < T::FIRST_SIZE {
+        return Err(Failure::argument(format!("size of {name} is not set")));
+    }
+    Ok(size)
+}
+
+/// Stores as much of a value as there is place for. The size in the place stays as it is.
+///
+/// # Safety
+/// `out` points to a place of `size` bytes, of which [`size_of_place`] has returned the number.
+pub(crate) unsafe fn store<T: Growing>(out: *mut T, size: usize, value: &T) {
+    let begin = size_of::<usize>();
+    let count = size.min(size_of::<T>()) - begin;
+    // SAFETY: both have at least that many bytes after their sizes, and the value is not in the place.
+    unsafe {
+        let from = std::ptr::from_ref(value).cast::<u8>().add(begin);
+        out.cast::<u8>()
+            .add(begin)
+            .copy_from_nonoverlapping(from, count);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Growing, read, size_of_place, store};
+
+    /// A struct as it was first, and as it is now.
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    struct First {
+        size: usize,
+        time: f64,
+    }
+
+    #[repr(C)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    struct Now {
+        size: usize,
+        time: f64,
+        work: u64,
+    }
+
+    // SAFETY: both are `repr(C)`, begin with a `usize`, and have the same first fields.
+    unsafe impl Growing for Now {
+        const FIRST_SIZE: usize = size_of::<First>();
+    }
+
+    const DEFAULT: Now = Now {
+        size: 0,
+        time: 1.0,
+        work: 7,
+    };
+
+    #[test]
+    fn programs_of_the_first_version_are_served() {
+        let mut old = [First {
+            size: size_of::<First>(),
+            time: 2.0,
+        }; 2];
+        let place = old.as_mut_ptr().cast::<Now>();
+        // SAFETY: a struct of the first version, with its size.
+        unsafe {
+            let value = read("settings", place, DEFAULT).ok().unwrap();
+            assert_eq!((value.time, value.work), (2.0, 7));
+            let size = size_of_place("answer", place).ok().unwrap();
+            store(
+                place,
+                size,
+                &Now {
+                    time: 3.0,
+                    ..DEFAULT
+                },
+            );
+        }
+        let expected = First {
+            size: size_of::<First>(),
+            time: 3.0,
+        };
+        // What follows the first struct is as it was.
+        assert_eq!(
+            old,
+            [
+                expected,
+                First {
+                    time: 2.0,
+                    ..expected
+                }
+            ]
+        );
+    }
+
+    #[test]
+    fn sizes_that_cannot_be_are_refused() {
+        for (size, read_works, store_works) in [
+            (0, false, false),
+            (8, false, false),
+            (24, true, true),
+            (32, false, true),
+        ] {
+            let mut now = Now { size, ..DEFAULT };
+            // SAFETY: nothing beyond the struct is touched: a greater size is refused, or what is stored ends before.
+            unsafe {
+                assert_eq!(
+                    read("settings", &now, DEFAULT).is_ok(),
+                    read_works,
+                    "{size}"
+                );
+                assert_eq!(
+                    size_of_place("answer", &mut now).is_ok(),
+                    store_works,
+                    "{size}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! Records of answers about paths, to be kept where a motion was stopped, and to be asked again later.
+
+mod digest;
+mod replay;
+
+pub use replay::{EvidenceError, Replay, Verdict};
+
+use crate::cell::Cell;
+use crate::joint_curve::JointCurve;
+use crate::path_point::PathPoint;
+use crate::solver::PathOutcome;
+use digest::{body_digest, pairs_digest};
+use rigid_ccd::{Pose, Settings};
+use serde::{Deserialize, Serialize};
+
+/// What the records of this version begin with.
+const FORMAT: &str = "rigid-ccd evidence 1";
+
+/// A record of the first contact on a path: what was asked, of which bodies, and what the answer was.
+///
+/// It holds digests of the bodies, not the bodies: a replay needs the same cell.
+///
+/// ```
+/// # use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, PositionRule, Robot};
+/// use rigid_ccd_robot::evidence::{Evidence, RecordedPath, Verdict};
+/// use rigid_ccd::{Body, Pose, Settings};
+/// # let links = vec![Link::named("base"), Link::named("arm").with_body(Body::capsule(0.1, 0.4)?, Pose::IDENTITY)];
+/// # let hinge = rigid_ccd::trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 1.0, 0.0])?;
+/// # let joint = Joint {
+/// #     name: "hinge".into(), parent: "base".into(), child: "arm".into(),
+/// #     axis_and_limits: hinge, position_rule: PositionRule::Independent,
+/// # };
+/// # let robot = Robot::new(links, vec![joint])?;
+/// # let pairs = LinkPairs::from_robot(&robot);
+/// # let mut cell = Cell::new(robot, pairs);
+/// cell.add_obstacle("post", Body::sphere(0.2)?, Pose::at([0.4, 0.0, 0.0])?)?;
+/// let (settings, path) = (Settings::DEFAULT, [[0.0], [1.0]]);
+/// let answer = cell.solver().with_settings(settings.clone()).first_contact(&path)?;
+///
+/// let record = Evidence::new(&cell, &settings, RecordedPath::configurations(&path), &answer)?;
+/// let read = Evidence::from_json(&record.to_json()?)?;
+/// assert_eq!(read.replay(&cell)?.verdict, Verdict::SameAnswer);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Evidence {
+    /// The format, with its version.
+    pub format: String,
+    /// The version of the library that gave the answer.
+    pub library: String,
+    /// The settings.
+    pub settings: RecordedSettings,
+    /// The path.
+    pub path: RecordedPath,
+    /// The answer.
+    pub answer: RecordedAnswer,
+    /// All bodies, those of the robot first.
+    pub bodies: Vec<RecordedBody>,
+    /// The digest of which bodies are compared, and of the distances at which they count as touching.
+    pub pairs_sha256: String,
+}
+
+/// The settings of a question that its answer depends on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecordedSettings {
+    /// The tolerance.
+    pub tolerance: f64,
+    /// The margin.
+    pub margin: f64,
+    /// The budget.
+    pub budget: u64,
+    /// The deadline in seconds, if there was one.
+    pub deadline: Option<f64>,
+}
+
+/// A path, with all its numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum RecordedPath {
+    /// Configurations, between which all joints move at constant rates.
+    Configurations(Vec<Vec<f64>>),
+    /// A curve.
+    Curve(JointCurve),
+}
+
+/// The answer about a path.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum RecordedAnswer {
+    /// Nothing touches.
+    Free,
+    /// Two items touch at a point, and nothing touches before.
+    Contact {
+        /// The number of the segment.
+        segment: usize,
+        /// The share of the segment that is passed.
+        share: f64,
+        /// The names of both items.
+        items: [String; 2],
+    },
+    /// A limit was reached; nothing touches before a point.
+    Unresolved {
+        /// The name of the limit.
+        limit: String,
+        /// The number of the segment of that point.
+        segment: usize,
+        /// The share of the segment that is free.
+        share: f64,
+    },
+}
+
+/// A body of the cell.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecordedBody {
+    /// The link, attached body or obstacle that it belongs to.
+    pub item: String,
+    /// The digest of its pieces.
+    pub sha256: String,
+    /// Its position at the start of the path, in the frame of the robot's base.
+    pub position: [f64; 3],
+    /// Its orientation there, a quaternion in the order x, y, z, w.
+    pub orientation: [f64; 4],
+}
+
+impl RecordedPath {
+    /// Records configurations.
+    pub fn configurations<Q: AsRef<[f64]>>(configurations: &[Q]) -> Self {
+        let copies = configurations.iter().map(|own| own.as_ref().to_vec());
+        RecordedPath::Configurations(copies.collect())
+    }
+
+    /// Returns the configuration at the start; `None` if there is none.
+    fn start(&self) -> Option<Vec<f64>> {
+        match self {
+            RecordedPath::Configurations(all) => all.first().cloned(),
+            RecordedPath::Curve(curve) => Some(curve.positions(*curve.times().first()?)),
+        }
+    }
+}
+
+impl From<&PathOutcome<'_>> for RecordedAnswer {
+    fn from(outcome: &PathOutcome<'_>) -> Self {
+        match outcome {
+            PathOutcome::Free => RecordedAnswer::Free,
+            PathOutcome::Contact(contact) => RecordedAnswer::Contact {
+                segment: contact.at.segment,
+                share: contact.at.share,
+                items: contact.items.map(|item| item.name().to_owned()),
+            },
+            PathOutcome::Unresolved { free_until, limit } => RecordedAnswer::Unresolved {
+                limit: limit.to_string(),
+                segment: free_until.segment,
+                share: free_until.share,
+            },
+        }
+    }
+}
+
+impl RecordedAnswer {
+    /// Returns the point before which nothing touches; `None` if nothing touches on the whole path.
+    pub fn free_until(&self) -> Option<PathPoint> {
+        match *self {
+            RecordedAnswer::Free => None,
+            RecordedAnswer::Contact { segment, share, .. }
+            | RecordedAnswer::Unresolved { segment, share, .. } => {
+                Some(PathPoint { segment, share })
+            }
+        }
+    }
+}
+
+impl Evidence {
+    /// Makes a record of an answer to [`first_contact`](crate::CellSolver::first_contact).
+    ///
+    /// # Errors
+    /// [`EvidenceError::Path`] for a path that does not fit the robot.
+    pub fn new(
+        cell: &Cell,
+        settings: &Settings,
+        path: RecordedPath,
+        answer: impl Into<RecordedAnswer>,
+    ) -> Result<Self, EvidenceError> {
+        Ok(Evidence {
+            format: FORMAT.to_owned(),
+            library: concat!("rigid-ccd ", env!("CARGO_PKG_VERSION")).to_owned(),
+            settings: RecordedSettings {
+                tolerance: settings.tolerance,
+                margin: settings.margin,
+                budget: settings.budget,
+                deadline: settings.deadline.map(|deadline| deadline.as_secs_f64()),
+            },
+            bodies: bodies_at_start(cell, &path)?,
+            path,
+            answer: answer.into(),
+            pairs_sha256: pairs_digest(cell, settings.margin),
+        })
+    }
+
+    /// Returns the record as JSON, in which every number reads back as the same number.
+    ///
+    /// # Errors
+    /// Never for a record of an answer: its numbers are finite.
+    pub fn to_json(&self) -> Result<String, EvidenceError> {
+        Ok(serde_json::to_string_pretty(self)?)
+    }
+
+    /// Reads a record.
+    ///
+    /// # Errors
+    /// [`EvidenceError::NoRecord`] and [`EvidenceError::OtherFormat`].
+    pub fn from_json(text: &str) -> Result<Self, EvidenceError> {
+        let record: Evidence = serde_json::from_str(text)?;
+        if record.format == FORMAT {
+            Ok(record)
+        } else {
+            Err(EvidenceError::OtherFormat(record.format))
+        }
+    }
+}
+
+/// Returns all bodies of a cell, with their poses at the start of a path.
+fn bodies_at_start(cell: &Cell, path: &RecordedPath) -> Result<Vec<RecordedBody>, EvidenceError> {
+    let start = path.start().ok_or(EvidenceError::EmptyPath)?;
+    let placed = cell.placed_bodies(&start).map_err(EvidenceError::Path)?;
+    let record = |(item, body, pose): (crate::cell::Item<'_>, _, Pose)| RecordedBody {
+        item: item.name().to_owned(),
+        sha256: body_digest(body),
+        position: pose.translation().to_array(),
+        orientation: pose.rotation().to_array(),
+    };
+    Ok(placed.into_iter().map(record).collect())
+}
+
+#[cfg(test)]
+mod tests;
