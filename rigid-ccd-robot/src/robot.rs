@@ -300,7 +300,7 @@ impl Robot {
                 ..
             } = &self.joints[joint];
             joint
-                .pose(position)
+                .check(position)
                 .map_err(|error| RobotError::InvalidPosition {
                     joint: name.clone(),
                     error,

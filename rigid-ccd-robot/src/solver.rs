@@ -53,7 +53,8 @@ pub struct PathContact<'c> {
     pub at: PathPoint,
     /// The pair; a link or an attached body comes first.
     pub items: [Item<'c>; 2],
-    /// The nearest points of both, in the frame of the base. If both overlap they are points of two pieces that intersect.
+    /// The nearest points of both, in the frame of the base. If both overlap they are points of two pieces that intersect. They
+    /// are NaN if the deadline passes before they are found.
     pub witnesses: [DVec3; 2],
     /// The vertex, edge or face of each mesh that its witness is on, numbered as in the body. `None` for a convex body, whose
     /// mesh may be its hull, and if one body is inside the other.
@@ -254,6 +255,11 @@ impl<'c> CellSolver<'c> {
             placement.body(self.cell, bodies[0])?,
             placement.body(self.cell, bodies[1])?,
         );
+        // The deadline is for this, too: without witnesses a contact is a contact.
+        self.distance_solver.set_settings(Settings {
+            deadline: self.search.stop_condition.remaining(),
+            ..Settings::DEFAULT
+        });
         let is_mesh = [a.0, b.0].map(|body| body.pieces().len() > 1);
         let outcome = self.distance_solver.distance(a, b)?.outcome;
         let hit = hit_of_distance(&outcome);

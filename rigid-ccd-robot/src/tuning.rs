@@ -33,3 +33,6 @@ pub(crate) const MIN_PIECES_FOR_TWO_HULLS: usize = 16;
 
 /// The number of intervals between the points on a joint's axis at which two links are tried.
 pub(crate) const JOINT_AXIS_INTERVALS: u32 = 128;
+
+/// The number of pairs that are measured between two readings of the clock. A pair takes about 50 ns, a reading 25 ns.
+pub(crate) const PAIRS_BETWEEN_CLOCK_READS: usize = 32;

@@ -16,6 +16,9 @@ use std::time::Instant;
 /// The number of waypoints of a chunk in the file.
 const WAYPOINTS: usize = 50;
 
+/// The seed of the chunks that warm a solver, which no thread has.
+const WARM_UP_SEED: u64 = 1 << 32;
+
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// A folder with a robot, cells and chunks
@@ -34,6 +37,9 @@ pub(crate) struct Args {
     chunks: usize,
     #[arg(long, default_value_t = 2)]
     threads: usize,
+    /// The number of chunks by which each solver is warmed, without a deadline
+    #[arg(long, default_value_t = 20_000)]
+    warm_up: usize,
 }
 
 /// A chunk of the file, with where it first touches.
@@ -54,6 +60,8 @@ struct Seen {
     contacts: usize,
     unresolved: usize,
     prefixes: usize,
+    /// Answers that came although the deadline had passed by 20 µs of the processor's time: of these, contacts and free paths.
+    late: [usize; 2],
     /// Prefixes that go beyond the first contact, and other wrong answers.
     wrong: usize,
 }
@@ -77,10 +85,13 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         solvers.push(Solver(warm));
     }
     let share = args.chunks / solvers.len();
+    let latest = args.deadline.map(|micros| ((micros + 20.0) * 1e-6) as f32);
     let seen = std::thread::scope(|scope| {
         let threads = solvers.into_iter().enumerate().map(|(number, solver)| {
             let chunks = &chunks;
-            scope.spawn(move || check_chunks(&solver, chunks, joints, (number as u64, share)))
+            scope.spawn(move || {
+                check_chunks(&solver, chunks, joints, (number as u64, share), latest)
+            })
         });
         let threads: Vec<_> = threads.collect();
         let seen = threads.into_iter().map(|thread| thread.join());
@@ -139,6 +150,7 @@ fn check_chunks(
     chunks: &[Chunk],
     joints: usize,
     (seed, count): (u64, usize),
+    latest: Option<f32>,
 ) -> Result<Seen> {
     let mut seen = Seen {
         times: Vec::with_capacity(count),
@@ -165,6 +177,12 @@ fn check_chunks(
                 (processor_seconds() - worked) as f32,
             ];
             seen.times.push(times);
+            if let (Ok(answer), Some(latest)) = (&answer, latest)
+                && times[1] > latest
+            {
+                let is_resolved = answer.outcome != RccdOutcome::Unresolved;
+                seen.late[usize::from(is_resolved)] += 1;
+            }
             match answer {
                 Ok(answer) => seen.judge(&answer, chunk.touches_at - first as f64, waypoints),
                 Err(error) => failure = Some(error),
@@ -222,6 +240,13 @@ fn report(args: &Args, seen: Vec<Seen>) {
         sum(|seen| seen.prefixes),
         sum(|seen| seen.wrong),
     );
+    let late = [0, 1].map(|kind| seen.iter().map(|seen| seen.late[kind]).sum::<usize>());
+    if args.deadline.is_some() {
+        println!(
+            "  later than 20 µs: {} unresolved, {} resolved",
+            late[0], late[1]
+        );
+    }
     for (which, name) in ["of the clock", "of the processor"].into_iter().enumerate() {
         let mut micros: Vec<f32> = seen
             .iter()

@@ -45,7 +45,8 @@ fn failures_are_values_without_exceptions() {
 
 #[test]
 fn robots_in_cpp_answer() {
-    let arguments = ["../rigid-ccd-robot/examples/edges/arm.urdf", "link7"];
+    let arm = folder().join("../rigid-ccd-robot/examples/edges/arm.urdf");
+    let arguments = [arm.to_str().unwrap(), "link7"];
     let printed = build_and_run(
         "c++",
         &["-std=c++17"],
@@ -53,4 +54,12 @@ fn robots_in_cpp_answer() {
         &arguments,
     );
     assert!(printed.ends_with("of 50 edges are free\n"), "{printed}");
+}
+
+#[test]
+fn the_gate_stops_before_the_table() {
+    let arm = folder().join("../rigid-ccd-cli/examples/arm.urdf");
+    let arguments = [arm.to_str().unwrap()];
+    let printed = build_and_run("c++", &["-std=c++17"], "examples/gate.cpp", &arguments);
+    assert!(printed.starts_with("go until waypoint "), "{printed}");
 }

@@ -36,7 +36,7 @@ pub(crate) fn run(command: &mut Command) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Builds a program of this folder, and returns what it prints.
+/// Builds a program of this crate, runs it in a folder of its own, and returns what it prints.
 pub(crate) fn build_and_run(
     compiler: &str,
     options: &[&str],
@@ -57,5 +57,5 @@ pub(crate) fn build_and_run(
         .args(["-lpthread", "-ldl", "-lm"]));
     run(Command::new(&program)
         .args(arguments)
-        .current_dir(folder().join("../rigid-ccd")))
+        .current_dir(&folder_of_program))
 }

@@ -5,7 +5,7 @@ use super::curved_link::PathSection;
 use super::open_pairs::OpenPair;
 use super::part_pairs::{PartPair, sort_by_proof_distance};
 use super::search::Search;
-use super::stretch::StepResult;
+use super::stretch::{StepResult, Stretch};
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd::{Answer, Error, Outcome, Settings};
@@ -13,7 +13,8 @@ use std::ops::ControlFlow::{self, Break, Continue};
 
 impl Search<'_> {
     /// Asks the engine whether one of the suspects is in contact in the middle of a stretch.
-    pub(super) fn check_suspects(&mut self, at: f64) -> StepResult {
+    pub(super) fn check_suspects(&mut self, stretch: &Stretch) -> StepResult {
+        let at = stretch.middle();
         if self.near_nonconvex_pairs.is_empty() {
             return Ok(Continue(()));
         }
@@ -26,7 +27,10 @@ impl Search<'_> {
             if earlier.any(|other| bodies == other.body_numbers(self.cell.parts())) {
                 continue;
             }
-            step = self.check_suspect(pair, bodies, at);
+            step = match self.check_limit(stretch) {
+                Break(()) => Ok(Break(())),
+                Continue(()) => self.check_suspect(pair, bodies, at),
+            };
             // An earlier contact than one at this point has another middle.
             if !matches!(step, Ok(Continue(()))) || self.result.end <= at {
                 break;
@@ -65,6 +69,16 @@ impl Search<'_> {
         for pair in open {
             if pair.from >= self.result.end {
                 continue;
+            }
+            if let Some(limit) = self.stop_condition.reached_limit() {
+                // For the first contact the pairs are in the order of their starts: all before this one is decided.
+                let until = match self.question {
+                    Question::FirstContact => pair.from,
+                    Question::AnyContact | Question::ClosestApproach => 0.0,
+                };
+                self.result.limit_reached = Some((limit, until));
+                self.result.lower = 0.0;
+                break;
             }
             let pair = OpenPair {
                 to: lesser(pair.to, self.result.end),

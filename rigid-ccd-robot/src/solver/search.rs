@@ -18,7 +18,7 @@ use crate::error::PathError;
 use crate::path::Path;
 use crate::tuning::{
     MAX_APPROACH_STRETCH_LENGTH, MAX_ENGINE_DISPLACEMENT, MAX_ENGINE_STRETCH_LENGTH,
-    MIN_ENGINE_HALVINGS,
+    MIN_ENGINE_HALVINGS, PAIRS_BETWEEN_CLOCK_READS,
 };
 use ccd_core::order::{greater, lesser};
 use ccd_core::vectorize;
@@ -162,12 +162,7 @@ impl<'c> Search<'c> {
         if stretch.from >= self.result.end {
             return Ok(Continue(()));
         }
-        if let Some(limit) = self.stop_condition.reached_limit() {
-            self.result.limit_reached = Some((
-                limit,
-                lesser(stretch.from, self.open_pairs.earliest_start()),
-            ));
-            self.result.lower = 0.0;
+        if self.check_limit(&stretch).is_break() {
             return Ok(Break(()));
         }
         let base = self.candidates.len();
@@ -176,7 +171,7 @@ impl<'c> Search<'c> {
         else {
             return Ok(Break(()));
         };
-        if self.check_suspects(stretch.middle())?.is_break() {
+        if self.check_suspects(&stretch)?.is_break() {
             return Ok(Break(()));
         }
         let undecided = first..self.candidates.len();
@@ -198,6 +193,17 @@ impl<'c> Search<'c> {
         Ok(Continue(()))
     }
 
+    /// Ends the search if a limit is reached: everything before the stretch and before open pairs was searched.
+    pub(super) fn check_limit(&mut self, stretch: &Stretch) -> ControlFlow<()> {
+        let Some(limit) = self.stop_condition.reached_limit() else {
+            return Continue(());
+        };
+        let searched_until = lesser(stretch.from, self.open_pairs.earliest_start());
+        self.result.limit_reached = Some((limit, searched_until));
+        self.result.lower = 0.0;
+        Break(())
+    }
+
     /// Measures the candidates in the middle of a stretch, and appends those that are undecided. Returns the index of the
     /// first of these.
     #[inline(always)]
@@ -215,6 +221,9 @@ impl<'c> Search<'c> {
         let first = self.candidates.len();
         self.near_nonconvex_pairs.clear();
         for k in among {
+            if k % PAIRS_BETWEEN_CLOCK_READS == 0 {
+                self.check_limit(&stretch)?;
+            }
             let mut pair = self.candidates[k];
             let is_last = self.goes_to_engine(&stretch, &pair);
             let thresholds = self.thresholds(&pair);

@@ -531,3 +531,44 @@ fn an_axis_needs_a_length() {
     );
     assert_eq!(message([0.0, f64::NAN, 0.0]), "axis is NaN or infinite");
 }
+
+/// Tests that the check of a position refuses what the pose refuses, with the same error.
+#[test]
+fn the_check_of_a_position_is_that_of_the_pose() {
+    let origin = Pose::at([0.1, 0.2, 0.3]).unwrap();
+    let axis = [0.0, 0.6, 0.8];
+    let limited = |joint: Joint| joint.with_limits(-1.0..=2.0);
+    let joints = [
+        Joint::fixed(origin),
+        Joint::revolute(origin, axis).unwrap(),
+        Joint::prismatic(origin, axis).unwrap(),
+        limited(Joint::revolute(origin, axis).unwrap()),
+        limited(Joint::prismatic(origin, axis).unwrap()).reversed(),
+    ];
+    let positions = [
+        0.0,
+        -1.0,
+        2.0,
+        2.1,
+        1e-310,
+        1e300,
+        f64::MAX,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::NAN,
+    ];
+    let mut refused = 0;
+    for joint in &joints {
+        for position in positions {
+            let pose = joint.pose(position).map(|_| ());
+            refused += i32::from(pose.is_err());
+            let as_text = |result: Result<(), InputError>| format!("{result:?}");
+            assert_eq!(
+                as_text(joint.check(position)),
+                as_text(pose),
+                "{joint:?} {position}"
+            );
+        }
+    }
+    assert!((10..40).contains(&refused), "{refused}");
+}
