@@ -74,12 +74,13 @@ impl Cell {
         body: &Body,
         link: &str,
         pose: &[f64],
-        // wasm-bindgen passes no slice of texts.
-        #[expect(clippy::needless_pass_by_value)] may_touch: Vec<String>,
+        may_touch: Vec<String>,
     ) -> Result<(), JsError> {
         let pose = pose_from_numbers(pose)?;
-        let may_touch: Vec<&str> = may_touch.iter().map(String::as_str).collect();
-        self.change(|cell| cell.attach(name, body.body.clone(), (link, pose), &may_touch))
+        self.change(move |cell| {
+            let may_touch: Vec<&str> = may_touch.iter().map(String::as_str).collect();
+            cell.attach(name, body.body.clone(), (link, pose), &may_touch)
+        })
     }
 
     /// Removes a body that is attached to a link.
