@@ -29,7 +29,10 @@ async function main() {
 async function page(module, queries) {
   const compared = await readFile(new URL("compare.mjs", import.meta.url), "utf8");
   const texts = JSON.stringify({ module, compared, queries }).replaceAll("<", "\\u003c");
-  return `<!doctype html><meta charset="utf-8"><pre></pre><script type="module">
+  // A document that is being written holds up the event `load`, for which a headless browser waits.
+  return `<!doctype html><meta charset="utf-8"><pre></pre><iframe hidden></iframe>
+<script>const held = document.querySelector("iframe").contentDocument; held.open();</script>
+<script type="module">
 const { module, compared, queries } = ${texts};
 const load = (text) => import(URL.createObjectURL(new Blob([text], { type: "text/javascript" })));
 const { compare } = await load(compared);
@@ -38,6 +41,8 @@ const ccd = await load(module);
 await ccd.init();
 const loaded = \`loaded in \${(performance.now() - begun).toFixed(1)} ms\`;
 document.querySelector("pre").textContent = [loaded, ...compare(ccd, queries, performance)].join("\\n");
+for (const script of document.querySelectorAll("script")) script.remove();
+held.close();
 </script>`;
 }
 

@@ -19,6 +19,12 @@ await writeFile(
 <link rel="icon" href="data:,">
 <title>rigid-ccd in a browser</title>
 <pre></pre>
+<iframe hidden></iframe>
+<script>
+// A document that is being written holds up the event \`load\`, for which a headless browser waits.
+const held = document.querySelector("iframe").contentDocument;
+held.open();
+</script>
 <script type="module">
 const texts = ${json};
 const load = (text) => import(URL.createObjectURL(new Blob([text], { type: "text/javascript" })));
@@ -43,6 +49,7 @@ async function run() {
 }
 await run().catch((error) => console.error(\`after "\${lines.at(-1)}": \${error.stack}\`));
 document.querySelector("pre").textContent = lines.join("\\n");
+held.close();
 </script>
 </html>
 `,
