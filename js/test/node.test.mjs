@@ -2,6 +2,9 @@
 
 import { readFile } from "node:fs/promises";
 import test from "node:test";
+import { setTimeout } from "node:timers/promises";
+import { setFlagsFromString } from "node:v8";
+import { runInNewContext } from "node:vm";
 import bodies from "./bodies.mjs";
 import * as check from "./check.mjs";
 import mechanisms from "./mechanisms.mjs";
@@ -28,6 +31,20 @@ test("another instance gives the same bits", async () => {
   const [one, two] = [ccd, other].map((module) => answers(module, check.randomNumbers));
   check.equal(one.text, two.text);
   for (const kind of ["free", "contact", "interval", "leastDistance"]) check.ok(one.kinds.has(kind), `none is ${kind}`);
+});
+
+test("what is collected as garbage is freed", async () => {
+  setFlagsFromString("--expose-gc");
+  const collect = runInNewContext("gc");
+  const round = async () => {
+    for (let k = 0; k < 300; k += 1) ccd.Body.cylinder(1, 1);
+    collect();
+    await setTimeout(50);
+  };
+  for (let k = 0; k < 3; k += 1) await round();
+  const before = ccd.memoryUsage();
+  for (let k = 0; k < 9; k += 1) await round();
+  check.equal(ccd.memoryUsage(), before);
 });
 
 test("without vectors it says what is needed", async () => {

@@ -36,8 +36,12 @@ export function mechanisms(mesh: { position: Float32Array; index: Uint16Array })
   const cell = new Cell(new Robot({ joints, bodies: { tool: [{ body: part, pose: { position: [1, 0, 0] } }] } }));
   cell.add("wall", part);
   const closest = cell.closestApproach([[0], new Float64Array([1])]);
-  if (closest.kind === "unresolved") throw new UnresolvedError(closest.advice);
+  if (closest.kind === "unresolved") throw new Error(closest.advice);
   return closest.lower + (closest.nearest?.share ?? 0) + cell.clearanceRanges([[0], [1]], { margin: 0.1 }).length;
+}
+
+export function undecided(error: unknown): number | undefined {
+  return error instanceof UnresolvedError && error.limit === "budget" ? error.safeUntil : undefined;
 }
 
 export function refused(ball: Body): void {

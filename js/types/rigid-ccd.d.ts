@@ -260,6 +260,7 @@ export function keepsClearance(a: Body, b: Body, clearance: number, options?: Mo
 
 /** A question that wants yes or no was not decided. Which bounds are proven depends on the question. */
 export class UnresolvedError extends Error implements Limit {
+  private constructor();
   limit: Limit["limit"] | "excess";
   advice: string;
   safeUntil?: number;
