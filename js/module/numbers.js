@@ -13,24 +13,36 @@ export function numberOrInfinity(value, what) {
   return value;
 }
 
-/** Writes a vector, `[x, y, z]` or `{ x, y, z }`, into numbers from a place on. */
-export function writeVector(value, what, numbers, at) {
-  const isList = typeof value?.length === "number";
-  if (typeof value !== "object" || value === null || (isList && value.length !== 3)) throw new TypeError(`${what}: [x, y, z] or { x, y, z } is needed, not ${described(value)}`);
-  numbers[at] = finiteNumber(isList ? value[0] : value.x, what);
-  numbers[at + 1] = finiteNumber(isList ? value[1] : value.y, what);
-  numbers[at + 2] = finiteNumber(isList ? value[2] : value.z, what);
+/** Writes a vector, `[x, y, z]` or `{ x, y, z }`, into numbers from a place on. `part` is what it is of `what`. */
+export function writeVector(value, numbers, at, what, part = "") {
+  writeCoordinates(value, 3, numbers, at) || refuse(value, "[x, y, z] or { x, y, z } of finite numbers", what, part);
 }
 
 /** Writes a quaternion, `[x, y, z, w]` or `{ x, y, z, w }`. */
-export function writeQuaternion(value, what, numbers, at) {
-  const isList = typeof value?.length === "number";
-  if (typeof value !== "object" || value === null || (isList && value.length !== 4)) throw new TypeError(`${what}: [x, y, z, w] or { x, y, z, w } is needed, not ${described(value)}`);
-  numbers[at] = finiteNumber(isList ? value[0] : value.x, what);
-  numbers[at + 1] = finiteNumber(isList ? value[1] : value.y, what);
-  numbers[at + 2] = finiteNumber(isList ? value[2] : value.z, what);
-  numbers[at + 3] = finiteNumber(isList ? value[3] : value.w, what);
+export function writeQuaternion(value, numbers, at, what, part = "") {
+  writeCoordinates(value, 4, numbers, at) || refuse(value, "[x, y, z, w] or { x, y, z, w } of finite numbers", what, part);
 }
+
+/** Returns whether all coordinates are finite numbers. */
+function writeCoordinates(value, count, numbers, at) {
+  if (typeof value !== "object" || value === null) return false;
+  const isList = typeof value.length === "number";
+  if (isList && value.length !== count) return false;
+  let areNumbers = true;
+  for (let k = 0; k < count; k += 1) {
+    const coordinate = isList ? value[k] : value[COORDINATES[k]];
+    areNumbers &&= typeof coordinate === "number" && Number.isFinite(coordinate);
+    numbers[at + k] = coordinate;
+  }
+  return areNumbers;
+}
+
+function refuse(value, needed, what, part) {
+  const given = typeof value?.length === "number" ? `[${Array.from(value).slice(0, 5)}]` : described(value);
+  throw new TypeError(`${what}${part}: ${needed} is needed, not ${given}`);
+}
+
+const COORDINATES = ["x", "y", "z", "w"];
 
 /** The number of numbers of a pose: a position and a quaternion. */
 export const POSE_LENGTH = 7;
@@ -46,11 +58,11 @@ export function writeMotion(motion, what, numbers, at) {
   for (const name in motion) {
     const value = motion[name];
     if (value === undefined) continue;
-    if (name === "position") writeVector(value, `${what}.position`, numbers, at);
-    else if (name === "rotation") writeQuaternion(value, `${what}.rotation`, numbers, at + 3);
-    else if (name === "velocity") writeVector(value, `${what}.velocity`, numbers, at + 7);
-    else if (name === "spin") writeVector(value, `${what}.spin`, numbers, at + 10);
-    else if (name === "center") writeVector(value, `${what}.center`, numbers, at + 13);
+    if (name === "position") writeVector(value, numbers, at, what, ".position");
+    else if (name === "rotation") writeQuaternion(value, numbers, at + 3, what, ".rotation");
+    else if (name === "velocity") writeVector(value, numbers, at + 7, what, ".velocity");
+    else if (name === "spin") writeVector(value, numbers, at + 10, what, ".spin");
+    else if (name === "center") writeVector(value, numbers, at + 13, what, ".center");
     else throw unknownName(what, name, "position, rotation, velocity, spin, center");
   }
 }
@@ -75,7 +87,7 @@ export function poseOfNumbers(numbers) {
 
 export function vectorNumbers(value, what) {
   const numbers = new Float64Array(3);
-  if (value !== undefined) writeVector(value, what, numbers, 0);
+  if (value !== undefined) writeVector(value, numbers, 0, what);
   return numbers;
 }
 

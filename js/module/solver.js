@@ -110,11 +110,14 @@ function writeOptions(options) {
     else if (name === "budget") to[BUDGET] = numberOrInfinity(value, name);
     else throw unknownName("options", name, NAMES);
   }
-  const movements = [movementOf(options?.motionA, 0), movementOf(options?.motionB, 1)];
-  to[DURATION] = duration ?? endOf(movements);
+  const moveA = movementOf(options?.motionA, 0);
+  const moveB = movementOf(options?.motionB, 1);
+  to[DURATION] = duration ?? endOf(moveA, moveB);
   // Last, because an error before would leave a movement to the next question.
-  const inner = movements.map((movement) => movement && Owned.inner(movement));
-  for (const body of [0, 1]) if (inner[body]) solver.move_by(body, inner[body]);
+  const innerA = moveA && Owned.inner(moveA);
+  const innerB = moveB && Owned.inner(moveB);
+  if (innerA) solver.move_by(0, innerA);
+  if (innerB) solver.move_by(1, innerB);
 }
 
 /** Returns the movement of body 0 or 1; null if it has a motion, whose numbers are written. */
@@ -125,8 +128,9 @@ function movementOf(moved, body) {
 }
 
 /** Returns the end of paths and links; 1 if neither body moves by one. */
-function endOf(movements) {
-  const [a, b] = movements.map((movement) => movement?.end ?? null);
+function endOf(moveA, moveB) {
+  const a = moveA?.end ?? null;
+  const b = moveB?.end ?? null;
   if (a !== null && b !== null && a !== b) throw new Error("duration: the two bodies' motions end at different times; give one");
   return a ?? b ?? 1;
 }

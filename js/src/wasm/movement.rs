@@ -124,10 +124,6 @@ impl Movement {
         Movement(Rc::new(kind))
     }
 
-    pub(crate) fn from_motion(motion: Motion) -> Self {
-        Movement::new(MovementKind::Motion(motion))
-    }
-
     /// Makes the movement of a link, if its positions are within the limits.
     pub(crate) fn from_link(link: LinkMotion) -> Result<Self, InputError> {
         link.trajectory()?;

@@ -4,7 +4,7 @@ use super::answer::{self, ANSWER_LENGTH, AnswerKind};
 use super::body::Body;
 use super::movement::{MOTION_LENGTH, Movement, motion_from_numbers};
 use rigid_ccd::trajectory::MovingBody;
-use rigid_ccd::{Answer, InputError, Settings};
+use rigid_ccd::{Answer, InputError, Motion, Settings};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 /// The places of numbers in the memory of a solver; `js/module/solver.js` has the same.
@@ -96,17 +96,9 @@ impl Default for Solver {
 
 impl Solver {
     fn answer(&mut self, question: Question, a: &Body, b: &Body) -> Result<Answer, JsError> {
-        let movements = std::mem::take(&mut self.movements);
-        let [a_moved, b_moved] = [0, 1].map(|k| match &movements[k] {
-            Some(movement) => Ok(movement.clone()),
-            None => {
-                let numbers = &self.numbers[MOTIONS[k]..][..MOTION_LENGTH];
-                motion_from_numbers(numbers).map(Movement::from_motion)
-            }
-        });
-        let (a_moved, b_moved) = (a_moved?, b_moved?);
+        let [move_a, move_b] = std::mem::take(&mut self.movements);
         let duration = self.numbers[DURATION];
-        for movement in [&a_moved, &b_moved] {
+        for movement in [&move_a, &move_b].into_iter().flatten() {
             let latest = movement.latest_duration();
             if duration > latest {
                 return Err(JsError::new(&format!(
@@ -116,10 +108,26 @@ impl Solver {
         }
         self.solver
             .set_settings(settings(question, &self.numbers[SETTINGS..DURATION]));
-        let solver = &mut self.solver;
-        Ok(a_moved.with_body(&a.body, |a| {
-            b_moved.with_body(&b.body, |b| ask(solver, question, a, b, duration))
+        let motion = |k: usize| motion_from_numbers(&self.numbers[MOTIONS[k]..][..MOTION_LENGTH]);
+        let (solver, motion_a, motion_b) = (&mut self.solver, motion(0), motion(1));
+        Ok(with_moving(move_a, motion_a, a, |a| {
+            with_moving(move_b, motion_b, b, |b| {
+                ask(solver, question, a, b, duration)
+            })
         })?)
+    }
+}
+
+/// Calls a function with a body that a movement moves, or else a motion.
+fn with_moving<T>(
+    movement: Option<Movement>,
+    motion: Result<Motion, InputError>,
+    body: &Body,
+    then: impl FnOnce(MovingBody<'_>) -> Result<T, InputError>,
+) -> Result<T, InputError> {
+    match movement {
+        Some(movement) => movement.with_body(&body.body, then),
+        None => then((&*body.body, motion?).into()),
     }
 }
 
