@@ -1,14 +1,12 @@
-//! Throws parts at each other, in a browser or natively, to compare the certified first contact with discrete time
-//! steps.
+//! Throws parts at each other, to compare the certified first contact with discrete time steps.
 //!
 //! | to … | use |
 //! |---|---|
-//! | make a part | [`Part::from_name`], [`Part::from_file`] |
+//! | make a part | [`Part::from_name`] |
 //! | throw it at another one | [`Throw`], then [`Throw::first_contact`] |
 //! | look at some instants of the same throw | [`Throw::steps`] |
 //!
-//! In a browser the same are the classes `Part` and `Throw` of the module `wasm_bindgen`. The command `ccd-web` writes a
-//! self-contained page.
+//! The command `ccd-web` writes a self-contained page, which asks the same of the npm package `rigid-ccd` in the browser.
 //!
 //! # Example
 //! ```

@@ -1,19 +1,26 @@
 //! The parts that are thrown at each other: bodies, each with the triangles with which it is drawn.
 
 use crate::shapes;
-use rigid_ccd::mesh::{
-    AffineMap, Detail, Format, MeshError, MeshFault, MeshFile, PrepareError, TriangleMesh,
-    body_from_mesh,
-};
-use rigid_ccd::{Body, InputError, Pose};
-use wasm_bindgen::prelude::{JsError, JsValue, wasm_bindgen};
+use rigid_ccd::mesh::{Detail, MeshError, PrepareError, TriangleMesh, body_from_mesh};
+use rigid_ccd::{Body, InputError};
+use serde_json::{Value, json};
 
 /// A body, and the triangles with which it is drawn, in the same frame.
-#[wasm_bindgen]
 #[derive(Debug)]
 pub struct Part {
     pub(crate) body: Body,
     surface: TriangleMesh,
+    shape: Shape,
+}
+
+/// What a part is made of.
+#[derive(Clone, Copy, Debug)]
+enum Shape {
+    Cuboid([f64; 3]),
+    Sphere(f64),
+    Capsule(f64, f64),
+    /// The triangles with which it is drawn.
+    Mesh,
 }
 
 /// An error of creating a part or asking about a throw.
@@ -23,10 +30,7 @@ pub enum WebError {
     /// No part has this name.
     #[error("no part is called {0:?}; there are {names}", names = Part::NAMES.join(", "))]
     UnknownPart(String),
-    /// The name of the file has no known extension.
-    #[error(transparent)]
-    UnknownFormat(#[from] MeshFault),
-    /// The file cannot be read as a mesh.
+    /// The triangles of a part are no mesh.
     #[error(transparent)]
     BadMesh(#[from] MeshError),
     /// No body can be made of the mesh.
@@ -38,15 +42,6 @@ pub enum WebError {
     /// The engine refuses the query that the throw makes.
     #[error(transparent)]
     RefusedQuery(#[from] rigid_ccd::Error),
-    /// A throw is given by a list that has more or fewer than nine numbers.
-    #[error("a throw is nine numbers, not {0}")]
-    WrongNumberCount(usize),
-}
-
-impl From<WebError> for JsValue {
-    fn from(error: WebError) -> Self {
-        JsError::from(error).into()
-    }
 }
 
 impl Part {
@@ -54,10 +49,7 @@ impl Part {
     pub const NAMES: [&str; 8] = [
         "bullet", "coin", "rod", "ball", "knot", "sheet", "slot", "post",
     ];
-}
 
-#[wasm_bindgen]
-impl Part {
     /// Creates a built-in part by its name, with lengths in metres.
     ///
     /// # Errors
@@ -76,36 +68,17 @@ impl Part {
         }
     }
 
-    /// Reads a mesh, in the format of its file name, and scales it to a size around its centre.
-    ///
-    /// # Errors
-    /// [`WebError`] if the file is no mesh.
-    pub fn from_file(name: &str, bytes: &[u8], size: f64) -> Result<Self, WebError> {
-        let mesh = MeshFile::from_reader(Format::from_path(name)?, bytes)?.into_mesh()?;
-        let [low, high] = mesh.bounding_box();
-        let scale = size / (high - low).length();
-        let middle = 0.5 * low + 0.5 * high;
-        Part::from_mesh(mesh.transformed(AffineMap::from_scale_and_pose(
-            scale,
-            Pose::at(-middle * scale)?,
-        ))?)
-    }
-
-    /// Returns the drawn vertices, three numbers each.
-    pub fn vertices(&self) -> Vec<f32> {
+    /// Returns the shape, and the vertices and faces with which it is drawn, as the page reads them.
+    pub fn to_json(&self) -> Value {
+        let shape = match self.shape {
+            Shape::Cuboid(half) => json!(["box", half]),
+            Shape::Sphere(radius) => json!(["sphere", radius]),
+            Shape::Capsule(radius, half) => json!(["capsule", radius, half]),
+            Shape::Mesh => json!(["mesh"]),
+        };
         let vertices = self.surface.vertices().iter();
-        vertices.flat_map(|v| v.as_vec3().to_array()).collect()
-    }
-
-    /// Returns the drawn faces, three vertex numbers each.
-    pub fn faces(&self) -> Vec<u32> {
-        self.surface.faces().concat()
-    }
-
-    /// Returns the greatest distance of a drawn vertex from the part's origin, in metres.
-    pub fn reach(&self) -> f64 {
-        let lengths = self.surface.vertices().iter().map(|v| v.length());
-        lengths.max_by(f64::total_cmp).unwrap_or(0.0)
+        let vertices: Vec<[f32; 3]> = vertices.map(|v| v.as_vec3().to_array()).collect();
+        json!({ "shape": shape, "vertices": vertices.concat(), "faces": self.surface.faces().concat() })
     }
 }
 
@@ -113,22 +86,35 @@ impl Part {
     fn cuboid(half: [f64; 3]) -> Result<Self, WebError> {
         let body = Body::cuboid(half)?;
         let surface = shapes::faces(&body)?;
-        Ok(Part { body, surface })
+        let shape = Shape::Cuboid(half);
+        Ok(Part {
+            body,
+            surface,
+            shape,
+        })
     }
 
     fn capsule(radius: f64, half: f64) -> Result<Self, WebError> {
-        let body = if half > 0.0 {
-            Body::capsule(radius, half)?
+        let (body, shape) = if half > 0.0 {
+            (Body::capsule(radius, half)?, Shape::Capsule(radius, half))
         } else {
-            Body::sphere(radius)?
+            (Body::sphere(radius)?, Shape::Sphere(radius))
         };
         let surface = shapes::capsule(radius, half)?;
-        Ok(Part { body, surface })
+        Ok(Part {
+            body,
+            surface,
+            shape,
+        })
     }
 
     fn from_mesh(surface: TriangleMesh) -> Result<Self, WebError> {
         let body = body_from_mesh(&surface, Detail::Auto)?.body;
-        Ok(Part { body, surface })
+        Ok(Part {
+            body,
+            surface,
+            shape: Shape::Mesh,
+        })
     }
 }
 

@@ -77,7 +77,10 @@ pub(crate) fn slotted_plate(half: [f64; 3], hole: [f64; 2]) -> Result<TriangleMe
         ]
     });
     let faces: Vec<[u32; 3]> = faces.flat_map(quad_triangles).collect();
-    TriangleMesh::new(vertices.concat(), &faces)
+    // The page has it in single precision.
+    let vertices = vertices.concat().into_iter();
+    let vertices = vertices.map(|vertex| vertex.as_vec3().as_dvec3());
+    TriangleMesh::new(vertices.collect(), &faces)
 }
 
 /// Returns a tubular grid of quadrilaterals, each split into two triangles. `point` maps the fractions around and along

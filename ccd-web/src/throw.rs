@@ -1,36 +1,27 @@
 //! Throws a part at another part, and finds the certified first contact or tests for contact at equal time steps.
 
 use crate::{Part, WebError};
-use rigid_ccd::{Hit, Motion, Outcome, Pose, Settings, Solver};
-use wasm_bindgen::prelude::wasm_bindgen;
+use rigid_ccd::{Motion, Outcome, Pose, Settings, Solver};
 
 /// A throw of one second: a part's position at the start, its velocity and its angular velocity. The other part rests
 /// at the world's origin.
-#[wasm_bindgen]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Throw {
     /// The position of the part's origin at the start, in metres.
-    #[wasm_bindgen(skip)]
     pub place: [f64; 3],
     /// The velocity of the part, in metres per second.
-    #[wasm_bindgen(skip)]
     pub velocity: [f64; 3],
     /// The angular velocity of the part, in radians per second.
-    #[wasm_bindgen(skip)]
     pub spin: [f64; 3],
 }
 
 /// The certified result of a throw, as the page shows it.
-#[wasm_bindgen(getter_with_clone)]
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThrowResult {
     /// The kind of the result: contact, free, touching, overlapping or unresolved.
-    pub verdict: String,
+    pub verdict: &'static str,
     /// The time in seconds before which the parts are proven not to touch.
     pub time: f64,
-    /// The nearest points of both parts and the normal, nine numbers; six if one part is inside the other, none without
-    /// a contact.
-    pub points: Vec<f64>,
 }
 
 impl Throw {
@@ -40,23 +31,7 @@ impl Throw {
     pub const TOLERANCE: f64 = 1e-6;
 }
 
-#[wasm_bindgen]
 impl Throw {
-    /// Creates a throw from nine numbers: position, velocity and angular velocity.
-    ///
-    /// # Errors
-    /// [`WebError::WrongNumberCount`].
-    pub fn from_numbers(numbers: &[f64]) -> Result<Self, WebError> {
-        let &[px, py, pz, vx, vy, vz, wx, wy, wz] = numbers else {
-            return Err(WebError::WrongNumberCount(numbers.len()));
-        };
-        Ok(Throw {
-            place: [px, py, pz],
-            velocity: [vx, vy, vz],
-            spin: [wx, wy, wz],
-        })
-    }
-
     /// Finds the first contact of the thrown part with the target.
     ///
     /// # Guarantee
@@ -76,11 +51,7 @@ impl Throw {
                 ("free", Throw::DURATION)
             }
         };
-        Ok(ThrowResult {
-            verdict: verdict.to_owned(),
-            time,
-            points: outcome.hit().ok().flatten().map_or(Vec::new(), points),
-        })
+        Ok(ThrowResult { verdict, time })
     }
 
     /// Returns for evenly spaced times, from the start to the end, whether the parts touch: 1 if they do, 0 if not.
@@ -116,12 +87,6 @@ fn ask(part: &Part, motion: Motion, target: &Part, duration: f64) -> Result<Outc
     let target = (&target.body, Motion::STILL);
     let answer = solver.first_contact((&part.body, motion), target, duration)?;
     Ok(answer.outcome)
-}
-
-fn points(hit: Hit) -> Vec<f64> {
-    let witnesses = [hit.witness_a(), hit.witness_b()].into_iter();
-    let normal = hit.contact().map(|contact| contact.separation.normal);
-    witnesses.chain(normal).flat_map(|v| v.to_array()).collect()
 }
 
 #[cfg(test)]

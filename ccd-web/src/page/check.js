@@ -4,21 +4,20 @@
 (async () => {
   await Workshop.ready;
   const page = document.documentElement.dataset;
-  const named = wasm_bindgen.Part.from_name;
 
   // The answers of the machine that wrote the page. Times may differ in their last bits, as docs/building.md says.
   const ROUNDING = 1e-14;
   const wrong = [];
   const answers = JSON.parse(document.getElementById("answers").textContent);
   for (const [row, answer] of answers.entries()) {
-    const [part, target] = [named(answer.part), named(answer.target)];
-    const numbers = new Float64Array(answer.throw);
-    const thrown = wasm_bindgen.Throw.from_numbers(numbers);
-    const found = thrown.first_contact(part, target);
-    const seen = thrown.steps(part, target, answer.steps.length - 1);
+    const [part, target] = [Parts.named(answer.part), Parts.named(answer.target)];
+    const [position, velocity, spin] = [0, 3, 6].map((k) => answer.throw.slice(k, k + 3));
+    const motion = { position, velocity, spin };
+    const found = Parts.firstContact(part, target, motion);
+    const seen = Parts.steps(part, target, motion, answer.steps.length - 1);
     const same = found.verdict === answer.verdict && Math.abs(found.time - answer.time) <= ROUNDING && String(seen) === String(answer.steps);
     if (!same) wrong.push(`${row}, ${answer.part} onto ${answer.target}: ${found.verdict} at ${found.time}, elsewhere ${answer.verdict} at ${answer.time}`);
-    for (const object of [part, target, thrown, found]) object.free();
+    for (const { body } of [part, target]) body.free();
   }
   const kinds = new Set(answers.map(({ verdict }) => verdict));
   if (wrong.length > 0) console.error(`${wrong.length} of ${answers.length} answers differ: ${wrong.slice(0, 5).join("; ")}`);

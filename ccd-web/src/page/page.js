@@ -4,7 +4,7 @@
 const Workshop = (() => {
   const element = (id) => document.getElementById(id);
   const page = document.documentElement.dataset;
-  const DURATION = 1;
+  const { DURATION } = Parts;
   const GREEN = "#3a9d6e";
   const RED = "#d55e00";
   // Ghosts of more steps than this hide what they show.
@@ -34,8 +34,8 @@ const Workshop = (() => {
 
   function drawn(part) {
     const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(part.vertices(), 3));
-    geometry.setIndex(new THREE.BufferAttribute(part.faces(), 1));
+    geometry.setAttribute("position", new THREE.BufferAttribute(part.vertices, 3));
+    geometry.setIndex(new THREE.BufferAttribute(part.faces, 1));
     geometry.computeBoundingSphere();
     return { part, geometry };
   }
@@ -44,7 +44,7 @@ const Workshop = (() => {
   const spin = () => AXIS.map((a) => a * Number(element("spin").value) * 2 * Math.PI);
   const still = (place) => ({ rotation: [1, 0, 0, 0, 1, 0, 0, 0, 1], place });
   const pose = (t) => Motion.pose({ centre: [0, 0, 0], from: state.place, velocity: state.velocity, spin: spin(), rotation: still().rotation }, t);
-  const span = () => 2 * (Math.hypot(...state.place) + state.part.part.reach());
+  const span = () => 2 * (Math.hypot(...state.place) + state.part.part.reach);
 
   function say(id, text, tone) {
     element(id).textContent = text;
@@ -53,13 +53,11 @@ const Workshop = (() => {
 
   // Asks both sides about the throw.
   function ask() {
-    const query = wasm_bindgen.Throw.from_numbers(new Float64Array([...state.place, ...state.velocity, ...spin()]));
+    const motion = { position: state.place, velocity: state.velocity, spin: spin() };
     const [part, target] = [state.part.part, state.target.part];
-    const { found, micros } = timed(() => query.first_contact(part, target));
-    state.found = { verdict: found.verdict, time: found.time, points: found.points };
-    found.free();
-    const touches = query.steps(part, target, rate());
-    query.free();
+    const { found, micros } = timed(() => Parts.firstContact(part, target, motion));
+    state.found = found;
+    const touches = Parts.steps(part, target, motion, rate());
     const first = touches.indexOf(1);
     state.seen = { first, time: first < 0 ? DURATION : (first * DURATION) / rate() };
     proven(micros);
@@ -68,12 +66,10 @@ const Workshop = (() => {
 
   // Asks a few times: a browser's clock is coarse.
   function timed(ask) {
-    let [found, count] = [ask(), 1];
+    const found = ask();
+    let count = 1;
     const began = performance.now();
-    for (; count < 100 && performance.now() - began < 20; count += 1) {
-      found.free();
-      found = ask();
-    }
+    for (; count < 100 && performance.now() - began < 20; count += 1) ask();
     const micros = (1000 * (performance.now() - began)) / Math.max(count - 1, 1);
     return { found, micros };
   }
@@ -111,7 +107,7 @@ const Workshop = (() => {
       .map((k) => ({ k, pose: pose((k * DURATION) / count) }))
       .filter(({ pose: { place } }) => Math.hypot(...place) < span());
     const step = (Math.hypot(...state.velocity) * DURATION) / count;
-    const every = Math.max(1, Math.ceil(within.length / GHOSTS), Math.min(Math.ceil((0.4 * state.part.part.reach()) / step), within.length));
+    const every = Math.max(1, Math.ceil(within.length / GHOSTS), Math.min(Math.ceil((0.4 * state.part.part.reach) / step), within.length));
     return within.filter(({ k }, n) => n % every === 0 || k === state.seen.first).map(({ k, pose: at }) => ({ pose: at, color: k === state.seen.first ? RED : GREEN }));
   }
 
@@ -174,7 +170,7 @@ const Workshop = (() => {
     if (event.button !== 0 || !event.isPrimary) return;
     const shown = side.shown;
     const spot = side.spot(shown);
-    const rim = side.spot(new THREE.Vector3(...shown).addScaledVector(new THREE.Vector3(1, 0, 0).applyQuaternion(side.stage.camera.quaternion), state.part.part.reach()).toArray());
+    const rim = side.spot(new THREE.Vector3(...shown).addScaledVector(new THREE.Vector3(1, 0, 0).applyQuaternion(side.stage.camera.quaternion), state.part.part.reach).toArray());
     const radius = Math.hypot(rim.clientX - spot.clientX, rim.clientY - spot.clientY);
     if (Math.hypot(event.clientX - spot.clientX, event.clientY - spot.clientY) > Math.max(radius, NEAR)) return;
     event.stopPropagation();
@@ -217,7 +213,7 @@ const Workshop = (() => {
   // Takes other parts in place of the present ones, whose memory ends.
   function replace(parts) {
     for (const [role, part] of Object.entries(parts)) {
-      state[role]?.part.free();
+      state[role]?.part.body.free();
       state[role]?.geometry.dispose();
       state[role] = part;
     }
@@ -225,7 +221,7 @@ const Workshop = (() => {
 
   function open() {
     const scene = SCENES[element("scene").selectedIndex];
-    const [part, target] = [scene.part, scene.target].map((name) => drawn(wasm_bindgen.Part.from_name(name)));
+    const [part, target] = [scene.part, scene.target].map((name) => drawn(Parts.named(name)));
     replace({ part, target });
     element("file").value = "";
     begin(scene);
@@ -236,7 +232,7 @@ const Workshop = (() => {
     element("spin").value = turns;
     setSpeed([...velocity]);
     const corners = (x, half) => [[x, -half, -half], [x, half, -half], [x, -half, half], [x, half, half]];
-    for (const { stage } of sides) stage.fit([...corners(place[0], Math.max(0.2, state.part.part.reach())), ...corners(0, 0.42), ...corners(-0.4, 0.1)]);
+    for (const { stage } of sides) stage.fit([...corners(place[0], Math.max(0.2, state.part.part.reach)), ...corners(0, 0.42), ...corners(-0.4, 0.1)]);
     thrown(0);
     player.jump(Math.min(state.found.time + SHOWN_AFTER, DURATION));
   }
@@ -245,7 +241,7 @@ const Workshop = (() => {
     const [file] = element("file").files;
     if (!file) return;
     try {
-      replace({ part: drawn(wasm_bindgen.Part.from_file(file.name, new Uint8Array(await file.arrayBuffer()), SIZE)) });
+      replace({ part: drawn(Parts.fromFile(file.name, await file.arrayBuffer(), SIZE)) });
       begin(SCENES[element("scene").selectedIndex]);
     } catch (error) {
       say("proven", `${file.name}: ${error.message}`, "bad");
@@ -282,9 +278,7 @@ const Workshop = (() => {
   }
 
   async function start() {
-    const zipped = Uint8Array.from(atob(element("code").textContent), (character) => character.charCodeAt(0));
-    const code = new Blob([zipped]).stream().pipeThrough(new DecompressionStream("gzip"));
-    await wasm_bindgen({ module_or_path: await new Response(code).arrayBuffer() });
+    await Parts.load();
     if (!Stage.hasWebGl()) {
       say("proven", "This browser draws nothing in three dimensions (WebGL 2).", "bad");
       return;

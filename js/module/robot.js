@@ -1,0 +1,80 @@
+// Robots and mechanisms: links, joints, and the bodies that are fixed to links.
+
+import { Body } from "./body.js";
+import { LinkMotion } from "./movement.js";
+import { checkNames, finiteNumber, listOfNumbers, numberOrInfinity, poseNumbers, poseOfNumbers, vectorNumbers } from "./numbers.js";
+import { innerOf, Owned } from "./owned.js";
+import { classes } from "./wasm.js";
+
+const JOINT_NAMES = ["type", "name", "parent", "child", "origin", "axis", "limits", "mimic"];
+
+export class Robot extends Owned {
+  constructor(parts) {
+    super(build(parts));
+  }
+
+  get jointNames() {
+    return Owned.inner(this).joint_names();
+  }
+
+  get linkNames() {
+    return Owned.inner(this).link_names();
+  }
+
+  get limits() {
+    return pairsOf([...Owned.inner(this).limits()]);
+  }
+
+  get checkedPairs() {
+    return pairsOf(Owned.inner(this).checked_pairs());
+  }
+
+  pose(link, configuration) {
+    return poseOfNumbers(Owned.inner(this).pose(link, listOfNumbers(configuration, "configuration")));
+  }
+
+  motion(link, start, end, options) {
+    checkNames(options, "options of Robot.motion", ["duration", "seenFrom"]);
+    const duration = finiteNumber(options?.duration ?? 1, "duration");
+    const [from, to] = [listOfNumbers(start, "start"), listOfNumbers(end, "end")];
+    return new LinkMotion(Owned.inner(this).motion(link, options?.seenFrom, from, to, duration));
+  }
+}
+
+function build(parts) {
+  checkNames(parts, "a robot", ["joints", "bodies", "mayTouch"]);
+  const builder = new (classes().RobotBuilder)();
+  for (const joint of parts?.joints ?? []) addJoint(builder, joint);
+  for (const [link, held] of Object.entries(parts?.bodies ?? {})) {
+    for (const { body, pose } of Array.isArray(held) ? held : [{ body: held }]) {
+      builder.add_body(link, innerOf(body, Body, `bodies.${link}`), poseNumbers(pose, `pose of bodies.${link}`));
+    }
+  }
+  for (const [one, other] of parts?.mayTouch ?? []) builder.may_touch(one, other);
+  return builder.build();
+}
+
+function addJoint(builder, joint) {
+  const what = `joint "${joint?.name}"`;
+  checkNames(joint, what, JOINT_NAMES);
+  for (const name of ["type", "name", "parent", "child"]) {
+    if (typeof joint[name] !== "string") throw new TypeError(`${what}: "${name}" has to be a string`);
+  }
+  const [low, high] = joint.limits ?? [-Infinity, Infinity];
+  const numbers = new Float64Array([
+    ...poseNumbers(joint.origin, `origin of ${what}`),
+    ...vectorNumbers(joint.axis ?? [0, 0, 1], `axis of ${what}`),
+    numberOrInfinity(low, `limits of ${what}`),
+    numberOrInfinity(high, `limits of ${what}`),
+  ]);
+  builder.add_joint(joint.type, joint.name, joint.parent, joint.child, numbers);
+  if (joint.mimic !== undefined) {
+    checkNames(joint.mimic, `mimic of ${what}`, ["joint", "multiplier", "offset"]);
+    const { joint: followed, multiplier = 1, offset = 0 } = joint.mimic;
+    builder.follow(followed, finiteNumber(multiplier, `multiplier of ${what}`), finiteNumber(offset, `offset of ${what}`));
+  }
+}
+
+function pairsOf(list) {
+  return Array.from({ length: list.length / 2 }, (_, k) => [list[2 * k], list[2 * k + 1]]);
+}

@@ -1,0 +1,112 @@
+//! Builds the WebAssembly, and writes the package.
+
+use anyhow::{Context, Result, ensure};
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use std::env;
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use wasm_bindgen_cli_support::Bindgen;
+
+const WASM_TARGET: &str = "wasm32-unknown-unknown";
+
+/// The parts of the module, each after those that it imports.
+const PARTS: [&str; 10] = [
+    include_str!("../module/wasm.js"),
+    include_str!("../module/owned.js"),
+    include_str!("../module/numbers.js"),
+    include_str!("../module/answer.js"),
+    include_str!("../module/body.js"),
+    include_str!("../module/movement.js"),
+    include_str!("../module/solver.js"),
+    include_str!("../module/robot.js"),
+    include_str!("../module/cell.js"),
+    include_str!("../module/index.js"),
+];
+
+/// The files of the package besides the module, by their names.
+const FILES: [(&str, &str); 5] = [
+    ("package.json", include_str!("../package.json")),
+    ("rigid-ccd.d.ts", include_str!("../types/rigid-ccd.d.ts")),
+    ("README.md", include_str!("../README.md")),
+    ("LICENSE-APACHE", include_str!("../../LICENSE-APACHE")),
+    ("LICENSE-MIT", include_str!("../../LICENSE-MIT")),
+];
+
+/// Writes the package into a folder, which `npm pack` takes.
+///
+/// # Errors
+/// A build that fails, or a file that cannot be written.
+pub fn write(folder: &Path) -> Result<()> {
+    let module = module()?;
+    fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    for (name, text) in [("rigid-ccd.js", module.as_str())].into_iter().chain(FILES) {
+        let path = folder.join(name);
+        ccd_file::write(&path, |file| file.write_all(text.as_bytes()))
+            .with_context(|| format!("cannot write {}", path.display()))?;
+    }
+    Ok(())
+}
+
+/// Returns the text of the module: one file that needs no other.
+///
+/// # Errors
+/// A build that fails.
+pub fn module() -> Result<String> {
+    let mut bindgen = Bindgen::new();
+    bindgen
+        .input_path(build_wasm()?)
+        .no_modules(true)?
+        .typescript(false)
+        .remove_name_section(true)
+        .remove_producers_section(true);
+    let mut module = bindgen.generate_output()?;
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+    encoder.write_all(&module.wasm_mut().emit_wasm())?;
+    let code = BASE64_STANDARD.encode(encoder.finish()?);
+    let code = format!("const CODE = \"{code}\";\n");
+    let parts = PARTS.map(without_links);
+    Ok([module.js(), &code, &parts.concat()].concat())
+}
+
+/// Returns a part as it is in one file with those that it imports: without imports, and only the last list of exports.
+fn without_links(part: &str) -> String {
+    let lines = part.lines().filter(|line| !line.starts_with("import "));
+    let local = |line: &str| line.strip_prefix("export ").map(str::to_owned);
+    let is_list = |line: &str| line.starts_with("export {");
+    let lines = lines.map(|line| {
+        local(line)
+            .filter(|_| !is_list(line))
+            .unwrap_or(line.into())
+    });
+    lines.map(|line| line + "\n").collect()
+}
+
+/// Compiles this crate to WebAssembly, and returns the path of the file.
+fn build_wasm() -> Result<PathBuf> {
+    // The command that runs is at TARGET_DIR/PROFILE/NAME.
+    let command = env::current_exe()?;
+    let folder = command
+        .ancestors()
+        .nth(2)
+        .context("this command has no target folder")?;
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let built = Command::new(cargo)
+        .args("build --locked --profile wasm --lib --package rigid-ccd-js --target".split(' '))
+        .args([WASM_TARGET, "--target-dir"])
+        .arg(folder)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        // All browsers with WebAssembly have had 128-bit vectors since 2023.
+        .env("CARGO_ENCODED_RUSTFLAGS", "-Ctarget-feature=+simd128")
+        .status()
+        .context("cannot start cargo")?;
+    ensure!(
+        built.success(),
+        "cargo cannot build for {WASM_TARGET}; run `rustup target add {WASM_TARGET}`"
+    );
+    Ok(folder.join(WASM_TARGET).join("wasm/rigid_ccd_js.wasm"))
+}

@@ -1,0 +1,31 @@
+//! The classes that the modules in `js/module` wrap.
+//!
+//! Those modules check what a caller passes, and make the plain objects of answers. Numbers go through the memory of [`Solver`],
+//! because an object or an array costs more to pass than a short query takes.
+//!
+//! | file | what |
+//! |---|---|
+//! | `body` | bodies from shapes, arrays and files |
+//! | `movement`, `poses` | what moves a body: constant velocities, poses, a throw, the link of a robot |
+//! | `solver`, `answer` | questions about two bodies, and their answers as numbers |
+//! | `robot`, `cell`, `path_answer` | robots and mechanisms, and questions about their paths |
+//! | `limits` | reasons why a question is not answered |
+
+mod answer;
+mod body;
+mod cell;
+mod limits;
+mod movement;
+mod path_answer;
+mod poses;
+mod robot;
+mod solver;
+
+pub use answer::AnswerKind;
+pub use body::{Body, Mesh};
+pub use cell::Cell;
+pub use limits::{limit_advice, limit_name};
+pub use movement::Movement;
+pub use path_answer::PathAnswer;
+pub use robot::{Robot, RobotBuilder};
+pub use solver::{Question, Solver};

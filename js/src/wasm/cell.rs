@@ -1,0 +1,212 @@
+//! A robot among obstacles, and questions about its paths.
+
+use super::body::Body;
+use super::path_answer::PathAnswer;
+use super::poses::pose_from_numbers;
+use super::robot::Robot;
+use super::solver::Question;
+use rigid_ccd::Settings;
+use rigid_ccd::answer::ClearanceVerdict;
+use rigid_ccd_robot::{CellSolver, PathError, RangeSettings, RobotError};
+use self_cell::self_cell;
+use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+
+self_cell!(
+    /// A cell with a solver that keeps its memory from one question to the next.
+    struct CellWithSolver {
+        owner: rigid_ccd_robot::Cell,
+        #[not_covariant]
+        dependent: CellSolver,
+    }
+);
+
+/// A robot among obstacles that rest in the frame of its base.
+#[wasm_bindgen]
+pub struct Cell {
+    /// `None` only while the cell is changed.
+    cell: Option<CellWithSolver>,
+}
+
+#[wasm_bindgen]
+impl Cell {
+    /// Creates a cell without obstacles.
+    #[wasm_bindgen(constructor)]
+    pub fn new(robot: &Robot) -> Self {
+        let cell = rigid_ccd_robot::Cell::new(robot.robot.clone(), robot.pairs.clone());
+        Cell {
+            cell: Some(with_solver(cell)),
+        }
+    }
+
+    /// Adds an obstacle.
+    ///
+    /// # Errors
+    /// A name that is taken, or a pose that is not valid.
+    pub fn add(&mut self, name: &str, body: &Body, pose: &[f64]) -> Result<(), JsError> {
+        let pose = pose_from_numbers(pose)?;
+        self.change(|cell| cell.add_obstacle(name, body.body.clone(), pose))
+    }
+
+    /// Moves an obstacle.
+    ///
+    /// # Errors
+    /// No such obstacle, or a pose that is not valid.
+    pub fn move_to(&mut self, name: &str, pose: &[f64]) -> Result<(), JsError> {
+        let pose = pose_from_numbers(pose)?;
+        self.change(|cell| cell.move_obstacle(name, pose))
+    }
+
+    /// Removes an obstacle.
+    ///
+    /// # Errors
+    /// No such obstacle.
+    pub fn remove(&mut self, name: &str) -> Result<(), JsError> {
+        self.change(|cell| cell.remove_obstacle(name))
+    }
+
+    /// Attaches a body to a link.
+    ///
+    /// # Errors
+    /// A name that is taken, an unknown link, or a pose that is not valid.
+    pub fn attach(
+        &mut self,
+        name: &str,
+        body: &Body,
+        link: &str,
+        pose: &[f64],
+        may_touch: Vec<String>,
+    ) -> Result<(), JsError> {
+        let pose = pose_from_numbers(pose)?;
+        self.change(move |cell| {
+            let may_touch: Vec<&str> = may_touch.iter().map(String::as_str).collect();
+            cell.attach(name, body.body.clone(), (link, pose), &may_touch)
+        })
+    }
+
+    /// Removes a body that is attached to a link.
+    ///
+    /// # Errors
+    /// No such body.
+    pub fn detach(&mut self, name: &str) -> Result<(), JsError> {
+        self.change(|cell| cell.detach(name))
+    }
+
+    /// Sets the distance that obstacles have to keep from a link.
+    ///
+    /// # Errors
+    /// An unknown link, or a distance that is out of range.
+    pub fn set_padding(&mut self, link: &str, distance: f64) -> Result<(), JsError> {
+        self.change(|cell| cell.set_padding(link, distance))
+    }
+
+    /// Sets the distance at which a pair counts as touching.
+    ///
+    /// # Errors
+    /// An unknown name, or a distance that is out of range.
+    pub fn set_clearance(&mut self, a: &str, b: &str, distance: f64) -> Result<(), JsError> {
+        self.change(|cell| {
+            let pair = [cell.item_named(a)?, cell.item_named(b)?];
+            cell.set_clearance(pair, distance)
+        })
+    }
+
+    /// Answers a question about a path of configurations, one after another in `path`.
+    ///
+    /// # Errors
+    /// A configuration or a setting that is not valid.
+    pub fn ask(
+        &mut self,
+        question: Question,
+        path: &[f64],
+        settings: &[f64],
+    ) -> Result<PathAnswer, JsError> {
+        self.with_solver_for(path, settings, |solver, path| match question {
+            Question::AnyContact => PathAnswer::from_any_contact(solver.any_contact(path)),
+            Question::ClosestApproach | Question::KeptClearance => {
+                let closest = solver.closest_approach(path)?;
+                Ok(PathAnswer::from_closest_approach(&closest))
+            }
+            Question::FirstContact | Question::ContactInterval => {
+                Ok(PathAnswer::from_outcome(solver.first_contact(path)?))
+            }
+        })
+    }
+
+    /// Divides a path into ranges that keep the margin, violate it, or are not verified. Each has three numbers: its start and its
+    /// end in segments, and 0, 1 or 2.
+    ///
+    /// # Errors
+    /// Those of [`Cell::ask`].
+    pub fn clearance_ranges(
+        &mut self,
+        path: &[f64],
+        settings: &[f64],
+        resolution: f64,
+        max_pose_error: f64,
+    ) -> Result<Vec<f64>, JsError> {
+        let how = RangeSettings {
+            resolution,
+            max_pose_error,
+        };
+        let ranges = self.with_solver_for(path, settings, |solver, path| {
+            solver.clearance_ranges(path, how)
+        })?;
+        let numbers = ranges.iter().flat_map(|range| {
+            let verdict = match range.verdict {
+                ClearanceVerdict::Kept => 0.0,
+                ClearanceVerdict::Violated => 1.0,
+                ClearanceVerdict::Unverified => 2.0,
+            };
+            [range.from.time(), range.to.time(), verdict]
+        });
+        Ok(numbers.collect())
+    }
+}
+
+impl Cell {
+    fn change(
+        &mut self,
+        change: impl FnOnce(&mut rigid_ccd_robot::Cell) -> Result<(), RobotError>,
+    ) -> Result<(), JsError> {
+        let mut cell = self.taken()?.into_owner();
+        let changed = change(&mut cell);
+        self.cell = Some(with_solver(cell));
+        Ok(changed?)
+    }
+
+    fn taken(&mut self) -> Result<CellWithSolver, JsError> {
+        let cell = self.cell.take();
+        cell.ok_or_else(|| JsError::new("the cell was lost in an earlier error"))
+    }
+
+    /// Calls a function with the solver, and with the configurations of a path.
+    fn with_solver_for<T>(
+        &mut self,
+        path: &[f64],
+        settings: &[f64],
+        then: impl FnOnce(&mut CellSolver<'_>, &[&[f64]]) -> Result<T, PathError>,
+    ) -> Result<T, JsError> {
+        let mut cell = self.taken()?;
+        let joints = cell.borrow_owner().robot().limits().len();
+        // A robot without joints has one configuration, of no numbers.
+        let configurations: Vec<&[f64]> = match joints {
+            0 => vec![&[]],
+            _ => path.chunks(joints).collect(),
+        };
+        let answer = cell.with_dependent_mut(|_, solver| {
+            solver.set_settings(Settings {
+                tolerance: settings[0],
+                margin: settings[1],
+                budget: settings[3] as u64,
+                ..Settings::DEFAULT
+            });
+            then(solver, &configurations)
+        });
+        self.cell = Some(cell);
+        Ok(answer?)
+    }
+}
+
+fn with_solver(cell: rigid_ccd_robot::Cell) -> CellWithSolver {
+    CellWithSolver::new(cell, |cell| cell.solver())
+}

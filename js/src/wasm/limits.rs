@@ -1,0 +1,34 @@
+//! Reasons why a question is not answered.
+
+use rigid_ccd::answer::Limit;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+const LIMITS: [Limit; 6] = [
+    Limit::Budget,
+    Limit::Deadline,
+    Limit::Stopped,
+    Limit::Stalled,
+    Limit::OracleGaveUp,
+    Limit::OverlapUndecided,
+];
+
+/// Returns the number by which JavaScript asks for a limit.
+pub(crate) fn limit_number(limit: Limit) -> usize {
+    let number = LIMITS.iter().position(|other| *other == limit);
+    number.unwrap_or(LIMITS.len())
+}
+
+/// Returns the name of the limit with a number.
+#[wasm_bindgen]
+pub fn limit_name(number: usize) -> String {
+    LIMITS.get(number).map_or("other".into(), Limit::to_string)
+}
+
+/// Returns what can be done about the limit with a number.
+#[wasm_bindgen]
+pub fn limit_advice(number: usize) -> String {
+    LIMITS
+        .get(number)
+        .map_or("", |limit| limit.advice())
+        .to_owned()
+}

@@ -1,0 +1,177 @@
+//! What moves a body: constant velocities, poses at times, a throw, the link of a robot.
+
+use super::poses::{POSE_LENGTH, pose_from_numbers, pose_to_numbers};
+use rigid_ccd::trajectory::{Ballistic, LinkTrajectory, MovingBody, Poses, Trajectory};
+use rigid_ccd::{Body, InputError, Motion};
+use rigid_ccd_robot::ChainBetween;
+use std::rc::Rc;
+use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+
+/// The number of numbers of a motion: pose, velocity, angular velocity, centre.
+pub(crate) const MOTION_LENGTH: usize = POSE_LENGTH + 9;
+
+/// What moves a body. Clones share it.
+#[wasm_bindgen]
+#[derive(Clone, Debug)]
+pub struct Movement(Rc<MovementKind>);
+
+#[derive(Debug)]
+enum MovementKind {
+    Motion(Motion),
+    Throw(Ballistic),
+    Poses(Poses),
+    Link(LinkMotion),
+}
+
+/// The motion of a robot's link while all joints move at constant rates.
+#[derive(Debug)]
+pub(crate) struct LinkMotion {
+    pub(crate) chain: ChainBetween,
+    /// The positions of the chain's joints at both ends.
+    pub(crate) ends: [Vec<f64>; 2],
+    pub(crate) duration: f64,
+}
+
+#[wasm_bindgen]
+impl Movement {
+    /// Makes a motion at constant velocities of its numbers.
+    ///
+    /// # Errors
+    /// A number that is not finite, or a quaternion of length 0.
+    pub fn from_velocities(numbers: &[f64]) -> Result<Self, JsError> {
+        Ok(Movement::new(MovementKind::Motion(motion_from_numbers(
+            numbers,
+        )?)))
+    }
+
+    /// Makes a motion from one pose to another.
+    ///
+    /// # Errors
+    /// A number that is not finite, a quaternion of length 0, or a duration that is not positive.
+    pub fn between(
+        start: &[f64],
+        end: &[f64],
+        center: &[f64],
+        duration: f64,
+    ) -> Result<Self, JsError> {
+        let (start, end) = (pose_from_numbers(start)?, pose_from_numbers(end)?);
+        let motion = Motion::between(start, end, vector(center), duration)?;
+        Ok(Movement::new(MovementKind::Motion(motion)))
+    }
+
+    /// Makes a throw of the numbers of a motion, and of an acceleration.
+    ///
+    /// # Errors
+    /// Those of [`Movement::from_velocities`].
+    pub fn thrown(numbers: &[f64], acceleration: &[f64]) -> Result<Self, JsError> {
+        let thrown = Ballistic::new(motion_from_numbers(numbers)?, vector(acceleration))?;
+        Ok(Movement::new(MovementKind::Throw(thrown)))
+    }
+
+    /// Makes a path through poses at times, with an angular velocity from each to the next or none at all.
+    ///
+    /// # Errors
+    /// The number of a pose that is not valid; times that do not increase; wrong angular velocities.
+    pub fn through_poses(
+        times: &[f64],
+        poses: &[f64],
+        center: &[f64],
+        spins: Option<Vec<f64>>,
+    ) -> Result<Self, JsError> {
+        let poses = poses.as_chunks::<POSE_LENGTH>().0.iter().enumerate();
+        let timed = times.iter().zip(poses).map(|(&time, (k, numbers))| {
+            let pose = pose_from_numbers(numbers);
+            let pose = pose.map_err(|error| JsError::new(&format!("pose {k}: {error}")))?;
+            Ok((time, pose))
+        });
+        let poses = Poses::new(timed.collect::<Result<_, JsError>>()?)?;
+        let mut poses = poses.about(vector(center))?;
+        if let Some(spins) = spins {
+            poses = poses.with_angular_velocities(spins.as_chunks::<3>().0.to_vec())?;
+        }
+        Ok(Movement::new(MovementKind::Poses(poses)))
+    }
+
+    /// Returns the time at which the movement ends; `None` if it goes on.
+    pub fn end(&self) -> Option<f64> {
+        match &*self.0 {
+            MovementKind::Motion(_) | MovementKind::Throw(_) => None,
+            MovementKind::Poses(poses) => Some(poses.end_time()),
+            MovementKind::Link(link) => Some(link.duration),
+        }
+    }
+
+    /// Returns the numbers of the pose at a time.
+    ///
+    /// # Errors
+    /// A time that is not finite.
+    pub fn pose(&self, time: f64) -> Result<Vec<f64>, JsError> {
+        if !time.is_finite() {
+            return Err(JsError::new(&format!("time: {time} is not finite")));
+        }
+        let pose = match &*self.0 {
+            MovementKind::Motion(motion) => motion.pose(time),
+            MovementKind::Throw(thrown) => Trajectory::pose(thrown, time)?,
+            MovementKind::Poses(poses) => poses.pose(time)?,
+            MovementKind::Link(link) => Trajectory::pose(&link.trajectory()?, time)?,
+        };
+        Ok(pose_to_numbers(&pose))
+    }
+}
+
+impl Movement {
+    fn new(kind: MovementKind) -> Self {
+        Movement(Rc::new(kind))
+    }
+
+    /// Makes the movement of a link, if its positions are within the limits.
+    pub(crate) fn from_link(link: LinkMotion) -> Result<Self, InputError> {
+        link.trajectory()?;
+        Ok(Movement::new(MovementKind::Link(link)))
+    }
+
+    /// Returns the latest duration of a query: joints would go on beyond their limits.
+    pub(crate) fn latest_duration(&self) -> f64 {
+        match &*self.0 {
+            MovementKind::Link(link) => link.duration,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Calls a function with the moving body.
+    pub(crate) fn with_body<T>(
+        &self,
+        body: &Body,
+        then: impl FnOnce(MovingBody<'_>) -> Result<T, InputError>,
+    ) -> Result<T, InputError> {
+        match &*self.0 {
+            MovementKind::Motion(motion) => then((body, *motion).into()),
+            MovementKind::Throw(thrown) => then((body, thrown).into()),
+            MovementKind::Poses(poses) => then((body, poses).into()),
+            MovementKind::Link(link) => then((body, &link.trajectory()?).into()),
+        }
+    }
+}
+
+impl LinkMotion {
+    fn trajectory(&self) -> Result<LinkTrajectory<'_>, InputError> {
+        let [start, end] = &self.ends;
+        let chain = self.chain.chain();
+        chain.link(start.len(), start, end, self.duration)
+    }
+}
+
+/// Makes a motion of its numbers.
+pub(crate) fn motion_from_numbers(numbers: &[f64]) -> Result<Motion, InputError> {
+    let at = |from: usize| vector(numbers.get(from..).unwrap_or_default());
+    Motion::about(
+        pose_from_numbers(numbers)?,
+        at(POSE_LENGTH),
+        at(POSE_LENGTH + 3),
+        at(POSE_LENGTH + 6),
+    )
+}
+
+fn vector(numbers: &[f64]) -> [f64; 3] {
+    [0, 1, 2].map(|k| numbers.get(k).copied().unwrap_or(f64::NAN))
+}

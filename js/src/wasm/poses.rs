@@ -1,0 +1,20 @@
+//! Poses as seven numbers: the position, then the quaternion x, y, z, w.
+
+use rigid_ccd::glam::DQuat;
+use rigid_ccd::{InputError, Pose};
+
+/// The number of numbers of a pose.
+pub(crate) const POSE_LENGTH: usize = 7;
+
+/// Makes a pose of numbers, and normalises its quaternion.
+pub(crate) fn pose_from_numbers(numbers: &[f64]) -> Result<Pose, InputError> {
+    let number = |k: usize| numbers.get(k).copied().unwrap_or(f64::NAN);
+    let rotation = DQuat::from_xyzw(number(3), number(4), number(5), number(6));
+    Pose::new([number(0), number(1), number(2)], rotation)
+}
+
+/// Returns the numbers of a pose.
+pub(crate) fn pose_to_numbers(pose: &Pose) -> Vec<f64> {
+    let position = pose.translation().to_array();
+    [&position[..], &pose.rotation().to_array()].concat()
+}

@@ -1,0 +1,161 @@
+//! Questions about two bodies.
+
+use super::answer::{self, ANSWER_LENGTH, AnswerKind};
+use super::body::Body;
+use super::movement::{MOTION_LENGTH, Movement, motion_from_numbers};
+use rigid_ccd::trajectory::MovingBody;
+use rigid_ccd::{Answer, InputError, Motion, Settings};
+use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+
+/// The places of numbers in the memory of a solver; `js/module/solver.js` has the same.
+const SETTINGS: usize = 0;
+const DURATION: usize = 4;
+const MOTIONS: [usize; 2] = [5, 5 + MOTION_LENGTH];
+const ANSWER: usize = 5 + 2 * MOTION_LENGTH;
+
+/// A question about two bodies.
+#[wasm_bindgen]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// When they first touch.
+    FirstContact,
+    /// Whether they touch.
+    AnyContact,
+    /// When they first and when they last touch.
+    ContactInterval,
+    /// How near they come.
+    ClosestApproach,
+    /// Whether they keep a clearance.
+    KeptClearance,
+}
+
+/// Answers questions about two bodies, with numbers at fixed places in its memory.
+///
+/// JavaScript writes tolerance, margin, clearance, budget, duration, and the numbers of two motions. A question writes those of the
+/// answer behind.
+#[wasm_bindgen]
+pub struct Solver {
+    solver: rigid_ccd::Solver,
+    numbers: Box<[f64; ANSWER + ANSWER_LENGTH]>,
+    /// What moves the bodies of the next question in place of the motions among the numbers.
+    movements: [Option<Movement>; 2],
+}
+
+#[wasm_bindgen]
+impl Solver {
+    /// Creates a solver, whose memory holds the default settings.
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Self {
+        let mut numbers = Box::new([0.0; ANSWER + ANSWER_LENGTH]);
+        let Settings {
+            tolerance,
+            margin,
+            budget,
+            ..
+        } = Settings::DEFAULT;
+        numbers[SETTINGS..DURATION].copy_from_slice(&[tolerance, margin, 0.0, budget as f64]);
+        Solver {
+            solver: rigid_ccd::Solver::new(),
+            numbers,
+            movements: [None, None],
+        }
+    }
+
+    /// Returns the address of the numbers.
+    pub fn numbers_address(&self) -> usize {
+        self.numbers.as_ptr() as usize
+    }
+
+    /// Returns how many numbers there are.
+    pub fn number_count(&self) -> usize {
+        self.numbers.len()
+    }
+
+    /// Lets a movement move body 0 or 1 in the next question.
+    pub fn move_by(&mut self, body: usize, movement: &Movement) {
+        if let Some(place) = self.movements.get_mut(body) {
+            *place = Some(movement.clone());
+        }
+    }
+
+    /// Answers a question.
+    ///
+    /// # Errors
+    /// A number that is out of range.
+    pub fn ask(&mut self, question: Question, a: &Body, b: &Body) -> Result<AnswerKind, JsError> {
+        let answer = self.answer(question, a, b)?;
+        Ok(answer::write(&answer, &mut self.numbers[ANSWER..]))
+    }
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Solver::new()
+    }
+}
+
+impl Solver {
+    fn answer(&mut self, question: Question, a: &Body, b: &Body) -> Result<Answer, JsError> {
+        let [move_a, move_b] = std::mem::take(&mut self.movements);
+        let duration = self.numbers[DURATION];
+        for movement in [&move_a, &move_b].into_iter().flatten() {
+            let latest = movement.latest_duration();
+            if duration > latest {
+                return Err(JsError::new(&format!(
+                    "duration: {duration} is later than {latest}, the end of the link's motion: its joints would go on"
+                )));
+            }
+        }
+        self.solver
+            .set_settings(settings(question, &self.numbers[SETTINGS..DURATION]));
+        let motion = |k: usize| motion_from_numbers(&self.numbers[MOTIONS[k]..][..MOTION_LENGTH]);
+        let (solver, motion_a, motion_b) = (&mut self.solver, motion(0), motion(1));
+        Ok(with_moving(move_a, motion_a, a, |a| {
+            with_moving(move_b, motion_b, b, |b| {
+                ask(solver, question, a, b, duration)
+            })
+        })?)
+    }
+}
+
+/// Calls a function with a body that a movement moves, or else a motion.
+fn with_moving<T>(
+    movement: Option<Movement>,
+    motion: Result<Motion, InputError>,
+    body: &Body,
+    then: impl FnOnce(MovingBody<'_>) -> Result<T, InputError>,
+) -> Result<T, InputError> {
+    match movement {
+        Some(movement) => movement.with_body(&body.body, then),
+        None => then((&*body.body, motion?).into()),
+    }
+}
+
+fn ask(
+    solver: &mut rigid_ccd::Solver,
+    question: Question,
+    a: MovingBody<'_>,
+    b: MovingBody<'_>,
+    duration: f64,
+) -> Result<Answer, InputError> {
+    match question {
+        Question::FirstContact => solver.first_contact(a, b, duration),
+        Question::AnyContact => solver.any_contact(a, b, duration),
+        Question::ContactInterval => solver.contact_interval(a, b, duration),
+        Question::ClosestApproach | Question::KeptClearance => {
+            solver.closest_approach(a, b, duration)
+        }
+    }
+}
+
+/// Reads the settings of a question: tolerance, margin, clearance and budget.
+fn settings(question: Question, numbers: &[f64]) -> Settings {
+    Settings {
+        tolerance: numbers[0],
+        margin: numbers[1],
+        clearance: (question == Question::KeptClearance).then_some(numbers[2]),
+        // A budget beyond all numbers is the largest.
+        budget: numbers[3] as u64,
+        ..Settings::DEFAULT
+    }
+}

@@ -1,0 +1,93 @@
+// Robots and mechanisms with answers that are known exactly.
+
+export default (ccd, { equal, justBefore, between, throws }) => {
+  const slider = { type: "prismatic", name: "slider", parent: "rail", child: "carriage", axis: [1, 0, 0], limits: [-10, 10] };
+  /** A ball on a rail, 2 - x before a wall. */
+  function beforeWall() {
+    const robot = new ccd.Robot({ joints: [slider], bodies: { carriage: ccd.Body.sphere(0.5) } });
+    const cell = new ccd.Cell(robot);
+    cell.add("wall", ccd.Body.box([0.5, 2, 2]), { position: [3, 0, 0] });
+    return { robot, cell };
+  }
+  /** A leaf of 1 by 0.1 by 2 that turns about z. */
+  function door() {
+    const hinge = { type: "revolute", name: "hinge", parent: "frame", child: "leaf", limits: [0, 3] };
+    const leaf = [{ body: ccd.Body.box([0.5, 0.05, 1]), pose: { position: [0.5, 0, 0] } }];
+    return new ccd.Robot({ joints: [hinge], bodies: { leaf } });
+  }
+  return {
+    "a mechanism of links and joints"() {
+      const elbow = { type: "revolute", name: "elbow", parent: "carriage", child: "hand", origin: { position: [0, 0, 1] }, mimic: { joint: "slider", multiplier: 2 } };
+      const tool = { type: "fixed", name: "flange", parent: "hand", child: "tool", origin: { position: [1, 0, 0] } };
+      const held = [{ body: ccd.Body.sphere(0.1), pose: { position: [0, 1, 0] } }];
+      const robot = new ccd.Robot({ joints: [slider, elbow, tool], bodies: { tool: held, rail: ccd.Body.box([1, 1, 0.1]) } });
+      equal([robot.jointNames, robot.linkNames], [["slider"], ["rail", "carriage", "hand", "tool"]]);
+      equal([robot.limits, robot.checkedPairs], [[[-10, 10]], [["rail", "tool"]]]);
+      equal(new ccd.Robot({ joints: [slider, elbow, tool], bodies: { tool: held, rail: held[0].body }, mayTouch: [["rail", "tool"]] }).checkedPairs, []);
+      const { position } = robot.pose("tool", [Math.PI / 4]);
+      between(Math.hypot(position[0] - Math.PI / 4, position[1] - 1, position[2] - 1), 0, 1e-12);
+    },
+    "the first contact on a path, and what is free"() {
+      const { cell } = beforeWall();
+      equal([cell.isFree([[0], [1.9]]), cell.isFree([[0], [3]])], [true, false]);
+      const hit = cell.firstContact([[0], [1], [3]], { tolerance: 1e-6 });
+      equal([hit.kind, hit.segment, hit.a, hit.b], ["contact", 1, "carriage", "wall"]);
+      justBefore(hit.share, 0.5, 1e-6);
+      equal(hit.time, 1 + hit.share);
+      between(hit.witnessA[0], 2.499, 2.501);
+      cell.moveTo("wall", { position: [9, 0, 0] });
+      equal(cell.firstContact([[0], [3]]), { kind: "free" });
+      cell.attach("stick", ccd.Body.capsule(0.1, 2), "carriage", { pose: { position: [3, 0, 0] } });
+      equal(cell.firstContact([[0], [6]]).a, "stick");
+      cell.detach("stick");
+      cell.remove("wall");
+      equal(cell.isFree([new Float64Array([0]), new Float64Array([9])]), true);
+    },
+    "the closest approach, and where a clearance is kept"() {
+      const { cell } = beforeWall();
+      const closest = cell.closestApproach([[0], [1.25]], { tolerance: 1e-6 });
+      equal([closest.kind, closest.nearest.a, closest.nearest.b], ["leastDistance", "carriage", "wall"]);
+      between(closest.nearest.share, 1 - 1e-6, 1);
+      between(0.75, closest.lower, closest.upper);
+      between(closest.upper - closest.lower, 0, 1.01e-6);
+      const ranges = cell.clearanceRanges([[0], [2]], { margin: 1 });
+      equal(ranges.map(({ clearance }) => clearance), ["kept", "unverified", "violated"]);
+      const [kept, open, violated] = ranges;
+      equal([kept.start, kept.end, open.end, violated.end], [0, open.start, violated.start, 1]);
+      between(0.5, kept.end, violated.start);
+      between(violated.start - kept.end, 0, 1e-3);
+      cell.setPadding("carriage", 0.5);
+      between(cell.clearanceRanges([[0], [2]], { margin: 1 })[0].end, 0.24, 0.25);
+    },
+    "a door swings against a post"() {
+      const cell = new ccd.Cell(door());
+      cell.add("post", ccd.Body.sphere(0.2), { position: [0, 0.75, 0] });
+      const hit = cell.firstContact([[0], [3]], { tolerance: 1e-6 });
+      // The ball's middle is 0.25 from the middle plane of the leaf.
+      justBefore(3 * hit.share, Math.acos(0.25 / 0.75), 1e-5);
+    },
+    "the motion of a link answers as any other"() {
+      const leaf = door().motion("leaf", [0], [3], { duration: 2 });
+      const options = { motionA: leaf, motionB: { position: [0, 0.75, 0] }, tolerance: 1e-6 };
+      const bar = ccd.Body.box([1, 0.05, 1]);
+      const hit = ccd.firstContact(bar, ccd.Body.sphere(0.2), options);
+      justBefore(1.5 * hit.time, Math.acos(0.25 / 0.75), 1e-5);
+      throws(() => ccd.firstContact(bar, bar, { ...options, duration: 2.1 }), /2\.1 is later than 2/);
+    },
+    "errors name the joint, the link or the configuration"() {
+      const { robot, cell } = beforeWall();
+      throws(() => new ccd.Robot({ joints: [{ ...slider, type: "screw" }] }), /joint "slider": type "screw"/);
+      throws(() => new ccd.Robot({ joints: [{ ...slider, limits: [1, 0] }] }), /slider/);
+      throws(() => new ccd.Robot({ joints: [{ ...slider, axis: [0, 0, 0] }] }), /joint "slider"/);
+      throws(() => new ccd.Robot({ joints: [{ ...slider, child: undefined }] }), /"child" has to be a string/);
+      throws(() => robot.pose("arm", [0]), /arm/);
+      throws(() => robot.motion("carriage", [0], [11]), /end: .*slider/);
+      throws(() => cell.isFree([[0], [1, 2]]), /path\[1\]: 2 positions, but 1 joints: slider/);
+      throws(() => cell.isFree([[0], [11]]), /slider/);
+      throws(() => cell.isFree([[0], [1]], { clearance: 1 }), /no "clearance"/);
+      throws(() => cell.add("wall", ccd.Body.sphere(1)), /wall/);
+      // The cell answers as before.
+      equal(cell.isFree([[0], [1.9]]), true);
+    },
+  };
+};
