@@ -140,5 +140,5 @@ pub use motion::trajectory::{
 };
 pub use query::{Movement, MovingBody, Query};
 pub use schedule::Schedule;
-pub use settings::{Settings, StartPolicy, VectorInstructions};
+pub use settings::{ContactNormals, Settings, StartPolicy, VectorInstructions};
 pub use swept_box::SweptBox;

@@ -10,7 +10,7 @@ use crate::math::vector::{distance, length};
 use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::rounding::{self, NODE_GAP_TOLERANCE_SHARE};
-use crate::settings::{QuerySettings, StartPolicy};
+use crate::settings::{ContactNormals, QuerySettings, StartPolicy};
 use crate::shortcuts::{Shortcut, Shortcuts};
 use crate::touching_plane::TouchingPlane;
 use fearless_simd::Level;
@@ -40,6 +40,7 @@ pub(crate) struct Problem<'a> {
     pub(crate) touching_plane: Option<TouchingPlane>,
     pub(crate) budget: u64,
     pub(crate) deadline: Option<Duration>,
+    pub(crate) contact_normals: ContactNormals,
     /// A flag that another thread sets to stop the query.
     pub(crate) stop_flag: Option<&'a AtomicBool>,
     /// A bound of the rounding of distances in f64, from [`rounding::distance_rounding`].
@@ -143,6 +144,7 @@ impl<'a> Problem<'a> {
             touching_plane: None,
             budget: terms.budget,
             deadline: terms.deadline,
+            contact_normals: terms.contact_normals,
             stop_flag: terms.stop,
             rounding,
             simd_level: terms.simd_level,

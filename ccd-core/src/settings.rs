@@ -43,10 +43,13 @@ pub struct Settings {
     pub budget: u64,
     /// The time after which the query ends as unresolved; `None` for no limit of time.
     ///
-    /// The deadline is checked every few hundred visits, and is therefore exceeded by less than a millisecond if
-    /// pieces are small. A call of an oracle is never interrupted. Whether the deadline is reached depends on the
-    /// machine: answers that it ends differ from one call to the next.
+    /// The deadline is checked every few dozen visits, and is therefore exceeded by about ten microseconds if pieces are
+    /// small. A call of an oracle is never interrupted, nor is the search for a
+    /// [refined normal](ContactNormals::Refined). Whether the deadline is reached depends on the machine: answers that
+    /// it ends differ from one call to the next.
     pub deadline: Option<Duration>,
+    /// How the normals of contacts are found.
+    pub contact_normals: ContactNormals,
     /// The vector instructions that are used; answers are the same with any, to the last bit.
     pub vector_instructions: VectorInstructions,
     /// The shortcuts that the search uses; answers have the same guarantee with any of them.
@@ -73,6 +76,7 @@ impl Settings {
         start_policy: StartPolicy::Report,
         budget: limits::DEFAULT_BUDGET,
         deadline: None,
+        contact_normals: ContactNormals::Refined,
         vector_instructions: VectorInstructions::Best,
         shortcuts: Shortcuts::ALL,
         stop: None,
@@ -101,6 +105,7 @@ impl Settings {
             start: self.start_policy,
             budget: self.budget,
             deadline: self.deadline,
+            contact_normals: self.contact_normals,
             simd_level: self.vector_instructions.simd_level(),
             shortcuts: self.shortcuts,
             stop: self.stop.as_deref(),
@@ -123,6 +128,7 @@ pub(crate) struct QuerySettings<'a> {
     pub(crate) start: StartPolicy,
     pub(crate) budget: u64,
     pub(crate) deadline: Option<Duration>,
+    pub(crate) contact_normals: ContactNormals,
     pub(crate) simd_level: Level,
     pub(crate) shortcuts: Shortcuts,
     pub(crate) stop: Option<&'a AtomicBool>,
@@ -160,6 +166,17 @@ pub enum VectorInstructions {
     Best,
     /// The instructions of the target that the program was built for, which every such machine has.
     Baseline,
+}
+
+/// How the normals of contacts are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ContactNormals {
+    /// Where pieces touch up to rounding, the normal is one of the surfaces around them. To find it may take some hundred
+    /// microseconds, and the first contact on a piece of a solid allocates.
+    #[default]
+    Refined,
+    /// The normal is that of the two pieces, which is mostly rounding error where they touch.
+    OfPieces,
 }
 
 /// The policy for bodies that are in contact at the start.

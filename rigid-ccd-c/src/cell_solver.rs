@@ -39,8 +39,10 @@ pub unsafe extern "C" fn rccd_cell_solver_new(
         // SAFETY: the cell does not move while this struct holds it, nobody changes a shared cell, and the solver, which is the
         // first field, is dropped before it.
         let borrowed: &'static Cell = unsafe { &*Arc::as_ptr(&cell) };
+        let mut solver = borrowed.solver().with_settings(settings);
+        solver.prepare();
         let solver = RccdCellSolver {
-            solver: borrowed.solver().with_settings(settings),
+            solver,
             cell,
             path: PathMemory::default(),
         };

@@ -30,7 +30,7 @@ use crate::path_point::PathPoint;
 use part_pairs::PartPair;
 use rigid_ccd::answer::{ClearanceVerdict, Feature, HitKind, Limit, Unresolved};
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::{Error, Hit, Outcome, Settings, Solver};
+use rigid_ccd::{ContactNormals, Error, Hit, Outcome, Settings, Solver};
 use search::Search;
 
 /// Answers questions about paths in a cell, one after another.
@@ -132,6 +132,12 @@ impl<'c> CellSolver<'c> {
     pub fn with_settings(mut self, settings: Settings) -> Self {
         self.set_settings(settings);
         self
+    }
+
+    /// Makes what questions would make when they need it first: the chains of joints by which pairs move. Answers are the same;
+    /// a solver that has to keep deadlines, or not to allocate, is prepared before.
+    pub fn prepare(&mut self) {
+        self.search.exact_chains.prepare();
     }
 
     /// Changes the tolerance, the margin and limits of the questions that follow.
@@ -258,6 +264,7 @@ impl<'c> CellSolver<'c> {
         // The deadline is for this, too: without witnesses a contact is a contact.
         self.distance_solver.set_settings(Settings {
             deadline: self.search.stop_condition.remaining(),
+            contact_normals: ContactNormals::OfPieces,
             ..Settings::DEFAULT
         });
         let is_mesh = [a.0, b.0].map(|body| body.pieces().len() > 1);

@@ -11,6 +11,7 @@ use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, unit};
 use crate::problem::Problem;
 use crate::rounding::{MIN_APPROACH_PER_ROUNDING, is_direction_uncertain};
+use crate::settings::ContactNormals;
 
 /// Translates the contacts of an outcome from triangulated surfaces to the bodies that the caller gave. The normal, the
 /// nearest points and the bounds of a contact are those of the pieces that it names.
@@ -59,6 +60,9 @@ fn replace_uncertain_normal(
 ) -> Contact {
     let mut seen = contact.separation;
     let witnesses = [seen.witness_a, seen.witness_b];
+    if problem.contact_normals == ContactNormals::OfPieces {
+        return contact;
+    }
     if !is_direction_uncertain(distance(witnesses[0], witnesses[1]), problem.rounding) {
         return contact;
     }

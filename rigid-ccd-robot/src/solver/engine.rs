@@ -8,7 +8,7 @@ use super::search::Search;
 use super::stretch::{StepResult, Stretch};
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::answer::ClearanceVerdict;
-use rigid_ccd::{Answer, Error, Outcome, Settings};
+use rigid_ccd::{Answer, ContactNormals, Error, Outcome, Settings};
 use std::ops::ControlFlow::{self, Break, Continue};
 
 impl Search<'_> {
@@ -174,6 +174,7 @@ impl Search<'_> {
             margin: open.pair.margin + rounding,
             clearance: clearance.map(|clearance| greater(clearance + rounding, 0.0)),
             deadline: self.stop_condition.remaining(),
+            contact_normals: ContactNormals::OfPieces,
             ..self.settings.clone()
         });
         let section = PathSection {

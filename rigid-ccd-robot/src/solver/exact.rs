@@ -27,6 +27,13 @@ impl<'c> PairChains<'c> {
         }
     }
 
+    /// Makes the chains of all pairs that are compared.
+    pub(crate) fn prepare(&mut self) {
+        for (pair, _) in self.cell.compared_pairs(0.0) {
+            chain(&mut self.chains, self.cell, pair);
+        }
+    }
+
     /// Asks a question about two bodies in a section of a path, which takes one unit of time.
     pub(crate) fn ask(
         &mut self,
@@ -38,12 +45,7 @@ impl<'c> PairChains<'c> {
         let cell = self.cell;
         let [a, b] = pair;
         let is_obstacle = b >= cell.robot_body_count();
-        // All obstacles see a body move by the same chain.
-        let key = if is_obstacle { [a, usize::MAX] } else { pair };
-        let own = self
-            .chains
-            .entry(key)
-            .or_insert_with(|| pair_chain(cell, a, (!is_obstacle).then_some(b)));
+        let own = chain(&mut self.chains, cell, pair);
         let bodies = cell.bodies();
         let rests = Motion::still(if is_obstacle {
             bodies[b].pose
@@ -69,6 +71,19 @@ impl<'c> PairChains<'c> {
         let link = own.chain.link(from.len(), from, to, 1.0)?;
         ask_solver(solver, question, (a, &link), b)
     }
+}
+
+/// Returns the chain of a pair, which is made when it is needed first.
+fn chain<'m>(
+    chains: &'m mut HashMap<[usize; 2], PairChain>,
+    cell: &Cell,
+    [a, b]: [usize; 2],
+) -> &'m PairChain {
+    let is_obstacle = b >= cell.robot_body_count();
+    // All obstacles see a body move by the same chain.
+    let key = if is_obstacle { [a, usize::MAX] } else { [a, b] };
+    let make = || pair_chain(cell, a, (!is_obstacle).then_some(b));
+    chains.entry(key).or_insert_with(make)
 }
 
 fn ask_solver<'b>(
