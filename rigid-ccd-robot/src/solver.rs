@@ -134,10 +134,10 @@ impl<'c> CellSolver<'c> {
         self
     }
 
-    /// Makes what questions would make when they need it first: the chains of joints by which pairs move. Answers are the same;
-    /// a solver that has to keep deadlines, or not to allocate, is prepared before.
+    /// Makes what questions would make when they need it first: the chains of joints by which pairs move, and place for pairs.
+    /// Answers are the same. A solver that has to keep deadlines, or not to allocate, is prepared, and warmed by some questions.
     pub fn prepare(&mut self) {
-        self.search.exact_chains.prepare();
+        self.search.prepare();
     }
 
     /// Changes the tolerance, the margin and limits of the questions that follow.

@@ -36,3 +36,8 @@ pub(crate) const JOINT_AXIS_INTERVALS: u32 = 128;
 
 /// The number of pairs that are measured between two readings of the clock. A pair takes about 50 ns, a reading 25 ns.
 pub(crate) const PAIRS_BETWEEN_CLOCK_READS: usize = 32;
+
+/// A solver that is prepared has place for so many pairs, if there are as many, in each of so many stretches that are halved. A
+/// pair takes 64 bytes: the place is at most 4 MB.
+pub(crate) const MAX_PREPARED_PAIRS: usize = 4096;
+pub(crate) const PREPARED_HALVINGS: usize = 16;

@@ -40,6 +40,10 @@ impl OpenPair {
 }
 
 impl UndecidedPairs {
+    pub(crate) fn reserve(&mut self, count: usize) {
+        self.0.reserve(count);
+    }
+
     pub(crate) fn clear(&mut self) {
         self.0.clear();
     }

@@ -99,6 +99,12 @@ impl<'c> PartPairs<'c> {
         pairs
     }
 
+    /// Returns the number of all pairs.
+    pub(crate) fn count(&self) -> usize {
+        let robot_parts = self.cell.robot_part_count();
+        self.self_pairs.len() + robot_parts * (self.cell.parts().len() - robot_parts)
+    }
+
     /// Sets the margin of all pairs that have none of their own.
     pub(crate) fn set_margin(&mut self, margin: f64) {
         self.margin = margin;

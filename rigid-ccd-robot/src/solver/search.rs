@@ -18,7 +18,7 @@ use crate::error::PathError;
 use crate::path::Path;
 use crate::tuning::{
     MAX_APPROACH_STRETCH_LENGTH, MAX_ENGINE_DISPLACEMENT, MAX_ENGINE_STRETCH_LENGTH,
-    MIN_ENGINE_HALVINGS, PAIRS_BETWEEN_CLOCK_READS,
+    MAX_PREPARED_PAIRS, MIN_ENGINE_HALVINGS, PAIRS_BETWEEN_CLOCK_READS, PREPARED_HALVINGS,
 };
 use ccd_core::order::{greater, lesser};
 use ccd_core::vectorize;
@@ -92,6 +92,15 @@ impl<'c> Search<'c> {
             stop_condition: StopCondition::NONE,
             result: SearchResult::NOTHING_FOUND,
         }
+    }
+
+    /// Makes what questions would make when they need it first, with place for more pairs than most of them leave undecided.
+    pub(crate) fn prepare(&mut self) {
+        let pairs = self.pairs.count().min(MAX_PREPARED_PAIRS);
+        self.near_nonconvex_pairs.reserve(pairs);
+        self.candidates.reserve(PREPARED_HALVINGS * pairs);
+        self.open_pairs.reserve(pairs);
+        self.exact_chains.prepare();
     }
 
     /// Sets the settings of all questions that follow.
