@@ -110,7 +110,8 @@ pub(crate) unsafe fn free<T>(handle: *mut T) {
     }
 }
 
-fn check_place<T>(name: &str, out: *mut T) -> Result<(), Failure> {
+/// Checks a place for a result, before anything is stored.
+pub(crate) fn check_place<T>(name: &str, out: *mut T) -> Result<(), Failure> {
     if out.is_null() {
         return Err(null(name));
     }
