@@ -1,6 +1,7 @@
 //! Tests of the interface, from Rust, as C calls it.
 
 mod arguments;
+mod calls;
 mod cells;
 mod equal_bits;
 mod header;
@@ -8,3 +9,4 @@ mod memory;
 mod paths;
 mod support;
 mod support_cells;
+mod threads;
