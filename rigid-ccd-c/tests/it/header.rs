@@ -106,3 +106,11 @@ fn robots_in_cpp_answer() {
     );
     assert!(printed.ends_with("of 50 edges are free\n"), "{printed}");
 }
+
+#[test]
+fn threads_in_cpp_share() {
+    let arguments = ["../rigid-ccd-robot/examples/edges/arm.urdf"];
+    let program = "tests/programs/threads.cpp";
+    let printed = build_and_run("c++", &["-std=c++17"], program, &arguments);
+    assert_eq!(printed, "threads agree\n");
+}
