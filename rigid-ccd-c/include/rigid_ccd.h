@@ -213,7 +213,9 @@ typedef struct rccd_settings {
     double tolerance;
     // The distance at which bodies count as touching; 0 reports actual contact.
     double margin;
-    // The largest amount of work, in visits of about a microsecond or less.
+    // The largest amount of work, in visits of about a microsecond or less. Along a trajectory it is for each part between two
+    // poses or pieces of a curve. A visit of a curve of a high degree takes longer. In a cell it is for each pair of bodies on
+    // each part of a path that needs a closer look: only a deadline bounds a whole path.
     uint64_t budget;
     // The time in seconds after which a query ends as unresolved; infinity for none.
     double deadline;
@@ -448,6 +450,7 @@ void rccd_cell_free(struct rccd_cell *cell);
 rccd_status rccd_cell_joint_count(const struct rccd_cell *cell, size_t *out);
 
 // Stores the name and the limits of a free joint, by its number in configurations. Joints without limits have infinite ones.
+// The name is valid until the cell is freed.
 //
 // # Safety
 // `cell` is null or a handle; `name`, `lower` and `upper` are null or point to places for their values.

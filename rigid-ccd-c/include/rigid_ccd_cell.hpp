@@ -224,6 +224,8 @@ public:
     // Measures edges on several threads: for each edge the configurations of its start and of its end, one after the other.
     std::vector<EdgeMeasure> measure_edges(View<double> edges, unsigned thread_count) {
         const std::size_t joints = cell_.joint_count(), count = joints ? edges.size() / (2 * joints) : 0;
+        if (edges.size() != 2 * joints * count)
+            throw Error(RCCD_STATUS_INVALID_ARGUMENT, "an edge is two positions of each free joint of the robot");
         std::vector<EdgeMeasure> measured(count, EdgeMeasure(0));
         std::atomic<std::size_t> next{0};
         std::mutex failure_mutex;

@@ -1,6 +1,6 @@
 //! Cells: a robot among obstacles, from URDF or MJCF files.
 
-use crate::arguments::{array, exclusive, free, give, reference, store, text};
+use crate::arguments::{array, check_place, exclusive, free, give, reference, store, text};
 use crate::body::RccdBody;
 use crate::motion::RccdPose;
 use crate::status::{Failure, RccdStatus, status_of};
@@ -12,7 +12,11 @@ use std::sync::Arc;
 
 /// A robot among obstacles that rest in the frame of its base. Obstacles and bodies that the robot holds have names, which no
 /// link has. Solvers keep the cell as it was when they were made.
-pub struct RccdCell(pub(crate) Arc<Cell>);
+pub struct RccdCell {
+    pub(crate) cell: Arc<Cell>,
+    /// The names that callers are given. Those of `cell` live no longer than the solvers that share it, once it is changed.
+    joint_names: Vec<String>,
+}
 
 /// A text in UTF-8 that belongs to a cell or to a solver, and that does not end with a zero.
 #[repr(C)]
@@ -80,8 +84,12 @@ pub unsafe extern "C" fn rccd_cell_load(
         };
         let robot = file.read().map_err(Failure::body)?;
         let pairs = file.link_pairs(&robot, srdf).map_err(Failure::body)?;
+        let cell = RccdCell {
+            joint_names: robot.free_joint_names().map(str::to_owned).collect(),
+            cell: Arc::new(Cell::new(robot, pairs)),
+        };
         // SAFETY: the contract of this function.
-        unsafe { give(out, RccdCell(Arc::new(Cell::new(robot, pairs)))) }
+        unsafe { give(out, cell) }
     })
 }
 
@@ -108,11 +116,12 @@ pub unsafe extern "C" fn rccd_cell_joint_count(
         // SAFETY: the contract of this function.
         let cell = unsafe { reference("cell", cell) }?;
         // SAFETY: the contract of this function.
-        unsafe { store("the place for the number", out, joint_count(&cell.0)) }
+        unsafe { store("the place for the number", out, joint_count(&cell.cell)) }
     })
 }
 
 /// Stores the name and the limits of a free joint, by its number in configurations. Joints without limits have infinite ones.
+/// The name is valid until the cell is freed.
 ///
 /// # Safety
 /// `cell` is null or a handle; `name`, `lower` and `upper` are null or point to places for their values.
@@ -126,16 +135,19 @@ pub unsafe extern "C" fn rccd_cell_joint(
 ) -> RccdStatus {
     status_of(|| {
         // SAFETY: the contract of this function.
-        let robot = unsafe { reference("cell", cell) }?.0.robot();
-        let joint = robot.free_joint_names().zip(robot.limits()).nth(number);
+        let RccdCell { cell, joint_names } = unsafe { reference("cell", cell) }?;
+        let joint = joint_names.iter().zip(cell.robot().limits()).nth(number);
         let Some((joint, [least, greatest])) = joint else {
             return Err(Failure::argument(format!(
                 "there is no free joint {number}"
             )));
         };
+        check_place("name", name)?;
+        check_place("lower", lower)?;
+        check_place("upper", upper)?;
         // SAFETY: the contract of this function.
         unsafe {
-            store("name", name, joint.into())?;
+            store("name", name, joint.as_str().into())?;
             store("lower", lower, least)?;
             store("upper", upper, greatest)
         }
@@ -319,7 +331,7 @@ pub(crate) fn joint_count(cell: &Cell) -> usize {
 /// The pointer is null, or a handle that no other call uses.
 unsafe fn change<'a>(cell: *mut RccdCell) -> Result<&'a mut Cell, Failure> {
     // SAFETY: the contract of this function.
-    Ok(Arc::make_mut(&mut unsafe { exclusive("cell", cell) }?.0))
+    Ok(Arc::make_mut(&mut unsafe { exclusive("cell", cell) }?.cell))
 }
 
 /// # Safety

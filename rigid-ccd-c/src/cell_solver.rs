@@ -33,7 +33,7 @@ pub unsafe extern "C" fn rccd_cell_solver_new(
 ) -> RccdStatus {
     status_of(|| {
         // SAFETY: the contract of this function.
-        let cell = Arc::clone(&unsafe { reference("cell", cell) }?.0);
+        let cell = Arc::clone(&unsafe { reference("cell", cell) }?.cell);
         // SAFETY: the contract of this function.
         let settings = unsafe { read_settings(settings) }?;
         // SAFETY: the cell does not move while this struct holds it, nobody changes a shared cell, and the solver, which is the

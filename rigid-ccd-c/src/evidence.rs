@@ -38,11 +38,11 @@ pub unsafe extern "C" fn rccd_evidence_write(
         // SAFETY: the contract of this function.
         let (path, answer) = unsafe {
             (
-                RccdPath::record(path, joint_count(&cell.0))?,
+                RccdPath::record(path, joint_count(&cell.cell))?,
                 RccdPathAnswer::record(answer)?,
             )
         };
-        let record = Evidence::new(&cell.0, &settings, path, answer).map_err(Failure::input)?;
+        let record = Evidence::new(&cell.cell, &settings, path, answer).map_err(Failure::input)?;
         let json = record.to_json().map_err(Failure::input)?;
         ccd_file::write(file, |out| out.write_all(json.as_bytes()))
             .map_err(|error| Failure::input(format!("{file}: {error}")))

@@ -54,3 +54,16 @@ pub use solver::*;
 pub use status::{RccdStatus, rccd_last_error};
 pub use stop::*;
 pub use trajectory::*;
+
+/// Handles that threads share, and solvers, which may go from one thread to another.
+const _: () = {
+    const fn shared<T: Send + Sync>() {}
+    const fn sent<T: Send>() {}
+    shared::<RccdBody>();
+    shared::<RccdTrajectory>();
+    shared::<RccdJointCurve>();
+    shared::<RccdCell>();
+    shared::<RccdStop>();
+    sent::<RccdSolver>();
+    sent::<rigid_ccd_robot::CellSolver<'static>>();
+};

@@ -19,6 +19,9 @@ pub struct RccdPath {
     pub curve: *const RccdJointCurve,
 }
 
+/// The largest number of configurations of a robot without free joints: no memory of the caller's bounds it.
+const MAX_EMPTY_CONFIGURATIONS: usize = 1 << 16;
+
 /// The memory for the configurations of a path, which a solver keeps from one call to the next.
 #[derive(Default)]
 pub(crate) struct PathMemory(Vec<Configuration>);
@@ -63,6 +66,11 @@ impl RccdPath {
             }
             // SAFETY: the contract of this function.
             return Ok(Pointed::Curve(unsafe { reference("curve", path.curve) }?));
+        }
+        if joint_count == 0 && path.configuration_count > MAX_EMPTY_CONFIGURATIONS {
+            return Err(Failure::argument(format!(
+                "configurations is too long: at most {MAX_EMPTY_CONFIGURATIONS} for a robot without free joints"
+            )));
         }
         let total = path.configuration_count.checked_mul(joint_count);
         let total = total.ok_or_else(|| Failure::argument("configurations is too long"))?;

@@ -28,7 +28,9 @@ pub struct RccdSettings {
     pub tolerance: f64,
     /// The distance at which bodies count as touching; 0 reports actual contact.
     pub margin: f64,
-    /// The largest amount of work, in visits of about a microsecond or less.
+    /// The largest amount of work, in visits of about a microsecond or less. Along a trajectory it is for each part between two
+    /// poses or pieces of a curve. A visit of a curve of a high degree takes longer. In a cell it is for each pair of bodies on
+    /// each part of a path that needs a closer look: only a deadline bounds a whole path.
     pub budget: u64,
     /// The time in seconds after which a query ends as unresolved; infinity for none.
     pub deadline: f64,
@@ -60,7 +62,9 @@ impl RccdSettings {
         let deadline = match self.deadline {
             f64::INFINITY => None,
             seconds => Some(Duration::try_from_secs_f64(seconds).map_err(|_| {
-                Failure::input(format!("deadline {seconds} is out of range: at least 0"))
+                Failure::input(format!(
+                    "deadline {seconds} is out of range: from 0 to 1e19, or infinite"
+                ))
             })?),
         };
         let stop = if self.stop.is_null() {

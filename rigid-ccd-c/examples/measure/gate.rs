@@ -76,13 +76,11 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     };
     let mut solvers = Vec::new();
     for _ in 0..args.threads.max(1) {
-        let warm = cell_solver(&cell, &default_settings())?;
-        for chunk in &chunks {
-            ask(&warm, &chunk.positions, joints)?;
-        }
+        let solver = Solver(cell_solver(&cell, &default_settings())?);
+        check_chunks(&solver, &chunks, joints, (WARM_UP_SEED, args.warm_up), None)?;
         // SAFETY: the handle and the settings live here.
-        check(unsafe { rccd_cell_solver_set_settings(warm.0, &settings) })?;
-        solvers.push(Solver(warm));
+        check(unsafe { rccd_cell_solver_set_settings(solver.0.0, &settings) })?;
+        solvers.push(solver);
     }
     let share = args.chunks / solvers.len();
     let latest = args.deadline.map(|micros| ((micros + 20.0) * 1e-6) as f32);

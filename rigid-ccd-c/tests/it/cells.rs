@@ -1,9 +1,9 @@
 //! Tests of cells: what is in them, what solvers keep of them, and what is refused.
 
-use crate::support::{default_settings, last_error, ok};
+use crate::support::{Handle, default_settings, last_error, ok};
 use crate::support_cells::*;
 use rigid_ccd_c::*;
-use std::ptr::null;
+use std::ptr::{null, null_mut};
 
 #[test]
 fn cells_keep_what_solvers_saw_and_refuse_what_is_wrong() {
@@ -125,4 +125,76 @@ fn held_bodies_move_with_their_link() {
         ok(rccd_cell_detach(pointer, name));
     }
     assert_eq!(touches().outcome, RccdOutcome::Free);
+}
+
+/// Tests that the name of a joint lives as long as its cell, which may share its content with a solver until it is changed.
+#[test]
+fn names_of_joints_stay_when_the_cell_changes() {
+    let (cell, _) = cells();
+    let mut name = empty_answer().item_a;
+    let (mut lower, mut upper) = (0.0, 0.0);
+    let solver = cell_solver(&cell, &default_settings());
+    // SAFETY: pointers are to values that live here.
+    unsafe {
+        let pointer = cell.pointer();
+        ok(rccd_cell_joint(
+            pointer, 0, &mut name, &mut lower, &mut upper,
+        ));
+        ok(rccd_cell_remove_obstacle(pointer, c"ball".as_ptr()));
+        drop(solver);
+        let mut again = empty_answer().item_a;
+        ok(rccd_cell_joint(
+            pointer, 0, &mut again, &mut lower, &mut upper,
+        ));
+        assert_eq!((name.data, name.length), (again.data, again.length));
+    }
+    assert_eq!(text(name), "shoulder");
+}
+
+#[test]
+fn a_joint_is_stored_in_all_places_or_in_none() {
+    let (cell, _) = cells();
+    let mut name = empty_answer().item_a;
+    let mut lower = 7.0;
+    // SAFETY: pointers are null or to values that live here.
+    let status = unsafe { rccd_cell_joint(cell.pointer(), 0, &mut name, &mut lower, null_mut()) };
+    assert_eq!(status, RccdStatus::InvalidArgument);
+    assert!(last_error().contains("upper is null"), "{}", last_error());
+    assert!(name.data.is_null() && lower == 7.0, "{name:?} {lower}");
+}
+
+/// Tests that a number of configurations that take no memory is bounded.
+#[test]
+fn too_many_configurations_without_joints_are_refused() {
+    let file = tempfile::Builder::new().suffix(".urdf").tempfile().unwrap();
+    std::fs::write(
+        file.path(),
+        r#"<robot name="post"><link name="base"/></robot>"#,
+    )
+    .unwrap();
+    let path = std::ffi::CString::new(file.path().to_str().unwrap()).unwrap();
+    // SAFETY: the path ends with a zero.
+    let post = Handle::new(rccd_cell_free, |out| unsafe {
+        rccd_cell_load(path.as_ptr(), null(), null(), out)
+    });
+    let solver = cell_solver(&post, &default_settings());
+    let mut path = RccdPath {
+        configurations: null(),
+        configuration_count: 2,
+        curve: null(),
+    };
+    let found = ask(rccd_cell_first_contact, &solver, &path);
+    assert_eq!(found.outcome, RccdOutcome::Free);
+    for count in [usize::MAX, 1 << 60, 1 << 32] {
+        path.configuration_count = count;
+        let mut answer = empty_answer();
+        // SAFETY: pointers are null or to values that live here.
+        let status = unsafe { rccd_cell_first_contact(solver.pointer(), &path, &mut answer) };
+        assert_eq!(status, RccdStatus::InvalidArgument, "{count}");
+        assert!(
+            last_error().contains("configurations is too long"),
+            "{}",
+            last_error()
+        );
+    }
 }

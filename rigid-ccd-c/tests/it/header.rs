@@ -63,3 +63,12 @@ fn the_gate_stops_before_the_table() {
     let printed = build_and_run("c++", &["-std=c++17"], "examples/gate.cpp", &arguments);
     assert!(printed.starts_with("go until waypoint "), "{printed}");
 }
+
+#[test]
+fn threads_in_cpp_share() {
+    let arm = folder().join("../rigid-ccd-robot/examples/edges/arm.urdf");
+    let arguments = [arm.to_str().unwrap()];
+    let program = "tests/programs/threads.cpp";
+    let printed = build_and_run("c++", &["-std=c++17"], program, &arguments);
+    assert_eq!(printed, "threads agree\n");
+}

@@ -2,6 +2,7 @@
 
 mod abi;
 mod arguments;
+mod calls;
 mod cells;
 mod equal_bits;
 mod header;
@@ -10,3 +11,4 @@ mod paths;
 mod programs;
 mod support;
 mod support_cells;
+mod threads;

@@ -164,6 +164,7 @@ pub(crate) fn random_mesh(random: &mut Random, count: usize) -> (Handle<RccdBody
 }
 
 /// A linear congruential generator: the tests need no better numbers.
+#[derive(Clone)]
 pub(crate) struct Random(u64);
 
 impl Random {

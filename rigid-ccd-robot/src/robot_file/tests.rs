@@ -252,3 +252,19 @@ fn materials_are_passed_over() {
         .unwrap_err();
     assert!(error.to_string().starts_with("one.urdf: "), "{error}");
 }
+
+/// Tests that elements within each other to any depth are an error: the parser's recursion exhausted the stack.
+#[test]
+fn deeply_nested_elements_are_refused() {
+    let nested = |depth: usize| {
+        let elements = "<a>".repeat(depth) + &"</a>".repeat(depth);
+        let text = format!("<robot name=\"r\"><link name=\"l\"/>{elements}</robot>");
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("r.urdf");
+        fs::write(&file, text).unwrap();
+        RobotFile::from_path(file).read().map(|_| ())
+    };
+    assert!(nested(100).is_ok());
+    let error = nested(60_000).unwrap_err().to_string();
+    assert!(error.contains("nested more than 200"), "{error}");
+}

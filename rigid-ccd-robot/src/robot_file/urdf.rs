@@ -13,7 +13,7 @@ use urdf_rs::{Geometry, JointType};
 
 /// Parses the text of a URDF file.
 pub(super) fn parse(text: &str) -> Result<urdf_rs::Robot, String> {
-    let urdf = urdf_rs::read_from_string(&without_materials(text));
+    let urdf = urdf_rs::read_from_string(&without_materials(text)?);
     urdf.map_err(|error| error.to_string())
 }
 

@@ -26,16 +26,29 @@ pub struct Curve {
     pub(super) segments: Segments<Vec<DVec3>>,
 }
 
+/// The largest number of control points of a Bézier curve. The time for a point of it grows with the square: a deadline is kept
+/// to some microseconds.
+const MAX_BEZIER_POINTS: usize = 128;
+
 /// A Bézier curve between two times, given by its control points.
 type Segment = segments::Segment<Vec<DVec3>>;
 
 impl Curve {
-    /// Creates a Bézier curve of any degree from its control points.
+    /// Creates a Bézier curve from its control points, at most 128. A longer path is a [B-spline](Curve::b_spline), of which a
+    /// point takes the same time at any length.
     ///
     /// # Errors
-    /// [`InputError::NotFinite`], and [`InputError::OutOfRange`] for no points or a duration that is not
+    /// [`InputError::NotFinite`], and [`InputError::OutOfRange`] for no points, too many, or a duration that is not
     /// positive.
     pub fn bezier(points: &[[f64; 3]], duration: f64) -> Result<Self, InputError> {
+        if points.len() > MAX_BEZIER_POINTS {
+            let count = points.len() as f64;
+            return Err(out_of_range_error(
+                "number of points",
+                count,
+                "at most 128, of a Bézier curve",
+            ));
+        }
         let points = checked_control_points(points, 1, duration)?;
         Ok(Curve {
             segments: Segments(vec![Segment {

@@ -572,3 +572,12 @@ fn the_check_of_a_position_is_that_of_the_pose() {
     }
     assert!((10..40).contains(&refused), "{refused}");
 }
+
+/// Tests that the time for a point of a curve is bounded: a query reads the clock between points.
+#[test]
+fn bezier_curves_of_too_many_points_are_refused() {
+    let curve = |count: usize| Curve::bezier(&vec![[0.0; 3]; count], 1.0);
+    assert!(curve(128).is_ok());
+    let error = curve(129).unwrap_err().to_string();
+    assert!(error.contains("number of points is 129"), "{error}");
+}

@@ -1,0 +1,290 @@
+//! Places for results: what a call that fails leaves untouched, and what is checked of a call that works.
+
+use super::answers::Answer;
+use super::call::Call;
+use super::world::{Pooled, World};
+use rigid_ccd_c::*;
+use std::fmt::Debug;
+
+/// What places hold before a call.
+const PATTERN: u8 = 0xa5;
+
+/// Bytes behind a place, which no call writes.
+const GUARD: usize = 32;
+
+/// What a call has been made with, for the checks of its results.
+pub(super) struct Context {
+    pub(super) owner: usize,
+    /// That of the cell.
+    pub(super) joint_count: Option<usize>,
+    /// The distance of a contact that was asked for, instead of the margin.
+    pub(super) clearance: Option<f64>,
+    pub(super) settings: Option<RccdSettings>,
+    pub(super) duration: f64,
+    pub(super) segments: usize,
+}
+
+/// A place for a result.
+pub(super) trait Place {
+    /// Checks the place after a call, and keeps what it has given.
+    fn check(
+        &self,
+        has_worked: bool,
+        world: &mut World<'_>,
+        context: &Context,
+    ) -> Result<(), String>;
+
+    /// Returns the bytes of an answer, which are the same for the same question.
+    fn answer(&self) -> Option<&[u8]> {
+        None
+    }
+}
+
+/// A place for plain values, with a guard behind it, which is aligned as the value is.
+pub(super) struct Bytes {
+    content: Box<[u64]>,
+    before: Box<[u64]>,
+    length: usize,
+}
+
+impl Bytes {
+    fn new<T>() -> Self {
+        let length = size_of::<T>();
+        let content = vec![u64::from_ne_bytes([PATTERN; 8]); (length + GUARD) / 8];
+        Bytes {
+            before: content.clone().into(),
+            content: content.into(),
+            length,
+        }
+    }
+
+    fn pointer<T>(&mut self) -> *mut T {
+        self.content.as_mut_ptr().cast()
+    }
+
+    /// Sets the first number of the place.
+    fn set_size(&mut self, size: usize) {
+        self.content[0] = size as u64;
+        self.before[0] = size as u64;
+    }
+
+    /// Returns the value if the call has worked.
+    fn value<T: Copy>(&self, has_worked: bool) -> Result<Option<T>, String> {
+        let whole = self.length.div_ceil(8);
+        if self.content[whole..] != self.before[whole..] {
+            return Err("the bytes behind a place were written".to_owned());
+        }
+        if has_worked {
+            // SAFETY: the call has written the value, as it says, and the place is aligned.
+            return Ok(Some(unsafe { self.content.as_ptr().cast::<T>().read() }));
+        }
+        if self.content == self.before {
+            Ok(None)
+        } else {
+            Err("a call that failed wrote to a place".to_owned())
+        }
+    }
+
+    fn bytes(&self) -> &[u8] {
+        // SAFETY: all bytes of the numbers are initialised.
+        unsafe { std::slice::from_raw_parts(self.content.as_ptr().cast(), self.length) }
+    }
+}
+
+/// A place for a handle.
+struct HandlePlace<T> {
+    bytes: Bytes,
+    kind: std::marker::PhantomData<*mut T>,
+}
+
+impl<T: Pooled> Place for HandlePlace<T> {
+    fn check(
+        &self,
+        has_worked: bool,
+        world: &mut World<'_>,
+        context: &Context,
+    ) -> Result<(), String> {
+        let Some(handle) = self.bytes.value::<*mut T>(has_worked)? else {
+            return Ok(());
+        };
+        if handle.is_null() || !handle.is_aligned() || self.bytes.content == self.bytes.before {
+            return Err("a call that worked gave no handle".to_owned());
+        }
+        if let Some(settings) = context.settings {
+            world.settings.insert(handle.addr(), settings);
+        }
+        if let Some(count) = context.joint_count {
+            world.joint_counts.insert(handle.addr(), count);
+        }
+        world.add(handle);
+        Ok(())
+    }
+}
+
+/// A place for a plain value, and its check.
+struct ValuePlace<T> {
+    bytes: Bytes,
+    check: fn(T, &mut World<'_>, &Context) -> Result<(), String>,
+}
+
+impl<T: Copy + Debug> Place for ValuePlace<T> {
+    fn check(
+        &self,
+        has_worked: bool,
+        world: &mut World<'_>,
+        context: &Context,
+    ) -> Result<(), String> {
+        match self.bytes.value::<T>(has_worked)? {
+            Some(value) => {
+                (self.check)(value, world, context).map_err(|why| format!("{why}: {value:?}"))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// A place for an answer, with the size that was set.
+struct AnswerPlace<T> {
+    bytes: Bytes,
+    kind: std::marker::PhantomData<T>,
+}
+
+impl<T: Answer> Place for AnswerPlace<T> {
+    fn check(
+        &self,
+        has_worked: bool,
+        world: &mut World<'_>,
+        context: &Context,
+    ) -> Result<(), String> {
+        // The two enums behind the size are read as numbers first.
+        if has_worked {
+            T::check_enums(self.bytes.bytes())?;
+        }
+        let Some(answer) = self.bytes.value::<T>(has_worked)? else {
+            return Ok(());
+        };
+        if self.bytes.content[0] != self.bytes.before[0] {
+            return Err("the size of an answer has changed".to_owned());
+        }
+        answer
+            .check(world, context)
+            .map_err(|why| format!("{why}: {answer:?}"))
+    }
+
+    fn answer(&self) -> Option<&[u8]> {
+        Some(self.bytes.bytes())
+    }
+}
+
+impl Call<'_, '_> {
+    fn add_place<T>(
+        &mut self,
+        mut bytes: Bytes,
+        place: impl FnOnce(Bytes) -> Box<dyn Place>,
+    ) -> *mut T {
+        let pointer = bytes.pointer::<T>();
+        self.places.push(place(bytes));
+        self.spoil(pointer).cast_mut()
+    }
+
+    pub(super) fn new_handle<T: Pooled + 'static>(&mut self) -> *mut *mut T {
+        self.add_place(Bytes::new::<*mut T>(), |bytes| {
+            Box::new(HandlePlace::<T> {
+                bytes,
+                kind: std::marker::PhantomData,
+            })
+        })
+    }
+
+    fn value_place<T: Copy + Debug + 'static>(
+        &mut self,
+        check: fn(T, &mut World<'_>, &Context) -> Result<(), String>,
+    ) -> *mut T {
+        self.add_place(Bytes::new::<T>(), |bytes| {
+            Box::new(ValuePlace { bytes, check })
+        })
+    }
+
+    pub(super) fn new_piece_count(&mut self) -> *mut usize {
+        self.value_place(|count, _, _| require(count > 0, "a body has no pieces"))
+    }
+
+    pub(super) fn new_joint_count(&mut self) -> *mut usize {
+        self.value_place(|count, _, _| require(count < 10, "a robot has too many joints"))
+    }
+
+    pub(super) fn new_text(&mut self) -> *mut RccdText {
+        self.value_place(|text, world, context| world.lend(context.owner, text))
+    }
+
+    pub(super) fn new_limit(&mut self) -> *mut f64 {
+        self.value_place(|limit: f64, _, _| require(!limit.is_nan(), "a limit is NaN"))
+    }
+
+    pub(super) fn new_motion(&mut self) -> *mut RccdMotion {
+        self.value_place(|motion: RccdMotion, _, _| {
+            let mut numbers = (motion.start.position.iter())
+                .chain(&motion.start.orientation)
+                .chain(&motion.velocity)
+                .chain(&motion.spin)
+                .chain(&motion.centre);
+            require(
+                numbers.all(|number| number.is_finite()),
+                "a motion is not finite",
+            )
+        })
+    }
+
+    fn answer_place<T: Answer + 'static>(&mut self) -> *mut T {
+        let bytes = self.sized_place::<T>();
+        self.add_place(bytes, |bytes| {
+            Box::new(AnswerPlace::<T> {
+                bytes,
+                kind: std::marker::PhantomData,
+            })
+        })
+    }
+
+    /// Returns a place of a size that the caller has set, and that is too small at times.
+    fn sized_place<T>(&mut self) -> Bytes {
+        let mut bytes = Bytes::new::<T>();
+        let right = size_of::<T>();
+        let size = match self.random.index(4) {
+            _ if self.is_odd() => [0, 8, right - 1][self.random.index(3)],
+            0 => right + GUARD,
+            _ => right,
+        };
+        self.note("size", size);
+        bytes.set_size(size);
+        bytes
+    }
+
+    pub(super) fn new_settings(&mut self) -> *mut RccdSettings {
+        let bytes = self.sized_place::<RccdSettings>();
+        self.add_place(bytes, |bytes| {
+            Box::new(ValuePlace::<RccdSettings> {
+                bytes,
+                check: |settings, _, _| {
+                    let is_default = settings.budget > 0 && settings.stop.is_null();
+                    require(is_default, "the default settings have no budget, or a flag")
+                },
+            })
+        })
+    }
+
+    pub(super) fn answer(&mut self) -> *mut RccdAnswer {
+        self.answer_place()
+    }
+
+    pub(super) fn path_answer(&mut self) -> *mut RccdPathAnswer {
+        self.answer_place()
+    }
+}
+
+pub(super) fn require(holds: bool, otherwise: &str) -> Result<(), String> {
+    if holds {
+        Ok(())
+    } else {
+        Err(otherwise.to_owned())
+    }
+}
