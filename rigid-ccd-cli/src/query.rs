@@ -267,7 +267,7 @@ fn timed_question_from_args(args: &QueryArgs) -> TimedQuestion {
             deadline: args.deadline,
             vector_instructions: args.instructions,
             shortcuts: (args.without.iter()).fold(Shortcuts::ALL, |left, &each| left.without(each)),
-            stop: None,
+            ..Settings::DEFAULT
         },
         repetitions: NonZeroUsize::new(args.repeat as usize).unwrap_or(NonZeroUsize::MIN),
     }
