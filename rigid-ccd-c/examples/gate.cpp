@@ -19,5 +19,5 @@ int main(int, char **argv) {
         return 0;
     }
     std::printf("go until waypoint %zu and %.3f of the way to the next\n", answer.segment, answer.share);
-    rigid_ccd::write_evidence(cell, settings, {chunk.data(), 4, nullptr}, answer, "stop.json");
+    rigid_ccd::write_evidence(cell, settings, chunk, answer, "stop.json");
 }

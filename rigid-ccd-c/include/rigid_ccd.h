@@ -45,20 +45,21 @@ enum rccd_outcome
   : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
+    // A limit was reached before the answer was known; until `safe_until` nothing touches. It is 0: an answer of zeros, which no
+    // call has filled, proves nothing.
+    RCCD_OUTCOME_UNRESOLVED = 0,
     // The bodies stay apart over the whole duration.
-    RCCD_OUTCOME_FREE = 0,
+    RCCD_OUTCOME_FREE = 1,
     // The bodies are in contact at `time`; for a first contact nothing touches before.
-    RCCD_OUTCOME_CONTACT = 1,
+    RCCD_OUTCOME_CONTACT = 2,
     // The bodies are within margin + tolerance at the start.
-    RCCD_OUTCOME_TOUCHING = 2,
+    RCCD_OUTCOME_TOUCHING = 3,
     // The bodies overlap at the start.
-    RCCD_OUTCOME_OVERLAPPING = 3,
+    RCCD_OUTCOME_OVERLAPPING = 4,
     // The bodies are in contact at `time` first, and at `last_time` last.
-    RCCD_OUTCOME_INTERVAL = 4,
+    RCCD_OUTCOME_INTERVAL = 5,
     // The least distance is from `lower` to `upper`, the latter at `time`.
-    RCCD_OUTCOME_LEAST_DISTANCE = 5,
-    // A limit was reached before the answer was known; until `safe_until` nothing touches.
-    RCCD_OUTCOME_UNRESOLVED = 6,
+    RCCD_OUTCOME_LEAST_DISTANCE = 6,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -305,7 +306,7 @@ typedef struct rccd_answer {
     size_t size;
     // What the query has found.
     rccd_outcome outcome;
-    // The limit that has ended it.
+    // The limit that has ended it, also if what was found until then is enough for the outcome.
     rccd_limit limit;
     // The time of the contact, or of the least distance found.
     double time;
@@ -383,7 +384,7 @@ rccd_status rccd_body_cone(double radius,
                            struct rccd_body **out);
 
 // Makes a body of triangles. `vertices` has three numbers for each vertex, `triangles` three indices of vertices for each
-// triangle; `detail` is one of `rccd_detail`.
+// triangle; `detail` is one of `rccd_detail`. A mesh that is not closed is a surface: see `rccd_body_is_solid`.
 //
 // # Safety
 // `vertices` is null or points to `3 · vertex_count` numbers, `triangles` is null or points to `3 · triangle_count` indices,
@@ -425,6 +426,21 @@ void rccd_body_free(struct rccd_body *body);
 // # Safety
 // `body` is null or a handle; `out` is null or points to a place for a number.
 rccd_status rccd_body_piece_count(const struct rccd_body *body, size_t *out);
+
+// Stores whether a body is solid, 1, or a surface, 0. What is inside a surface does not touch it. A mesh is solid if it is closed
+// and its triangles are turned the same way.
+//
+// # Safety
+// `body` is null or a handle; `out` is null or points to a place for a number.
+rccd_status rccd_body_is_solid(const struct rccd_body *body,
+                               int32_t *out);
+
+// Stores by how much a body exceeds the shape that it was made of, at most: cylinders, cones and outer hulls do.
+//
+// # Safety
+// `body` is null or a handle; `out` is null or points to a place for a number.
+rccd_status rccd_body_excess(const struct rccd_body *body,
+                             double *out);
 
 // Loads the robot of a URDF or MJCF file, with its meshes, as a cell without obstacles. All pairs of links are checked but
 // neighbours, links that never move relative to each other, and those that an SRDF file disables; null stands for no such
@@ -522,7 +538,8 @@ rccd_status rccd_cell_set_clearance(struct rccd_cell *cell,
                                     double distance);
 
 // Makes a solver for a cell with these settings; null stands for the default ones. The margin is the distance at which bodies
-// count as touching, and a deadline is for a whole question. Contacts at the start are always reported.
+// count as touching, and a deadline is for a whole question. A cell of which no pair is checked is an error: links that a joint
+// connects are not, unless `rccd_cell_set_clearance` names them. Contacts at the start are always reported.
 //
 // # Safety
 // `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points to a place for a handle.
@@ -635,8 +652,8 @@ rccd_status rccd_motion_between(const struct rccd_pose *start,
                                 double duration,
                                 struct rccd_motion *out);
 
-// Fills settings, whose `size` is set, with the default ones: tolerance 0.001, margin 0, contacts at the start reported, no
-// deadline.
+// Fills settings, whose `size` is set, with the default ones: tolerance 0.001, margin 0, contacts at the start reported, a
+// budget of 4,194,304, no deadline.
 //
 // # Safety
 // `settings` is null or points to a place of the size that its first field says.
@@ -705,8 +722,9 @@ rccd_status rccd_closest_approach(struct rccd_solver *solver,
                                   double duration,
                                   struct rccd_answer *answer);
 
-// Decides whether two moving bodies keep a distance: the outcome is free if they do, and a contact if they do not. If the
-// bounds of the distance are too far apart to decide, it is the least distance.
+// Decides whether two moving bodies keep a distance: the outcome is free if they do, and a contact, at a time at which they are
+// nearer, if they do not. If the bounds of the distance are too far apart to decide, it is the least distance. Bodies that may
+// touch keep no distance, not even 0.
 //
 // # Safety
 // That of `rccd_first_contact`.
@@ -718,7 +736,7 @@ rccd_status rccd_keeps_clearance(struct rccd_solver *solver,
                                  struct rccd_answer *answer);
 
 // Returns the message of the last call of this thread that has not worked, in UTF-8; it is empty before. The text is valid
-// until the next call of this thread that does not work.
+// until the next call of this thread that does not work: ask for it after the call, in a statement of its own.
 const char *rccd_last_error(void);
 
 // Makes a flag, which is not set.
@@ -727,7 +745,7 @@ const char *rccd_last_error(void);
 // `out` is null, or points to a place for a handle.
 rccd_status rccd_stop_new(struct rccd_stop **out);
 
-// Sets the flag: queries end as unresolved, and further ones do at once, until it is cleared.
+// Sets the flag: queries end as unresolved, and further ones do, until it is cleared. A question that takes no search is still answered.
 //
 // # Safety
 // `stop` is null or a handle.

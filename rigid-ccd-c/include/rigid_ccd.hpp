@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -39,7 +40,7 @@ private:
 #ifdef RIGID_CCD_EXPECTED
 // A value or the error instead of it, with the names of std::expected of C++23.
 template <typename T>
-class Expected {
+class [[nodiscard]] Expected {
 public:
     Expected(T value) : content_(std::in_place_index<0>, std::move(value)) {}
     Expected(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
@@ -108,6 +109,10 @@ class View {
 public:
     View() = default;
     View(const T *data, std::size_t size) : data_(data), size_(size) {}
+    // Values in braces live as long as the call to which they are passed.
+    View(std::initializer_list<T> values) : data_(values.begin()), size_(values.size()) {}
+    template <std::size_t SIZE>
+    View(const T (&values)[SIZE]) : data_(values), size_(SIZE) {}
     // Anything with data() and size(): std::vector, std::array, std::span.
     template <typename Container, typename = decltype(std::declval<const Container &>().data())>
     View(const Container &values) : data_(values.data()), size_(values.size()) {}
@@ -194,6 +199,18 @@ public:
         std::size_t count = 0;
         const rccd_status status = rccd_body_piece_count(get(), &count);
         return detail::after(status, [&] { return count; });
+    }
+    // Returns whether the body is solid; what is inside a surface does not touch it.
+    Result<bool> is_solid() const {
+        std::int32_t solid = 0;
+        const rccd_status status = rccd_body_is_solid(get(), &solid);
+        return detail::after(status, [&] { return solid != 0; });
+    }
+    // Returns by how much the body exceeds the shape that it was made of, at most.
+    Result<double> excess() const {
+        double excess = 0;
+        const rccd_status status = rccd_body_excess(get(), &excess);
+        return detail::after(status, [&] { return excess; });
     }
     // Takes a handle.
     explicit Body(rccd_body *handle) : handle_(handle, rccd_body_free) {}

@@ -166,7 +166,7 @@ public:
     Result<PathAnswer> closest_approach(const JointCurve &curve) { return ask(rccd_cell_closest_approach, curve); }
     // Returns how much of the edge between two configurations is certainly free.
     Result<EdgeMeasure> measure_edge(View<double> start, View<double> end) {
-        if (start.size() != joint_count_ || end.size() != joint_count_)
+        if (start.size() != joint_count_ || end.size() != joint_count_ || edge_.size() != 2 * joint_count_)
             return detail::fail<EdgeMeasure>(wrong_size());
         std::copy(start.data(), start.data() + joint_count_, edge_.begin());
         std::copy(end.data(), end.data() + joint_count_, edge_.begin() + static_cast<std::ptrdiff_t>(joint_count_));
@@ -202,8 +202,17 @@ private:
 };
 
 // Writes a record of an answer to `first_contact` to a file, which `ccd replay` asks again.
-inline Result<Done> write_evidence(const Cell &cell, const Settings &settings, const rccd_path &path,
+inline Result<Done> write_evidence(const Cell &cell, const Settings &settings, View<double> configurations,
                                    const PathAnswer &answer, const std::string &file) {
+    const std::size_t joints = cell.joint_count();
+    if (joints == 0 || configurations.size() % joints != 0)
+        return detail::fail<Done>({RCCD_STATUS_INVALID_ARGUMENT, "a configuration is a position of each free joint"});
+    const rccd_path path = {configurations.data(), configurations.size() / joints, nullptr};
+    return detail::done(rccd_evidence_write(cell.get(), &settings, &path, &answer, file.c_str()));
+}
+inline Result<Done> write_evidence(const Cell &cell, const Settings &settings, const JointCurve &curve,
+                                   const PathAnswer &answer, const std::string &file) {
+    const rccd_path path = {nullptr, 0, curve.get()};
     return detail::done(rccd_evidence_write(cell.get(), &settings, &path, &answer, file.c_str()));
 }
 

@@ -2,27 +2,28 @@
 
 use crate::feature::RccdFeature;
 use crate::growing::Growing;
-use rigid_ccd::answer::{Contact, Limit, Overlap};
+use rigid_ccd::answer::{ClearanceVerdict, Contact, Limit, Overlap};
 use rigid_ccd::{Answer, Outcome};
 
 /// What a query has found.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RccdOutcome {
+    /// A limit was reached before the answer was known; until `safe_until` nothing touches. It is 0: an answer of zeros, which no
+    /// call has filled, proves nothing.
+    Unresolved = 0,
     /// The bodies stay apart over the whole duration.
-    Free = 0,
+    Free = 1,
     /// The bodies are in contact at `time`; for a first contact nothing touches before.
-    Contact = 1,
+    Contact = 2,
     /// The bodies are within margin + tolerance at the start.
-    Touching = 2,
+    Touching = 3,
     /// The bodies overlap at the start.
-    Overlapping = 3,
+    Overlapping = 4,
     /// The bodies are in contact at `time` first, and at `last_time` last.
-    Interval = 4,
+    Interval = 5,
     /// The least distance is from `lower` to `upper`, the latter at `time`.
-    LeastDistance = 5,
-    /// A limit was reached before the answer was known; until `safe_until` nothing touches.
-    Unresolved = 6,
+    LeastDistance = 6,
 }
 
 /// The limit that has ended a query.
@@ -55,7 +56,7 @@ pub struct RccdAnswer {
     pub size: usize,
     /// What the query has found.
     pub outcome: RccdOutcome,
-    /// The limit that has ended it.
+    /// The limit that has ended it, also if what was found until then is enough for the outcome.
     pub limit: RccdLimit,
     /// The time of the contact, or of the least distance found.
     pub time: f64,
@@ -106,6 +107,30 @@ unsafe impl Growing for RccdAnswer {
 }
 
 impl RccdAnswer {
+    /// Converts the answer to whether bodies keep a clearance.
+    pub(crate) fn about_clearance(answer: &Answer, duration: f64, clearance: f64) -> Self {
+        let measured = RccdAnswer::new(answer, duration);
+        match answer.outcome.clearance_verdict(clearance) {
+            ClearanceVerdict::Kept => RccdAnswer {
+                outcome: RccdOutcome::Free,
+                safe_until: duration,
+                ..measured
+            },
+            ClearanceVerdict::Violated
+                if matches!(
+                    measured.outcome,
+                    RccdOutcome::LeastDistance | RccdOutcome::Unresolved
+                ) =>
+            {
+                RccdAnswer {
+                    outcome: RccdOutcome::Contact,
+                    ..measured
+                }
+            }
+            ClearanceVerdict::Violated | ClearanceVerdict::Unverified => measured,
+        }
+    }
+
     /// Converts the answer to a query over a duration.
     pub(crate) fn new(answer: &Answer, duration: f64) -> Self {
         let outcome = &answer.outcome;

@@ -2,6 +2,7 @@
 
 use crate::arguments::{array, free, give, reference, store, text};
 use crate::status::{Failure, RccdStatus, status_of};
+use rigid_ccd::body::Solidity;
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh, prepare};
 use rigid_ccd::{Body, InputError, load};
 use std::ffi::c_char;
@@ -93,7 +94,7 @@ pub unsafe extern "C" fn rccd_body_cone(
 }
 
 /// Makes a body of triangles. `vertices` has three numbers for each vertex, `triangles` three indices of vertices for each
-/// triangle; `detail` is one of `rccd_detail`.
+/// triangle; `detail` is one of `rccd_detail`. A mesh that is not closed is a surface: see `rccd_body_is_solid`.
 ///
 /// # Safety
 /// `vertices` is null or points to `3 · vertex_count` numbers, `triangles` is null or points to `3 · triangle_count` indices,
@@ -186,6 +187,37 @@ pub unsafe extern "C" fn rccd_body_piece_count(
         let count = body.0.pieces().len();
         // SAFETY: the contract of this function.
         unsafe { store("the place for the number", out, count) }
+    })
+}
+
+/// Stores whether a body is solid, 1, or a surface, 0. What is inside a surface does not touch it. A mesh is solid if it is closed
+/// and its triangles are turned the same way.
+///
+/// # Safety
+/// `body` is null or a handle; `out` is null or points to a place for a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_body_is_solid(body: *const RccdBody, out: *mut i32) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let body = unsafe { reference("body", body) }?;
+        let is_solid = i32::from(body.0.solidity() == Solidity::Solid);
+        // SAFETY: the contract of this function.
+        unsafe { store("the place for the number", out, is_solid) }
+    })
+}
+
+/// Stores by how much a body exceeds the shape that it was made of, at most: cylinders, cones and outer hulls do.
+///
+/// # Safety
+/// `body` is null or a handle; `out` is null or points to a place for a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_body_excess(body: *const RccdBody, out: *mut f64) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let body = unsafe { reference("body", body) }?;
+        let excess = body.0.excess();
+        // SAFETY: the contract of this function.
+        unsafe { store("the place for the number", out, excess) }
     })
 }
 

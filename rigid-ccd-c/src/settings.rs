@@ -107,8 +107,8 @@ impl RccdSettings {
     }
 }
 
-/// Fills settings, whose `size` is set, with the default ones: tolerance 0.001, margin 0, contacts at the start reported, no
-/// deadline.
+/// Fills settings, whose `size` is set, with the default ones: tolerance 0.001, margin 0, contacts at the start reported, a
+/// budget of 4,194,304, no deadline.
 ///
 /// # Safety
 /// `settings` is null or points to a place of the size that its first field says.

@@ -9,7 +9,7 @@ use crate::settings::RccdSettings;
 use crate::status::{Failure, RccdStatus, status_of};
 use crate::trajectory::RccdTrajectory;
 use ccd_core::MovingBody;
-use rigid_ccd::{Answer, InputError, Motion, Settings, Solver};
+use rigid_ccd::{InputError, Motion, Settings, Solver};
 
 /// A solver: settings, and memory that it reuses from query to query. Each thread needs its own.
 pub struct RccdSolver {
@@ -94,8 +94,9 @@ pub unsafe extern "C" fn rccd_first_contact(
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
     unsafe {
-        ask(solver, [a, b], duration, answer, |s, a, b| {
-            s.solver.first_contact(a, b, duration)
+        ask(solver, [a, b], answer, |s, a, b| {
+            let answer = s.solver.first_contact(a, b, duration)?;
+            Ok(RccdAnswer::new(&answer, duration))
         })
     }
 }
@@ -115,8 +116,9 @@ pub unsafe extern "C" fn rccd_any_contact(
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
     unsafe {
-        ask(solver, [a, b], duration, answer, |s, a, b| {
-            s.solver.any_contact(a, b, duration)
+        ask(solver, [a, b], answer, |s, a, b| {
+            let answer = s.solver.any_contact(a, b, duration)?;
+            Ok(RccdAnswer::new(&answer, duration))
         })
     }
 }
@@ -135,8 +137,9 @@ pub unsafe extern "C" fn rccd_contact_interval(
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
     unsafe {
-        ask(solver, [a, b], duration, answer, |s, a, b| {
-            s.solver.contact_interval(a, b, duration)
+        ask(solver, [a, b], answer, |s, a, b| {
+            let answer = s.solver.contact_interval(a, b, duration)?;
+            Ok(RccdAnswer::new(&answer, duration))
         })
     }
 }
@@ -156,14 +159,16 @@ pub unsafe extern "C" fn rccd_closest_approach(
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
     unsafe {
-        ask(solver, [a, b], duration, answer, |s, a, b| {
-            s.solver.closest_approach(a, b, duration)
+        ask(solver, [a, b], answer, |s, a, b| {
+            let answer = s.solver.closest_approach(a, b, duration)?;
+            Ok(RccdAnswer::new(&answer, duration))
         })
     }
 }
 
-/// Decides whether two moving bodies keep a distance: the outcome is free if they do, and a contact if they do not. If the
-/// bounds of the distance are too far apart to decide, it is the least distance.
+/// Decides whether two moving bodies keep a distance: the outcome is free if they do, and a contact, at a time at which they are
+/// nearer, if they do not. If the bounds of the distance are too far apart to decide, it is the least distance. Bodies that may
+/// touch keep no distance, not even 0.
 ///
 /// # Safety
 /// That of `rccd_first_contact`.
@@ -183,10 +188,10 @@ pub unsafe extern "C" fn rccd_keeps_clearance(
         });
         let answer = s.solver.closest_approach(a, b, duration);
         s.solver.set_settings(s.settings.clone());
-        answer
+        Ok(RccdAnswer::about_clearance(&answer?, duration, clearance))
     };
     // SAFETY: the contract of this function.
-    unsafe { ask(solver, [a, b], duration, answer, question) }
+    unsafe { ask(solver, [a, b], answer, question) }
 }
 
 /// Asks a question, and stores the answer.
@@ -196,9 +201,12 @@ pub unsafe extern "C" fn rccd_keeps_clearance(
 unsafe fn ask(
     solver: *mut RccdSolver,
     bodies: [*const RccdMovingBody; 2],
-    duration: f64,
     out: *mut RccdAnswer,
-    question: impl FnOnce(&mut RccdSolver, MovingBody<'_>, MovingBody<'_>) -> Result<Answer, InputError>,
+    question: impl FnOnce(
+        &mut RccdSolver,
+        MovingBody<'_>,
+        MovingBody<'_>,
+    ) -> Result<RccdAnswer, InputError>,
 ) -> RccdStatus {
     status_of(|| {
         // SAFETY: the contract of this function.
@@ -209,7 +217,7 @@ unsafe fn ask(
         let size = unsafe { growing::size_of_place("the answer", out) }?;
         let answer = question(solver, a, b).map_err(Failure::input)?;
         // SAFETY: the contract of this function.
-        unsafe { growing::store(out, size, &RccdAnswer::new(&answer, duration)) };
+        unsafe { growing::store(out, size, &answer) };
         Ok(())
     })
 }

@@ -80,7 +80,7 @@ fn panic_message(panic: &dyn std::any::Any) -> String {
 }
 
 /// Returns the message of the last call of this thread that has not worked, in UTF-8; it is empty before. The text is valid
-/// until the next call of this thread that does not work.
+/// until the next call of this thread that does not work: ask for it after the call, in a statement of its own.
 #[unsafe(no_mangle)]
 pub extern "C" fn rccd_last_error() -> *const c_char {
     let message = MESSAGE.try_with(|message| message.borrow().as_ptr());

@@ -18,7 +18,7 @@ pub unsafe extern "C" fn rccd_stop_new(out: *mut *mut RccdStop) -> RccdStatus {
     status_of(|| unsafe { give(out, RccdStop(Arc::default())) })
 }
 
-/// Sets the flag: queries end as unresolved, and further ones do at once, until it is cleared.
+/// Sets the flag: queries end as unresolved, and further ones do, until it is cleared. A question that takes no search is still answered.
 ///
 /// # Safety
 /// `stop` is null or a handle.

@@ -217,3 +217,37 @@ fn prepared_bodies_answer_as_those_that_were_stored() {
         );
     }
 }
+
+#[test]
+fn bodies_say_whether_they_are_solid_and_by_how_much_they_exceed_their_shape() {
+    let (ball, cylinder) = (sphere(0.5), crate::support::cylinder(0.5, 1.0));
+    let vertices = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+    ];
+    let triangles = [[0_u32, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    let tetrahedron = |count: usize| {
+        // SAFETY: the counts are those of the arrays, or less.
+        Handle::new(rccd_body_free, |out| unsafe {
+            let (points, corners) = (vertices.as_ptr().cast(), triangles.as_ptr().cast());
+            rccd_body_from_triangles(points, 4, corners, count, RccdDetail::Auto as u32, out)
+        })
+    };
+    let (closed, open) = (tetrahedron(4), tetrahedron(3));
+    for (body, solid, exceeds) in [
+        (&ball, 1, false),
+        (&cylinder, 1, true),
+        (&closed, 1, false),
+        (&open, 0, false),
+    ] {
+        let (mut is_solid, mut excess) = (-1, f64::NAN);
+        // SAFETY: the places are local variables.
+        unsafe {
+            ok(rccd_body_is_solid(body.pointer(), &mut is_solid));
+            ok(rccd_body_excess(body.pointer(), &mut excess));
+        }
+        assert_eq!((is_solid, excess > 0.0), (solid, exceeds), "{excess}");
+    }
+}

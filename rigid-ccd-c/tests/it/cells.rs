@@ -177,24 +177,63 @@ fn too_many_configurations_without_joints_are_refused() {
     let post = Handle::new(rccd_cell_free, |out| unsafe {
         rccd_cell_load(path.as_ptr(), null(), null(), out)
     });
-    let solver = cell_solver(&post, &default_settings());
     let mut path = RccdPath {
         configurations: null(),
         configuration_count: 2,
         curve: null(),
     };
-    let found = ask(rccd_cell_first_contact, &solver, &path);
-    assert_eq!(found.outcome, RccdOutcome::Free);
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("record.json");
+    let file = std::ffi::CString::new(file.to_str().unwrap()).unwrap();
+    let mut answer = empty_answer();
+    answer.outcome = RccdOutcome::Free;
+    let record = |path: &RccdPath| {
+        // SAFETY: pointers are null or to values that live here.
+        unsafe { rccd_evidence_write(post.pointer(), null(), path, &answer, file.as_ptr()) }
+    };
+    ok(record(&path));
     for count in [usize::MAX, 1 << 60, 1 << 32] {
         path.configuration_count = count;
-        let mut answer = empty_answer();
-        // SAFETY: pointers are null or to values that live here.
-        let status = unsafe { rccd_cell_first_contact(solver.pointer(), &path, &mut answer) };
-        assert_eq!(status, RccdStatus::InvalidArgument, "{count}");
+        assert_eq!(record(&path), RccdStatus::InvalidArgument, "{count}");
         assert!(
             last_error().contains("configurations is too long"),
             "{}",
             last_error()
         );
+    }
+}
+
+#[test]
+fn a_cell_of_which_no_pair_is_checked_has_no_solver() {
+    let (cell, _) = cells();
+    // SAFETY: pointers are to values that live here.
+    unsafe {
+        let pointer = cell.pointer();
+        ok(rccd_cell_remove_obstacle(pointer, c"ball".as_ptr()));
+        let mut solver = std::ptr::null_mut();
+        // The base and the lower link are checked.
+        ok(rccd_cell_solver_new(pointer, null(), &mut solver));
+        rccd_cell_solver_free(solver);
+    }
+    let slide = r#"<robot name="slide"><link name="rail"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+      <link name="carriage"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+      <joint name="slider" type="prismatic"><parent link="rail"/><child link="carriage"/><axis xyz="1 0 0"/>
+        <limit lower="-2" upper="2" effort="1" velocity="1"/></joint></robot>"#;
+    let file = tempfile::Builder::new().suffix(".urdf").tempfile().unwrap();
+    std::fs::write(file.path(), slide).unwrap();
+    let path = std::ffi::CString::new(file.path().to_str().unwrap()).unwrap();
+    // SAFETY: pointers are null or to values that live here.
+    unsafe {
+        let cell = Handle::new(rccd_cell_free, |out| {
+            rccd_cell_load(path.as_ptr(), null(), null(), out)
+        });
+        let mut solver = std::ptr::null_mut();
+        let refused = rccd_cell_solver_new(cell.pointer(), null(), &mut solver);
+        assert_eq!(refused, RccdStatus::InvalidInput);
+        assert!(last_error().contains("no pair of the cell is checked"));
+        let (rail, carriage) = (c"rail".as_ptr(), c"carriage".as_ptr());
+        ok(rccd_cell_set_clearance(cell.pointer(), rail, carriage, 0.0));
+        ok(rccd_cell_solver_new(cell.pointer(), null(), &mut solver));
+        rccd_cell_solver_free(solver);
     }
 }

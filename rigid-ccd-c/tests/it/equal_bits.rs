@@ -1,6 +1,7 @@
 //! Tests that every question through the interface has the same bits as in Rust.
 
 use crate::support::{Handle, Random, default_settings, moving, ok};
+use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd::trajectory::{Ballistic, Curve, OrientationCurve, Poses, Spline};
 use rigid_ccd::{Answer, Body, Motion, Outcome, Pose, Settings, Solver, StartPolicy};
 use rigid_ccd_c::*;
@@ -150,7 +151,10 @@ fn answers_about_motions_have_the_bits_of_rust() {
         ok(unsafe {
             rccd_keeps_clearance(c.pointer(), &bodies[0], &bodies[1], 1.0, 0.2, &mut found)
         });
-        assert_equal(&found, &answer, &format!("{number} clearance"));
+        let verdict = answer.outcome.clearance_verdict(0.2);
+        let is_kept = found.outcome == RccdOutcome::Free;
+        assert_eq!(is_kept, verdict == ClearanceVerdict::Kept, "{number}");
+        assert_eq!(found.upper.to_bits(), answer.outcome.upper().to_bits());
     }
     assert!(counts[RccdOutcome::Free as usize] > 50, "{counts:?}");
     assert!(counts[RccdOutcome::Contact as usize] > 50, "{counts:?}");
@@ -264,4 +268,27 @@ fn answers_about_splines_have_the_bits_of_rust() {
     // SAFETY: one point; no turns.
     let refused = unsafe { rccd_trajectory_bezier(point.as_ptr(), 1, 1.0, &no_turns, &mut out) };
     assert_eq!(refused, RccdStatus::InvalidInput);
+}
+
+/// Tests that a clearance at rest is decided: nothing is searched, and the distance is known.
+#[test]
+fn clearances_at_rest_are_kept_or_violated() {
+    let (ball, rests) = (crate::support::sphere(0.5), rccd_motion_at_rest());
+    let mut away = rests;
+    away.start.position = [0.0, 0.0, 3.0];
+    let c = crate::support::solver(None);
+    for duration in [0.0, 1.0] {
+        for (clearance, expected) in [(0.5, RccdOutcome::Free), (3.0, RccdOutcome::Contact)] {
+            let (a, b) = (moving(&ball, &away), moving(&ball, &rests));
+            let mut answer = crate::support::empty_answer();
+            // SAFETY: all pointers are to values that live here.
+            ok(unsafe {
+                rccd_keeps_clearance(c.pointer(), &a, &b, duration, clearance, &mut answer)
+            });
+            assert_eq!(
+                answer.outcome, expected,
+                "{duration} {clearance}: {answer:?}"
+            );
+        }
+    }
 }

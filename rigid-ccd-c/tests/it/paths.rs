@@ -269,7 +269,7 @@ fn records_of_answers_are_replayed_in_rust() {
 
     answer.outcome = RccdOutcome::Interval;
     assert_eq!(write(&through(&edge), &answer), RccdStatus::InvalidArgument);
-    assert!(last_error().contains("outcome 4"), "{}", last_error());
+    assert!(last_error().contains("outcome 5"), "{}", last_error());
     assert_eq!(write(&through(&[]), &answer), RccdStatus::InvalidArgument);
     // SAFETY: null is refused.
     let refused = unsafe {

@@ -62,10 +62,19 @@ int main(int, char **argv) {
     positions.insert(positions.end(), end.begin(), end.end());
     const auto curve = rigid_ccd::JointCurve::through(times, positions, velocities);
     expect(before.first_contact(curve).free() && before.any_contact(curve).free());
+    rigid_ccd::CellSolver moved = std::move(inside);
+    bool is_error = false;
+    try {
+        inside.measure_edge(start, end);
+    } catch (const rigid_ccd::Error &) {
+        is_error = true;
+    }
+    expect(is_error && !moved.measure_edge(start, end).partially_free());
+    expect(!rigid_ccd::PathAnswer().free() && !rigid_ccd::Answer().free());
     bool refused = false;
     try {
         const rigid_ccd::PathAnswer answer = before.first_contact(start);
-        rigid_ccd::write_evidence(cell, {}, {start.data(), 1, nullptr}, answer, "/no such folder/stop.json");
+        rigid_ccd::write_evidence(cell, {}, start, answer, "/no such folder/stop.json");
     } catch (const rigid_ccd::Error &error) {
         refused = std::string(error.what()).find("no such folder") != std::string::npos;
     }

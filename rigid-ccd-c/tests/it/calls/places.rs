@@ -209,6 +209,14 @@ impl Call<'_, '_> {
         self.value_place(|count, _, _| require(count > 0, "a body has no pieces"))
     }
 
+    pub(super) fn new_is_solid(&mut self) -> *mut i32 {
+        self.value_place(|solid, _, _| require(matches!(solid, 0 | 1), "neither solid nor not"))
+    }
+
+    pub(super) fn new_excess(&mut self) -> *mut f64 {
+        self.value_place(|excess, _, _| require(excess >= 0.0, "a negative excess"))
+    }
+
     pub(super) fn new_joint_count(&mut self) -> *mut usize {
         self.value_place(|count, _, _| require(count < 10, "a robot has too many joints"))
     }

@@ -61,6 +61,8 @@ pub(super) const FUNCTIONS: &[Function] = functions! {
     rccd_body_load 8 status (body_file, new_handle);
     rccd_body_free 12 status (freed);
     rccd_body_piece_count 8 status (handle, new_piece_count);
+    rccd_body_is_solid 4 status (handle, new_is_solid);
+    rccd_body_excess 4 status (handle, new_excess);
     rccd_cell_load 2 status (robot_file, srdf_file, package_folder, new_handle);
     rccd_cell_free 4 status (freed);
     rccd_cell_joint_count 8 status (handle, new_joint_count);
