@@ -2,6 +2,7 @@
 
 use crate::feature::RccdFeature;
 use crate::growing::Growing;
+use ccd_core::order::lesser;
 use rigid_ccd::answer::{ClearanceVerdict, Contact, Limit, Overlap};
 use rigid_ccd::{Answer, Outcome};
 
@@ -124,6 +125,7 @@ impl RccdAnswer {
             {
                 RccdAnswer {
                     outcome: RccdOutcome::Contact,
+                    safe_until: lesser(measured.safe_until, measured.time),
                     ..measured
                 }
             }
