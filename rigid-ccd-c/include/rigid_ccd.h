@@ -542,7 +542,8 @@ rccd_status rccd_cell_set_clearance(struct rccd_cell *cell,
 // connects are not, unless `rccd_cell_set_clearance` names them. Contacts at the start are always reported.
 //
 // # Safety
-// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points to a place for a handle.
+// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points
+// to a place for a handle.
 rccd_status rccd_cell_solver_new(const struct rccd_cell *cell,
                                  const struct rccd_settings *settings,
                                  struct rccd_cell_solver **out);

@@ -25,7 +25,8 @@ pub struct RccdCellSolver {
 /// connects are not, unless `rccd_cell_set_clearance` names them. Contacts at the start are always reported.
 ///
 /// # Safety
-/// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points to a place for a handle.
+/// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points
+/// to a place for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_solver_new(
     cell: *const RccdCell,
