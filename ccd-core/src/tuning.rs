@@ -10,8 +10,8 @@ pub const EVALUATIONS_WORTH_A_VISIT: u64 = 128;
 pub const ASSUMED_ORACLE_STEPS: u64 = 8;
 
 /// The amount of [work](crate::Stats::budgeted_work) between two readings of the clock, if there is a deadline. A reading takes
-/// about 25 ns, and a visit ten times as long: a deadline is overstepped by about 8 µs.
-pub const WORK_BETWEEN_CLOCK_READS: u64 = 32;
+/// about 25 ns, and a visit ten times as long: a deadline is overstepped by about 2 µs.
+pub const WORK_BETWEEN_CLOCK_READS: u64 = 8;
 
 /// The largest difference between distances in a period and in the searched period that represents it, as a share of
 /// the tolerance, for bodies that turn many times. A contact in the searched period is then a contact of the bodies.

@@ -167,6 +167,27 @@ typedef uint32_t rccd_start_policy;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+// How the normals and features of contacts are found.
+enum rccd_contact_normals
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    // Where bodies touch up to rounding, the normal is that of the surfaces around them. To find it may take some hundred
+    // microseconds beyond a deadline, and allocates.
+    RCCD_CONTACT_NORMALS_REFINED = 0,
+    // The normal is that of the two triangles or convex pieces, which is mostly rounding where they touch. For queries that keep
+    // a deadline or must not allocate. Questions about paths in a cell always use these.
+    RCCD_CONTACT_NORMALS_OF_PIECES = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rccd_contact_normals rccd_contact_normals;
+#else
+typedef uint32_t rccd_contact_normals;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 // A body: the shape that moves. Many queries and threads may share it.
 typedef struct rccd_body rccd_body;
 
@@ -222,6 +243,8 @@ typedef struct rccd_settings {
     double deadline;
     // One of `rccd_start_policy`.
     uint32_t start_policy;
+    // One of `rccd_contact_normals`.
+    uint32_t contact_normals;
     // A flag that stops queries, or null. Solvers share it: it may be freed.
     const struct rccd_stop *stop;
 } rccd_settings;

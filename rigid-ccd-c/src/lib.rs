@@ -49,7 +49,7 @@ pub use joint_curve::*;
 pub use motion::{RccdMotion, RccdPose, rccd_motion_at_rest, rccd_motion_between};
 pub use path::RccdPath;
 pub use path_answer::RccdPathAnswer;
-pub use settings::{RccdSettings, RccdStartPolicy, rccd_settings_default};
+pub use settings::{RccdContactNormals, RccdSettings, RccdStartPolicy, rccd_settings_default};
 pub use solver::*;
 pub use status::{RccdStatus, rccd_last_error};
 pub use stop::*;

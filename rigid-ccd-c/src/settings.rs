@@ -4,7 +4,7 @@ use crate::arguments::reference;
 use crate::growing::{self, Growing};
 use crate::status::{Failure, RccdStatus, status_of};
 use crate::stop::RccdStop;
-use rigid_ccd::{Settings, StartPolicy};
+use rigid_ccd::{ContactNormals, Settings, StartPolicy};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -16,6 +16,18 @@ pub enum RccdStartPolicy {
     Report = 0,
     /// The contact is ignored until the bodies approach.
     Leave = 1,
+}
+
+/// How the normals and features of contacts are found.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RccdContactNormals {
+    /// Where bodies touch up to rounding, the normal is that of the surfaces around them. To find it may take some hundred
+    /// microseconds beyond a deadline, and allocates.
+    Refined = 0,
+    /// The normal is that of the two triangles or convex pieces, which is mostly rounding where they touch. For queries that keep
+    /// a deadline or must not allocate. Questions about paths in a cell always use these.
+    OfPieces = 1,
 }
 
 /// The settings of queries. Set `size`, call `rccd_settings_default`, then change what differs.
@@ -36,6 +48,8 @@ pub struct RccdSettings {
     pub deadline: f64,
     /// One of `rccd_start_policy`.
     pub start_policy: u32,
+    /// One of `rccd_contact_normals`.
+    pub contact_normals: u32,
     /// A flag that stops queries, or null. Solvers share it: it may be freed.
     pub stop: *const RccdStop,
 }
@@ -56,6 +70,14 @@ impl RccdSettings {
             policy if policy == RccdStartPolicy::Leave as u32 => StartPolicy::Leave,
             other => {
                 let text = format!("start_policy {other} is none of rccd_start_policy");
+                return Err(Failure::argument(text));
+            }
+        };
+        let contact_normals = match self.contact_normals {
+            normals if normals == RccdContactNormals::Refined as u32 => ContactNormals::Refined,
+            normals if normals == RccdContactNormals::OfPieces as u32 => ContactNormals::OfPieces,
+            other => {
+                let text = format!("contact_normals {other} is none of rccd_contact_normals");
                 return Err(Failure::argument(text));
             }
         };
@@ -80,6 +102,7 @@ impl RccdSettings {
             budget: self.budget,
             deadline,
             start_policy,
+            contact_normals,
             ..Settings::DEFAULT
         };
         settings.check().map_err(Failure::input)?;
@@ -102,6 +125,7 @@ impl RccdSettings {
             budget,
             deadline: f64::INFINITY,
             start_policy: RccdStartPolicy::Report as u32,
+            contact_normals: RccdContactNormals::Refined as u32,
             stop: std::ptr::null(),
         }
     }

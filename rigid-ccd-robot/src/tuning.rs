@@ -34,8 +34,9 @@ pub(crate) const MIN_PIECES_FOR_TWO_HULLS: usize = 16;
 /// The number of intervals between the points on a joint's axis at which two links are tried.
 pub(crate) const JOINT_AXIS_INTERVALS: u32 = 128;
 
-/// The number of pairs that are measured between two readings of the clock. A pair takes about 50 ns, a reading 25 ns.
-pub(crate) const PAIRS_BETWEEN_CLOCK_READS: usize = 32;
+/// The number of pairs that are measured between two readings of the clock, if there is a deadline. A pair takes about 150 ns, a
+/// reading 25 ns.
+pub(crate) const PAIRS_BETWEEN_CLOCK_READS: usize = 8;
 
 /// A solver that is prepared has place for so many pairs, if there are as many, in each of so many stretches that are halved. A
 /// pair takes 64 bytes: the place is at most 4 MB.

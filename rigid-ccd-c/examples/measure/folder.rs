@@ -1,11 +1,12 @@
 //! A robot, the cells around it, and configurations, from a folder; through the interface and in Rust.
 
 use anyhow::{Context, Result, ensure};
-use rigid_ccd::{Body, Pose, Settings, load};
+use rigid_ccd::table::motions::{MotionTable, Motions};
+use rigid_ccd::{Body, Motion, Pose, Settings, load};
 use rigid_ccd_c::*;
 use rigid_ccd_robot::{Cell, RobotFile};
 use std::ffi::{CStr, CString};
-use std::fs;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::ptr::null_mut;
 
@@ -154,4 +155,58 @@ pub(crate) fn rust_settings(tolerance: f64) -> Settings {
         tolerance,
         ..Settings::DEFAULT
     }
+}
+
+/// The pairs of a folder of scenes: body A, body B, motions.
+pub(crate) const SCENES: [(&str, &str, &str); 7] = [
+    ("knot2880", "knot2880", "knots"),
+    ("knot11520", "knot11520", "knots"),
+    ("knot34560", "knot34560", "knots"),
+    ("ring", "ring", "rings"),
+    ("bunny70k", "bunny70k", "bunnies"),
+    ("bunny26k", "bunny26k", "bunnies"),
+    ("santa", "board", "santa"),
+];
+
+/// A pair of a folder of scenes, through the interface and in Rust, with the rows of its motions.
+type Scene = ([Handle<RccdBody>; 2], [Body; 2], Vec<Motions>);
+
+/// Loads a pair of a folder of scenes.
+pub(crate) fn scene(folder: &Path, bodies: [&str; 2], motions: &str) -> Result<Scene> {
+    let rows = MotionTable::read(File::open(folder.join(format!("{motions}.csv")))?)?.rows;
+    let files = bodies.map(|name| folder.join(format!("{name}.obj")));
+    let rust = [load(&files[0])?, load(&files[1])?];
+    let load = |path: &Path| {
+        let path = text(path)?;
+        // SAFETY: the path ends with a zero.
+        Handle::new(rccd_body_free, |out| unsafe {
+            rccd_body_load(path.as_ptr(), out)
+        })
+    };
+    let rows = rows.into_iter().map(|(_, row)| row).collect();
+    Ok(([load(&files[0])?, load(&files[1])?], rust, rows))
+}
+
+/// Returns a motion as the interface takes it.
+pub(crate) fn numbers_of(motion: &Motion) -> RccdMotion {
+    RccdMotion {
+        start: RccdPose {
+            position: motion.start().translation().to_array(),
+            orientation: motion.start().rotation().to_array(),
+        },
+        velocity: motion.velocity().to_array(),
+        spin: motion.spin().to_array(),
+        centre: motion.centre().to_array(),
+    }
+}
+
+/// Makes a motion of Rust from the numbers of one of the interface.
+pub(crate) fn motion_of(numbers: &RccdMotion) -> Result<Motion> {
+    let start = Pose::new(numbers.start.position, numbers.start.orientation)?;
+    Ok(Motion::about(
+        start,
+        numbers.velocity,
+        numbers.spin,
+        numbers.centre,
+    )?)
 }

@@ -4,14 +4,13 @@ use crate::folder::{
     Handle, cell_solver, cells, check, default_settings, empty_path_answer, read_numbers,
     rust_settings,
 };
+use crate::tally::{Answered, Tally, report};
 use anyhow::Result;
 use ccd_core::order::lesser;
 use rigid_ccd_c::*;
 use rigid_ccd_robot::{Cell, PathOutcome};
-use rustix::time::{ClockId, clock_gettime};
 use std::path::PathBuf;
 use std::ptr::null;
-use std::time::Instant;
 
 /// The number of waypoints of a chunk in the file.
 const WAYPOINTS: usize = 50;
@@ -50,28 +49,13 @@ struct Chunk {
     touches_at: f64,
 }
 
-/// What a thread has seen.
-#[derive(Default)]
-struct Seen {
-    /// Seconds of the clock, and of the processor, for each chunk.
-    times: Vec<[f32; 2]>,
-    allocations: u64,
-    free: usize,
-    contacts: usize,
-    unresolved: usize,
-    prefixes: usize,
-    /// Answers that came although the deadline had passed by 20 µs of the processor's time: of these, contacts and free paths.
-    late: [usize; 2],
-    /// Prefixes that go beyond the first contact, and other wrong answers.
-    wrong: usize,
-}
-
 pub(crate) fn run(args: &Args) -> Result<()> {
     let (cell, rust) = cells(&args.folder, &args.meshes, &args.cell)?;
     let joints = rust.robot().free_joint_names().len();
     let chunks = read_chunks(args, &rust, joints)?;
+    let deadline = args.deadline.map(|micros| micros * 1e-6);
     let settings = RccdSettings {
-        deadline: args.deadline.map_or(f64::INFINITY, |micros| micros * 1e-6),
+        deadline: deadline.unwrap_or(f64::INFINITY),
         ..default_settings()
     };
     let mut solvers = Vec::new();
@@ -83,20 +67,23 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         solvers.push(solver);
     }
     let share = args.chunks / solvers.len();
-    let latest = args.deadline.map(|micros| ((micros + 20.0) * 1e-6) as f32);
-    let seen = std::thread::scope(|scope| {
+    let tallies = std::thread::scope(|scope| {
         let threads = solvers.into_iter().enumerate().map(|(number, solver)| {
             let chunks = &chunks;
             scope.spawn(move || {
-                check_chunks(&solver, chunks, joints, (number as u64, share), latest)
+                check_chunks(&solver, chunks, joints, (number as u64, share), deadline)
             })
         });
         let threads: Vec<_> = threads.collect();
-        let seen = threads.into_iter().map(|thread| thread.join());
-        seen.collect::<Result<Vec<_>, _>>()
+        let tallies = threads.into_iter().map(|thread| thread.join());
+        tallies.collect::<Result<Vec<_>, _>>()
     });
-    let seen = seen.map_err(|_| anyhow::anyhow!("a thread has panicked"))?;
-    report(args, seen.into_iter().collect::<Result<_>>()?);
+    let tallies = tallies.map_err(|_| anyhow::anyhow!("a thread has panicked"))?;
+    let tallies = tallies.into_iter().collect::<Result<Vec<_>>>()?;
+    let limit = args
+        .deadline
+        .map_or("no deadline".to_owned(), |micros| format!("{micros} µs"));
+    report(&format!("cell {}, {limit}", args.cell), &tallies);
     Ok(())
 }
 
@@ -148,12 +135,9 @@ fn check_chunks(
     chunks: &[Chunk],
     joints: usize,
     (seed, count): (u64, usize),
-    latest: Option<f32>,
-) -> Result<Seen> {
-    let mut seen = Seen {
-        times: Vec::with_capacity(count),
-        ..Seen::default()
-    };
+    deadline: Option<f64>,
+) -> Result<Tally> {
+    let mut tally = Tally::new(deadline, count);
     let mut random = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1;
     let mut below = |limit: usize| {
         random = random
@@ -168,113 +152,19 @@ fn check_chunks(
             let first = below((lesser(chunk.touches_at, (WAYPOINTS - 2) as f64) as usize).max(1));
             let waypoints = (16 + below(WAYPOINTS - 15)).min(WAYPOINTS - first);
             let part = &chunk.positions[first * joints..(first + waypoints) * joints];
-            let (start, worked) = (Instant::now(), processor_seconds());
-            let answer = ask(&solver.0, part, joints);
-            let times = [
-                start.elapsed().as_secs_f32(),
-                (processor_seconds() - worked) as f32,
-            ];
-            seen.times.push(times);
-            if let (Ok(answer), Some(latest)) = (&answer, latest)
-                && times[1] > latest
-            {
-                let is_resolved = answer.outcome != RccdOutcome::Unresolved;
-                seen.late[usize::from(is_resolved)] += 1;
-            }
-            match answer {
-                Ok(answer) => seen.judge(&answer, chunk.touches_at - first as f64, waypoints),
+            match tally.ask(|| ask(&solver.0, part, joints)) {
+                Ok(answer) => {
+                    let answer = Answered {
+                        outcome: answer.outcome,
+                        free_until: answer.segment as f64 + answer.share,
+                        end: (waypoints - 1) as f64,
+                    };
+                    tally.judge(answer, chunk.touches_at - first as f64);
+                }
                 Err(error) => failure = Some(error),
             }
         }
     });
-    seen.allocations = counted.count_total;
-    failure.map_or(Ok(seen), Err)
-}
-
-/// Returns the time that this thread has been running.
-fn processor_seconds() -> f64 {
-    let time = clock_gettime(ClockId::ThreadCPUTime);
-    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
-}
-
-impl Seen {
-    /// Holds an answer against where the part of the chunk first touches.
-    fn judge(&mut self, answer: &RccdPathAnswer, touches_at: f64, waypoints: usize) {
-        let end = (waypoints - 1) as f64;
-        let at = answer.segment as f64 + answer.share;
-        let right = match answer.outcome {
-            RccdOutcome::Free => {
-                self.free += 1;
-                touches_at >= end
-            }
-            RccdOutcome::Contact => {
-                self.contacts += 1;
-                at <= touches_at
-            }
-            _ => {
-                self.unresolved += 1;
-                self.prefixes += usize::from(at > 0.0);
-                at <= touches_at
-            }
-        };
-        self.wrong += usize::from(!right);
-    }
-}
-
-fn report(args: &Args, seen: Vec<Seen>) {
-    let sum = |count: fn(&Seen) -> usize| seen.iter().map(count).sum::<usize>();
-    let allocations: u64 = seen.iter().map(|seen| seen.allocations).sum();
-    println!(
-        "cell {}, deadline {}, {} threads: {} chunks, {} free, {} in contact, {} unresolved ({} with a free prefix), {} wrong; \
-         {allocations} allocations",
-        args.cell,
-        args.deadline
-            .map_or("none".to_owned(), |micros| format!("{micros} µs")),
-        seen.len(),
-        sum(|seen| seen.times.len()),
-        sum(|seen| seen.free),
-        sum(|seen| seen.contacts),
-        sum(|seen| seen.unresolved),
-        sum(|seen| seen.prefixes),
-        sum(|seen| seen.wrong),
-    );
-    let late = [0, 1].map(|kind| seen.iter().map(|seen| seen.late[kind]).sum::<usize>());
-    if args.deadline.is_some() {
-        println!(
-            "  later than 20 µs: {} unresolved, {} resolved",
-            late[0], late[1]
-        );
-    }
-    for (which, name) in ["of the clock", "of the processor"].into_iter().enumerate() {
-        let mut micros: Vec<f32> = seen
-            .iter()
-            .flat_map(|seen| seen.times.iter().map(|times| 1e6 * times[which]))
-            .collect();
-        micros.sort_by(f32::total_cmp);
-        let Some(last) = micros.len().checked_sub(1) else {
-            return;
-        };
-        let at = |share: f64| micros[(share * last as f64) as usize];
-        let late = args.deadline.map(|deadline| {
-            let beyond = |by: f64| {
-                let count = micros.partition_point(|&own| f64::from(own) <= deadline + by);
-                micros.len() - count
-            };
-            format!(
-                "; beyond the deadline by 5 µs: {}, 20 µs: {}, 100 µs: {}",
-                beyond(5.0),
-                beyond(20.0),
-                beyond(100.0)
-            )
-        });
-        println!(
-            "  microseconds {name}: p50 {:.1}, p99 {:.1}, p99.9 {:.1}, p99.99 {:.1}, max {:.1}{}",
-            at(0.5),
-            at(0.99),
-            at(0.999),
-            at(0.9999),
-            micros[last],
-            late.unwrap_or_default(),
-        );
-    }
+    tally.allocations = counted.count_total;
+    failure.map_or(Ok(tally), Err)
 }

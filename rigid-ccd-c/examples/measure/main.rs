@@ -7,7 +7,9 @@
 
 mod folder;
 mod gate;
+mod pairs;
 mod same;
+mod tally;
 
 use clap::Parser;
 use std::path::PathBuf;
@@ -32,6 +34,8 @@ enum Command {
     },
     /// Check chunks of waypoints under a deadline, on several threads
     Gate(gate::Args),
+    /// Ask about two bodies under a deadline
+    Pairs(pairs::Args),
 }
 
 fn main() -> anyhow::Result<()> {
@@ -51,5 +55,6 @@ fn main() -> anyhow::Result<()> {
             Ok(())
         }
         Command::Gate(args) => gate::run(&args),
+        Command::Pairs(args) => pairs::run(&args),
     }
 }

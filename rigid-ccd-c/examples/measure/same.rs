@@ -1,29 +1,17 @@
 //! Compares each answer of the interface with that of Rust, bit by bit, and the times of both.
 
 use crate::folder::{
-    Handle, cell_solver, cells, check, default_settings, empty_path_answer, read_numbers,
-    rust_settings, text,
+    Handle, SCENES, cell_solver, cells, check, default_settings, empty_path_answer, motion_of,
+    numbers_of, read_numbers, rust_settings, scene,
 };
 use anyhow::{Context, Result, ensure};
-use rigid_ccd::table::motions::{MotionTable, Motions};
-use rigid_ccd::{Body, Motion, Outcome, Pose, Solver, load};
+use rigid_ccd::table::motions::Motions;
+use rigid_ccd::{Body, Outcome, Solver};
 use rigid_ccd_c::*;
 use rigid_ccd_robot::{CellSolver, PathOutcome};
-use std::fs::File;
 use std::path::Path;
 use std::ptr::null;
 use std::time::{Duration, Instant};
-
-/// The pairs of a folder of scenes: body A, body B, motions.
-const SCENES: [(&str, &str, &str); 7] = [
-    ("knot2880", "knot2880", "knots"),
-    ("knot11520", "knot11520", "knots"),
-    ("knot34560", "knot34560", "knots"),
-    ("ring", "ring", "rings"),
-    ("bunny70k", "bunny70k", "bunnies"),
-    ("bunny26k", "bunny26k", "bunnies"),
-    ("santa", "board", "santa"),
-];
 
 /// The least times of one question, through the interface and in Rust.
 struct Times([Duration; 2]);
@@ -64,17 +52,7 @@ fn print(name: &str, times: &[Times], hits: usize) {
 pub(crate) fn compare_scenes(folder: &Path, repeat: usize) -> Result<()> {
     for tolerance in [1e-3, 1e-6] {
         for (a, b, motions) in SCENES {
-            let rows = MotionTable::read(File::open(folder.join(format!("{motions}.csv")))?)?.rows;
-            let bodies = [a, b].map(|name| folder.join(format!("{name}.obj")));
-            let rust = [load(&bodies[0])?, load(&bodies[1])?];
-            let load = |path: &Path| {
-                let path = text(path)?;
-                // SAFETY: the path ends with a zero.
-                Handle::new(rccd_body_free, |out| unsafe {
-                    rccd_body_load(path.as_ptr(), out)
-                })
-            };
-            let c = [load(&bodies[0])?, load(&bodies[1])?];
+            let (c, rust, rows) = scene(folder, [a, b], motions)?;
             let name = format!("{a} {tolerance:e}");
             compare_rows(&name, &rows, (&c, &rust), tolerance, repeat)?;
         }
@@ -82,9 +60,9 @@ pub(crate) fn compare_scenes(folder: &Path, repeat: usize) -> Result<()> {
     Ok(())
 }
 
-fn compare_rows<P>(
+fn compare_rows(
     name: &str,
-    rows: &[(P, Motions)],
+    rows: &[Motions],
     (c, rust): (&[Handle<RccdBody>; 2], &[Body; 2]),
     tolerance: f64,
     repeat: usize,
@@ -99,9 +77,8 @@ fn compare_rows<P>(
     })?;
     let mut rust_solver = Solver::new().with_settings(rust_settings(tolerance));
     let (mut times, mut hits) = (Vec::new(), 0);
-    for (_, row) in rows {
+    for row in rows {
         let motions = [row.a, row.b].map(|motion| numbers_of(&motion));
-        let rust_motions = [motion_of(&motions[0])?, motion_of(&motions[1])?];
         // SAFETY: zero is a value of each field.
         let mut answer: RccdAnswer = unsafe { std::mem::zeroed() };
         answer.size = size_of::<RccdAnswer>();
@@ -117,7 +94,9 @@ fn compare_rows<P>(
                 // SAFETY: the pointers are to values that live here.
                 check(unsafe { rccd_first_contact(solver.0, a, b, row.duration, &mut answer) })
             } else {
-                let [a, b] = [0, 1].map(|k| (&rust[k], rust_motions[k]));
+                // Both begin with the numbers of the motions.
+                let (a, b) = (motion_of(&motions[0])?, motion_of(&motions[1])?);
+                let (a, b) = ((&rust[0], a), (&rust[1], b));
                 outcome = Some(rust_solver.first_contact(a, b, row.duration)?);
                 Ok(())
             }
@@ -143,28 +122,6 @@ fn compare_rows<P>(
     }
     print(name, &times, hits);
     Ok(())
-}
-
-fn numbers_of(motion: &Motion) -> RccdMotion {
-    RccdMotion {
-        start: RccdPose {
-            position: motion.start().translation().to_array(),
-            orientation: motion.start().rotation().to_array(),
-        },
-        velocity: motion.velocity().to_array(),
-        spin: motion.spin().to_array(),
-        centre: motion.centre().to_array(),
-    }
-}
-
-fn motion_of(numbers: &RccdMotion) -> Result<Motion> {
-    let start = Pose::new(numbers.start.position, numbers.start.orientation)?;
-    Ok(Motion::about(
-        start,
-        numbers.velocity,
-        numbers.spin,
-        numbers.centre,
-    )?)
 }
 
 /// Compares all edges of a folder of a robot.

@@ -1,5 +1,6 @@
 // Plans paths of an arm of seven joints past boxes by OMPL's RRT-Connect, on certified edges, then checks each path once more:
-//   plan [FOLDER OF arm.urdf] [QUERIES]
+//   plan [FOLDER OF arm.urdf] [QUERIES] [FILE FOR THE PATHS]
+// judge.py holds the paths against another library.
 #include "rigid_ccd_ompl.hpp"
 
 #include <ompl/base/spaces/RealVectorStateSpace.h>
@@ -11,6 +12,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iomanip>
 #include <memory>
 #include <string>
 #include <vector>
@@ -48,6 +51,7 @@ ob::StateSpacePtr joint_space(const rigid_ccd::Cell &cell) {
 int main(int argc, char **argv) {
     const std::string folder = argc > 1 ? argv[1] : "rigid-ccd-robot/examples/edges";
     const int queries = argc > 2 ? std::atoi(argv[2]) : 20;
+    std::ofstream paths(argc > 3 ? argv[3] : "");
     ompl::msg::setLogLevel(ompl::msg::LOG_WARN);
     ompl::RNG::setSeed(1);
     const rigid_ccd::Cell cell = cell_with_boxes(folder);
@@ -73,6 +77,9 @@ int main(int argc, char **argv) {
         for (const ob::State *at : setup.getSolutionPath().getStates()) {
             space->copyToReals(state, at);
             path.insert(path.end(), state.begin(), state.end());
+            paths << query;
+            for (const double position : state) paths << ',' << std::setprecision(17) << position;
+            paths << '\n';
         }
         edges += static_cast<int>(setup.getSolutionPath().getStateCount()) - 1;
         if (!solver.first_contact(path).free()) ++touching;

@@ -83,6 +83,11 @@ fn null_and_wrong_sizes_are_refused_with_their_names() {
         };
         refused(rccd_solver_set_settings(s, &settings), "start_policy 7");
         let settings = RccdSettings {
+            contact_normals: 2,
+            ..default_settings()
+        };
+        refused(rccd_solver_set_settings(s, &settings), "contact_normals 2");
+        let settings = RccdSettings {
             size: 8,
             ..default_settings()
         };

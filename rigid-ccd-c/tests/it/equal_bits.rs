@@ -3,7 +3,9 @@
 use crate::support::{Handle, Random, default_settings, moving, ok};
 use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd::trajectory::{Ballistic, Curve, OrientationCurve, Poses, Spline};
-use rigid_ccd::{Answer, Body, Motion, Outcome, Pose, Settings, Solver, StartPolicy};
+use rigid_ccd::{
+    Answer, Body, ContactNormals, Motion, Outcome, Pose, Settings, Solver, StartPolicy,
+};
 use rigid_ccd_c::*;
 use std::ptr::null;
 
@@ -90,12 +92,14 @@ fn answers_about_motions_have_the_bits_of_rust() {
         tolerance: 1e-5,
         margin: 0.01,
         start_policy: StartPolicy::Leave,
+        contact_normals: ContactNormals::OfPieces,
         ..Settings::DEFAULT
     };
     let c_settings = RccdSettings {
         tolerance: 1e-5,
         margin: 0.01,
         start_policy: RccdStartPolicy::Leave as u32,
+        contact_normals: RccdContactNormals::OfPieces as u32,
         ..default_settings()
     };
     let mut rust = Solver::new().with_settings(settings.clone());

@@ -168,8 +168,12 @@ impl Call<'_, '_> {
             (settings.budget, settings.deadline) = (u64::MAX, 1e-3);
         }
         settings.start_policy = self.random.index(2) as u32;
+        settings.contact_normals = self.random.index(2) as u32;
         if self.is_odd() {
             settings.start_policy = self.random.bits();
+        }
+        if self.is_odd() {
+            settings.contact_normals = self.random.bits();
         }
         if self.is_odd() {
             let sizes = [0, 8, settings.size + 8, usize::MAX];

@@ -1,0 +1,141 @@
+//! What questions under a deadline take, and whether their answers hold.
+
+use rigid_ccd_c::RccdOutcome;
+use rustix::time::{ClockId, clock_gettime};
+use std::time::Instant;
+
+/// The processor's time, in seconds, by which a deadline may be overstepped.
+const OVERSTEP: f64 = 20e-6;
+
+/// How often a question that is late is asked again. An interrupt makes one of some hundred questions late, hardly ever the same
+/// one each time.
+const REPETITIONS: usize = 4;
+
+/// What the questions of a thread have taken, and how they have ended.
+#[derive(Default)]
+pub(crate) struct Tally {
+    /// Seconds of the clock, and of the processor, for each question.
+    times: Vec<[f32; 2]>,
+    /// The processor's time from which an answer is late; `None` without a deadline.
+    latest: Option<f64>,
+    /// The questions whose answer was late, and those for which it was late each time that they were asked again.
+    late: usize,
+    late_each_time: usize,
+    pub(crate) allocations: u64,
+    free: usize,
+    contacts: usize,
+    unresolved: usize,
+    prefixes: usize,
+    /// Prefixes that go beyond the first contact, and other wrong answers.
+    wrong: usize,
+}
+
+/// An answer to a question over a duration.
+#[derive(Clone, Copy)]
+pub(crate) struct Answered {
+    pub(crate) outcome: RccdOutcome,
+    /// Nothing touches before, by the answer.
+    pub(crate) free_until: f64,
+    pub(crate) end: f64,
+}
+
+impl Tally {
+    /// Creates a tally with place for a number of questions. The deadline is in seconds.
+    pub(crate) fn new(deadline: Option<f64>, count: usize) -> Self {
+        Tally {
+            times: Vec::with_capacity(count),
+            latest: deadline.map(|deadline| deadline + OVERSTEP),
+            ..Tally::default()
+        }
+    }
+
+    /// Asks a question and keeps the times it takes. If it is late it is asked again.
+    pub(crate) fn ask<T>(&mut self, mut question: impl FnMut() -> T) -> T {
+        let (answer, times) = timed(&mut question);
+        self.times.push(times.map(|seconds| seconds as f32));
+        if let Some(latest) = self.latest
+            && times[1] > latest
+        {
+            self.late += 1;
+            let is_late_again = |_| timed(&mut question).1[1] > latest;
+            self.late_each_time += usize::from((0..REPETITIONS).all(is_late_again));
+        }
+        answer
+    }
+
+    /// Holds an answer against a time that nothing touches before, and at which something has come within the tolerance; infinite
+    /// if nothing does.
+    pub(crate) fn judge(&mut self, answer: Answered, touches_at: f64) {
+        let right = match answer.outcome {
+            RccdOutcome::Free => {
+                self.free += 1;
+                touches_at >= answer.end
+            }
+            RccdOutcome::Unresolved => {
+                self.unresolved += 1;
+                self.prefixes += usize::from(answer.free_until > 0.0);
+                answer.free_until <= touches_at
+            }
+            _ => {
+                self.contacts += 1;
+                answer.free_until <= touches_at
+            }
+        };
+        self.wrong += usize::from(!right);
+    }
+}
+
+/// Returns the answer to a question, and the seconds of the clock and of the processor that it has taken.
+fn timed<T>(question: &mut impl FnMut() -> T) -> (T, [f64; 2]) {
+    let (start, worked) = (Instant::now(), processor_seconds());
+    let answer = question();
+    let worked = processor_seconds() - worked;
+    (answer, [start.elapsed().as_secs_f64(), worked])
+}
+
+/// Returns the time that this thread has been running.
+fn processor_seconds() -> f64 {
+    let time = clock_gettime(ClockId::ThreadCPUTime);
+    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+}
+
+/// Prints what all threads have seen.
+pub(crate) fn report(name: &str, tallies: &[Tally]) {
+    let sum = |count: fn(&Tally) -> usize| tallies.iter().map(count).sum::<usize>();
+    println!(
+        "{name}, {} threads: {} questions, {} free, {} in contact, {} unresolved ({} with a free prefix), {} wrong; {} allocations",
+        tallies.len(),
+        sum(|tally| tally.times.len()),
+        sum(|tally| tally.free),
+        sum(|tally| tally.contacts),
+        sum(|tally| tally.unresolved),
+        sum(|tally| tally.prefixes),
+        sum(|tally| tally.wrong),
+        tallies.iter().map(|tally| tally.allocations).sum::<u64>(),
+    );
+    if tallies.iter().any(|tally| tally.latest.is_some()) {
+        println!(
+            "  later than {:.0} µs of the processor after the deadline: {}; of these when asked {REPETITIONS} times more: {}",
+            1e6 * OVERSTEP,
+            sum(|tally| tally.late),
+            sum(|tally| tally.late_each_time),
+        );
+    }
+    for (which, name) in ["of the clock", "of the processor"].into_iter().enumerate() {
+        let times = tallies.iter().flat_map(|tally| &tally.times);
+        let mut micros: Vec<f32> = times.map(|times| 1e6 * times[which]).collect();
+        micros.sort_by(f32::total_cmp);
+        let Some(last) = micros.len().checked_sub(1) else {
+            return;
+        };
+        let at = |share: f64| micros[(share * last as f64) as usize];
+        println!(
+            "  microseconds {name}: p50 {:.1}, p99 {:.1}, p99.9 {:.1}, p99.99 {:.1}, max {:.1}",
+            at(0.5),
+            at(0.99),
+            at(0.999),
+            at(0.9999),
+            micros[last],
+        );
+    }
+}
