@@ -2,14 +2,16 @@
 
 import { featureOf, limitOf, vectorAt } from "./answer.js";
 import { Body } from "./body.js";
-import { finiteNumber, listOfNumbers, poseNumbers } from "./numbers.js";
+import { checkNames, finiteNumber, listOfNumbers, poseNumbers, settingNumber } from "./numbers.js";
 import { innerOf, Owned } from "./owned.js";
-import { Robot } from "./robot.js";
+import { pairsOf, Robot } from "./robot.js";
 import { settingsOf, UnresolvedError } from "./solver.js";
 import { classes } from "./wasm.js";
 
 /** The place of the pair in the numbers of an answer, as `js/src/wasm/path_answer.rs` writes them. */
 const PAIR = 3;
+const OF_CONTACTS = ["tolerance", "margin", "budget"];
+const OF_DISTANCES = ["tolerance", "budget"];
 const VERDICTS = ["kept", "violated", "unverified"];
 
 export class Cell extends Owned {
@@ -33,6 +35,7 @@ export class Cell extends Owned {
   }
 
   attach(name, body, link, options) {
+    checkNames(options, "options of Cell.attach", ["pose", "mayTouch"]);
     const pose = poseNumbers(options?.pose, "pose");
     Owned.inner(this).attach(name, innerOf(body, Body, "body"), link, pose, options?.mayTouch ?? []);
   }
@@ -49,20 +52,24 @@ export class Cell extends Owned {
     Owned.inner(this).set_clearance(a, b, finiteNumber(distance, "distance"));
   }
 
+  get checkedPairs() {
+    return pairsOf(Owned.inner(this).checked_pairs());
+  }
+
   firstContact(path, options) {
-    const { kind, numbers, names } = this.#ask(classes().Question.FirstContact, path, options);
+    const { kind, numbers, names } = this.#ask(classes().Question.FirstContact, path, options, OF_CONTACTS);
     return contactAnswer(kind, numbers, names);
   }
 
   isFree(path, options) {
-    const { kind, numbers, names } = this.#ask(classes().Question.AnyContact, path, options);
+    const { kind, numbers, names } = this.#ask(classes().Question.AnyContact, path, options, OF_CONTACTS);
     const answer = contactAnswer(kind, numbers, names);
     if (answer.kind === "unresolved") throw new UnresolvedError({ limit: answer.limit, advice: answer.advice, safeUntil: answer.safeUntil });
     return answer.kind === "free";
   }
 
   closestApproach(path, options) {
-    const { kind, numbers, names } = this.#ask(classes().Question.ClosestApproach, path, options);
+    const { kind, numbers, names } = this.#ask(classes().Question.ClosestApproach, path, options, OF_DISTANCES);
     const bounds = { lower: numbers[0], upper: numbers[1] };
     const nearest = names.length === 0 ? null : pairOf(numbers, names);
     if (kind === classes().AnswerKind.LeastDistance) return { kind: "leastDistance", ...bounds, nearest };
@@ -70,9 +77,9 @@ export class Cell extends Owned {
   }
 
   clearanceRanges(path, options) {
-    const settings = settingsOf(options, "options", ["resolution", "maxPoseError"]);
-    const resolution = finiteNumber(options?.resolution ?? 1 / 4096, "resolution");
-    const error = finiteNumber(options?.maxPoseError ?? 0, "maxPoseError");
+    const settings = settingsOf(options, [...OF_CONTACTS, "resolution", "maxPoseError"]);
+    const resolution = settingNumber(options?.resolution ?? 1 / 4096, "resolution");
+    const error = settingNumber(options?.maxPoseError ?? 0, "maxPoseError");
     const numbers = Owned.inner(this).clearance_ranges(this.#numbersOf(path), settings, resolution, error);
     return Array.from({ length: numbers.length / 3 }, (_, k) => {
       const [start, end, verdict] = numbers.subarray(3 * k, 3 * k + 3);
@@ -80,8 +87,8 @@ export class Cell extends Owned {
     });
   }
 
-  #ask(question, path, options) {
-    const answer = Owned.inner(this).ask(question, this.#numbersOf(path), settingsOf(options, "options", []));
+  #ask(question, path, options, known) {
+    const answer = Owned.inner(this).ask(question, this.#numbersOf(path), settingsOf(options, known));
     const parts = { kind: answer.kind, numbers: answer.numbers(), names: answer.names() };
     answer.free();
     return parts;
@@ -103,7 +110,7 @@ export class Cell extends Owned {
 
 function contactAnswer(kind, numbers, names) {
   const { Free, Contact } = classes().AnswerKind;
-  if (kind === Free) return { kind: "free" };
+  if (kind === Free) return { kind: "free", safeUntil: numbers[0] + numbers[1] };
   if (kind === Contact) return { kind: "contact", ...pairOf(numbers, names) };
   const [segment, share, limit] = numbers;
   return { kind: "unresolved", ...limitOf(limit), safeUntil: segment + share };

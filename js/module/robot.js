@@ -2,8 +2,8 @@
 
 import { Body } from "./body.js";
 import { LinkMotion } from "./movement.js";
-import { checkNames, finiteNumber, listOfNumbers, numberOrInfinity, poseNumbers, poseOfNumbers, vectorNumbers } from "./numbers.js";
-import { innerOf, Owned } from "./owned.js";
+import { checkNames, finiteNumber, listOfNumbers, numberOrInfinity, poseNumbers, poseOfNumbers, settingNumber, vectorNumbers } from "./numbers.js";
+import { described, innerOf, Owned, quoted } from "./owned.js";
 import { classes } from "./wasm.js";
 
 const JOINT_NAMES = ["type", "name", "parent", "child", "origin", "axis", "limits", "mimic"];
@@ -35,7 +35,7 @@ export class Robot extends Owned {
 
   motion(link, start, end, options) {
     checkNames(options, "options of Robot.motion", ["duration", "seenFrom"]);
-    const duration = finiteNumber(options?.duration ?? 1, "duration");
+    const duration = settingNumber(options?.duration ?? 1, "duration");
     const [from, to] = [listOfNumbers(start, "start"), listOfNumbers(end, "end")];
     return new LinkMotion(Owned.inner(this).motion(link, options?.seenFrom, from, to, duration));
   }
@@ -47,7 +47,8 @@ function build(parts) {
   for (const joint of parts?.joints ?? []) addJoint(builder, joint);
   for (const [link, held] of Object.entries(parts?.bodies ?? {})) {
     for (const { body, pose } of Array.isArray(held) ? held : [{ body: held }]) {
-      builder.add_body(link, innerOf(body, Body, `bodies.${link}`), poseNumbers(pose, `pose of bodies.${link}`));
+      const what = `bodies[${quoted(link)}]`;
+      builder.add_body(link, innerOf(body, Body, what), poseNumbers(pose, `pose of ${what}`));
     }
   }
   for (const [one, other] of parts?.mayTouch ?? []) builder.may_touch(one, other);
@@ -55,10 +56,10 @@ function build(parts) {
 }
 
 function addJoint(builder, joint) {
-  const what = `joint "${joint?.name}"`;
+  const what = `joint ${described(joint?.name)}`;
   checkNames(joint, what, JOINT_NAMES);
   for (const name of ["type", "name", "parent", "child"]) {
-    if (typeof joint[name] !== "string") throw new TypeError(`${what}: "${name}" has to be a string`);
+    if (typeof joint[name] !== "string") throw new TypeError(`${what}: ${name}: a string is needed, not ${described(joint[name])}`);
   }
   const [low, high] = joint.limits ?? [-Infinity, Infinity];
   const numbers = new Float64Array([
@@ -75,6 +76,6 @@ function addJoint(builder, joint) {
   }
 }
 
-function pairsOf(list) {
+export function pairsOf(list) {
   return Array.from({ length: list.length / 2 }, (_, k) => [list[2 * k], list[2 * k + 1]]);
 }
