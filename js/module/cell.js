@@ -10,8 +10,8 @@ import { classes } from "./wasm.js";
 
 /** The place of the pair in the numbers of an answer, as `js/src/wasm/path_answer.rs` writes them. */
 const PAIR = 3;
-const OF_CONTACTS = ["tolerance", "margin", "budget"];
-const OF_DISTANCES = ["tolerance", "budget"];
+const CONTACT_SETTINGS = ["tolerance", "margin", "budget"];
+const DISTANCE_SETTINGS = ["tolerance", "budget"];
 const VERDICTS = ["kept", "violated", "unverified"];
 
 export class Cell extends Owned {
@@ -57,19 +57,19 @@ export class Cell extends Owned {
   }
 
   firstContact(path, options) {
-    const { kind, numbers, names } = this.#ask(classes().Question.FirstContact, path, options, OF_CONTACTS);
+    const { kind, numbers, names } = this.#ask(classes().Question.FirstContact, path, options, CONTACT_SETTINGS);
     return contactAnswer(kind, numbers, names);
   }
 
   isFree(path, options) {
-    const { kind, numbers, names } = this.#ask(classes().Question.AnyContact, path, options, OF_CONTACTS);
+    const { kind, numbers, names } = this.#ask(classes().Question.AnyContact, path, options, CONTACT_SETTINGS);
     const answer = contactAnswer(kind, numbers, names);
     if (answer.kind === "unresolved") throw new UnresolvedError({ limit: answer.limit, advice: answer.advice, safeUntil: answer.safeUntil });
     return answer.kind === "free";
   }
 
   closestApproach(path, options) {
-    const { kind, numbers, names } = this.#ask(classes().Question.ClosestApproach, path, options, OF_DISTANCES);
+    const { kind, numbers, names } = this.#ask(classes().Question.ClosestApproach, path, options, DISTANCE_SETTINGS);
     const bounds = { lower: numbers[0], upper: numbers[1] };
     const nearest = names.length === 0 ? null : pairOf(numbers, names);
     if (kind === classes().AnswerKind.LeastDistance) return { kind: "leastDistance", ...bounds, nearest };
@@ -77,7 +77,7 @@ export class Cell extends Owned {
   }
 
   clearanceRanges(path, options) {
-    const settings = settingsOf(options, [...OF_CONTACTS, "resolution", "maxPoseError"]);
+    const settings = settingsOf(options, [...CONTACT_SETTINGS, "resolution", "maxPoseError"]);
     const resolution = settingNumber(options?.resolution ?? 1 / 4096, "resolution");
     const error = settingNumber(options?.maxPoseError ?? 0, "maxPoseError");
     const numbers = Owned.inner(this).clearance_ranges(this.#numbersOf(path), settings, resolution, error);
