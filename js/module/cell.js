@@ -2,7 +2,7 @@
 
 import { featureOf, limitOf, vectorAt } from "./answer.js";
 import { Body } from "./body.js";
-import { checkNames, finiteNumber, listOfNumbers, poseNumbers, settingNumber } from "./numbers.js";
+import { checkNames, finiteNumber, listOfNumbers, nameOf, poseNumbers, settingNumber } from "./numbers.js";
 import { innerOf, Owned } from "./owned.js";
 import { pairsOf, Robot } from "./robot.js";
 import { settingsOf, UnresolvedError } from "./solver.js";
@@ -23,33 +23,34 @@ export class Cell extends Owned {
   }
 
   add(name, body, pose) {
-    Owned.inner(this).add(name, innerOf(body, Body, "body"), poseNumbers(pose, "pose"));
+    Owned.inner(this).add(nameOf(name, "name"), innerOf(body, Body, "body"), poseNumbers(pose, "pose"));
   }
 
   moveTo(name, pose) {
-    Owned.inner(this).move_to(name, poseNumbers(pose, "pose"));
+    Owned.inner(this).move_to(nameOf(name, "name"), poseNumbers(pose, "pose"));
   }
 
   remove(name) {
-    Owned.inner(this).remove(name);
+    Owned.inner(this).remove(nameOf(name, "name"));
   }
 
   attach(name, body, link, options) {
     checkNames(options, "options of Cell.attach", ["pose", "mayTouch"]);
     const pose = poseNumbers(options?.pose, "pose");
-    Owned.inner(this).attach(name, innerOf(body, Body, "body"), link, pose, options?.mayTouch ?? []);
+    const mayTouch = Array.from(options?.mayTouch ?? [], (one, k) => nameOf(one, `mayTouch[${k}]`));
+    Owned.inner(this).attach(nameOf(name, "name"), innerOf(body, Body, "body"), nameOf(link, "link"), pose, mayTouch);
   }
 
   detach(name) {
-    Owned.inner(this).detach(name);
+    Owned.inner(this).detach(nameOf(name, "name"));
   }
 
   setPadding(link, distance) {
-    Owned.inner(this).set_padding(link, finiteNumber(distance, "distance"));
+    Owned.inner(this).set_padding(nameOf(link, "link"), finiteNumber(distance, "distance"));
   }
 
   setClearance(a, b, distance) {
-    Owned.inner(this).set_clearance(a, b, finiteNumber(distance, "distance"));
+    Owned.inner(this).set_clearance(nameOf(a, "a"), nameOf(b, "b"), finiteNumber(distance, "distance"));
   }
 
   get checkedPairs() {

@@ -36,6 +36,12 @@ export function settingNumber(value, name) {
   return value;
 }
 
+/** Returns a name, which has to be a string. */
+export function nameOf(value, what) {
+  if (typeof value !== "string") throw new TypeError(`${what}: a string is needed, not ${described(value)}`);
+  return value;
+}
+
 function number(value, what) {
   if (typeof value !== "number") throw new TypeError(`${what}: a number is needed, not ${described(value)}`);
   return value;

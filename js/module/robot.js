@@ -2,7 +2,7 @@
 
 import { Body } from "./body.js";
 import { LinkMotion } from "./movement.js";
-import { checkNames, finiteNumber, listOfNumbers, numberOrInfinity, poseNumbers, poseOfNumbers, settingNumber, vectorNumbers } from "./numbers.js";
+import { checkNames, finiteNumber, listOfNumbers, nameOf, numberOrInfinity, poseNumbers, poseOfNumbers, settingNumber, vectorNumbers } from "./numbers.js";
 import { described, innerOf, Owned, quoted } from "./owned.js";
 import { classes } from "./wasm.js";
 
@@ -30,14 +30,15 @@ export class Robot extends Owned {
   }
 
   pose(link, configuration) {
-    return poseOfNumbers(Owned.inner(this).pose(link, listOfNumbers(configuration, "configuration")));
+    return poseOfNumbers(Owned.inner(this).pose(nameOf(link, "link"), listOfNumbers(configuration, "configuration")));
   }
 
   motion(link, start, end, options) {
     checkNames(options, "options of Robot.motion", ["duration", "seenFrom"]);
     const duration = settingNumber(options?.duration ?? 1, "duration");
+    const seenFrom = options?.seenFrom === undefined ? undefined : nameOf(options.seenFrom, "seenFrom");
     const [from, to] = [listOfNumbers(start, "start"), listOfNumbers(end, "end")];
-    return new LinkMotion(Owned.inner(this).motion(link, options?.seenFrom, from, to, duration));
+    return new LinkMotion(Owned.inner(this).motion(nameOf(link, "link"), seenFrom, from, to, duration));
   }
 }
 
@@ -51,7 +52,7 @@ function build(parts) {
       builder.add_body(link, innerOf(body, Body, what), poseNumbers(pose, `pose of ${what}`));
     }
   }
-  for (const [one, other] of parts?.mayTouch ?? []) builder.may_touch(one, other);
+  for (const [one, other] of parts?.mayTouch ?? []) builder.may_touch(nameOf(one, "mayTouch"), nameOf(other, "mayTouch"));
   return builder.build();
 }
 
@@ -59,7 +60,7 @@ function addJoint(builder, joint) {
   const what = `joint ${described(joint?.name)}`;
   checkNames(joint, what, JOINT_NAMES);
   for (const name of ["type", "name", "parent", "child"]) {
-    if (typeof joint[name] !== "string") throw new TypeError(`${what}: ${name}: a string is needed, not ${described(joint[name])}`);
+    nameOf(joint[name], `${what}: ${name}`);
   }
   const [low, high] = joint.limits ?? [-Infinity, Infinity];
   const numbers = new Float64Array([
@@ -72,7 +73,7 @@ function addJoint(builder, joint) {
   if (joint.mimic !== undefined) {
     checkNames(joint.mimic, `mimic of ${what}`, ["joint", "multiplier", "offset"]);
     const { joint: followed, multiplier = 1, offset = 0 } = joint.mimic;
-    builder.follow(followed, finiteNumber(multiplier, `multiplier of ${what}`), finiteNumber(offset, `offset of ${what}`));
+    builder.follow(nameOf(followed, `mimic of ${what}: joint`), finiteNumber(multiplier, `multiplier of ${what}`), finiteNumber(offset, `offset of ${what}`));
   }
 }
 

@@ -98,6 +98,8 @@ export default (ccd, { equal, justBefore, between, throws }) => {
       throws(() => cell.isFree([[0], [1]], { budget: -1 }), /^budget: -1 is not at least 0/);
       throws(() => cell.clearanceRanges([[0], [1]], { resolution: 0 }), /^resolution: 0 is not/);
       throws(() => cell.clearanceRanges([[0], [1]], { maxPoseError: NaN }), /^maxPoseError: NaN is not/);
+      throws(() => cell.add(undefined, ccd.Body.sphere(1)), /^name: a string is needed, not undefined/);
+      throws(() => cell.setClearance("wall", 5, 1), /^b: a string is needed, not 5/);
       throws(() => cell.add("wall", ccd.Body.sphere(1)), /wall/);
       // The cell answers as before.
       equal(cell.isFree([[0], [1.9]]), true);
