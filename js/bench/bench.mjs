@@ -18,16 +18,18 @@ async function main() {
   const queries = JSON.parse(await readFile(argv[2], "utf8"));
   const module = await readFile(new URL("rigid-ccd.js", FOLDER));
   console.log(`module: ${module.length} bytes, ${gzipSync(module, { level: 9 }).length} by gzip`);
-  const loads = [];
-  let ccd = null;
-  for (let k = 0; k < 9; k += 1) {
-    const begun = performance.now();
-    ccd = await import(new URL(`rigid-ccd.js?${k}`, FOLDER));
-    await ccd.init();
-    loads.push((performance.now() - begun).toFixed(0));
+  for (const simd of [true, false]) {
+    const loads = [];
+    let ccd = null;
+    for (let k = 0; k < 9; k += 1) {
+      const begun = performance.now();
+      ccd = await import(new URL(`rigid-ccd.js?${simd}${k}`, FOLDER));
+      await ccd.init({ simd });
+      loads.push((performance.now() - begun).toFixed(0));
+    }
+    console.log(`${simd ? "with" : "without"} vectors: loaded in ${loads.join(", ")} ms`);
+    for (const line of compare(ccd, queries, performance)) console.log(line);
   }
-  console.log(`loaded in ${loads.join(", ")} ms`);
-  for (const line of compare(ccd, queries, performance)) console.log(line);
   if (argv[3]) await writeFile(argv[3], await page(module.toString(), queries));
 }
 

@@ -15,7 +15,7 @@ export function answerOf(kind, numbers, at) {
   const nearest = at + CONTACTS;
   switch (name) {
     case "free":
-      return { kind: name, provenGap: numbers[at + 1], tolerance };
+      return { kind: name, safeUntil: numbers[at + 3], provenGap: numbers[at + 1], tolerance };
     case "contact":
     case "touching":
     case "overlapping":

@@ -26,7 +26,7 @@ export class Body extends Owned {
     checkNames(options, "options of Body.fromFile", ["scale", "pieces", "surface"]);
     const content = contentOf(name, bytes);
     const scale = finiteNumber(options?.scale ?? 1, "scale");
-    if (scale <= 0) throw new TypeError(`scale: ${scale} is not positive`);
+    if (scale <= 0) throw new RangeError(`scale: ${scale} is not positive`);
     return new Body(classes().Body.from_file(String(name), content, scale, options?.pieces ?? "auto", options?.surface ?? false));
   }
 

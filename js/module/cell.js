@@ -2,14 +2,16 @@
 
 import { featureOf, limitOf, vectorAt } from "./answer.js";
 import { Body } from "./body.js";
-import { finiteNumber, listOfNumbers, poseNumbers } from "./numbers.js";
+import { checkNames, finiteNumber, listOfNumbers, nameOf, poseNumbers, settingNumber } from "./numbers.js";
 import { innerOf, Owned } from "./owned.js";
-import { Robot } from "./robot.js";
+import { pairsOf, Robot } from "./robot.js";
 import { settingsOf, UnresolvedError } from "./solver.js";
 import { classes } from "./wasm.js";
 
 /** The place of the pair in the numbers of an answer, as `js/src/wasm/path_answer.rs` writes them. */
 const PAIR = 3;
+const CONTACT_SETTINGS = ["tolerance", "margin", "budget"];
+const DISTANCE_SETTINGS = ["tolerance", "budget"];
 const VERDICTS = ["kept", "violated", "unverified"];
 
 export class Cell extends Owned {
@@ -21,48 +23,54 @@ export class Cell extends Owned {
   }
 
   add(name, body, pose) {
-    Owned.inner(this).add(name, innerOf(body, Body, "body"), poseNumbers(pose, "pose"));
+    Owned.inner(this).add(nameOf(name, "name"), innerOf(body, Body, "body"), poseNumbers(pose, "pose"));
   }
 
   moveTo(name, pose) {
-    Owned.inner(this).move_to(name, poseNumbers(pose, "pose"));
+    Owned.inner(this).move_to(nameOf(name, "name"), poseNumbers(pose, "pose"));
   }
 
   remove(name) {
-    Owned.inner(this).remove(name);
+    Owned.inner(this).remove(nameOf(name, "name"));
   }
 
   attach(name, body, link, options) {
+    checkNames(options, "options of Cell.attach", ["pose", "mayTouch"]);
     const pose = poseNumbers(options?.pose, "pose");
-    Owned.inner(this).attach(name, innerOf(body, Body, "body"), link, pose, options?.mayTouch ?? []);
+    const mayTouch = Array.from(options?.mayTouch ?? [], (one, k) => nameOf(one, `mayTouch[${k}]`));
+    Owned.inner(this).attach(nameOf(name, "name"), innerOf(body, Body, "body"), nameOf(link, "link"), pose, mayTouch);
   }
 
   detach(name) {
-    Owned.inner(this).detach(name);
+    Owned.inner(this).detach(nameOf(name, "name"));
   }
 
   setPadding(link, distance) {
-    Owned.inner(this).set_padding(link, finiteNumber(distance, "distance"));
+    Owned.inner(this).set_padding(nameOf(link, "link"), finiteNumber(distance, "distance"));
   }
 
   setClearance(a, b, distance) {
-    Owned.inner(this).set_clearance(a, b, finiteNumber(distance, "distance"));
+    Owned.inner(this).set_clearance(nameOf(a, "a"), nameOf(b, "b"), finiteNumber(distance, "distance"));
+  }
+
+  get checkedPairs() {
+    return pairsOf(Owned.inner(this).checked_pairs());
   }
 
   firstContact(path, options) {
-    const { kind, numbers, names } = this.#ask(classes().Question.FirstContact, path, options);
+    const { kind, numbers, names } = this.#ask(classes().Question.FirstContact, path, options, CONTACT_SETTINGS);
     return contactAnswer(kind, numbers, names);
   }
 
   isFree(path, options) {
-    const { kind, numbers, names } = this.#ask(classes().Question.AnyContact, path, options);
+    const { kind, numbers, names } = this.#ask(classes().Question.AnyContact, path, options, CONTACT_SETTINGS);
     const answer = contactAnswer(kind, numbers, names);
     if (answer.kind === "unresolved") throw new UnresolvedError({ limit: answer.limit, advice: answer.advice, safeUntil: answer.safeUntil });
     return answer.kind === "free";
   }
 
   closestApproach(path, options) {
-    const { kind, numbers, names } = this.#ask(classes().Question.ClosestApproach, path, options);
+    const { kind, numbers, names } = this.#ask(classes().Question.ClosestApproach, path, options, DISTANCE_SETTINGS);
     const bounds = { lower: numbers[0], upper: numbers[1] };
     const nearest = names.length === 0 ? null : pairOf(numbers, names);
     if (kind === classes().AnswerKind.LeastDistance) return { kind: "leastDistance", ...bounds, nearest };
@@ -70,9 +78,9 @@ export class Cell extends Owned {
   }
 
   clearanceRanges(path, options) {
-    const settings = settingsOf(options, "options", ["resolution", "maxPoseError"]);
-    const resolution = finiteNumber(options?.resolution ?? 1 / 4096, "resolution");
-    const error = finiteNumber(options?.maxPoseError ?? 0, "maxPoseError");
+    const settings = settingsOf(options, [...CONTACT_SETTINGS, "resolution", "maxPoseError"]);
+    const resolution = settingNumber(options?.resolution ?? 1 / 4096, "resolution");
+    const error = settingNumber(options?.maxPoseError ?? 0, "maxPoseError");
     const numbers = Owned.inner(this).clearance_ranges(this.#numbersOf(path), settings, resolution, error);
     return Array.from({ length: numbers.length / 3 }, (_, k) => {
       const [start, end, verdict] = numbers.subarray(3 * k, 3 * k + 3);
@@ -80,8 +88,8 @@ export class Cell extends Owned {
     });
   }
 
-  #ask(question, path, options) {
-    const answer = Owned.inner(this).ask(question, this.#numbersOf(path), settingsOf(options, "options", []));
+  #ask(question, path, options, known) {
+    const answer = Owned.inner(this).ask(question, this.#numbersOf(path), settingsOf(options, known));
     const parts = { kind: answer.kind, numbers: answer.numbers(), names: answer.names() };
     answer.free();
     return parts;
@@ -103,7 +111,7 @@ export class Cell extends Owned {
 
 function contactAnswer(kind, numbers, names) {
   const { Free, Contact } = classes().AnswerKind;
-  if (kind === Free) return { kind: "free" };
+  if (kind === Free) return { kind: "free", safeUntil: numbers[0] + numbers[1] };
   if (kind === Contact) return { kind: "contact", ...pairOf(numbers, names) };
   const [segment, share, limit] = numbers;
   return { kind: "unresolved", ...limitOf(limit), safeUntil: segment + share };

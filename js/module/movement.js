@@ -1,6 +1,6 @@
 // What moves a body.
 
-import { checkNames, finiteNumber, listOfNumbers, motionNumbers, POSE_LENGTH, poseNumbers, poseOfNumbers, vectorNumbers } from "./numbers.js";
+import { checkNames, finiteNumber, listOfNumbers, motionNumbers, POSE_LENGTH, poseNumbers, poseOfNumbers, settingNumber, vectorNumbers } from "./numbers.js";
 import { Owned } from "./owned.js";
 import { classes } from "./wasm.js";
 
@@ -30,7 +30,7 @@ export class Motion extends Movement {
 
   static between(start, end, options) {
     checkNames(options, "options of Motion.between", ["duration", "center"]);
-    const duration = finiteNumber(options?.duration ?? 1, "duration");
+    const duration = settingNumber(options?.duration ?? 1, "duration");
     const center = vectorNumbers(options?.center, "center");
     return new Motion(classes().Movement.between(poseNumbers(start, "start"), poseNumbers(end, "end"), center, duration));
   }

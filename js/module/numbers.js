@@ -1,15 +1,49 @@
 // Reads numbers, vectors, poses and settings that a caller passes.
 
-import { described } from "./owned.js";
+import { described, quoted } from "./owned.js";
 
 export function finiteNumber(value, what) {
-  if (typeof value !== "number" || !Number.isFinite(value)) throw new TypeError(`${what}: a finite number is needed, not ${described(value)}`);
+  if (!Number.isFinite(number(value, what))) throw new RangeError(`${what}: a finite number is needed, not ${value}`);
   return value;
 }
 
 /** A limit may be infinite. */
 export function numberOrInfinity(value, what) {
-  if (typeof value !== "number" || Number.isNaN(value)) throw new TypeError(`${what}: a number is needed, not ${described(value)}`);
+  if (Number.isNaN(number(value, what))) throw new RangeError(`${what}: a number is needed, not NaN`);
+  return value;
+}
+
+/** The least and the greatest value of each setting, as the WebAssembly has them. */
+const SETTINGS = {
+  tolerance: [1e-100, 1e12],
+  margin: [0, 1e12],
+  clearance: [0, 1e12],
+  duration: [0, Number.MAX_VALUE],
+  budget: [0, Infinity],
+  resolution: [1e-9, Number.MAX_VALUE],
+  maxPoseError: [0, Number.MAX_VALUE],
+};
+
+export function settingNumber(value, name) {
+  const [least, greatest] = SETTINGS[name];
+  // Written so that NaN is refused.
+  if (!(number(value, name) >= least && value <= greatest)) {
+    const allowed = greatest >= Number.MAX_VALUE ? `at least ${least}` : `from ${least} to ${greatest}`;
+    const finite = greatest === Number.MAX_VALUE ? " and finite" : "";
+    throw new RangeError(`${name}: ${value} is not ${allowed}${finite}`);
+  }
+  if (name === "budget" && !Number.isInteger(value) && value !== Infinity) throw new RangeError(`budget: ${value} is no whole number`);
+  return value;
+}
+
+/** Returns a name, which has to be a string. */
+export function nameOf(value, what) {
+  if (typeof value !== "string") throw new TypeError(`${what}: a string is needed, not ${described(value)}`);
+  return value;
+}
+
+function number(value, what) {
+  if (typeof value !== "number") throw new TypeError(`${what}: a number is needed, not ${described(value)}`);
   return value;
 }
 
@@ -95,7 +129,7 @@ export function vectorNumbers(value, what) {
 export function listOfNumbers(value, what) {
   if (value instanceof Float64Array) return value;
   if (typeof value?.length !== "number" || typeof value === "string") throw new TypeError(`${what}: a list of numbers is needed, not ${described(value)}`);
-  return Float64Array.from(value, (number, k) => numberOrInfinity(number, `${what}[${k}]`));
+  return Float64Array.from(value, (one, k) => numberOrInfinity(one, `${what}[${k}]`));
 }
 
 /** Refuses options that are not known, which are typing errors. */
@@ -107,6 +141,9 @@ export function checkNames(options, what, known) {
   }
 }
 
+/** What Rust and Python have, and this package has not. */
+const NO_SETTINGS = { deadline: "a budget ends a question" };
+
 export function unknownName(what, name, known) {
-  return new TypeError(`${what}: there is no "${name}"; there are ${known}`);
+  return new TypeError(`${what}: there is no ${quoted(name)}; ${NO_SETTINGS[name] ?? `there are ${known}`}`);
 }

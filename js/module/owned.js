@@ -32,8 +32,14 @@ export function innerOf(value, type, what) {
   return Owned.inner(value);
 }
 
+/** Writes a string in messages as JavaScript does, so that it is told from all around it. */
+export function quoted(text) {
+  return JSON.stringify(text);
+}
+
 /** Describes a value in messages. */
 export function described(value) {
+  if (typeof value === "string") return quoted(value);
   if (value === null || typeof value !== "object") return String(value);
   return `an object of ${value.constructor?.name ?? "no class"}`;
 }

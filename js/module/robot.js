@@ -2,8 +2,8 @@
 
 import { Body } from "./body.js";
 import { LinkMotion } from "./movement.js";
-import { checkNames, finiteNumber, listOfNumbers, numberOrInfinity, poseNumbers, poseOfNumbers, vectorNumbers } from "./numbers.js";
-import { innerOf, Owned } from "./owned.js";
+import { checkNames, finiteNumber, listOfNumbers, nameOf, numberOrInfinity, poseNumbers, poseOfNumbers, settingNumber, vectorNumbers } from "./numbers.js";
+import { described, innerOf, Owned, quoted } from "./owned.js";
 import { classes } from "./wasm.js";
 
 const JOINT_NAMES = ["type", "name", "parent", "child", "origin", "axis", "limits", "mimic"];
@@ -30,14 +30,15 @@ export class Robot extends Owned {
   }
 
   pose(link, configuration) {
-    return poseOfNumbers(Owned.inner(this).pose(link, listOfNumbers(configuration, "configuration")));
+    return poseOfNumbers(Owned.inner(this).pose(nameOf(link, "link"), listOfNumbers(configuration, "configuration")));
   }
 
   motion(link, start, end, options) {
     checkNames(options, "options of Robot.motion", ["duration", "seenFrom"]);
-    const duration = finiteNumber(options?.duration ?? 1, "duration");
+    const duration = settingNumber(options?.duration ?? 1, "duration");
+    const seenFrom = options?.seenFrom === undefined ? undefined : nameOf(options.seenFrom, "seenFrom");
     const [from, to] = [listOfNumbers(start, "start"), listOfNumbers(end, "end")];
-    return new LinkMotion(Owned.inner(this).motion(link, options?.seenFrom, from, to, duration));
+    return new LinkMotion(Owned.inner(this).motion(nameOf(link, "link"), seenFrom, from, to, duration));
   }
 }
 
@@ -47,18 +48,19 @@ function build(parts) {
   for (const joint of parts?.joints ?? []) addJoint(builder, joint);
   for (const [link, held] of Object.entries(parts?.bodies ?? {})) {
     for (const { body, pose } of Array.isArray(held) ? held : [{ body: held }]) {
-      builder.add_body(link, innerOf(body, Body, `bodies.${link}`), poseNumbers(pose, `pose of bodies.${link}`));
+      const what = `bodies[${quoted(link)}]`;
+      builder.add_body(link, innerOf(body, Body, what), poseNumbers(pose, `pose of ${what}`));
     }
   }
-  for (const [one, other] of parts?.mayTouch ?? []) builder.may_touch(one, other);
+  for (const [one, other] of parts?.mayTouch ?? []) builder.may_touch(nameOf(one, "mayTouch"), nameOf(other, "mayTouch"));
   return builder.build();
 }
 
 function addJoint(builder, joint) {
-  const what = `joint "${joint?.name}"`;
+  const what = `joint ${described(joint?.name)}`;
   checkNames(joint, what, JOINT_NAMES);
   for (const name of ["type", "name", "parent", "child"]) {
-    if (typeof joint[name] !== "string") throw new TypeError(`${what}: "${name}" has to be a string`);
+    nameOf(joint[name], `${what}: ${name}`);
   }
   const [low, high] = joint.limits ?? [-Infinity, Infinity];
   const numbers = new Float64Array([
@@ -71,10 +73,10 @@ function addJoint(builder, joint) {
   if (joint.mimic !== undefined) {
     checkNames(joint.mimic, `mimic of ${what}`, ["joint", "multiplier", "offset"]);
     const { joint: followed, multiplier = 1, offset = 0 } = joint.mimic;
-    builder.follow(followed, finiteNumber(multiplier, `multiplier of ${what}`), finiteNumber(offset, `offset of ${what}`));
+    builder.follow(nameOf(followed, `mimic of ${what}: joint`), finiteNumber(multiplier, `multiplier of ${what}`), finiteNumber(offset, `offset of ${what}`));
   }
 }
 
-function pairsOf(list) {
+export function pairsOf(list) {
   return Array.from({ length: list.length / 2 }, (_, k) => [list[2 * k], list[2 * k + 1]]);
 }

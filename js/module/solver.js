@@ -3,7 +3,7 @@
 import { answerOf } from "./answer.js";
 import { Body } from "./body.js";
 import { Movement } from "./movement.js";
-import { finiteNumber, MOTION_LENGTH, numberOrInfinity, unknownName, writeMotion } from "./numbers.js";
+import { checkNames, MOTION_LENGTH, settingNumber, writeMotion } from "./numbers.js";
 import { innerOf, Owned } from "./owned.js";
 import { classes, numbersAt } from "./wasm.js";
 
@@ -16,7 +16,12 @@ const DURATION = 4;
 const MOTIONS = 5;
 const ANSWER = MOTIONS + 2 * MOTION_LENGTH;
 
-const NAMES = "motionA, motionB, duration, tolerance, margin, budget";
+/** The names of the options of a question about contacts, of one about a distance, and of one at rest. */
+const OF_CONTACTS = ["motionA", "motionB", "duration", "tolerance", "margin", "budget"];
+const OF_DISTANCES = OF_CONTACTS.filter((name) => name !== "margin");
+const AT_REST = OF_DISTANCES.filter((name) => name !== "duration");
+
+const PLACES = { tolerance: TOLERANCE, margin: MARGIN, budget: BUDGET, duration: DURATION };
 
 let solver = null;
 let numbers = null;
@@ -33,11 +38,11 @@ export class UnresolvedError extends Error {
 }
 
 export function firstContact(a, b, options) {
-  return ask(classes().Question.FirstContact, a, b, options);
+  return ask(classes().Question.FirstContact, a, b, options, OF_CONTACTS);
 }
 
 export function anyContact(a, b, options) {
-  return ask(classes().Question.AnyContact, a, b, options);
+  return ask(classes().Question.AnyContact, a, b, options, OF_CONTACTS);
 }
 
 export function isFree(a, b, options) {
@@ -47,21 +52,20 @@ export function isFree(a, b, options) {
 }
 
 export function contactInterval(a, b, options) {
-  return ask(classes().Question.ContactInterval, a, b, options);
+  return ask(classes().Question.ContactInterval, a, b, options, OF_CONTACTS);
 }
 
 export function closestApproach(a, b, options) {
-  return ask(classes().Question.ClosestApproach, a, b, options);
+  return ask(classes().Question.ClosestApproach, a, b, options, OF_DISTANCES);
 }
 
 export function distance(a, b, options) {
-  if (options?.duration !== undefined) throw unknownName("options", "duration", "motionA, motionB, tolerance, budget");
-  return ask(classes().Question.ClosestApproach, a, b, { ...options, duration: 0 });
+  return ask(classes().Question.ClosestApproach, a, b, options, AT_REST);
 }
 
 export function keepsClearance(a, b, clearance, options) {
-  solverNumbers()[CLEARANCE] = finiteNumber(clearance, "clearance");
-  const answer = ask(classes().Question.KeptClearance, a, b, options);
+  solverNumbers()[CLEARANCE] = settingNumber(clearance, "clearance");
+  const answer = ask(classes().Question.KeptClearance, a, b, options, OF_DISTANCES);
   const [lower, upper] = [numbers[ANSWER + 1], numbers[ANSWER + 2]];
   if (lower >= clearance && lower > 0) return true;
   if (upper < clearance || upper <= 0) return false;
@@ -70,16 +74,12 @@ export function keepsClearance(a, b, clearance, options) {
   throw new UnresolvedError({ limit: "excess", advice, lower, upper });
 }
 
-/** Returns the settings of a question about a path: tolerance, margin, 0 and budget. */
-export function settingsOf(options, what, others) {
+/** Returns the settings of a question about a path: tolerance, margin, 0 and budget. Others than those are for the caller. */
+export function settingsOf(options, known) {
+  checkNames(options, "options", known);
   const settings = Float64Array.from(defaultSettings());
-  for (const name in options) {
-    const value = options[name];
-    if (value === undefined || others.includes(name)) continue;
-    if (name === "tolerance") settings[TOLERANCE] = finiteNumber(value, name);
-    else if (name === "margin") settings[MARGIN] = finiteNumber(value, name);
-    else if (name === "budget") settings[BUDGET] = numberOrInfinity(value, name);
-    else throw unknownName(what, name, ["tolerance", "margin", "budget", ...others].join(", "));
+  for (const name of ["tolerance", "margin", "budget"]) {
+    if (options?.[name] !== undefined) settings[PLACES[name]] = settingNumber(options[name], name);
   }
   return settings;
 }
@@ -88,31 +88,27 @@ function unresolvedContact({ limit, advice, safeUntil }) {
   return new UnresolvedError({ limit, advice, safeUntil });
 }
 
-function ask(question, a, b, options) {
+function ask(question, a, b, options, known) {
   const [bodyA, bodyB] = [innerOf(a, Body, "a"), innerOf(b, Body, "b")];
-  writeOptions(options);
+  writeOptions(options, known);
   const kind = solver.ask(question, bodyA, bodyB);
   return answerOf(kind, solverNumbers(), ANSWER);
 }
 
-function writeOptions(options) {
+function writeOptions(options, known) {
   const to = solverNumbers();
   const usual = defaultSettings();
   for (const place of [TOLERANCE, MARGIN, BUDGET]) to[place] = usual[place];
-  let duration;
+  to[DURATION] = NaN;
+  checkNames(options, "options", known);
   for (const name in options) {
-    const value = options[name];
-    if (value === undefined) continue;
-    if (name === "motionA" || name === "motionB") continue;
-    else if (name === "duration") duration = finiteNumber(value, name);
-    else if (name === "tolerance") to[TOLERANCE] = finiteNumber(value, name);
-    else if (name === "margin") to[MARGIN] = finiteNumber(value, name);
-    else if (name === "budget") to[BUDGET] = numberOrInfinity(value, name);
-    else throw unknownName("options", name, NAMES);
+    const place = PLACES[name];
+    if (place !== undefined && options[name] !== undefined) to[place] = settingNumber(options[name], name);
   }
   const moveA = movementOf(options?.motionA, 0);
   const moveB = movementOf(options?.motionB, 1);
-  to[DURATION] = duration ?? endOf(moveA, moveB);
+  if (known === AT_REST) to[DURATION] = 0;
+  else if (Number.isNaN(to[DURATION])) to[DURATION] = endOf(moveA, moveB);
   // Last, because an error before would leave a movement to the next question.
   const innerA = moveA && Owned.inner(moveA);
   const innerB = moveB && Owned.inner(moveB);

@@ -15,10 +15,11 @@ use wasm_bindgen_cli_support::Bindgen;
 const WASM_TARGET: &str = "wasm32-unknown-unknown";
 
 /// The parts of the module, each after those that it imports.
-const PARTS: [&str; 10] = [
-    include_str!("../module/wasm.js"),
+const PARTS: [&str; 11] = [
     include_str!("../module/owned.js"),
     include_str!("../module/numbers.js"),
+    include_str!("../module/inflate.js"),
+    include_str!("../module/wasm.js"),
     include_str!("../module/answer.js"),
     include_str!("../module/body.js"),
     include_str!("../module/movement.js"),
@@ -28,7 +29,7 @@ const PARTS: [&str; 10] = [
     include_str!("../module/index.js"),
 ];
 
-/// The files of the package besides the module, by their names.
+/// The files of the package besides both modules, by their names.
 const FILES: [(&str, &str); 5] = [
     ("package.json", include_str!("../package.json")),
     ("rigid-ccd.d.ts", include_str!("../types/rigid-ccd.d.ts")),
@@ -42,9 +43,13 @@ const FILES: [(&str, &str); 5] = [
 /// # Errors
 /// A build that fails, or a file that cannot be written.
 pub fn write(folder: &Path) -> Result<()> {
-    let module = module()?;
+    let (module, fallback) = (module()?, fallback()?);
+    let modules = [
+        ("rigid-ccd.js", module.as_str()),
+        ("fallback.js", fallback.as_str()),
+    ];
     fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
-    for (name, text) in [("rigid-ccd.js", module.as_str())].into_iter().chain(FILES) {
+    for (name, text) in modules.into_iter().chain(FILES) {
         let path = folder.join(name);
         ccd_file::write(&path, |file| file.write_all(text.as_bytes()))
             .with_context(|| format!("cannot write {}", path.display()))?;
@@ -52,14 +57,27 @@ pub fn write(folder: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Returns the text of the module: one file that needs no other.
+/// Returns the text of the module: one file that needs no other where WebAssembly has vector instructions.
 ///
 /// # Errors
 /// A build that fails.
 pub fn module() -> Result<String> {
+    let parts = PARTS.map(without_links);
+    // All browsers with WebAssembly have had 128-bit vectors since 2023.
+    Ok([engine("-Ctarget-feature=+simd128")?, parts.concat()].concat())
+}
+
+/// Returns the text of the module that the other one loads where WebAssembly has no vector instructions.
+fn fallback() -> Result<String> {
+    let exports = "export { CODE as code, wasm_bindgen as bindgen };\n".to_owned();
+    Ok([engine("")?, exports].concat())
+}
+
+/// Returns the constants `wasm_bindgen` and `CODE`: what loads the WebAssembly, and the WebAssembly, packed.
+fn engine(flags: &str) -> Result<String> {
     let mut bindgen = Bindgen::new();
     bindgen
-        .input_path(build_wasm()?)
+        .input_path(build_wasm(flags)?)
         .no_modules(true)?
         .typescript(false)
         .remove_name_section(true)
@@ -68,9 +86,7 @@ pub fn module() -> Result<String> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(&module.wasm_mut().emit_wasm())?;
     let code = BASE64_STANDARD.encode(encoder.finish()?);
-    let code = format!("const CODE = \"{code}\";\n");
-    let parts = PARTS.map(without_links);
-    Ok([module.js(), &code, &parts.concat()].concat())
+    Ok(format!("{}const CODE = \"{code}\";\n", module.js()))
 }
 
 /// Returns a part as it is in one file with those that it imports: without imports, and only the last list of exports.
@@ -86,8 +102,8 @@ fn without_links(part: &str) -> String {
     lines.map(|line| line + "\n").collect()
 }
 
-/// Compiles this crate to WebAssembly, and returns the path of the file.
-fn build_wasm() -> Result<PathBuf> {
+/// Compiles this crate to WebAssembly with flags of the compiler, and returns the path of the file.
+fn build_wasm(flags: &str) -> Result<PathBuf> {
     // The command that runs is at TARGET_DIR/PROFILE/NAME.
     let command = env::current_exe()?;
     let folder = command
@@ -100,8 +116,7 @@ fn build_wasm() -> Result<PathBuf> {
         .args([WASM_TARGET, "--target-dir"])
         .arg(folder)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
-        // All browsers with WebAssembly have had 128-bit vectors since 2023.
-        .env("CARGO_ENCODED_RUSTFLAGS", "-Ctarget-feature=+simd128")
+        .env("CARGO_ENCODED_RUSTFLAGS", flags)
         .status()
         .context("cannot start cargo")?;
     ensure!(

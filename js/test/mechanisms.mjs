@@ -36,7 +36,7 @@ export default (ccd, { equal, justBefore, between, throws }) => {
       equal(hit.time, 1 + hit.share);
       between(hit.witnessA[0], 2.499, 2.501);
       cell.moveTo("wall", { position: [9, 0, 0] });
-      equal(cell.firstContact([[0], [3]]), { kind: "free" });
+      equal(cell.firstContact([[0], [3], [0]]), { kind: "free", safeUntil: 2 });
       cell.attach("stick", ccd.Body.capsule(0.1, 2), "carriage", { pose: { position: [3, 0, 0] } });
       equal(cell.firstContact([[0], [6]]).a, "stick");
       cell.detach("stick");
@@ -59,6 +59,15 @@ export default (ccd, { equal, justBefore, between, throws }) => {
       cell.setPadding("carriage", 0.5);
       between(cell.clearanceRanges([[0], [2]], { margin: 1 })[0].end, 0.24, 0.25);
     },
+    "a clearance adds its pair to those that are checked"() {
+      const { robot, cell } = beforeWall();
+      const held = { carriage: ccd.Body.sphere(0.5), rail: ccd.Body.box([0.5, 0.1, 0.1]) };
+      const neighbours = new ccd.Cell(new ccd.Robot({ joints: [slider], bodies: held }));
+      equal([neighbours.checkedPairs, cell.checkedPairs], [[], robot.checkedPairs]);
+      neighbours.setClearance("rail", "carriage", 0.5);
+      equal(neighbours.checkedPairs, [["rail", "carriage"]]);
+      equal([neighbours.isFree([[2], [3]]), neighbours.isFree([[1], [3]])], [true, false]);
+    },
     "a door swings against a post"() {
       const cell = new ccd.Cell(door());
       cell.add("post", ccd.Body.sphere(0.2), { position: [0, 0.75, 0] });
@@ -79,12 +88,18 @@ export default (ccd, { equal, justBefore, between, throws }) => {
       throws(() => new ccd.Robot({ joints: [{ ...slider, type: "screw" }] }), /joint "slider": type "screw"/);
       throws(() => new ccd.Robot({ joints: [{ ...slider, limits: [1, 0] }] }), /slider/);
       throws(() => new ccd.Robot({ joints: [{ ...slider, axis: [0, 0, 0] }] }), /joint "slider"/);
-      throws(() => new ccd.Robot({ joints: [{ ...slider, child: undefined }] }), /"child" has to be a string/);
+      throws(() => new ccd.Robot({ joints: [{ ...slider, child: undefined }] }), /joint "slider": child: a string is needed, not undefined/);
       throws(() => robot.pose("arm", [0]), /arm/);
       throws(() => robot.motion("carriage", [0], [11]), /end: .*slider/);
       throws(() => cell.isFree([[0], [1, 2]]), /path\[1\]: 2 positions, but 1 joints: slider/);
       throws(() => cell.isFree([[0], [11]]), /slider/);
       throws(() => cell.isFree([[0], [1]], { clearance: 1 }), /no "clearance"/);
+      throws(() => cell.closestApproach([[0], [1]], { margin: 1 }), /no "margin"; there are tolerance, budget$/);
+      throws(() => cell.isFree([[0], [1]], { budget: -1 }), /^budget: -1 is not at least 0/);
+      throws(() => cell.clearanceRanges([[0], [1]], { resolution: 0 }), /^resolution: 0 is not/);
+      throws(() => cell.clearanceRanges([[0], [1]], { maxPoseError: NaN }), /^maxPoseError: NaN is not/);
+      throws(() => cell.add(undefined, ccd.Body.sphere(1)), /^name: a string is needed, not undefined/);
+      throws(() => cell.setClearance("wall", 5, 1), /^b: a string is needed, not 5/);
       throws(() => cell.add("wall", ccd.Body.sphere(1)), /wall/);
       // The cell answers as before.
       equal(cell.isFree([[0], [1.9]]), true);

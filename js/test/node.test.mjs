@@ -20,16 +20,19 @@ test("nothing works before init", () => {
 });
 
 const ccd = await import(MODULE);
-await ccd.init();
-for (const cases of [bodies, questions, mechanisms]) {
-  for (const [name, run] of Object.entries(cases(ccd, check))) test(name, run);
+const scalar = await import(`${MODULE}?scalar`);
+check.equal([await ccd.init(), await scalar.init({ simd: false })], [{ simd: true }, { simd: false }]);
+for (const [module, suffix] of [[ccd, ""], [scalar, ", without vectors"]]) {
+  for (const cases of [bodies, questions, mechanisms]) {
+    for (const [name, run] of Object.entries(cases(module, check))) test(name + suffix, run);
+  }
 }
 
-test("another instance gives the same bits", async () => {
+test("another instance, and one without vectors, give the same bits", async () => {
   const other = await import(`${MODULE}?other`);
   await Promise.all([other.init(), other.init()]);
-  const [one, two] = [ccd, other].map((module) => answers(module, check.randomNumbers));
-  check.equal(one.text, two.text);
+  const [one, ...others] = [ccd, other, scalar].map((module) => answers(module, check.randomNumbers));
+  for (const { text } of others) check.equal(one.text, text);
   for (const kind of ["free", "contact", "interval", "leastDistance"]) check.ok(one.kinds.has(kind), `none is ${kind}`);
 });
 
@@ -47,14 +50,41 @@ test("what is collected as garbage is freed", async () => {
   check.equal(ccd.memoryUsage(), before);
 });
 
-test("without vectors it says what is needed", async () => {
+/** Returns the error of an init, which has to have one. */
+async function refused(init) {
+  const error = await init.then(() => null, (caught) => caught);
+  check.ok(error instanceof Error, "nothing is refused");
+  return error.message;
+}
+
+test("an engine without vectors loads the other module, unless they are asked for", async () => {
   const { validate } = WebAssembly;
   const old = await import(`${MODULE}?old`);
   WebAssembly.validate = () => false;
-  const error = await old.init().catch((caught) => caught);
+  const message = await refused(old.init({ simd: true }));
+  const loaded = await old.init();
   WebAssembly.validate = validate;
-  check.ok(/128-bit vectors/.test(error.message), String(error));
-  await old.init();
+  check.ok(/^simd: .*128-bit vectors/.test(message), message);
+  check.equal([loaded, await old.init()], [{ simd: false }, { simd: false }]);
+  check.ok(/without vector instructions is loaded already/.test(await refused(old.init({ simd: true }))), "what is loaded stays");
+  check.ok(/options of init: there is no "vectors"/.test(await refused(old.init({ vectors: true }))), "options are checked");
+});
+
+test("one file alone needs vectors, and says which file is missing", async () => {
+  const text = await readFile(MODULE, "base64");
+  const alone = await import(`data:text/javascript;base64,${text}`);
+  const message = await refused(alone.init({ simd: false }));
+  check.ok(/needs its file fallback\.js/.test(message), message);
+  check.equal(await alone.init(), { simd: true });
+});
+
+test("an engine that cannot unpack loads the module all the same", async () => {
+  const { DecompressionStream } = globalThis;
+  delete globalThis.DecompressionStream;
+  const unpacking = await import(`${MODULE}?unpacking`);
+  const loaded = await unpacking.init();
+  globalThis.DecompressionStream = DecompressionStream;
+  check.equal([loaded, unpacking.Body.sphere(1).isSolid], [{ simd: true }, true]);
 });
 
 test("the blocks of the README run", async () => {

@@ -6,7 +6,7 @@ import { argv } from "node:process";
 const CASES = ["bodies", "questions", "mechanisms"];
 
 const here = (name) => readFile(new URL(name, import.meta.url), "utf8");
-const texts = { module: await here("../../target/js/rigid-ccd.js") };
+const texts = { module: await here("../../target/js/rigid-ccd.js"), fallback: await here("../../target/js/fallback.js") };
 for (const name of ["check", "random_answers", ...CASES]) texts[name] = await here(`${name}.mjs`);
 
 // In a script `<` could begin its end.
@@ -27,19 +27,22 @@ held.open();
 </script>
 <script type="module">
 const texts = ${json};
-const load = (text) => import(URL.createObjectURL(new Blob([text], { type: "text/javascript" })));
+const addressOf = (text) => URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
+const load = (text) => import(addressOf(text));
+// Nothing lies beside an object of the browser.
+const module = texts.module.replace('"./fallback.js"', JSON.stringify(addressOf(texts.fallback)));
 const lines = [];
 async function run() {
   const check = await load(texts.check);
   const { answers } = await load(texts.random_answers);
   const found = [];
-  for (const instance of [1, 2]) {
-    const ccd = await load(texts.module);
-    await ccd.init();
+  for (const simd of [true, false]) {
+    const ccd = await load(module);
+    check.equal(await ccd.init(simd ? undefined : { simd }), { simd });
     for (const name of ${JSON.stringify(CASES)}) {
       for (const [title, test] of Object.entries((await load(texts[name])).default(ccd, check))) {
         test();
-        lines.push(\`\${instance}: \${title}\`);
+        lines.push(\`\${simd ? "with" : "without"} vectors: \${title}\`);
       }
     }
     found.push(answers(ccd, check.randomNumbers).text);

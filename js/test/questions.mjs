@@ -11,7 +11,8 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
       between(hit.witnessA[0], -0.500002, -0.499998);
       equal(hit.normal, [1, 0, 0]);
       between(hit.distance[1], 0, 1e-6);
-      equal(ccd.firstContact(ball, ball, { motionB: passes, duration: 0.49 }).kind, "free");
+      const free = ccd.firstContact(ball, ball, { motionB: passes, duration: 0.49 });
+      equal([free.kind, free.safeUntil], ["free", 0.49]);
     },
     "a ball that is thrown lands when it should"() {
       const ground = ccd.Body.box([9, 9, 1]);
@@ -68,12 +69,28 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
       ok(known.safeUntil < ccd.firstContact(cone, cone, { ...turns, budget: undefined }).time, "it is proven until a contact");
       const error = throws(() => ccd.isFree(cone, cone, turns), /unresolved \(budget\)/);
       ok(error instanceof ccd.UnresolvedError && error.safeUntil >= 0, String(error));
+      ok(/isFree with a margin/.test(error.advice) && !/_/.test(error.message), error.message);
     },
     "settings and motions that are wrong are errors"() {
       throws(() => ccd.firstContact(ball, ball, { tolerence: 1 }), /no "tolerence"/);
       throws(() => ccd.firstContact(ball, ball, { tolerance: -1 }), /tolerance/);
       throws(() => ccd.firstContact(ball, ball, { duration: -1 }), /duration/);
-      throws(() => ccd.firstContact(ball, ball, { deadline: 1 }), /no "deadline"/);
+      throws(() => ccd.firstContact(ball, ball, { deadline: 1 }), /no "deadline"; a budget ends/);
+      for (const [name, wrong] of Object.entries({ tolerance: [0, NaN, 1e13, -1], margin: [-1, NaN, Infinity], duration: [-1, NaN, Infinity], budget: [-1, 1.5, NaN] })) {
+        for (const value of wrong) {
+          const error = throws(() => ccd.firstContact(ball, ball, { [name]: value }), new RegExp(`^${name}: ${value} is`));
+          ok(error instanceof RangeError, `${name}: ${error.name}`);
+        }
+        const error = throws(() => ccd.firstContact(ball, ball, { [name]: "1" }), new RegExp(`^${name}: a number is needed, not "1"`));
+        ok(error instanceof TypeError, `${name}: ${error.name}`);
+      }
+      equal(ccd.firstContact(ball, ball, { budget: Infinity }).kind, "overlapping");
+      throws(() => ccd.keepsClearance(ball, ball, -1), /^clearance: -1 is not from 0/);
+      for (const ask of [ccd.closestApproach, ccd.distance, (a, b, options) => ccd.keepsClearance(a, b, 1, options)]) {
+        throws(() => ask(ball, ball, { margin: 1 }), /no "margin"; there are motionA.*budget$/);
+      }
+      throws(() => ccd.distance(ball, ball, { duration: 1 }), /no "duration"/);
+      throws(() => ccd.firstContact(ball, ball, { 'a "name"': 1 }), /no "a \\"name\\""/);
       throws(() => ccd.firstContact(ball, {}), /^b: a Body is needed/);
       throws(() => ccd.firstContact(ball, ball, { motionA: { position: [0, NaN, 0] } }), /motionA\.position/);
       throws(() => ccd.firstContact(ball, ball, { motionA: { speed: 1 } }), /motionA: there is no "speed"/);

@@ -4,12 +4,13 @@ import { Body, Cell, closestApproach, contactInterval, firstContact, init, Motio
 import type { Feature, Joint, Vector } from "rigid-ccd";
 
 export async function answers(): Promise<string> {
-  await init();
+  const { simd }: { simd: boolean } = await init({ simd: false });
+  if (simd) return "with vectors";
   const [ball, box] = [Body.sphere(1), Body.box({ x: 1, y: 2, z: 3 })];
   const hit = firstContact(ball, box, { motionA: new Throw({ acceleration: [0, 0, -9.81] }), tolerance: 1e-6 });
   switch (hit.kind) {
     case "free":
-      return String(hit.provenGap);
+      return `${hit.provenGap} ${hit.safeUntil}`;
     case "contact":
     case "touching": {
       const [normal, feature]: [Vector, Feature] = [hit.normal, hit.featureA];
@@ -49,6 +50,8 @@ export function refused(ball: Body): void {
   firstContact(ball, ball, { tolerence: 1 });
   // @ts-expect-error The closest approach has no margin.
   closestApproach(ball, ball, { margin: 1 });
+  // @ts-expect-error Nor has that on a path.
+  new Cell(new Robot({})).closestApproach([[]], { margin: 1 });
   // @ts-expect-error A vector has three numbers, or x, y and z.
   new Motion({ position: { x: 1, y: 2 } });
   // @ts-expect-error Bodies are made by `Body.sphere` and its like.

@@ -4,8 +4,13 @@
  * No answer is ever late, in floating point too. Lengths are in any one unit, angles in radians, times in the motions' unit.
  */
 
-/** Loads the WebAssembly. It comes before everything else, and again costs nothing. It needs 128-bit vectors, as engines have since 2023. */
-export function init(): Promise<void>;
+/**
+ * Loads the WebAssembly. It comes before everything else, and again costs nothing.
+ *
+ * Where the engine has no vector instructions for WebAssembly, or `simd` is false, it fetches `fallback.js`, which lies beside the
+ * module. Its answers are the same, to the bit, and take longer. With `simd: true` it rejects instead.
+ */
+export function init(options?: { simd?: boolean }): Promise<{ simd: boolean }>;
 
 /** Returns how many bytes of memory the WebAssembly has. It grows, and never shrinks. */
 export function memoryUsage(): number;
@@ -136,7 +141,7 @@ export class LinkMotion extends Movement {
 export interface Settings {
   /** A contact is reported at a distance of at most margin + tolerance; 0.001 by default. */
   tolerance?: number;
-  /** The work after which a question is given up; a million takes about a second. For a path it is that between two poses. */
+  /** The work after which a question is given up, a whole number or infinity; a million takes about a second. For a path it is that between two poses. */
   budget?: number;
 }
 
@@ -163,6 +168,8 @@ export type Feature = `v${number}` | `e${number}-${number}` | `f${number}` | `p$
 /** The bodies stay apart. */
 export interface Free {
   kind: "free";
+  /** Nothing touches until this time: the duration. */
+  safeUntil: number;
   /** They are never nearer than this: the margin and half the tolerance, even if they are farther apart. */
   provenGap: number;
   tolerance: number;
@@ -251,7 +258,7 @@ export function anyContact(a: Body, b: Body, options?: Moving & ContactSettings)
 export function isFree(a: Body, b: Body, options?: Moving & ContactSettings): boolean;
 /** When do they first touch, and when last? */
 export function contactInterval(a: Body, b: Body, options?: Moving & ContactSettings): Free | Interval | Unresolved;
-/** How near do they come, to within the tolerance? */
+/** How near do they come, to within the tolerance? It has no margin. */
 export function closestApproach(a: Body, b: Body, options?: Moving & Settings): LeastDistance | Overlapping | Unresolved;
 /** How far apart are they at time 0? */
 export function distance(a: Body, b: Body, options?: Movements & Settings): LeastDistance | Overlapping | Unresolved;
@@ -316,7 +323,7 @@ export class Robot extends Owned {
   readonly jointNames: string[];
   readonly linkNames: string[];
   readonly limits: [low: number, high: number][];
-  /** The pairs of links that are checked. */
+  /** The pairs of links that are checked. A cell has a list of its own, to which `Cell.setClearance` may add. */
   readonly checkedPairs: [string, string][];
   /** Returns the pose of a link in the frame of the base. */
   pose(link: string, configuration: Configuration): Pose;
@@ -343,7 +350,8 @@ export interface Pair {
   featureB: Feature | null;
 }
 
-export type PathContact = { kind: "free" } | ({ kind: "contact" } & Pair) | ({ kind: "unresolved"; safeUntil: number } & Limit);
+/** A free path is safe until its end, which is the number of its segments. */
+export type PathContact = { kind: "free"; safeUntil: number } | ({ kind: "contact" } & Pair) | ({ kind: "unresolved"; safeUntil: number } & Limit);
 
 /** Bounds of the least distance on a path, and the nearest pair that was measured. */
 export type PathDistance = { lower: number; upper: number; nearest: Pair | null } & ({ kind: "leastDistance" } | ({ kind: "unresolved" } & Limit));
@@ -367,13 +375,15 @@ export class Cell extends Owned {
   detach(name: string): void;
   /** Sets the distance that obstacles have to keep from a link, in addition to the margin. */
   setPadding(link: string, distance: number): void;
-  /** Sets the distance at which a pair counts as touching. */
+  /** The pairs of links that are checked: those of the robot, and those that `setClearance` has added. */
+  readonly checkedPairs: [string, string][];
+  /** Sets the distance at which a pair counts as touching. A pair of links that was not checked is checked from then on. */
   setClearance(a: string, b: string, distance: number): void;
   /** What touches first on a path? Nothing touches before. */
   firstContact(path: ArrayLike<Configuration>, options?: ContactSettings): PathContact;
   /** Does nothing touch on a path? Throws an `UnresolvedError` if a limit is reached. */
   isFree(path: ArrayLike<Configuration>, options?: ContactSettings): boolean;
-  /** How near does anything come on a path? */
+  /** How near does anything come on a path? It has no margin. */
   closestApproach(path: ArrayLike<Configuration>, options?: Settings): PathDistance;
   /**
    * Where on a path do all pairs keep the margin, or the clearance that is set for them?

@@ -280,6 +280,10 @@ impl VectorInstructions {
 /// AVX-512 is left out: eight lanes of f32 gain nothing by it, and rustc 1.95 miscompiles it. Every further level is
 /// another copy of the code.
 ///
+/// WebAssembly without `simd128` has no vector instructions: each operation on eight lanes is eight, and a kernel of a hundred
+/// thousand instructions takes LLVM longer than anyone waits. There, the larger parts of kernels are not `#[inline(always)]`. The
+/// compiler makes functions of them, which takes it less than a minute.
+///
 /// This is for the distance backends of this project, and no stable interface.
 #[doc(hidden)]
 #[macro_export]

@@ -30,19 +30,22 @@ pub enum AnswerKind {
     Unresolved,
 }
 
-/// Writes an answer as numbers, and returns its kind.
+/// Writes an answer about a duration as numbers, and returns its kind.
 ///
 /// First come the tolerance, a lower and an upper bound of the distance, the time before which nothing touches, the time after which
 /// nothing touches, the number of the limit, and the kind of the last contact; then the first contact or the nearest one, and the last
 /// one. The first number of a contact is 0 if there is none, 1 if only a point inside both bodies is known, and else 2.
-pub(crate) fn write(answer: &Answer, numbers: &mut [f64]) -> AnswerKind {
+pub(crate) fn write(answer: &Answer, duration: f64, numbers: &mut [f64]) -> AnswerKind {
     numbers[..ANSWER_LENGTH].fill(0.0);
     let (values, contacts) = numbers.split_at_mut(7);
     let (nearest, last) = contacts.split_at_mut(CONTACT_LENGTH);
     let outcome = &answer.outcome;
     [values[0], values[1], values[2]] = [answer.tolerance, outcome.lower(), outcome.upper()];
     match *outcome {
-        Outcome::Free { .. } => AnswerKind::Free,
+        Outcome::Free { .. } => {
+            values[3] = duration;
+            AnswerKind::Free
+        }
         Outcome::Contact { time, contact } => {
             write_contact(time, &contact, nearest);
             AnswerKind::Contact

@@ -3,7 +3,9 @@
 use rigid_ccd::InputError;
 use rigid_ccd::Pose;
 use rigid_ccd::body::{SolidOfRevolution, Solidity};
-use rigid_ccd::mesh::{AffineMap, Detail, Format, MeshFile, TriangleMesh, body_from_mesh};
+use rigid_ccd::mesh::{
+    AffineMap, Detail, Format, MeshFault, MeshFile, TriangleMesh, body_from_mesh,
+};
 use std::sync::Arc;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
@@ -27,11 +29,11 @@ impl Mesh {
     /// # Errors
     /// What is wrong with the file, with its line or element.
     pub fn read(name: &str, bytes: &[u8]) -> Result<Self, JsError> {
-        let mesh = MeshFile::from_reader(Format::from_path(name)?, bytes);
+        let in_file = |fault| JsError::new(&format!("{name}: {}", described(&fault)));
+        let format = Format::from_path(name).map_err(in_file)?;
+        let mesh = MeshFile::from_reader(format, bytes);
         let mesh = mesh.and_then(MeshFile::into_mesh);
-        Ok(Mesh(mesh.map_err(|error| {
-            JsError::new(&format!("{name}: {error}"))
-        })?))
+        Ok(Mesh(mesh.map_err(|error| in_file(error.fault))?))
     }
 
     /// Returns the vertices, three numbers each.
@@ -182,6 +184,27 @@ impl Body {
         Body::from_shape(polytope.body(), report)
     }
 }
+
+/// Describes a fault of a file, with advice for a package that reads no scenes.
+fn described(fault: &MeshFault) -> String {
+    match fault {
+        MeshFault::MissingFeature { format, .. } => {
+            format!(
+                "is {format}, which is not read here; pass its triangles to Body.fromMesh, or {READ_FORMATS}"
+            )
+        }
+        MeshFault::UnknownExtension { .. } => fault
+            .to_string()
+            .replace(
+                "use .gltf, .glb, .dae, .obj, .stl, .ply or .off",
+                READ_FORMATS,
+            )
+            .replace(".glb", ".obj"),
+        _ => fault.to_string(),
+    }
+}
+
+const READ_FORMATS: &str = "use .obj, .stl, .ply or .off";
 
 fn detail(pieces: &str, is_surface: bool) -> Result<Detail, JsError> {
     match pieces {

@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::path_answer::PathAnswer;
 use super::poses::pose_from_numbers;
-use super::robot::Robot;
+use super::robot::{Robot, names_of_pairs};
 use super::solver::Question;
 use rigid_ccd::Settings;
 use rigid_ccd::answer::ClearanceVerdict;
@@ -110,6 +110,15 @@ impl Cell {
         })
     }
 
+    /// Returns the names of the links that are checked, two for each pair.
+    ///
+    /// # Errors
+    /// A cell that was lost.
+    pub fn checked_pairs(&self) -> Result<Vec<String>, JsError> {
+        let cell = self.cell.as_ref().ok_or_else(lost)?.borrow_owner();
+        Ok(names_of_pairs(cell.robot(), cell.link_pairs()))
+    }
+
     /// Answers a question about a path of configurations, one after another in `path`.
     ///
     /// # Errors
@@ -121,13 +130,16 @@ impl Cell {
         settings: &[f64],
     ) -> Result<PathAnswer, JsError> {
         self.with_solver_for(path, settings, |solver, path| match question {
-            Question::AnyContact => PathAnswer::from_any_contact(solver.any_contact(path)),
+            Question::AnyContact => {
+                PathAnswer::from_any_contact(solver.any_contact(path), segments(path))
+            }
             Question::ClosestApproach | Question::KeptClearance => {
                 let closest = solver.closest_approach(path)?;
                 Ok(PathAnswer::from_closest_approach(&closest))
             }
             Question::FirstContact | Question::ContactInterval => {
-                Ok(PathAnswer::from_outcome(solver.first_contact(path)?))
+                let outcome = solver.first_contact(path)?;
+                Ok(PathAnswer::from_outcome(outcome, segments(path)))
             }
         })
     }
@@ -175,8 +187,7 @@ impl Cell {
     }
 
     fn taken(&mut self) -> Result<CellWithSolver, JsError> {
-        let cell = self.cell.take();
-        cell.ok_or_else(|| JsError::new("the cell was lost in an earlier error"))
+        self.cell.take().ok_or_else(lost)
     }
 
     /// Calls a function with the solver, and with the configurations of a path.
@@ -205,6 +216,15 @@ impl Cell {
         self.cell = Some(cell);
         Ok(answer?)
     }
+}
+
+fn lost() -> JsError {
+    JsError::new("the cell was lost in an earlier error")
+}
+
+/// Returns the number of segments between the configurations of a path.
+fn segments(path: &[&[f64]]) -> usize {
+    path.len().saturating_sub(1)
 }
 
 fn with_solver(cell: rigid_ccd_robot::Cell) -> CellWithSolver {

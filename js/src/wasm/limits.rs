@@ -24,11 +24,19 @@ pub fn limit_name(number: usize) -> String {
     LIMITS.get(number).map_or("other".into(), Limit::to_string)
 }
 
-/// Returns what can be done about the limit with a number.
+/// Returns what can be done about the limit with a number, by the names of JavaScript.
 #[wasm_bindgen]
 pub fn limit_advice(number: usize) -> String {
-    LIMITS
-        .get(number)
-        .map_or("", |limit| limit.advice())
-        .to_owned()
+    let advice = match LIMITS.get(number) {
+        Some(Limit::Budget) => {
+            "the budget is spent: a larger tolerance, or isFree with a margin, often decides at once; a larger budget \
+             takes longer"
+        }
+        Some(Limit::OracleGaveUp) => {
+            "a distance was not found: a larger tolerance, or another pose, may help"
+        }
+        Some(limit) => limit.advice(),
+        None => "",
+    };
+    advice.to_owned()
 }

@@ -32,9 +32,12 @@ impl PathAnswer {
 }
 
 impl PathAnswer {
-    pub(crate) fn from_outcome(outcome: PathOutcome<'_>) -> Self {
+    /// Makes an answer about a path of some segments.
+    pub(crate) fn from_outcome(outcome: PathOutcome<'_>, segments: usize) -> Self {
         match outcome {
-            PathOutcome::Free => PathAnswer::without_pair(AnswerKind::Free, vec![0.0; 3]),
+            PathOutcome::Free => {
+                PathAnswer::without_pair(AnswerKind::Free, vec![segments as f64, 0.0, 0.0])
+            }
             PathOutcome::Contact(contact) => {
                 PathAnswer::without_pair(AnswerKind::Contact, vec![0.0; 3]).with_pair(&contact)
             }
@@ -47,10 +50,12 @@ impl PathAnswer {
     /// Makes an answer whether a path is free; a limit that was reached is one, too.
     pub(crate) fn from_any_contact(
         found: Result<Option<PathContact<'_>>, PathError>,
+        segments: usize,
     ) -> Result<Self, PathError> {
+        let outcome = |found| PathAnswer::from_outcome(found, segments);
         match found {
-            Ok(Some(contact)) => Ok(PathAnswer::from_outcome(PathOutcome::Contact(contact))),
-            Ok(None) => Ok(PathAnswer::from_outcome(PathOutcome::Free)),
+            Ok(Some(contact)) => Ok(outcome(PathOutcome::Contact(contact))),
+            Ok(None) => Ok(outcome(PathOutcome::Free)),
             Err(PathError::Query(Error::Unresolved(known))) => {
                 let start = PathPoint {
                     segment: 0,

@@ -146,10 +146,7 @@ impl Robot {
 
     /// Returns the names of the links that are checked, two for each pair.
     pub fn checked_pairs(&self) -> Vec<String> {
-        let pairs = self.pairs.checked_pairs().flatten();
-        pairs
-            .map(|link| self.robot.links()[link].name.clone())
-            .collect()
+        names_of_pairs(&self.robot, &self.pairs)
     }
 
     /// Returns the numbers of the pose of a link.
@@ -187,4 +184,10 @@ impl Robot {
             duration,
         })?)
     }
+}
+
+/// Returns the names of the links that are checked, two for each pair.
+pub(crate) fn names_of_pairs(robot: &rigid_ccd_robot::Robot, pairs: &LinkPairs) -> Vec<String> {
+    let links = pairs.checked_pairs().flatten();
+    links.map(|link| robot.links()[link].name.clone()).collect()
 }

@@ -84,7 +84,9 @@ impl Solver {
     /// A number that is out of range.
     pub fn ask(&mut self, question: Question, a: &Body, b: &Body) -> Result<AnswerKind, JsError> {
         let answer = self.answer(question, a, b)?;
-        Ok(answer::write(&answer, &mut self.numbers[ANSWER..]))
+        let duration = self.numbers[DURATION];
+        let numbers = &mut self.numbers[ANSWER..];
+        Ok(answer::write(&answer, duration, numbers))
     }
 }
 

@@ -18,11 +18,9 @@ impl SearchFolders {
     /// file.
     pub(super) fn for_urdf(urdf: &Path) -> Self {
         let beside = urdf.parent().unwrap_or(Path::new("")).to_owned();
-        let listed = |variable| env::var_os(variable).unwrap_or_default();
-        let ros = listed("ROS_PACKAGE_PATH");
-        let ament = listed("AMENT_PREFIX_PATH");
-        let mut folders: Vec<PathBuf> = env::split_paths(&ros).collect();
-        folders.extend(env::split_paths(&ament).map(|prefix| prefix.join("share")));
+        let mut folders = folders_in("ROS_PACKAGE_PATH");
+        let prefixes = folders_in("AMENT_PREFIX_PATH");
+        folders.extend(prefixes.into_iter().map(|prefix| prefix.join("share")));
         // A URDF is usually a few folders below its package.
         let whole = beside.canonicalize().unwrap_or_else(|_| beside.clone());
         folders.extend(whole.ancestors().map(Path::to_owned));
@@ -67,6 +65,13 @@ impl SearchFolders {
         };
         self.package_folders.iter().flat_map(in_folder).collect()
     }
+}
+
+/// Returns the folders that a variable of the environment lists; none if it is not set, as on targets that have no such variables and
+/// cannot split their lists.
+fn folders_in(variable: &str) -> Vec<PathBuf> {
+    let list = env::var_os(variable);
+    list.map_or_else(Vec::new, |list| env::split_paths(&list).collect())
 }
 
 #[cfg(test)]

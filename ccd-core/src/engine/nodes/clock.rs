@@ -6,7 +6,10 @@ use fearless_simd::{ExtractToken, Simd, f32x8, prelude::*};
 
 /// Returns the largest τ with `apart ≥ rate τ + second_derivative τ²/2`. It is 0 for NaN, and for a pair that is apart
 /// by at most `closed`, even if it recedes.
-#[inline(always)]
+#[cfg_attr(
+    any(not(target_family = "wasm"), target_feature = "simd128"),
+    inline(always)
+)]
 pub(crate) fn free_time<L: Simd>(
     apart: f32x8<L>,
     closed: f32,
@@ -26,7 +29,10 @@ pub(crate) fn free_time<L: Simd>(
 
 /// Like `free_time`, for a `second_derivative` that may be negative: a gap that closes ever slower may never
 /// close.
-#[inline(always)]
+#[cfg_attr(
+    any(not(target_family = "wasm"), target_feature = "simd128"),
+    inline(always)
+)]
 pub(crate) fn free_time_decelerating<L: Simd>(
     apart: f32x8<L>,
     closed: f32,
