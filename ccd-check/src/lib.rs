@@ -1,0 +1,68 @@
+#![doc = include_str!("../README.md")]
+#![no_std]
+#![forbid(unsafe_code, clippy::float_arithmetic)]
+
+extern crate alloc;
+
+mod body;
+mod cover;
+mod leaf;
+mod number;
+mod reader;
+mod rotation;
+mod sha256;
+mod statement;
+
+pub use body::Body;
+pub use cover::check;
+pub use sha256::sha256;
+
+/// What a check says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The statement is proven.
+    Holds,
+    /// The certificate proves nothing, for this reason, at this byte of the file.
+    Broken(Fault, usize),
+    /// Numbers are beyond the range in which the checker computes; nothing is said.
+    Unverifiable(Reason),
+}
+
+/// What is wrong with a certificate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Fault {
+    /// The file ends too early, goes on after its end, or begins as none of its kind.
+    Format,
+    /// The digest of a mesh is another one.
+    OtherMesh,
+    /// A triangle has a corner that is no vertex.
+    NoVertex,
+    /// A tree leaves a triangle out, or has one twice.
+    Triangles,
+    /// A tree has too many levels, or a node without triangles.
+    Tree,
+    /// A triangle is split, or a time that cannot be.
+    Split,
+    /// An axis is longer than 1.
+    Axis,
+    /// A leaf does not keep its nodes apart by more than the margin.
+    NotApart,
+    /// Witnesses are no points of their triangles, or too far from each other.
+    Witnesses,
+}
+
+/// What the checker cannot compute with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Reason {
+    /// A number is not finite, or too large in the unit of the certificate.
+    Number,
+    /// The quaternion of a pose is not of unit length.
+    Quaternion,
+    /// A body turns by more than 256 radians.
+    Turns,
+}
+
+/// Why a check ends early.
+type Stop = Verdict;
