@@ -1,141 +1,85 @@
 //! Proves that two parts stay apart over a stretch of time, along one axis: the lemma of the README.
 
-use crate::body::{AXIS_BITS, CORNER_ERROR, Part};
-use crate::number::{Ball, FRACTION_BITS, Sign, Vector, add_signed, cross, dot, length, scale};
-use crate::reader::Reader;
+use crate::Body;
+use crate::body::Part;
+use crate::number::{FRACTION, Number, Vector};
 use crate::rotation::Rotation;
-use crate::statement::{Motion, Statement, TIME_BITS, turning};
-use crate::{Body, Fault, Stop};
-
-/// Fine axes are multiples of 2⁻³⁰.
-const FINE_AXIS_BITS: u32 = 30;
+use crate::statement::{Motion, Statement, TIME};
 
 /// Where both bodies are in the middle of a stretch of time, and how they move in half of it.
 pub(crate) struct Stretch {
     pub(crate) from: i128,
     pub(crate) to: i128,
-    /// From the centre of A to that of B.
+    /// From the centre of A to that of B, and by how much that changes.
     offset: Vector,
-    /// By how much that changes in half of the stretch.
     change: Vector,
     turned: [Option<Rotation>; 2],
-    /// The rotation vector of each body in half of the stretch.
-    turn: [Option<Vector>; 2],
-}
-
-/// What an axis turns with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Frame {
-    World,
-    Body(usize),
+    /// The rotation vector of each body.
+    turn: [Vector; 2],
 }
 
 impl Stretch {
-    pub(crate) fn new([a, b]: &[Motion; 2], from: i128, to: i128) -> Self {
+    pub(crate) fn new(motions: &[Motion; 2], from: i128, to: i128) -> Self {
+        let [a, b] = motions;
         let middle = (from + to) >> 1;
-        let half = Ball::exact(to - middle);
-        let middle = Ball::exact(middle);
+        let half = Number::exact([to - middle]);
+        let middle = Number::exact([middle]);
+        let still = Vector::exact([0; 3]);
         Stretch {
             from,
             to,
-            offset: add_signed(b.centre_at(middle), a.centre_at(middle), Sign::Minus),
-            change: scale(add_signed(b.travel, a.travel, Sign::Minus), half, TIME_BITS),
+            offset: b.centre_at(middle) - a.centre_at(middle),
+            change: (b.travel - a.travel).times(half, TIME),
             turned: [a.turned_at(middle), b.turned_at(middle)],
-            turn: [a, b].map(|motion| Some(scale(motion.turn?, half, TIME_BITS))),
+            turn: [a, b].map(|motion| motion.turn.map_or(still, |turn| turn.times(half, TIME))),
         }
     }
-}
 
-/// Reads an axis, and checks that it keeps two parts apart by more than the margin over a stretch of time.
-pub(crate) fn check_leaf(
-    reader: &mut Reader<'_>,
-    (statement, bodies): (&Statement, [&Body; 2]),
-    stretch: &Stretch,
-    (parts, frame, is_fine): ([Part; 2], Frame, bool),
-) -> Result<(), Stop> {
-    let (axis, axis_bits) = if is_fine {
-        (reader.fine_axis()?, FINE_AXIS_BITS)
-    } else {
-        (reader.axis()?, AXIS_BITS)
-    };
-    if axis.iter().map(|x| x * x).sum::<i128>() > 1 << (2 * axis_bits) {
-        return reader.broken(Fault::Axis);
-    }
-    let axis = axis.map(|x| Ball::exact(x << (FRACTION_BITS - axis_bits)));
-    let axis_turn = match frame {
-        Frame::World => None,
-        Frame::Body(k) => stretch.turn[k],
-    };
-    // The linear part: in the middle, and its change to either end.
-    let axis_change = turning(axis, axis_turn);
-    let mut gaps = [Sign::Minus, Sign::Plus].map(|sign| {
-        let along = dot(add_signed(axis, axis_change, sign), stretch.offset, 0);
-        let gap = add_signed([along; 3], [dot(axis, stretch.change, 0); 3], sign)[0];
-        gap.mid - gap.rad
-    });
-    let mut curvature = {
-        let (turn, change) = (size(axis_turn), length(stretch.change.map(Ball::size)));
-        let offset = length(stretch.offset.map(Ball::size)) + change;
-        up(up(turn, turn), offset) + 2 * up(turn, change)
-    };
-    for k in 0..2 {
-        let relative = relative_turn(
-            stretch.turn[k],
-            (frame != Frame::Body(k)).then_some(axis_turn),
-        );
-        let axis_in_body =
-            relative.map_or([Ball::ZERO; 3], |turn| cross(axis, turn, FRACTION_BITS));
-        let mut reach = 0;
-        for (gap, sign) in gaps.iter_mut().zip([Sign::Minus, Sign::Plus]) {
-            let direction = add_signed(axis, axis_in_body, sign);
-            let direction = if k == 0 {
-                direction.map(Ball::neg)
+    /// Returns whether an axis keeps two parts apart by more than the margin over the whole stretch. The axis turns with the
+    /// world, or with the body of this number.
+    pub(crate) fn keeps_apart(
+        &self,
+        (statement, bodies): (&Statement, [&Body; 2]),
+        parts: [Part; 2],
+        (axis, frame): (Vector, Option<usize>),
+    ) -> bool {
+        let still = Vector::exact([0; 3]);
+        let axis_turn = frame.map_or(still, |k| self.turn[k]);
+        let axis_change = axis_turn.cross(axis, FRACTION);
+        let travel = axis.dot(self.change, 0);
+        // The linear part at the start and at the end, and the curvature.
+        let ends = [axis - axis_change, axis + axis_change].map(|axis| axis.dot(self.offset, 0));
+        let ends = [ends[0] - travel, ends[1] + travel];
+        let mut gaps = ends.map(|end| end.mid[0] - end.rad);
+        let (turn, change) = (axis_turn.length(), self.change.length());
+        let mut curvature =
+            up(up(turn, turn), self.offset.length() + change) + 2 * up(turn, change);
+        for k in 0..2 {
+            let motion = &statement.motions[k];
+            let relative = if frame == Some(k) {
+                still
             } else {
-                direction
+                self.turn[k] - axis_turn
             };
-            let turned =
-                stretch.turned[k].map_or(direction, |turned| turned.turn(direction, Sign::Minus));
-            let direction = statement.motions[k].to_mesh(turned);
-            let seen = bodies[k].seen_from(
-                parts[k],
-                statement.motions[k].centre,
-                direction.map(|x| x.mid),
-            );
-            reach = seen.reach + 2 * CORNER_ERROR;
-            let sizes: i128 = direction.iter().map(|x| x.size()).sum();
-            let radii: i128 = direction.iter().map(|x| x.rad).sum();
-            *gap += seen.least_height - radii * reach - CORNER_ERROR * sizes;
+            let in_body = axis.cross(relative, FRACTION);
+            let mut reach = 0;
+            for (gap, direction) in gaps.iter_mut().zip([axis - in_body, axis + in_body]) {
+                let direction = if k == 0 { -direction } else { direction };
+                let direction = motion.to_mesh(direction, self.turned[k]);
+                let (height, distance) =
+                    bodies[k].height_and_reach(parts[k], motion.centre.mid, direction.mid);
+                // The corners and the centre are off by 1 each, in each coordinate.
+                reach = distance + 4;
+                *gap += height - 3 * direction.rad * reach - 6 * direction.size();
+            }
+            curvature += up(up(relative.length(), turn + self.turn[k].length()), reach);
         }
-        let turns = size(axis_turn) + size(stretch.turn[k]);
-        curvature += up(up(size(relative), turns), reach);
-    }
-    let least = (statement.margin + curvature / 2 + 1) << FRACTION_BITS;
-    if gaps.iter().all(|&gap| gap > least) {
-        Ok(())
-    } else {
-        reader.broken(Fault::NotApart)
+        let least = (statement.margin + curvature / 2 + 1) << FRACTION;
+        gaps.iter().all(|&gap| gap > least)
     }
 }
 
-/// Returns the rotation vector of a body relative to an axis; `None` if they turn alike, which they do if the axis is the body's
-/// own.
-fn relative_turn(body: Option<Vector>, axis: Option<Option<Vector>>) -> Option<Vector> {
-    match (body, axis?) {
-        (body, None) => body,
-        (None, Some(axis)) => Some(axis.map(Ball::neg)),
-        (Some(body), Some(axis)) => Some(add_signed(body, axis, Sign::Minus)),
-    }
-}
-
-/// Returns an upper bound of the length of a rotation vector.
-fn size(turn: Option<Vector>) -> i128 {
-    turn.map_or(0, |turn| length(turn.map(Ball::size)))
-}
-
-/// Returns the product of a number and a fraction, rounded up.
+/// Returns the product of a number and a fraction that are not negative, rounded up.
 fn up(fraction: i128, number: i128) -> i128 {
-    if fraction == 0 || number == 0 {
-        return 0;
-    }
-    ((fraction * number) >> FRACTION_BITS) + 1
+    (fraction * number + (1 << FRACTION) - 1) >> FRACTION
 }

@@ -25,17 +25,19 @@ pub enum Verdict {
     /// The certificate proves nothing, for this reason, at this byte of the file.
     Broken(Fault, usize),
     /// Numbers are beyond the range in which the checker computes; nothing is said.
-    Unverifiable(Reason),
+    Unverifiable(Fault),
 }
 
-/// What is wrong with a certificate.
+/// What is wrong with a certificate, or beyond the range of the checker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fault {
-    /// The file ends too early, goes on after its end, or begins as none of its kind.
+    /// The file ends too early, goes on after its end, or has a number that means nothing.
     Format,
     /// The digest of a mesh is another one.
     OtherMesh,
+    /// A body was read in another unit.
+    OtherUnit,
     /// A triangle has a corner that is no vertex.
     NoVertex,
     /// A tree leaves a triangle out, or has one twice.
@@ -46,21 +48,15 @@ pub enum Fault {
     Split,
     /// An axis is longer than 1.
     Axis,
-    /// A leaf does not keep its nodes apart by more than the margin.
+    /// A leaf does not keep its parts apart by more than the margin.
     NotApart,
     /// Witnesses are no points of their triangles, or too far from each other.
     Witnesses,
-}
-
-/// What the checker cannot compute with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Reason {
     /// A number is not finite, or too large in the unit of the certificate.
     Number,
     /// The quaternion of a pose is not of unit length.
     Quaternion,
-    /// A body turns by more than 256 radians.
+    /// A body turns by more than 256 radians about an axis.
     Turns,
 }
 

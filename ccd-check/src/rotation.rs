@@ -1,57 +1,58 @@
 //! Rotations: exponentials of rotation vectors, enclosed.
 
-use crate::number::{Ball, FRACTION_BITS, ONE, Sign, Vector, add, add_signed, cross, dot, scale};
+use crate::number::{FRACTION, Number, ONE, Vector};
 
 /// A rotation as a quaternion of unit length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rotation {
-    scalar: Ball,
+    scalar: Number,
     vector: Vector,
 }
 
 impl Rotation {
     /// Returns the rotation by a vector: about its direction, by its length in radians.
     pub(crate) fn by(turn: Vector) -> Rotation {
-        let half = turn.map(|x| x.div(2));
-        let (cos, sinc) = cos_and_sinc(dot(half, half, FRACTION_BITS));
+        let half = turn.over(2);
+        let (scalar, sinc) = cos_and_sinc(half.dot(half, FRACTION));
         Rotation {
-            scalar: cos,
-            vector: scale(half, sinc, FRACTION_BITS),
+            scalar,
+            vector: half.times(sinc, FRACTION),
         }
     }
 
-    /// Turns a vector, or with [`Sign::Minus`] turns it back.
-    pub(crate) fn turn(&self, v: Vector, sign: Sign) -> Vector {
-        let once = cross(self.vector, v, FRACTION_BITS);
-        let twice = cross(self.vector, once, FRACTION_BITS);
-        let once = scale(once, self.scalar, FRACTION_BITS);
-        let v = add(v, add(twice, twice));
-        add_signed(v, add(once, once), sign)
+    pub(crate) fn inverse(self) -> Rotation {
+        Rotation {
+            vector: -self.vector,
+            ..self
+        }
+    }
+
+    pub(crate) fn turn(self, v: Vector) -> Vector {
+        let once = self.vector.cross(v, FRACTION);
+        let half = once.times(self.scalar, FRACTION) + self.vector.cross(once, FRACTION);
+        v + half + half
     }
 }
 
-/// Returns cos x and sin x / x from x², both as fractions.
-fn cos_and_sinc(mut square: Ball) -> (Ball, Ball) {
+/// Returns cos x and sin x / x from x², as fractions.
+fn cos_and_sinc(mut square: Number) -> (Number, Number) {
     let mut halvings = 0;
-    while square.size() > ONE / 4 {
-        square = square.div(4);
+    while square.size() > ONE.mid[0] / 4 {
+        square = square.over(4);
         halvings += 1;
     }
     // Taylor: what is left out is less than (1/4)¹⁰ / 20!, which is less than one unit.
-    let (mut cos, mut sinc) = (Ball::exact(ONE), Ball::exact(ONE));
+    let (mut cos, mut sinc) = (ONE, ONE);
     for k in (1..10).rev() {
-        let next = |series: Ball, divisor| {
-            Ball::exact(ONE).sub(series.mul(square, FRACTION_BITS).div(divisor))
-        };
-        cos = next(cos, (2 * k - 1) * (2 * k));
-        sinc = next(sinc, (2 * k) * (2 * k + 1));
+        cos = ONE - cos.times(square, FRACTION).over((2 * k - 1) * (2 * k));
+        sinc = ONE - sinc.times(square, FRACTION).over((2 * k) * (2 * k + 1));
     }
     (cos.rad, sinc.rad) = (cos.rad + 1, sinc.rad + 1);
     // cos 2x = 2 cos² x − 1, and sin 2x / 2x = cos x · sin x / x.
     for _ in 0..halvings {
-        sinc = sinc.mul(cos, FRACTION_BITS);
-        let square = cos.mul(cos, FRACTION_BITS);
-        cos = square.add(square).sub(Ball::exact(ONE));
+        sinc = sinc.times(cos, FRACTION);
+        let square = cos.times(cos, FRACTION);
+        cos = square + square - ONE;
     }
     (cos, sinc)
 }

@@ -157,7 +157,6 @@ fn write_witnesses(
     time: f64,
     witnesses: [DVec3; 2],
 ) {
-    let mut weights = Vec::new();
     for (moving, witness) in bodies.iter().zip(witnesses) {
         let pose = moving.motion.pose(time);
         let local = pose.rotation().conjugate() * (witness - pose.translation());
@@ -183,9 +182,9 @@ fn write_witnesses(
         } else {
             (b, rest)
         };
-        weights.extend([a, b, rest].map(|weight| weight as u32));
+        let weights = [a, b, rest].map(|weight| (weight as u32).to_le_bytes());
+        bytes.extend(weights.concat());
     }
-    bytes.extend(weights.iter().flat_map(|weight| weight.to_le_bytes()));
 }
 
 /// Returns the weights of the corners of the point of a triangle that is nearest to a point `[ERICSON05 §5.1.5]`.
