@@ -5,55 +5,62 @@ use crate::leaf::Stretch;
 use crate::number::{FRACTION, Vector};
 use crate::reader::Reader;
 use crate::statement::Statement;
-use crate::{Body, Fault, Stop, Verdict};
-use alloc::vec::Vec;
+use crate::{Body, Fault, Stop};
 
 /// Two parts over a stretch of time, which are to be proven apart.
 #[derive(Clone, Copy)]
 struct Task {
     parts: [Part; 2],
-    from: i128,
-    to: i128,
+    times: [i128; 2],
 }
 
-/// Checks a certificate about two bodies.
+/// Checks a certificate about two bodies. Nothing is said of any other statement than the one in the certificate: the caller
+/// compares it with the one that he wants.
 ///
 /// It begins with both whole bodies over the whole time. Each step of the certificate splits what is to be proven, or proves it.
-pub fn check(a: &Body, b: &Body, certificate: &[u8]) -> Verdict {
-    match check_all(
+///
+/// # Errors
+/// [`Stop`] if the certificate does not prove its statement, or the checker cannot tell.
+pub fn check(a: &Body, b: &Body, certificate: &[u8]) -> Result<(), Stop> {
+    let (bodies, mut reader) = (
+        [a, b],
         Reader {
             bytes: certificate,
             at: 0,
         },
-        [a, b],
-    ) {
-        Ok(()) => Verdict::Holds,
-        Err(verdict) => verdict,
-    }
-}
-
-fn check_all(mut reader: Reader<'_>, bodies: [&Body; 2]) -> Result<(), Stop> {
+    );
     let statement = Statement::read(&mut reader, bodies)?;
-    let mut stretch = Stretch::new(&statement.motions, 0, statement.until);
+    let whole = [0, statement.until];
+    let mut stretch = Stretch::new(&statement.motions, whole);
     let mut waiting = alloc::vec![Task {
         parts: [0; 2],
-        from: 0,
-        to: statement.until
+        times: whole
     }];
     while let Some(task) = waiting.pop() {
         match reader.unsigned(1)? {
-            side @ 0..=1 => split_body(&mut waiting, task, bodies, side as usize)
-                .or_else(|fault| reader.broken(fault))?,
-            2 => {
-                let at = task.from + (((task.to - task.from) * reader.unsigned(2)?) >> 16);
-                if at <= task.from || at >= task.to {
+            side @ 0..=1 => {
+                let side = side as usize;
+                let children = bodies[side].children(task.parts[side]);
+                if children.is_empty() {
                     return reader.broken(Fault::Split);
                 }
-                waiting.extend([Task { from: at, ..task }, Task { to: at, ..task }]);
+                for child in children {
+                    let mut parts = task.parts;
+                    parts[side] = child;
+                    waiting.push(Task { parts, ..task });
+                }
+            }
+            2 => {
+                let [from, to] = task.times;
+                let at = from + (((to - from) * reader.unsigned(2)?) >> 16);
+                if at <= from || at >= to {
+                    return reader.broken(Fault::Split);
+                }
+                waiting.extend([[at, to], [from, at]].map(|times| Task { times, ..task }));
             }
             step @ 3..=8 => {
-                if (stretch.from, stretch.to) != (task.from, task.to) {
-                    stretch = Stretch::new(&statement.motions, task.from, task.to);
+                if stretch.times != task.times {
+                    stretch = Stretch::new(&statement.motions, task.times);
                 }
                 let axis = read_axis(&mut reader, step >= 6)?;
                 let frame = [None, Some(0), Some(1)][step as usize % 3];
@@ -71,24 +78,6 @@ fn check_all(mut reader: Reader<'_>, bodies: [&Body; 2]) -> Result<(), Stop> {
     } else {
         reader.broken(Fault::Witnesses)
     }
-}
-
-fn split_body(
-    waiting: &mut Vec<Task>,
-    task: Task,
-    bodies: [&Body; 2],
-    side: usize,
-) -> Result<(), Fault> {
-    let children = bodies[side].children(task.parts[side]);
-    if children.is_empty() {
-        return Err(Fault::Split);
-    }
-    waiting.extend(children.into_iter().map(|child| {
-        let mut parts = task.parts;
-        parts[side] = child;
-        Task { parts, ..task }
-    }));
-    Ok(())
 }
 
 /// Reads an axis that is no longer than 1, in multiples of 2⁻¹⁴, or fine ones of 2⁻³⁰.

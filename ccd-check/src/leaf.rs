@@ -3,35 +3,29 @@
 use crate::Body;
 use crate::body::Part;
 use crate::number::{FRACTION, Number, Vector};
-use crate::rotation::Rotation;
-use crate::statement::{Motion, Statement, TIME};
+use crate::statement::{Motion, Placed, Statement, TIME};
 
 /// Where both bodies are in the middle of a stretch of time, and how they move in half of it.
 pub(crate) struct Stretch {
-    pub(crate) from: i128,
-    pub(crate) to: i128,
-    /// From the centre of A to that of B, and by how much that changes.
-    offset: Vector,
+    pub(crate) times: [i128; 2],
+    placed: [Placed; 2],
+    turns: [Vector; 2],
+    /// By how much the vector from the centre of A to that of B changes.
     change: Vector,
-    turned: [Option<Rotation>; 2],
-    /// The rotation vector of each body.
-    turn: [Vector; 2],
 }
 
 impl Stretch {
-    pub(crate) fn new(motions: &[Motion; 2], from: i128, to: i128) -> Self {
-        let [a, b] = motions;
+    pub(crate) fn new(motions: &[Motion; 2], times: [i128; 2]) -> Self {
+        let [from, to] = times;
         let middle = (from + to) >> 1;
         let half = Number::exact([to - middle]);
         let middle = Number::exact([middle]);
-        let still = Vector::exact([0; 3]);
+        let [a, b] = motions;
         Stretch {
-            from,
-            to,
-            offset: b.centre_at(middle) - a.centre_at(middle),
+            times,
+            placed: [a.at(middle), b.at(middle)],
+            turns: [a.turn.times(half, TIME), b.turn.times(half, TIME)],
             change: (b.travel - a.travel).times(half, TIME),
-            turned: [a.turned_at(middle), b.turned_at(middle)],
-            turn: [a, b].map(|motion| motion.turn.map_or(still, |turn| turn.times(half, TIME))),
         }
     }
 
@@ -43,36 +37,32 @@ impl Stretch {
         parts: [Part; 2],
         (axis, frame): (Vector, Option<usize>),
     ) -> bool {
-        let still = Vector::exact([0; 3]);
-        let axis_turn = frame.map_or(still, |k| self.turn[k]);
+        let axis_turn = frame.map_or(Vector::exact([0; 3]), |k| self.turns[k]);
         let axis_change = axis_turn.cross(axis, FRACTION);
+        let offset = self.placed[1].centre - self.placed[0].centre;
         let travel = axis.dot(self.change, 0);
         // The linear part at the start and at the end, and the curvature.
-        let ends = [axis - axis_change, axis + axis_change].map(|axis| axis.dot(self.offset, 0));
-        let ends = [ends[0] - travel, ends[1] + travel];
-        let mut gaps = ends.map(|end| end.mid[0] - end.rad);
+        let start = (axis - axis_change).dot(offset, 0) - travel;
+        let end = (axis + axis_change).dot(offset, 0) + travel;
+        let mut gaps = [start, end].map(|end| end.mid[0] - end.rad);
         let (turn, change) = (axis_turn.length(), self.change.length());
-        let mut curvature =
-            up(up(turn, turn), self.offset.length() + change) + 2 * up(turn, change);
+        let mut curvature = up(up(turn, turn), offset.length() + change) + 2 * up(turn, change);
         for k in 0..2 {
-            let motion = &statement.motions[k];
-            let relative = if frame == Some(k) {
-                still
-            } else {
-                self.turn[k] - axis_turn
-            };
+            let relative = self.turns[k] - axis_turn;
             let in_body = axis.cross(relative, FRACTION);
             let mut reach = 0;
             for (gap, direction) in gaps.iter_mut().zip([axis - in_body, axis + in_body]) {
                 let direction = if k == 0 { -direction } else { direction };
-                let direction = motion.to_mesh(direction, self.turned[k]);
+                let direction = self.placed[k].to_mesh(direction);
+                let centre = statement.motions[k].centre.mid;
                 let (height, distance) =
-                    bodies[k].height_and_reach(parts[k], motion.centre.mid, direction.mid);
+                    bodies[k].height_and_reach(parts[k], centre, direction.mid);
                 // The corners and the centre are off by 1 each, in each coordinate.
                 reach = distance + 4;
                 *gap += height - 3 * direction.rad * reach - 6 * direction.size();
             }
-            curvature += up(up(relative.length(), turn + self.turn[k].length()), reach);
+            let turns = turn + self.turns[k].length();
+            curvature += up(up(relative.length(), turns), reach);
         }
         let least = (statement.margin + curvature / 2 + 1) << FRACTION;
         gaps.iter().all(|&gap| gap > least)

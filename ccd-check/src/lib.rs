@@ -17,12 +17,10 @@ pub use body::Body;
 pub use cover::check;
 pub use sha256::sha256;
 
-/// What a check says.
+/// Why a certificate proves nothing. A check that returns none of these has proven the statement in the certificate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// The statement is proven.
-    Holds,
-    /// The certificate proves nothing, for this reason, at this byte of the file.
+pub enum Stop {
+    /// The certificate, or the mesh, is broken for this reason, at this byte of the file.
     Broken(Fault, usize),
     /// Numbers are beyond the range in which the checker computes; nothing is said.
     Unverifiable(Fault),
@@ -59,6 +57,3 @@ pub enum Fault {
     /// A body turns by more than 256 radians about an axis.
     Turns,
 }
-
-/// Why a check ends early.
-type Stop = Verdict;

@@ -63,7 +63,7 @@ impl Vector {
         }
     }
 
-    /// Returns an upper bound of the length, at most 16 % above.
+    /// Returns an upper bound of the length, at most 23 % above.
     pub(crate) fn length(self) -> i128 {
         length(self.mid) + 2 * self.rad
     }

@@ -1,7 +1,7 @@
 //! Reads numbers from bytes.
 
 use crate::number::{Number, Vector};
-use crate::{Fault, Stop, Verdict};
+use crate::{Fault, Stop};
 
 /// The bytes of a file, and how far they are read.
 pub(crate) struct Reader<'a> {
@@ -12,7 +12,7 @@ pub(crate) struct Reader<'a> {
 impl<'a> Reader<'a> {
     /// Returns the verdict that something is wrong at the place that is read.
     pub(crate) fn broken<T>(&self, fault: Fault) -> Result<T, Stop> {
-        Err(Verdict::Broken(fault, self.at))
+        Err(Stop::Broken(fault, self.at))
     }
 
     pub(crate) fn take(&mut self, count: usize) -> Result<&'a [u8], Stop> {
@@ -81,13 +81,13 @@ impl<'a> Reader<'a> {
                 mid: [mantissa >> (-shift).min(100)],
                 rad: 1,
             },
-            _ => return Err(Verdict::Unverifiable(fault)),
+            _ => return Err(Stop::Unverifiable(fault)),
         };
         let is_in_range = field != 0x7ff && number.size() <= 1 << bits;
         if is_in_range {
             Ok(number)
         } else {
-            Err(Verdict::Unverifiable(fault))
+            Err(Stop::Unverifiable(fault))
         }
     }
 

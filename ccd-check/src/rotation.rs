@@ -2,11 +2,11 @@
 
 use crate::number::{FRACTION, Number, ONE, Vector};
 
-/// A rotation as a quaternion of unit length.
-#[derive(Clone, Copy, Debug)]
+/// A rotation as a quaternion, with 2 over the square of its length.
 pub(crate) struct Rotation {
-    scalar: Number,
-    vector: Vector,
+    pub(crate) scalar: Number,
+    pub(crate) vector: Vector,
+    pub(crate) factor: Number,
 }
 
 impl Rotation {
@@ -17,20 +17,14 @@ impl Rotation {
         Rotation {
             scalar,
             vector: half.times(sinc, FRACTION),
+            factor: ONE + ONE,
         }
     }
 
-    pub(crate) fn inverse(self) -> Rotation {
-        Rotation {
-            vector: -self.vector,
-            ..self
-        }
-    }
-
-    pub(crate) fn turn(self, v: Vector) -> Vector {
+    pub(crate) fn turn(&self, v: Vector) -> Vector {
         let once = self.vector.cross(v, FRACTION);
-        let half = once.times(self.scalar, FRACTION) + self.vector.cross(once, FRACTION);
-        v + half + half
+        let sum = once.times(self.scalar, FRACTION) + self.vector.cross(once, FRACTION);
+        v + sum.times(self.factor, FRACTION)
     }
 }
 

@@ -3,10 +3,13 @@
 use crate::number::{FRACTION, Number, ONE, Vector};
 use crate::reader::Reader;
 use crate::rotation::Rotation;
-use crate::{Body, Fault, Stop, Verdict};
+use crate::{Body, Fault, Stop};
 
 /// Times are shares of a power of two that is no less than the duration, in multiples of 2⁻⁶⁰.
 pub(crate) const TIME: u32 = 60;
+
+/// Weights of corners are multiples of 2⁻³¹.
+const WEIGHT_BITS: u32 = 31;
 
 pub(crate) struct Statement {
     pub(crate) motions: [Motion; 2],
@@ -20,20 +23,23 @@ pub(crate) struct Statement {
 pub(crate) struct Motion {
     /// The centre in the frame of the mesh.
     pub(crate) centre: Vector,
-    /// The centre in the world at the start, and how far it moves in the unit of time.
-    start: Vector,
+    start: Placed,
+    /// How far the centre moves in the unit of time, and the rotation vector of the unit of time.
     pub(crate) travel: Vector,
-    /// The columns of the rotation at the start.
-    columns: [Vector; 3],
-    /// The rotation vector of the unit of time; `None` if the body does not turn.
-    pub(crate) turn: Option<Vector>,
+    pub(crate) turn: Vector,
+}
+
+/// A body at a time: its centre in the world, and the columns of its rotation.
+pub(crate) struct Placed {
+    pub(crate) centre: Vector,
+    pub(crate) columns: [Vector; 3],
 }
 
 /// The claim that two points are near each other at a time.
 pub(crate) struct Contact {
     time: Number,
     distance: i128,
-    /// For each body a triangle, and the weights of its corners as multiples of 2⁻³².
+    /// For each body a triangle, and the weights of its corners.
     points: [(usize, [i128; 3]); 2],
 }
 
@@ -51,44 +57,39 @@ impl Statement {
             Motion::read(reader, unit, time_unit)?,
             Motion::read(reader, unit, time_unit)?,
         ];
-        let (time_unit, bits) = (time_unit - i128::from(TIME), TIME.into());
-        let duration = reader.number(time_unit, bits, Fault::Number)?;
+        let until = reader.number(time_unit - i128::from(TIME), TIME.into(), Fault::Number)?;
         let margin = reader.number(unit, 50, Fault::Number)?;
         let contact = match reader.unsigned(1)? {
             0 => None,
             1 => Some(Contact {
-                time: reader.number(time_unit, bits, Fault::Number)?,
+                time: until,
                 distance: margin.mid[0] + reader.number(unit, 50, Fault::Number)?.mid[0],
                 points: [read_point(reader)?, read_point(reader)?],
             }),
             _ => return reader.broken(Fault::Format),
         };
-        let until = contact.as_ref().map_or(duration, |contact| contact.time);
-        if margin.mid[0] < 0 || until.mid[0] < 0 || until.mid[0] > duration.mid[0] {
+        if margin.mid[0] < 0 || until.mid[0] < 0 {
             return reader.broken(Fault::Format);
         }
+        let (margin, until) = (margin.size(), until.size());
         Ok(Statement {
             motions,
-            margin: margin.size(),
-            until: until.size(),
+            margin,
+            until,
             contact,
         })
     }
 }
 
-/// Reads the number of a triangle in the order of its tree, and the weights of its corners.
+/// Reads the number of a triangle in the order of its tree, and the weights of two corners; the third one has the rest.
 fn read_point(reader: &mut Reader<'_>) -> Result<(usize, [i128; 3]), Stop> {
     let triangle = reader.unsigned(4)? as usize;
-    let weights = [
-        reader.unsigned(4)?,
-        reader.unsigned(4)?,
-        reader.unsigned(4)?,
-    ];
-    if weights.iter().sum::<i128>() == 1 << 32 {
-        Ok((triangle, weights))
-    } else {
-        reader.broken(Fault::Witnesses)
+    let (a, b) = (reader.unsigned(4)?, reader.unsigned(4)?);
+    let rest = (1 << WEIGHT_BITS) - a - b;
+    if rest < 0 {
+        return reader.broken(Fault::Witnesses);
     }
+    Ok((triangle, [a, b, rest]))
 }
 
 impl Contact {
@@ -97,17 +98,21 @@ impl Contact {
         let place = |k: usize| -> Option<Vector> {
             let (triangle, weights) = self.points[k];
             let corners = bodies[k].triangles.get(triangle)?;
+            let sum = |axis: usize| (0..3).map(|c| weights[c] * corners[c][axis]).sum::<i128>();
             // Off by less than 1 with the corners, and by as much with what the shift drops.
-            let mid = [0, 1, 2]
-                .map(|axis| (0..3).map(|c| weights[c] * corners[c][axis]).sum::<i128>() >> 32);
-            Some(motions[k].point_at(Vector { mid, rad: 2 }, self.time))
+            let point = Vector {
+                mid: [0, 1, 2].map(|axis| sum(axis) >> WEIGHT_BITS),
+                rad: 2,
+            };
+            let placed = motions[k].at(self.time);
+            Some(placed.centre + from_columns(placed.columns, point - motions[k].centre))
         };
         let (Some(a), Some(b)) = (place(0), place(1)) else {
             return false;
         };
         let apart = a - b;
-        let square: i128 = apart.mid.iter().map(|x| (x.abs() + apart.rad).pow(2)).sum();
-        self.distance >= 0 && square <= self.distance.pow(2)
+        let squares = apart.mid.iter().map(|x| (x.abs() + apart.rad).pow(2));
+        self.distance >= 0 && squares.sum::<i128>() <= self.distance.pow(2)
     }
 }
 
@@ -116,45 +121,38 @@ impl Motion {
         let position = reader.vector(unit, 50, Fault::Number)?;
         let columns = read_rotation(reader)?;
         let travel = reader.vector(unit - time_unit, 50, Fault::Number)?;
-        // A body turns by at most 2⁸ radians about each axis.
         let fraction = i128::from(FRACTION);
         let turn = reader.vector(-fraction - time_unit, fraction + 8, Fault::Turns)?;
         let centre = reader.vector(unit, 50, Fault::Number)?;
-        let start = position + from_columns(columns, centre);
-        let turn = (turn.size() > 0).then_some(turn);
+        let start = Placed {
+            centre: position + from_columns(columns, centre),
+            columns,
+        };
         Ok(Motion {
             centre,
             start,
             travel,
-            columns,
             turn,
         })
     }
 
-    /// Returns the centre of rotation at a time.
-    pub(crate) fn centre_at(&self, time: Number) -> Vector {
-        self.start + self.travel.times(time, TIME)
+    pub(crate) fn at(&self, time: Number) -> Placed {
+        let turned = Rotation::by(self.turn.times(time, TIME));
+        Placed {
+            centre: self.start.centre + self.travel.times(time, TIME),
+            columns: self.start.columns.map(|column| turned.turn(column)),
+        }
     }
+}
 
-    /// Returns the rotation since the start, at a time.
-    pub(crate) fn turned_at(&self, time: Number) -> Option<Rotation> {
-        Some(Rotation::by(self.turn?.times(time, TIME)))
-    }
-
+impl Placed {
     /// Returns a direction of the world in the frame of the mesh.
-    pub(crate) fn to_mesh(&self, direction: Vector, turned: Option<Rotation>) -> Vector {
-        let direction = turned.map_or(direction, |turned| turned.inverse().turn(direction));
-        let [x, y, z] = self.columns.map(|column| column.dot(direction, FRACTION));
+    pub(crate) fn to_mesh(&self, direction: Vector) -> Vector {
+        let [x, y, z] = [0, 1, 2].map(|k| self.columns[k].dot(direction, FRACTION));
         Vector {
             mid: [x.mid[0], y.mid[0], z.mid[0]],
             rad: x.rad.max(y.rad).max(z.rad),
         }
-    }
-
-    /// Returns a point of the mesh in the world at a time.
-    fn point_at(&self, point: Vector, time: Number) -> Vector {
-        let arm = from_columns(self.columns, point - self.centre);
-        self.centre_at(time) + self.turned_at(time).map_or(arm, |turned| turned.turn(arm))
     }
 }
 
@@ -174,20 +172,17 @@ fn read_rotation(reader: &mut Reader<'_>) -> Result<[Vector; 3], Stop> {
     let scalar = reader.number(-fraction, fraction + 1, Fault::Quaternion)?;
     let excess = vector.dot(vector, FRACTION) + scalar.times(scalar, FRACTION) - ONE;
     if excess.size() > ONE.mid[0] >> 20 {
-        return Err(Verdict::Unverifiable(Fault::Quaternion));
+        return Err(Stop::Unverifiable(Fault::Quaternion));
     }
     // 1 / (1 + e) is 1 − e to within e² / (1 − |e|), which is less than 2e².
     let mut inverse = ONE - excess;
     inverse.rad += 2 * excess.dot(excess, FRACTION).size();
-    let basis = [0, 1, 2].map(|k| {
-        Vector::exact(core::array::from_fn(
-            |j| if j == k { ONE.mid[0] } else { 0 },
-        ))
-    });
-    // v + 2 s u×v + 2 u×(u×v), over the square of the quaternion's length.
-    Ok(basis.map(|v| {
-        let once = vector.cross(v, FRACTION);
-        let half = once.times(scalar, FRACTION) + vector.cross(once, FRACTION);
-        v + (half + half).times(inverse, FRACTION)
-    }))
+    let rotation = Rotation {
+        scalar,
+        vector,
+        factor: inverse + inverse,
+    };
+    let one = ONE.mid[0];
+    let basis = [[one, 0, 0], [0, one, 0], [0, 0, one]];
+    Ok(basis.map(|axis| rotation.turn(Vector::exact(axis))))
 }

@@ -8,7 +8,7 @@ use clap::Parser;
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
 use rigid_ccd::table::motions::MotionTable;
 use rigid_ccd::{Outcome, Settings, Solver};
-use std::fs::{File, read_to_string};
+use std::fs::{File, read_to_string, write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -36,6 +36,9 @@ struct Args {
     /// Only this mesh
     #[arg(long)]
     only: Option<String>,
+    /// A folder for meshes, certificates of bodies, and proofs
+    #[arg(long)]
+    write: Option<PathBuf>,
 }
 
 type Mesh = (Vec<[f64; 3]>, Vec<[u32; 3]>);
@@ -81,6 +84,12 @@ fn run_pair(args: &Args, names: [&str; 2], motions: &str) -> Result<()> {
         engine.push(body_from_mesh(&mesh, Detail::Surface)?.body);
         proven.push(Body::new(vertices, faces));
     }
+    if let Some(folder) = &args.write {
+        for (body, name) in proven.iter().zip(names) {
+            write(folder.join(format!("{name}.mesh")), body.mesh())?;
+            write(folder.join(format!("{name}.body")), body.certificate())?;
+        }
+    }
     let per_triangle = proven[0].certificate().len() as f64 / meshes[0].1.len() as f64;
     let mut solver = Solver::new().with_settings(Settings {
         tolerance: args.tolerance,
@@ -120,6 +129,10 @@ fn run_pair(args: &Args, names: [&str; 2], motions: &str) -> Result<()> {
                 continue;
             }
         };
+        if let Some(folder) = &args.write {
+            let name = format!("{}-{}.proof", names[0], bytes.len());
+            write(folder.join(name), &proof.bytes)?;
+        }
         proving.push(start.elapsed().as_secs_f64() / solved);
         if checked.as_ref().is_none_or(|(unit, _)| *unit != proof.unit) {
             let read = |body: &Body| {
@@ -134,7 +147,7 @@ fn run_pair(args: &Args, names: [&str; 2], motions: &str) -> Result<()> {
         let start = Instant::now();
         let verdict = ccd_check::check(a, b, &proof.bytes);
         ratios.push(start.elapsed().as_secs_f64() / solved);
-        if verdict != ccd_check::Verdict::Holds {
+        if verdict.is_err() {
             failed.push(format!("{row}: {verdict:?}"));
         }
         bytes.push(proof.bytes.len() as f64);

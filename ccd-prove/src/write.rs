@@ -96,23 +96,23 @@ pub fn prove(
             numbers.chain(rest.into_iter().flat_map(|v| v.to_array())),
         );
     }
-    write_numbers(&mut bytes, [duration, margin]);
     let until = match claim {
-        Claim::Free => {
-            bytes.push(0);
-            duration
-        }
-        Claim::Contact {
-            time,
-            tolerance,
-            witnesses,
-        } => {
-            bytes.push(1);
-            write_numbers(&mut bytes, [time, tolerance]);
-            write_witnesses(&mut bytes, &bodies, time, witnesses);
-            time
-        }
+        Claim::Free => duration,
+        Claim::Contact { time, .. } => time,
     };
+    write_numbers(&mut bytes, [until, margin]);
+    if let Claim::Contact {
+        time,
+        tolerance,
+        witnesses,
+    } = claim
+    {
+        bytes.push(1);
+        write_numbers(&mut bytes, [tolerance]);
+        write_witnesses(&mut bytes, &bodies, time, witnesses);
+    } else {
+        bytes.push(0);
+    }
     let mut cover = Cover::new(&bodies, margin + ROUNDING * size, until, MAX_BYTES);
     cover.write()?;
     bytes.extend(&cover.steps);
@@ -173,17 +173,9 @@ fn write_witnesses(
         let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
         let (_, place, own) = nearest.unwrap_or((0.0, 0, [1.0, 0.0, 0.0]));
         bytes.extend((place as u32).to_le_bytes());
-        // They are multiples of 2⁻³², whose sum is 1; a weight of 1 is two of a half less one.
-        let scaled = own.map(|weight| (weight * 4_294_967_295.0) as u64);
-        let [a, b] = [scaled[0], scaled[1]];
-        let rest = (1u64 << 32) - a - b;
-        let (b, rest) = if rest >> 32 == 1 {
-            (b + 1, rest - 1)
-        } else {
-            (b, rest)
-        };
-        let weights = [a, b, rest].map(|weight| (weight as u32).to_le_bytes());
-        bytes.extend(weights.concat());
+        // Rounded down, the first two leave no less than 0 for the third one.
+        let [a, b, _] = own.map(|weight| (weight * 2_147_483_648.0) as u32);
+        bytes.extend([a, b].map(u32::to_le_bytes).concat());
     }
 }
 
