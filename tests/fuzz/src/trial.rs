@@ -59,7 +59,13 @@ impl Failure {
 }
 
 /// Builds the bodies of a case, runs the methods, and judges their answers.
-pub fn run_and_judge(case: Case, methods: Vec<(PieceKind, Method)>) -> Trial {
+///
+/// `when_answered` is called before the judge begins, who may take longer than all methods.
+pub fn run_and_judge(
+    case: Case,
+    methods: Vec<(PieceKind, Method)>,
+    when_answered: impl FnOnce(),
+) -> Trial {
     let mut trial = Trial {
         case,
         methods: Vec::new(),
@@ -70,6 +76,7 @@ pub fn run_and_judge(case: Case, methods: Vec<(PieceKind, Method)>) -> Trial {
     };
     let built = build_bodies(&mut trial, &methods);
     let given = solve_by_methods(&mut trial, &built, methods);
+    when_answered();
     trial.methods = given.iter().map(|g| (g.bodies.kind, g.method)).collect();
     trial.outcomes = given.iter().map(|g| g.answer.outcome).collect();
     judge(&mut trial, &given);
@@ -187,7 +194,7 @@ pub fn shrink(case: &Case, failure: &Failure) -> Case {
     let fails = |case: &Case| {
         let mut methods = vec![(PieceKind::Triangles, Method::Direct)];
         methods.push(failure.kind_and_method);
-        let again = run_and_judge(case.clone(), methods);
+        let again = run_and_judge(case.clone(), methods, || {});
         again.failures.iter().any(|f| f.fault == failure.fault)
     };
     let mut case = case.clone();

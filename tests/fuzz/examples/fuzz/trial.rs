@@ -20,9 +20,7 @@ pub fn run(family: Family, seed: u64, number: u64, watch: &Watchdog) -> Trial {
     let case = family.draw(&mut draw);
     let asked = methods(&mut draw, &case);
     watch.begin_query(number);
-    let trial = run_and_judge(case, asked);
-    watch.end_query();
-    trial
+    run_and_judge(case, asked, || watch.end_query())
 }
 
 /// Chooses the kinds of pieces and the methods for a case: always the default, and some others.

@@ -24,7 +24,7 @@ struct QueryAndMethods {
 /// If an answer has a fault.
 pub(super) fn run(bytes: &[u8]) {
     let question = decode::decode_query_and_methods(bytes);
-    let trial = run_and_judge(question.case.clone(), question.kinds_and_methods);
+    let trial = run_and_judge(question.case.clone(), question.kinds_and_methods, || {});
     if let Some(failure) = trial.failures.first() {
         panic!("{}", failure.report("", &trial.case));
     }
