@@ -8,7 +8,7 @@ use crate::path_answer::RccdPathAnswer;
 use crate::settings::RccdSettings;
 use crate::solver::read_settings;
 use crate::status::{Failure, RccdStatus, status_of};
-use rigid_ccd_robot::{Cell, CellSolver, Path, PathError};
+use rigid_ccd_robot::{Cell, CellSolver, Path};
 use std::sync::Arc;
 
 /// A solver for paths in a cell as it was when the solver was made. It keeps memory from one question to the next. Each thread
@@ -39,7 +39,9 @@ pub unsafe extern "C" fn rccd_cell_solver_new(
         // SAFETY: the contract of this function.
         let settings = unsafe { read_settings(settings) }?;
         if !cell.checks_any_pair() {
-            return Err(Failure::input(PathError::NoCheckedPair));
+            let text = "no pair of the cell is checked: there is no obstacle, and links that a joint connects are not checked \
+                        unless a clearance names them";
+            return Err(Failure::input(text));
         }
         // SAFETY: the cell does not move while this struct holds it, nobody changes a shared cell, and the solver, which is the
         // first field, is dropped before it.

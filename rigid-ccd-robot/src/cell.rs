@@ -178,7 +178,7 @@ impl Cell {
         Ok(())
     }
 
-    /// Returns whether any pair of bodies is checked. Where none is, questions about paths are errors.
+    /// Returns whether any pair of bodies is checked. Where none is, every path is free.
     pub fn checks_any_pair(&self) -> bool {
         let moves = |part: &HullPart| {
             self.kinematics

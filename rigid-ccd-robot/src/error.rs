@@ -139,11 +139,6 @@ pub enum RobotError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PathError {
-    /// No pair of the cell is checked: that every path is free proves nothing.
-    #[error(
-        "no pair of the cell is checked: there is no obstacle, and links that a joint connects are not checked unless a clearance names them"
-    )]
-    NoCheckedPair,
     /// The path has no configuration.
     #[error("the path has no configuration")]
     EmptyPath,

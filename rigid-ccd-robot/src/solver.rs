@@ -42,7 +42,6 @@ use search::Search;
 /// budget for each query of two bodies that a path leaves to the engine. Contacts at the start are always reported.
 pub struct CellSolver<'c> {
     cell: &'c Cell,
-    checks_any_pair: bool,
     search: Search<'c>,
     distance_solver: Solver,
 }
@@ -121,7 +120,6 @@ impl Cell {
     pub fn solver(&self) -> CellSolver<'_> {
         CellSolver {
             cell: self,
-            checks_any_pair: self.checks_any_pair(),
             search: Search::new(self),
             distance_solver: Solver::new(),
         }
@@ -249,11 +247,8 @@ impl<'c> CellSolver<'c> {
         Ok(self.search.answer_question(question, whole)?)
     }
 
-    /// Takes a path for the questions that follow, if it fits the robot, the settings are valid, and any pair is checked.
+    /// Takes a path for the questions that follow, if it fits the robot and the settings are valid.
     fn set_path<P: Path + ?Sized>(&mut self, path: &P) -> Result<(), PathError> {
-        if !self.checks_any_pair {
-            return Err(PathError::NoCheckedPair);
-        }
         self.search.settings().check().map_err(Error::from)?;
         self.search.begin(path)
     }
