@@ -18,6 +18,8 @@ pub struct Body {
     /// Each node is followed by those below it.
     pub(crate) nodes: Vec<Node>,
     mesh: Vec<u8>,
+    /// The SHA-256 digest of the mesh.
+    pub(crate) digest: [u8; 32],
     certificate: Vec<u8>,
 }
 
@@ -51,17 +53,19 @@ impl Body {
         let triangles: Vec<[DVec3; 3]> = faces.iter().map(|face| face.map(corner)).collect();
         assert!(!triangles.is_empty(), "a body has triangles");
         let mut order: Vec<u32> = (0..faces.len() as u32).collect();
+        let mesh = mesh_bytes(vertices, faces);
         let mut body = Body {
             triangles: Vec::new(),
             nodes: Vec::new(),
-            mesh: mesh_bytes(vertices, faces),
+            digest: Sha256::digest(&mesh).into(),
+            mesh,
             certificate: Vec::new(),
         };
         let mut records = Vec::new();
         body.add_node(&triangles, &mut order, 0, &mut records);
         body.triangles = order.iter().map(|&k| triangles[k as usize]).collect();
         body.certificate.extend(b"CCDBODY1");
-        body.certificate.extend(body.digest());
+        body.certificate.extend(body.digest);
         body.certificate
             .extend(order.iter().flat_map(|k| k.to_le_bytes()));
         body.certificate.extend(records);
@@ -71,11 +75,6 @@ impl Body {
     /// Returns the mesh as the bytes whose digest a certificate states.
     pub fn mesh(&self) -> &[u8] {
         &self.mesh
-    }
-
-    /// Returns the SHA-256 digest of the mesh.
-    pub(crate) fn digest(&self) -> [u8; 32] {
-        Sha256::digest(&self.mesh).into()
     }
 
     /// Returns the certificate of the body's tree.

@@ -1,14 +1,17 @@
 //! Splits what is to be proven until an axis proves it.
 
 use crate::body::Part;
-use crate::stretch::{Frame, Moving, Stretch};
-use crate::write::NotProven;
+use crate::error::NotProven;
+use crate::stretch::{Moving, Stretch};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use ccd_distance_gjk::{TerminationBounds, Vertex, bound_distance};
 
 /// Axes are multiples of 2⁻¹⁴, or fine ones of 2⁻³⁰.
 const AXIS_UNITS: [f64; 2] = [16_384.0, 1_073_741_824.0];
+
+/// The largest number of bytes of a proof.
+const MAX_BYTES: usize = 1 << 26;
 
 /// The largest number of splits on a path.
 const MAX_DEPTH: u32 = 200;
@@ -21,7 +24,6 @@ pub(crate) struct Cover<'a> {
     until: f64,
     pub(crate) steps: Vec<u8>,
     pub(crate) leaves: usize,
-    max_bytes: usize,
 }
 
 /// Parts over a stretch of time, the axis that kept a part above them apart best, and the number of splits so far.
@@ -33,19 +35,13 @@ struct Task {
 }
 
 impl<'a> Cover<'a> {
-    pub(crate) fn new(
-        bodies: &'a [Moving<'a>; 2],
-        least: f64,
-        until: f64,
-        max_bytes: usize,
-    ) -> Self {
+    pub(crate) fn new(bodies: &'a [Moving<'a>; 2], least: f64, until: f64) -> Self {
         Cover {
             bodies,
             least,
             until,
             steps: Vec::new(),
             leaves: 0,
-            max_bytes,
         }
     }
 
@@ -61,7 +57,7 @@ impl<'a> Cover<'a> {
     }
 
     fn cover(&mut self, task: Task, stretch: &Stretch) -> Result<(), NotProven> {
-        if task.depth > MAX_DEPTH || self.steps.len() > self.max_bytes {
+        if task.depth > MAX_DEPTH || self.steps.len() > MAX_BYTES {
             return Err(NotProven::TooLong {
                 at: stretch.from,
                 bytes: self.steps.len(),
@@ -122,7 +118,7 @@ impl<'a> Cover<'a> {
                 if frame.is_some_and(|k: usize| self.bodies[k].motion.spin() == DVec3::ZERO) {
                     continue;
                 }
-                if self.proves(task.parts, (axis, frame), stretch) {
+                if stretch.least_gap(self.bodies, task.parts, (axis, frame)) > self.least {
                     self.steps.push((3 + 3 * fine + number) as u8);
                     for x in stored.to_array() {
                         if fine == 0 {
@@ -137,10 +133,6 @@ impl<'a> Cover<'a> {
             }
         }
         false
-    }
-
-    fn proves(&self, parts: [Part; 2], axis: (DVec3, Frame), stretch: &Stretch) -> bool {
-        stretch.gaps(self.bodies, parts, axis).least() > self.least
     }
 
     /// Returns the axis along which parts are farthest apart in the middle of a stretch, and how far.

@@ -2,8 +2,10 @@
 
 mod body;
 mod cover;
+mod error;
 mod stretch;
 mod write;
 
 pub use body::Body;
-pub use write::{Claim, NotProven, Proof, prove};
+pub use error::NotProven;
+pub use write::{Claim, Proof, prove};

@@ -24,19 +24,6 @@ pub(crate) struct Stretch {
 /// What an axis turns with: the world, or a body.
 pub(crate) type Frame = Option<usize>;
 
-/// What a leaf proves: the least gap at the start, at the end, and what turning takes of either.
-#[derive(Clone, Copy)]
-pub(crate) struct Gaps {
-    pub(crate) ends: [f64; 2],
-    pub(crate) loss: f64,
-}
-
-impl Gaps {
-    pub(crate) fn least(self) -> f64 {
-        lesser(self.ends[0], self.ends[1]) - self.loss
-    }
-}
-
 impl Stretch {
     pub(crate) fn new(bodies: &[Moving<'_>; 2], from: f64, to: f64) -> Self {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
@@ -58,13 +45,13 @@ impl Stretch {
         }
     }
 
-    /// Returns what an axis proves about two parts.
-    pub(crate) fn gaps(
+    /// Returns the least gap of two parts along an axis over the stretch, or less.
+    pub(crate) fn least_gap(
         &self,
         bodies: &[Moving<'_>; 2],
         parts: [Part; 2],
         (axis, frame): (DVec3, Frame),
-    ) -> Gaps {
+    ) -> f64 {
         let axis_turn = frame.map_or(DVec3::ZERO, |k| self.turns[k]);
         let axis_change = axis_turn.cross(axis);
         let mut ends = [-1.0, 1.0].map(|sign| {
@@ -88,10 +75,7 @@ impl Stretch {
                 curvature += length(relative) * turns * body.reach(parts[k], centre);
             }
         }
-        Gaps {
-            ends,
-            loss: 0.5 * curvature,
-        }
+        lesser(ends[0], ends[1]) - 0.5 * curvature
     }
 
     /// Returns a point of a part in the middle of the stretch, from the centre of A's rotation: the one that is lowest along a

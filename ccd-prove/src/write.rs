@@ -2,6 +2,7 @@
 
 use crate::body::Body;
 use crate::cover::Cover;
+use crate::error::NotProven;
 use crate::stretch::Moving;
 use ccd_core::Motion;
 use ccd_core::glam::DVec3;
@@ -34,29 +35,6 @@ pub struct Proof {
     pub unit: i32,
 }
 
-/// The reason why no certificate is written.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NotProven {
-    /// Two triangles are too near each other to be proven apart.
-    #[error("two triangles cannot be proven apart, at time {at} or soon after")]
-    Touching {
-        /// The start of the stretch of time that is not proven.
-        at: f64,
-    },
-    /// The certificate would be too long.
-    #[error("the certificate has {bytes} bytes, and is not complete from time {at} on")]
-    TooLong {
-        /// The start of the stretch of time that is not proven.
-        at: f64,
-        /// The number of its bytes.
-        bytes: usize,
-    },
-}
-
-/// The largest number of bytes of a certificate.
-const MAX_BYTES: usize = 1 << 26;
-
 /// The share of the largest coordinate that is allowed for rounding.
 const ROUNDING: f64 = 1e-13;
 
@@ -84,7 +62,7 @@ pub fn prove(
     bytes.extend(unit.to_le_bytes());
     bytes.extend(time_unit.to_le_bytes());
     for moving in &bodies {
-        bytes.extend(moving.body.digest());
+        bytes.extend(moving.body.digest);
     }
     for moving in &bodies {
         let (start, motion) = (moving.motion.start(), moving.motion);
@@ -113,7 +91,7 @@ pub fn prove(
     } else {
         bytes.push(0);
     }
-    let mut cover = Cover::new(&bodies, margin + ROUNDING * size, until, MAX_BYTES);
+    let mut cover = Cover::new(&bodies, margin + ROUNDING * size, until);
     cover.write()?;
     bytes.extend(&cover.steps);
     Ok(Proof {
