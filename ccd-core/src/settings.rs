@@ -43,9 +43,9 @@ pub struct Settings {
     pub budget: u64,
     /// The time after which the query ends as unresolved; `None` for no limit of time.
     ///
-    /// The deadline is checked every few visits, and is therefore exceeded by a few microseconds if pieces are small. A call of an oracle is never interrupted, nor is the search for a
-    /// [refined normal](ContactNormals::Refined). Whether the deadline is reached depends on the machine: answers that
-    /// it ends differ from one call to the next.
+    /// The deadline is checked every few visits, and is therefore exceeded by a few microseconds if pieces are small. A
+    /// call of an oracle is never interrupted, nor is the search for a [refined normal](ContactNormals::Refined).
+    /// Whether the deadline is reached depends on the machine: answers that it ends differ from one call to the next.
     pub deadline: Option<Duration>,
     /// How the normals of contacts are found.
     pub contact_normals: ContactNormals,
