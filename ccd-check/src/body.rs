@@ -3,13 +3,11 @@
 //! The certificate of a body says only how the tree groups the triangles, and along which axes each node is measured. How far a
 //! node extends along them is measured here, on the triangles themselves.
 
-use crate::number::length;
+use crate::number::{Point, dot, minus, product};
 use crate::reader::Reader;
-use crate::{Fault, Stop, sha256};
+use crate::{Stop, sha256};
 use alloc::vec::Vec;
 use core::ops::Range;
-
-type Point = [i128; 3];
 
 /// Axes of nodes are multiples of 2⁻¹⁴.
 const AXIS_BITS: u32 = 14;
@@ -24,7 +22,6 @@ pub struct Body {
     pub(crate) unit: i32,
     /// The corners of each triangle in the order of the tree. Each is off by less than 1 in each coordinate.
     pub(crate) triangles: Vec<[Point; 3]>,
-    /// Each node is followed by those below it.
     nodes: Vec<Node>,
 }
 
@@ -32,15 +29,13 @@ pub struct Body {
 #[derive(Clone, Debug)]
 struct Node {
     axes: [Point; 3],
-    ranges: [(i128, i128); 3],
+    ranges: [[i64; 2]; 3],
     centre: Point,
-    radius: i128,
-    triangles: Range<usize>,
-    /// The number of the node after the last one below this one.
-    end: usize,
+    radius: i64,
+    children: Range<Part>,
 }
 
-/// A node of a body by its number, or a triangle by its number beyond those of the nodes.
+/// A triangle of a body by its number, or a node by its number beyond those of the triangles.
 pub(crate) type Part = usize;
 
 impl Body {
@@ -49,14 +44,13 @@ impl Body {
     /// # Errors
     /// The verdict, if the certificate is broken or numbers are out of range.
     pub fn new(mesh: &[u8], certificate: &[u8], unit: i32) -> Result<Body, Stop> {
-        let triangles = read_mesh(Reader { bytes: mesh, at: 0 }, unit)?;
+        let triangles = read_mesh(Reader::new(mesh), unit.into())?;
         let digest = sha256(mesh);
-        let mut reader = Reader {
-            bytes: certificate,
-            at: 0,
-        };
-        reader.require(b"CCDBODY1", Fault::Format)?;
-        reader.require(&digest, Fault::OtherMesh)?;
+        let mut reader = Reader::new(certificate);
+        let is_body = reader.take(8)? == b"CCDBODY1";
+        reader.require(is_body, "this is no certificate of a body")?;
+        let is_of_mesh = reader.take(32)? == digest;
+        reader.require(is_of_mesh, "this is the certificate of another mesh")?;
         let mut body = Body {
             digest,
             unit,
@@ -65,162 +59,175 @@ impl Body {
         };
         let mut is_missing = alloc::vec![true; triangles.len()];
         for _ in 0..triangles.len() {
-            let number = reader.unsigned(4)? as usize;
-            match is_missing.get_mut(number) {
-                Some(is_missing) if *is_missing => *is_missing = false,
-                _ => return reader.broken(Fault::Triangles),
-            }
+            let number = reader.index(triangles.len())?;
+            reader.require(is_missing[number], "the tree has a triangle twice")?;
+            is_missing[number] = false;
             body.triangles.push(triangles[number]);
         }
-        if body.read_node(&mut reader, 0, 0)? != triangles.len() {
-            return reader.broken(Fault::Triangles);
+        body.read_nodes(&mut reader)?;
+        reader.require(reader.is_at_end(), "the file goes on after its end")?;
+        for k in 0..body.nodes.len() {
+            let mut corners = Vec::new();
+            body.add_corners(triangles.len() + k, &mut corners);
+            body.nodes[k].measure(&corners);
         }
-        reader.require_end().map(|()| body)
+        Ok(body)
     }
 
-    /// Reads a node that begins with a triangle, and all below it. Returns the triangle after its last one.
-    fn read_node(
-        &mut self,
-        reader: &mut Reader<'_>,
-        first: usize,
-        depth: usize,
-    ) -> Result<usize, Stop> {
-        let (children, own) = (reader.unsigned(1)?, reader.unsigned(1)? as usize);
-        let axes = [reader.axis(2)?, reader.axis(2)?, reader.axis(2)?];
-        if depth >= MAX_DEPTH || (children == 0) == (own == 0) {
-            return reader.broken(Fault::Tree);
+    /// Reads the nodes level by level: the children of a node are the next nodes or the next triangles that are no one's yet.
+    fn read_nodes(&mut self, reader: &mut Reader<'_>) -> Result<(), Stop> {
+        let count = self.triangles.len();
+        let (mut next_triangle, mut next_node, mut level_end, mut depth) =
+            (0, count + 1, count + 1, 1);
+        for number in count.. {
+            if number == next_node {
+                break;
+            }
+            if number == level_end {
+                (level_end, depth) = (next_node, depth + 1);
+                reader.require(depth <= MAX_DEPTH, "a tree has too many levels")?;
+            }
+            let [nodes, triangles] = [reader.unsigned(1)? as usize, reader.unsigned(1)? as usize];
+            reader.require(
+                (nodes == 0) != (triangles == 0),
+                "a node has no children, or both kinds",
+            )?;
+            let next = if nodes == 0 {
+                &mut next_triangle
+            } else {
+                &mut next_node
+            };
+            let first = *next;
+            *next += nodes + triangles;
+            self.nodes.push(Node {
+                axes: [reader.axis(2)?, reader.axis(2)?, reader.axis(2)?],
+                ranges: [[0; 2]; 3],
+                centre: [0; 3],
+                radius: 0,
+                children: first..*next,
+            });
         }
-        let number = self.nodes.len();
-        let (ranges, centre) = ([(0, 0); 3], [0; 3]);
-        self.nodes.push(Node {
-            axes,
-            ranges,
-            centre,
-            radius: 0,
-            triangles: 0..0,
-            end: 0,
-        });
-        let mut end = first + own;
-        for _ in 0..children {
-            end = self.read_node(reader, end, depth + 1)?;
-        }
-        let Some(triangles) = self.triangles.get(first..end) else {
-            return reader.broken(Fault::Triangles);
-        };
-        let below = self.nodes.len();
-        let node = &mut self.nodes[number];
-        (node.triangles, node.end) = (first..end, below);
-        node.measure(triangles);
-        Ok(end)
-    }
-
-    /// Returns the children of a part, the last one first. A triangle has none.
-    pub(crate) fn children(&self, part: Part) -> Vec<Part> {
-        let Some(node) = self.nodes.get(part) else {
-            return Vec::new();
-        };
-        let mut children = Vec::new();
-        let mut next = part + 1;
-        while next < node.end {
-            children.push(next);
-            next = self.nodes[next].end;
-        }
-        if children.is_empty() {
-            children.extend(
-                node.triangles
-                    .clone()
-                    .map(|triangle| self.nodes.len() + triangle),
-            );
-        }
-        children.reverse();
-        children
-    }
-
-    /// Returns the least height of a part along a direction, and its largest distance, both from a point.
-    pub(crate) fn height_and_reach(
-        &self,
-        part: Part,
-        from: Point,
-        direction: Point,
-    ) -> (i128, i128) {
-        if let Some(node) = self.nodes.get(part) {
-            let height = node.least_height(direction) - dot(direction, from);
-            return (height, length(minus(node.centre, from)) + node.radius);
-        }
-        let corners = self.triangles[part - self.nodes.len()].map(|corner| minus(corner, from));
-        let (height, _) = extent(corners.iter().map(|&corner| dot(direction, corner)));
-        (
-            height,
-            extent(corners.iter().map(|&corner| length(corner))).1,
+        reader.require(
+            next_triangle == count,
+            "a tree has more or fewer triangles than the mesh",
         )
+    }
+
+    pub(crate) fn root(&self) -> Part {
+        self.triangles.len()
+    }
+
+    /// Returns the parts that a node consists of. A triangle has none.
+    pub(crate) fn children(&self, part: Part) -> Range<Part> {
+        match part.checked_sub(self.root()) {
+            Some(node) => self.nodes[node].children.clone(),
+            None => 0..0,
+        }
+    }
+
+    /// Adds the corners of all triangles of a part.
+    fn add_corners(&self, part: Part, corners: &mut Vec<Point>) {
+        match self.triangles.get(part) {
+            Some(triangle) => corners.extend(triangle),
+            None => self
+                .children(part)
+                .for_each(|child| self.add_corners(child, corners)),
+        }
+    }
+
+    /// Returns the largest distance of a part from a point, or more.
+    pub(crate) fn reach(&self, part: Part, from: Point) -> i128 {
+        match self.triangles.get(part) {
+            Some(triangle) => extent(triangle.iter().map(|&corner| length(minus(corner, from))))[1],
+            None => {
+                let node = &self.nodes[part - self.root()];
+                length(minus(node.centre, from)) + i128::from(node.radius)
+            }
+        }
+    }
+
+    /// Returns the least height of a part along a direction, from a point, or less.
+    pub(crate) fn least_height(&self, part: Part, direction: Point, from: Point) -> i128 {
+        match self.triangles.get(part) {
+            Some(triangle) => extent(
+                triangle
+                    .iter()
+                    .map(|&corner| dot(direction, minus(corner, from))),
+            )[0],
+            None => self.nodes[part - self.root()].least_height(direction, from),
+        }
     }
 }
 
 impl Node {
-    /// Measures how far triangles extend along the axes, and a ball around them.
-    fn measure(&mut self, triangles: &[[Point; 3]]) {
-        let corners = || triangles.iter().flatten().copied();
-        self.ranges = self
-            .axes
-            .map(|axis| extent(corners().map(|corner| dot(axis, corner))));
-        self.centre = [0, 1, 2].map(|k| {
-            let (least, greatest) = extent(corners().map(|corner| corner[k]));
-            (least + greatest) / 2
+    /// Measures how far corners extend along the axes, and a ball around them.
+    fn measure(&mut self, corners: &[Point]) {
+        self.ranges = self.axes.map(|axis| {
+            let [least, greatest] = extent(corners.iter().map(|&corner| dot(axis, corner)));
+            [least >> AXIS_BITS, (greatest >> AXIS_BITS) + 1].map(|height| height as i64)
         });
-        self.radius = extent(corners().map(|corner| length(minus(corner, self.centre)))).1;
+        self.centre = [0, 1, 2].map(|k| {
+            let [least, greatest] = extent(corners.iter().map(|corner| corner[k].into()));
+            ((least + greatest) / 2) as i64
+        });
+        let distances = corners
+            .iter()
+            .map(|&corner| length(minus(corner, self.centre)));
+        self.radius = extent(distances)[1] as i64;
     }
 
-    /// Returns a lower bound of the heights of the points along a direction.
+    /// Returns a lower bound of the heights of the points along a direction, from a point.
     ///
     /// The direction is a sum of multiples of the axes and a rest, whatever the multiples. Each multiple has its least height at
     /// an end of the axis's range, and the rest has it within the ball.
-    fn least_height(&self, direction: Point) -> i128 {
+    fn least_height(&self, direction: Point, from: Point) -> i128 {
+        // A multiple of an axis is one of 2⁻³⁶ of its length, so both are exact.
+        let coarse = direction.map(|x| x >> AXIS_BITS);
         let (mut rest, mut height) = (direction, 0);
-        for (axis, (least, greatest)) in self.axes.iter().zip(self.ranges) {
-            let multiple = dot(*axis, direction) >> (2 * AXIS_BITS);
-            height += (multiple * least).min(multiple * greatest);
+        for (axis, [least, greatest]) in self.axes.iter().zip(self.ranges) {
+            let multiple =
+                (axis[0] * coarse[0] + axis[1] * coarse[1] + axis[2] * coarse[2]) >> AXIS_BITS;
+            height += product(multiple, if multiple < 0 { greatest } else { least });
             rest = minus(rest, axis.map(|x| multiple * x));
         }
-        height + dot(rest, self.centre) - length(rest) * self.radius
+        let [x, y, z] = rest.map(|x| i128::from(x.abs()));
+        (height << AXIS_BITS) + dot(rest, self.centre)
+            - dot(direction, from)
+            - (x + y + z) * i128::from(self.radius)
     }
 }
 
 /// Returns the least and the greatest of numbers.
-fn extent(mut numbers: impl Iterator<Item = i128>) -> (i128, i128) {
+fn extent(mut numbers: impl Iterator<Item = i128>) -> [i128; 2] {
     let first = numbers.next().unwrap_or(0);
-    numbers.fold((first, first), |(least, greatest), x| {
-        (least.min(x), greatest.max(x))
+    numbers.fold([first; 2], |[least, greatest], x| {
+        [least.min(x), greatest.max(x)]
     })
 }
 
-fn dot(a: Point, b: Point) -> i128 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn minus(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+/// Returns an upper bound of the length of a vector: the largest coordinate and half of the others.
+///
+/// With a ≥ b ≥ c ≥ 0, (a + (b + c)/2)² ≥ a² + a(b + c) ≥ a² + b² + c².
+fn length(v: Point) -> i128 {
+    let [a, b, c] = v.map(|x| i128::from(x.abs()));
+    let largest = a.max(b).max(c);
+    largest + (a + b + c - largest) / 2 + 1
 }
 
 /// Reads a mesh: the numbers of vertices and triangles, the coordinates, and the corners.
-fn read_mesh(mut reader: Reader<'_>, unit: i32) -> Result<Vec<[Point; 3]>, Stop> {
-    let (vertex_count, triangle_count) = (reader.unsigned(4)?, reader.unsigned(4)?);
-    let mut vertices = Vec::new();
+fn read_mesh(mut reader: Reader<'_>, unit: i64) -> Result<Vec<[Point; 3]>, Stop> {
+    let [vertex_count, triangle_count] = [reader.unsigned(4)?, reader.unsigned(4)?];
+    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
     for _ in 0..vertex_count {
-        vertices.push(reader.vector(unit.into(), 50, Fault::Number)?.mid);
+        vertices.push(reader.vector(unit, 50)?.mid);
     }
-    let mut triangles = Vec::new();
     for _ in 0..triangle_count {
-        let mut triangle = [[0; 3]; 3];
-        for corner in &mut triangle {
-            match vertices.get(reader.unsigned(4)? as usize) {
-                Some(vertex) => *corner = *vertex,
-                None => return reader.broken(Fault::NoVertex),
-            }
-        }
-        triangles.push(triangle);
+        let [a, b, c] = [(); 3].map(|()| reader.index(vertices.len()));
+        triangles.push([vertices[a?], vertices[b?], vertices[c?]]);
     }
-    if triangles.is_empty() {
-        return reader.broken(Fault::Format);
-    }
-    reader.require_end().map(|()| triangles)
+    reader.require(
+        !triangles.is_empty() && reader.is_at_end(),
+        "a mesh is empty, or goes on after its end",
+    )?;
+    Ok(triangles)
 }

@@ -2,90 +2,92 @@
 
 use crate::body::Part;
 use crate::leaf::Stretch;
-use crate::number::{FRACTION, Vector};
+use crate::motion::Placed;
+use crate::number::{FRACTION, Number, Point, dot, product};
 use crate::reader::Reader;
 use crate::statement::Statement;
-use crate::{Body, Fault, Stop};
+use crate::{Body, Stop};
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
 
-/// Two parts over a stretch of time, which are to be proven apart.
-#[derive(Clone, Copy)]
-struct Task {
-    parts: [Part; 2],
-    times: [i128; 2],
-}
+type Times = [i64; 2];
 
-/// Checks a certificate about two bodies. Nothing is said of any other statement than the one in the certificate: the caller
+/// All links in the middle of each stretch of time that a leaf has named so far.
+type Seen = BTreeMap<Times, Vec<Placed>>;
+
+/// Checks a certificate about meshes. Nothing is said of any other statement than the one in the certificate: the caller
 /// compares it with the one that he wants.
-///
-/// It begins with both whole bodies over the whole time. Each step of the certificate splits what is to be proven, or proves it.
 ///
 /// # Errors
 /// [`Stop`] if the certificate does not prove its statement, or the checker cannot tell.
-pub fn check(a: &Body, b: &Body, certificate: &[u8]) -> Result<(), Stop> {
-    let (bodies, mut reader) = (
-        [a, b],
-        Reader {
-            bytes: certificate,
-            at: 0,
-        },
-    );
-    let statement = Statement::read(&mut reader, bodies)?;
-    let whole = [0, statement.until];
-    let mut stretch = Stretch::new(&statement.motions, whole);
-    let mut waiting = alloc::vec![Task {
-        parts: [0; 2],
-        times: whole
-    }];
-    while let Some(task) = waiting.pop() {
-        match reader.unsigned(1)? {
+pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
+    let mut reader = Reader::new(certificate);
+    let statement = Statement::read(&mut reader, meshes)?;
+    let is_near = statement.has_near_witnesses();
+    reader.require(is_near, "the witnesses are too far from each other")?;
+    let mut seen = Seen::new();
+    for pair in 0..statement.pairs.len() {
+        check_pair(&mut reader, &statement, pair, &mut seen)?;
+    }
+    reader.require(reader.is_at_end(), "the file goes on after its end")
+}
+
+/// Checks that a pair stays apart: both whole bodies, over the whole time. Each step of the certificate splits what is to be
+/// proven, or proves it.
+fn check_pair(
+    reader: &mut Reader<'_>,
+    statement: &Statement<'_>,
+    pair: usize,
+    seen: &mut Seen,
+) -> Result<(), Stop> {
+    let bodies = statement.pairs[pair]
+        .bodies
+        .map(|body| &statement.bodies[body]);
+    let roots: [Part; 2] = bodies.map(|body| body.mesh.root());
+    let least = statement.least(pair);
+    let mut stretches = BTreeMap::new();
+    let mut waiting = alloc::vec![(roots, [0, statement.until])];
+    while let Some((parts, times @ [from, to])) = waiting.pop() {
+        match reader.unsigned(1)? as usize {
             side @ 0..=1 => {
-                let side = side as usize;
-                let children = bodies[side].children(task.parts[side]);
-                if children.is_empty() {
-                    return reader.broken(Fault::Split);
-                }
-                for child in children {
-                    let mut parts = task.parts;
+                let children = bodies[side].mesh.children(parts[side]);
+                reader.require(!children.is_empty(), "a triangle is split")?;
+                waiting.extend(children.rev().map(|child| {
+                    let mut parts = parts;
                     parts[side] = child;
-                    waiting.push(Task { parts, ..task });
-                }
+                    (parts, times)
+                }));
             }
             2 => {
-                let [from, to] = task.times;
-                let at = from + (((to - from) * reader.unsigned(2)?) >> 16);
-                if at <= from || at >= to {
-                    return reader.broken(Fault::Split);
-                }
-                waiting.extend([[at, to], [from, at]].map(|times| Task { times, ..task }));
+                let at = from + (product(to - from, reader.unsigned(2)? as i64) >> 16) as i64;
+                reader.require(from < at && at < to, "a time is split at an end")?;
+                waiting.extend([(parts, [at, to]), (parts, [from, at])]);
             }
             step @ 3..=8 => {
-                if stretch.times != task.times {
-                    stretch = Stretch::new(&statement.motions, task.times);
-                }
-                let axis = read_axis(&mut reader, step >= 6)?;
-                let frame = [None, Some(0), Some(1)][step as usize % 3];
-                if !stretch.keeps_apart((&statement, bodies), task.parts, (axis, frame)) {
-                    return reader.broken(Fault::NotApart);
-                }
+                let axis = read_axis(reader, step >= 6)?;
+                let stretch: &Option<Stretch<'_>> = stretches.entry(times).or_insert_with(|| {
+                    let middle = from + (to - from) / 2;
+                    let [middle, half] = [middle, to - middle].map(|time| Number::exact([time]));
+                    let links = seen.entry(times);
+                    let place = || Placed::all(&statement.links, middle, half);
+                    Stretch::new(bodies, links.or_insert_with(place))
+                });
+                let is_apart = stretch
+                    .as_ref()
+                    .is_some_and(|stretch| stretch.keeps_apart(parts, axis, step % 3, least));
+                reader.require(is_apart, "an axis does not keep its parts apart")?;
             }
-            _ => return reader.broken(Fault::Format),
+            _ => return Err(reader.broken("there is no such step")),
         }
     }
-    reader.require_end()?;
-    let contact = statement.contact.as_ref();
-    if contact.is_none_or(|contact| contact.holds(&statement.motions, bodies)) {
-        Ok(())
-    } else {
-        reader.broken(Fault::Witnesses)
-    }
+    Ok(())
 }
 
 /// Reads an axis that is no longer than 1, in multiples of 2⁻¹⁴, or fine ones of 2⁻³⁰.
-fn read_axis(reader: &mut Reader<'_>, is_fine: bool) -> Result<Vector, Stop> {
+fn read_axis(reader: &mut Reader<'_>, is_fine: bool) -> Result<Point, Stop> {
     let (bytes, bits) = if is_fine { (4, 30) } else { (2, 14) };
     let axis = reader.axis(bytes)?;
-    if axis.iter().map(|x| x * x).sum::<i128>() > 1 << (2 * bits) {
-        return reader.broken(Fault::Axis);
-    }
-    Ok(Vector::exact(axis.map(|x| x << (FRACTION - bits))))
+    let is_short = dot(axis, axis) <= 1 << (2 * bits);
+    reader.require(is_short, "an axis is longer than 1")?;
+    Ok(axis.map(|x| x << (FRACTION - bits)))
 }

@@ -1,75 +1,170 @@
 //! Proves that two parts stay apart over a stretch of time, along one axis: the lemma of the README.
 
-use crate::Body;
 use crate::body::Part;
-use crate::number::{FRACTION, Number, Vector};
-use crate::statement::{Motion, Placed, Statement, TIME};
+use crate::motion::Placed;
+use crate::number::{ONE, Point, Vector, ZERO, cross, dot, minus, plus, up};
+use crate::statement::Carried;
+use alloc::vec::Vec;
+use core::ops::Neg;
 
-/// Where both bodies are in the middle of a stretch of time, and how they move in half of it.
-pub(crate) struct Stretch {
-    pub(crate) times: [i128; 2],
+/// A pair over a stretch of time, as it is seen from the world, from A, and from B.
+pub(crate) struct Stretch<'a> {
+    bodies: [&'a Carried<'a>; 2],
     placed: [Placed; 2],
-    turns: [Vector; 2],
-    /// By how much the vector from the centre of A to that of B changes.
-    change: Vector,
+    /// The vector from the centre of A to that of B, in the middle.
+    offset: Vector,
+    views: [View; 3],
 }
 
-impl Stretch {
-    pub(crate) fn new(motions: &[Motion; 2], times: [i128; 2]) -> Self {
-        let [from, to] = times;
-        let middle = (from + to) >> 1;
-        let half = Number::exact([to - middle]);
-        let middle = Number::exact([middle]);
-        let [a, b] = motions;
-        Stretch {
-            times,
-            placed: [a.at(middle), b.at(middle)],
-            turns: [a.turn.times(half, TIME), b.turn.times(half, TIME)],
-            change: (b.travel - a.travel).times(half, TIME),
+/// How a pair moves in half of a stretch, as it is seen from something that turns.
+struct View {
+    /// How the offset changes, and how each body turns.
+    drift: Vector,
+    turns: [Vector; 2],
+    /// A bound of the second derivative of the offset, and for each body one that is multiplied by its reach.
+    bend: i128,
+    bends: [i128; 2],
+}
+
+impl<'a> Stretch<'a> {
+    /// Returns `None` if links turn by more than two radians: there is no proof for so long a stretch.
+    pub(crate) fn new(bodies: [&'a Carried<'a>; 2], links: &[Placed]) -> Option<Self> {
+        let [a, b] = bodies.map(|body| body.link);
+        let placed = [links[a], links[b]];
+        if placed[0].turned + placed[1].turned > 2 * i128::from(ONE.mid[0]) {
+            return None;
         }
+        let offset = placed[1].centre - placed[0].centre;
+        let views = [0, a, b].map(|frame| {
+            let turn = links[frame].turn;
+            // What the axis turns with does not turn, as it is seen from there.
+            let turn_of = |k: usize| match k {
+                _ if k == frame => ZERO,
+                _ if turn == ZERO => links[k].turn,
+                _ => links[k].turn - turn,
+            };
+            let ways = [Way::new(links, frame, a), Way::new(links, frame, b)];
+            View {
+                drift: placed[1].velocity - placed[0].velocity - turn.cross(offset),
+                turns: [turn_of(a), turn_of(b)],
+                bend: ways[0].bend + ways[1].bend,
+                bends: ways.map(|way| way.factors().1),
+            }
+        });
+        Some(Stretch {
+            bodies,
+            placed,
+            offset,
+            views,
+        })
     }
 
-    /// Returns whether an axis keeps two parts apart by more than the margin over the whole stretch. The axis turns with the
-    /// world, or with the body of this number.
+    /// Returns whether an axis, no longer than 1, keeps two parts farther apart than `least` over the whole stretch. It turns
+    /// with the world, A or B: 0, 1, 2.
     pub(crate) fn keeps_apart(
         &self,
-        (statement, bodies): (&Statement, [&Body; 2]),
         parts: [Part; 2],
-        (axis, frame): (Vector, Option<usize>),
+        axis: Point,
+        frame: usize,
+        least: i128,
     ) -> bool {
-        let axis_turn = frame.map_or(Vector::exact([0; 3]), |k| self.turns[k]);
-        let axis_change = axis_turn.cross(axis, FRACTION);
-        let offset = self.placed[1].centre - self.placed[0].centre;
-        let travel = axis.dot(self.change, 0);
-        // The linear part at the start and at the end, and the curvature.
-        let start = (axis - axis_change).dot(offset, 0) - travel;
-        let end = (axis + axis_change).dot(offset, 0) + travel;
-        let mut gaps = [start, end].map(|end| end.mid[0] - end.rad);
-        let (turn, change) = (axis_turn.length(), self.change.length());
-        let mut curvature = up(up(turn, turn), offset.length() + change) + 2 * up(turn, change);
-        for k in 0..2 {
-            let relative = self.turns[k] - axis_turn;
-            let in_body = axis.cross(relative, FRACTION);
-            let mut reach = 0;
-            for (gap, direction) in gaps.iter_mut().zip([axis - in_body, axis + in_body]) {
-                let direction = if k == 0 { -direction } else { direction };
-                let direction = self.placed[k].to_mesh(direction);
-                let centre = statement.motions[k].centre.mid;
-                let (height, distance) =
-                    bodies[k].height_and_reach(parts[k], centre, direction.mid);
-                // The corners and the centre are off by 1 each, in each coordinate.
-                reach = distance + 4;
-                *gap += height - 3 * direction.rad * reach - 6 * direction.size();
-            }
-            let turns = turn + self.turns[k].length();
-            curvature += up(up(relative.length(), turns), reach);
+        let (view, one) = (&self.views[frame], i128::from(ONE.mid[0]));
+        let [middle, change] = [self.offset, view.drift].map(|v| dot(axis, v.mid));
+        let lost = 3 * i128::from(self.offset.rad + view.drift.rad) * one;
+        let mut gaps = [middle - change - lost, middle + change - lost];
+        let mut bend = view.bend;
+        for (k, facing) in [axis.map(i64::neg), axis].into_iter().enumerate() {
+            let (body, placed, turn) = (self.bodies[k], &self.placed[k], view.turns[k]);
+            let (part, from) = (parts[k], body.centre.mid);
+            // The corners and the centre are off by less than 1 each, in each coordinate.
+            let reach = body.mesh.reach(part, from) + 4;
+            // A direction has coordinates up to 3, off by 2 turn.rad and a rounding. In the link's frame it is off by 3 times
+            // that, by 9 rad and a rounding. Corners and centre are off by 6 in all, times a coordinate.
+            let rad = i128::from(6 * turn.rad + 9 * placed.rad + 4);
+            let lost = 3 * rad * reach + 24 * one;
+            let height = |direction: Point| {
+                body.mesh
+                    .least_height(part, placed.to_link(direction), from)
+                    - lost
+            };
+            let tilt = cross(facing, turn.mid);
+            let heights = if turn == ZERO {
+                [height(facing); 2]
+            } else {
+                [height(minus(facing, tilt)), height(plus(facing, tilt))]
+            };
+            gaps = [gaps[0] + heights[0], gaps[1] + heights[1]];
+            bend += up(view.bends[k], reach);
         }
-        let least = (statement.margin + curvature / 2 + 1) << FRACTION;
-        gaps.iter().all(|&gap| gap > least)
+        gaps.iter().all(|&gap| gap > (least + bend / 2 + 1) * one)
     }
 }
 
-/// Returns the product of a number and a fraction that are not negative, rounded up.
-fn up(fraction: i128, number: i128) -> i128 {
-    (fraction * number + (1 << FRACTION) - 1) >> FRACTION
+/// What moves between a link and another one, as it is seen from the first.
+struct Way {
+    /// The vector from the last joint that turns, and how it changes.
+    arm: Vector,
+    travel: Vector,
+    /// How fast the arm turns, and a bound of how that changes.
+    turn: Vector,
+    twist: i128,
+    /// A bound of the second derivative of all arms before this one.
+    bend: i128,
+}
+
+impl Way {
+    fn new(links: &[Placed], from: usize, to: usize) -> Way {
+        let (arm, travel, turn) = (ZERO, ZERO, ZERO);
+        let mut way = Way {
+            arm,
+            travel,
+            turn,
+            twist: 0,
+            bend: 0,
+        };
+        let (mut up, mut down, mut path) = (from, to, Vec::new());
+        while up != down {
+            // A link has a larger number than its parent.
+            if up > down {
+                let link = &links[up];
+                way.turn_by(-link.own_turn);
+                (way.arm, way.travel) = (way.arm - link.arm, way.travel - link.travel);
+                up = link.parent;
+            } else {
+                path.push(&links[down]);
+                down = links[down].parent;
+            }
+        }
+        for link in path.into_iter().rev() {
+            (way.arm, way.travel) = (way.arm + link.arm, way.travel + link.travel);
+            way.turn_by(link.own_turn);
+        }
+        way.end_arm();
+        way
+    }
+
+    fn turn_by(&mut self, turn: Vector) {
+        if turn == ZERO {
+            return;
+        }
+        self.end_arm();
+        self.twist += self.turn.cross(turn).length() + up(self.twist, turn.length());
+        self.turn = self.turn + turn;
+    }
+
+    fn end_arm(&mut self) {
+        let (rate, factor) = self.factors();
+        let travel = self.travel.length();
+        self.bend += up(factor, self.arm.length() + travel) + 2 * up(rate, travel);
+        (self.arm, self.travel) = (ZERO, ZERO);
+    }
+
+    /// Returns bounds of how fast a vector turns that the last joint carries, and of its second derivative, for a length of 1.
+    fn factors(&self) -> (i128, i128) {
+        if self.turn == ZERO && self.twist == 0 {
+            return (0, 0);
+        }
+        let rate = self.turn.length() + self.twist;
+        (rate, self.twist + up(rate, rate))
+    }
 }

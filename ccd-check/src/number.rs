@@ -5,8 +5,8 @@ use core::ops::{Add, Neg, Sub};
 /// Numbers, each from `mid - rad` to `mid + rad`, in a unit that the context names.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ball<const N: usize> {
-    pub(crate) mid: [i128; N],
-    pub(crate) rad: i128,
+    pub(crate) mid: [i64; N],
+    pub(crate) rad: i64,
 }
 
 pub(crate) type Number = Ball<1>;
@@ -15,86 +15,113 @@ pub(crate) type Vector = Ball<3>;
 /// Fractions, such as the entries of a rotation, are multiples of 2⁻⁵⁰.
 pub(crate) const FRACTION: u32 = 50;
 pub(crate) const ONE: Number = Ball::exact([1 << FRACTION]);
+pub(crate) const ZERO: Vector = Ball::exact([0; 3]);
+
+pub(crate) type Point = [i64; 3];
+
+pub(crate) fn product(a: i64, b: i64) -> i128 {
+    i128::from(a) * i128::from(b)
+}
+
+pub(crate) fn dot(a: Point, b: Point) -> i128 {
+    product(a[0], b[0]) + product(a[1], b[1]) + product(a[2], b[2])
+}
+
+/// Returns the cross product, rounded down. The coordinates are fractions in one factor at least.
+pub(crate) fn cross(a: Point, b: Point) -> Point {
+    [(1, 2), (2, 0), (0, 1)]
+        .map(|(i, j)| ((product(a[i], b[j]) - product(a[j], b[i])) >> FRACTION) as i64)
+}
+
+pub(crate) fn plus(a: Point, b: Point) -> Point {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+pub(crate) fn minus(a: Point, b: Point) -> Point {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// Returns the product of a fraction and a number that are not negative, rounded up.
+pub(crate) fn up(fraction: i128, number: i128) -> i128 {
+    (fraction * number + (1 << FRACTION) - 1) >> FRACTION
+}
 
 impl<const N: usize> Ball<N> {
-    pub(crate) const fn exact(mid: [i128; N]) -> Self {
+    pub(crate) const fn exact(mid: [i64; N]) -> Self {
         Ball { mid, rad: 0 }
     }
 
     /// Returns an upper bound of all absolute values.
-    pub(crate) fn size(self) -> i128 {
-        self.mid.map(i128::abs).into_iter().fold(0, i128::max) + self.rad
+    pub(crate) fn size(self) -> i64 {
+        self.mid.iter().fold(0, |most, x| most.max(x.abs())) + self.rad
     }
 
     /// Returns the product with a number, divided by 2 to the power of `bits`.
     pub(crate) fn times(self, other: Number, bits: u32) -> Self {
-        let mid = self.mid.map(|x| (x * other.mid[0]) >> bits);
-        let rad = rounded_radius(self, other, 1, bits);
+        let mid = self.mid.map(|x| (product(x, other.mid[0]) >> bits) as i64);
+        let rad = rounded(radius(self, other, 1), bits);
         Ball { mid, rad }
     }
 
-    /// Returns the sum of the products, divided by 2 to the power of `bits`.
-    pub(crate) fn dot(self, other: Self, bits: u32) -> Number {
-        let sum: i128 = (0..N).map(|k| self.mid[k] * other.mid[k]).sum();
-        let rad = rounded_radius(self, other, N as i128, bits);
-        Ball {
-            mid: [sum >> bits],
-            rad,
-        }
-    }
-
     /// Returns the quotient by a small positive integer.
-    pub(crate) fn over(self, divisor: i128) -> Self {
-        let mid = self.mid.map(|x| x.div_euclid(divisor));
+    pub(crate) fn over(self, divisor: i64) -> Self {
         Ball {
-            mid,
+            mid: self.mid.map(|x| x.div_euclid(divisor)),
             rad: self.rad / divisor + 2,
         }
     }
 }
 
 impl Vector {
-    pub(crate) fn cross(self, other: Vector, bits: u32) -> Vector {
-        let (a, b) = (self.mid, other.mid);
-        let mid = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| (a[i] * b[j] - a[j] * b[i]) >> bits);
+    /// Returns the vector of three numbers.
+    pub(crate) fn of([x, y, z]: [Number; 3]) -> Vector {
         Ball {
-            mid,
-            rad: rounded_radius(self, other, 2, bits),
+            mid: [x.mid[0], y.mid[0], z.mid[0]],
+            rad: x.rad.max(y.rad).max(z.rad),
         }
     }
 
-    /// Returns an upper bound of the length, at most 23 % above.
+    /// Returns the sum of the products of the coordinates, which are fractions in one factor at least.
+    pub(crate) fn dot(self, other: Self) -> Number {
+        Ball {
+            mid: [(dot(self.mid, other.mid) >> FRACTION) as i64],
+            rad: rounded(radius(self, other, 3), FRACTION),
+        }
+    }
+
+    /// Returns the cross product. The coordinates are fractions in one factor at least.
+    pub(crate) fn cross(self, other: Vector) -> Vector {
+        Ball {
+            mid: cross(self.mid, other.mid),
+            rad: rounded(radius(self, other, 2), FRACTION),
+        }
+    }
+
+    /// Returns an upper bound of the length.
     pub(crate) fn length(self) -> i128 {
-        length(self.mid) + 2 * self.rad
+        // Rounded up to numbers of 30 bits, so that the sum of their squares has 62.
+        let bits = (64 - self.size().leading_zeros()).saturating_sub(30);
+        let rounded = self.mid.map(|x| (x.unsigned_abs() >> bits) + 1);
+        let squares: u64 = rounded.iter().map(|x| x * x).sum();
+        i128::from((squares.isqrt() + 1) << bits) + 2 * i128::from(self.rad)
     }
 }
 
-/// Returns the radius of a sum of products that is shifted once. The shift of the sum drops less than 1, and so does that of the
-/// radius.
-fn rounded_radius<const N: usize, const M: usize>(
-    a: Ball<N>,
-    b: Ball<M>,
-    terms: i128,
-    bits: u32,
-) -> i128 {
-    ((terms * (a.size() * b.rad + a.rad * b.size())) >> bits) + 2
+/// Returns the radius of a sum of products.
+fn radius<const N: usize, const M: usize>(a: Ball<N>, b: Ball<M>, terms: i128) -> i128 {
+    terms * (product(a.size(), b.rad) + product(a.rad, b.size()))
 }
 
-/// Returns an upper bound of the length of a vector: the largest coordinate and half of the others.
-///
-/// With a ≥ b ≥ c ≥ 0, (a + (b + c)/2)² ≥ a² + a(b + c) ≥ a² + b² + c².
-pub(crate) fn length(v: [i128; 3]) -> i128 {
-    let [a, b, c] = v.map(i128::abs);
-    let largest = a.max(b).max(c);
-    largest + (a + b + c - largest) / 2 + 1
+/// Returns the radius after a shift, which drops less than 1 of the middle and of the radius.
+fn rounded(radius: i128, bits: u32) -> i64 {
+    (radius >> bits) as i64 + 2
 }
 
 impl<const N: usize> Add for Ball<N> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        let mid = core::array::from_fn(|k| self.mid[k] + other.mid[k]);
         Ball {
-            mid,
+            mid: core::array::from_fn(|k| self.mid[k] + other.mid[k]),
             rad: self.rad + other.rad,
         }
     }
@@ -104,7 +131,7 @@ impl<const N: usize> Neg for Ball<N> {
     type Output = Self;
     fn neg(self) -> Self {
         Ball {
-            mid: self.mid.map(i128::neg),
+            mid: self.mid.map(i64::neg),
             rad: self.rad,
         }
     }

@@ -4,9 +4,13 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use nalgebra::{Matrix3, SymmetricEigen};
 use sha2::{Digest, Sha256};
+use std::ops::Range;
 
 /// The number of triangles of a node that has no children, at most.
 const LEAF_TRIANGLES: usize = 4;
+
+/// The number of nodes below a node.
+const WIDTH: usize = 2;
 
 /// Axes of nodes are multiples of 2⁻¹⁴.
 const AXIS_UNIT: f64 = 16_384.0;
@@ -15,7 +19,7 @@ const AXIS_UNIT: f64 = 16_384.0;
 #[derive(Clone, Debug)]
 pub struct Body {
     pub(crate) triangles: Vec<[DVec3; 3]>,
-    /// Each node is followed by those below it.
+    /// Level by level; the first one is the root.
     pub(crate) nodes: Vec<Node>,
     mesh: Vec<u8>,
     /// The SHA-256 digest of the mesh.
@@ -30,9 +34,14 @@ pub(crate) struct Node {
     pub(crate) ranges: [[f64; 2]; 3],
     pub(crate) centre: DVec3,
     pub(crate) radius: f64,
-    pub(crate) triangles: std::ops::Range<usize>,
-    /// The numbers of its children; empty if they are its triangles.
-    pub(crate) children: Vec<usize>,
+    pub(crate) children: Children,
+}
+
+/// What a node consists of.
+#[derive(Clone, Debug)]
+pub(crate) enum Children {
+    Nodes(Range<usize>),
+    Triangles(Range<usize>),
 }
 
 /// A node or a triangle of a body.
@@ -52,7 +61,6 @@ impl Body {
         let corner = |v: u32| DVec3::from_array(vertices[v as usize]);
         let triangles: Vec<[DVec3; 3]> = faces.iter().map(|face| face.map(corner)).collect();
         assert!(!triangles.is_empty(), "a body has triangles");
-        let mut order: Vec<u32> = (0..faces.len() as u32).collect();
         let mesh = mesh_bytes(vertices, faces);
         let mut body = Body {
             triangles: Vec::new(),
@@ -61,15 +69,47 @@ impl Body {
             mesh,
             certificate: Vec::new(),
         };
-        let mut records = Vec::new();
-        body.add_node(&triangles, &mut order, 0, &mut records);
+        let order = body.add_nodes(&triangles);
         body.triangles = order.iter().map(|&k| triangles[k as usize]).collect();
         body.certificate.extend(b"CCDBODY1");
         body.certificate.extend(body.digest);
         body.certificate
             .extend(order.iter().flat_map(|k| k.to_le_bytes()));
-        body.certificate.extend(records);
+        for node in &body.nodes {
+            let (nodes, own) = match &node.children {
+                Children::Nodes(range) => (range.len(), 0),
+                Children::Triangles(range) => (0, range.len()),
+            };
+            body.certificate.extend([nodes as u8, own as u8]);
+            let numbers = node.axes.iter().flat_map(|axis| axis.to_array());
+            body.certificate
+                .extend(numbers.flat_map(|x| ((x * AXIS_UNIT) as i16).to_le_bytes()));
+        }
         body
+    }
+
+    /// Makes a body of the triangles of one of the engine's, and the radius by which it is rounded. A ball is a triangle whose
+    /// corners are its centre, a capsule one that is its axis.
+    ///
+    /// `None` if pieces are rounded by different radii, or have no triangles of a mesh.
+    pub fn of(body: &ccd_core::Body) -> Option<(Self, f64)> {
+        let radius = body.pieces().get(0).radius;
+        let mut triangles: Vec<[DVec3; 3]> = Vec::new();
+        for piece in body.pieces().iter() {
+            match piece.points {
+                _ if piece.radius != radius => return None,
+                [point] => triangles.push([*point; 3]),
+                [from, to] => triangles.push([*from, *to, *to]),
+                _ => {
+                    let of_piece = piece.mesh_triangles().map(|(_, corners)| corners);
+                    triangles.extend(of_piece);
+                }
+            }
+        }
+        let vertices: Vec<[f64; 3]> = triangles.iter().flatten().map(|v| v.to_array()).collect();
+        let count = triangles.len() as u32;
+        let faces: Vec<[u32; 3]> = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        (count > 0).then(|| (Body::new(&vertices, &faces), radius))
     }
 
     /// Returns the mesh as the bytes whose digest a certificate states.
@@ -82,62 +122,39 @@ impl Body {
         &self.certificate
     }
 
-    /// Adds a node around triangles, and all below it; writes their records.
-    fn add_node(
-        &mut self,
-        triangles: &[[DVec3; 3]],
-        order: &mut [u32],
-        first: usize,
-        records: &mut Vec<u8>,
-    ) -> usize {
-        let axes = axes(triangles, order);
-        let is_leaf = order.len() <= LEAF_TRIANGLES;
-        records.extend(if is_leaf {
-            [0, order.len() as u8]
-        } else {
-            [2, 0]
-        });
-        for axis in axes {
-            records.extend(
-                axis.to_array()
-                    .iter()
-                    .flat_map(|&x| (x as i16).to_le_bytes()),
-            );
+    /// Adds all nodes around triangles, level by level. Returns the triangles in the order of the tree.
+    fn add_nodes(&mut self, triangles: &[[DVec3; 3]]) -> Vec<u32> {
+        let mut groups = std::collections::VecDeque::new();
+        groups.push_back((0..triangles.len() as u32).collect::<Vec<u32>>());
+        let (mut order, mut count) = (Vec::new(), 1);
+        while let Some(group) = groups.pop_front() {
+            let mut node = Node::around(triangles, &group);
+            if group.len() <= LEAF_TRIANGLES {
+                node.children = Children::Triangles(order.len()..order.len() + group.len());
+                order.extend(group);
+            } else {
+                let parts = split(triangles, group);
+                node.children = Children::Nodes(count..count + parts.len());
+                count += parts.len();
+                groups.extend(parts);
+            }
+            self.nodes.push(node);
         }
-        let number = self.nodes.len();
-        let axes = axes.map(|axis| axis / AXIS_UNIT);
-        self.nodes.push(Node::around(triangles, order, first, axes));
-        if !is_leaf {
-            let middle = order.len() / 2;
-            let place = |k: &u32| triangles[*k as usize].iter().sum::<DVec3>().dot(axes[0]);
-            order.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)));
-            let (low, high) = order.split_at_mut(middle);
-            let low = self.add_node(triangles, low, first, records);
-            let high = self.add_node(triangles, high, first + middle, records);
-            self.nodes[number].children = vec![low, high];
-        }
-        number
+        order
     }
 
     pub(crate) fn children(&self, part: Part) -> Vec<Part> {
         match part {
             Part::Triangle(_) => Vec::new(),
-            Part::Node(number) => {
-                let node = &self.nodes[number];
-                if node.children.is_empty() {
-                    node.triangles.clone().map(Part::Triangle).collect()
-                } else {
-                    node.children
-                        .iter()
-                        .map(|&child| Part::Node(child))
-                        .collect()
-                }
-            }
+            Part::Node(number) => match self.nodes[number].children.clone() {
+                Children::Nodes(range) => range.map(Part::Node).collect(),
+                Children::Triangles(range) => range.map(Part::Triangle).collect(),
+            },
         }
     }
 
     /// Returns the least height of a part along a direction, from a point.
-    pub(crate) fn least_height(&self, part: Part, point: DVec3, direction: DVec3) -> f64 {
+    pub(crate) fn least_height(&self, part: Part, direction: DVec3, point: DVec3) -> f64 {
         match part {
             Part::Triangle(number) => {
                 let [a, b, c] = self.triangles[number].map(|corner| direction.dot(corner - point));
@@ -195,7 +212,8 @@ impl Body {
 }
 
 impl Node {
-    fn around(triangles: &[[DVec3; 3]], order: &[u32], first: usize, axes: [DVec3; 3]) -> Self {
+    fn around(triangles: &[[DVec3; 3]], order: &[u32]) -> Self {
+        let axes = axes(triangles, order).map(|axis| axis / AXIS_UNIT);
         let corners = || order.iter().flat_map(|&k| triangles[k as usize]);
         let extent = |axis: DVec3| {
             corners().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], corner| {
@@ -213,8 +231,7 @@ impl Node {
             ranges: axes.map(extent),
             centre,
             radius,
-            triangles: first..first + order.len(),
-            children: Vec::new(),
+            children: Children::Nodes(0..0),
         }
     }
 
@@ -225,8 +242,28 @@ impl Node {
             height += lesser(multiple * low, multiple * high);
             rest -= multiple * *axis;
         }
-        height + rest.dot(self.centre) - length(rest) * self.radius
+        height + rest.dot(self.centre) - rest.abs().element_sum() * self.radius
     }
+}
+
+/// Splits triangles in halves along their longest axis, until there are as many parts as a node has children.
+fn split(triangles: &[[DVec3; 3]], group: Vec<u32>) -> Vec<Vec<u32>> {
+    let mut parts = vec![group];
+    while parts.len() < WIDTH && parts.iter().any(|part| part.len() > LEAF_TRIANGLES) {
+        let halves = parts.into_iter().flat_map(|mut part| {
+            if part.len() <= LEAF_TRIANGLES {
+                return vec![part];
+            }
+            let axis = axes(triangles, &part)[0];
+            let place = |k: &u32| triangles[*k as usize].iter().sum::<DVec3>().dot(axis);
+            let middle = part.len() / 2;
+            part.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)));
+            let high = part.split_off(middle);
+            vec![part, high]
+        });
+        parts = halves.collect();
+    }
+    parts
 }
 
 /// Returns the upper bound of a length that the checker uses.

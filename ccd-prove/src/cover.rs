@@ -2,10 +2,13 @@
 
 use crate::body::Part;
 use crate::error::NotProven;
-use crate::stretch::{Moving, Stretch};
+use crate::placed::Moving;
+use crate::scene::Scene;
+use crate::stretch::Stretch;
 use ccd_core::glam::DVec3;
-use ccd_core::order::greater;
 use ccd_distance_gjk::{TerminationBounds, Vertex, bound_distance};
+use std::collections::HashMap;
+use std::rc::Rc;
 
 /// Axes are multiples of 2⁻¹⁴, or fine ones of 2⁻³⁰.
 const AXIS_UNITS: [f64; 2] = [16_384.0, 1_073_741_824.0];
@@ -16,146 +19,260 @@ const MAX_BYTES: usize = 1 << 26;
 /// The largest number of splits on a path.
 const MAX_DEPTH: u32 = 200;
 
+/// The number of splits that are looked ahead to choose the next one.
+const LOOKAHEAD: u32 = 2;
+
+/// The shortest stretch that is split, as a share of the whole: the checker has times in 2⁻⁶⁰.
+const SHORTEST: f64 = 1e-15;
+
+/// Parts that move by less than this share of their radius are not split in time.
+const LEAST_WAY: f64 = 0.1;
+
+/// How many leaves are expected where the look ahead ends without a proof.
+const EXPECTED: u32 = 6;
+
 /// A proof as it is written.
 pub(crate) struct Cover<'a> {
-    bodies: &'a [Moving<'a>; 2],
-    /// What parts have to keep: the margin, and an allowance for the rounding here.
-    least: f64,
+    scene: (&'a Scene<'a>, &'a [Moving]),
     until: f64,
+    /// The pair, and what its parts have to keep: the margin, radii, and an allowance for the rounding here.
+    pair: usize,
+    least: f64,
+    stretches: HashMap<[u64; 2], Rc<Stretch<'a>>>,
     pub(crate) steps: Vec<u8>,
     pub(crate) leaves: usize,
 }
 
 /// Parts over a stretch of time, the axis that kept a part above them apart best, and the number of splits so far.
-#[derive(Clone, Copy)]
-struct Task {
+#[derive(Clone)]
+struct Task<'a> {
     parts: [Part; 2],
+    stretch: Rc<Stretch<'a>>,
     axis: DVec3,
     depth: u32,
 }
 
+/// A leaf: an axis in multiples of its unit, and the byte that says which unit and what it turns with.
+struct Leaf {
+    step: u8,
+    axis: DVec3,
+}
+
+/// What a task is split into.
+struct Split<'a> {
+    step: u8,
+    tasks: Vec<Task<'a>>,
+}
+
 impl<'a> Cover<'a> {
-    pub(crate) fn new(bodies: &'a [Moving<'a>; 2], least: f64, until: f64) -> Self {
+    pub(crate) fn new(scene: &'a Scene<'a>, links: &'a [Moving], until: f64) -> Self {
         Cover {
-            bodies,
-            least,
+            scene: (scene, links),
             until,
+            pair: 0,
+            least: 0.0,
+            stretches: HashMap::new(),
             steps: Vec::new(),
             leaves: 0,
         }
     }
 
-    pub(crate) fn write(&mut self) -> Result<(), NotProven> {
-        let stretch = Stretch::new(self.bodies, 0.0, self.until);
+    /// Writes the steps that prove a pair to be farther apart than `least`.
+    pub(crate) fn write(&mut self, pair: usize, least: f64) -> Result<(), NotProven> {
+        (self.pair, self.least) = (pair, least);
+        self.stretches.clear();
+        let stretch = self.stretch([0.0, self.until]);
         let axis = stretch.offset;
-        let task = Task {
+        self.cover(Task {
             parts: [Part::Node(0); 2],
+            stretch,
             axis,
             depth: 0,
-        };
-        self.cover(task, &stretch)
+        })
     }
 
-    fn cover(&mut self, task: Task, stretch: &Stretch) -> Result<(), NotProven> {
+    fn stretch(&mut self, times: [f64; 2]) -> Rc<Stretch<'a>> {
+        let (scene, pair) = (self.scene, self.pair);
+        let stretch = self
+            .stretches
+            .entry(times.map(f64::to_bits))
+            .or_insert_with(|| Rc::new(Stretch::new(scene, pair, times)));
+        Rc::clone(stretch)
+    }
+
+    fn cover(&mut self, mut task: Task<'a>) -> Result<(), NotProven> {
+        let at = task.stretch.from;
         if task.depth > MAX_DEPTH || self.steps.len() > MAX_BYTES {
-            return Err(NotProven::TooLong {
-                at: stretch.from,
-                bytes: self.steps.len(),
-            });
+            let bytes = self.steps.len();
+            return Err(NotProven::TooLong { at, bytes });
         }
-        if self.write_leaf(task, task.axis, stretch) {
+        if let Some(leaf) = self.leaf(&mut task) {
+            self.write_leaf(&leaf);
             return Ok(());
         }
-        let (axis, distance) = self.axis_in_the_middle(task, stretch);
-        if distance > self.least && axis != task.axis && self.write_leaf(task, axis, stretch) {
-            return Ok(());
+        let mut best: Option<(u32, Split<'a>)> = None;
+        for split in self.splits(&task) {
+            let cost = self.cost(&split, LOOKAHEAD);
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, split));
+            }
         }
-        let task = Task {
-            axis,
+        let (_, split) = best.ok_or(NotProven::Touching { at })?;
+        self.steps.push(split.step);
+        if split.step == 2 {
+            self.steps.extend((1u16 << 15).to_le_bytes());
+        }
+        split
+            .tasks
+            .into_iter()
+            .try_for_each(|task| self.cover(task))
+    }
+
+    /// Returns the number of leaves that a split leads to, about.
+    fn cost(&mut self, split: &Split<'a>, lookahead: u32) -> u32 {
+        let mut cost = 0;
+        for task in &split.tasks {
+            let mut task = task.clone();
+            cost += if self.leaf(&mut task).is_some() {
+                1
+            } else if lookahead == 1 {
+                EXPECTED
+            } else {
+                let splits = self.splits(&task);
+                let costs = splits.iter().map(|split| self.cost(split, lookahead - 1));
+                costs.min().unwrap_or(1000)
+            };
+        }
+        cost
+    }
+
+    /// Returns the ways to split a task, the one first that looks best.
+    fn splits(&mut self, task: &Task<'a>) -> Vec<Split<'a>> {
+        let (stretch, parts) = (&task.stretch, task.parts);
+        let radii = [0, 1].map(|k| stretch.bodies[k].radius(parts[k]));
+        let larger = usize::from(radii[1] > radii[0]);
+        let way = stretch.way(parts);
+        let time = (way > LEAST_WAY * radii[larger] || !stretch.is_short())
+            .then(|| self.split_time(task))
+            .flatten();
+        if !stretch.is_short() {
+            return time.into_iter().collect();
+        }
+        let nodes = [larger, 1 - larger]
+            .into_iter()
+            .filter_map(|side| split_node(task, side));
+        if way > radii[larger] {
+            time.into_iter().chain(nodes).collect()
+        } else {
+            nodes.chain(time).collect()
+        }
+    }
+
+    fn split_time(&mut self, task: &Task<'a>) -> Option<Split<'a>> {
+        let Stretch { from, to, .. } = *task.stretch;
+        let middle = 0.5 * (from + to);
+        if to - from <= SHORTEST * self.until {
+            return None;
+        }
+        let tasks = [[from, middle], [middle, to]].map(|times| Task {
+            stretch: self.stretch(times),
             depth: task.depth + 1,
-            ..task
-        };
-        let [a, b] = [0, 1].map(|k| self.bodies[k].body.radius(task.parts[k]));
-        let way = stretch.way(self.bodies, task.parts);
-        if way > greater(a, b) && stretch.to > stretch.from {
-            return self.split_time(task, stretch);
-        }
-        if greater(a, b) == 0.0 && !matches!(task.parts, [Part::Node(_), _] | [_, Part::Node(_)]) {
-            return Err(NotProven::Touching { at: stretch.from });
-        }
-        let side = match task.parts {
-            [Part::Triangle(_), _] => 1,
-            [_, Part::Triangle(_)] => 0,
-            _ => usize::from(b > a),
-        };
-        self.steps.push(side as u8);
-        for child in self.bodies[side].body.children(task.parts[side]) {
-            let mut parts = task.parts;
-            parts[side] = child;
-            self.cover(Task { parts, ..task }, stretch)?;
-        }
-        Ok(())
+            ..task.clone()
+        });
+        Some(Split {
+            step: 2,
+            tasks: tasks.into(),
+        })
     }
 
-    fn split_time(&mut self, task: Task, stretch: &Stretch) -> Result<(), NotProven> {
-        let middle = 0.5 * (stretch.from + stretch.to);
-        if middle <= stretch.from || middle >= stretch.to {
-            return Err(NotProven::Touching { at: stretch.from });
+    /// Returns a leaf that proves a task, if there is one; if not, the task gets the axis that keeps its parts apart best.
+    fn leaf(&self, task: &mut Task<'a>) -> Option<Leaf> {
+        let leaf = self.leaf_along(task, task.axis);
+        if leaf.is_some() {
+            return leaf;
         }
-        self.steps.push(2);
-        self.steps.extend((1u16 << 15).to_le_bytes());
-        self.cover(task, &Stretch::new(self.bodies, stretch.from, middle))?;
-        self.cover(task, &Stretch::new(self.bodies, middle, stretch.to))
+        let (axis, distance) = axis_in_the_middle(task);
+        if distance > self.least && axis != task.axis {
+            let leaf = self.leaf_along(task, axis);
+            if leaf.is_some() {
+                return leaf;
+            }
+        }
+        task.axis = axis;
+        None
     }
 
-    /// Writes a leaf if the axis proves it, in one of the frames.
-    fn write_leaf(&mut self, task: Task, axis: DVec3, stretch: &Stretch) -> bool {
+    fn leaf_along(&self, task: &Task<'a>, axis: DVec3) -> Option<Leaf> {
+        let unit_axis = axis.normalize_or_zero();
         for (fine, unit) in AXIS_UNITS.into_iter().enumerate() {
             // Rounded towards zero it is no longer than 1.
-            let stored = (axis.normalize_or_zero() * (unit - 1.0)).trunc();
-            let axis = stored / unit;
-            for (number, frame) in [None, Some(0), Some(1)].into_iter().enumerate() {
-                if frame.is_some_and(|k: usize| self.bodies[k].motion.spin() == DVec3::ZERO) {
+            let axis = (unit_axis * (unit - 1.0)).trunc();
+            for frame in 0..3 {
+                if frame > 0 && !task.stretch.turns(frame - 1) {
                     continue;
                 }
-                if stretch.least_gap(self.bodies, task.parts, (axis, frame)) > self.least {
-                    self.steps.push((3 + 3 * fine + number) as u8);
-                    for x in stored.to_array() {
-                        if fine == 0 {
-                            self.steps.extend((x as i16).to_le_bytes());
-                        } else {
-                            self.steps.extend((x as i32).to_le_bytes());
-                        }
-                    }
-                    self.leaves += 1;
-                    return true;
+                if task.stretch.least_gap(task.parts, axis / unit, frame) > self.least {
+                    let step = (3 + 3 * fine + frame) as u8;
+                    return Some(Leaf { step, axis });
                 }
             }
         }
-        false
+        None
     }
 
-    /// Returns the axis along which parts are farthest apart in the middle of a stretch, and how far.
-    fn axis_in_the_middle(&self, task: Task, stretch: &Stretch) -> (DVec3, f64) {
-        let support = |direction: DVec3| {
-            let (a, of_a) = stretch.lowest(self.bodies, (0, task.parts[0]), -direction);
-            let (b, of_b) = stretch.lowest(self.bodies, (1, task.parts[1]), direction);
-            Vertex {
-                point: of_b - of_a,
-                a,
-                b,
+    fn write_leaf(&mut self, leaf: &Leaf) {
+        self.steps.push(leaf.step);
+        for x in leaf.axis.to_array() {
+            if leaf.step < 6 {
+                self.steps.extend((x as i16).to_le_bytes());
+            } else {
+                self.steps.extend((x as i32).to_le_bytes());
             }
-        };
-        let bounds = TerminationBounds {
-            sufficient_lower_bound: f64::INFINITY,
-            sufficient_upper_bound: 0.0,
-        };
-        let first = if task.axis == DVec3::ZERO {
-            DVec3::X
-        } else {
-            task.axis
-        };
-        let found = bound_distance(support, first, bounds);
-        (found.axis.normalize_or_zero(), found.lower)
+        }
+        self.leaves += 1;
     }
+}
+
+/// Splits a node of a body of a task; `None` if it is a triangle.
+fn split_node<'a>(task: &Task<'a>, side: usize) -> Option<Split<'a>> {
+    let children = task.stretch.bodies[side].children(task.parts[side]);
+    let tasks = children.into_iter().map(|child| {
+        let mut parts = task.parts;
+        parts[side] = child;
+        Task {
+            parts,
+            depth: task.depth + 1,
+            ..task.clone()
+        }
+    });
+    let tasks: Vec<Task<'a>> = tasks.collect();
+    (!tasks.is_empty()).then_some(Split {
+        step: side as u8,
+        tasks,
+    })
+}
+
+/// Returns the axis along which parts are farthest apart in the middle of a stretch, and how far.
+fn axis_in_the_middle(task: &Task<'_>) -> (DVec3, f64) {
+    let ([a, b], stretch) = (task.parts, &task.stretch);
+    let support = |direction: DVec3| {
+        let (a, of_a) = stretch.lowest(0, a, -direction);
+        let (b, of_b) = stretch.lowest(1, b, direction);
+        Vertex {
+            point: of_b - of_a,
+            a,
+            b,
+        }
+    };
+    let bounds = TerminationBounds {
+        sufficient_lower_bound: f64::INFINITY,
+        sufficient_upper_bound: 0.0,
+    };
+    let first = if task.axis == DVec3::ZERO {
+        DVec3::X
+    } else {
+        task.axis
+    };
+    let found = bound_distance(support, first, bounds);
+    (found.axis.normalize_or_zero(), found.lower)
 }

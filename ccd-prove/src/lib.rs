@@ -1,11 +1,17 @@
 #![doc = include_str!("../README.md")]
 
 mod body;
+mod cell;
 mod cover;
 mod error;
+mod nearest;
+mod placed;
+mod scene;
 mod stretch;
 mod write;
 
 pub use body::Body;
+pub use cell::ProvenCell;
 pub use error::NotProven;
-pub use write::{Claim, Proof, prove};
+pub use scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
+pub use write::{Proof, prove};

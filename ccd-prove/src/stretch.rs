@@ -1,102 +1,166 @@
 //! The lemma of the checker in floating point: whether an axis keeps two parts apart over a stretch of time.
 
 use crate::body::{Body, Part, length};
-use ccd_core::Motion;
-use ccd_core::glam::{DMat3, DQuat, DVec3};
+use crate::placed::{Moving, Placed, placed};
+use crate::scene::Scene;
+use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
 
-/// A body of a query: the mesh, and how it moves.
-pub(crate) struct Moving<'a> {
-    pub(crate) body: &'a Body,
-    pub(crate) motion: Motion,
-}
-
-/// Where both bodies are in the middle of a stretch of time, and how they move in half of it.
-pub(crate) struct Stretch {
+/// A pair over a stretch of time, as it is seen from the world, from A, and from B.
+pub(crate) struct Stretch<'a> {
     pub(crate) from: f64,
     pub(crate) to: f64,
+    pub(crate) bodies: [&'a Body; 2],
+    centres: [DVec3; 2],
+    placed: [Placed; 2],
     pub(crate) offset: DVec3,
-    change: DVec3,
-    pub(crate) rotations: [DMat3; 2],
-    turns: [DVec3; 2],
+    /// `None` where links turn too far.
+    views: Option<[View; 3]>,
 }
 
-/// What an axis turns with: the world, or a body.
-pub(crate) type Frame = Option<usize>;
+/// How a pair moves in half of a stretch, as it is seen from something that turns.
+struct View {
+    drift: DVec3,
+    turns: [DVec3; 2],
+    bend: f64,
+    bends: [f64; 2],
+}
 
-impl Stretch {
-    pub(crate) fn new(bodies: &[Moving<'_>; 2], from: f64, to: f64) -> Self {
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let turned = |motion: &Motion| {
-            let turned = DQuat::from_scaled_axis(motion.spin() * middle);
-            DMat3::from_quat(turned) * DMat3::from_quat(motion.start().rotation())
+impl<'a> Stretch<'a> {
+    pub(crate) fn new(
+        (scene, links): (&Scene<'a>, &[Moving]),
+        pair: usize,
+        [from, to]: [f64; 2],
+    ) -> Self {
+        let bodies = scene.pairs[pair].bodies.map(|body| scene.bodies[body]);
+        let [a, b] = bodies.map(|body| body.link);
+        let all = placed(links, 0.5 * (from + to), 0.5 * (to - from));
+        let placed = [all[a], all[b]];
+        let offset = placed[1].centre - placed[0].centre;
+        let view = |frame: usize| {
+            let turn = all[frame].turn;
+            let ways = [Way::new(&all, frame, a), Way::new(&all, frame, b)];
+            View {
+                drift: placed[1].velocity - placed[0].velocity - turn.cross(offset),
+                turns: [placed[0].turn - turn, placed[1].turn - turn],
+                bend: ways[0].bend + ways[1].bend,
+                bends: ways.map(|way| way.factors().1),
+            }
         };
-        let centre = |motion: &Motion| {
-            motion.start().transform_point(motion.centre()) + motion.velocity() * middle
-        };
-        let [a, b] = bodies.each_ref().map(|moving| &moving.motion);
+        let is_short = placed[0].turned + placed[1].turned < 1.999;
         Stretch {
             from,
             to,
-            offset: centre(b) - centre(a),
-            change: (b.velocity() - a.velocity()) * half,
-            rotations: [turned(a), turned(b)],
-            turns: [a.spin() * half, b.spin() * half],
+            bodies: bodies.map(|body| body.body),
+            centres: [links[a].centre, links[b].centre],
+            placed,
+            offset,
+            views: is_short.then(|| [0, a, b].map(view)),
         }
     }
 
-    /// Returns the least gap of two parts along an axis over the stretch, or less.
-    pub(crate) fn least_gap(
-        &self,
-        bodies: &[Moving<'_>; 2],
-        parts: [Part; 2],
-        (axis, frame): (DVec3, Frame),
-    ) -> f64 {
-        let axis_turn = frame.map_or(DVec3::ZERO, |k| self.turns[k]);
-        let axis_change = axis_turn.cross(axis);
-        let mut ends = [-1.0, 1.0].map(|sign| {
-            (axis + sign * axis_change).dot(self.offset) + sign * axis.dot(self.change)
-        });
-        let change = length(self.change);
-        let turn = length(axis_turn);
-        let mut curvature = turn * turn * (length(self.offset) + change) + 2.0 * turn * change;
-        for k in 0..2 {
-            let (body, centre) = (bodies[k].body, bodies[k].motion.centre());
-            let relative = self.turns[k] - axis_turn;
-            let in_body = axis.cross(relative);
-            let side = if k == 0 { -1.0 } else { 1.0 };
-            for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
-                let direction = side * (axis + sign * in_body);
-                let direction = self.rotations[k].transpose() * direction;
-                *end += body.least_height(parts[k], centre, direction);
+    /// Returns the least gap of two parts along an axis over the stretch, or less. The axis turns with the world, A or B.
+    pub(crate) fn least_gap(&self, parts: [Part; 2], axis: DVec3, frame: usize) -> f64 {
+        let Some(views) = &self.views else {
+            return f64::NEG_INFINITY;
+        };
+        let view = &views[frame];
+        let (centre, change) = (axis.dot(self.offset), axis.dot(view.drift));
+        let mut gaps = [centre - change, centre + change];
+        let mut bend = view.bend;
+        for (k, facing) in [-axis, axis].into_iter().enumerate() {
+            let (body, centre) = (self.bodies[k], self.centres[k]);
+            let tilt = facing.cross(view.turns[k]);
+            for (gap, direction) in gaps.iter_mut().zip([facing - tilt, facing + tilt]) {
+                let direction = self.placed[k].rotation.transpose() * direction;
+                *gap += body.least_height(parts[k], direction, centre);
             }
-            if relative != DVec3::ZERO {
-                let turns = turn + length(self.turns[k]);
-                curvature += length(relative) * turns * body.reach(parts[k], centre);
+            if view.bends[k] > 0.0 {
+                bend += view.bends[k] * body.reach(parts[k], centre);
             }
         }
-        lesser(ends[0], ends[1]) - 0.5 * curvature
+        lesser(gaps[0], gaps[1]) - 0.5 * bend
     }
 
-    /// Returns a point of a part in the middle of the stretch, from the centre of A's rotation: the one that is lowest along a
-    /// direction.
-    pub(crate) fn lowest(
-        &self,
-        bodies: &[Moving<'_>; 2],
-        (k, part): (usize, Part),
-        direction: DVec3,
-    ) -> (u32, DVec3) {
-        let rotation = self.rotations[k];
-        let (index, corner) = bodies[k]
-            .body
-            .lowest_corner(part, rotation.transpose() * direction);
-        let arm = rotation * (corner - bodies[k].motion.centre());
+    /// Returns whether anything can be proven over so long a stretch.
+    pub(crate) fn is_short(&self) -> bool {
+        self.views.is_some()
+    }
+
+    /// Returns whether a body turns, as it is seen from the world.
+    pub(crate) fn turns(&self, k: usize) -> bool {
+        self.placed[k].turn != DVec3::ZERO
+    }
+
+    /// Returns a point of a part in the middle of the stretch, from the centre of A: the one that is lowest along a direction.
+    pub(crate) fn lowest(&self, k: usize, part: Part, direction: DVec3) -> (u32, DVec3) {
+        let rotation = self.placed[k].rotation;
+        let (index, corner) = self.bodies[k].lowest_corner(part, rotation.transpose() * direction);
+        let arm = rotation * (corner - self.centres[k]);
         (index, if k == 0 { arm } else { self.offset + arm })
     }
 
     /// Returns how far parts move in half of the stretch, about.
-    pub(crate) fn way(&self, bodies: &[Moving<'_>; 2], parts: [Part; 2]) -> f64 {
-        let reach = |k: usize| bodies[k].body.reach(parts[k], bodies[k].motion.centre());
-        length(self.change) + length(self.turns[0]) * reach(0) + length(self.turns[1]) * reach(1)
+    pub(crate) fn way(&self, parts: [Part; 2]) -> f64 {
+        let [a, b] = &self.placed;
+        let reach = |k: usize| self.bodies[k].reach(parts[k], self.centres[k]);
+        length(b.velocity - a.velocity) + length(a.turn) * reach(0) + length(b.turn) * reach(1)
+    }
+}
+
+/// What moves between a link and another one, as it is seen from the first.
+#[derive(Default)]
+struct Way {
+    arm: DVec3,
+    travel: DVec3,
+    turn: DVec3,
+    twist: f64,
+    bend: f64,
+}
+
+impl Way {
+    fn new(links: &[Placed], from: usize, to: usize) -> Way {
+        let mut way = Way::default();
+        let (mut up, mut down, mut path) = (from, to, Vec::new());
+        while up != down {
+            if up > down {
+                let link = &links[up];
+                way.turn_by(-link.own_turn);
+                way.arm -= link.arm;
+                way.travel -= link.travel;
+                up = link.parent;
+            } else {
+                path.push(down);
+                down = links[down].parent;
+            }
+        }
+        for link in path.into_iter().rev().map(|k| &links[k]) {
+            way.arm += link.arm;
+            way.travel += link.travel;
+            way.turn_by(link.own_turn);
+        }
+        way.end_arm();
+        way
+    }
+
+    fn turn_by(&mut self, turn: DVec3) {
+        if turn == DVec3::ZERO {
+            return;
+        }
+        self.end_arm();
+        self.twist += self.turn.cross(turn).length() + self.twist * turn.length();
+        self.turn += turn;
+    }
+
+    fn end_arm(&mut self) {
+        let (rate, factor) = self.factors();
+        let travel = self.travel.length();
+        self.bend += factor * (self.arm.length() + travel) + 2.0 * rate * travel;
+        (self.arm, self.travel) = (DVec3::ZERO, DVec3::ZERO);
+    }
+
+    fn factors(&self) -> (f64, f64) {
+        let rate = self.turn.length() + self.twist;
+        (rate, self.twist + rate * rate)
     }
 }

@@ -1,98 +1,71 @@
 //! Writes a certificate: the statement, and the cover that proves it.
 
-use crate::body::Body;
 use crate::cover::Cover;
 use crate::error::NotProven;
-use crate::stretch::Moving;
-use ccd_core::Motion;
-use ccd_core::glam::DVec3;
+use crate::nearest::MeshPoint;
+use crate::placed::{Moving, moving, placed};
+use crate::scene::{AxisKind, Joint, Scene, Witness};
 use ccd_core::order::greater;
-
-/// What a certificate claims.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Claim {
-    /// The bodies stay farther apart than the margin over the whole duration.
-    Free,
-    /// They do until a time, at which points of both are within margin + tolerance.
-    Contact {
-        /// The time.
-        time: f64,
-        /// What the points may be farther apart than the margin.
-        tolerance: f64,
-        /// A point of each body, in the world.
-        witnesses: [DVec3; 2],
-    },
-}
 
 /// A certificate, and what it took.
 #[derive(Clone, Debug)]
 pub struct Proof {
     /// The certificate.
     pub bytes: Vec<u8>,
-    /// The number of leaves.
+    /// The number of its leaves.
     pub leaves: usize,
     /// The unit of its lengths is 2 to the power of this.
     pub unit: i32,
 }
 
-/// The share of the largest coordinate that is allowed for rounding.
+/// The share of the largest length that is allowed for rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// The number of bits of the largest coordinate in the unit of a certificate.
+/// The number of bits of the largest length in the unit of a certificate.
 const LENGTH_BITS: i32 = 49;
 
-/// Writes a certificate of a claim about two moving bodies.
+/// Writes a certificate: each pair of a scene is farther apart than its margin and both radii from time 0 to `until`, and the
+/// witness, if there is one, comes as near as it says.
+///
+/// A first contact is proven until its time, with a witness at it. A least clearance is proven for the whole duration, with the
+/// clearance as the margin and a witness at some time.
 ///
 /// # Errors
 /// [`NotProven`].
-pub fn prove(
-    a: (&Body, Motion),
-    b: (&Body, Motion),
-    (duration, margin): (f64, f64),
-    claim: Claim,
-) -> Result<Proof, NotProven> {
-    let bodies = [a, b].map(|(body, motion)| Moving { body, motion });
-    let time_unit = exponent_above(duration);
-    let size = bodies
-        .iter()
-        .map(|moving| largest_length(moving, duration))
-        .fold(margin, greater);
+pub fn prove(scene: &Scene<'_>, until: f64, witness: Option<Witness>) -> Result<Proof, NotProven> {
+    let links = moving(&scene.links);
+    let time_unit = exponent_above(until);
+    let size = largest_length(scene, &links, time_unit);
     let unit = exponent_above(size) - LENGTH_BITS;
     let mut bytes = b"CCDPROOF".to_vec();
     bytes.extend(unit.to_le_bytes());
     bytes.extend(time_unit.to_le_bytes());
-    for moving in &bodies {
-        bytes.extend(moving.body.digest);
+    for count in [scene.links.len(), scene.bodies.len(), scene.pairs.len()] {
+        bytes.extend((count as u32).to_le_bytes());
     }
-    for moving in &bodies {
-        let (start, motion) = (moving.motion.start(), moving.motion);
-        let numbers = start.translation().to_array().into_iter();
-        let numbers = numbers.chain(start.rotation().to_array());
-        let rest = [motion.velocity(), motion.spin(), motion.centre()];
-        write_numbers(
-            &mut bytes,
-            numbers.chain(rest.into_iter().flat_map(|v| v.to_array())),
-        );
+    for link in &scene.links {
+        bytes.extend((link.parent as u32).to_le_bytes());
+        write_joint(&mut bytes, &link.joint);
     }
-    let until = match claim {
-        Claim::Free => duration,
-        Claim::Contact { time, .. } => time,
-    };
-    write_numbers(&mut bytes, [until, margin]);
-    if let Claim::Contact {
-        time,
-        tolerance,
-        witnesses,
-    } = claim
-    {
-        bytes.push(1);
-        write_numbers(&mut bytes, [tolerance]);
-        write_witnesses(&mut bytes, &bodies, time, witnesses);
-    } else {
-        bytes.push(0);
+    for carried in &scene.bodies {
+        bytes.extend(carried.body.digest);
+        bytes.extend((carried.link as u32).to_le_bytes());
+        bytes.extend(carried.radius.to_le_bytes());
     }
-    let mut cover = Cover::new(&bodies, margin + ROUNDING * size, until);
-    cover.write()?;
+    for pair in &scene.pairs {
+        bytes.extend(pair.bodies.map(|body| (body as u32).to_le_bytes()).concat());
+        write_numbers(&mut bytes, [pair.margin]);
+    }
+    write_numbers(&mut bytes, [until]);
+    bytes.push(u8::from(witness.is_some()));
+    if let Some(witness) = witness {
+        write_witness(&mut bytes, scene, &links, witness);
+    }
+    let mut cover = Cover::new(scene, &links, until);
+    for (number, pair) in scene.pairs.iter().enumerate() {
+        let radii = pair.bodies.map(|body| scene.bodies[body].radius);
+        cover.write(number, pair.margin + radii[0] + radii[1] + ROUNDING * size)?;
+    }
     bytes.extend(&cover.steps);
     Ok(Proof {
         bytes,
@@ -111,17 +84,45 @@ fn exponent_above(number: f64) -> i32 {
 }
 
 /// Returns the largest length that the checker computes with.
-fn largest_length(moving: &Moving<'_>, duration: f64) -> f64 {
-    let (motion, root) = (&moving.motion, &moving.body.nodes[0]);
-    let lengths = [
-        motion.start().translation(),
-        motion.velocity() * duration * 2.0,
-        motion.centre(),
-    ];
-    let reach = root.centre.abs().max_element() + root.radius;
-    lengths
-        .iter()
-        .fold(reach, |most, v| greater(most, v.abs().max_element()))
+fn largest_length(scene: &Scene<'_>, links: &[Moving], time_unit: i32) -> f64 {
+    let margins = scene.pairs.iter().map(|pair| pair.margin);
+    let mut most = margins.fold(0.0, greater);
+    let mut reaches: Vec<f64> = Vec::new();
+    for link in links {
+        let travel = link.travel.length() * 2f64.powi(time_unit);
+        // What is read before it is added up is no longer than half of the sum, but for centres.
+        let reach = reaches.get(link.parent).unwrap_or(&0.0) + 2.0 * (link.arm.length() + travel);
+        reaches.push(reach);
+        most = greater(most, reach + link.centre.length());
+    }
+    for carried in &scene.bodies {
+        let root = &carried.body.nodes[0];
+        most = greater(most, carried.radius + root.centre.length() + root.radius);
+    }
+    most
+}
+
+fn write_joint(bytes: &mut Vec<u8>, joint: &Joint) {
+    let (kind, pose, rest) = match joint {
+        Joint::Free(motion) => {
+            let rest = [motion.velocity(), motion.spin(), motion.centre()];
+            (0, motion.start(), rest.map(|v| v.to_array()).concat())
+        }
+        Joint::Axis {
+            kind,
+            pose,
+            axis,
+            start,
+            rate,
+        } => {
+            let number = if *kind == AxisKind::Turns { 1 } else { 2 };
+            (number, *pose, vec![axis.x, axis.y, axis.z, *start, *rate])
+        }
+    };
+    bytes.push(kind);
+    write_numbers(bytes, pose.translation().to_array());
+    write_numbers(bytes, pose.rotation().to_array());
+    write_numbers(bytes, rest);
 }
 
 fn write_numbers(bytes: &mut Vec<u8>, numbers: impl IntoIterator<Item = f64>) {
@@ -129,67 +130,26 @@ fn write_numbers(bytes: &mut Vec<u8>, numbers: impl IntoIterator<Item = f64>) {
 }
 
 /// Writes the triangle of each witness, and the weights of its corners.
-fn write_witnesses(
-    bytes: &mut Vec<u8>,
-    bodies: &[Moving<'_>; 2],
-    time: f64,
-    witnesses: [DVec3; 2],
-) {
-    for (moving, witness) in bodies.iter().zip(witnesses) {
-        let pose = moving.motion.pose(time);
-        let local = pose.rotation().conjugate() * (witness - pose.translation());
-        let nearest = moving
-            .body
-            .triangles
-            .iter()
-            .enumerate()
-            .map(|(place, triangle)| {
-                let weights = nearest_weights(*triangle, local);
-                let point = (0..3).map(|k| triangle[k] * weights[k]).sum::<DVec3>();
-                (point.distance_squared(local), place, weights)
-            });
-        let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
-        let (_, place, own) = nearest.unwrap_or((0.0, 0, [1.0, 0.0, 0.0]));
-        bytes.extend((place as u32).to_le_bytes());
+fn write_witness(bytes: &mut Vec<u8>, scene: &Scene<'_>, links: &[Moving], witness: Witness) {
+    bytes.extend((witness.pair as u32).to_le_bytes());
+    write_numbers(bytes, [witness.time, witness.tolerance]);
+    for point in mesh_points(scene, links, witness) {
+        bytes.extend((point.place as u32).to_le_bytes());
         // Rounded down, the first two leave no less than 0 for the third one.
-        let [a, b, _] = own.map(|weight| (weight * 2_147_483_648.0) as u32);
+        let [a, b, _] = point
+            .weights
+            .map(|weight| (weight * 2_147_483_648.0) as u32);
         bytes.extend([a, b].map(u32::to_le_bytes).concat());
     }
 }
 
-/// Returns the weights of the corners of the point of a triangle that is nearest to a point `[ERICSON05 §5.1.5]`.
-fn nearest_weights([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
-    let (ab, ac, ap) = (b - a, c - a, p - a);
-    let (d1, d2) = (ab.dot(ap), ac.dot(ap));
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return [1.0, 0.0, 0.0];
-    }
-    let bp = p - b;
-    let (d3, d4) = (ab.dot(bp), ac.dot(bp));
-    if d3 >= 0.0 && d4 <= d3 {
-        return [0.0, 1.0, 0.0];
-    }
-    let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        let v = d1 / (d1 - d3);
-        return [1.0 - v, v, 0.0];
-    }
-    let cp = p - c;
-    let (d5, d6) = (ab.dot(cp), ac.dot(cp));
-    if d6 >= 0.0 && d5 <= d6 {
-        return [0.0, 0.0, 1.0];
-    }
-    let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        let w = d2 / (d2 - d6);
-        return [1.0 - w, 0.0, w];
-    }
-    let va = d3 * d6 - d5 * d4;
-    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
-        let w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-        return [0.0, 1.0 - w, w];
-    }
-    let total = va + vb + vc;
-    let (v, w) = (vb / total, vc / total);
-    [1.0 - v - w, v, w]
+/// Returns the points of both meshes that are nearest to those of a witness.
+pub(crate) fn mesh_points(scene: &Scene<'_>, links: &[Moving], witness: Witness) -> [MeshPoint; 2] {
+    let all = placed(links, witness.time, 0.0);
+    [0, 1].map(|k| {
+        let carried = &scene.bodies[scene.pairs[witness.pair].bodies[k]];
+        let link = &all[carried.link];
+        let local = link.rotation.transpose() * (witness.points[k] - link.centre);
+        MeshPoint::nearest(carried.body, local + links[carried.link].centre)
+    })
 }

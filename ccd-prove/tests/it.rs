@@ -1,16 +1,21 @@
 //! Proofs of the engine's answers hold, and forged ones do not.
 
-use ccd_check::{Fault, Stop};
+use ccd_check::Stop;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
-use ccd_prove::{Body, Claim, Proof, prove};
+use ccd_prove::{
+    AxisKind, Body, Carried, Joint, Link, NotProven, Pair, Proof, Scene, Witness, prove,
+};
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
 use rigid_ccd::{Outcome, Solver};
 use std::f64::consts::TAU;
 
-/// The claim of a free query, and where the steps begin in its file.
-const CLAIM_AT: usize = 8 + 8 + 64 + 2 * 128 + 16;
-const FREE_STEPS_AT: usize = CLAIM_AT + 1;
+/// Where the number of witnesses stands in the file of a query of two free bodies, and where its steps begin if it has none.
+const WITNESSES_AT: usize = 28 + 2 * 133 + 2 * 44 + 16 + 8;
+const FREE_STEPS_AT: usize = WITNESSES_AT + 1;
+
+/// The bytes of a witness.
+const WITNESS: usize = 44;
 
 /// A torus of triangles about z, a mesh that is not convex.
 fn torus(count: usize, radius: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
@@ -77,25 +82,28 @@ impl Meshes {
         }
     }
 
-    /// Asks the engine when the bodies first touch, as a claim; `None` if they do at the start.
-    fn claim(&self, motions: [Motion; 2]) -> Option<Claim> {
+    /// Asks the engine when the bodies first touch, and proves the answer; `None` if they do at the start.
+    fn prove(&self, motions: [Motion; 2]) -> Option<Proof> {
         let mut solver = Solver::new();
         let tolerance = rigid_ccd::Settings::DEFAULT.tolerance;
         let (a, b) = ((&self.engine[0], motions[0]), (&self.engine[1], motions[1]));
-        match solver.first_contact(a, b, 1.0).unwrap().outcome {
-            Outcome::Free { .. } => Some(Claim::Free),
-            Outcome::Contact { time, contact } => Some(Claim::Contact {
-                time,
-                tolerance,
-                witnesses: [contact.separation.witness_a, contact.separation.witness_b],
-            }),
-            _ => None,
-        }
-    }
-
-    fn prove(&self, motions: [Motion; 2], claim: Claim) -> Proof {
+        let (until, witness) = match solver.first_contact(a, b, 1.0).unwrap().outcome {
+            Outcome::Free { .. } => (1.0, None),
+            Outcome::Contact { time, contact } => {
+                let points = [contact.separation.witness_a, contact.separation.witness_b];
+                let witness = Witness {
+                    pair: 0,
+                    time,
+                    tolerance,
+                    points,
+                };
+                (time, Some(witness))
+            }
+            _ => return None,
+        };
         let [a, b] = &self.proofs;
-        prove((a, motions[0]), (b, motions[1]), (1.0, 0.0), claim).unwrap()
+        let scene = Scene::of_two((a, motions[0]), (b, motions[1]), 0.0);
+        Some(prove(&scene, until, witness).unwrap())
     }
 
     fn bodies(&self, unit: i32) -> [ccd_check::Body; 2] {
@@ -106,8 +114,7 @@ impl Meshes {
     }
 
     fn check(&self, proof: &Proof) -> Result<(), Stop> {
-        let [a, b] = self.bodies(proof.unit);
-        ccd_check::check(&a, &b, &proof.bytes)
+        ccd_check::check(&self.bodies(proof.unit), &proof.bytes)
     }
 }
 
@@ -117,15 +124,22 @@ fn proofs(meshes: &Meshes, count: usize) -> [Vec<([Motion; 2], Proof)>; 2] {
     let mut found = [Vec::new(), Vec::new()];
     while found.iter().any(|proofs| proofs.len() < count) {
         let motions = [random.motion(), random.motion()];
-        let Some(claim) = meshes.claim(motions) else {
+        let Some(proof) = meshes.prove(motions) else {
             continue;
         };
-        let kind = usize::from(claim != Claim::Free);
+        let kind = usize::from(proof.bytes[WITNESSES_AT]);
         if found[kind].len() < count {
-            found[kind].push((motions, meshes.prove(motions, claim)));
+            found[kind].push((motions, proof));
         }
     }
     found
+}
+
+fn reason(verdict: Result<(), Stop>) -> &'static str {
+    match verdict {
+        Err(Stop::Broken { reason, .. }) => reason,
+        other => panic!("{other:?}"),
+    }
 }
 
 #[test]
@@ -143,15 +157,89 @@ fn answers_of_the_engine_are_proven() {
 fn a_body_that_rests_inside_the_range_of_another_is_proven_free() {
     let meshes = Meshes::new();
     // Both turn about z, as a wheel on its axle: no axis of the world stays between them.
-    let spin = Motion::new(Pose::IDENTITY, [0.0; 3], [0.0, 0.0, 5.0]).unwrap();
-    let aside = Motion::new(
-        Pose::at([0.0, 0.0, 0.7]).unwrap(),
-        [0.0; 3],
-        [0.0, 0.0, -5.0],
-    )
-    .unwrap();
-    let proof = meshes.prove([spin, aside], Claim::Free);
+    let turning = |height: f64, rate: f64| {
+        let start = Pose::at([0.0, 0.0, height]).unwrap();
+        Motion::new(start, [0.0; 3], [0.0, 0.0, rate]).unwrap()
+    };
+    let proof = meshes
+        .prove([turning(0.0, 5.0), turning(0.7, -5.0)])
+        .unwrap();
+    assert_eq!(proof.bytes[WITNESSES_AT], 0);
     assert_eq!(meshes.check(&proof), Ok(()));
+}
+
+/// Two arms on one turning column, each with a joint that turns and one that slides.
+fn arms(meshes: &Meshes) -> Scene<'_> {
+    let joint = |parent, kind, x, axis: DVec3, [start, rate]: [f64; 2]| Link {
+        parent,
+        joint: Joint::Axis {
+            kind,
+            pose: Pose::new([x, 0.0, 0.5], [0.1, 0.2, 0.0, 1.0]).unwrap(),
+            axis,
+            start,
+            rate,
+        },
+    };
+    let links = vec![
+        joint(0, AxisKind::Turns, 0.0, DVec3::Z, [0.3, 9.0]),
+        joint(1, AxisKind::Turns, 2.0, DVec3::Y, [0.2, 0.7]),
+        joint(2, AxisKind::Slides, 0.5, DVec3::X, [0.0, 0.4]),
+        joint(1, AxisKind::Turns, -2.0, DVec3::Y, [0.1, -0.9]),
+        joint(4, AxisKind::Slides, -0.5, DVec3::X, [-0.1, -0.3]),
+    ];
+    let carried = |k: usize, link, radius| Carried {
+        body: &meshes.proofs[k],
+        link,
+        radius,
+    };
+    let bodies = vec![carried(0, 3, 0.02), carried(1, 5, 0.0), carried(1, 0, 0.01)];
+    Scene {
+        links,
+        bodies,
+        pairs: [[0, 1], [2, 0]]
+            .map(|bodies| Pair {
+                bodies,
+                margin: 0.01,
+            })
+            .into(),
+    }
+}
+
+/// The column turns by nine radians, which moves both arms alike. No stretch may be longer than two radians, but each takes as few
+/// leaves as if the column stood still.
+#[test]
+fn arms_on_a_turning_column_are_proven_apart_from_each_other() {
+    let meshes = Meshes::new();
+    let mut scene = arms(&meshes);
+    scene.pairs.truncate(1);
+    let turning = prove(&scene, 1.0, None).unwrap();
+    assert_eq!(meshes.check(&turning), Ok(()));
+    let Joint::Axis { rate, .. } = &mut scene.links[0].joint else {
+        unreachable!()
+    };
+    *rate = 0.0;
+    let still = prove(&scene, 1.0, None).unwrap();
+    assert_eq!(meshes.check(&still), Ok(()));
+    assert!(
+        turning.leaves <= 16 * still.leaves,
+        "{} {}",
+        turning.leaves,
+        still.leaves
+    );
+}
+
+#[test]
+fn arms_and_a_body_at_rest_are_proven_apart_unless_its_radius_reaches_them() {
+    let meshes = Meshes::new();
+    let mut scene = arms(&meshes);
+    let whole = prove(&scene, 1.0, None).unwrap();
+    assert_eq!(meshes.check(&whole), Ok(()));
+    scene.bodies[2].radius = 3.0;
+    let touching = prove(&scene, 1.0, None);
+    assert!(
+        matches!(touching, Err(NotProven::Touching { .. })),
+        "{touching:?}"
+    );
 }
 
 #[test]
@@ -159,18 +247,17 @@ fn each_kind_of_forgery_is_seen() {
     let meshes = Meshes::new();
     let [free, contacts] = proofs(&meshes, 10);
     let (_, proof) = &free[0];
-    let [a, b] = meshes.bodies(proof.unit);
-    let verdict_on = |bytes: &[u8]| ccd_check::check(&a, &b, bytes);
-    let fault_of = |bytes: &[u8]| match verdict_on(bytes) {
-        Err(Stop::Broken(fault, _)) => fault,
-        other => panic!("{other:?}"),
-    };
-    assert_eq!(verdict_on(&proof.bytes), Ok(()));
+    let bodies = meshes.bodies(proof.unit);
+    let reason_of = |bytes: &[u8]| reason(ccd_check::check(&bodies, bytes));
+    assert_eq!(ccd_check::check(&bodies, &proof.bytes), Ok(()));
     // The last leaf is dropped, and one too many is there.
     let end = proof.bytes.len();
-    assert_eq!(fault_of(&proof.bytes[..end - 7]), Fault::Format);
+    assert_eq!(
+        reason_of(&proof.bytes[..end - 7]),
+        "the file ends too early"
+    );
     let longer = [&proof.bytes[..], &proof.bytes[end - 7..]].concat();
-    assert_eq!(fault_of(&longer), Fault::Format);
+    assert_eq!(reason_of(&longer), "the file goes on after its end");
     // A leaf has an axis of no length, or one that is too long.
     let bent = |axis: [i16; 3]| {
         let mut bytes = proof.bytes.clone();
@@ -178,35 +265,37 @@ fn each_kind_of_forgery_is_seen() {
         bytes[end - 6..].copy_from_slice(&axis);
         bytes
     };
-    assert_eq!(fault_of(&bent([0; 3])), Fault::NotApart);
-    assert_eq!(fault_of(&bent([16_000, 16_000, 0])), Fault::Axis);
-    // The meshes are swapped.
-    assert!(matches!(
-        ccd_check::check(&b, &a, &proof.bytes),
-        Err(Stop::Broken(Fault::OtherMesh, _))
-    ));
-    // One proof stands for everything.
+    let not_apart = "an axis does not keep its parts apart";
+    assert_eq!(reason_of(&bent([0; 3])), not_apart);
+    assert_eq!(
+        reason_of(&bent([16_000, 16_000, 0])),
+        "an axis is longer than 1"
+    );
+    // A mesh is not given.
+    assert_eq!(
+        reason(ccd_check::check(&bodies[..1], &proof.bytes)),
+        "a mesh is none of those that are given"
+    );
+    // One leaf stands for everything.
     let mut nothing = proof.bytes[..FREE_STEPS_AT].to_vec();
     nothing.extend([3, 0, 0, 0, 0, 0, 64]);
-    assert_eq!(fault_of(&nothing), Fault::NotApart);
+    assert_eq!(reason_of(&nothing), not_apart);
     // The bodies are said to be free for longer than they are, and to touch later.
     for (_, proof) in &contacts {
-        let [a, b] = meshes.bodies(proof.unit);
+        let bodies = meshes.bodies(proof.unit);
         let mut bytes = proof.bytes.clone();
-        let until = CLAIM_AT - 16..CLAIM_AT - 8;
+        let until = WITNESSES_AT - 8..WITNESSES_AT;
         let time = f64::from_le_bytes(bytes[until.clone()].try_into().unwrap());
         bytes[until].copy_from_slice(&(time + 0.01).to_le_bytes());
-        assert!(matches!(
-            ccd_check::check(&a, &b, &bytes),
-            Err(Stop::Broken(..))
-        ));
-        let mut free = bytes[..CLAIM_AT].to_vec();
+        assert!(ccd_check::check(&bodies, &bytes).is_err());
+        let mut free = bytes[..WITNESSES_AT].to_vec();
         free.push(0);
-        free.extend(&bytes[CLAIM_AT + 33..]);
-        assert!(matches!(
-            ccd_check::check(&a, &b, &free),
-            Err(Stop::Broken(..))
-        ));
+        free.extend(&bytes[WITNESSES_AT + 1 + WITNESS..]);
+        assert!(ccd_check::check(&bodies, &free).is_err());
+        // The witness is later than the proof.
+        let mut late = proof.bytes.clone();
+        late[WITNESSES_AT + 5..WITNESSES_AT + 13].copy_from_slice(&(time + 1e-9).to_le_bytes());
+        assert!(ccd_check::check(&bodies, &late).is_err());
     }
 }
 
@@ -214,18 +303,23 @@ fn each_kind_of_forgery_is_seen() {
 fn witnesses_that_are_not_near_or_not_on_their_triangles_are_seen() {
     let meshes = Meshes::new();
     let [_, contacts] = proofs(&meshes, 10);
+    let triangle = WITNESSES_AT + 1 + 4 + 16;
     for (_, proof) in &contacts {
-        let [a, b] = meshes.bodies(proof.unit);
-        for at in [CLAIM_AT + 9, CLAIM_AT + 16] {
-            // Another triangle, or a weight below 0.
+        let bodies = meshes.bodies(proof.unit);
+        // Another triangle, one that is none, and weights that are more than 1.
+        let verdict_with = |at: usize, with: &[u8]| {
             let mut bytes = proof.bytes.clone();
-            bytes[at] ^= 0xc0;
-            let verdict = ccd_check::check(&a, &b, &bytes);
-            assert!(
-                matches!(verdict, Err(Stop::Broken(Fault::Witnesses, _))),
-                "{verdict:?}"
-            );
-        }
+            bytes[at..at + with.len()].copy_from_slice(with);
+            reason(ccd_check::check(&bodies, &bytes))
+        };
+        let number = u32::from_le_bytes(proof.bytes[triangle..][..4].try_into().unwrap());
+        let other = (number + 100) % (2 * 12 * 12);
+        let far = "the witnesses are too far from each other";
+        assert_eq!(verdict_with(triangle, &other.to_le_bytes()), far);
+        let none = "there is nothing of this number";
+        assert_eq!(verdict_with(triangle, &[0xff; 4]), none);
+        let more = "the weights of a witness are more than 1";
+        assert_eq!(verdict_with(triangle + 4, &[0xff; 8]), more);
     }
 }
 
@@ -234,29 +328,19 @@ fn a_tree_that_omits_a_triangle_or_belongs_to_another_mesh_is_seen() {
     let meshes = Meshes::new();
     let body = &meshes.proofs[0];
     let read = |mesh: &[u8], certificate: &[u8]| {
-        ccd_check::Body::new(mesh, certificate, -48)
-            .map(|_| ())
-            .unwrap_err()
+        reason(ccd_check::Body::new(mesh, certificate, -48).map(|_| ()))
     };
     let order = 40;
     let mut twice = body.certificate().to_vec();
     twice.copy_within(order..order + 4, order + 4);
-    assert!(matches!(
-        read(body.mesh(), &twice),
-        Stop::Broken(Fault::Triangles, _)
-    ));
+    assert_eq!(read(body.mesh(), &twice), "the tree has a triangle twice");
     // A vertex is moved by the least that its numbers can tell.
     let mut moved = body.mesh().to_vec();
     moved[8] ^= 1;
-    assert!(matches!(
-        read(&moved, body.certificate()),
-        Stop::Broken(Fault::OtherMesh, _)
-    ));
+    let other = "this is the certificate of another mesh";
+    assert_eq!(read(&moved, body.certificate()), other);
     let short = &body.certificate()[..body.certificate().len() - 1];
-    assert!(matches!(
-        read(body.mesh(), short),
-        Stop::Broken(Fault::Format, _)
-    ));
+    assert_eq!(read(body.mesh(), short), "the file ends too early");
 }
 
 /// Changes bits of proofs at random. What still holds must be true, by the motions that it states.
@@ -268,18 +352,18 @@ fn no_random_forgery_is_accepted_that_is_false() {
     all.extend(contacts);
     let (mut accepted, mut refused) = (0, 0);
     for (_, proof) in &all {
-        let [a, b] = meshes.bodies(proof.unit);
+        let bodies = meshes.bodies(proof.unit);
         for _ in 0..500 {
             let mut bytes = proof.bytes.clone();
             // Half of the changes are to the statement.
             let limit = if random.bits().is_multiple_of(2) {
-                CLAIM_AT
+                WITNESSES_AT
             } else {
                 bytes.len()
             };
             let at = random.bits() as usize % limit;
             bytes[at] ^= 1 << (random.bits() % 8);
-            if ccd_check::check(&a, &b, &bytes) == Ok(()) {
+            if ccd_check::check(&bodies, &bytes) == Ok(()) {
                 accepted += 1;
                 assert!(is_true(&meshes, &bytes), "byte {at}");
             } else {
@@ -294,12 +378,12 @@ fn no_random_forgery_is_accepted_that_is_false() {
 fn is_true(meshes: &Meshes, bytes: &[u8]) -> bool {
     let number = |at: usize| f64::from_le_bytes(bytes[at..at + 8].try_into().unwrap());
     let vector = |at: usize| [number(at), number(at + 8), number(at + 16)];
-    let motions = [80, 208].map(|at| {
+    let motions = [33, 33 + 133].map(|at| {
         let turn = [0, 1, 2, 3].map(|k| number(at + 24 + 8 * k));
         let start = Pose::new(vector(at), turn).unwrap();
         Motion::about(start, vector(at + 56), vector(at + 80), vector(at + 104)).unwrap()
     });
-    let until = number(CLAIM_AT - 16);
+    let until = number(WITNESSES_AT - 8);
     let mut solver = Solver::new();
     (0..20).all(|k| {
         let time = until * f64::from(k) / 20.0;

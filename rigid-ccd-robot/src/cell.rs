@@ -70,6 +70,19 @@ impl<'c> Item<'c> {
     }
 }
 
+/// A body of a cell, at rest on a link.
+#[derive(Clone, Copy, Debug)]
+pub struct CarriedBody<'c> {
+    /// What the body belongs to.
+    pub item: Item<'c>,
+    /// The body.
+    pub body: &'c Body,
+    /// The number of the link that carries it: the base for an obstacle.
+    pub link: usize,
+    /// The pose of the body in the frame of the link.
+    pub pose: Pose,
+}
+
 impl Cell {
     /// Creates a cell without obstacles. Pairs of links that are not checked may touch.
     pub fn new(robot: Robot, pairs: LinkPairs) -> Self {
@@ -256,6 +269,22 @@ impl Cell {
         placed.collect()
     }
 
+    /// Returns the bodies of the cell, in the order of [`Cell::placed_bodies`], each with the link that carries it.
+    pub fn carried_bodies(&self) -> impl ExactSizeIterator<Item = CarriedBody<'_>> {
+        let bodies = self.bodies.iter().enumerate();
+        bodies.map(|(number, placed)| {
+            let held = self.robot_body_placements.get(number);
+            let on_base = (self.robot.base(), placed.pose);
+            let (link, pose) = held.map_or(on_base, |held| (held.link, held.pose_in_link));
+            CarriedBody {
+                item: self.item_of_body(number),
+                body: &placed.body,
+                link,
+                pose,
+            }
+        })
+    }
+
     pub(crate) fn kinematics(&self) -> &Kinematics {
         &self.kinematics
     }
@@ -325,8 +354,9 @@ impl Cell {
         }
     }
 
-    /// Returns all pairs of bodies that are compared, each with the distance at which it counts as touching.
-    pub(crate) fn compared_pairs(&self, margin: f64) -> impl Iterator<Item = ([usize; 2], f64)> {
+    /// Returns the pairs of bodies that are compared, by their numbers in [`Cell::carried_bodies`], each with the distance at
+    /// which it counts as touching for a margin.
+    pub fn compared_pairs(&self, margin: f64) -> impl Iterator<Item = ([usize; 2], f64)> {
         let pairs = (0..self.bodies.len()).flat_map(|a| (0..a).map(move |b| [b, a]));
         let compared = pairs.filter(|&[a, b]| self.is_compared(a, b));
         compared.map(move |pair| (pair, self.margin(pair, margin)))

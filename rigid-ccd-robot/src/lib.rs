@@ -56,7 +56,7 @@ mod srdf;
 mod test_robots;
 mod tuning;
 
-pub use cell::{Cell, Item};
+pub use cell::{CarriedBody, Cell, Item};
 pub use combine::PlacedRobot;
 pub use error::{CurveError, PathError, RobotError};
 pub use joint_curve::JointCurve;

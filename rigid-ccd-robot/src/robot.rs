@@ -279,9 +279,9 @@ impl Robot {
         self.tree.parent(link)
     }
 
-    /// Returns the links that a joint moves, each with the link that holds the joint and the joint. Links come after those
-    /// nearer to the base.
-    pub(crate) fn joints_parents_first(&self) -> Vec<(usize, usize, usize)> {
+    /// Returns the numbers of the links that a joint holds, each with those of the link that carries the joint, and of the
+    /// joint. Links come after those nearer to the base.
+    pub fn joints_parents_first(&self) -> Vec<(usize, usize, usize)> {
         self.tree.links_parents_first()
     }
 
@@ -325,6 +325,18 @@ impl Robot {
             expected_count: expected,
             joint_names: self.free_joint_names().collect::<Vec<_>>().join(", "),
         })
+    }
+
+    /// Returns the position of each joint in a configuration, in the order of [`Robot::joints`]; 0 for a fixed joint.
+    ///
+    /// # Errors
+    /// [`RobotError::WrongPositionCount`].
+    pub fn joint_positions(&self, configuration: &[f64]) -> Result<Vec<f64>, RobotError> {
+        self.check_position_count(configuration.len())?;
+        let joints = 0..self.joints.len();
+        Ok(joints
+            .map(|joint| self.position(joint, configuration))
+            .collect())
     }
 
     /// Returns the position of a joint in a configuration; 0 for a fixed joint.

@@ -1,0 +1,184 @@
+//! Links, each of which moves on the one that carries it, and where they are at a time.
+
+use crate::Stop;
+use crate::number::{FRACTION, Number, ONE, Point, Vector, ZERO, dot};
+use crate::reader::Reader;
+use crate::rotation::Rotation;
+use alloc::vec::Vec;
+
+/// Times are shares of a power of two that is no less than the duration, in multiples of 2⁻⁶⁰.
+pub(crate) const TIME: u32 = 60;
+
+const UNIT: i64 = -(FRACTION as i64);
+
+type Columns = [Vector; 3];
+
+/// How a link moves on its parent: its centre along a line, and the link about it at a constant rate.
+pub(crate) struct Link {
+    /// The number of the link that carries it; 0 is the world, which is no link.
+    pub(crate) parent: usize,
+    /// The point of the link about which it turns.
+    pub(crate) centre: Vector,
+    /// The vector from the parent's centre to that of the link, and how it changes in the unit of time.
+    arm: Vector,
+    travel: Vector,
+    /// The rotation at time 0, and the rotation vector of the unit of time.
+    columns: Columns,
+    turn: Vector,
+    /// Bounds of the sums of all arms, and of all turns, from the world to the link.
+    reach: i128,
+    turned: i128,
+}
+
+impl Link {
+    /// Reads the link after those that are given.
+    pub(crate) fn read(
+        reader: &mut Reader<'_>,
+        units: [i64; 2],
+        links: &[Link],
+    ) -> Result<Link, Stop> {
+        let [length, per_time] = [units[0], units[0] - units[1]];
+        let parent = reader.index(links.len() + 1)?;
+        let kind = reader.unsigned(1)?;
+        reader.require(kind < 3, "there is no such kind of link")?;
+        let position = reader.vector(length, 50)?;
+        let columns = read_rotation(reader)?;
+        let mut link = Link {
+            parent,
+            centre: ZERO,
+            arm: position,
+            travel: ZERO,
+            columns,
+            turn: ZERO,
+            reach: 0,
+            turned: 0,
+        };
+        if kind == 0 {
+            link.travel = reader.vector(per_time, 50)?;
+            link.turn = reader.vector(UNIT - units[1], FRACTION + 8)?;
+            link.centre = reader.vector(length, 50)?;
+            link.arm = position + apply(columns, link.centre);
+        } else {
+            let axis = apply(columns, reader.vector(UNIT, FRACTION + 1)?);
+            if kind == 1 {
+                let angle = reader.number(UNIT, FRACTION + 8)?;
+                let rate = reader.number(UNIT - units[1], FRACTION + 8)?;
+                let turned = Rotation::by(axis.times(angle, FRACTION));
+                link.columns = columns.map(|column| turned.turn(column));
+                link.turn = axis.times(rate, FRACTION);
+            } else {
+                link.arm = position + axis.times(reader.number(length, 50)?, FRACTION);
+                link.travel = axis.times(reader.number(per_time, 50)?, FRACTION);
+            }
+        }
+        if let Some(parent) = parent.checked_sub(1).map(|k| &links[k]) {
+            link.arm = link.arm - parent.centre;
+            (link.reach, link.turned) = (parent.reach, parent.turned);
+        }
+        link.reach += link.arm.length() + link.travel.length();
+        link.turned += link.turn.length();
+        if link.reach > 1 << 51 || link.turned > 1 << (FRACTION + 8) {
+            return Err(Stop::Unverifiable("links reach or turn too far"));
+        }
+        Ok(link)
+    }
+}
+
+/// A link in the middle of a stretch of time, and how it moves in half of it; all in the world.
+#[derive(Clone, Copy)]
+pub(crate) struct Placed {
+    pub(crate) parent: usize,
+    pub(crate) centre: Vector,
+    pub(crate) columns: Columns,
+    /// The largest radius of the columns.
+    pub(crate) rad: i64,
+    /// How the centre moves, and how the link turns.
+    pub(crate) velocity: Vector,
+    pub(crate) turn: Vector,
+    /// The vector from the parent's centre to this one, and how that moves and the link turns on the parent.
+    pub(crate) arm: Vector,
+    pub(crate) travel: Vector,
+    pub(crate) own_turn: Vector,
+    /// A bound of the sum of all turns from the world to the link.
+    pub(crate) turned: i128,
+}
+
+impl Placed {
+    /// Returns the world and all links in the middle of a stretch of time.
+    pub(crate) fn all(links: &[Link], middle: Number, half: Number) -> Vec<Placed> {
+        let one = ONE.mid[0];
+        let mut placed = alloc::vec![Placed {
+            parent: 0,
+            centre: ZERO,
+            columns: [[one, 0, 0], [0, one, 0], [0, 0, one]].map(Vector::exact),
+            rad: 0,
+            velocity: ZERO,
+            turn: ZERO,
+            arm: ZERO,
+            travel: ZERO,
+            own_turn: ZERO,
+            turned: 0,
+        }];
+        for link in links {
+            let on = placed[link.parent];
+            let (mut columns, mut own_turn) = (link.columns, ZERO);
+            if link.turn != ZERO {
+                let turned = Rotation::by(link.turn.times(middle, TIME));
+                columns = columns.map(|column| turned.turn(column));
+                own_turn = apply(on.columns, link.turn.times(half, TIME));
+            }
+            let arm = apply(on.columns, link.arm + link.travel.times(middle, TIME));
+            let travel = apply(on.columns, link.travel.times(half, TIME));
+            let columns = columns.map(|column| apply(on.columns, column));
+            placed.push(Placed {
+                parent: link.parent,
+                centre: on.centre + arm,
+                columns,
+                rad: columns.iter().fold(0, |most, column| most.max(column.rad)),
+                velocity: on.velocity + on.turn.cross(arm) + travel,
+                turn: on.turn + own_turn,
+                arm,
+                travel,
+                own_turn,
+                turned: on.turned + own_turn.length(),
+            });
+        }
+        placed
+    }
+
+    /// Returns a direction of the world in the frame of the link, rounded down.
+    pub(crate) fn to_link(&self, direction: Point) -> Point {
+        self.columns
+            .map(|column| (dot(column.mid, direction) >> FRACTION) as i64)
+    }
+}
+
+/// Returns the sum of the columns of a rotation, times the coordinates of a vector.
+pub(crate) fn apply([x, y, z]: Columns, v: Vector) -> Vector {
+    let [a, b, c] = v.mid.map(|mid| Number {
+        mid: [mid],
+        rad: v.rad,
+    });
+    x.times(a, FRACTION) + y.times(b, FRACTION) + z.times(c, FRACTION)
+}
+
+/// Reads a quaternion x, y, z, w, and returns the columns of its rotation.
+fn read_rotation(reader: &mut Reader<'_>) -> Result<Columns, Stop> {
+    let vector = reader.vector(UNIT, FRACTION + 1)?;
+    let scalar = reader.number(UNIT, FRACTION + 1)?;
+    let excess = vector.dot(vector) + scalar.times(scalar, FRACTION) - ONE;
+    if excess.size() > ONE.mid[0] >> 20 {
+        return Err(Stop::Unverifiable("a quaternion is not of unit length"));
+    }
+    // 1 / (1 + e) is 1 − e to within e² / (1 − |e|), which is less than 2e².
+    let mut inverse = ONE - excess;
+    inverse.rad += 2 * excess.times(excess, FRACTION).size();
+    let rotation = Rotation {
+        scalar,
+        vector,
+        factor: inverse + inverse,
+    };
+    let one = ONE.mid[0];
+    let basis = [[one, 0, 0], [0, one, 0], [0, 0, one]];
+    Ok(basis.map(|axis| rotation.turn(Vector::exact(axis))))
+}

@@ -1,0 +1,110 @@
+//! What proofs took: bytes, leaves, the times to prove and to check them over that to solve.
+
+use anyhow::Result;
+use ccd_prove::{Body, NotProven, Proof};
+use std::collections::HashMap;
+use std::fmt::{self, Display};
+use std::fs::write;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// The figures of many proofs, and what has failed.
+#[derive(Default)]
+pub(crate) struct Tally {
+    /// A folder to which the proofs are written.
+    folder: Option<PathBuf>,
+    /// The meshes, as the checker has read them, for each unit.
+    read: HashMap<i32, Vec<ccd_check::Body>>,
+    bytes: Vec<f64>,
+    leaves: Vec<f64>,
+    proving: Vec<f64>,
+    checking: Vec<f64>,
+    failed: Vec<String>,
+}
+
+impl Tally {
+    /// Makes a tally that writes proofs to a folder, if there is one.
+    pub(crate) fn new(folder: Option<PathBuf>) -> Self {
+        Tally {
+            folder,
+            ..Tally::default()
+        }
+    }
+
+    pub(crate) fn fail(&mut self, text: String) {
+        self.failed.push(text);
+    }
+
+    /// Proves an answer that took a time to find, and checks the proof.
+    pub(crate) fn prove_and_check<'b>(
+        &mut self,
+        name: &str,
+        solved: Duration,
+        prove: impl FnOnce() -> Result<Proof, NotProven>,
+        meshes: impl Iterator<Item = &'b Body>,
+    ) -> Result<()> {
+        let over_solving = |start: Instant| start.elapsed().as_secs_f64() / solved.as_secs_f64();
+        let start = Instant::now();
+        let proof = match prove() {
+            Ok(proof) => proof,
+            Err(error) => {
+                self.fail(format!("{name}: {error}"));
+                return Ok(());
+            }
+        };
+        self.proving.push(over_solving(start));
+        if let Some(folder) = &self.folder {
+            write(folder.join(format!("{name}.proof")), &proof.bytes)?;
+        }
+        if !self.read.contains_key(&proof.unit) {
+            let read = meshes
+                .map(|body| ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit));
+            self.read
+                .insert(proof.unit, read.collect::<Result<_, _>>()?);
+        }
+        let meshes = &self.read[&proof.unit];
+        // The least of two: what comes first has everything to fetch.
+        let mut least = f64::INFINITY;
+        for _ in 0..2 {
+            let start = Instant::now();
+            let verdict = ccd_check::check(meshes, &proof.bytes);
+            least = ccd_core::order::lesser(least, over_solving(start));
+            if let Err(verdict) = verdict {
+                self.fail(format!("{name}: {verdict}"));
+                return Ok(());
+            }
+        }
+        self.checking.push(least);
+        self.bytes.push(proof.bytes.len() as f64);
+        self.leaves.push(proof.leaves as f64);
+        Ok(())
+    }
+}
+
+impl Display for Tally {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} hold, {} failed; median, 90 % and most:",
+            self.bytes.len(),
+            self.failed.len()
+        )?;
+        let rows = [
+            ("bytes", &self.bytes),
+            ("leaves", &self.leaves),
+            ("checking / solving", &self.checking),
+            ("proving / solving", &self.proving),
+        ];
+        for (name, numbers) in rows {
+            let mut numbers = numbers.clone();
+            numbers.sort_by(f64::total_cmp);
+            let last = numbers.len().saturating_sub(1);
+            let at = |share: usize| numbers.get(last * share / 100).copied().unwrap_or(f64::NAN);
+            write!(f, " {name} {:.1} {:.1} {:.1};", at(50), at(90), at(100))?;
+        }
+        for text in self.failed.iter().take(3) {
+            write!(f, "\n  {text}")?;
+        }
+        Ok(())
+    }
+}
