@@ -65,16 +65,16 @@ fn check_pair(
             }
             step @ 3..=8 => {
                 let axis = read_axis(reader, step >= 6)?;
-                let stretch: &Option<Stretch<'_>> = stretches.entry(times).or_insert_with(|| {
+                let frame = [0, bodies[0].link, bodies[1].link][step % 3];
+                let stretch = stretches.entry((times, frame)).or_insert_with(|| {
                     let middle = from + (to - from) / 2;
                     let [middle, half] = [middle, to - middle].map(|time| Number::exact([time]));
                     let links = seen.entry(times);
                     let place = || Placed::all(&statement.links, middle, half);
-                    Stretch::new(bodies, links.or_insert_with(place))
+                    Stretch::new(bodies, links.or_insert_with(place), frame)
                 });
-                let is_apart = stretch
-                    .as_ref()
-                    .is_some_and(|stretch| stretch.keeps_apart(parts, axis, step % 3, least));
+                let is_apart = |stretch: &Stretch<'_>| stretch.keeps_apart(parts, axis, least);
+                let is_apart = stretch.as_ref().is_some_and(is_apart);
                 reader.require(is_apart, "an axis does not keep its parts apart")?;
             }
             _ => return Err(reader.broken("there is no such step")),

@@ -7,18 +7,12 @@ use crate::statement::Carried;
 use alloc::vec::Vec;
 use core::ops::Neg;
 
-/// A pair over a stretch of time, as it is seen from the world, from A, and from B.
+/// A pair over a stretch of time, as it is seen from what an axis turns with.
 pub(crate) struct Stretch<'a> {
     bodies: [&'a Carried<'a>; 2],
     placed: [Placed; 2],
-    /// The vector from the centre of A to that of B, in the middle.
+    /// The vector from the centre of A to that of B in the middle, how it changes in half of the stretch, and how the bodies turn.
     offset: Vector,
-    views: [View; 3],
-}
-
-/// How a pair moves in half of a stretch, as it is seen from something that turns.
-struct View {
-    /// How the offset changes, and how each body turns.
     drift: Vector,
     turns: [Vector; 2],
     /// A bound of the second derivative of the offset, and for each body one that is multiplied by its reach.
@@ -27,54 +21,41 @@ struct View {
 }
 
 impl<'a> Stretch<'a> {
-    /// Returns `None` if links turn by more than two radians: there is no proof for so long a stretch.
-    pub(crate) fn new(bodies: [&'a Carried<'a>; 2], links: &[Placed]) -> Option<Self> {
-        let [a, b] = bodies.map(|body| body.link);
-        let placed = [links[a], links[b]];
-        if placed[0].turned + placed[1].turned > 2 * i128::from(ONE.mid[0]) {
+    /// Looks from a link, or from the world, which is 0. Returns `None` if links turn by more than two radians: there is no proof
+    /// for so long a stretch.
+    pub(crate) fn new(bodies: [&'a Carried<'a>; 2], links: &[Placed], from: usize) -> Option<Self> {
+        let numbers = bodies.map(|body| body.link);
+        let placed @ [a, b] = numbers.map(|link| links[link]);
+        if a.turned + b.turned > 2 * i128::from(ONE.mid[0]) {
             return None;
         }
-        let offset = placed[1].centre - placed[0].centre;
-        let views = [0, a, b].map(|frame| {
-            let turn = links[frame].turn;
-            // What the axis turns with does not turn, as it is seen from there.
-            let turn_of = |k: usize| match k {
-                _ if k == frame => ZERO,
-                _ if turn == ZERO => links[k].turn,
-                _ => links[k].turn - turn,
-            };
-            let ways = [Way::new(links, frame, a), Way::new(links, frame, b)];
-            View {
-                drift: placed[1].velocity - placed[0].velocity - turn.cross(offset),
-                turns: [turn_of(a), turn_of(b)],
-                bend: ways[0].bend + ways[1].bend,
-                bends: ways.map(|way| way.factors().1),
-            }
-        });
+        let (offset, turn) = (b.centre - a.centre, links[from].turn);
+        let ways = numbers.map(|link| Way::new(links, from, link));
         Some(Stretch {
             bodies,
             placed,
             offset,
-            views,
+            drift: b.velocity - a.velocity - turn.cross(offset),
+            // What the axis turns with does not turn, as it is seen from there.
+            turns: numbers.map(|link| match links[link].turn {
+                _ if link == from => ZERO,
+                of_link if turn == ZERO => of_link,
+                of_link => of_link - turn,
+            }),
+            bend: ways.iter().map(|way| way.bend).sum(),
+            bends: ways.map(|way| way.factors().1),
         })
     }
 
-    /// Returns whether an axis, no longer than 1, keeps two parts farther apart than `least` over the whole stretch. It turns
-    /// with the world, A or B: 0, 1, 2.
-    pub(crate) fn keeps_apart(
-        &self,
-        parts: [Part; 2],
-        axis: Point,
-        frame: usize,
-        least: i128,
-    ) -> bool {
-        let (view, one) = (&self.views[frame], i128::from(ONE.mid[0]));
-        let [middle, change] = [self.offset, view.drift].map(|v| dot(axis, v.mid));
-        let lost = 3 * i128::from(self.offset.rad + view.drift.rad) * one;
+    /// Returns whether an axis, no longer than 1, keeps two parts farther apart than `least` over the whole stretch.
+    pub(crate) fn keeps_apart(&self, parts: [Part; 2], axis: Point, least: i128) -> bool {
+        let one = i128::from(ONE.mid[0]);
+        let [middle, change] = [self.offset, self.drift].map(|v| dot(axis, v.mid));
+        let lost = 3 * i128::from(self.offset.rad + self.drift.rad) * one;
         let mut gaps = [middle - change - lost, middle + change - lost];
-        let mut bend = view.bend;
+        let mut bend = self.bend;
         for (k, facing) in [axis.map(i64::neg), axis].into_iter().enumerate() {
-            let (body, placed, turn) = (self.bodies[k], &self.placed[k], view.turns[k]);
+            let (body, placed, turn) = (self.bodies[k], &self.placed[k], self.turns[k]);
             let (part, from) = (parts[k], body.centre.mid);
             // The corners and the centre are off by less than 1 each, in each coordinate.
             let reach = body.mesh.reach(part, from) + 4;
@@ -84,7 +65,7 @@ impl<'a> Stretch<'a> {
             let lost = 3 * rad * reach + 24 * one;
             let height = |direction: Point| {
                 body.mesh
-                    .least_height(part, placed.to_link(direction), from)
+                    .least_height(part, placed.turn_back(direction), from)
                     - lost
             };
             let tilt = cross(facing, turn.mid);
@@ -94,7 +75,7 @@ impl<'a> Stretch<'a> {
                 [height(minus(facing, tilt)), height(plus(facing, tilt))]
             };
             gaps = [gaps[0] + heights[0], gaps[1] + heights[1]];
-            bend += up(view.bends[k], reach);
+            bend += up(self.bends[k], reach);
         }
         gaps.iter().all(|&gap| gap > (least + bend / 2 + 1) * one)
     }

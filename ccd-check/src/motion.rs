@@ -147,7 +147,7 @@ impl Placed {
     }
 
     /// Returns a direction of the world in the frame of the link, rounded down.
-    pub(crate) fn to_link(&self, direction: Point) -> Point {
+    pub(crate) fn turn_back(&self, direction: Point) -> Point {
         self.columns
             .map(|column| (dot(column.mid, direction) >> FRACTION) as i64)
     }
