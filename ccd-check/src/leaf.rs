@@ -51,21 +51,21 @@ impl<'a> Stretch<'a> {
     pub(crate) fn keeps_apart(&self, parts: [Part; 2], axis: Point, least: i128) -> bool {
         let one = i128::from(ONE.mid[0]);
         let [middle, change] = [self.offset, self.drift].map(|v| dot(axis, v.mid));
-        let lost = 3 * i128::from(self.offset.rad + self.drift.rad) * one;
+        let lost = i128::from(self.offset.rad + self.drift.rad) * one;
         let mut gaps = [middle - change - lost, middle + change - lost];
         let mut bend = self.bend;
         for (k, facing) in [axis.map(i64::neg), axis].into_iter().enumerate() {
             let (body, placed, turn) = (self.bodies[k], &self.placed[k], self.turns[k]);
             let (part, from) = (parts[k], body.centre.mid);
-            // The corners and the centre are off by less than 1 each, in each coordinate.
+            // Corners and centre are off by less than 2 each.
             let reach = body.mesh.reach(part, from) + 4;
-            // A direction has coordinates up to 3, off by 2 turn.rad and a rounding. In the link's frame it is off by 3 times
-            // that, by 9 rad and a rounding. Corners and centre are off by 6 in all, times a coordinate.
-            let rad = i128::from(6 * turn.rad + 9 * placed.rad + 4);
-            let lost = 3 * rad * reach + 24 * one;
+            // A direction is no longer than 3. It is off by turn.rad and a rounding, and in the link's frame by 3 times what the
+            // rotation is off by, and another rounding.
+            let rad = i128::from(turn.rad + 3 * placed.rotation.rad + 4);
+            let lost = rad * reach + 12 * one;
             let height = |direction: Point| {
                 body.mesh
-                    .least_height(part, placed.turn_back(direction), from)
+                    .least_height(part, placed.rotation.turn_back(direction), from)
                     - lost
             };
             let tilt = cross(facing, turn.mid);

@@ -1,7 +1,7 @@
 //! Links, each of which moves on the one that carries it, and where they are at a time.
 
 use crate::Stop;
-use crate::number::{FRACTION, Number, ONE, Point, Vector, ZERO, dot};
+use crate::number::{FRACTION, Matrix, Number, ONE, Vector, ZERO};
 use crate::reader::Reader;
 use crate::rotation::Rotation;
 use alloc::vec::Vec;
@@ -10,8 +10,6 @@ use alloc::vec::Vec;
 pub(crate) const TIME: u32 = 60;
 
 const UNIT: i64 = -(FRACTION as i64);
-
-type Columns = [Vector; 3];
 
 /// How a link moves on its parent: its centre along a line, and the link about it at a constant rate.
 pub(crate) struct Link {
@@ -23,7 +21,7 @@ pub(crate) struct Link {
     arm: Vector,
     travel: Vector,
     /// The rotation at time 0, and the rotation vector of the unit of time.
-    columns: Columns,
+    start: Matrix,
     turn: Vector,
     /// Bounds of the sums of all arms, and of all turns, from the world to the link.
     reach: i128,
@@ -42,13 +40,13 @@ impl Link {
         let kind = reader.unsigned(1)?;
         reader.require(kind < 3, "there is no such kind of link")?;
         let position = reader.vector(length, 50)?;
-        let columns = read_rotation(reader)?;
+        let start = read_rotation(reader)?;
         let mut link = Link {
             parent,
             centre: ZERO,
             arm: position,
             travel: ZERO,
-            columns,
+            start,
             turn: ZERO,
             reach: 0,
             turned: 0,
@@ -57,14 +55,14 @@ impl Link {
             link.travel = reader.vector(per_time, 50)?;
             link.turn = reader.vector(UNIT - units[1], FRACTION + 8)?;
             link.centre = reader.vector(length, 50)?;
-            link.arm = position + apply(columns, link.centre);
+            link.arm = position + start.apply(link.centre);
         } else {
-            let axis = apply(columns, reader.vector(UNIT, FRACTION + 1)?);
+            let axis = start.apply(reader.vector(UNIT, FRACTION + 1)?);
             if kind == 1 {
                 let angle = reader.number(UNIT, FRACTION + 8)?;
                 let rate = reader.number(UNIT - units[1], FRACTION + 8)?;
                 let turned = Rotation::by(axis.times(angle, FRACTION));
-                link.columns = columns.map(|column| turned.turn(column));
+                link.start = turned.matrix().times(start);
                 link.turn = axis.times(rate, FRACTION);
             } else {
                 link.arm = position + axis.times(reader.number(length, 50)?, FRACTION);
@@ -89,9 +87,7 @@ impl Link {
 pub(crate) struct Placed {
     pub(crate) parent: usize,
     pub(crate) centre: Vector,
-    pub(crate) columns: Columns,
-    /// The largest radius of the columns.
-    pub(crate) rad: i64,
+    pub(crate) rotation: Matrix,
     /// How the centre moves, and how the link turns.
     pub(crate) velocity: Vector,
     pub(crate) turn: Vector,
@@ -106,12 +102,10 @@ pub(crate) struct Placed {
 impl Placed {
     /// Returns the world and all links in the middle of a stretch of time.
     pub(crate) fn all(links: &[Link], middle: Number, half: Number) -> Vec<Placed> {
-        let one = ONE.mid[0];
         let mut placed = alloc::vec![Placed {
             parent: 0,
             centre: ZERO,
-            columns: [[one, 0, 0], [0, one, 0], [0, 0, one]].map(Vector::exact),
-            rad: 0,
+            rotation: Matrix::IDENTITY,
             velocity: ZERO,
             turn: ZERO,
             arm: ZERO,
@@ -121,20 +115,19 @@ impl Placed {
         }];
         for link in links {
             let on = placed[link.parent];
-            let (mut columns, mut own_turn) = (link.columns, ZERO);
+            let (mut rotation, mut own_turn) = (link.start, ZERO);
             if link.turn != ZERO {
                 let turned = Rotation::by(link.turn.times(middle, TIME));
-                columns = columns.map(|column| turned.turn(column));
-                own_turn = apply(on.columns, link.turn.times(half, TIME));
+                rotation = turned.matrix().times(link.start);
+                own_turn = on.rotation.apply(link.turn.times(half, TIME));
             }
-            let arm = apply(on.columns, link.arm + link.travel.times(middle, TIME));
-            let travel = apply(on.columns, link.travel.times(half, TIME));
-            let columns = columns.map(|column| apply(on.columns, column));
+            let arm = link.arm + link.travel.times(middle, TIME);
+            let arm = on.rotation.apply(arm);
+            let travel = on.rotation.apply(link.travel.times(half, TIME));
             placed.push(Placed {
                 parent: link.parent,
                 centre: on.centre + arm,
-                columns,
-                rad: columns.iter().fold(0, |most, column| most.max(column.rad)),
+                rotation: on.rotation.times(rotation),
                 velocity: on.velocity + on.turn.cross(arm) + travel,
                 turn: on.turn + own_turn,
                 arm,
@@ -145,25 +138,10 @@ impl Placed {
         }
         placed
     }
-
-    /// Returns a direction of the world in the frame of the link, rounded down.
-    pub(crate) fn turn_back(&self, direction: Point) -> Point {
-        self.columns
-            .map(|column| (dot(column.mid, direction) >> FRACTION) as i64)
-    }
 }
 
-/// Returns the sum of the columns of a rotation, times the coordinates of a vector.
-pub(crate) fn apply([x, y, z]: Columns, v: Vector) -> Vector {
-    let [a, b, c] = v.mid.map(|mid| Number {
-        mid: [mid],
-        rad: v.rad,
-    });
-    x.times(a, FRACTION) + y.times(b, FRACTION) + z.times(c, FRACTION)
-}
-
-/// Reads a quaternion x, y, z, w, and returns the columns of its rotation.
-fn read_rotation(reader: &mut Reader<'_>) -> Result<Columns, Stop> {
+/// Reads a quaternion x, y, z, w, and returns its rotation.
+fn read_rotation(reader: &mut Reader<'_>) -> Result<Matrix, Stop> {
     let vector = reader.vector(UNIT, FRACTION + 1)?;
     let scalar = reader.number(UNIT, FRACTION + 1)?;
     let excess = vector.dot(vector) + scalar.times(scalar, FRACTION) - ONE;
@@ -178,7 +156,5 @@ fn read_rotation(reader: &mut Reader<'_>) -> Result<Columns, Stop> {
         vector,
         factor: inverse + inverse,
     };
-    let one = ONE.mid[0];
-    let basis = [[one, 0, 0], [0, one, 0], [0, 0, one]];
-    Ok(basis.map(|axis| rotation.turn(Vector::exact(axis))))
+    Ok(rotation.matrix())
 }

@@ -1,8 +1,8 @@
-//! Integers with a radius: numbers and vectors that are known to within it.
+//! Integers with a radius: numbers, vectors and rotations that are known to within it.
 
 use core::ops::{Add, Neg, Sub};
 
-/// Numbers, each from `mid - rad` to `mid + rad`, in a unit that the context names.
+/// A number, or a vector, that is no farther than `rad` from `mid`, in a unit that the context names.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ball<const N: usize> {
     pub(crate) mid: [i64; N],
@@ -51,15 +51,15 @@ impl<const N: usize> Ball<N> {
         Ball { mid, rad: 0 }
     }
 
-    /// Returns an upper bound of all absolute values.
+    /// Returns an upper bound of the length.
     pub(crate) fn size(self) -> i64 {
-        self.mid.iter().fold(0, |most, x| most.max(x.abs())) + self.rad
+        self.mid.iter().map(|x| x.abs()).sum::<i64>() + self.rad
     }
 
     /// Returns the product with a number, divided by 2 to the power of `bits`.
     pub(crate) fn times(self, other: Number, bits: u32) -> Self {
         let mid = self.mid.map(|x| (product(x, other.mid[0]) >> bits) as i64);
-        let rad = rounded(radius(self, other, 1), bits);
+        let rad = rounded(radius(self, other), bits);
         Ball { mid, rad }
     }
 
@@ -67,17 +67,17 @@ impl<const N: usize> Ball<N> {
     pub(crate) fn over(self, divisor: i64) -> Self {
         Ball {
             mid: self.mid.map(|x| x.div_euclid(divisor)),
-            rad: self.rad / divisor + 2,
+            rad: self.rad / divisor + 3,
         }
     }
 }
 
 impl Vector {
-    /// Returns the vector of three numbers.
+    /// Returns the vector of three numbers. Its radius is at most √3 times the largest of theirs.
     pub(crate) fn of([x, y, z]: [Number; 3]) -> Vector {
         Ball {
             mid: [x.mid[0], y.mid[0], z.mid[0]],
-            rad: x.rad.max(y.rad).max(z.rad),
+            rad: 2 * x.rad.max(y.rad).max(z.rad),
         }
     }
 
@@ -85,7 +85,7 @@ impl Vector {
     pub(crate) fn dot(self, other: Self) -> Number {
         Ball {
             mid: [(dot(self.mid, other.mid) >> FRACTION) as i64],
-            rad: rounded(radius(self, other, 3), FRACTION),
+            rad: rounded(radius(self, other), FRACTION),
         }
     }
 
@@ -93,28 +93,85 @@ impl Vector {
     pub(crate) fn cross(self, other: Vector) -> Vector {
         Ball {
             mid: cross(self.mid, other.mid),
-            rad: rounded(radius(self, other, 2), FRACTION),
+            rad: rounded(radius(self, other), FRACTION),
         }
     }
 
-    /// Returns an upper bound of the length.
+    /// Returns an upper bound of the length, a closer one.
     pub(crate) fn length(self) -> i128 {
         // Rounded up to numbers of 30 bits, so that the sum of their squares has 62.
         let bits = (64 - self.size().leading_zeros()).saturating_sub(30);
         let rounded = self.mid.map(|x| (x.unsigned_abs() >> bits) + 1);
         let squares: u64 = rounded.iter().map(|x| x * x).sum();
-        i128::from((squares.isqrt() + 1) << bits) + 2 * i128::from(self.rad)
+        i128::from((squares.isqrt() + 1) << bits) + i128::from(self.rad)
     }
 }
 
-/// Returns the radius of a sum of products.
-fn radius<const N: usize, const M: usize>(a: Ball<N>, b: Ball<M>, terms: i128) -> i128 {
-    terms * (product(a.size(), b.rad) + product(a.rad, b.size()))
+/// Returns the radius of a product, be it of numbers or of vectors: none is longer than the lengths' product.
+fn radius<const N: usize, const M: usize>(a: Ball<N>, b: Ball<M>) -> i128 {
+    product(a.size(), b.rad) + product(a.rad, b.size())
 }
 
-/// Returns the radius after a shift, which drops less than 1 of the middle and of the radius.
+/// Returns the radius after a shift, which drops less than 1 of each coordinate, so less than 2 in all, and of the radius.
 fn rounded(radius: i128, bits: u32) -> i64 {
-    (radius >> bits) as i64 + 2
+    (radius >> bits) as i64 + 3
+}
+
+/// A rotation, as columns of fractions: the matrix is off by a matrix whose norm is at most `rad`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Matrix {
+    columns: [Point; 3],
+    pub(crate) rad: i64,
+}
+
+impl Matrix {
+    pub(crate) const IDENTITY: Matrix = {
+        let one = 1 << FRACTION;
+        Matrix {
+            columns: [[one, 0, 0], [0, one, 0], [0, 0, one]],
+            rad: 0,
+        }
+    };
+
+    /// Returns the matrix of columns. The norm of what they are off by is at most √3 times the largest radius.
+    pub(crate) fn of(columns: [Vector; 3]) -> Matrix {
+        Matrix {
+            columns: columns.map(|column| column.mid),
+            rad: 2 * columns.iter().fold(0, |most, column| most.max(column.rad)),
+        }
+    }
+
+    /// Returns the matrix with each column changed as a vector is.
+    pub(crate) fn map(self, change: impl FnMut(Vector) -> Vector) -> Matrix {
+        Matrix::of(self.columns.map(Vector::exact).map(change))
+    }
+
+    pub(crate) fn apply(self, v: Vector) -> Vector {
+        Ball {
+            mid: self.apply_to_middle(v.mid),
+            rad: v.rad + rounded(product(self.rad, v.size()), FRACTION),
+        }
+    }
+
+    fn apply_to_middle(self, v: Point) -> Point {
+        let [x, y, z] = self.columns;
+        [0, 1, 2].map(|k| (dot([x[k], y[k], z[k]], v) >> FRACTION) as i64)
+    }
+
+    /// Returns the product: R S is off by (R + E)(S + F) − R S, whose norm is at most |E| + |F| + |E| |F|. The shifts of nine
+    /// entries drop less than 3 in all.
+    pub(crate) fn times(self, other: Matrix) -> Matrix {
+        Matrix {
+            columns: other.columns.map(|column| self.apply_to_middle(column)),
+            rad: self.rad + other.rad + 1 + rounded(product(self.rad, other.rad), FRACTION),
+        }
+    }
+
+    /// Returns the product of the transposed matrix with a vector, rounded down.
+    pub(crate) fn turn_back(&self, v: Point) -> Point {
+        self.columns
+            .map(|column| (dot(column, v) >> FRACTION) as i64)
+    }
 }
 
 impl<const N: usize> Add for Ball<N> {

@@ -1,6 +1,6 @@
 //! Rotations: exponentials of rotation vectors, enclosed.
 
-use crate::number::{FRACTION, Number, ONE, Vector};
+use crate::number::{FRACTION, Matrix, Number, ONE, Vector};
 
 /// A rotation as a quaternion, with 2 over the square of its length.
 pub(crate) struct Rotation {
@@ -38,7 +38,11 @@ impl Rotation {
         }
     }
 
-    pub(crate) fn turn(&self, v: Vector) -> Vector {
+    pub(crate) fn matrix(&self) -> Matrix {
+        Matrix::IDENTITY.map(|axis| self.turn(axis))
+    }
+
+    fn turn(&self, v: Vector) -> Vector {
         let once = self.vector.cross(v);
         let sum = once.times(self.scalar, FRACTION) + self.vector.cross(once);
         v + sum.times(self.factor, FRACTION)

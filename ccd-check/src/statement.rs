@@ -1,6 +1,6 @@
 //! What a certificate states: meshes, how they move, which pairs stay apart, and two points that come near.
 
-use crate::motion::{Link, Placed, TIME, apply};
+use crate::motion::{Link, Placed, TIME};
 use crate::number::{Number, Vector, product};
 use crate::reader::Reader;
 use crate::{Body, Stop};
@@ -154,13 +154,13 @@ impl<'b> Statement<'b> {
                     .map(|c| product(weights[c], corners[c][axis]))
                     .sum::<i128>()
             };
-            // Off by less than 1 with the corners, and by as much with what the shift drops.
+            // Off by less than 2 with the corners, and by as much with what the shift drops.
             let point = Vector {
                 mid: [0, 1, 2].map(|axis| (sum(axis) >> WEIGHT_BITS) as i64),
-                rad: 2,
+                rad: 4,
             };
             let link = placed[body.link];
-            link.centre + apply(link.columns, point - body.centre)
+            link.centre + link.rotation.apply(point - body.centre)
         });
         // Margin, radii and tolerance are rounded up: by less than 1 each.
         (b - a).length() + 4 <= self.least(witness.pair) + i128::from(witness.tolerance)

@@ -4,6 +4,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use nalgebra::{Matrix3, SymmetricEigen};
 use sha2::{Digest, Sha256};
+use std::cmp::Ordering;
 use std::ops::Range;
 
 /// The number of triangles of a node that has no children, at most.
@@ -91,6 +92,7 @@ impl Body {
     /// Makes a body of the triangles of one of the engine's, and the radius by which it is rounded. A ball is a triangle whose
     /// corners are its centre, a capsule one that is its axis.
     ///
+    /// Vertices and triangles are sorted, so that the bytes of the mesh do not depend on the tree that the engine has built.
     /// `None` if pieces are rounded by different radii, or have no triangles of a mesh.
     pub fn of(body: &ccd_core::Body) -> Option<(Self, f64)> {
         let radius = body.pieces().get(0).radius;
@@ -100,21 +102,25 @@ impl Body {
                 _ if piece.radius != radius => return None,
                 [point] => triangles.push([*point; 3]),
                 [from, to] => triangles.push([*from, *to, *to]),
+                [a, b, c] if piece.mesh_triangles().next().is_none() => triangles.push([*a, *b, *c]),
                 _ => {
                     let of_piece = piece.mesh_triangles().map(|(_, corners)| corners);
                     triangles.extend(of_piece);
                 }
             }
         }
-        let vertices: Vec<[f64; 3]> = triangles.iter().flatten().map(|v| v.to_array()).collect();
-        let count = triangles.len() as u32;
-        let faces: Vec<[u32; 3]> = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
-        (count > 0).then(|| (Body::new(&vertices, &faces), radius))
+        let (vertices, faces) = canonical(&triangles);
+        (!faces.is_empty()).then(|| (Body::new(&vertices, &faces), radius))
     }
 
     /// Returns the mesh as the bytes whose digest a certificate states.
     pub fn mesh(&self) -> &[u8] {
         &self.mesh
+    }
+
+    /// Returns the SHA-256 digest of the mesh.
+    pub fn digest(&self) -> [u8; 32] {
+        self.digest
     }
 
     /// Returns the certificate of the body's tree.
@@ -242,8 +248,35 @@ impl Node {
             height += lesser(multiple * low, multiple * high);
             rest -= multiple * *axis;
         }
-        height + rest.dot(self.centre) - rest.abs().element_sum() * self.radius
+        // The checker rounds multiples to 2⁻³⁶, so what is left of the direction is larger there.
+        height + rest.dot(self.centre) - (rest.abs().element_sum() + 4e-10) * self.radius
     }
+}
+
+/// Returns the vertices of triangles in the order of their coordinates, and the triangles in the order of their corners, the
+/// least of which comes first.
+fn canonical(triangles: &[[DVec3; 3]]) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
+    let compare = |a: &[f64; 3], b: &[f64; 3]| {
+        let coordinates = a.iter().zip(b).map(|(a, b)| a.total_cmp(b));
+        coordinates.fold(Ordering::Equal, Ordering::then)
+    };
+    let mut vertices: Vec<[f64; 3]> = triangles.iter().flatten().map(|v| v.to_array()).collect();
+    vertices.sort_by(compare);
+    vertices.dedup_by(|a, b| compare(a, b).is_eq());
+    let number = |corner: DVec3| {
+        let corner = corner.to_array();
+        vertices.partition_point(|v| compare(v, &corner).is_lt()) as u32
+    };
+    let mut faces: Vec<[u32; 3]> = triangles
+        .iter()
+        .map(|corners| corners.map(number))
+        .collect();
+    for face in &mut faces {
+        let least = (0..3).min_by_key(|&k| face[k]).unwrap_or(0);
+        face.rotate_left(least);
+    }
+    faces.sort_unstable();
+    (vertices, faces)
 }
 
 /// Splits triangles in halves along their longest axis, until there are as many parts as a node has children.

@@ -7,6 +7,7 @@ mod error;
 mod nearest;
 mod placed;
 mod scene;
+mod statement;
 mod stretch;
 mod write;
 
@@ -14,4 +15,5 @@ pub use body::Body;
 pub use cell::ProvenCell;
 pub use error::NotProven;
 pub use scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
+pub use statement::{Statement, steps_text};
 pub use write::{Proof, prove};

@@ -4,6 +4,8 @@
 
 mod bad_rows;
 mod causes;
+mod certificates;
+mod check;
 mod completions;
 mod contacts;
 mod counts;
@@ -40,6 +42,7 @@ pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 pub use table::TableWriter;
 
 use crate::printable::PrintableText;
+use check::CheckArgs;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use completions::CompletionsArgs;
 use decompose::DecomposeArgs;
@@ -72,6 +75,7 @@ Examples:
   ccd clearance arm.urdf --joint elbow=-30deg:60deg --require 5mm
   ccd acm arm.urdf --out arm.srdf
   ccd replay arm.urdf --cell cell.toml --record stop.json
+  ccd check proofs/*.proof --a knot.obj --b knot.obj
   ccd decompose knot.obj --pieces patches --out knot.ccd
   ccd completions bash > ~/.local/share/bash-completion/completions/ccd
 
@@ -93,6 +97,8 @@ enum Command {
     Acm(AcmArgs),
     /// Ask recorded questions about a robot again, and say whether the recorded answers hold
     Replay(Box<ReplayArgs>),
+    /// Check machine-checkable proofs of `ccd query` or `ccd edges`
+    Check(CheckArgs),
     /// Split a mesh into convex pieces; print statistics, write the pieces or the prepared body
     Decompose(DecomposeArgs),
     /// Print a completion script for a shell
@@ -127,6 +133,7 @@ pub fn main() -> ExitCode {
         Command::Clearance(args) => robots::run_clearance(&args),
         Command::Acm(args) => robots::run_acm(&args),
         Command::Replay(args) => robots::run_replay(&args),
+        Command::Check(args) => check::run(&args),
         Command::Decompose(args) => decompose::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),

@@ -15,6 +15,7 @@ use super::output::{Output, is_standard_output};
 use super::view::{ChosenRows, title, write_rows_page};
 use super::{RunOutcome, print_error};
 use crate::bad_rows::BadRowCounter;
+use crate::certificates::PairCertificates;
 use crate::pair::Pair;
 use crate::picture::{Painter, QueryContext, TimeMeaning};
 use crate::progress::Progress;
@@ -46,6 +47,10 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     let places = ClaimedFiles::claim(&files)?;
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let pair = args.bodies.load(method(args), args.quiet)?;
+    let certificates = args.certificates.as_deref();
+    let certificates = certificates
+        .map(|folder| PairCertificates::new(folder, pair.bodies(), args.margin))
+        .transpose()?;
     let (mut outputs, earlier) =
         match OpenedTables::new(&files, places, &recorded_options(args, given, &pair))? {
             OpenedTables::Unfinished(outputs, earlier) => (*outputs, earlier),
@@ -81,6 +86,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
         bad_rows: BadRowCounter::new(input_name(&args.motions)),
         progress: Progress::for_rows(length, args.quiet),
         outputs,
+        certificates,
         html_rows: args
             .html
             .as_ref()
@@ -200,6 +206,16 @@ fn refuse_options_unfit_for_each_other(args: &QueryArgs) -> Result<()> {
     if args.contacts.is_some() && !ask.has_single_contact_time() {
         bail!("--contacts needs --ask first-contact or is-free");
     }
+    if args.certificates.is_some() {
+        if !ask.has_single_contact_time() {
+            bail!("--certificates needs --ask first-contact or is-free");
+        }
+        if ignores_start_contacts(args) {
+            bail!(
+                "--certificates needs --start report: bodies that touch at the start are not apart"
+            );
+        }
+    }
     if ask != Question::FirstContact && args.schedule != ScheduleKind::BestFirst {
         bail!("--ask {ask} needs --schedule best-first");
     }
@@ -224,6 +240,9 @@ fn refuse_options_unfit_for_paths(args: &QueryArgs, rows: &Rows) -> Result<()> {
             "--schedule {} needs a table of motions, not of paths",
             args.schedule
         );
+    }
+    if rows.is_path_table() && args.certificates.is_some() {
+        bail!("--certificates needs a table of motions, not of paths");
     }
     if rows.is_path_table() && ignores_start_contacts(args) {
         bail!("--start leave needs a table of motions, not of paths");

@@ -3,6 +3,7 @@
 use anyhow::Result;
 use ccd_prove::{Body, NotProven, Proof};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::fmt::{self, Display};
 use std::fs::write;
 use std::path::PathBuf;
@@ -56,13 +57,14 @@ impl Tally {
         if let Some(folder) = &self.folder {
             write(folder.join(format!("{name}.proof")), &proof.bytes)?;
         }
-        if !self.read.contains_key(&proof.unit) {
-            let read = meshes
-                .map(|body| ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit));
-            self.read
-                .insert(proof.unit, read.collect::<Result<_, _>>()?);
-        }
-        let meshes = &self.read[&proof.unit];
+        let meshes = match self.read.entry(proof.unit) {
+            Entry::Occupied(read) => read.into_mut(),
+            Entry::Vacant(place) => {
+                let read = meshes
+                    .map(|body| ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit));
+                place.insert(read.collect::<Result<_, _>>()?)
+            }
+        };
         // The least of two: what comes first has everything to fetch.
         let mut least = f64::INFINITY;
         for _ in 0..2 {

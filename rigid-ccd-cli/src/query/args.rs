@@ -91,6 +91,10 @@ pub(crate) struct QueryArgs {
     /// Write an HTML page to this file with pictures of some rows: up to 4 of each status, or those of --html-ids
     #[arg(long, value_name = "HTML")]
     pub(super) html: Option<PathBuf>,
+    /// Write machine-checkable proofs of the answers to this folder: ID.proof for each row that is free, or free until it
+    /// touches or a limit is reached; `ccd check` checks them
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) certificates: Option<PathBuf>,
     /// Show the rows with these ids on the page
     #[arg(long, value_name = "ID,...", value_delimiter = ',', requires = "html")]
     pub(super) html_ids: Vec<String>,
@@ -126,7 +130,8 @@ impl QueryArgs {
 /// The ids of the options that the journal does not record as they are given. Most of them change no byte of the
 /// tables. The journal has a checksum of the motions instead of their path, and one form of `--rows` instead of
 /// several.
-pub(super) const UNRECORDED_OPTIONS: [&str; 10] = [
+pub(super) const UNRECORDED_OPTIONS: [&str; 11] = [
+    "certificates",
     "motions",
     "threads",
     "instructions",

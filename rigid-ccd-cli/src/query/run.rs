@@ -3,6 +3,7 @@
 use super::args::QueryArgs;
 use super::summary::Summary;
 use crate::bad_rows::BadRowCounter;
+use crate::certificates::PairCertificates;
 use crate::contacts;
 use crate::counts::StatusCounts;
 use crate::output::OutputError;
@@ -28,6 +29,8 @@ pub(super) struct QueryRun<'a> {
     pub(super) bad_rows: BadRowCounter,
     pub(super) progress: Progress,
     pub(super) outputs: Outputs,
+    /// The proofs of `--certificates`.
+    pub(super) certificates: Option<PairCertificates>,
     /// The rows chosen for the page of `--html`; `None` without this option.
     pub(super) html_rows: Option<ChosenRows>,
     pub(super) summary: Summary,
@@ -109,7 +112,38 @@ impl QueryRun<'_> {
                 answered.push((position, course, timed));
             }
         }
-        self.find_and_write_contacts(&answered)
+        self.find_and_write_contacts(&answered)?;
+        self.prove_and_write(&answered)
+    }
+
+    /// Writes the proofs of the answered rows; a row whose answer cannot be proven counts as bad.
+    fn prove_and_write(
+        &mut self,
+        answered: &[(RowPosition, &Movements, &TimedAnswer)],
+    ) -> Result<(), OutputError> {
+        let Some(certificates) = &self.certificates else {
+            return Ok(());
+        };
+        let question = self.timed_question.question;
+        for few in answered.chunks(PROVEN_BATCH_ROWS) {
+            let proofs = self.solver.map(few, |_, (_, course, timed)| match course {
+                Movements::Motions(motions) => {
+                    certificates.prove(motions, (question, &timed.answer))
+                }
+                Movements::Path(_) => None,
+            });
+            for ((position, course, _), proof) in few.iter().zip(proofs) {
+                match proof {
+                    None => {}
+                    Some(Ok(proof)) => certificates.folder.write_proof(course.id(), &proof)?,
+                    Some(Err(error)) => {
+                        let problem = format!("certificate: {error}");
+                        self.bad_rows.report(*position, &problem, &self.progress);
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Writes the contacts of the answered rows; a row with too many contacts counts as bad.
@@ -145,6 +179,9 @@ impl QueryRun<'_> {
         Ok(())
     }
 }
+
+/// The number of rows whose proofs are in memory at the same time.
+const PROVEN_BATCH_ROWS: usize = 64;
 
 /// The number of rows whose contacts are in memory at the same time.
 const CONTACT_BATCH_ROWS: usize = 64;

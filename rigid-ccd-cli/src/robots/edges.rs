@@ -6,6 +6,7 @@ pub(crate) use args::{DEFAULT_PATH_TOLERANCE, EdgesArgs};
 
 use super::path_table::{PathTable, TablePath};
 use crate::bad_rows::BadRowCounter;
+use crate::certificates::CellCertificates;
 use crate::counts::StatusCounts;
 use crate::files::input_name;
 use crate::output::OutputError;
@@ -53,6 +54,11 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     let cell = args.cell.load(args.quiet)?;
     let (mut table, length) = PathTable::open("--edges", &args.edges, cell.robot(), &args.joint)
         .with_context(|| input_name(&args.edges))?;
+    let certificates = args.certificates.as_deref().map(|folder| {
+        let settings = args.settings();
+        CellCertificates::new(folder, &cell, [settings.margin, settings.tolerance])
+    });
+    let certificates = certificates.transpose()?;
     let options = recorded_options(args, given, &cell)?;
     let (mut outputs, earlier) = match OpenedTables::new(&files, claimed, &options)? {
         OpenedTables::Unfinished(outputs, earlier) => (*outputs, earlier),
@@ -77,6 +83,7 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
         bad_rows: BadRowCounter::new(input_name(&args.edges)),
         progress: Progress::for_rows(length, args.quiet),
         outputs,
+        certificates,
         counts: start.counts,
         times: TimeHistogram::default(),
     };
@@ -106,6 +113,7 @@ struct EdgesRun<'a> {
     bad_rows: BadRowCounter,
     progress: Progress,
     outputs: Outputs,
+    certificates: Option<CellCertificates<'a>>,
     counts: StatusCounts,
     times: TimeHistogram,
 }
@@ -137,7 +145,7 @@ impl Batches<Result<TablePath, RowError>> for EdgesRun<'_> {
         for (path, row) in paths.iter().zip(rows) {
             self.write(path, row)?;
         }
-        Ok(())
+        self.prove_and_write(paths)
     }
 
     fn counts(&self) -> (usize, StatusCounts) {
@@ -150,6 +158,37 @@ impl Batches<Result<TablePath, RowError>> for EdgesRun<'_> {
 }
 
 impl EdgesRun<'_> {
+    /// Writes the proofs of paths; one that cannot be proven counts as bad.
+    fn prove_and_write(
+        &mut self,
+        paths: &[Result<TablePath, RowError>],
+    ) -> Result<(), OutputError> {
+        let Some(certificates) = &self.certificates else {
+            return Ok(());
+        };
+        let paths: Vec<&TablePath> = paths.iter().filter_map(|path| path.as_ref().ok()).collect();
+        for few in paths.chunks(PROVEN_BATCH_ROWS) {
+            let proven = self.solver.map(few, |solver, path| {
+                certificates.prove(solver, (&path.id, &path.configurations))
+            });
+            for (path, proofs) in few.iter().zip(proven) {
+                match proofs {
+                    Ok(proofs) => {
+                        for (name, proof) in proofs {
+                            certificates.folder.write_proof(&name, &proof)?;
+                        }
+                    }
+                    Err(error) => {
+                        let problem = format!("certificate: {error}");
+                        self.bad_rows
+                            .report(path.position, &problem, &self.progress);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
     fn write(
         &mut self,
         path: &Result<TablePath, RowError>,
@@ -171,6 +210,9 @@ impl EdgesRun<'_> {
         self.outputs.results.add_row(&Line(&self.columns, &row))
     }
 }
+
+/// The number of paths whose proofs are in memory at the same time.
+const PROVEN_BATCH_ROWS: usize = 64;
 
 /// Answers the question about a path, and takes the time.
 fn answer(args: &EdgesArgs, solver: &mut CellSolver<'_>, path: &TablePath) -> ResultRow {

@@ -48,6 +48,10 @@ pub(crate) struct EdgesArgs {
     /// Write the table of results to this file, CSV; - writes to standard output
     #[arg(long, value_name = "CSV", default_value = "-")]
     pub(super) out: PathBuf,
+    /// Write machine-checkable proofs to this folder: ID.proof for each edge, ID-SEGMENT.proof for each segment of a path, until
+    /// the first contact; `ccd check` checks them
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) certificates: Option<PathBuf>,
     /// Leave column `micros` empty, so that equal answers give equal files
     #[arg(long)]
     pub(super) no_micros: bool,
@@ -81,8 +85,15 @@ const QUESTIONS: &Named<PathQuestion> = &[
 ];
 
 /// The ids of the options that the journal does not record, because they change no byte of the table, or are recorded otherwise.
-pub(super) const UNRECORDED_OPTIONS: [&str; 7] = [
-    "edges", "threads", "out", "resume", "check", "quiet", "rows",
+pub(super) const UNRECORDED_OPTIONS: [&str; 8] = [
+    "certificates",
+    "edges",
+    "threads",
+    "out",
+    "resume",
+    "check",
+    "quiet",
+    "rows",
 ];
 
 const AFTER_HELP: &str = "\

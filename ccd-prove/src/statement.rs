@@ -1,0 +1,167 @@
+//! What a certificate states, read for people: the checker reads it by itself.
+
+use std::fmt::{self, Display};
+
+/// The statement of a certificate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statement {
+    /// The exponents of the units of length and of time.
+    pub units: [i32; 2],
+    /// The links: the number of the parent, counted from 1, the kind, and the numbers.
+    pub links: Vec<(u32, u8, Vec<f64>)>,
+    /// The bodies: the digest of the mesh, the number of the link, the radius.
+    pub bodies: Vec<([u8; 32], u32, f64)>,
+    /// The pairs: both bodies, and the margin.
+    pub pairs: Vec<([u32; 2], f64)>,
+    /// The time until which the pairs are farther apart.
+    pub until: f64,
+    /// The witness: the pair, the time, the tolerance, and for each body a triangle and the weights of two corners.
+    pub witness: Option<(u32, f64, f64, [[u32; 3]; 2])>,
+    /// The number of bytes of the statement; what follows is its proof.
+    pub bytes: usize,
+}
+
+impl Statement {
+    /// Reads the statement of a certificate; `None` if it ends too early, or is none.
+    pub fn read(certificate: &[u8]) -> Option<Self> {
+        let mut at = Cursor(certificate);
+        if at.take(8)? != b"CCDPROOF" {
+            return None;
+        }
+        let units = [at.u32()? as i32, at.u32()? as i32];
+        let [links, bodies, pairs] = [at.u32()?, at.u32()?, at.u32()?];
+        let links = (0..links).map(|_| {
+            let (parent, kind) = (at.u32()?, at.take(1)?[0]);
+            let count = if kind == 0 { 16 } else { 12 };
+            Some((
+                parent,
+                kind,
+                (0..count).map(|_| at.f64()).collect::<Option<_>>()?,
+            ))
+        });
+        let links = links.collect::<Option<_>>()?;
+        let bodies =
+            (0..bodies).map(|_| Some((at.take(32)?.try_into().ok()?, at.u32()?, at.f64()?)));
+        let bodies = bodies.collect::<Option<_>>()?;
+        let pairs = (0..pairs).map(|_| Some(([at.u32()?, at.u32()?], at.f64()?)));
+        let pairs = pairs.collect::<Option<_>>()?;
+        let until = at.f64()?;
+        let witness = match at.take(1)?[0] {
+            0 => None,
+            _ => {
+                let (pair, time, tolerance) = (at.u32()?, at.f64()?, at.f64()?);
+                let mut point = || Some([at.u32()?, at.u32()?, at.u32()?]);
+                Some((pair, time, tolerance, [point()?, point()?]))
+            }
+        };
+        Some(Statement {
+            units,
+            links,
+            bodies,
+            pairs,
+            until,
+            witness,
+            bytes: certificate.len() - at.0.len(),
+        })
+    }
+
+    /// Returns the statement in one line.
+    pub fn summary(&self) -> String {
+        let Statement { pairs, until, .. } = self;
+        let margins = pairs.iter().map(|pair| pair.1);
+        let least = margins.fold(f64::INFINITY, ccd_core::order::lesser);
+        let count = if pairs.len() == 1 {
+            "1 pair".into()
+        } else {
+            format!("{} pairs", pairs.len())
+        };
+        let mut text = format!("{count} farther apart than {least} until {until}");
+        if let Some((pair, time, tolerance, _)) = self.witness {
+            text += &format!("; pair {pair} within {tolerance} more at {time}");
+        }
+        text
+    }
+}
+
+/// The statement as text, a line for each link, body and pair. Numbers are the shortest that are read as the same binary64.
+impl Display for Statement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [length, time] = self.units;
+        writeln!(f, "units 2^{length} of length, 2^{time} of time")?;
+        for (number, (parent, kind, numbers)) in self.links.iter().enumerate() {
+            let names = ["free", "turns", "slides"];
+            let kind = names.get(usize::from(*kind)).unwrap_or(&"of no kind");
+            writeln!(f, "link {} on {parent} {kind} {numbers:?}", number + 1)?;
+        }
+        for (number, (digest, link, radius)) in self.bodies.iter().enumerate() {
+            let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+            writeln!(f, "body {number} {digest} on {link} radius {radius:?}")?;
+        }
+        for (number, ([a, b], margin)) in self.pairs.iter().enumerate() {
+            writeln!(f, "pair {number} of {a} and {b} margin {margin:?}")?;
+        }
+        write!(f, "until {:?}", self.until)?;
+        if let Some((pair, time, tolerance, points)) = self.witness {
+            write!(
+                f,
+                "\nwitness of pair {pair} at {time:?} tolerance {tolerance:?} points {points:?}"
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// Returns the steps of a proof as text, one in each line; what cannot be read ends it.
+pub fn steps_text(certificate: &[u8], statement: &Statement) -> String {
+    let mut at = Cursor(certificate.get(statement.bytes..).unwrap_or_default());
+    let mut text = String::new();
+    while let Some(&[step]) = at.take(1) {
+        let frame = ["world", "A", "B"][usize::from(step % 3)];
+        let line = match step {
+            0 => Some("split A".to_owned()),
+            1 => Some("split B".to_owned()),
+            2 => at
+                .take(2)
+                .map(|k| format!("split time {}", u16::from_le_bytes([k[0], k[1]]))),
+            3..=5 => at.take(6).map(|axis| {
+                let axis: Vec<i16> = axis
+                    .chunks_exact(2)
+                    .map(|x| i16::from_le_bytes([x[0], x[1]]))
+                    .collect();
+                format!("leaf {frame} {axis:?}")
+            }),
+            6..=8 => at.take(12).map(|axis| {
+                let axis: Vec<i32> = axis
+                    .chunks_exact(4)
+                    .map(|x| i32::from_le_bytes([x[0], x[1], x[2], x[3]]))
+                    .collect();
+                format!("fine leaf {frame} {axis:?}")
+            }),
+            _ => None,
+        };
+        match line {
+            Some(line) => text += &(line + "\n"),
+            None => return text + "broken\n",
+        }
+    }
+    text
+}
+
+/// What is not read yet.
+struct Cursor<'a>(&'a [u8]);
+
+impl<'a> Cursor<'a> {
+    fn take(&mut self, count: usize) -> Option<&'a [u8]> {
+        let (taken, rest) = self.0.split_at_checked(count)?;
+        self.0 = rest;
+        Some(taken)
+    }
+
+    fn u32(&mut self) -> Option<u32> {
+        Some(u32::from_le_bytes(self.take(4)?.try_into().ok()?))
+    }
+
+    fn f64(&mut self) -> Option<f64> {
+        Some(f64::from_le_bytes(self.take(8)?.try_into().ok()?))
+    }
+}

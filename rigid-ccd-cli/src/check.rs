@@ -1,0 +1,181 @@
+//! `ccd check`: checks machine-checkable proofs, by a checker that shares no code with what found and wrote them.
+
+use crate::files::input_name;
+use crate::meshes::MeshArgs;
+use crate::output::OutputError;
+use crate::printable::PrintableText;
+use crate::{RunOutcome, print_error};
+use anyhow::{Context, Result, bail};
+use ccd_check::{Stop, check};
+use ccd_decomp::BodySource;
+use ccd_prove::{Body, Statement, steps_text};
+use clap::Args;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Check machine-checkable proofs of `ccd query` or `ccd edges`
+#[derive(Clone, Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub(crate) struct CheckArgs {
+    /// Proofs; each names its meshes by their digests
+    #[arg(required = true, value_name = "PROOF")]
+    proofs: Vec<PathBuf>,
+    /// Folder with NAME.mesh and NAME.body of all meshes [default: that of the first proof]
+    #[arg(long, value_name = "FOLDER")]
+    bodies: Option<PathBuf>,
+    /// Body A that the proofs have to be about, as for `ccd query`
+    #[arg(long, value_name = "BODY")]
+    a: Option<String>,
+    /// Body B that the proofs have to be about
+    #[arg(long, value_name = "BODY")]
+    b: Option<String>,
+    #[command(flatten)]
+    meshes: MeshArgs,
+    /// Print each statement in full
+    #[arg(long)]
+    show: bool,
+    /// Print the steps of each proof as well
+    #[arg(long, requires = "show")]
+    steps: bool,
+}
+
+const AFTER_HELP: &str = "\
+A proof holds for what it states: its meshes, motions, margins and times are printed. With --a and --b it has to be about these
+bodies; whether its motions are those that you want is yours to compare (--show).
+
+Verdicts:
+  holds          what is stated is true
+  broken         the proof or a mesh is not what it has to be; the reason follows
+  unverifiable   numbers are beyond the range of the checker
+  other bodies   the proof is about bodies other than --a and --b
+
+Exit code: 0 if all proofs hold, 3 if one does not, 2 for bad input.
+
+Examples:
+  ccd check proofs/0.proof --a knot.obj --b knot.obj
+  ccd check proofs/*.proof --show";
+
+/// The meshes of a folder as bytes, each with the certificate of its tree.
+type Meshes = Vec<(Vec<u8>, Vec<u8>)>;
+
+/// Runs `ccd check`.
+pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
+    let folder = args.bodies.as_deref();
+    let folder = folder.or(args.proofs.first().and_then(|proof| proof.parent()));
+    let meshes = read_meshes(folder.unwrap_or(Path::new("")))?;
+    let wanted = [
+        wanted_digest(("--a", &args.a), &args.meshes)?,
+        wanted_digest(("--b", &args.b), &args.meshes)?,
+    ];
+    // The checker reads the meshes in the unit of each proof, of which there are few.
+    let mut bodies = BTreeMap::new();
+    let mut outcome = RunOutcome::AllAnswered;
+    for path in &args.proofs {
+        let name = input_name(path);
+        let bytes = fs::read(path).with_context(|| format!("{name}: cannot read it"))?;
+        let Some(statement) = Statement::read(&bytes) else {
+            print_error(&format!("{name}: this is no proof"));
+            outcome = outcome.max(RunOutcome::SomeRowsBad);
+            continue;
+        };
+        let unit = statement.units[0];
+        let bodies = match bodies.entry(unit) {
+            Entry::Occupied(bodies) => bodies.into_mut(),
+            Entry::Vacant(place) => place.insert(read_bodies(&meshes, unit)),
+        };
+        let verdict = match bodies {
+            Ok(bodies) => check(bodies, &bytes),
+            Err(stop) => Err(*stop),
+        };
+        let verdict = match verdict {
+            Err(stop) => stop.to_string(),
+            Ok(()) if !is_about(&statement, &wanted) => "other bodies".to_owned(),
+            Ok(()) => format!("holds: {}", statement.summary()),
+        };
+        if !verdict.starts_with("holds") {
+            outcome = outcome.max(RunOutcome::SomeRowsUnproven);
+        }
+        print_line(&format!("{name}: {verdict}"))?;
+        if args.show {
+            statement.to_string().lines().try_for_each(print_line)?;
+        }
+        if args.steps {
+            steps_text(&bytes, &statement)
+                .lines()
+                .try_for_each(print_line)?;
+        }
+    }
+    Ok(outcome)
+}
+
+fn print_line(line: &str) -> Result<()> {
+    writeln!(io::stdout(), "{}", PrintableText(line))
+        .map_err(OutputError::standard_output_error)?;
+    Ok(())
+}
+
+/// Reads all files NAME.mesh of a folder, with NAME.body beside them.
+fn read_meshes(folder: &Path) -> Result<Meshes> {
+    let folder = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let shown = folder.display();
+    let mut meshes = Meshes::new();
+    let mut paths = fs::read_dir(folder)
+        .with_context(|| shown.to_string())?
+        .map(|entry| entry.map(|entry| entry.path()))
+        .collect::<io::Result<Vec<_>>>()
+        .with_context(|| shown.to_string())?;
+    paths.sort();
+    for mesh in paths
+        .iter()
+        .filter(|path| path.extension().is_some_and(|end| end == "mesh"))
+    {
+        let read = |path: &Path| fs::read(path).with_context(|| path.display().to_string());
+        meshes.push((read(mesh)?, read(&mesh.with_extension("body"))?));
+    }
+    if meshes.is_empty() {
+        bail!("{shown}: has no file NAME.mesh; give --bodies FOLDER");
+    }
+    Ok(meshes)
+}
+
+fn read_bodies(meshes: &Meshes, unit: i32) -> Result<Vec<ccd_check::Body>, Stop> {
+    let read = |(mesh, body): &(Vec<u8>, Vec<u8>)| ccd_check::Body::new(mesh, body, unit);
+    meshes.iter().map(read).collect()
+}
+
+/// Returns the digest of the mesh of a body that is named.
+fn wanted_digest(
+    (option, body): (&'static str, &Option<String>),
+    meshes: &MeshArgs,
+) -> Result<Option<[u8; 32]>> {
+    let Some(text) = body else {
+        return Ok(None);
+    };
+    let source: BodySource = text.parse().context(option)?;
+    let prepared = source
+        .load_adjusted(&meshes.adjustments(), meshes.detail())
+        .with_context(|| format!("{option} {text}"))?;
+    let body =
+        Body::of(&prepared.body).with_context(|| format!("{option} {text}: has no triangles"))?;
+    Ok(Some(body.0.digest()))
+}
+
+/// Returns whether a statement is about one pair of bodies with these digests.
+fn is_about(statement: &Statement, wanted: &[Option<[u8; 32]>; 2]) -> bool {
+    if wanted.iter().all(Option::is_none) {
+        return true;
+    }
+    let [([a, b], _)] = statement.pairs[..] else {
+        return false;
+    };
+    let digest = |number: u32| statement.bodies.get(number as usize).map(|body| body.0);
+    let is = |wanted: Option<[u8; 32]>, number| wanted.is_none() || wanted == digest(number);
+    is(wanted[0], a) && is(wanted[1], b)
+}
