@@ -163,6 +163,10 @@ impl<'c> CellCertificates<'c> {
         for (segment, ends) in path.windows(2).enumerate().take(end + 1) {
             let scene = self.cell.edge(&ends[0], &ends[1], self.clearance)?;
             let is_end = segment == end;
+            // What touches at the start of a segment is apart at no time of it.
+            if is_end && share == 0.0 {
+                break;
+            }
             let witness = contact.filter(|_| is_end);
             let witness =
                 witness.and_then(|contact| self.cell.witness(&scene, contact, self.tolerance));

@@ -55,7 +55,8 @@ Verdicts:
 Exit code: 0 if all proofs hold, 3 if one does not, 2 for bad input.
 
 Examples:
-  ccd check proofs/0.proof --a knot.obj --b knot.obj
+  ccd query --a knot.obj --b knot.obj --motions motions.csv --certificates proofs
+  ccd check proofs/hit.proof --a knot.obj --b knot.obj
   ccd check proofs/*.proof --show";
 
 /// The meshes of a folder as bytes, each with the certificate of its tree.

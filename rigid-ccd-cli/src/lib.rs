@@ -75,7 +75,8 @@ Examples:
   ccd clearance arm.urdf --joint elbow=-30deg:60deg --require 5mm
   ccd acm arm.urdf --out arm.srdf
   ccd replay arm.urdf --cell cell.toml --record stop.json
-  ccd check proofs/*.proof --a knot.obj --b knot.obj
+  ccd query --a knot.obj --b knot.obj --motions motions.csv --certificates proofs
+  ccd check proofs/hit.proof --a knot.obj --b knot.obj
   ccd decompose knot.obj --pieces patches --out knot.ccd
   ccd completions bash > ~/.local/share/bash-completion/completions/ccd
 

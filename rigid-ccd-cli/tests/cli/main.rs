@@ -1,5 +1,6 @@
 //! Tests the command `ccd` as a process.
 
+mod certificates;
 mod command;
 mod contacts;
 mod decompose;
