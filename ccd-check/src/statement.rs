@@ -6,8 +6,8 @@ use crate::reader::Reader;
 use crate::{Body, Stop};
 use alloc::vec::Vec;
 
-/// Weights of corners are multiples of 2⁻³¹.
-const WEIGHT_BITS: u32 = 31;
+/// Weights of corners are multiples of 2⁻⁶².
+const WEIGHT_BITS: u32 = 62;
 
 pub(crate) struct Statement<'b> {
     pub(crate) links: Vec<Link>,
@@ -114,10 +114,11 @@ impl<'b> Statement<'b> {
         let mut points = [(0, [0; 3]); 2];
         for (point, body) in points.iter_mut().zip(self.pairs[pair].bodies) {
             let triangle = reader.index(self.bodies[body].mesh.triangles.len())?;
-            let (a, b) = (reader.unsigned(4)? as i64, reader.unsigned(4)? as i64);
-            let rest = (1 << WEIGHT_BITS) - a - b;
-            reader.require(rest >= 0, "the weights of a witness are more than 1")?;
-            *point = (triangle, [a, b, rest]);
+            let (a, b) = (reader.unsigned(8)?, reader.unsigned(8)?);
+            let rest = (1u64 << WEIGHT_BITS).checked_sub(a);
+            let rest = rest.and_then(|rest| rest.checked_sub(b));
+            let rest = rest.ok_or(reader.broken("the weights of a witness are more than 1"))?;
+            *point = (triangle, [a, b, rest].map(|weight| weight as i64));
         }
         let is_in_time = time.mid[0] >= 0 && time.size() <= self.until;
         reader.require(is_in_time, "witnesses are at another time")?;

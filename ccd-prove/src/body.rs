@@ -102,7 +102,9 @@ impl Body {
                 _ if piece.radius != radius => return None,
                 [point] => triangles.push([*point; 3]),
                 [from, to] => triangles.push([*from, *to, *to]),
-                [a, b, c] if piece.mesh_triangles().next().is_none() => triangles.push([*a, *b, *c]),
+                [a, b, c] if piece.mesh_triangles().next().is_none() => {
+                    triangles.push([*a, *b, *c])
+                }
                 _ => {
                     let of_piece = piece.mesh_triangles().map(|(_, corners)| corners);
                     triangles.extend(of_piece);

@@ -2,6 +2,7 @@
 
 use crate::body::Body;
 use ccd_core::glam::DVec3;
+use ccd_core::order::lesser;
 
 /// A point of a mesh: a triangle by its place in the order of the tree, and the weights of its corners.
 pub(crate) struct MeshPoint {
@@ -32,39 +33,63 @@ impl MeshPoint {
     }
 }
 
-/// Returns the weights of the corners of the point of a triangle that is nearest to a point `[ERICSON05 §5.1.5]`.
-fn nearest_weights([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
-    let (ab, ac, ap) = (b - a, c - a, p - a);
-    let (d1, d2) = (ab.dot(ap), ac.dot(ap));
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return [1.0, 0.0, 0.0];
+/// Returns the weights of the corners of the point of a triangle that is nearest to a point: that below it, if it is inside, or
+/// the nearest one of an edge. So a triangle may be a segment or a point.
+fn nearest_weights(corners: [DVec3; 3], p: DVec3) -> [f64; 3] {
+    let distance = |weights: &[f64; 3]| {
+        let point = (0..3).map(|k| corners[k] * weights[k]).sum::<DVec3>();
+        point.distance_squared(p)
+    };
+    let on_edges = [(0, 1), (1, 2), (2, 0)].map(|(from, to)| {
+        let edge = corners[to] - corners[from];
+        let share = edge.dot(p - corners[from]) / edge.length_squared();
+        let share = if share > 0.0 { lesser(share, 1.0) } else { 0.0 };
+        let mut weights = [0.0; 3];
+        (weights[from], weights[to]) = (1.0 - share, share);
+        weights
+    });
+    let [a, b, c] = corners;
+    let normal = (b - a).cross(c - a);
+    let share = |u: DVec3, v: DVec3| normal.dot((u - p).cross(v - p)) / normal.length_squared();
+    let (v, w) = (share(c, a), share(a, b));
+    let inside = [1.0 - v - w, v, w];
+    let is_inside = inside.iter().all(|&weight| weight >= 0.0);
+    let nearest = on_edges.into_iter().chain(is_inside.then_some(inside));
+    let nearest = nearest.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    nearest.unwrap_or([1.0, 0.0, 0.0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_of_triangles_segments_and_points_are_the_nearest() {
+        let [x, y] = [DVec3::X, DVec3::Y];
+        for (corners, point, expected) in [
+            (
+                [DVec3::ZERO, x, y],
+                DVec3::new(0.2, 0.3, 5.0),
+                [0.5, 0.2, 0.3],
+            ),
+            (
+                [DVec3::ZERO, x, y],
+                DVec3::new(0.5, -2.0, 1.0),
+                [0.5, 0.5, 0.0],
+            ),
+            (
+                [DVec3::ZERO, x, y],
+                DVec3::new(3.0, -1.0, 0.0),
+                [0.0, 1.0, 0.0],
+            ),
+            ([-x, x, x], DVec3::new(0.0, 2.0, 0.0), [0.5, 0.5, 0.0]),
+            ([x, x, -x], DVec3::new(-3.0, 2.0, 0.0), [0.0, 0.0, 1.0]),
+        ] {
+            let found = nearest_weights(corners, point);
+            let off = (0..3).map(|k| (found[k] - expected[k]).abs()).sum::<f64>();
+            assert!(off < 1e-12, "{corners:?} {point}: {found:?}");
+        }
+        let of_a_point = nearest_weights([x; 3], y);
+        assert!((of_a_point.iter().sum::<f64>() - 1.0).abs() < 1e-12);
     }
-    let bp = p - b;
-    let (d3, d4) = (ab.dot(bp), ac.dot(bp));
-    if d3 >= 0.0 && d4 <= d3 {
-        return [0.0, 1.0, 0.0];
-    }
-    let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        let v = d1 / (d1 - d3);
-        return [1.0 - v, v, 0.0];
-    }
-    let cp = p - c;
-    let (d5, d6) = (ab.dot(cp), ac.dot(cp));
-    if d6 >= 0.0 && d5 <= d6 {
-        return [0.0, 0.0, 1.0];
-    }
-    let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        let w = d2 / (d2 - d6);
-        return [1.0 - w, 0.0, w];
-    }
-    let va = d3 * d6 - d5 * d4;
-    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
-        let w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-        return [0.0, 1.0 - w, w];
-    }
-    let total = va + vb + vc;
-    let (v, w) = (vb / total, vc / total);
-    [1.0 - v - w, v, w]
 }

@@ -16,7 +16,7 @@ pub struct Statement {
     /// The time until which the pairs are farther apart.
     pub until: f64,
     /// The witness: the pair, the time, the tolerance, and for each body a triangle and the weights of two corners.
-    pub witness: Option<(u32, f64, f64, [[u32; 3]; 2])>,
+    pub witness: Option<(u32, f64, f64, [(u32, [u64; 2]); 2])>,
     /// The number of bytes of the statement; what follows is its proof.
     pub bytes: usize,
 }
@@ -50,7 +50,7 @@ impl Statement {
             0 => None,
             _ => {
                 let (pair, time, tolerance) = (at.u32()?, at.f64()?, at.f64()?);
-                let mut point = || Some([at.u32()?, at.u32()?, at.u32()?]);
+                let mut point = || Some((at.u32()?, [at.u64()?, at.u64()?]));
                 Some((pair, time, tolerance, [point()?, point()?]))
             }
         };
@@ -159,6 +159,10 @@ impl<'a> Cursor<'a> {
 
     fn u32(&mut self) -> Option<u32> {
         Some(u32::from_le_bytes(self.take(4)?.try_into().ok()?))
+    }
+
+    fn u64(&mut self) -> Option<u64> {
+        Some(u64::from_le_bytes(self.take(8)?.try_into().ok()?))
     }
 
     fn f64(&mut self) -> Option<f64> {

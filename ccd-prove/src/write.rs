@@ -21,6 +21,9 @@ pub struct Proof {
 /// The share of the largest length that is allowed for rounding.
 const ROUNDING: f64 = 1e-13;
 
+/// Weights of corners are multiples of 2⁻⁶².
+const WEIGHT_UNIT: f64 = (1u64 << 62) as f64;
+
 /// The number of bits of the largest length in the unit of a certificate.
 const LENGTH_BITS: i32 = 49;
 
@@ -135,11 +138,10 @@ fn write_witness(bytes: &mut Vec<u8>, scene: &Scene<'_>, links: &[Moving], witne
     write_numbers(bytes, [witness.time, witness.tolerance]);
     for point in mesh_points(scene, links, witness) {
         bytes.extend((point.place as u32).to_le_bytes());
-        // Rounded down, the first two leave no less than 0 for the third one.
-        let [a, b, _] = point
-            .weights
-            .map(|weight| (weight * 2_147_483_648.0) as u32);
-        bytes.extend([a, b].map(u32::to_le_bytes).concat());
+        // Both together are no more than the whole, also if they are rounded up.
+        let [a, b, _] = point.weights.map(|weight| (weight * WEIGHT_UNIT) as u64);
+        let b = b.min((WEIGHT_UNIT as u64).saturating_sub(a));
+        bytes.extend([a, b].map(u64::to_le_bytes).concat());
     }
 }
 

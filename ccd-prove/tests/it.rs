@@ -15,7 +15,7 @@ const WITNESSES_AT: usize = 28 + 2 * 133 + 2 * 44 + 16 + 8;
 const FREE_STEPS_AT: usize = WITNESSES_AT + 1;
 
 /// The bytes of a witness.
-const WITNESS: usize = 44;
+const WITNESS: usize = 60;
 
 /// A torus of triangles about z, a mesh that is not convex.
 fn torus(count: usize, radius: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
@@ -319,7 +319,7 @@ fn witnesses_that_are_not_near_or_not_on_their_triangles_are_seen() {
         let none = "there is nothing of this number";
         assert_eq!(verdict_with(triangle, &[0xff; 4]), none);
         let more = "the weights of a witness are more than 1";
-        assert_eq!(verdict_with(triangle + 4, &[0xff; 8]), more);
+        assert_eq!(verdict_with(triangle + 4, &[0xff; 16]), more);
     }
 }
 
