@@ -103,7 +103,7 @@ impl Body {
                 [point] => triangles.push([*point; 3]),
                 [from, to] => triangles.push([*from, *to, *to]),
                 [a, b, c] if piece.mesh_triangles().next().is_none() => {
-                    triangles.push([*a, *b, *c])
+                    triangles.push([*a, *b, *c]);
                 }
                 _ => {
                     let of_piece = piece.mesh_triangles().map(|(_, corners)| corners);

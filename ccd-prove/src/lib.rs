@@ -15,5 +15,5 @@ pub use body::Body;
 pub use cell::ProvenCell;
 pub use error::NotProven;
 pub use scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
-pub use statement::{Statement, steps_text};
+pub use statement::{StatedWitness, Statement, steps_text};
 pub use write::{Proof, prove};

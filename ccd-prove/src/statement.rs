@@ -15,10 +15,23 @@ pub struct Statement {
     pub pairs: Vec<([u32; 2], f64)>,
     /// The time until which the pairs are farther apart.
     pub until: f64,
-    /// The witness: the pair, the time, the tolerance, and for each body a triangle and the weights of two corners.
-    pub witness: Option<(u32, f64, f64, [(u32, [u64; 2]); 2])>,
+    /// The witness, if there is one.
+    pub witness: Option<StatedWitness>,
     /// The number of bytes of the statement; what follows is its proof.
     pub bytes: usize,
+}
+
+/// Two points of a pair that are near each other at a time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StatedWitness {
+    /// The number of the pair.
+    pub pair: u32,
+    /// The time.
+    pub time: f64,
+    /// What the points may be farther apart than the pair has to be.
+    pub tolerance: f64,
+    /// For each body the place of a triangle in the order of its tree, and the weights of two corners in 2⁻⁶².
+    pub points: [(u32, [u64; 2]); 2],
 }
 
 impl Statement {
@@ -51,7 +64,12 @@ impl Statement {
             _ => {
                 let (pair, time, tolerance) = (at.u32()?, at.f64()?, at.f64()?);
                 let mut point = || Some((at.u32()?, [at.u64()?, at.u64()?]));
-                Some((pair, time, tolerance, [point()?, point()?]))
+                Some(StatedWitness {
+                    pair,
+                    time,
+                    tolerance,
+                    points: [point()?, point()?],
+                })
             }
         };
         Some(Statement {
@@ -76,7 +94,13 @@ impl Statement {
             format!("{} pairs", pairs.len())
         };
         let mut text = format!("{count} farther apart than {least} until {until}");
-        if let Some((pair, time, tolerance, _)) = self.witness {
+        if let Some(witness) = &self.witness {
+            let StatedWitness {
+                pair,
+                time,
+                tolerance,
+                ..
+            } = witness;
             text += &format!("; pair {pair} within {tolerance} more at {time}");
         }
         text
@@ -101,7 +125,13 @@ impl Display for Statement {
             writeln!(f, "pair {number} of {a} and {b} margin {margin:?}")?;
         }
         write!(f, "until {:?}", self.until)?;
-        if let Some((pair, time, tolerance, points)) = self.witness {
+        if let Some(witness) = &self.witness {
+            let StatedWitness {
+                pair,
+                time,
+                tolerance,
+                points,
+            } = witness;
             write!(
                 f,
                 "\nwitness of pair {pair} at {time:?} tolerance {tolerance:?} points {points:?}"

@@ -69,8 +69,12 @@ fn threads_share_what_is_const() {
 /// Checks that answers are the same, except of questions that were stopped. Returns the number of these.
 fn check_same(alone: &[(RccdLimit, u64)], shared: &[(RccdLimit, u64)]) -> usize {
     let is_stopped = |&&(limit, _): &&(RccdLimit, u64)| limit == RccdLimit::Stopped;
-    for (one, other) in alone.iter().zip(shared) {
-        assert!(one == other || is_stopped(&other), "{one:?} {other:?}");
+    for (number, (one, other)) in alone.iter().zip(shared).enumerate() {
+        assert!(
+            one == other || is_stopped(&other),
+            "question {} of a round: {one:?} {other:?}",
+            number % 6
+        );
     }
     shared.iter().filter(is_stopped).count()
 }
