@@ -10,8 +10,9 @@ from fractions import Fraction
 from math import isfinite, isqrt
 F, ONE = 128, 1 << 128       # an integer i stands for i / 2^128
 ZERO, ZERO3 = [Fraction(0)] * 3, [(0, 0)] * 3
-MAX_TURN, MAX_CHAIN = 512, 200   # radians by which a link may be turned at the start, and from there to T; links
-MAX_UNIT, MAX_LEVELS = 1200, 64  # no binary64 asks for units beyond 2^1200
+MAX_TURN = 512               # radians by which a joint is turned at the start, and again from there to T
+MAX_CHAIN, MAX_LEVELS = 200, 64   # links, with the world; levels of a tree
+MAX_UNIT = 1200              # of exponents; no binary64 asks for more
 # ---- intervals: (lo, hi) is all numbers from lo / 2^128 to hi / 2^128 ----
 def fix(x): return (x.numerator << F) // x.denominator, -((-x.numerator << F) // x.denominator)   # the least around x
 def mul(a, b):
@@ -261,8 +262,8 @@ def check(path, tree_of):
     duration = r.at_least_0("time")
     r.require(duration <= time, r.pos - 8, "the unit of time is less than the time", "unverifiable")
     end = -(-duration * (1 << 60) // time)          # rounded up
-    for v in [plus(ZERO, v, f) for x in links for v, f in ((x.start, 1), (x.turn, Fraction(end, 1 << 60)))]:
-        r.require(sum(x * x for x in v) <= MAX_TURN ** 2, 28, "a link turns too far", "unverifiable")
+    for v, f in [vf for x in links for vf in ((x.start, 1), (x.turn, Fraction(end, 1 << 60)))]:
+        r.require(sum((f * x) ** 2 for x in v) <= MAX_TURN ** 2, r.pos - 8, "a link turns too far", "unverifiable")
     witnesses, = r.take("B")
     r.require(witnesses < 2, r.pos - 1, "there is more than one witness")
     for _ in range(witnesses):
@@ -276,8 +277,7 @@ def check(path, tree_of):
             r.require(weights[2] >= 0, r.pos - 8, "the weights add to more than one")
             z = [sum(map(int.__mul__, weights, c)) / (length * (1 << 31 + body.bits)) for c in zip(*corners)]
             gap = move(gap, matvec(transpose(body.link.pose(tau / time)[0]), [fix(x) for x in z]))
-        close = length_up(gap) <= fix((near + tolerance) / length)[0]
-        r.require(close, pos, "the witnesses are too far apart")
+        r.require(length_up(gap) <= fix((near + tolerance) / length)[0], pos, "the witnesses are too far apart")
     leaves = 0
     for number, (two, margin) in enumerate(pairs):
         margin, todo = fix(margin / length)[1], [((0, 0), 0, end)]   # the last one is the next one: depth first

@@ -547,6 +547,7 @@ class SecondOrder(Case):
         k = 0.01 + (0.1 * math.sqrt(2) + 0.01) ** 2
         self.bound(1 - k / 2, [z, x], (0, 2), 0, zb=(1, 0, 0))
         self.bound(1 - k / 2, [z, x], (2, 0), 0, za=(-1, 0, 0))                          # the same for A
+        self.bound(1 - k / 2, [z, x, free(p=(1, 0, 0), on=2)], (0, 3), 0)                # an arm there, no point
         # The axis turns with the end of the chain: x is left first, then z, with the other signs.
         self.bound(1 - k / 2, [z, x], (2, 0), 1, zb=(1, 0, 0))
         self.bound(1 - k / 2, [z, x], (0, 2), 2, za=(-1, 0, 0))
@@ -774,6 +775,12 @@ class Contact(Case):
             self.fails("too far apart", *self.flat((0.98, -0.0101, w, w)))
             self.fails("file ends", *self.flat((0.98, 0.0101, w, w), steps=b""))
             self.fails("bytes follow", *self.flat((0.98, 0.0101, w, w), steps=leaf(Z) + b"\0"))
+
+    def test_within_is_not_strict(self):
+        # So as not to round, nothing moves: 0.5 is within 0.25 + 0.25, and not within the next number below.
+        self.links = free(), free(p=(0, 0, 0.5))
+        self.holds(*self.flat((1.0, 0.25, self.middle, self.middle), margin=0.25))
+        self.fails("too far", *self.flat((1.0, math.nextafter(0.25, 0), self.middle, self.middle), margin=0.25))
 
     def test_radii(self):
         for radii in ((0.004, 0.004), (0.008, 0.0)):
@@ -1003,7 +1010,7 @@ class Random(Case):
             links, exact, ends, bodies, files = self.scene(rng, speed=0.5, size=0.25, count=4)
             if ends[0] == ends[1] == 0:
                 continue
-            depth, found, radii = rng.randrange(4), [], [rng.choice((0.0, 0.0625)) for _ in range(2)]
+            depth, found, radii = rng.randrange(3), [], [rng.choice((0.0, 0.0625)) for _ in range(2)]
             def steps(parts, t0, t1, left):
                 kind = rng.randrange(3) if left else 3
                 if kind < 2 and parts[kind] >= 0:
