@@ -1,28 +1,23 @@
 #!/usr/bin/env python3
-"""A second checker of proofs that two moving meshes stay apart, written from ccd-check/README.md alone.
+"""A second checker of proofs that moving meshes stay apart, written from ccd-check/README.md alone.
 
-Its numbers are intervals of integers in 2^-96, lengths in a power of two of its own choice, times in parts
-of the whole time. So it reads the units in the header of a proof and does not use them. The height of a node
-is the exact least height of the corners below it; boxes along the axes of the mesh only say which corners
-need no look. So it reads the axes of the nodes and does not use them.
+Its numbers are intervals of integers in 2^-128 of the units of a proof, of any size. The height of a node is
+the exact least height of the corners below it; boxes along the axes of the mesh only say which corners need no
+look. So it reads the axes of the nodes and does not use them. A stretch may be as long as the lemmas prove.
 """
 import argparse, functools, hashlib, heapq, struct, sys
 from fractions import Fraction
-from math import isqrt
-F, ONE = 96, 1 << 96         # an integer i stands for i / 2^96
-ZERO3 = [(0, 0)] * 3
-MAX_TURN = 512               # radians in the whole time
-MAX_DEPTH = 64
-MAX_QUATERNION_ERROR = Fraction(1, 1 << 20)   # of |q|^2
-# ---- intervals: (lo, hi) is all numbers from lo / 2^96 to hi / 2^96 ----
-def fix(x):   # the least interval around a fraction
-    n = x.numerator << F
-    return n // x.denominator, -(-n // x.denominator)
-
+from math import isfinite, isqrt
+F, ONE = 128, 1 << 128       # an integer i stands for i / 2^128
+ZERO, ZERO3 = [Fraction(0)] * 3, [(0, 0)] * 3
+MAX_TURN = 512               # radians by which a joint is turned at the start, and again from there to T
+MAX_CHAIN, MAX_LEVELS = 200, 64   # links, with the world; levels of a tree
+MAX_UNIT = 1200              # of exponents; no binary64 asks for more
+# ---- intervals: (lo, hi) is all numbers from lo / 2^128 to hi / 2^128 ----
+def fix(x): return (x.numerator << F) // x.denominator, -((-x.numerator << F) // x.denominator)   # the least around x
 def mul(a, b):
     four = a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]
     return min(four) >> F, -(-max(four) >> F)
-
 def mul_up(a, b): return -(-a * b >> F)                      # of bounds that are no intervals
 def shift_down(x, s): return x >> s if s >= 0 else x << -s   # floor(x / 2^s)
 def add(a, b): return a[0] + b[0], a[1] + b[1]
@@ -36,7 +31,8 @@ def transpose(m): return [list(row) for row in zip(*m)]
 def cross(u, v): return [sub(mul(u[i], v[j]), mul(u[j], v[i])) for i, j in ((1, 2), (2, 0), (0, 1))]
 def root_up(n): return isqrt(n - 1) + 1 if n > 0 else 0      # the least integer with a square >= n
 def length_up(v): return root_up(sum(max(-a[0], a[1]) ** 2 for a in v))   # no vector in the box v is longer
-# ---- rotations ----
+def plus(u, v, factor=1): return [a + factor * b for a, b in zip(u, v)]   # of fractions
+
 def series(q, k):
     """An interval around the sum over j of (-q)^j / (2j + k)!; for q = x^2 and k = 1, 2 it is
     sin x / x and (1 - cos x) / x^2. No term is more than e^x < 2^(2x), and that many more bits are kept.
@@ -51,25 +47,16 @@ def series(q, k):
         j, d = j + 1, (2 * j + k + 1) * (2 * j + k + 2)
         low, high = low * q_lo // (d << bits), -(-high * q_hi // (d << bits))
     return (total[0] - high) >> (bits - F), -(-(total[1] + high) >> (bits - F))
-
-def start_rotation(q):
-    """Intervals around the rows of R0, the rotation of q / |q|."""
-    (x, y, z, w), s = q, 2 / sum(c * c for c in q)
-    rows = [[1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
-            [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)],
-            [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)]]
-    return [[fix(entry) for entry in row] for row in rows]
 # ---- files ----
 class Fails(Exception):
     """Ends a check: (verdict, reason)."""
 
 class Reader:
     def __init__(self, path, magic=b""):
-        self.path, self.pos = path, 0
+        self.path, self.pos = path, len(magic)
         with open(path, "rb") as f:
             self.data = f.read()
         self.require(self.data.startswith(magic), 0, "the file is of another kind")
-        self.pos = len(magic)
 
     def require(self, condition, pos, reason, verdict="broken"):
         if not condition:
@@ -83,62 +70,109 @@ class Reader:
         return struct.unpack_from("<" + form, self.data, self.pos - size)
 
     def numbers(self, count):
-        """The next binary64, each as the fraction it is."""
-        out = []
-        for i, b in enumerate(self.take(f"{count}Q")):
-            exponent, m = b >> 52 & 2047, b & (1 << 52) - 1
-            self.require(exponent < 2047, self.pos - 8 * (count - i), "a number is not finite", "unverifiable")
-            m, e = (m | 1 << 52 if exponent else m), max(exponent, 1) - 1075
-            out.append(Fraction((-m if b >> 63 else m) << max(e, 0), 1 << max(-e, 0)))
-        return out
+        """The next binary64, each as the fraction it is. Python converts them exactly."""
+        out = self.take(f"{count}d")
+        self.require(all(map(isfinite, out)), self.pos - 8 * count, "a number is not finite", "unverifiable")
+        return [Fraction(x) for x in out]
 
-class Mesh:
-    """Vertices as exact integers in 2^-bits, and triangles."""
-    def __init__(self, path):
-        r = Reader(path)
-        self.digest, (vertices, triangles) = hashlib.sha256(r.data).digest(), r.take("II")
-        r.require(len(r.data) == 8 + 24 * vertices + 12 * triangles > 8 + 24 * vertices, 0, "the counts are wrong")
-        flat = r.numbers(3 * vertices)
-        self.bits = max([0] + [x.denominator.bit_length() - 1 for x in flat])
-        flat, corners = [int(x * (1 << self.bits)) for x in flat], r.take(f"{3 * triangles}I")
-        r.require(max(corners) < vertices, 8 + 24 * vertices, "a corner of a triangle is no vertex")
-        self.vertices = list(zip(flat[0::3], flat[1::3], flat[2::3]))
-        self.triangles = list(zip(corners[0::3], corners[1::3], corners[2::3]))
+    def at_least_0(self, name):
+        x, = self.numbers(1)
+        self.require(x >= 0, self.pos - 8, f"the {name} is negative")
+        return x
+
+    def one_of(self, choices, name):
+        i, = self.take("I")
+        self.require(i < len(choices), self.pos - 4, f"there is no such {name}")
+        return choices[i]
 
 class Tree:
-    """The nodes of a body. A part is a node i >= 0, or ~place < 0 of a triangle in the order."""
-    def __init__(self, path, mesh):
-        self.mesh, r, count = mesh, Reader(path, b"CCDBODY1"), len(mesh.triangles)
-        r.require(r.take("32s")[0] == mesh.digest, 8, "this is the certificate of another mesh")
-        self.order = r.take(f"{count}I")
-        r.require(sorted(self.order) == list(range(count)), 40, "the order does not have each triangle once")
-        children, own, parents, used = [], [], [(-1, 1)], 0   # parents: of each node still to be read, and its level
-        while parents:
-            below, triangles = r.take("BB9h")[:2]
-            r.require((below == 0) != (triangles == 0), r.pos - 20, "the node has both or neither of children and triangles")
-            r.require(used + triangles <= count, r.pos - 20, "the nodes have more triangles than the mesh")
-            node, (parent, level) = len(children), parents.pop()
-            r.require(level <= MAX_DEPTH, r.pos - 20, "the tree has too many levels")
-            if parent >= 0:
-                children[parent].append(node)
-            children.append([])
-            own.append([~i for i in range(used, used + triangles)])
-            used += triangles
-            parents += [(node, level + 1)] * below
+    """Vertices of a mesh as exact integers in 2^-bits, the corners of triangles in the order of the tree, and
+    the nodes. A part is a node i >= 0, or ~place < 0 of a triangle in the order."""
+    def __init__(self, mesh, tree):
+        r = Reader(mesh)
+        digest, (vertices, count) = hashlib.sha256(r.data).digest(), r.take("II")
+        r.require(len(r.data) == 8 + 24 * vertices + 12 * count > 8 + 24 * vertices, 0, "the counts are wrong")
+        flat, corners = r.numbers(3 * vertices), r.take(f"{3 * count}I")
+        r.require(max(corners) < vertices, 8 + 24 * vertices, "a corner of a triangle is no vertex")
+        self.bits = max(x.denominator.bit_length() - 1 for x in flat)
+        flat = [int(x * (1 << self.bits)) for x in flat]
+        self.vertices = list(zip(flat[0::3], flat[1::3], flat[2::3]))
+        r = Reader(tree, b"CCDBODY1")
+        r.require(r.take("32s")[0] == digest, 8, "this is the certificate of another mesh")
+        order = r.take(f"{count}I")
+        r.require(sorted(order) == list(range(count)), 40, "the order does not have each triangle once")
+        self.triangles = [corners[3 * t:3 * t + 3] for t in order]
+        self.parts, levels, used = [], [1], 0       # levels: of each node so far that is the root or a child
+        while len(self.parts) < len(levels):
+            level, nodes, (below, own) = levels[len(self.parts)], len(levels), r.take("BB9h")[:2]
+            r.require((below == 0) != (own == 0), r.pos - 20, "the node has both or neither of nodes and triangles")
+            r.require(used + own <= count, r.pos - 20, "the nodes have more triangles than the mesh")
+            r.require(level <= MAX_LEVELS, r.pos - 20, "the tree has too many levels")
+            self.parts.append([~i for i in range(used, used + own)] + list(range(nodes, nodes + below)))
+            used, levels[nodes:] = used + own, [level + 1] * below
         r.require(used == count, r.pos, "some triangles are in no node")
         r.require(r.pos == len(r.data), r.pos, "bytes follow the end")
-        self.parts = [c + o for c, o in zip(children, own)]   # one of both is empty
+# ---- links and bodies ----
+class Link:
+    """All links are of one form, in exact fractions: at time t the centre is at place + t rate from the centre of
+    the parent `up`, in the frame of the parent, where the link is R0, turned by the vector start + t turn."""
+    centre = place = rate = start = turn = ZERO     # of the world
+    columns = [[(ONE * (i == j),) * 2 for i in range(3)] for j in range(3)]   # of R0
 
-@functools.lru_cache(2)
+    def __init__(self, up=None):
+        self.up, self.chain = up, (up.chain if up else []) + [self]   # from the world to this link
+
+    def read(self, r, length, time):
+        r.require(len(self.chain) <= MAX_CHAIN, r.pos, "the chain is too long", "unverifiable")
+        kind, = r.take("B")
+        r.require(kind < 3, r.pos - 1, "there is no such kind of link")
+        p, q = r.numbers(3), r.numbers(4)
+        r.require(abs(sum(c * c for c in q) - 1) <= Fraction(1, 1 << 20), r.pos - 32, "the quaternion is not 1 long")
+        (x, y, z, w), s = q, 2 / sum(c * c for c in q)   # of q / |q|, exactly
+        rows = [[1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
+                [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)],
+                [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)]]
+        self.columns = [[fix(entry) for entry in column] for column in zip(*rows)]
+        def rotate(v): return [sum(a * b for a, b in zip(row, v)) for row in rows]
+        if kind == 0:
+            self.rate, self.turn, self.centre = (r.numbers(3) for _ in range(3))
+            p = plus(p, rotate(self.centre))
+        else:
+            axis, (alpha, beta) = rotate(r.numbers(3)), r.numbers(2)
+            if kind == 1:                           # R0 exp(angle [a]x) = exp(angle [R0 a]x) R0
+                self.start, self.turn = plus(ZERO, axis, alpha), plus(ZERO, axis, beta)
+            else:
+                p, self.rate = plus(p, axis, alpha), plus(ZERO, axis, beta)
+        self.place = plus(ZERO, plus(p, self.up.centre, -1), 1 / length)
+        self.rate, self.turn = plus(ZERO, self.rate, time / length), plus(ZERO, self.turn, time)
+        return self
+
+    @functools.lru_cache(1 << 14)
+    def pose(self, t):
+        """In the coordinates of the world: the columns of the rotation at time t, the arm from the centre of the
+        parent to that of the link, and the rate and the turn of the joint. The columns x of R0 are turned by
+        exp([a]x) x = x + sin|a| / |a| a x x + (1 - cos|a|) / |a|^2 a x (a x x)."""
+        a, up = plus(self.start, self.turn, t), transpose(self.up.pose(t)[0]) if self.up else self.columns
+        q, a = sum(x * x for x in a), [fix(x) for x in a]
+        s, c = series(q, 1), series(q, 2)
+        columns = [vadd(x, vadd(scale(cross(a, x), s), scale(cross(a, cross(a, x)), c))) for x in self.columns]
+        vectors = plus(self.place, self.rate, t), self.rate, self.turn
+        return [matvec(up, x) for x in columns], *[matvec(up, [fix(x) for x in v]) for v in vectors]
+
+def way(here, there):
+    """The joints from the end of a chain to the end of another. Those that are left have the other sign."""
+    k = sum(a is b for a, b in zip(here, there))
+    return [(vsub, x, x.up) for x in here[:k - 1:-1]] + [(vadd, x, x) for x in there[k:]]   # sign, joint, then at
+
 class Body:
-    """Corners as seen from the centre of rotation, z = y - c, exact in 2^-bits. The size of a part is
-    a box, least x y z and greatest x y z, and the greatest |z|^2."""
-    def __init__(self, tree, centre):
-        mesh, self.parts, self.sizes = tree.mesh, tree.parts, {}
-        self.bits = max([mesh.bits] + [c.denominator.bit_length() - 1 for c in centre])
-        up, (cx, cy, cz) = self.bits - mesh.bits, [int(c * (1 << self.bits)) for c in centre]
-        seen = [((x << up) - cx, (y << up) - cy, (z << up) - cz) for x, y, z in mesh.vertices]
-        self.corners = [[seen[c] for c in mesh.triangles[t]] for t in tree.order]
+    """Corners as seen from the centre of the link, z = y - c, exact in 2^-bits. The size of a part is
+    a box, least x y z and greatest x y z, and the greatest |z|^2. What is told of it is in 2^exponent."""
+    def __init__(self, tree, link, radius, exponent):
+        self.parts, self.sizes, self.link, self.radius = tree.parts, {}, link, radius
+        self.bits = max([tree.bits] + [c.denominator.bit_length() - 1 for c in link.centre])
+        up, (cx, cy, cz) = self.bits - tree.bits, [int(c * (1 << self.bits)) for c in link.centre]
+        seen = [((x << up) - cx, (y << up) - cy, (z << up) - cz) for x, y, z in tree.vertices]
+        self.corners, self.shift = [[seen[c] for c in t] for t in tree.triangles], self.bits + exponent
         for i, c in enumerate(self.corners):
             self.sizes[~i] = [f(v) for f in (min, max) for v in zip(*c)], max(x * x + y * y + z * z for x, y, z in c)
         for node in reversed(range(len(self.parts))):   # children have greater numbers
@@ -160,125 +194,130 @@ class Body:
             for p in self.parts[heapq.heappop(heap)[1]]:
                 heapq.heappush(heap, bound(p))
         return heap[0][0]
-# ---- the lemma ----
-class Moving:
-    """A body and its motion. Lengths are in 2^exponent, times in the whole time `end`."""
-    def __init__(self, body, motion, end, exponent):
-        (p, q, v, w, c), unit = motion, Fraction(2) ** exponent
-        self.body, self.shift, self.backs, self.omega = body, body.bits + exponent, {}, [x * end for x in w]
-        start = start_rotation(q)
-        self.w, self.v, self.columns = [fix(x) for x in self.omega], [fix(x * end / unit) for x in v], transpose(start)
-        self.centre = vadd([fix(x / unit) for x in p], matvec(start, [fix(x / unit) for x in c]))
 
-    def back(self, time):
-        """The transpose of R = exp([a]x) R0 at time / 2^96 of the whole, a = time w. Its rows are the
-        columns x of R0, turned: x + sin|a| / |a| a x x + (1 - cos|a|) / |a|^2 a x (a x x)."""
-        if time not in self.backs:
-            a = [x * Fraction(time, ONE) for x in self.omega]
-            q, a = sum(x * x for x in a), [fix(x) for x in a]
-            s, c = series(q, 1), series(q, 2)
-            self.backs[time] = [vadd(x, vadd(scale(cross(a, x), s), scale(cross(a, cross(a, x)), c)))
-                                for x in self.columns]
-        return self.backs[time]
-
-    def heights(self, part, time, h, n, delta):
-        """Lower bounds of (n + s n x delta) . z(0) for all z of the part, at s = h and at s = -h. In the
-        coordinates of the mesh the direction is an integer vector m and an error of at most e in each
-        coordinate. So the height is no less than m . z - the sum of e |z|."""
-        back, box, out = self.back(time), self.body.sizes[part][0], []
-        w, tilt = matvec(back, n), matvec(back, scale(cross(n, delta), (h, h)))
+    def heights(self, part, back, n, omega):
+        """Lower bounds of (n + s n x omega) . z for all z of the part, at s = 1 and at s = -1. `back` takes
+        vectors to the coordinates of the mesh, where a direction is an integer vector m and an error of at
+        most e in each coordinate. So the height is no less than m . z - the sum of e |z|."""
+        box, out = self.sizes[part][0], []
+        w, tilt = matvec(back, n), matvec(back, cross(n, omega))
         for v in [w] if tilt == ZERO3 else [vadd(w, tilt), vsub(w, tilt)]:
             m = [lo + hi >> 1 for lo, hi in v]
             error = sum((v[i][1] - m[i]) * max(-box[i], box[i + 3]) for i in range(3))
-            out.append(shift_down(self.body.lowest(part, m) - error, self.shift))
+            out.append(shift_down(self.lowest(part, m) - error, self.shift))
         return out[0], out[-1]
-
-def leaf(a, b, margin, pa, pb, t0, t1, axis, frame):
-    """Whether the lemma proves parts pa and pb farther apart than the margin from t0 to t1."""
-    time, h = (t0 + t1) // 2, (t1 - t0) // 2        # exact, as t0 and t1 are even
-    n, d, phi = [(x, x) for x in axis], vsub(b.v, a.v), frame.w if frame else ZERO3
-    p, step = vadd(vsub(b.centre, a.centre), scale(d, (time, time))), scale(d, (h, h))
-    # P moves straight, so |P| is greatest at an end of the stretch.
-    far, f = max(length_up(vadd(p, step)), length_up(vsub(p, step))), length_up(phi)
-    k = mul_up(mul_up(f, f), far) + 2 * mul_up(f, length_up(d))
-    start, slope = dot(n, p), mul((h, h), add(dot(cross(phi, n), p), dot(n, d)))
+# ---- the lemmas ----
+def leaf(bodies, parts, margin, t0, t1, n, frame):
+    """Whether the parts of two bodies are proven farther apart than the margin from t0 to t1, in 2^-60 of the
+    unit of time. The axis n turns with the link `frame`."""
+    middle, chains = (t0 + t1) // 2, [b.link.chain for b in bodies]
+    t, h = Fraction(middle, 1 << 60), (t1 - middle << F - 60,) * 2
+    # What turns as one, seen from the axis, has one place in `turns`: Omega, W and rho of Lemma 2.
+    turns, place = [(ZERO3, 0, 0)], {frame: 0}
+    for chain in chains:
+        here = frame
+        for move, x, there in way(frame.chain, chain):
+            if there not in place:
+                place[there], (omega, w, _) = place[here], turns[place[here]]
+                if any(x.turn):
+                    joint = scale(x.pose(t)[3], h)
+                    w += length_up(cross(omega, joint)) + mul_up(w, length_up(joint))
+                    omega, place[there] = move(omega, joint), len(turns)
+                    turns.append((omega, w, length_up(omega) + w))
+            here = there
+    # The arms from centre to centre go up from A to the first common link and down to B: what is above is in
+    # both chains, and cancels. The parent of a link carries its arm d, whose rate there is m. The arms that
+    # turn as one are added. Seen from the axis an arm changes by Omega x d + m, so P' is the sum of these.
+    sums = [(ZERO3, ZERO3)] * len(turns)
+    for move, x, _ in way(*chains):
+        i, (_, arm, rate, _) = place[x.up], x.pose(t)
+        sums[i] = move(sums[i][0], arm), move(sums[i][1], scale(rate, h))
+    start, slope, k = (0, 0), (0, 0), 0
+    for (omega, w, rho), (d, m) in zip(turns, sums):
+        start, slope, m_up = add(start, dot(n, d)), add(slope, dot(n, vadd(cross(omega, d), m))), length_up(m)
+        k += mul_up(w + mul_up(rho, rho), length_up(d) + m_up) + 2 * mul_up(rho, m_up)
     ends = [start[0] + slope[0], start[0] - slope[1]]
-    for x, part, side in ((a, pa, vsub(ZERO3, n)), (b, pb, n)):
-        delta = ZERO3 if x is frame else vsub(x.w, phi)   # exactly 0 for the body the axis turns with
-        # The radius of the part is rounded up; 64 more bits make the root fine enough for whole numbers.
-        r = -shift_down(-root_up(x.body.sizes[part][1] << 128), x.shift + 64 - F)
-        k += mul_up(mul_up(length_up(delta), f + length_up(x.w)), r)
-        ends = [e + low for e, low in zip(ends, x.heights(part, time, h, side, delta))]
-    return min(ends) + (-mul_up(h, h) * k >> F + 1) > margin
+    for body, part, side in zip(bodies, parts, (vsub(ZERO3, n), n)):
+        omega, w, rho = turns[place[body.link]]
+        # No z of the part is longer than r. 64 more bits make the root fine enough for whole numbers.
+        r = -shift_down(-root_up(body.sizes[part][1] << 128), body.shift + 64 - F)
+        k += mul_up(w + mul_up(rho, rho), r)
+        ends = [e + low for e, low in zip(ends, body.heights(part, body.link.pose(t)[0], side, omega))]
+    return min(ends) - (k + 1 >> 1) > margin
 # ---- a proof ----
-def check(path, trees):
-    """Returns what holds, or raises Fails."""
+def check(path, tree_of):
+    """Returns what holds, or raises Fails. `tree_of` finds the tree of a digest."""
     r = Reader(path, b"CCDPROOF")
-    r.take("ii")                                    # the units of the first checker
-    for name, tree in zip("AB", trees):
-        r.require(r.take("32s")[0] == tree.mesh.digest, r.pos - 32, f"the mesh of {name} is another one")
-    motions = [[r.numbers(c) for c in (3, 4, 3, 3, 3)] for _ in trees]
-    end, margin = r.numbers(2)
-    r.require(end >= 0 and margin >= 0, r.pos - 16, "the time or the margin is negative")
-    claim, witnesses = r.take("B")[0], []
-    r.require(claim < 2, r.pos - 1, "there is no such claim")
-    if claim == 1:
-        tolerance, = r.numbers(1)
-        for tree in trees:
-            place, *weights = r.take("3I")
+    *units, link_count, body_count, pair_count = r.take("iiIII")
+    r.require(max(map(abs, units)) <= MAX_UNIT, 8, "a unit is out of range", "unverifiable")
+    (length, time), links, bodies, pairs = (Fraction(2) ** e for e in units), [Link()], [], []
+    for _ in range(link_count):
+        links.append(Link(r.one_of(links, "link before this one")).read(r, length, time))
+    for _ in range(body_count):
+        tree = tree_of(*r.take("32s"))
+        bodies.append(Body(tree, r.one_of(links, "link"), r.at_least_0("radius"), units[0]))
+    for _ in range(pair_count):
+        two = r.one_of(bodies, "body"), r.one_of(bodies, "body")
+        pairs.append((two, r.at_least_0("margin") + two[0].radius + two[1].radius))
+    duration = r.at_least_0("time")
+    r.require(duration <= time, r.pos - 8, "the unit of time is less than the time", "unverifiable")
+    end = -(-duration * (1 << 60) // time)          # rounded up
+    for v, f in [vf for x in links for vf in ((x.start, 1), (x.turn, Fraction(end, 1 << 60)))]:
+        r.require(sum((f * x) ** 2 for x in v) <= MAX_TURN ** 2, r.pos - 8, "a link turns too far", "unverifiable")
+    witnesses, = r.take("B")
+    r.require(witnesses < 2, r.pos - 1, "there is more than one witness")
+    for _ in range(witnesses):
+        (two, near), (tau, tolerance), pos, gap = r.one_of(pairs, "pair"), r.numbers(2), r.pos - 16, ZERO3
+        r.require(0 <= tau <= duration, pos, "the time of the witness is not from 0 to the end")
+        for move, x, _ in way(two[0].link.chain, two[1].link.chain):
+            gap = move(gap, x.pose(tau / time)[1])
+        for body, move in zip(two, (vsub, vadd)):
+            corners, weights = r.one_of(body.corners, "triangle"), [*r.take("II")]
             weights.append((1 << 31) - sum(weights))
-            r.require(place < len(tree.order), r.pos - 12, "there is no such triangle")
             r.require(weights[2] >= 0, r.pos - 8, "the weights add to more than one")
-            witnesses.append((place, weights))
-    bodies = [Body(tree, tuple(m[4])) for tree, m in zip(trees, motions)]
-    largest = max([abs(x) for m in motions for x in m[0] + m[4] + [y * end for y in m[2]]] +
-                  [Fraction(abs(x), 1 << y.bits) for y in bodies for x in y.sizes[0][0]])
-    exponent = largest.numerator.bit_length() - largest.denominator.bit_length() + 1
-    for i, (_, q, _, w, _) in enumerate(motions):
-        r.require(abs(sum(x * x for x in q) - 1) <= MAX_QUATERNION_ERROR, 104 + 128 * i, "the quaternion is not 1 long")
-        r.require(sum((x * end) ** 2 for x in w) <= MAX_TURN ** 2, 160 + 128 * i, "it turns too far", "unverifiable")
-    unit, (a, b) = Fraction(2) ** exponent, [Moving(y, m, end, exponent) for y, m in zip(bodies, motions)]
-    if claim == 1:
-        gap = vadd(vsub(b.centre, a.centre), vsub(b.v, a.v))
-        for x, (place, weights), sign in zip((a, b), witnesses, (vsub, vadd)):
-            z = [sum(w * c for w, c in zip(weights, three)) for three in zip(*x.body.corners[place])]
-            z = [fix(Fraction(c, 1 << 31 + x.body.bits) / unit) for c in z]
-            gap = sign(gap, matvec(transpose(x.back(ONE)), z))
-        r.require(length_up(gap) <= fix((margin + tolerance) / unit)[0], r.pos - 32, "the witnesses are too far apart")
-    todo, leaves = [(0, 0, 0, ONE)], 0              # the last one is the next one: depth first
-    while todo:
-        (pa, pb, t0, t1), at = todo.pop(), r.pos
-        r.require(at < len(r.data), at, f"the file ends, and {len(todo) + 1} parts are not proven")
-        step, = r.take("B")
-        r.require(step <= 8, at, "there is no such step")
-        if step < 2:
-            r.require((pa, pb)[step] >= 0, at, "a triangle can not be split")
-            below = reversed(trees[step].parts[(pa, pb)[step]])
-            todo += [(pa, q, t0, t1) if step else (q, pb, t0, t1) for q in below]
-        elif step == 2:
-            middle = t0 + ((t1 - t0) * r.take("H")[0] >> 17 << 1)   # even; both parts have this very time
-            r.require(t0 < middle < t1, at, "a part of the time is empty")
-            todo += [(pa, pb, middle, t1), (pa, pb, t0, middle)]
-        else:
-            form, bits = ("3h", 14) if step < 6 else ("3i", 30)
-            axis, frame = r.take(form), (None, a, b)[(step - 3) % 3]
-            r.require(sum(x * x for x in axis) <= 1 << 2 * bits, at, "the axis is longer than 1")
-            r.require(leaf(a, b, fix(margin / unit)[1], pa, pb, t0, t1, [x << F - bits for x in axis], frame),
-                      at, "the axis does not prove the parts apart")
-            leaves += 1
+            z = [sum(map(int.__mul__, weights, c)) / (length * (1 << 31 + body.bits)) for c in zip(*corners)]
+            gap = move(gap, matvec(transpose(body.link.pose(tau / time)[0]), [fix(x) for x in z]))
+        r.require(length_up(gap) <= fix((near + tolerance) / length)[0], pos, "the witnesses are too far apart")
+    leaves = 0
+    for number, (two, margin) in enumerate(pairs):
+        margin, todo = fix(margin / length)[1], [((0, 0), 0, end)]   # the last one is the next one: depth first
+        while todo:
+            (parts, t0, t1), pos = todo.pop(), r.pos
+            r.require(pos < len(r.data), pos, f"the file ends, and {len(todo) + 1} parts are not proven")
+            step, = r.take("B")
+            r.require(step <= 8, pos, "there is no such step")
+            if step < 2:
+                r.require(parts[step] >= 0, pos, "a triangle can not be split")
+                below = reversed(two[step].parts[parts[step]])
+                todo += [((parts[0], p) if step else (p, parts[1]), t0, t1) for p in below]
+            elif step == 2:
+                middle = t0 + ((t1 - t0) * r.take("H")[0] >> 16)
+                r.require(t0 < middle < t1, pos, "a part of the time is empty")
+                todo += [(parts, middle, t1), (parts, t0, middle)]
+            else:
+                form, bits = ("3h", 14) if step < 6 else ("3i", 30)
+                axis, frame = r.take(form), (links[0], two[0].link, two[1].link)[step % 3]
+                r.require(sum(x * x for x in axis) <= 1 << 2 * bits, pos, "the axis is longer than 1")
+                apart = leaf(two, parts, margin, t0, t1, [(x << F - bits,) * 2 for x in axis], frame)
+                r.require(apart, pos, f"the axis does not prove the parts of pair {number} apart")
+                leaves += 1
     r.require(r.pos == len(r.data), r.pos, "bytes follow the end")
-    return f"{('free', 'contact')[claim]}, {leaves} leaves"
+    return f"pairs: {len(pairs)}, leaves: {leaves}, witnesses: {witnesses}"
 
 def main(argv=None):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    for name in ("--a", "--b"):
-        parser.add_argument(name, nargs=2, required=True, metavar=("MESH", "BODY_CERTIFICATE"))
+    parser.add_argument("--mesh", nargs=2, action="append", default=[], metavar=("MESH", "BODY_CERTIFICATE"))
     parser.add_argument("proofs", nargs="+", metavar="PROOF")
     arguments, all_hold = parser.parse_args(argv), True
-    load = functools.cache(lambda mesh, tree: Tree(tree, Mesh(mesh)))
+    @functools.cache
+    def tree_of(digest):
+        for mesh, tree in arguments.mesh:
+            if hashlib.sha256(Reader(mesh).data).digest() == digest:
+                return Tree(mesh, tree)
+        raise Fails("unverifiable", f"the mesh with the digest {digest.hex()} is not given")
     for path in arguments.proofs:
         try:
-            verdict, reason = "holds", check(path, [load(*arguments.a), load(*arguments.b)])
+            verdict, reason = "holds", check(path, tree_of)
         except Fails as e:
             verdict, reason = e.args
         except OSError as e:
