@@ -272,10 +272,10 @@ def check(path, tree_of):
         for move, x, _ in way(two[0].link.chain, two[1].link.chain):
             gap = move(gap, x.pose(tau / time)[1])
         for body, move in zip(two, (vsub, vadd)):
-            corners, weights = r.one_of(body.corners, "triangle"), [*r.take("II")]
-            weights.append((1 << 31) - sum(weights))
-            r.require(weights[2] >= 0, r.pos - 8, "the weights add to more than one")
-            z = [sum(map(int.__mul__, weights, c)) / (length * (1 << 31 + body.bits)) for c in zip(*corners)]
+            corners, weights = r.one_of(body.corners, "triangle"), [*r.take("QQ")]
+            weights.append((1 << 62) - sum(weights))
+            r.require(weights[2] >= 0, r.pos - 16, "the weights add to more than one")
+            z = [sum(map(int.__mul__, weights, c)) / (length * (1 << 62 + body.bits)) for c in zip(*corners)]
             gap = move(gap, matvec(transpose(body.link.pose(tau / time)[0]), [fix(x) for x in z]))
         r.require(length_up(gap) <= fix((near + tolerance) / length)[0], pos, "the witnesses are too far apart")
     leaves = 0

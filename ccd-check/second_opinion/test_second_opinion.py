@@ -10,7 +10,7 @@ import second_opinion as so
 X, Y, Z = (16384, 0, 0), (0, 16384, 0), (0, 0, 16384)
 UNIT3 = (1, 0, 0), (0, 1, 0), (0, 0, 1)
 TICKS = (-40, 60)   # units with which the time is counted in whole units: 2^-60 of 2^60
-WHOLE = 1 << 31
+WHOLE = 1 << 62
 # ---- files ----
 def minus(axis): return tuple(-c for c in axis)
 
@@ -64,7 +64,7 @@ def halves(depth, make, t0=0.0, t1=1.0):
 
 def proof(links, bodies, pairs, steps, duration=1.0, witness=None, units=None):
     """bodies: (mesh, link, radius); pairs: (body, body, margin);
-    witness = (pair, time, tolerance, (place, weights) of A, of B), weights in 2^-31, of which two are written."""
+    witness = (pair, time, tolerance, (place, weights) of A, of B), weights in 2^-62, of which two are written."""
     units = units or (-40, max(-60, math.frexp(duration)[1]))
     out = b"CCDPROOF" + struct.pack("<iiIII", *units, len(links), len(bodies), len(pairs))
     out += b"".join(map(link_bytes, links))
@@ -77,7 +77,7 @@ def proof(links, bodies, pairs, steps, duration=1.0, witness=None, units=None):
         return out + b"\0" + steps
     out += b"\1" + struct.pack("<Idd", *witness[:3])
     for place, weights in witness[3:]:
-        out += struct.pack("<3I", place, *weights[:2])
+        out += struct.pack("<I2Q", place, *weights[:2])
     return out + steps
 
 
@@ -758,7 +758,7 @@ class Contact(Case):
         # B comes down at 1 per second from 1 above. They are 0.02 apart at 0.98.
         self.links = free(), free(p=(0, 0, 1), v=(0, 0, -1))
         self.corner = (0, (WHOLE, 0, 0))
-        self.middle = (0, (1 << 29, 1 << 29, 1 << 30))
+        self.middle = (0, (WHOLE >> 2, WHOLE >> 2, WHOLE >> 1))
 
     def flat(self, contact, steps=leaf(Z), margin=0.01, duration=None, **more):
         duration = contact[0] if duration is None else duration
@@ -840,7 +840,7 @@ class Contact(Case):
                 return two(a, b, kind(w), free(p=(0, y, 0)), steps, 0.005, (time, tolerance, wa, wb), duration=time)
             self.holds(files, make())
             self.fails("too far apart", files, make(tolerance=0.004), make(time=0.9), make(w=-1.0),
-                       make(wa=(0, (1 << 30, 1 << 30, 0))))
+                       make(wa=(0, (WHOLE >> 1, WHOLE >> 1, 0))))
             self.fails("does not prove", files, make(time=1.02, tolerance=0.02), make(steps=halves(1, lambda _: leaf(Y))))
             self.fails("file ends", files, make(steps=halves(4, lambda _: leaf(Y))[:-7]))
 
@@ -1061,7 +1061,7 @@ class Damage(Case):
         a = mesh([(0, -1, 0), (0, 1, 0), (0.125, 0, 0)], [(0, 1, 2)])
         files = a, certificate(a, ([0], [])), FLAT, FLAT_TREE
         links = [slides((0, 1, 0), 0.5, 0.125), turns((1, 0, 0), 0.25, 4.0, p=(0, -0.5, 0), on=1), free(p=(0, 0, 3))]
-        corner = 0, (1 << 29, 1 << 28)
+        corner = 0, (WHOLE >> 2, WHOLE >> 3)
         good = proof(links, [(a, 2, 0.125), (FLAT, 3, 0.0)], [(0, 1, 0.875)], halves(3, lambda _: leaf(Z)),
                      witness=(0, 0.25, 4.0, corner, corner))
         self.holds(files, good)
