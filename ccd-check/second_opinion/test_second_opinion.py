@@ -783,8 +783,9 @@ class Contact(Case):
     def test_within_is_not_strict(self):
         # So as not to round, nothing moves: 0.5 is within 0.25 + 0.25, and not within the next number below.
         self.links = free(), free(p=(0, 0, 0.5))
-        self.holds(*self.flat((1.0, 0.25, self.middle, self.middle), margin=0.25))
-        self.fails("too far", *self.flat((1.0, math.nextafter(0.25, 0), self.middle, self.middle), margin=0.25))
+        def make(tolerance): return self.flat((1.0, tolerance, self.middle, self.middle), margin=0.25, units=(0, 0))
+        self.holds(*make(0.25))
+        self.fails("too far", *make(math.nextafter(0.25, 0)))
 
     def test_radii(self):
         for radii in ((0.004, 0.004), (0.008, 0.0)):
