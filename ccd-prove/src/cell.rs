@@ -12,7 +12,7 @@ use rigid_ccd_robot::{Cell, Item, PathContact, RobotError};
 #[derive(Debug)]
 pub struct ProvenCell<'c> {
     cell: &'c Cell,
-    /// For each body of the cell its mesh, and the radius around it; `None` for one without triangles.
+    /// For each body of the cell its mesh, and the radius around it.
     bodies: Vec<(Body, f64)>,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::body::Part;
 use crate::error::NotProven;
-use crate::placed::Moving;
+use crate::placed::{Moving, Placed, placed as placed_links};
 use crate::scene::Scene;
 use crate::stretch::Stretch;
 use ccd_core::glam::DVec3;
@@ -39,6 +39,8 @@ pub(crate) struct Cover<'a> {
     pair: usize,
     least: f64,
     stretches: HashMap<[u64; 2], Rc<Stretch<'a>>>,
+    /// All links in the middle of each stretch, which pairs share.
+    placed: HashMap<[u64; 2], Vec<Placed>>,
     pub(crate) steps: Vec<u8>,
     pub(crate) leaves: usize,
 }
@@ -72,6 +74,7 @@ impl<'a> Cover<'a> {
             pair: 0,
             least: 0.0,
             stretches: HashMap::new(),
+            placed: HashMap::new(),
             steps: Vec::new(),
             leaves: 0,
         }
@@ -92,11 +95,15 @@ impl<'a> Cover<'a> {
     }
 
     fn stretch(&mut self, times: [f64; 2]) -> Rc<Stretch<'a>> {
-        let (scene, pair) = (self.scene, self.pair);
-        let stretch = self
-            .stretches
-            .entry(times.map(f64::to_bits))
-            .or_insert_with(|| Rc::new(Stretch::new(scene, pair, times)));
+        let (scene, pair, key) = (self.scene, self.pair, times.map(f64::to_bits));
+        let placed = &mut self.placed;
+        let stretch = self.stretches.entry(key).or_insert_with(|| {
+            let [from, to] = times;
+            let all = placed
+                .entry(key)
+                .or_insert_with(|| placed_links(scene.1, 0.5 * (from + to), 0.5 * (to - from)));
+            Rc::new(Stretch::new(scene, pair, (times, all)))
+        });
         Rc::clone(stretch)
     }
 

@@ -2,7 +2,7 @@
 
 use crate::body::Body;
 use ccd_core::glam::DVec3;
-use ccd_core::{Motion, Pose};
+use ccd_core::{Contact, Motion, Pose, Separation};
 
 /// Links, the bodies on them, and the pairs of bodies that are to be proven apart.
 #[derive(Clone, Debug, Default)]
@@ -84,6 +84,23 @@ pub struct Witness {
     pub tolerance: f64,
     /// A point of each body, in the world.
     pub points: [DVec3; 2],
+}
+
+impl Witness {
+    /// Returns a contact of two bodies as a witness of the only pair of their scene.
+    pub fn of_two(time: f64, tolerance: f64, contact: &Contact) -> Self {
+        let Separation {
+            witness_a,
+            witness_b,
+            ..
+        } = contact.separation;
+        Witness {
+            pair: 0,
+            time,
+            tolerance,
+            points: [witness_a, witness_b],
+        }
+    }
 }
 
 impl<'a> Scene<'a> {

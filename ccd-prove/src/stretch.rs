@@ -1,7 +1,7 @@
 //! The lemma of the checker in floating point: whether an axis keeps two parts apart over a stretch of time.
 
 use crate::body::{Body, Part, length};
-use crate::placed::{Moving, Placed, placed};
+use crate::placed::{Moving, Placed};
 use crate::scene::Scene;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
@@ -30,16 +30,15 @@ impl<'a> Stretch<'a> {
     pub(crate) fn new(
         (scene, links): (&Scene<'a>, &[Moving]),
         pair: usize,
-        [from, to]: [f64; 2],
+        ([from, to], all): ([f64; 2], &[Placed]),
     ) -> Self {
         let bodies = scene.pairs[pair].bodies.map(|body| scene.bodies[body]);
         let [a, b] = bodies.map(|body| body.link);
-        let all = placed(links, 0.5 * (from + to), 0.5 * (to - from));
         let placed = [all[a], all[b]];
         let offset = placed[1].centre - placed[0].centre;
         let view = |frame: usize| {
             let turn = all[frame].turn;
-            let ways = [Way::new(&all, frame, a), Way::new(&all, frame, b)];
+            let ways = [Way::new(all, frame, a), Way::new(all, frame, b)];
             View {
                 drift: placed[1].velocity - placed[0].velocity - turn.cross(offset),
                 turns: [placed[0].turn - turn, placed[1].turn - turn],

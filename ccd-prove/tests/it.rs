@@ -90,14 +90,7 @@ impl Meshes {
         let (until, witness) = match solver.first_contact(a, b, 1.0).unwrap().outcome {
             Outcome::Free { .. } => (1.0, None),
             Outcome::Contact { time, contact } => {
-                let points = [contact.separation.witness_a, contact.separation.witness_b];
-                let witness = Witness {
-                    pair: 0,
-                    time,
-                    tolerance,
-                    points,
-                };
-                (time, Some(witness))
+                (time, Some(Witness::of_two(time, tolerance, &contact)))
             }
             _ => return None,
         };

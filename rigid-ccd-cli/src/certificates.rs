@@ -3,7 +3,7 @@
 use crate::output::OutputError;
 use anyhow::{Context, Result, anyhow};
 use ccd_core::{Answer, Outcome};
-use ccd_prove::{Body, Carried, NotProven, Proof, ProvenCell, Scene, Witness, prove};
+use ccd_prove::{Body, NotProven, Proof, ProvenCell, Scene, Witness, prove};
 use rigid_ccd::batch::{BodyPair, Question};
 use rigid_ccd::table::motions::Motions;
 use rigid_ccd_robot::{Cell, CellSolver, PathOutcome};
@@ -83,12 +83,7 @@ impl PairCertificates {
             Outcome::Free { .. } => (motions.duration, None),
             Outcome::Unresolved(left) if left.safe_until > 0.0 => (left.safe_until, None),
             Outcome::Contact { time, contact } if question == Question::FirstContact => {
-                let witness = Witness {
-                    pair: 0,
-                    time: *time,
-                    tolerance: answer.tolerance,
-                    points: [contact.separation.witness_a, contact.separation.witness_b],
-                };
+                let witness = Witness::of_two(*time, answer.tolerance, contact);
                 (*time, Some(witness))
             }
             _ => return None,
@@ -96,10 +91,7 @@ impl PairCertificates {
         let [(a, radius_a), (b, radius_b)] = &self.bodies;
         let mut scene = Scene::of_two((a, motions.a), (b, motions.b), self.margin);
         for (body, radius) in scene.bodies.iter_mut().zip([radius_a, radius_b]) {
-            *body = Carried {
-                radius: *radius,
-                ..*body
-            };
+            body.radius = *radius;
         }
         Some(prove(&scene, until, witness))
     }

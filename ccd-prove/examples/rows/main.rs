@@ -87,12 +87,7 @@ fn run_pair(args: &Args, names: [&str; 2], motions: &str) -> Result<()> {
         let (until, witness) = match &answer.outcome {
             Outcome::Free { .. } => (motion.duration, None),
             Outcome::Contact { time, contact } => {
-                let witness = Witness {
-                    pair: 0,
-                    time: *time,
-                    tolerance: args.tolerance,
-                    points: [contact.separation.witness_a, contact.separation.witness_b],
-                };
+                let witness = Witness::of_two(*time, args.tolerance, contact);
                 (*time, Some(witness))
             }
             other => {
