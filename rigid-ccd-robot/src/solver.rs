@@ -157,7 +157,7 @@ impl<'c> CellSolver<'c> {
         Ok(self.find_any_contact(path)?.is_none())
     }
 
-    /// Returns any contact on a path, perhaps not the first one.
+    /// Returns any contact on a path, perhaps not the first one. Limits may change which one.
     ///
     /// # Errors
     /// [`PathError`]; also if a limit is reached.

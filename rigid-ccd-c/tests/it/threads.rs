@@ -111,10 +111,16 @@ fn answers(scene: &Scene, stop: *const RccdStop) -> Vec<(RccdLimit, u64)> {
             configuration_count: 0,
             curve: scene.curve.0,
         };
-        for question in [rccd_cell_first_contact as Question, rccd_cell_any_contact] {
+        let questions = [rccd_cell_first_contact as Question, rccd_cell_any_contact];
+        for (question, is_first) in questions.into_iter().zip([true, false]) {
             for path in [support_cells::through(&configurations), curve] {
                 let found = support_cells::ask(question, &cell_solver, &path);
-                answers.push((found.limit, found.share.to_bits()));
+                // A question for any contact that is stopped may have found another one before.
+                let answer = match is_first {
+                    true => found.share.to_bits(),
+                    false => found.outcome as u64,
+                };
+                answers.push((found.limit, answer));
             }
         }
     }

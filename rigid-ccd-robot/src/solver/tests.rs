@@ -2,6 +2,7 @@
 
 mod bounds;
 mod features;
+mod history;
 mod inputs;
 mod questions;
 

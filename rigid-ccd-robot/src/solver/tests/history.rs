@@ -1,0 +1,56 @@
+//! Tests that what was asked before, and what a limit ended, changes no first contact and no closest approach.
+
+use super::*;
+use std::time::Duration;
+
+#[test]
+fn what_was_asked_before_changes_no_first_contact() {
+    let mut random = Pcg64::seed_from_u64(91);
+    let [mut contacts, mut stopped, mut others] = [0; 3];
+    for _ in 0..300 {
+        let cell = random_cell(&mut random);
+        let mut used = cell.solver();
+        for _ in 0..20 {
+            let path = [(); 2].map(|()| random_configuration(&mut random, cell.robot()));
+            let alone = cell.solver().first_contact(&path[..]).unwrap();
+            let any_alone = cell.solver().any_contact(&path[..]).unwrap();
+            contacts += usize::from(matches!(alone, PathOutcome::Contact(_)));
+
+            let is_timed = random.random_range(0..2) == 0;
+            used.set_settings(Settings {
+                deadline: is_timed.then(|| Duration::from_nanos(random.random_range(0..60_000))),
+                budget: random.random_range(0..20),
+                ..Settings::DEFAULT
+            });
+            match used.first_contact(&path[..]).unwrap() {
+                PathOutcome::Unresolved { .. } => stopped += 1,
+                answered => assert_same(&answered, &alone),
+            }
+            // A limit leaves pairs out, so that the contact is perhaps another one.
+            if let Ok(any) = used.any_contact(&path[..]) {
+                assert_eq!(any.is_some(), any_alone.is_some());
+                others += usize::from(any.map(|any| any.at) != any_alone.map(|any| any.at));
+            }
+            used.set_settings(Settings::DEFAULT);
+            assert_same(&used.first_contact(&path[..]).unwrap(), &alone);
+            assert_eq!(
+                used.any_contact(&path[..]).unwrap().map(|any| any.at),
+                any_alone.map(|any| any.at)
+            );
+        }
+    }
+    assert!(
+        contacts > 1500 && stopped > 1000 && others > 10,
+        "{contacts} {stopped} {others}"
+    );
+}
+
+/// Asserts that two first contacts are the same. Their points may be missing if a deadline passes.
+fn assert_same(one: &PathOutcome<'_>, other: &PathOutcome<'_>) {
+    match (one, other) {
+        (PathOutcome::Contact(one), PathOutcome::Contact(other)) => {
+            assert_eq!((one.at, one.items), (other.at, other.items));
+        }
+        _ => assert_eq!(one, other),
+    }
+}
