@@ -141,7 +141,21 @@ impl RccdAnswer {
             Outcome::Interval { last, .. } => last.time,
             _ => f64::NAN,
         };
-        let without_contact = RccdAnswer {
+        let (normal, [witness_a, witness_b], [feature_a, feature_b]) = match contact(outcome) {
+            Ok(Some(Contact {
+                separation,
+                feature_a,
+                feature_b,
+                ..
+            })) => (
+                separation.normal.to_array(),
+                [separation.witness_a, separation.witness_b].map(|at| at.to_array()),
+                [feature_a, feature_b].map(RccdFeature::from),
+            ),
+            Ok(None) => ([f64::NAN; 3], [[f64::NAN; 3]; 2], [RccdFeature::NONE; 2]),
+            Err(inside) => ([f64::NAN; 3], [inside; 2], [RccdFeature::NONE; 2]),
+        };
+        RccdAnswer {
             size: size_of::<RccdAnswer>(),
             outcome: kind,
             limit: outcome.limit().map_or(RccdLimit::None, RccdLimit::from),
@@ -150,29 +164,13 @@ impl RccdAnswer {
             safe_until,
             lower: outcome.lower(),
             upper: outcome.upper(),
-            normal: [f64::NAN; 3],
-            witness_a: [f64::NAN; 3],
-            witness_b: [f64::NAN; 3],
-            feature_a: RccdFeature::NONE,
-            feature_b: RccdFeature::NONE,
+            normal,
+            witness_a,
+            witness_b,
+            feature_a,
+            feature_b,
             tolerance: answer.tolerance,
             work: answer.stats.budgeted_work(),
-        };
-        match contact(outcome) {
-            Ok(Some(contact)) => RccdAnswer {
-                normal: contact.separation.normal.to_array(),
-                witness_a: contact.separation.witness_a.to_array(),
-                witness_b: contact.separation.witness_b.to_array(),
-                feature_a: contact.feature_a.into(),
-                feature_b: contact.feature_b.into(),
-                ..without_contact
-            },
-            Ok(None) => without_contact,
-            Err(inside) => RccdAnswer {
-                witness_a: inside,
-                witness_b: inside,
-                ..without_contact
-            },
         }
     }
 }

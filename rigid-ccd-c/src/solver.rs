@@ -9,7 +9,7 @@ use crate::settings::RccdSettings;
 use crate::status::{Failure, RccdStatus, status_of};
 use crate::trajectory::RccdTrajectory;
 use ccd_core::MovingBody;
-use rigid_ccd::{InputError, Motion, Settings, Solver};
+use rigid_ccd::{Answer, InputError, Motion, Settings, Solver};
 
 /// A solver: settings, and memory that it reuses from query to query. Each thread needs its own.
 pub struct RccdSolver {
@@ -94,9 +94,9 @@ pub unsafe extern "C" fn rccd_first_contact(
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
     unsafe {
-        ask(solver, [a, b], answer, |s, a, b| {
-            let answer = s.solver.first_contact(a, b, duration)?;
-            Ok(RccdAnswer::new(&answer, duration))
+        let to_answer = |found: &Answer| RccdAnswer::new(found, duration);
+        ask(solver, [a, b], answer, to_answer, |s, a, b| {
+            s.solver.first_contact(a, b, duration)
         })
     }
 }
@@ -116,9 +116,9 @@ pub unsafe extern "C" fn rccd_any_contact(
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
     unsafe {
-        ask(solver, [a, b], answer, |s, a, b| {
-            let answer = s.solver.any_contact(a, b, duration)?;
-            Ok(RccdAnswer::new(&answer, duration))
+        let to_answer = |found: &Answer| RccdAnswer::new(found, duration);
+        ask(solver, [a, b], answer, to_answer, |s, a, b| {
+            s.solver.any_contact(a, b, duration)
         })
     }
 }
@@ -137,9 +137,9 @@ pub unsafe extern "C" fn rccd_contact_interval(
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
     unsafe {
-        ask(solver, [a, b], answer, |s, a, b| {
-            let answer = s.solver.contact_interval(a, b, duration)?;
-            Ok(RccdAnswer::new(&answer, duration))
+        let to_answer = |found: &Answer| RccdAnswer::new(found, duration);
+        ask(solver, [a, b], answer, to_answer, |s, a, b| {
+            s.solver.contact_interval(a, b, duration)
         })
     }
 }
@@ -159,9 +159,9 @@ pub unsafe extern "C" fn rccd_closest_approach(
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
     unsafe {
-        ask(solver, [a, b], answer, |s, a, b| {
-            let answer = s.solver.closest_approach(a, b, duration)?;
-            Ok(RccdAnswer::new(&answer, duration))
+        let to_answer = |found: &Answer| RccdAnswer::new(found, duration);
+        ask(solver, [a, b], answer, to_answer, |s, a, b| {
+            s.solver.closest_approach(a, b, duration)
         })
     }
 }
@@ -186,12 +186,13 @@ pub unsafe extern "C" fn rccd_keeps_clearance(
             clearance: Some(clearance),
             ..s.settings.clone()
         });
-        let answer = s.solver.closest_approach(a, b, duration);
+        let found = s.solver.closest_approach(a, b, duration);
         s.solver.set_settings(s.settings.clone());
-        Ok(RccdAnswer::about_clearance(&answer?, duration, clearance))
+        found
     };
+    let to_answer = |found: &Answer| RccdAnswer::about_clearance(found, duration, clearance);
     // SAFETY: the contract of this function.
-    unsafe { ask(solver, [a, b], answer, question) }
+    unsafe { ask(solver, [a, b], answer, to_answer, question) }
 }
 
 /// Asks a question, and stores the answer.
@@ -202,11 +203,8 @@ unsafe fn ask(
     solver: *mut RccdSolver,
     bodies: [*const RccdMovingBody; 2],
     out: *mut RccdAnswer,
-    question: impl FnOnce(
-        &mut RccdSolver,
-        MovingBody<'_>,
-        MovingBody<'_>,
-    ) -> Result<RccdAnswer, InputError>,
+    to_answer: impl FnOnce(&Answer) -> RccdAnswer,
+    question: impl FnOnce(&mut RccdSolver, MovingBody<'_>, MovingBody<'_>) -> Result<Answer, InputError>,
 ) -> RccdStatus {
     status_of(|| {
         // SAFETY: the contract of this function.
@@ -215,7 +213,9 @@ unsafe fn ask(
         let [a, b] = unsafe { [moving_body("a", bodies[0])?, moving_body("b", bodies[1])?] };
         // SAFETY: the contract of this function.
         let size = unsafe { growing::size_of_place("the answer", out) }?;
-        let answer = question(solver, a, b).map_err(Failure::input)?;
+        let found = question(solver, a, b);
+        // By reference: an answer is large, and a short question takes little longer than a few copies of it.
+        let answer = to_answer(found.as_ref().map_err(Failure::input)?);
         // SAFETY: the contract of this function.
         unsafe { growing::store(out, size, &answer) };
         Ok(())

@@ -1,9 +1,12 @@
 //! Answers single queries about two bodies, with a solver that reuses its memory.
 
+mod questions;
+
 use crate::Error;
-use ccd_core::schedule::{BestFirst, DepthFirst, Schedule};
+use ccd_core::schedule::{BestFirst, DepthFirst};
 use ccd_core::{Answer, Body, DistanceOracle, InputError, MovingBody, Pose, Query, Settings};
 use ccd_distance_gjk::Direct;
+use questions::Questions;
 
 /// Finds the first contact of two moving bodies, from time 0 to `duration`.
 ///
@@ -58,13 +61,15 @@ pub struct Solver<O: DistanceOracle = Direct> {
     best_first: BestFirst<O>,
     depth_first: DepthFirst<O>,
     oracle: O,
+    questions: Questions<O>,
     settings: Settings,
 }
 
 impl Solver {
     /// Creates a solver with the default distance backend, [`Direct`].
     pub fn new() -> Self {
-        Solver::with_oracle(Direct::default())
+        // Not generic: compiled here, and not where it is called.
+        Solver::with_questions(Direct::default(), Questions::COMPILED)
     }
 }
 
@@ -77,10 +82,15 @@ impl Default for Solver {
 impl<O: DistanceOracle> Solver<O> {
     /// Creates a solver with another distance backend, such as [`Gjk`](crate::oracle::Gjk) or your own.
     pub fn with_oracle(oracle: O) -> Self {
+        Solver::with_questions(oracle, Questions::COMPILED)
+    }
+
+    fn with_questions(oracle: O, questions: Questions<O>) -> Self {
         Solver {
             best_first: BestFirst::default(),
             depth_first: DepthFirst::default(),
             oracle,
+            questions,
             settings: Settings::DEFAULT,
         }
     }
@@ -122,7 +132,7 @@ impl<O: DistanceOracle> Solver<O> {
         duration: f64,
     ) -> Result<Answer, InputError> {
         let query = build_query(a, b, duration, &self.settings)?;
-        self.best_first.first_contact(&query, &mut self.oracle)
+        (self.questions.first_contact)(&mut self.best_first, &query, &mut self.oracle)
     }
 
     /// Returns whether two moving bodies stay apart, by more than the margin.
@@ -163,7 +173,7 @@ impl<O: DistanceOracle> Solver<O> {
         duration: f64,
     ) -> Result<Answer, InputError> {
         let query = build_query(a, b, duration, &self.settings)?;
-        self.depth_first.any_contact(&query, &mut self.oracle)
+        (self.questions.any_contact)(&mut self.depth_first, &query, &mut self.oracle)
     }
 
     /// Returns when two moving bodies first and last touch.
@@ -190,7 +200,7 @@ impl<O: DistanceOracle> Solver<O> {
         duration: f64,
     ) -> Result<Answer, InputError> {
         let query = build_query(a, b, duration, &self.settings)?;
-        self.best_first.contact_interval(&query, &mut self.oracle)
+        (self.questions.contact_interval)(&mut self.best_first, &query, &mut self.oracle)
     }
 
     /// Brackets the least distance of two moving bodies to within the tolerance, with its time and the nearest pieces.
@@ -227,7 +237,7 @@ impl<O: DistanceOracle> Solver<O> {
         duration: f64,
     ) -> Result<Answer, InputError> {
         let query = build_query(a, b, duration, &self.settings)?;
-        self.depth_first.closest_approach(&query, &mut self.oracle)
+        (self.questions.closest_approach)(&mut self.depth_first, &query, &mut self.oracle)
     }
 
     /// Brackets the distance of two bodies at rest, as narrowly as f64 allows, with the nearest pieces.
@@ -258,13 +268,14 @@ impl<O: DistanceOracle> Solver<O> {
         query: &Query<'_>,
     ) -> Result<Answer, InputError> {
         use crate::batch::Question;
-        let oracle = &mut self.oracle;
+        let (best_first, depth_first) = (&mut self.best_first, &mut self.depth_first);
+        let (ask, oracle) = (&self.questions, &mut self.oracle);
         match question {
-            Question::FirstContact => self.best_first.first_contact(query, oracle),
-            Question::IsFree => self.depth_first.any_contact(query, oracle),
-            Question::ContactInterval => self.best_first.contact_interval(query, oracle),
+            Question::FirstContact => (ask.first_contact)(best_first, query, oracle),
+            Question::IsFree => (ask.any_contact)(depth_first, query, oracle),
+            Question::ContactInterval => (ask.contact_interval)(best_first, query, oracle),
             Question::ClosestApproach | Question::Distance => {
-                self.depth_first.closest_approach(query, oracle)
+                (ask.closest_approach)(depth_first, query, oracle)
             }
         }
     }

@@ -38,7 +38,8 @@ impl<O: DistanceOracle> DepthFirst<O> {
     ///
     /// # Guarantee
     /// The guarantee of [`Outcome`]; ends on every input; the same call gives the same bits, unless a
-    /// [deadline](crate::Settings::deadline) ends it.
+    /// [deadline](crate::Settings::deadline) or a [flag](crate::Settings::stop) stops it. Of bodies that overlap at the
+    /// start, and come within the tolerance later too, either may then be the answer.
     ///
     /// # Errors
     /// An [`InputError`] if a trajectory has no motion at some time, or one out of range.

@@ -100,11 +100,14 @@ fn answers(scene: &Scene, stop: *const RccdStop) -> Vec<(RccdLimit, u64)> {
             trajectory: if k == 0 { null() } else { scene.trajectory.0 },
         });
         let mut answer = empty_answer();
-        for question in [rccd_first_contact, rccd_closest_approach] {
-            // SAFETY: all pointers are to values that live here, and the solver is of this thread.
-            ok(unsafe { question(solver.pointer(), &a, &b, 1.0, &mut answer) });
-            answers.push((answer.limit, answer.time.to_bits()));
-        }
+        // SAFETY: all pointers are to values that live here, and the solver is of this thread.
+        ok(unsafe { rccd_first_contact(solver.pointer(), &a, &b, 1.0, &mut answer) });
+        answers.push((answer.limit, answer.time.to_bits()));
+        // SAFETY: as above.
+        ok(unsafe { rccd_closest_approach(solver.pointer(), &a, &b, 1.0, &mut answer) });
+        // Bodies that come within the tolerance are looked at once more at the start. If this is stopped, the answer names
+        // the later time.
+        answers.push((answer.limit, answer.lower.to_bits()));
         let configurations = [(); 2].map(|()| support_cells::configuration(&mut random));
         let curve = RccdPath {
             configurations: null(),
