@@ -1,4 +1,4 @@
-//! Proves that two parts stay apart over a stretch of time, along one axis: the lemma of the README.
+//! Proves that two parts stay apart over a stretch of time, along one axis: Lemmas 1 and 2 of the README.
 
 use crate::body::Part;
 use crate::motion::Placed;
@@ -37,10 +37,9 @@ impl<'a> Stretch<'a> {
             offset,
             drift: b.velocity - a.velocity - turn.cross(offset),
             // What the axis turns with does not turn, as it is seen from there.
-            turns: numbers.map(|link| match links[link].turn {
-                _ if link == from => ZERO,
-                of_link if turn == ZERO => of_link,
-                of_link => of_link - turn,
+            turns: numbers.map(|link| match link == from {
+                true => ZERO,
+                false => links[link].turn - turn,
             }),
             bend: ways.iter().map(|way| way.bend).sum(),
             bends: ways.map(|way| way.factors().1),

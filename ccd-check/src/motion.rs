@@ -6,10 +6,13 @@ use crate::reader::Reader;
 use crate::rotation::Rotation;
 use alloc::vec::Vec;
 
-/// Times are shares of a power of two that is no less than the duration, in multiples of 2⁻⁶⁰.
+/// Times are in multiples of 2⁻⁶⁰ of the unit of time, which is no less than the duration.
 pub(crate) const TIME: u32 = 60;
 
 const UNIT: i64 = -(FRACTION as i64);
+
+/// A chain has at most so many links.
+const MAX_DEPTH: usize = 1 << 10;
 
 /// How a link moves on its parent: its centre along a line, and the link about it at a constant rate.
 pub(crate) struct Link {
@@ -23,9 +26,11 @@ pub(crate) struct Link {
     /// The rotation at time 0, and the rotation vector of the unit of time.
     start: Matrix,
     turn: Vector,
-    /// Bounds of the sums of all arms, and of all turns, from the world to the link.
+    /// Bounds of the sums of all arms and travels, and of all turns, from the world to the link.
     reach: i128,
     turned: i128,
+    /// The number of links from the world to this one.
+    depth: usize,
 }
 
 impl Link {
@@ -50,6 +55,7 @@ impl Link {
             turn: ZERO,
             reach: 0,
             turned: 0,
+            depth: 1,
         };
         if kind == 0 {
             link.travel = reader.vector(per_time, 50)?;
@@ -57,6 +63,7 @@ impl Link {
             link.centre = reader.vector(length, 50)?;
             link.arm = position + start.apply(link.centre);
         } else {
+            // The joint's axis in the frame of the parent.
             let axis = start.apply(reader.vector(UNIT, FRACTION + 1)?);
             if kind == 1 {
                 let angle = reader.number(UNIT, FRACTION + 8)?;
@@ -72,11 +79,16 @@ impl Link {
         if let Some(parent) = parent.checked_sub(1).map(|k| &links[k]) {
             link.arm = link.arm - parent.centre;
             (link.reach, link.turned) = (parent.reach, parent.turned);
+            link.depth += parent.depth;
         }
         link.reach += link.arm.length() + link.travel.length();
         link.turned += link.turn.length();
         if link.reach > 1 << 51 || link.turned > 1 << (FRACTION + 8) {
             return Err(Stop::Unverifiable("links reach or turn too far"));
+        }
+        // What the rotations of a chain are off by adds up.
+        if link.depth > MAX_DEPTH || link.start.rad > ONE.mid[0] >> 20 {
+            return Err(Stop::Unverifiable("a chain is too long, or turns too far"));
         }
         Ok(link)
     }

@@ -19,6 +19,13 @@ pub(crate) const ZERO: Vector = Ball::exact([0; 3]);
 
 pub(crate) type Point = [i64; 3];
 
+/// The coordinate axes, as fractions.
+pub(crate) const AXES: [Point; 3] = [
+    [1 << FRACTION, 0, 0],
+    [0, 1 << FRACTION, 0],
+    [0, 0, 1 << FRACTION],
+];
+
 pub(crate) fn product(a: i64, b: i64) -> i128 {
     i128::from(a) * i128::from(b)
 }
@@ -107,7 +114,7 @@ impl Vector {
     }
 }
 
-/// Returns the radius of a product, be it of numbers or of vectors: none is longer than the lengths' product.
+/// Returns the radius of a product. Each of a b, a·b and a×b is at most |a| |b|.
 fn radius<const N: usize, const M: usize>(a: Ball<N>, b: Ball<M>) -> i128 {
     product(a.size(), b.rad) + product(a.rad, b.size())
 }
@@ -125,12 +132,9 @@ pub(crate) struct Matrix {
 }
 
 impl Matrix {
-    pub(crate) const IDENTITY: Matrix = {
-        let one = 1 << FRACTION;
-        Matrix {
-            columns: [[one, 0, 0], [0, one, 0], [0, 0, one]],
-            rad: 0,
-        }
+    pub(crate) const IDENTITY: Matrix = Matrix {
+        columns: AXES,
+        rad: 0,
     };
 
     /// Returns the matrix of columns. The norm of what they are off by is at most √3 times the largest radius.
@@ -139,11 +143,6 @@ impl Matrix {
             columns: columns.map(|column| column.mid),
             rad: 2 * columns.iter().fold(0, |most, column| most.max(column.rad)),
         }
-    }
-
-    /// Returns the matrix with each column changed as a vector is.
-    pub(crate) fn map(self, change: impl FnMut(Vector) -> Vector) -> Matrix {
-        Matrix::of(self.columns.map(Vector::exact).map(change))
     }
 
     pub(crate) fn apply(self, v: Vector) -> Vector {

@@ -4,6 +4,7 @@ use crate::Stop;
 use crate::number::{Number, Vector};
 
 /// The bytes of a file, and how far they are read.
+#[derive(Clone)]
 pub(crate) struct Reader<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -75,10 +76,14 @@ impl<'a> Reader<'a> {
         let number = match field.max(1) - 1075 - unit {
             _ if mantissa == 0 => Number::exact([0]),
             shift @ 0..=9 => Number::exact([mantissa << shift]),
-            shift @ ..0 => Number {
-                mid: [mantissa >> (-shift).min(60)],
-                rad: 1,
-            },
+            shift @ ..0 => {
+                let dropped = (-shift).min(60);
+                let mid = mantissa >> dropped;
+                Number {
+                    mid: [mid],
+                    rad: i64::from(mid << dropped != mantissa),
+                }
+            }
             _ => return Err(Stop::Unverifiable("a number is too large in its unit")),
         };
         if field == 0x7ff || number.size() > 1 << bits {
@@ -89,7 +94,7 @@ impl<'a> Reader<'a> {
         Ok(number)
     }
 
-    /// Reads a binary64 that is not negative, rounded up.
+    /// Reads a binary64 that is not negative, rounded up to a multiple.
     pub(crate) fn size(&mut self, unit: i64, bits: u32) -> Result<i64, Stop> {
         let number = self.number(unit, bits)?;
         self.require(number.mid[0] >= 0, "a length or a time is negative")?;

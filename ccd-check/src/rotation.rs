@@ -1,6 +1,6 @@
 //! Rotations: exponentials of rotation vectors, enclosed.
 
-use crate::number::{FRACTION, Matrix, Number, ONE, Vector};
+use crate::number::{AXES, FRACTION, Matrix, Number, ONE, Vector};
 
 /// A rotation as a quaternion, with 2 over the square of its length.
 pub(crate) struct Rotation {
@@ -18,7 +18,7 @@ impl Rotation {
             (part, halvings) = (part.over(2), halvings + 1);
         }
         let square = part.dot(part);
-        // Taylor, for x² ≤ 1/4: what is left out is less than (1/4)¹⁰ / 20!, which is less than one unit.
+        // Taylor, for x ≤ 1/4: what is left out is less than (1/16)¹⁰ / 20!, which is less than one unit.
         let (mut cos, mut sinc) = (ONE, ONE);
         for k in (1..10).rev() {
             cos = ONE - cos.times(square, FRACTION).over((2 * k - 1) * (2 * k));
@@ -39,10 +39,10 @@ impl Rotation {
     }
 
     pub(crate) fn matrix(&self) -> Matrix {
-        Matrix::IDENTITY.map(|axis| self.turn(axis))
+        Matrix::of(AXES.map(|axis| self.rotated(Vector::exact(axis))))
     }
 
-    fn turn(&self, v: Vector) -> Vector {
+    fn rotated(&self, v: Vector) -> Vector {
         let once = self.vector.cross(v);
         let sum = once.times(self.scalar, FRACTION) + self.vector.cross(once);
         v + sum.times(self.factor, FRACTION)

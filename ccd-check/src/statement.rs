@@ -15,6 +15,8 @@ pub(crate) struct Statement<'b> {
     pub(crate) pairs: Vec<Pair>,
     /// Each pair stays farther apart than its margin until then.
     pub(crate) until: i64,
+    /// That time as its bits, twice: numbers that are not negative have the order of their bits.
+    until_bits: u64,
     witness: Option<Witness>,
 }
 
@@ -53,6 +55,7 @@ impl<'b> Statement<'b> {
             bodies: Vec::new(),
             pairs: Vec::new(),
             until: 0,
+            until_bits: 0,
             witness: None,
         };
         for _ in 0..links? {
@@ -71,6 +74,7 @@ impl<'b> Statement<'b> {
             });
         }
         let time_unit = units[1] - i64::from(TIME);
+        statement.until_bits = reader.clone().unsigned(8)? << 1;
         statement.until = reader.size(time_unit, TIME)?;
         let count = reader.unsigned(1)?;
         reader.require(count < 2, "there is more than one witness")?;
@@ -109,6 +113,7 @@ impl<'b> Statement<'b> {
 
     fn read_witness(&self, reader: &mut Reader<'_>, units: [i64; 2]) -> Result<Witness, Stop> {
         let pair = reader.index(self.pairs.len())?;
+        let time_bits = reader.clone().unsigned(8)? << 1;
         let time = reader.number(units[1] - i64::from(TIME), TIME)?;
         let tolerance = reader.size(units[0], 50)?;
         let mut points = [(0, [0; 3]); 2];
@@ -120,8 +125,8 @@ impl<'b> Statement<'b> {
             let rest = rest.ok_or(reader.broken("the weights of a witness are more than 1"))?;
             *point = (triangle, [a, b, rest].map(|weight| weight as i64));
         }
-        let is_in_time = time.mid[0] >= 0 && time.size() <= self.until;
-        reader.require(is_in_time, "witnesses are at another time")?;
+        let is_in_time = time.mid[0] >= 0 && time_bits <= self.until_bits;
+        reader.require(is_in_time, "the time of the witness is not from 0 to T")?;
         Ok(Witness {
             pair,
             time,
@@ -130,7 +135,7 @@ impl<'b> Statement<'b> {
         })
     }
 
-    /// Returns what the meshes of a pair have to be farther apart than: the margin and both radii.
+    /// Returns the distance that the meshes of a pair have to exceed: the margin and both radii.
     pub(crate) fn least(&self, pair: usize) -> i128 {
         let Pair { bodies, margin } = &self.pairs[pair];
         i128::from(
@@ -163,7 +168,7 @@ impl<'b> Statement<'b> {
             let link = placed[body.link];
             link.centre + link.rotation.apply(point - body.centre)
         });
-        // Margin, radii and tolerance are rounded up: by less than 1 each.
+        // Margin, radii and tolerance are rounded up: by at most 1 each.
         (b - a).length() + 4 <= self.least(witness.pair) + i128::from(witness.tolerance)
     }
 }

@@ -285,10 +285,55 @@ fn each_kind_of_forgery_is_seen() {
         free.push(0);
         free.extend(&bytes[WITNESSES_AT + 1 + WITNESS..]);
         assert!(ccd_check::check(&bodies, &free).is_err());
-        // The witness is later than the proof.
+        // The witness is later than the proof, by the least that can be said.
         let mut late = proof.bytes.clone();
-        late[WITNESSES_AT + 5..WITNESSES_AT + 13].copy_from_slice(&(time + 1e-9).to_le_bytes());
-        assert!(ccd_check::check(&bodies, &late).is_err());
+        late[WITNESSES_AT + 5..WITNESSES_AT + 13].copy_from_slice(&time.next_up().to_le_bytes());
+        assert_eq!(
+            reason(ccd_check::check(&bodies, &late)),
+            "the time of the witness is not from 0 to T"
+        );
+    }
+}
+
+/// The times of a statement may be less than the multiples that the checker computes with.
+#[test]
+fn a_witness_is_no_later_than_the_proof_however_short_it_is() {
+    let meshes = Meshes::new();
+    let [_, contacts] = proofs(&meshes, 10);
+    let bodies = meshes.bodies(contacts[0].1.unit);
+    let mut bytes = contacts[0].1.bytes.clone();
+    let times = [WITNESSES_AT - 8, WITNESSES_AT + 5];
+    for (until, witness, is_in_time) in [
+        (1e-300, 8e-19, false),
+        (8e-19, 1e-300, true),
+        (-0.0, 1e-300, false),
+    ] {
+        for (at, time) in times.into_iter().zip([until, witness]) {
+            bytes[at..at + 8].copy_from_slice(&f64::to_le_bytes(time));
+        }
+        let verdict = reason(ccd_check::check(&bodies, &bytes));
+        let is_refused = verdict == "the time of the witness is not from 0 to T";
+        assert_eq!(is_refused, !is_in_time, "{until:e} {witness:e}: {verdict}");
+    }
+}
+
+/// What rotations are off by adds up along a chain: beyond some length nothing is said.
+#[test]
+fn a_chain_that_is_too_long_is_unverifiable() {
+    let meshes = Meshes::new();
+    let motion = Motion::new(Pose::IDENTITY, [0.0; 3], [0.0; 3]).unwrap();
+    let away = Motion::new(Pose::at([9.0, 0.0, 0.0]).unwrap(), [0.0; 3], [0.0; 3]).unwrap();
+    for (length, is_checked) in [(1024, true), (1025, false)] {
+        let [a, b] = &meshes.proofs;
+        let mut scene = Scene::of_two((a, motion), (b, away), 0.0);
+        scene.links.extend((2..=length).map(|depth| Link {
+            parent: if depth == 2 { 1 } else { depth },
+            joint: Joint::Free(motion),
+        }));
+        scene.bodies[0].link = scene.links.len();
+        let proof = prove(&scene, 1.0, None);
+        let verdict = proof.map(|proof| meshes.check(&proof));
+        assert_eq!(verdict == Ok(Ok(())), is_checked, "{length}: {verdict:?}");
     }
 }
 
