@@ -37,9 +37,12 @@ impl<'a> Stretch<'a> {
             offset,
             drift: b.velocity - a.velocity - turn.cross(offset),
             // What the axis turns with does not turn, as it is seen from there.
-            turns: numbers.map(|link| match link == from {
-                true => ZERO,
-                false => links[link].turn - turn,
+            turns: numbers.map(|link| {
+                if link == from {
+                    ZERO
+                } else {
+                    links[link].turn - turn
+                }
             }),
             bend: ways.iter().map(|way| way.bend).sum(),
             bends: ways.map(|way| way.factors().1),

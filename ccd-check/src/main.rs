@@ -6,7 +6,7 @@
     reason = "verdicts are its output"
 )]
 
-use ccd_check::{Body, Stop, check};
+use ccd_check::{Body, check};
 use std::error::Error;
 use std::fs::read;
 use std::process::ExitCode;
@@ -48,7 +48,7 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<bool, Box<dyn Erro
             "--mesh" => {
                 let files = arguments.next().zip(arguments.next());
                 let (mesh, body) = files.ok_or("--mesh needs two files; see --help")?;
-                meshes.push((read_file(&mesh)?, read_file(&body)?));
+                meshes.push((read_file(&mesh)?, read_file(&body)?, body));
             }
             _ => proofs.push(argument),
         }
@@ -62,19 +62,21 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<bool, Box<dyn Erro
         all_hold &= verdict.is_ok();
         match verdict {
             Ok(()) => println!("{name}: holds"),
-            Err(stop) => println!("{name}: {stop}"),
+            Err(reason) => println!("{name}: {reason}"),
         }
     }
     Ok(all_hold)
 }
 
 /// Checks a proof. Its unit of length is in its header, and the meshes are read in it.
-fn check_file(proof: &[u8], meshes: &[(Vec<u8>, Vec<u8>)]) -> Result<(), Stop> {
+fn check_file(proof: &[u8], meshes: &[(Vec<u8>, Vec<u8>, String)]) -> Result<(), String> {
     let unit = proof.get(8..12).and_then(|bytes| bytes.try_into().ok());
     let unit = i32::from_le_bytes(unit.unwrap_or_default());
-    let read = |(mesh, body): &(Vec<u8>, Vec<u8>)| Body::new(mesh, body, unit);
+    let read = |(mesh, body, name): &(Vec<u8>, Vec<u8>, String)| {
+        Body::new(mesh, body, unit).map_err(|stop| format!("{name}: {stop}"))
+    };
     let bodies: Vec<Body> = meshes.iter().map(read).collect::<Result<_, _>>()?;
-    check(&bodies, proof)
+    check(&bodies, proof).map_err(|stop| stop.to_string())
 }
 
 fn read_file(name: &str) -> Result<Vec<u8>, String> {

@@ -119,9 +119,10 @@ fn answers(scene: &Scene, stop: *const RccdStop) -> Vec<(RccdLimit, u64)> {
             for path in [support_cells::through(&configurations), curve] {
                 let found = support_cells::ask(question, &cell_solver, &path);
                 // A question for any contact that is stopped may have found another one before.
-                let answer = match is_first {
-                    true => found.share.to_bits(),
-                    false => found.outcome as u64,
+                let answer = if is_first {
+                    found.share.to_bits()
+                } else {
+                    found.outcome as u64
                 };
                 answers.push((found.limit, answer));
             }
