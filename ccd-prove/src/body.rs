@@ -93,7 +93,7 @@ impl Body {
     /// corners are its centre, a capsule one that is its axis.
     ///
     /// Vertices and triangles are sorted, so that the bytes of the mesh do not depend on the tree that the engine has built.
-    /// `None` if pieces are rounded by different radii, or have no triangles of a mesh.
+    /// `None` if pieces are rounded by different radii, or one of more than three points has no triangles of a mesh.
     pub fn of(body: &ccd_core::Body) -> Option<(Self, f64)> {
         let radius = body.pieces().get(0).radius;
         let mut triangles: Vec<[DVec3; 3]> = Vec::new();
@@ -106,13 +106,16 @@ impl Body {
                     triangles.push([*a, *b, *c]);
                 }
                 _ => {
-                    let of_piece = piece.mesh_triangles().map(|(_, corners)| corners);
-                    triangles.extend(of_piece);
+                    let before = triangles.len();
+                    triangles.extend(piece.mesh_triangles().map(|(_, corners)| corners));
+                    if triangles.len() == before {
+                        return None;
+                    }
                 }
             }
         }
         let (vertices, faces) = canonical(&triangles);
-        (!faces.is_empty()).then(|| (Body::new(&vertices, &faces), radius))
+        Some((Body::new(&vertices, &faces), radius))
     }
 
     /// Returns the mesh as the bytes whose digest a certificate states.

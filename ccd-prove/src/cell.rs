@@ -1,12 +1,14 @@
 //! The bodies of a robot's cell as proofs take them, and the scene of an edge.
 
 use crate::body::Body;
+use crate::error::PathNotProven;
 use crate::placed::moving;
 use crate::scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
-use crate::write::mesh_points;
+use crate::write::{Proof, mesh_points, prove};
 use ccd_core::{Motion, Pose};
+use rigid_ccd::Settings;
 use rigid_ccd::trajectory::JointKind;
-use rigid_ccd_robot::{Cell, Item, PathContact, RobotError};
+use rigid_ccd_robot::{Cell, Item, PathContact, PathOutcome, RobotError};
 
 /// A cell whose bodies are prepared for proofs.
 #[derive(Debug)]
@@ -20,10 +22,10 @@ impl<'c> ProvenCell<'c> {
     /// Prepares the bodies of a cell.
     ///
     /// # Errors
-    /// The number of a body that has no triangles of a mesh.
-    pub fn new(cell: &'c Cell) -> Result<Self, usize> {
-        let bodies = cell.carried_bodies().enumerate();
-        let bodies = bodies.map(|(number, carried)| Body::of(carried.body).ok_or(number));
+    /// The name of a body that has no triangles of a mesh, or is rounded by different radii.
+    pub fn new(cell: &'c Cell) -> Result<Self, &'c str> {
+        let bodies = cell.carried_bodies();
+        let bodies = bodies.map(|carried| Body::of(carried.body).ok_or(carried.item.name()));
         Ok(ProvenCell {
             cell,
             bodies: bodies.collect::<Result<_, _>>()?,
@@ -75,6 +77,43 @@ impl<'c> ProvenCell<'c> {
             .map(|(bodies, margin)| Pair { bodies, margin })
             .collect();
         Ok(scene)
+    }
+
+    /// Proves what is known of a path: for each segment that all pairs of the cell are farther apart than the margin, up to the
+    /// first contact, and two points that are near each other there. The last segment of a path that is free until its start is
+    /// left out: what touches at a start is apart at no time.
+    ///
+    /// # Errors
+    /// [`PathNotProven`].
+    pub fn prove_path<C: AsRef<[f64]>>(
+        &self,
+        path: &[C],
+        outcome: &PathOutcome<'_>,
+        settings: &Settings,
+    ) -> Result<Vec<Proof>, PathNotProven> {
+        let (end, contact) = match outcome {
+            PathOutcome::Free => (None, None),
+            PathOutcome::Contact(contact) => (Some(contact.at), Some(contact)),
+            PathOutcome::Unresolved { free_until, .. } => (Some(*free_until), None),
+        };
+        let mut proofs = Vec::new();
+        for (segment, ends) in path.windows(2).enumerate() {
+            let share = match end {
+                Some(end) if segment > end.segment => break,
+                Some(end) if segment == end.segment => end.share,
+                _ => 1.0,
+            };
+            if share == 0.0 {
+                break;
+            }
+            let scene = self.edge(ends[0].as_ref(), ends[1].as_ref(), settings.margin)?;
+            let contact = contact.filter(|contact| contact.at.segment == segment);
+            let witness =
+                contact.and_then(|contact| self.witness(&scene, contact, settings.tolerance));
+            let proof = prove(&scene, share, witness);
+            proofs.push(proof.map_err(|reason| PathNotProven::Segment { segment, reason })?);
+        }
+        Ok(proofs)
     }
 
     /// Returns a contact of an edge as a witness in its scene: of the pairs of bodies that the contact may be of, the one whose

@@ -1,5 +1,7 @@
 //! Why a certificate is not written.
 
+use rigid_ccd_robot::RobotError;
+
 /// The reason why no certificate is written.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -17,5 +19,22 @@ pub enum NotProven {
         at: f64,
         /// The number of its bytes.
         bytes: usize,
+    },
+}
+
+/// The reason why a path of a robot has no certificates.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PathNotProven {
+    /// The path does not fit the robot.
+    #[error(transparent)]
+    Robot(#[from] RobotError),
+    /// A segment of the path cannot be proven.
+    #[error("segment {segment}: {reason}")]
+    Segment {
+        /// The number of the segment.
+        segment: usize,
+        /// Why.
+        reason: NotProven,
     },
 }

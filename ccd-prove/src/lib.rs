@@ -5,6 +5,7 @@ mod cell;
 mod cover;
 mod error;
 mod nearest;
+mod pair;
 mod placed;
 mod scene;
 mod statement;
@@ -13,7 +14,8 @@ mod write;
 
 pub use body::Body;
 pub use cell::ProvenCell;
-pub use error::NotProven;
+pub use error::{NotProven, PathNotProven};
+pub use pair::ProvenPair;
 pub use scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
 pub use statement::{StatedWitness, Statement, steps_text};
 pub use write::{Proof, prove};

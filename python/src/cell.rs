@@ -10,6 +10,7 @@ use crate::path_answers::{
     allowed_setting_names, contact_object, ended_by_deadline, path_error, question_named,
 };
 use crate::path_array::{GivenPath, GivenPaths};
+use crate::proofs::prove_path;
 use crate::robot::PyRobot;
 use crate::settings::{
     CONTACT_SETTING_NAMES, DISTANCE_QUERY_SETTING_NAMES, read, read_thread_count,
@@ -177,6 +178,27 @@ impl PyCell {
             }
             None => contact_object(py, &answer),
         }
+    }
+
+    /// Finds the first contact on a path of configurations, and proves the answer for each of its segments: that all pairs that
+    /// the cell compares are farther apart than their margins. A proof is of the triangles: of a body inside another one it says
+    /// nothing.
+    ///
+    /// Returns:
+    ///     A list of `Proof`: one for each segment, the last one that of a contact or of where a limit was reached. Where that
+    ///     is at the start of a segment, this one has no proof.
+    ///
+    /// Raises:
+    ///     InputError: a body has no triangles, the path is a curve, or a segment cannot be proven.
+    #[pyo3(signature = (path, **settings))]
+    fn prove<'py>(
+        &self,
+        py: Python<'py>,
+        path: &Bound<'py, PyAny>,
+        settings: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let settings = read(settings, CONTACT_SETTING_NAMES)?;
+        prove_path(py, &self.cell_with_solvers.cell(), path, settings)
     }
 
     /// Returns bounds of the least distance on a path, with the nearest pair.

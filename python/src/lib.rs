@@ -17,6 +17,7 @@ mod path;
 mod path_answers;
 mod path_array;
 mod pickle;
+mod proofs;
 mod queries;
 mod robot;
 mod robot_base;
@@ -43,6 +44,9 @@ fn _rigid_ccd(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(queries::is_free, module)?)?;
     module.add_function(wrap_pyfunction!(queries::closest_approach, module)?)?;
     module.add_function(wrap_pyfunction!(queries::distance, module)?)?;
+    module.add_function(wrap_pyfunction!(proofs::prove, module)?)?;
+    module.add_function(wrap_pyfunction!(proofs::check_proof, module)?)?;
+    module.add_function(wrap_pyfunction!(proofs::proof_statement, module)?)?;
     module.add_function(wrap_pyfunction!(table_queries::answer_table, module)?)?;
     Ok(())
 }

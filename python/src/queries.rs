@@ -107,10 +107,11 @@ impl PairQuestion<'_> {
 }
 
 /// A body and its motion, as a Python caller passes them.
-type GivenBodyAndMotion<'a, 'py> = (&'a Bound<'py, PyAny>, Option<&'a Bound<'py, PyAny>>);
+pub(crate) type GivenBodyAndMotion<'a, 'py> =
+    (&'a Bound<'py, PyAny>, Option<&'a Bound<'py, PyAny>>);
 
 /// Checks the arguments of a question about two moving bodies, warns of likely mistakes, and answers the question.
-fn ask(
+pub(crate) fn ask(
     py: Python<'_>,
     question: Question,
     [(a, motion_a), (b, motion_b)]: [GivenBodyAndMotion<'_, '_>; 2],

@@ -3,10 +3,11 @@
 use crate::output::OutputError;
 use anyhow::{Context, Result, anyhow};
 use ccd_core::{Answer, Outcome};
-use ccd_prove::{Body, NotProven, Proof, ProvenCell, Scene, Witness, prove};
+use ccd_prove::{Body, NotProven, Proof, ProvenCell, ProvenPair};
+use rigid_ccd::Settings;
 use rigid_ccd::batch::{BodyPair, Question};
 use rigid_ccd::table::motions::Motions;
-use rigid_ccd_robot::{Cell, CellSolver, PathOutcome};
+use rigid_ccd_robot::{Cell, CellSolver};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -48,7 +49,7 @@ impl CertificateFolder {
 /// Two bodies as proofs take them, and the folder for these.
 pub(crate) struct PairCertificates {
     pub(crate) folder: CertificateFolder,
-    bodies: [(Body, f64); 2],
+    bodies: ProvenPair,
     margin: f64,
 }
 
@@ -56,16 +57,13 @@ impl PairCertificates {
     /// Prepares both bodies, and writes their meshes.
     pub(crate) fn new(folder: &Path, pair: BodyPair<'_>, margin: f64) -> Result<Self> {
         let folder = CertificateFolder::create(folder)?;
-        let prepare = |name: &str, body| -> Result<(Body, f64)> {
-            let prepared = Body::of(body).with_context(|| {
-                format!(
-                    "--certificates: --{name} has no triangles, or is rounded by different radii"
-                )
-            })?;
-            folder.write_body(name, &prepared.0)?;
-            Ok(prepared)
-        };
-        let bodies = [prepare("a", pair.a)?, prepare("b", pair.b)?];
+        let bodies = ProvenPair::new(pair.a, pair.b).map_err(|number| {
+            let name = ["a", "b"][number];
+            anyhow!("--certificates: --{name} has no triangles, or is rounded by different radii")
+        })?;
+        for (name, body) in ["a", "b"].into_iter().zip(bodies.meshes()) {
+            folder.write_body(name, body)?;
+        }
         Ok(PairCertificates {
             folder,
             bodies,
@@ -79,21 +77,14 @@ impl PairCertificates {
         motions: &Motions,
         (question, answer): (Question, &Answer),
     ) -> Option<Result<Proof, NotProven>> {
-        let (until, witness) = match &answer.outcome {
-            Outcome::Free { .. } => (motions.duration, None),
-            Outcome::Unresolved(left) if left.safe_until > 0.0 => (left.safe_until, None),
-            Outcome::Contact { time, contact } if question == Question::FirstContact => {
-                let witness = Witness::of_two(*time, answer.tolerance, contact);
-                (*time, Some(witness))
-            }
-            _ => return None,
-        };
-        let [(a, radius_a), (b, radius_b)] = &self.bodies;
-        let mut scene = Scene::of_two((a, motions.a), (b, motions.b), self.margin);
-        for (body, radius) in scene.bodies.iter_mut().zip([radius_a, radius_b]) {
-            body.radius = *radius;
-        }
-        Some(prove(&scene, until, witness))
+        // Any contact need not be the first one.
+        let is_proven = question == Question::FirstContact
+            || !matches!(answer.outcome, Outcome::Contact { .. });
+        let bodies = [motions.a, motions.b];
+        is_proven.then(|| {
+            self.bodies
+                .prove(bodies, motions.duration, self.margin, answer)
+        })?
     }
 }
 
@@ -101,24 +92,14 @@ impl PairCertificates {
 pub(crate) struct CellCertificates<'c> {
     pub(crate) folder: CertificateFolder,
     cell: ProvenCell<'c>,
-    clearance: f64,
-    tolerance: f64,
+    settings: Settings,
 }
 
 impl<'c> CellCertificates<'c> {
     /// Prepares all bodies of a cell, and writes their meshes.
-    pub(crate) fn new(
-        folder: &Path,
-        cell: &'c Cell,
-        [clearance, tolerance]: [f64; 2],
-    ) -> Result<Self> {
+    pub(crate) fn new(folder: &Path, cell: &'c Cell, settings: Settings) -> Result<Self> {
         let folder = CertificateFolder::create(folder)?;
-        let proven = ProvenCell::new(cell).map_err(|number| {
-            let item = cell
-                .carried_bodies()
-                .nth(number)
-                .map(|body| body.item.name().to_owned());
-            let name = item.unwrap_or_default();
+        let proven = ProvenCell::new(cell).map_err(|name| {
             anyhow!("--certificates: {name} has no triangles, or is rounded by different radii")
         })?;
         for (number, body) in proven.meshes().enumerate() {
@@ -127,8 +108,7 @@ impl<'c> CellCertificates<'c> {
         Ok(CellCertificates {
             folder,
             cell: proven,
-            clearance,
-            tolerance,
+            settings,
         })
     }
 
@@ -143,33 +123,16 @@ impl<'c> CellCertificates<'c> {
         (id, path): (&str, &[Vec<f64>]),
     ) -> Result<Vec<(String, Proof)>> {
         let outcome = solver.first_contact(path)?;
-        let last = path.len().saturating_sub(2);
-        let (end, share, contact) = match &outcome {
-            PathOutcome::Free => (last, 1.0, None),
-            PathOutcome::Contact(contact) => (contact.at.segment, contact.at.share, Some(contact)),
-            PathOutcome::Unresolved { free_until, .. } => {
-                (free_until.segment, free_until.share, None)
-            }
-        };
-        let mut proofs = Vec::new();
-        for (segment, ends) in path.windows(2).enumerate().take(end + 1) {
-            let scene = self.cell.edge(&ends[0], &ends[1], self.clearance)?;
-            let is_end = segment == end;
-            // What touches at the start of a segment is apart at no time of it.
-            if is_end && share == 0.0 {
-                break;
-            }
-            let witness = contact.filter(|_| is_end);
-            let witness =
-                witness.and_then(|contact| self.cell.witness(&scene, contact, self.tolerance));
-            let proof = prove(&scene, if is_end { share } else { 1.0 }, witness)?;
-            let name = if last == 0 {
+        let proofs = self.cell.prove_path(path, &outcome, &self.settings)?;
+        let is_edge = path.len() <= 2;
+        let named = proofs.into_iter().enumerate().map(|(segment, proof)| {
+            let name = if is_edge {
                 id.to_owned()
             } else {
                 format!("{id}-{segment}")
             };
-            proofs.push((name, proof));
-        }
-        Ok(proofs)
+            (name, proof)
+        });
+        Ok(named.collect())
     }
 }

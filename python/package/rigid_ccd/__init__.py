@@ -22,6 +22,7 @@ tables of the command ``ccd``.
 
 from ._answers import Contact, Distance, PathContact, PathDistance, PathRange
 from ._edges_query import EdgesQuery
+from ._proofs import Proof
 from ._query import TableQuery
 from ._rigid_ccd import (
     Body,
@@ -35,10 +36,12 @@ from ._rigid_ccd import (
     Robot,
     Table,
     Unresolved,
+    check_proof,
     closest_approach,
     distance,
     first_contact,
     is_free,
+    prove,
 )
 from ._tables import (
     are_free,
@@ -62,12 +65,14 @@ __all__ = [
     "PathContact",
     "PathDistance",
     "PathRange",
+    "Proof",
     "Robot",
     "Table",
     "EdgesQuery",
     "TableQuery",
     "Unresolved",
     "are_free",
+    "check_proof",
     "closest_approach",
     "closest_approaches",
     "contact_intervals",
@@ -76,4 +81,5 @@ __all__ = [
     "first_contact",
     "first_contacts",
     "is_free",
+    "prove",
 ]

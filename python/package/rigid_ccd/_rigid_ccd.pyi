@@ -6,6 +6,7 @@ from numpy import float64
 from numpy.typing import ArrayLike, NDArray
 
 from ._answers import Contact, Distance, PathContact, PathDistance, PathRange
+from ._proofs import Proof
 from ._settings import OfApproaches as _OfApproaches
 from ._settings import OfContacts as _OfContacts
 from ._settings import OfDistances as _OfDistances
@@ -24,10 +25,13 @@ __all__ = [
     "Table",
     "Unresolved",
     "answer_table",
+    "check_proof",
     "closest_approach",
     "distance",
     "first_contact",
     "is_free",
+    "proof_statement",
+    "prove",
     "write_pages",
 ]
 
@@ -276,6 +280,7 @@ class Cell:
         path: ArrayLike | _Curve,
         **settings: Unpack[_OfContacts],
     ) -> PathContact | None: ...
+    def prove(self, path: ArrayLike, **settings: Unpack[_OfContacts]) -> list[Proof]: ...
     def closest_approach(
         self,
         path: ArrayLike | _Curve,
@@ -337,6 +342,16 @@ def first_contact(
     duration: float | None = None,
     **settings: Unpack[_OfContacts],
 ) -> Contact | None: ...
+def prove(
+    a: Body,
+    b: Body,
+    motion_a: Motion | None = None,
+    motion_b: Motion | None = None,
+    duration: float = 1.0,
+    **settings: Unpack[_OfContacts],
+) -> Proof | None: ...
+def check_proof(proof: bytes, meshes: Sequence[tuple[bytes, bytes]]) -> str: ...
+def proof_statement(proof: bytes) -> str: ...
 def is_free(
     a: Body,
     b: Body,

@@ -54,10 +54,10 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     let cell = args.cell.load(args.quiet)?;
     let (mut table, length) = PathTable::open("--edges", &args.edges, cell.robot(), &args.joint)
         .with_context(|| input_name(&args.edges))?;
-    let certificates = args.certificates.as_deref().map(|folder| {
-        let settings = args.settings();
-        CellCertificates::new(folder, &cell, [settings.margin, settings.tolerance])
-    });
+    let certificates = args
+        .certificates
+        .as_deref()
+        .map(|folder| CellCertificates::new(folder, &cell, args.settings()));
     let certificates = certificates.transpose()?;
     let options = recorded_options(args, given, &cell)?;
     let (mut outputs, earlier) = match OpenedTables::new(&files, claimed, &options)? {

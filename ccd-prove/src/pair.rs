@@ -1,0 +1,79 @@
+//! Two bodies as proofs take them, and the proof of an answer about them.
+
+use crate::body::Body;
+use crate::error::NotProven;
+use crate::scene::{Scene, Witness};
+use crate::write::{Proof, prove};
+use ccd_core::{Answer, Motion, Outcome};
+
+/// Two bodies that are prepared for proofs.
+#[derive(Clone, Debug)]
+pub struct ProvenPair {
+    /// For each body its mesh, and the radius around it.
+    bodies: [(Body, f64); 2],
+}
+
+impl ProvenPair {
+    /// Prepares two bodies.
+    ///
+    /// # Errors
+    /// The number of the body, 0 or 1, that has no triangles of a mesh, or is rounded by different radii.
+    pub fn new(a: &ccd_core::Body, b: &ccd_core::Body) -> Result<Self, usize> {
+        let [a, b] = [a, b].map(Body::of);
+        Ok(ProvenPair {
+            bodies: [a.ok_or(0usize)?, b.ok_or(1usize)?],
+        })
+    }
+
+    /// Returns the meshes of the bodies.
+    pub fn meshes(&self) -> [&Body; 2] {
+        self.bodies.each_ref().map(|(body, _)| body)
+    }
+
+    /// Proves what an answer to a question about the first contact says: that the bodies are farther apart than the margin until
+    /// then, and two points that are near each other. For a question that a limit has ended it proves what is known.
+    /// Returns `None` if there is nothing to prove, as the bodies touch at the start or the question was about a distance.
+    ///
+    /// # Errors
+    /// [`NotProven`].
+    ///
+    /// ```
+    /// use ccd_prove::ProvenPair;
+    /// use rigid_ccd::{Body, Motion, Pose, Solver};
+    /// let (ball, wall) = (Body::sphere(0.5)?, Body::cuboid([0.1, 5.0, 5.0])?);
+    /// let flies = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [4.0, 0.0, 0.0], [0.0; 3])?;
+    /// let answer = Solver::new().first_contact((&ball, flies), (&wall, Motion::STILL), 1.0)?;
+    ///
+    /// let pair = ProvenPair::new(&ball, &wall).expect("both have triangles");
+    /// let proof = pair.prove([flies, Motion::STILL], 1.0, 0.0, &answer).expect("a contact")?;
+    /// let read = |body: &ccd_prove::Body| {
+    ///     ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit)
+    /// };
+    /// let [a, b] = pair.meshes();
+    /// ccd_check::check(&[read(a)?, read(b)?], &proof.bytes)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn prove(
+        &self,
+        motions: [Motion; 2],
+        duration: f64,
+        margin: f64,
+        answer: &Answer,
+    ) -> Option<Result<Proof, NotProven>> {
+        let (until, witness) = match &answer.outcome {
+            Outcome::Free { .. } => (duration, None),
+            Outcome::Unresolved(left) if left.safe_until > 0.0 => (left.safe_until, None),
+            Outcome::Contact { time, contact } => {
+                let witness = Witness::of_two(*time, answer.tolerance, contact);
+                (*time, Some(witness))
+            }
+            _ => return None,
+        };
+        let [(a, radius_a), (b, radius_b)] = &self.bodies;
+        let mut scene = Scene::of_two((a, motions[0]), (b, motions[1]), margin);
+        for (body, radius) in scene.bodies.iter_mut().zip([radius_a, radius_b]) {
+            body.radius = *radius;
+        }
+        Some(prove(&scene, until, witness))
+    }
+}

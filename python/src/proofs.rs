@@ -1,0 +1,159 @@
+//! The Python functions that write and check machine-checkable proofs.
+
+use crate::body::extract_body;
+use crate::errors::{input_error, wrong_type_error};
+use crate::interruptible::run_interruptibly;
+use crate::movement::GivenMovement;
+use crate::path_answers::path_error;
+use crate::path_array::GivenPath;
+use crate::queries::{GivenBodyAndMotion, ask};
+use crate::settings::{CONTACT_SETTING_NAMES, read};
+use ccd_prove::{Body, Proof, ProvenCell, ProvenPair, Statement};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyBytes, PyDict, PyType};
+use rigid_ccd::batch::Question;
+use rigid_ccd::{Motion, Settings};
+use rigid_ccd_robot::Cell;
+use std::sync::Arc;
+
+/// Makes a Python `Proof`.
+fn proof_object<'a, 'py>(
+    py: Python<'py>,
+    proof: &Proof,
+    meshes: impl IntoIterator<Item = &'a Body>,
+) -> PyResult<Bound<'py, PyAny>> {
+    static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+    let bytes = |bytes: &[u8]| PyBytes::new(py, bytes);
+    let pair = |body: &Body| (bytes(body.mesh()), bytes(body.certificate()));
+    let meshes: Vec<_> = meshes.into_iter().map(pair).collect();
+    let class = CLASS.import(py, "rigid_ccd._proofs", "Proof")?;
+    class.call1((bytes(&proof.bytes), meshes))
+}
+
+/// Finds the first contact of two moving bodies, and proves the answer: that nothing touches before it, or at all.
+///
+/// Arguments and exceptions are those of `first_contact`, but for motions, each a `Motion` or None. The proof is of the
+/// triangles: of a body inside another one it says nothing. None if the bodies touch at the start.
+///
+/// Raises:
+///     InputError: a body has no triangles, or the answer cannot be proven.
+///
+/// >>> from rigid_ccd import Body, Motion, prove
+/// >>> wall = Body.box(0.1, 5, 5)
+/// >>> proof = prove(Body.sphere(0.5), wall, Motion([-3, 0, 0], velocity=[4, 0, 0]))
+/// >>> proof.check()
+/// 'holds'
+#[pyfunction]
+#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = 1.0, **settings))]
+pub(crate) fn prove<'py>(
+    py: Python<'py>,
+    a: &Bound<'_, PyAny>,
+    b: &Bound<'_, PyAny>,
+    motion_a: Option<&Bound<'_, PyAny>>,
+    motion_b: Option<&Bound<'_, PyAny>>,
+    duration: f64,
+    settings: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let settings = read(settings, CONTACT_SETTING_NAMES)?;
+    let motions = [
+        constant_motion((a, motion_a), "motion_a")?,
+        constant_motion((b, motion_b), "motion_b")?,
+    ];
+    let bodies = [(a, motion_a), (b, motion_b)];
+    let answer = ask(
+        py,
+        Question::FirstContact,
+        bodies,
+        Some(duration),
+        &settings,
+    )?;
+    let [a, b] = [extract_body(a, "a")?, extract_body(b, "b")?];
+    let proven = py.detach(|| {
+        let pair = ProvenPair::new(a, b)?;
+        let proof = pair.prove(motions, duration, settings.margin, &answer);
+        Ok((pair, proof))
+    });
+    let (pair, proof) = proven.map_err(|number: usize| {
+        let name = ["a", "b"][number];
+        input_error(format!(
+            "{name}: has no triangles, or is rounded by different radii"
+        ))
+    })?;
+    let proof = proof.transpose().map_err(input_error)?;
+    let object = |proof| proof_object(py, &proof, pair.meshes());
+    proof.map(object).transpose()
+}
+
+/// Finds the first contact of a cell on a path of configurations, and proves the answer, a proof for each segment.
+pub(crate) fn prove_path<'py>(
+    py: Python<'py>,
+    cell: &Cell,
+    path: &Bound<'_, PyAny>,
+    settings: Settings,
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let path = match GivenPath::read(path)? {
+        GivenPath::Configurations(path) => path,
+        GivenPath::Curve(_) => {
+            return Err(input_error(
+                "path: a curve has no proofs, configurations do",
+            ));
+        }
+    };
+    let path = path.configurations();
+    let proven = ProvenCell::new(cell).map_err(|name| {
+        input_error(format!(
+            "{name}: has no triangles, or is rounded by different radii"
+        ))
+    })?;
+    let work = |stop: &Arc<_>| {
+        let mut solver = cell.solver();
+        solver.set_settings(Settings {
+            stop: Some(Arc::clone(stop)),
+            ..settings.clone()
+        });
+        let outcome = solver.first_contact(&path)?;
+        Ok(proven.prove_path(&path, &outcome, &settings))
+    };
+    let (proofs, seen) = run_interruptibly(py, work, |_| Ok(()))?;
+    seen?;
+    let proofs = proofs.map_err(|error| path_error(py, error, 0.0))?;
+    let proofs = proofs.map_err(input_error)?;
+    let object = |proof| proof_object(py, proof, proven.meshes());
+    proofs.iter().map(object).collect()
+}
+
+/// Reads a motion at constant velocities, of which alone there are proofs.
+fn constant_motion((_, motion): GivenBodyAndMotion<'_, '_>, what: &str) -> PyResult<Motion> {
+    match (GivenMovement::extract(motion, what)?, motion) {
+        (GivenMovement::Motion(motion), _) => Ok(motion),
+        (_, Some(given)) => Err(wrong_type_error(what, "a Motion for a proof", given)),
+        (_, None) => Ok(Motion::STILL),
+    }
+}
+
+/// Checks a proof with the crate `ccd-check`, which shares no code with what found and wrote it.
+///
+/// Args:
+///     proof: the bytes of the proof.
+///     meshes: for each mesh its bytes, and those of its tree; more may be given than the proof needs.
+///
+/// Returns:
+///     "holds", or why it does not: "broken: …", or "unverifiable: …" for numbers beyond the range of the checker.
+#[pyfunction]
+pub(crate) fn check_proof(py: Python<'_>, proof: &[u8], meshes: Vec<(Vec<u8>, Vec<u8>)>) -> String {
+    let unit = Statement::read(proof).map_or(0, |statement| statement.units[0]);
+    let verdict = py.detach(|| {
+        let read = |(mesh, tree): &(Vec<u8>, Vec<u8>)| ccd_check::Body::new(mesh, tree, unit);
+        let bodies = meshes.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        ccd_check::check(&bodies, proof)
+    });
+    verdict.map_or_else(|stop| stop.to_string(), |()| "holds".to_owned())
+}
+
+/// Returns what a proof states, in words; an error if the bytes are no proof.
+#[pyfunction]
+pub(crate) fn proof_statement(proof: &[u8]) -> PyResult<String> {
+    let statement = Statement::read(proof).ok_or_else(|| input_error("this is no proof"))?;
+    Ok(statement.to_string())
+}

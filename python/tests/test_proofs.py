@@ -1,0 +1,86 @@
+"""Machine-checkable proofs: they hold, forged ones do not, and what cannot be proven is said."""
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rigid_ccd import Body, Cell, InputError, Motion, Proof, Robot, check_proof, first_contact, prove
+from rigid_ccd import Path as PosePath
+
+WALL = Body.box(0.1, 5, 5)
+FLIES = Motion([-3, 0, 0], velocity=[4, 0, 0], spin=[0, 1, 2])
+ARM = """<robot name="arm">
+  <link name="base"/>
+  <link name="upper"><collision><origin xyz="0.5 0 0"/><geometry><box size="0.8 0.1 0.1"/></geometry></collision></link>
+  <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/>
+    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+</robot>"""
+
+
+@pytest.fixture
+def cell(tmp_path: Path) -> Cell:
+    file = tmp_path / "arm.urdf"
+    file.write_text(ARM)
+    cell = Cell(Robot.from_urdf(file))
+    cell.add("post", Body.sphere(0.1), ([0, 0.7, 0], [1, 0, 0, 0]))
+    return cell
+
+
+def proof_of(body: Body, motion: Motion = FLIES, **settings: float) -> Proof:
+    proof = prove(body, WALL, motion, **settings)  # type: ignore[arg-type]
+    assert proof is not None
+    return proof
+
+
+def test_proofs_of_contacts_and_of_free_motions_hold() -> None:
+    cube = Body.box(1, 1, 1)
+    hit = first_contact(cube, WALL, FLIES, tolerance=1e-3)
+    proof = proof_of(cube, tolerance=1e-3)
+    assert proof.check() == "holds"
+    assert hit is not None and f"until {hit.time}" in str(proof)
+    away = proof_of(cube, Motion([-3, 0, 0], velocity=[-1, 0, 0]))
+    assert away.check() == "holds" and "until 1" in str(away)
+    # At rest, in a gap of 1.9.
+    kept = proof_of(cube, Motion([-3, 0, 0]), margin=1.875)
+    assert kept.check() == "holds"
+
+
+def test_a_changed_proof_does_not_hold() -> None:
+    proof = proof_of(Body.box(1, 1, 1))
+    for at in range(len(proof.proof)):
+        assert check_proof(proof.proof[:at], proof.meshes).startswith("broken: ")
+    other = proof_of(Body.box(1, 1, 1.25))
+    assert check_proof(proof.proof, other.meshes).startswith("broken: ")
+    assert check_proof(b"no proof", proof.meshes).startswith("broken: ")
+    with pytest.raises(InputError, match="this is no proof"):
+        str(Proof(b"no proof", proof.meshes))
+
+
+def test_files_are_those_of_the_command(tmp_path: Path) -> None:
+    proof = proof_of(Body.sphere(0.5))
+    proof.save(tmp_path / "proofs", "hit")
+    names = sorted(file.suffix for file in (tmp_path / "proofs").iterdir())
+    assert names == [".body", ".body", ".mesh", ".mesh", ".proof"]
+    again = pickle.loads(pickle.dumps(proof))
+    assert again == proof and again.check() == "holds"
+
+
+def test_what_has_no_proof_is_said() -> None:
+    assert prove(Body.box(1, 1, 1), WALL) is None
+    moving = PosePath([0, 1], np.tile(np.eye(4), (2, 1, 1)))
+    with pytest.raises(TypeError, match="motion_a: .*a Motion for a proof"):
+        prove(WALL, WALL, moving)  # type: ignore[arg-type]
+
+
+def test_each_segment_of_a_path_has_a_proof(cell: Cell) -> None:
+    path = [[-1.0], [0.0], [3.0], [0.0]]
+    contact = cell.first_contact(path)
+    assert contact is not None and contact.segment == 1
+    proofs = cell.prove(path)
+    assert [proof.check() for proof in proofs] == ["holds"] * 2
+    assert len(cell.prove([[-1.0], [-0.5], [0.0]])) == 2
+    assert cell.prove([[np.pi / 2], [3.0]]) == []
+    with pytest.raises(InputError, match="positions"):
+        cell.prove([[0.0, 1.0]])
