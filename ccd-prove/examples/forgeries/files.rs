@@ -1,0 +1,125 @@
+//! The files that a check takes, where what stands in a proof, and how they are written for another checker.
+
+use std::io::{self, Write};
+use std::ops::Range;
+
+/// A generator of random numbers.
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    pub(crate) fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005);
+        self.0 = self.0.wrapping_add(1_442_695_040_888_963_407);
+        self.0 >> 33
+    }
+
+    pub(crate) fn below(&mut self, limit: usize) -> usize {
+        self.bits() as usize % limit
+    }
+
+    /// Returns a number from -1 to 1.
+    pub(crate) fn number(&mut self) -> f64 {
+        self.bits() as f64 / (1u64 << 30) as f64 - 1.0
+    }
+
+    pub(crate) fn vector(&mut self, size: f64) -> [f64; 3] {
+        [(); 3].map(|()| self.number() * size)
+    }
+}
+
+/// A proof about two meshes.
+#[derive(Clone, PartialEq)]
+pub(crate) struct Files {
+    pub(crate) proof: Vec<u8>,
+    pub(crate) meshes: [Vec<u8>; 2],
+    pub(crate) trees: [Vec<u8>; 2],
+}
+
+/// Where what stands in a proof.
+pub(crate) struct Places {
+    /// Each link: the place of its parent and kind, and of its numbers.
+    pub(crate) links: Vec<(usize, Range<usize>)>,
+    pub(crate) bodies: Vec<usize>,
+    pub(crate) pairs: Vec<usize>,
+    pub(crate) until: usize,
+    pub(crate) witness: Option<usize>,
+    pub(crate) steps: Vec<Range<usize>>,
+}
+
+impl Files {
+    /// Returns where what stands in a proof that is not forged.
+    pub(crate) fn places(&self) -> Places {
+        let count = |at: usize| u32::from_le_bytes([0, 1, 2, 3].map(|k| self.proof[at + k]));
+        let mut at = 28;
+        let mut links = Vec::new();
+        for _ in 0..count(16) {
+            let numbers = if self.proof[at + 4] == 0 { 16 } else { 12 };
+            let end = at + 5 + 8 * numbers;
+            links.push((at, at + 5..end));
+            at = end;
+        }
+        let mut entries = |count: u32, size: usize| -> Vec<usize> {
+            let first = at;
+            at += count as usize * size;
+            (first..at).step_by(size).collect()
+        };
+        let bodies = entries(count(20), 44);
+        let pairs = entries(count(24), 16);
+        let (until, witness) = (at, at + 9);
+        let witness = (self.proof[at + 8] == 1).then_some(witness);
+        at += 9 + 60 * usize::from(witness.is_some());
+        let mut steps = Vec::new();
+        while at < self.proof.len() {
+            let size = match self.proof[at] {
+                0..=1 => 1,
+                2 => 3,
+                3..=5 => 7,
+                _ => 13,
+            };
+            steps.push(at..at + size);
+            at += size;
+        }
+        Places {
+            links,
+            bodies,
+            pairs,
+            until,
+            witness,
+            steps,
+        }
+    }
+
+    /// Returns the first letter of the checker's verdict.
+    pub(crate) fn verdict(&self) -> u8 {
+        let unit = self
+            .proof
+            .get(8..12)
+            .and_then(|bytes| bytes.try_into().ok());
+        let unit = i32::from_le_bytes(unit.unwrap_or_default());
+        let read = |k: usize| ccd_check::Body::new(&self.meshes[k], &self.trees[k], unit);
+        let verdict = read(0).and_then(|a| ccd_check::check(&[a, read(1)?], &self.proof));
+        match verdict {
+            Ok(()) => b'h',
+            Err(ccd_check::Stop::Broken { .. }) => b'b',
+            Err(ccd_check::Stop::Unverifiable(_)) => b'u',
+        }
+    }
+
+    /// Writes the kind, the verdict, whether the statement is true as far as is seen, and all files.
+    pub(crate) fn write(
+        &self,
+        out: &mut impl Write,
+        kind: &str,
+        verdict: u8,
+        is_true: bool,
+    ) -> io::Result<()> {
+        let [a, b] = &self.meshes;
+        let [tree_a, tree_b] = &self.trees;
+        let said = [verdict, u8::from(is_true)];
+        for part in [kind.as_bytes(), &said, &self.proof, a, tree_a, b, tree_b] {
+            out.write_all(&(part.len() as u32).to_le_bytes())?;
+            out.write_all(part)?;
+        }
+        Ok(())
+    }
+}

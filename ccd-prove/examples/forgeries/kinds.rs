@@ -1,0 +1,263 @@
+//! The kinds of forgery.
+
+use crate::files::{Files, Random};
+use sha2::{Digest, Sha256};
+
+type Forge = fn(&mut Random, &mut Files, &[Files]);
+
+/// Each kind by its name. A change that cannot be made to a proof leaves it as it is.
+pub(crate) const KINDS: [(&str, Forge); 32] = [
+    ("a unit", |random, files, _| {
+        flip(random, &mut files.proof[8..16]);
+    }),
+    (
+        "the number of links, bodies or pairs",
+        |random, files, _| {
+            add(random, &mut files.proof[16..28]);
+        },
+    ),
+    ("a link's parent or kind", |random, files, _| {
+        let (at, _) = pick(random, &files.places().links).clone();
+        let place = at + 4 * random.below(2);
+        files.proof[place] = random.below(4) as u8;
+    }),
+    ("a bit of a link's motion", |random, files, _| {
+        let (_, numbers) = pick(random, &files.places().links).clone();
+        flip(random, &mut files.proof[numbers]);
+    }),
+    ("a number of a link's motion", |random, files, _| {
+        let (_, numbers) = pick(random, &files.places().links).clone();
+        let at = numbers.start + 8 * random.below(numbers.len() / 8);
+        bend(random, files, at);
+    }),
+    ("two links' motions exchanged", |random, files, _| {
+        let links = files.places().links;
+        let [(_, a), (_, b)] = [0, 1].map(|_| pick(random, &links).clone());
+        if a.len() == b.len() {
+            let text = files.proof[a.clone()].to_vec();
+            files.proof.copy_within(b.clone(), a.start);
+            files.proof[b].copy_from_slice(&text);
+        }
+    }),
+    ("a digest", |random, files, _| {
+        let at = *pick(random, &files.places().bodies);
+        flip(random, &mut files.proof[at..at + 32]);
+    }),
+    ("meshes exchanged", |random, files, _| {
+        let bodies = files.places().bodies;
+        let [a, b] = [0, 1].map(|_| *pick(random, &bodies));
+        let digest = files.proof[a..a + 32].to_vec();
+        files.proof.copy_within(b..b + 32, a);
+        files.proof[b..b + 32].copy_from_slice(&digest);
+    }),
+    ("a body's link", |random, files, _| {
+        let at = *pick(random, &files.places().bodies) + 32;
+        files.proof[at] = random.below(8) as u8;
+    }),
+    ("a radius", |random, files, _| {
+        let at = *pick(random, &files.places().bodies) + 36;
+        bend(random, files, at);
+    }),
+    ("a pair's bodies", |random, files, _| {
+        let at = *pick(random, &files.places().pairs) + 4 * random.below(2);
+        files.proof[at] = random.below(4) as u8;
+    }),
+    ("a margin", |random, files, _| {
+        let at = *pick(random, &files.places().pairs) + 8;
+        bend(random, files, at);
+    }),
+    ("the end of the time", |random, files, _| {
+        let at = files.places().until;
+        bend(random, files, at);
+    }),
+    ("a witness left out, or one more", |_, files, _| {
+        let places = files.places();
+        let at = places.until + 8;
+        match places.witness {
+            Some(witness) => drop(files.proof.splice(at..witness + 60, [0])),
+            None => files.proof[at] = 1,
+        }
+    }),
+    ("the time of a witness", |random, files, _| {
+        if let Some(at) = files.places().witness {
+            bend(random, files, at + 4);
+        }
+    }),
+    ("the tolerance of a witness", |random, files, _| {
+        if let Some(at) = files.places().witness {
+            bend(random, files, at + 12);
+        }
+    }),
+    ("the points of a witness", |random, files, _| {
+        if let Some(at) = files.places().witness {
+            flip(random, &mut files.proof[at + 20..at + 60]);
+        }
+    }),
+    ("a step left out", |random, files, _| {
+        let step = pick(random, &files.places().steps).clone();
+        files.proof.drain(step);
+    }),
+    ("a step twice", |random, files, _| {
+        let step = pick(random, &files.places().steps).clone();
+        let text = files.proof[step.clone()].to_vec();
+        files.proof.splice(step.start..step.start, text);
+    }),
+    ("two steps exchanged", |random, files, _| {
+        let steps = files.places().steps;
+        let k = random.below(steps.len().max(2) - 1);
+        if let [a, b] = &steps[k..(k + 2).min(steps.len())] {
+            files.proof[a.start..b.end].rotate_left(a.len());
+        }
+    }),
+    ("a leaf bent", |random, files, _| {
+        let leaves = steps_of(files, 3..9);
+        if !leaves.is_empty() {
+            let leaf = pick(random, &leaves).clone();
+            flip(random, &mut files.proof[leaf.start + 1..leaf.end]);
+        }
+    }),
+    ("a leaf seen from elsewhere", |random, files, _| {
+        let leaves = steps_of(files, 3..9);
+        if !leaves.is_empty() {
+            let at = pick(random, &leaves).start;
+            files.proof[at] = files.proof[at] / 3 * 3 + random.below(3) as u8;
+        }
+    }),
+    ("a split of something else", |random, files, _| {
+        let splits = steps_of(files, 0..2);
+        if !splits.is_empty() {
+            let at = pick(random, &splits).start;
+            files.proof[at] ^= 1;
+        }
+    }),
+    ("a time split elsewhere", |random, files, _| {
+        let splits = steps_of(files, 2..3);
+        if !splits.is_empty() {
+            let at = pick(random, &splits).start;
+            flip(random, &mut files.proof[at + 1..at + 3]);
+        }
+    }),
+    ("the steps of another proof", |random, files, scenes| {
+        let other = pick(random, scenes);
+        let [own, theirs] = [&*files, other].map(|files| files.places().steps);
+        if let ([own, ..], [theirs, ..]) = (&own[..], &theirs[..]) {
+            files.proof.truncate(own.start);
+            files.proof.extend(&other.proof[theirs.start..]);
+        }
+    }),
+    ("any byte of a proof", |random, files, _| {
+        let at = random.below(files.proof.len());
+        files.proof[at] = random.bits() as u8;
+    }),
+    ("the end of a file cut off, or more", |random, files, _| {
+        let side = random.below(2);
+        let file = match random.below(3) {
+            0 => &mut files.proof,
+            1 => &mut files.meshes[side],
+            _ => &mut files.trees[side],
+        };
+        if random.below(2) == 0 {
+            file.truncate(random.below(file.len()));
+        } else {
+            file.push(random.below(4) as u8);
+        }
+    }),
+    ("a mesh alone", |random, files, _| {
+        let side = random.below(2);
+        flip(random, &mut files.meshes[side]);
+    }),
+    ("a vertex moved, with all digests", |random, files, _| {
+        // By one unit in the last place, or by more.
+        let side = random.below(2);
+        let count = u32::from_le_bytes([0, 1, 2, 3].map(|k| files.meshes[side][k])) as usize;
+        let at = 8 + 8 * random.below(3 * count);
+        bend_at(random, &mut files.meshes[side], at);
+        renew_digests(files, side);
+    }),
+    (
+        "a triangle changed or left out, with all digests",
+        |random, files, _| {
+            let side = random.below(2);
+            let mesh = &mut files.meshes[side];
+            let count = u32::from_le_bytes([0, 1, 2, 3].map(|k| mesh[k])) as usize;
+            if random.below(2) == 0 {
+                let corners = (mesh.len() - 8 - 24 * count) / 4;
+                mesh[8 + 24 * count + 4 * random.below(corners)] = random.below(count) as u8;
+            } else {
+                mesh.truncate(mesh.len() - 12);
+                mesh[4] -= 1;
+            }
+            renew_digests(files, side);
+        },
+    ),
+    ("the order of a tree", |random, files, _| {
+        let side = random.below(2);
+        let tree = &mut files.trees[side];
+        let count = u32::from_le_bytes([4, 5, 6, 7].map(|k| files.meshes[side][k])) as usize;
+        let [a, b] = [0, 1].map(|_| 40 + 4 * random.below(count));
+        if random.below(2) == 0 {
+            tree.swap(a, b);
+        } else {
+            tree[a] = tree[b];
+        }
+    }),
+    ("a node of a tree", |random, files, _| {
+        let side = random.below(2);
+        let count = u32::from_le_bytes([4, 5, 6, 7].map(|k| files.meshes[side][k])) as usize;
+        flip(random, &mut files.trees[side][40 + 4 * count..]);
+    }),
+];
+
+fn pick<'a, T>(random: &mut Random, of: &'a [T]) -> &'a T {
+    &of[random.below(of.len())]
+}
+
+/// Changes a bit.
+fn flip(random: &mut Random, bytes: &mut [u8]) {
+    let at = random.below(bytes.len());
+    bytes[at] ^= 1 << random.below(8);
+}
+
+/// Adds 1 to a count, or subtracts it.
+fn add(random: &mut Random, counts: &mut [u8]) {
+    let at = 4 * random.below(counts.len() / 4);
+    counts[at] = counts[at].wrapping_add([1, 255][random.below(2)]);
+}
+
+/// Returns the steps whose codes are in a range.
+fn steps_of(files: &Files, codes: std::ops::Range<u8>) -> Vec<std::ops::Range<usize>> {
+    let mut steps = files.places().steps;
+    steps.retain(|step| codes.contains(&files.proof[step.start]));
+    steps
+}
+
+/// Changes a number of a proof.
+fn bend(random: &mut Random, files: &mut Files, at: usize) {
+    bend_at(random, &mut files.proof, at);
+}
+
+/// Changes a number: by its last bit, by a small share, by any bit, or to one that is none.
+fn bend_at(random: &mut Random, bytes: &mut [u8], at: usize) {
+    let number = f64::from_le_bytes([0, 1, 2, 3, 4, 5, 6, 7].map(|k| bytes[at + k]));
+    let new = match random.below(8) {
+        0 => number.next_up(),
+        1 => number.next_down(),
+        2..=4 => number + random.number() * 0.5f64.powi(random.below(40) as i32),
+        5 => [f64::NAN, f64::INFINITY, 1e300, -0.0, 5e-324][random.below(5)],
+        6 => -number,
+        _ => f64::from_bits(number.to_bits() ^ 1 << random.below(64)),
+    };
+    bytes[at..at + 8].copy_from_slice(&new.to_le_bytes());
+}
+
+/// Writes the digest of a mesh that has been changed into its tree and into the proof.
+fn renew_digests(files: &mut Files, side: usize) {
+    let old = files.trees[side][8..40].to_vec();
+    let new = Sha256::digest(&files.meshes[side]);
+    files.trees[side][8..40].copy_from_slice(&new);
+    for at in files.places().bodies {
+        if files.proof[at..at + 32] == old {
+            files.proof[at..at + 32].copy_from_slice(&new);
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Proofs of small scenes: two bodies that fly freely, and arms on a turning column.
+
+use crate::files::{Files, Random};
+use anyhow::{Context, Result};
+use ccd_core::glam::DVec3;
+use ccd_core::{Motion, Pose};
+use ccd_prove::{AxisKind, Body, Carried, Joint, Link, Pair, Proof, ProvenPair, Scene, prove};
+use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
+use rigid_ccd::{Settings, Solver};
+use std::f64::consts::TAU;
+
+/// The number of proofs of each kind of scene: free, to a contact, of arms.
+const PROOFS: usize = 6;
+
+/// The vertices of a mesh, and the corners of its triangles.
+type Mesh = (Vec<[f64; 3]>, Vec<[u32; 3]>);
+
+pub(crate) fn all(random: &mut Random) -> Result<Vec<Files>> {
+    let rings = [ring(4, 0.3), ring(3, 0.25)];
+    let mut scenes = Vec::new();
+    let [mut free, mut contacts] = [0, 0];
+    while free.min(contacts) < PROOFS {
+        let margin = [0.0, 0.02][random.below(2)];
+        let Some(files) = two(&rings, margin, [flight(random)?, flight(random)?])? else {
+            continue;
+        };
+        let is_contact = files.places().witness.is_some();
+        let count = if is_contact { &mut contacts } else { &mut free };
+        *count += 1;
+        if *count <= PROOFS {
+            scenes.push(files);
+        }
+    }
+    for _ in 0..PROOFS {
+        scenes.push(arms(&rings, random)?);
+    }
+    Ok(scenes)
+}
+
+/// A ring of triangles about z, which is not convex.
+fn ring(count: usize, radius: f64) -> Mesh {
+    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+    let number = |i: usize, j: usize| ((i % count) * count + j % count) as u32;
+    for i in 0..count {
+        for j in 0..count {
+            let [a, b] = [i, j].map(|k| k as f64 / count as f64 * TAU);
+            let out = 1.0 + radius * b.cos();
+            vertices.push([out * a.cos(), out * a.sin(), radius * b.sin()]);
+            faces.push([number(i, j), number(i + 1, j), number(i + 1, j + 1)]);
+            faces.push([number(i, j), number(i + 1, j + 1), number(i, j + 1)]);
+        }
+    }
+    (vertices, faces)
+}
+
+fn flight(random: &mut Random) -> Result<Motion> {
+    let turn = [(); 4].map(|()| random.number());
+    let start = Pose::new(random.vector(2.0), turn)?;
+    let [velocity, spin, centre] = [3.0, 2.0, 0.3].map(|size| random.vector(size));
+    Ok(Motion::about(start, velocity, spin, centre)?)
+}
+
+/// Asks the engine about two rings, and proves the answer; `None` if they touch at the start.
+fn two(rings: &[Mesh; 2], margin: f64, motions: [Motion; 2]) -> Result<Option<Files>> {
+    let engine = |(vertices, faces): &Mesh| -> Result<_> {
+        let mesh = TriangleMesh::new(vertices.clone(), faces)?;
+        Ok(body_from_mesh(&mesh, Detail::Surface)?.body)
+    };
+    let [a, b] = [engine(&rings[0])?, engine(&rings[1])?];
+    let mut solver = Solver::new().with_settings(Settings {
+        margin,
+        ..Settings::DEFAULT
+    });
+    let answer = solver.first_contact((&a, motions[0]), (&b, motions[1]), 1.0)?;
+    let pair = ProvenPair::new(&a, &b)
+        .ok()
+        .context("rings have triangles")?;
+    let proof = pair.prove(motions, 1.0, margin, &answer).transpose()?;
+    Ok(proof.map(|proof| files(proof, pair.meshes())))
+}
+
+/// Two arms on one turning column, each with a joint that turns and one that slides, and a body at rest.
+fn arms(rings: &[Mesh; 2], random: &mut Random) -> Result<Files> {
+    let meshes = rings
+        .each_ref()
+        .map(|(vertices, faces)| Body::new(vertices, faces));
+    let turn = [(); 3].map(|()| 0.2 * random.number());
+    let pose = |x| Pose::new([x, 0.0, 0.5], [turn[0], turn[1], turn[2], 1.0]);
+    let joint = |parent, kind, x, axis: DVec3, [start, rate]: [f64; 2]| -> Result<Link> {
+        let joint = Joint::Axis {
+            kind,
+            pose: pose(x)?,
+            axis,
+            start,
+            rate,
+        };
+        Ok(Link { parent, joint })
+    };
+    let (turns, slides) = (AxisKind::Turns, AxisKind::Slides);
+    let links = vec![
+        joint(0, turns, 0.0, DVec3::Z, [0.3, 2.0 * random.number()])?,
+        joint(1, turns, 3.0, DVec3::Y, [0.2, 0.7])?,
+        joint(2, slides, 0.5, DVec3::X, [0.0, 0.4])?,
+        joint(1, turns, -3.0, DVec3::Y, [0.1, -0.9])?,
+        joint(4, slides, -0.5, DVec3::X, [-0.1, -0.3])?,
+    ];
+    let carried = |k: usize, link, radius| Carried {
+        body: &meshes[k],
+        link,
+        radius,
+    };
+    let pair = |bodies| Pair {
+        bodies,
+        margin: 0.01,
+    };
+    let scene = Scene {
+        links,
+        bodies: vec![carried(0, 3, 0.02), carried(1, 5, 0.0), carried(1, 0, 0.01)],
+        pairs: vec![pair([0, 1]), pair([2, 0]), pair([1, 2])],
+    };
+    Ok(files(prove(&scene, 1.0, None)?, [&meshes[0], &meshes[1]]))
+}
+
+fn files(proof: Proof, meshes: [&Body; 2]) -> Files {
+    Files {
+        proof: proof.bytes,
+        meshes: meshes.map(|mesh| mesh.mesh().to_vec()),
+        trees: meshes.map(|mesh| mesh.certificate().to_vec()),
+    }
+}

@@ -1,0 +1,172 @@
+//! Whether a statement is true, as far as poses at some times show it: by binary64 and another library's distances.
+
+use crate::files::Files;
+use ccd_core::glam::{DQuat, DVec3};
+use ccd_core::order::greater;
+use ccd_prove::{StatedWitness, Statement};
+use parry3d_f64::math::{Pose, Vector};
+use parry3d_f64::query::distance;
+use parry3d_f64::shape::Triangle;
+use sha2::{Digest, Sha256};
+
+/// The number of times that are looked at.
+const SAMPLES: u32 = 64;
+
+/// What distances may be off by.
+const ROUNDING: f64 = 1e-9;
+
+/// Returns whether a statement is not seen to be false. What cannot be read states nothing.
+pub(crate) fn is_true(files: &Files) -> bool {
+    Statement::read(&files.proof).is_none_or(|statement| {
+        let scene = Scene {
+            meshes: [0, 1].map(|k| {
+                let digest = Sha256::digest(&files.meshes[k]).into();
+                (digest, triangles(&files.meshes[k], &files.trees[k]))
+            }),
+            statement,
+        };
+        scene.stay_apart() && scene.witness_is_near()
+    })
+}
+
+type Corners = [DVec3; 3];
+
+struct Scene {
+    /// The digest of each mesh, and its triangles in the order of its tree, if the files can be read.
+    meshes: [([u8; 32], Option<Vec<Corners>>); 2],
+    statement: Statement,
+}
+
+impl Scene {
+    fn stay_apart(&self) -> bool {
+        let until = self.statement.until;
+        (0..=SAMPLES).all(|k| {
+            let time = until * f64::from(k) / f64::from(SAMPLES);
+            let placed: Vec<_> = (0..self.statement.bodies.len())
+                .map(|body| self.body(body, time))
+                .collect();
+            self.statement.pairs.iter().all(|&(bodies, margin)| {
+                let [a, b] = bodies.map(|body| placed.get(body as usize)?.as_ref());
+                let (Some((a, radius_a)), Some((b, radius_b))) = (a, b) else {
+                    return true;
+                };
+                let least = margin + radius_a + radius_b - ROUNDING;
+                balls_are_apart(a.as_flattened(), b.as_flattened(), least)
+                    || a.iter().all(|a| b.iter().all(|b| are_apart(a, b, least)))
+            })
+        })
+    }
+
+    fn witness_is_near(&self) -> bool {
+        let Some(StatedWitness {
+            pair,
+            time,
+            tolerance,
+            points,
+        }) = &self.statement.witness
+        else {
+            return true;
+        };
+        let Some(&(bodies, margin)) = self.statement.pairs.get(*pair as usize) else {
+            return true;
+        };
+        let point = |k: usize| {
+            let (triangles, radius) = self.body(bodies[k] as usize, *time)?;
+            let (place, [a, b]) = points[k];
+            let corners = triangles.get(place as usize)?;
+            let [a, b] = [a, b].map(|weight| weight as f64 / (1u64 << 62) as f64);
+            let point = corners[0] * a + corners[1] * b + corners[2] * (1.0 - a - b);
+            Some((point, radius))
+        };
+        let (Some((a, radius_a)), Some((b, radius_b))) = (point(0), point(1)) else {
+            return true;
+        };
+        !(a.distance(b) > margin + radius_a + radius_b + tolerance + ROUNDING)
+    }
+
+    /// Returns the triangles of a body in the world at a time, and its radius; `None` if there is no such body.
+    fn body(&self, number: usize, time: f64) -> Option<(Vec<Corners>, f64)> {
+        let &(digest, link, radius) = self.statement.bodies.get(number)?;
+        let (_, triangles) = self.meshes.iter().find(|(own, _)| *own == digest)?;
+        let mut triangles = triangles.clone()?;
+        let mut link = link as usize;
+        // A link moves on one before it.
+        for _ in 0..=self.statement.links.len() {
+            if link == 0 {
+                return Some((triangles, radius));
+            }
+            let (parent, kind, numbers) = self.statement.links.get(link - 1)?;
+            for corner in triangles.iter_mut().flatten() {
+                *corner = on_parent(*kind, numbers, *corner, time);
+            }
+            link = *parent as usize;
+        }
+        None
+    }
+}
+
+/// Returns where a point of a link is on its parent.
+fn on_parent(kind: u8, numbers: &[f64], point: DVec3, time: f64) -> DVec3 {
+    let vector = |k: usize| DVec3::new(numbers[k], numbers[k + 1], numbers[k + 2]);
+    let start = DQuat::from_xyzw(numbers[3], numbers[4], numbers[5], numbers[6]).normalize();
+    let moved = if kind == 0 {
+        let (velocity, turn, centre) = (vector(7), vector(10), vector(13));
+        let arm = DQuat::from_scaled_axis(turn * time) * (start * (point - centre));
+        start * centre + velocity * time + arm
+    } else {
+        let along = vector(7) * (numbers[10] + time * numbers[11]);
+        match kind {
+            1 => start * (DQuat::from_scaled_axis(along) * point),
+            _ => start * (point + along),
+        }
+    };
+    vector(0) + moved
+}
+
+/// Returns whether two triangles are seen to be farther apart than a distance. Numbers that are none are not seen to be nearer.
+fn are_apart(a: &Corners, b: &Corners, least: f64) -> bool {
+    if balls_are_apart(a, b, least) {
+        return true;
+    }
+    let shape = |t: &Corners| {
+        let [a, b, c] = t.map(|v| Vector::new(v.x, v.y, v.z));
+        Triangle::new(a, b, c)
+    };
+    let here = Pose::IDENTITY;
+    !distance(&here, &shape(a), &here, &shape(b)).is_ok_and(|found| found.distance < least)
+}
+
+/// Returns whether balls around points are farther apart than a distance.
+fn balls_are_apart(a: &[DVec3], b: &[DVec3], least: f64) -> bool {
+    let [(a, reach_a), (b, reach_b)] = [a, b].map(|points| {
+        let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+        let reach = points.iter().map(|point| point.distance(middle));
+        (middle, reach.fold(0.0, greater))
+    });
+    a.distance(b) - reach_a - reach_b > least
+}
+
+/// Reads the triangles of a mesh in the order of a tree.
+fn triangles(mesh: &[u8], tree: &[u8]) -> Option<Vec<Corners>> {
+    let index = |file: &[u8], at: usize| -> Option<usize> {
+        let bytes = file.get(at..at + 4)?.try_into().ok()?;
+        Some(u32::from_le_bytes(bytes) as usize)
+    };
+    let number = |at: usize| -> Option<f64> {
+        Some(f64::from_le_bytes(mesh.get(at..at + 8)?.try_into().ok()?))
+    };
+    let [vertices, triangles] = [index(mesh, 0)?, index(mesh, 4)?];
+    let corner = |at: usize| -> Option<DVec3> {
+        let vertex = 8 + 24 * index(mesh, at)?;
+        Some(DVec3::new(
+            number(vertex)?,
+            number(vertex + 8)?,
+            number(vertex + 16)?,
+        ))
+    };
+    let triangle = |place: usize| -> Option<Corners> {
+        let at = 8 + 24 * vertices + 12 * index(tree, 40 + 4 * place)?;
+        Some([corner(at)?, corner(at + 4)?, corner(at + 8)?])
+    };
+    (0..triangles.min(mesh.len())).map(triangle).collect()
+}
