@@ -23,64 +23,48 @@ type Seen = BTreeMap<Times, Vec<Placed>>;
 pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
     let mut reader = Reader::new(certificate);
     let statement = Statement::read(&mut reader, meshes)?;
-    let is_near = statement.has_near_witnesses();
-    reader.require(is_near, "the witnesses are too far from each other")?;
     let mut seen = Seen::new();
-    for pair in 0..statement.pairs.len() {
-        check_pair(&mut reader, &statement, pair, &mut seen)?;
-    }
-    reader.require(reader.is_at_end(), "the file goes on after its end")
-}
-
-/// Checks that a pair stays apart: both whole bodies, over the whole time. Each step of the certificate splits what is to be
-/// proven, or proves it.
-fn check_pair(
-    reader: &mut Reader<'_>,
-    statement: &Statement<'_>,
-    pair: usize,
-    seen: &mut Seen,
-) -> Result<(), Stop> {
-    let bodies = statement.pairs[pair]
-        .bodies
-        .map(|body| &statement.bodies[body]);
-    let roots: [Part; 2] = bodies.map(|body| body.mesh.root());
-    let least = statement.least(pair);
-    let mut stretches = BTreeMap::new();
-    let mut waiting = alloc::vec![(roots, [0, statement.until])];
-    while let Some((parts, times @ [from, to])) = waiting.pop() {
-        match reader.unsigned(1)? as usize {
-            side @ 0..=1 => {
-                let children = bodies[side].mesh.children(parts[side]);
-                reader.require(!children.is_empty(), "a triangle is split")?;
-                waiting.extend(children.rev().map(|child| {
-                    let mut parts = parts;
-                    parts[side] = child;
-                    (parts, times)
-                }));
+    for (bodies, least) in &statement.pairs {
+        let bodies = bodies.map(|body| &statement.bodies[body]);
+        let mut stretches = BTreeMap::new();
+        // What is to be proven: first both whole bodies over the whole time. Each step splits the last entry, or proves it.
+        let roots: [Part; 2] = bodies.map(|body| body.mesh.root());
+        let mut waiting = alloc::vec![(roots, [0, statement.until])];
+        while let Some((parts, times @ [from, to])) = waiting.pop() {
+            match reader.unsigned(1)? as usize {
+                side @ 0..=1 => {
+                    let children = bodies[side].mesh.children(parts[side]);
+                    reader.require(!children.is_empty(), "a triangle is split")?;
+                    waiting.extend(children.rev().map(|child| {
+                        let mut parts = parts;
+                        parts[side] = child;
+                        (parts, times)
+                    }));
+                }
+                2 => {
+                    let at = from + (product(to - from, reader.unsigned(2)? as i64) >> 16) as i64;
+                    reader.require(from < at && at < to, "a time is split at an end")?;
+                    waiting.extend([(parts, [at, to]), (parts, [from, at])]);
+                }
+                step @ 3..=8 => {
+                    let axis = read_axis(&mut reader, step >= 6)?;
+                    let frame = [0, bodies[0].link, bodies[1].link][step % 3];
+                    let stretch = stretches.entry((times, frame)).or_insert_with(|| {
+                        let middle = from + (to - from) / 2;
+                        let [middle, half] =
+                            [middle, to - middle].map(|time| Number::exact([time]));
+                        let place = || Placed::all(&statement.links, middle, half);
+                        Stretch::new(bodies, seen.entry(times).or_insert_with(place), frame)
+                    });
+                    let is_apart = |stretch: &Stretch<'_>| stretch.keeps_apart(parts, axis, *least);
+                    let is_apart = stretch.as_ref().is_some_and(is_apart);
+                    reader.require(is_apart, "an axis does not keep its parts apart")?;
+                }
+                _ => return Err(reader.broken("there is no such step")),
             }
-            2 => {
-                let at = from + (product(to - from, reader.unsigned(2)? as i64) >> 16) as i64;
-                reader.require(from < at && at < to, "a time is split at an end")?;
-                waiting.extend([(parts, [at, to]), (parts, [from, at])]);
-            }
-            step @ 3..=8 => {
-                let axis = read_axis(reader, step >= 6)?;
-                let frame = [0, bodies[0].link, bodies[1].link][step % 3];
-                let stretch = stretches.entry((times, frame)).or_insert_with(|| {
-                    let middle = from + (to - from) / 2;
-                    let [middle, half] = [middle, to - middle].map(|time| Number::exact([time]));
-                    let links = seen.entry(times);
-                    let place = || Placed::all(&statement.links, middle, half);
-                    Stretch::new(bodies, links.or_insert_with(place), frame)
-                });
-                let is_apart = |stretch: &Stretch<'_>| stretch.keeps_apart(parts, axis, least);
-                let is_apart = stretch.as_ref().is_some_and(is_apart);
-                reader.require(is_apart, "an axis does not keep its parts apart")?;
-            }
-            _ => return Err(reader.broken("there is no such step")),
         }
     }
-    Ok(())
+    reader.require(reader.is_at_end(), "the file goes on after its end")
 }
 
 /// Reads an axis that is no longer than 1, in multiples of 2⁻¹⁴, or fine ones of 2⁻³⁰.

@@ -1,7 +1,7 @@
 //! Proves that two parts stay apart over a stretch of time, along one axis: Lemmas 1 and 2 of the README.
 
 use crate::body::Part;
-use crate::motion::Placed;
+use crate::motion::{Motion, Placed};
 use crate::number::{ONE, Point, Vector, ZERO, cross, dot, minus, plus, up};
 use crate::statement::Carried;
 use alloc::vec::Vec;
@@ -29,19 +29,20 @@ impl<'a> Stretch<'a> {
         if a.turned + b.turned > 2 * i128::from(ONE.mid[0]) {
             return None;
         }
-        let (offset, turn) = (b.centre - a.centre, links[from].turn);
+        let turn = links[from].whole.turn;
+        let offset = b.whole.arm - a.whole.arm;
         let ways = numbers.map(|link| Way::new(links, from, link));
         Some(Stretch {
             bodies,
             placed,
             offset,
-            drift: b.velocity - a.velocity - turn.cross(offset),
+            drift: b.whole.travel - a.whole.travel - turn.cross(offset),
             // What the axis turns with does not turn, as it is seen from there.
             turns: numbers.map(|link| {
                 if link == from {
                     ZERO
                 } else {
-                    links[link].turn - turn
+                    links[link].whole.turn - turn
                 }
             }),
             bend: ways.iter().map(|way| way.bend).sum(),
@@ -58,7 +59,7 @@ impl<'a> Stretch<'a> {
         let mut bend = self.bend;
         for (k, facing) in [axis.map(i64::neg), axis].into_iter().enumerate() {
             let (body, placed, turn) = (self.bodies[k], &self.placed[k], self.turns[k]);
-            let (part, from) = (parts[k], body.centre.mid);
+            let (part, from) = (parts[k], body.centre);
             // Corners and centre are off by less than 2 each.
             let reach = body.mesh.reach(part, from) + 4;
             // A direction is no longer than 3. It is off by turn.rad and a rounding, and in the link's frame by 3 times what the
@@ -85,42 +86,39 @@ impl<'a> Stretch<'a> {
 
 /// What moves between a link and another one, as it is seen from the first.
 struct Way {
-    /// The vector from the last joint that turns, and how it changes.
-    arm: Vector,
-    travel: Vector,
-    /// How fast the arm turns, and a bound of how that changes.
-    turn: Vector,
+    /// The vector from the last joint that turns, how it changes, and how fast it turns.
+    last: Motion,
+    /// A bound of how that turn changes.
     twist: i128,
-    /// A bound of the second derivative of all arms before this one.
+    /// A bound of the second derivative of all vectors before.
     bend: i128,
 }
 
 impl Way {
     fn new(links: &[Placed], from: usize, to: usize) -> Way {
-        let (arm, travel, turn) = (ZERO, ZERO, ZERO);
+        let (mut up, mut down, mut path) = (from, to, Vec::new());
         let mut way = Way {
-            arm,
-            travel,
-            turn,
+            last: Motion::NONE,
             twist: 0,
             bend: 0,
         };
-        let (mut up, mut down, mut path) = (from, to, Vec::new());
         while up != down {
             // A link has a larger number than its parent.
             if up > down {
-                let link = &links[up];
-                way.turn_by(-link.own_turn);
-                (way.arm, way.travel) = (way.arm - link.arm, way.travel - link.travel);
-                up = link.parent;
+                let own = links[up].own;
+                way.turn_by(ZERO - own.turn);
+                let last = &mut way.last;
+                (last.arm, last.travel) = (last.arm - own.arm, last.travel - own.travel);
+                up = links[up].parent;
             } else {
-                path.push(&links[down]);
+                path.push(links[down].own);
                 down = links[down].parent;
             }
         }
-        for link in path.into_iter().rev() {
-            (way.arm, way.travel) = (way.arm + link.arm, way.travel + link.travel);
-            way.turn_by(link.own_turn);
+        for own in path.into_iter().rev() {
+            let last = &mut way.last;
+            (last.arm, last.travel) = (last.arm + own.arm, last.travel + own.travel);
+            way.turn_by(own.turn);
         }
         way.end_arm();
         way
@@ -131,23 +129,24 @@ impl Way {
             return;
         }
         self.end_arm();
-        self.twist += self.turn.cross(turn).length() + up(self.twist, turn.length());
-        self.turn = self.turn + turn;
+        let bent = self.last.turn.cross(turn).length();
+        self.twist += bent + up(self.twist, turn.length());
+        self.last.turn = self.last.turn + turn;
     }
 
     fn end_arm(&mut self) {
         let (rate, factor) = self.factors();
-        let travel = self.travel.length();
-        self.bend += up(factor, self.arm.length() + travel) + 2 * up(rate, travel);
-        (self.arm, self.travel) = (ZERO, ZERO);
+        let [arm, travel] = [self.last.arm, self.last.travel].map(Vector::length);
+        self.bend += up(factor, arm + travel) + 2 * up(rate, travel);
+        (self.last.arm, self.last.travel) = (ZERO, ZERO);
     }
 
     /// Returns bounds of how fast a vector turns that the last joint carries, and of its second derivative, for a length of 1.
     fn factors(&self) -> (i128, i128) {
-        if self.turn == ZERO && self.twist == 0 {
+        if self.last.turn == ZERO && self.twist == 0 {
             return (0, 0);
         }
-        let rate = self.turn.length() + self.twist;
+        let rate = self.last.turn.length() + self.twist;
         (rate, self.twist + up(rate, rate))
     }
 }

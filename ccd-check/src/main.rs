@@ -7,8 +7,7 @@
 )]
 
 use ccd_check::{Body, check};
-use std::error::Error;
-use std::fs::read;
+use std::fs;
 use std::process::ExitCode;
 
 const HELP: &str = "\
@@ -37,7 +36,8 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(mut arguments: impl Iterator<Item = String>) -> Result<bool, Box<dyn Error>> {
+fn run(mut arguments: impl Iterator<Item = String>) -> Result<bool, String> {
+    let read = |name: &str| fs::read(name).map_err(|error| format!("{name}: {error}"));
     let (mut meshes, mut proofs) = (Vec::new(), Vec::new());
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
@@ -48,7 +48,7 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<bool, Box<dyn Erro
             "--mesh" => {
                 let files = arguments.next().zip(arguments.next());
                 let (mesh, body) = files.ok_or("--mesh needs two files; see --help")?;
-                meshes.push((read_file(&mesh)?, read_file(&body)?, body));
+                meshes.push((read(&mesh)?, read(&body)?, body));
             }
             _ => proofs.push(argument),
         }
@@ -58,18 +58,15 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<bool, Box<dyn Erro
     }
     let mut all_hold = true;
     for name in proofs {
-        let verdict = check_file(&read_file(&name)?, &meshes);
-        all_hold &= verdict.is_ok();
-        match verdict {
-            Ok(()) => println!("{name}: holds"),
-            Err(reason) => println!("{name}: {reason}"),
-        }
+        let verdict = verdict(&read(&name)?, &meshes).map_or_else(|stop| stop, |()| "holds".into());
+        all_hold &= verdict == "holds";
+        println!("{name}: {verdict}");
     }
     Ok(all_hold)
 }
 
 /// Checks a proof. Its unit of length is in its header, and the meshes are read in it.
-fn check_file(proof: &[u8], meshes: &[(Vec<u8>, Vec<u8>, String)]) -> Result<(), String> {
+fn verdict(proof: &[u8], meshes: &[(Vec<u8>, Vec<u8>, String)]) -> Result<(), String> {
     let unit = proof.get(8..12).and_then(|bytes| bytes.try_into().ok());
     let unit = i32::from_le_bytes(unit.unwrap_or_default());
     let read = |(mesh, body, name): &(Vec<u8>, Vec<u8>, String)| {
@@ -77,8 +74,4 @@ fn check_file(proof: &[u8], meshes: &[(Vec<u8>, Vec<u8>, String)]) -> Result<(),
     };
     let bodies: Vec<Body> = meshes.iter().map(read).collect::<Result<_, _>>()?;
     check(&bodies, proof).map_err(|stop| stop.to_string())
-}
-
-fn read_file(name: &str) -> Result<Vec<u8>, String> {
-    read(name).map_err(|error| format!("{name}: {error}"))
 }

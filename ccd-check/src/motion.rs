@@ -3,7 +3,7 @@
 use crate::Stop;
 use crate::number::{FRACTION, Matrix, Number, ONE, Vector, ZERO};
 use crate::reader::Reader;
-use crate::rotation::Rotation;
+use crate::rotation;
 use alloc::vec::Vec;
 
 /// Times are in multiples of 2⁻⁶⁰ of the unit of time, which is no less than the duration.
@@ -14,18 +14,32 @@ const UNIT: i64 = -(FRACTION as i64);
 /// A chain has at most so many links.
 const MAX_DEPTH: usize = 1 << 10;
 
+/// Where a point is from another one, how that changes, and how what carries it turns.
+#[derive(Clone, Copy)]
+pub(crate) struct Motion {
+    pub(crate) arm: Vector,
+    pub(crate) travel: Vector,
+    pub(crate) turn: Vector,
+}
+
+impl Motion {
+    pub(crate) const NONE: Motion = Motion {
+        arm: ZERO,
+        travel: ZERO,
+        turn: ZERO,
+    };
+}
+
 /// How a link moves on its parent: its centre along a line, and the link about it at a constant rate.
 pub(crate) struct Link {
-    /// The number of the link that carries it; 0 is the world, which is no link.
-    pub(crate) parent: usize,
+    /// The number of the link that carries it; 0 is the world.
+    parent: usize,
     /// The point of the link about which it turns.
     pub(crate) centre: Vector,
-    /// The vector from the parent's centre to that of the link, and how it changes in the unit of time.
-    arm: Vector,
-    travel: Vector,
-    /// The rotation at time 0, and the rotation vector of the unit of time.
+    /// The vector from the parent's centre to that of the link at time 0, and how it changes and the link turns in the unit of time.
+    motion: Motion,
+    /// The rotation at time 0.
     start: Matrix,
-    turn: Vector,
     /// Bounds of the sums of all arms and travels, and of all turns, from the world to the link.
     reach: i128,
     turned: i128,
@@ -34,63 +48,67 @@ pub(crate) struct Link {
 }
 
 impl Link {
-    /// Reads the link after those that are given.
+    pub(crate) const WORLD: Link = Link {
+        parent: 0,
+        centre: ZERO,
+        motion: Motion::NONE,
+        start: Matrix::IDENTITY,
+        reach: 0,
+        turned: 0,
+        depth: 0,
+    };
+
+    /// Reads the link after those that are given, of which the first one is the world.
     pub(crate) fn read(
         reader: &mut Reader<'_>,
         units: [i64; 2],
         links: &[Link],
     ) -> Result<Link, Stop> {
         let [length, per_time] = [units[0], units[0] - units[1]];
-        let parent = reader.index(links.len() + 1)?;
+        let parent = reader.index(links.len())?;
         let kind = reader.unsigned(1)?;
         reader.require(kind < 3, "there is no such kind of link")?;
         let position = reader.vector(length, 50)?;
-        let start = read_rotation(reader)?;
-        let mut link = Link {
-            parent,
-            centre: ZERO,
-            arm: position,
-            travel: ZERO,
-            start,
-            turn: ZERO,
-            reach: 0,
-            turned: 0,
-            depth: 1,
-        };
+        let mut start = read_rotation(reader)?;
+        let (mut motion, mut centre) = (Motion::NONE, ZERO);
         if kind == 0 {
-            link.travel = reader.vector(per_time, 50)?;
-            link.turn = reader.vector(UNIT - units[1], FRACTION + 8)?;
-            link.centre = reader.vector(length, 50)?;
-            link.arm = position + start.apply(link.centre);
+            motion.travel = reader.vector(per_time, 50)?;
+            motion.turn = reader.vector(UNIT - units[1], FRACTION + 8)?;
+            centre = reader.vector(length, 50)?;
+            motion.arm = start.apply(centre);
         } else {
             // The joint's axis in the frame of the parent.
             let axis = start.apply(reader.vector(UNIT, FRACTION + 1)?);
             if kind == 1 {
                 let angle = reader.number(UNIT, FRACTION + 8)?;
                 let rate = reader.number(UNIT - units[1], FRACTION + 8)?;
-                let turned = Rotation::by(axis.times(angle, FRACTION));
-                link.start = turned.matrix().times(start);
-                link.turn = axis.times(rate, FRACTION);
+                start = rotation::by(axis.times(angle, FRACTION)).times(start);
+                motion.turn = axis.times(rate, FRACTION);
             } else {
-                link.arm = position + axis.times(reader.number(length, 50)?, FRACTION);
-                link.travel = axis.times(reader.number(per_time, 50)?, FRACTION);
+                motion.arm = axis.times(reader.number(length, 50)?, FRACTION);
+                motion.travel = axis.times(reader.number(per_time, 50)?, FRACTION);
             }
         }
-        if let Some(parent) = parent.checked_sub(1).map(|k| &links[k]) {
-            link.arm = link.arm - parent.centre;
-            (link.reach, link.turned) = (parent.reach, parent.turned);
-            link.depth += parent.depth;
-        }
-        link.reach += link.arm.length() + link.travel.length();
-        link.turned += link.turn.length();
-        if link.reach > 1 << 51 || link.turned > 1 << (FRACTION + 8) {
+        let on = &links[parent];
+        motion.arm = position + motion.arm - on.centre;
+        let reach = on.reach + motion.arm.length() + motion.travel.length();
+        let (turned, depth) = (on.turned + motion.turn.length(), on.depth + 1);
+        if reach > 1 << 51 || turned > 1 << (FRACTION + 8) {
             return Err(Stop::Unverifiable("links reach or turn too far"));
         }
         // What the rotations of a chain are off by adds up.
-        if link.depth > MAX_DEPTH || link.start.rad > ONE.mid[0] >> 20 {
+        if depth > MAX_DEPTH || start.rad > ONE.mid[0] >> 20 {
             return Err(Stop::Unverifiable("a chain is too long, or turns too far"));
         }
-        Ok(link)
+        Ok(Link {
+            parent,
+            centre,
+            motion,
+            start,
+            reach,
+            turned,
+            depth,
+        })
     }
 }
 
@@ -98,54 +116,48 @@ impl Link {
 #[derive(Clone, Copy)]
 pub(crate) struct Placed {
     pub(crate) parent: usize,
-    pub(crate) centre: Vector,
     pub(crate) rotation: Matrix,
-    /// How the centre moves, and how the link turns.
-    pub(crate) velocity: Vector,
-    pub(crate) turn: Vector,
-    /// The vector from the parent's centre to this one, and how that moves and the link turns on the parent.
-    pub(crate) arm: Vector,
-    pub(crate) travel: Vector,
-    pub(crate) own_turn: Vector,
+    /// The centre, and how it and the link move.
+    pub(crate) whole: Motion,
+    /// The same from the parent's centre and on the parent.
+    pub(crate) own: Motion,
     /// A bound of the sum of all turns from the world to the link.
     pub(crate) turned: i128,
 }
 
 impl Placed {
-    /// Returns the world and all links in the middle of a stretch of time.
+    /// Returns all links in the middle of a stretch of time. The first one is the world.
     pub(crate) fn all(links: &[Link], middle: Number, half: Number) -> Vec<Placed> {
-        let mut placed = alloc::vec![Placed {
+        let world = Placed {
             parent: 0,
-            centre: ZERO,
             rotation: Matrix::IDENTITY,
-            velocity: ZERO,
-            turn: ZERO,
-            arm: ZERO,
-            travel: ZERO,
-            own_turn: ZERO,
+            whole: Motion::NONE,
+            own: Motion::NONE,
             turned: 0,
-        }];
-        for link in links {
-            let on = placed[link.parent];
-            let (mut rotation, mut own_turn) = (link.start, ZERO);
-            if link.turn != ZERO {
-                let turned = Rotation::by(link.turn.times(middle, TIME));
-                rotation = turned.matrix().times(link.start);
-                own_turn = on.rotation.apply(link.turn.times(half, TIME));
+        };
+        let mut placed = alloc::vec![world];
+        for link in &links[1..] {
+            let (on, motion) = (placed[link.parent], link.motion);
+            let [travel, mut turn] =
+                [motion.travel, motion.turn].map(|v| on.rotation.apply(v.times(half, TIME)));
+            let mut rotation = link.start;
+            if motion.turn == ZERO {
+                turn = ZERO;
+            } else {
+                rotation = rotation::by(motion.turn.times(middle, TIME)).times(rotation);
             }
-            let arm = link.arm + link.travel.times(middle, TIME);
+            let arm = motion.arm + motion.travel.times(middle, TIME);
             let arm = on.rotation.apply(arm);
-            let travel = on.rotation.apply(link.travel.times(half, TIME));
             placed.push(Placed {
                 parent: link.parent,
-                centre: on.centre + arm,
                 rotation: on.rotation.times(rotation),
-                velocity: on.velocity + on.turn.cross(arm) + travel,
-                turn: on.turn + own_turn,
-                arm,
-                travel,
-                own_turn,
-                turned: on.turned + own_turn.length(),
+                whole: Motion {
+                    arm: on.whole.arm + arm,
+                    travel: on.whole.travel + on.whole.turn.cross(arm) + travel,
+                    turn: on.whole.turn + turn,
+                },
+                own: Motion { arm, travel, turn },
+                turned: on.turned + turn.length(),
             });
         }
         placed
@@ -163,10 +175,5 @@ fn read_rotation(reader: &mut Reader<'_>) -> Result<Matrix, Stop> {
     // 1 / (1 + e) is 1 − e to within e² / (1 − |e|), which is less than 2e².
     let mut inverse = ONE - excess;
     inverse.rad += 2 * excess.times(excess, FRACTION).size();
-    let rotation = Rotation {
-        scalar,
-        vector,
-        factor: inverse + inverse,
-    };
-    Ok(rotation.matrix())
+    Ok(rotation::of_quaternion(scalar, vector, inverse + inverse))
 }

@@ -1,6 +1,6 @@
 //! Integers with a radius: numbers, vectors and rotations that are known to within it.
 
-use core::ops::{Add, Neg, Sub};
+use core::ops::{Add, Sub};
 
 /// A number, or a vector, that is no farther than `rad` from `mid`, in a unit that the context names.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +58,14 @@ impl<const N: usize> Ball<N> {
         Ball { mid, rad: 0 }
     }
 
+    /// Returns the sum or the difference.
+    fn with(self, other: Self, op: fn(i64, i64) -> i64) -> Self {
+        Ball {
+            mid: core::array::from_fn(|k| op(self.mid[k], other.mid[k])),
+            rad: self.rad + other.rad,
+        }
+    }
+
     /// Returns an upper bound of the length.
     pub(crate) fn size(self) -> i64 {
         self.mid.iter().map(|x| x.abs()).sum::<i64>() + self.rad
@@ -65,9 +73,23 @@ impl<const N: usize> Ball<N> {
 
     /// Returns the product with a number, divided by 2 to the power of `bits`.
     pub(crate) fn times(self, other: Number, bits: u32) -> Self {
-        let mid = self.mid.map(|x| (product(x, other.mid[0]) >> bits) as i64);
-        let rad = rounded(radius(self, other), bits);
-        Ball { mid, rad }
+        let mid = self.mid.map(|x| product(x, other.mid[0]) >> bits);
+        Ball::product(mid, self, other, bits)
+    }
+
+    /// Returns a product of two factors, whose middle is shifted by `bits` already. Each of a b, a·b and a×b is at most |a| |b|. A
+    /// shift drops less than 1 of each coordinate, so less than 2 in all, and of the radius.
+    fn product<const A: usize, const B: usize>(
+        mid: [i128; N],
+        a: Ball<A>,
+        b: Ball<B>,
+        bits: u32,
+    ) -> Self {
+        let rad = product(a.size(), b.rad) + product(a.rad, b.size());
+        Ball {
+            mid: mid.map(|x| x as i64),
+            rad: (rad >> bits) as i64 + 3,
+        }
     }
 
     /// Returns the quotient by a small positive integer.
@@ -90,18 +112,14 @@ impl Vector {
 
     /// Returns the sum of the products of the coordinates, which are fractions in one factor at least.
     pub(crate) fn dot(self, other: Self) -> Number {
-        Ball {
-            mid: [(dot(self.mid, other.mid) >> FRACTION) as i64],
-            rad: rounded(radius(self, other), FRACTION),
-        }
+        let mid = [dot(self.mid, other.mid) >> FRACTION];
+        Ball::product(mid, self, other, FRACTION)
     }
 
     /// Returns the cross product. The coordinates are fractions in one factor at least.
     pub(crate) fn cross(self, other: Vector) -> Vector {
-        Ball {
-            mid: cross(self.mid, other.mid),
-            rad: rounded(radius(self, other), FRACTION),
-        }
+        let mid = cross(self.mid, other.mid).map(i128::from);
+        Ball::product(mid, self, other, FRACTION)
     }
 
     /// Returns an upper bound of the length, a closer one.
@@ -112,16 +130,6 @@ impl Vector {
         let squares: u64 = rounded.iter().map(|x| x * x).sum();
         i128::from((squares.isqrt() + 1) << bits) + i128::from(self.rad)
     }
-}
-
-/// Returns the radius of a product. Each of a b, a·b and a×b is at most |a| |b|.
-fn radius<const N: usize, const M: usize>(a: Ball<N>, b: Ball<M>) -> i128 {
-    product(a.size(), b.rad) + product(a.rad, b.size())
-}
-
-/// Returns the radius after a shift, which drops less than 1 of each coordinate, so less than 2 in all, and of the radius.
-fn rounded(radius: i128, bits: u32) -> i64 {
-    (radius >> bits) as i64 + 3
 }
 
 /// A rotation, as columns of fractions: the matrix is off by a matrix whose norm is at most `rad`.
@@ -148,7 +156,7 @@ impl Matrix {
     pub(crate) fn apply(self, v: Vector) -> Vector {
         Ball {
             mid: self.apply_to_middle(v.mid),
-            rad: v.rad + rounded(product(self.rad, v.size()), FRACTION),
+            rad: v.rad + (product(self.rad, v.size()) >> FRACTION) as i64 + 3,
         }
     }
 
@@ -158,11 +166,12 @@ impl Matrix {
     }
 
     /// Returns the product: R S is off by (R + E)(S + F) − R S, whose norm is at most |E| + |F| + |E| |F|. The shifts of nine
-    /// entries drop less than 3 in all.
+    /// entries drop less than 3 in all, that of the radius 1.
     pub(crate) fn times(self, other: Matrix) -> Matrix {
+        let both = (product(self.rad, other.rad) >> FRACTION) as i64;
         Matrix {
             columns: other.columns.map(|column| self.apply_to_middle(column)),
-            rad: self.rad + other.rad + 1 + rounded(product(self.rad, other.rad), FRACTION),
+            rad: self.rad + other.rad + both + 4,
         }
     }
 
@@ -176,26 +185,13 @@ impl Matrix {
 impl<const N: usize> Add for Ball<N> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Ball {
-            mid: core::array::from_fn(|k| self.mid[k] + other.mid[k]),
-            rad: self.rad + other.rad,
-        }
-    }
-}
-
-impl<const N: usize> Neg for Ball<N> {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Ball {
-            mid: self.mid.map(i64::neg),
-            rad: self.rad,
-        }
+        self.with(other, i64::add)
     }
 }
 
 impl<const N: usize> Sub for Ball<N> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        self + -other
+        self.with(other, i64::sub)
     }
 }

@@ -1,7 +1,7 @@
 //! What a certificate states: meshes, how they move, which pairs stay apart, and two points that come near.
 
 use crate::motion::{Link, Placed, TIME};
-use crate::number::{Number, Vector, product};
+use crate::number::{Number, Point, Vector, product};
 use crate::reader::Reader;
 use crate::{Body, Stop};
 use alloc::vec::Vec;
@@ -10,14 +10,13 @@ use alloc::vec::Vec;
 const WEIGHT_BITS: u32 = 62;
 
 pub(crate) struct Statement<'b> {
+    /// The world and all links.
     pub(crate) links: Vec<Link>,
     pub(crate) bodies: Vec<Carried<'b>>,
-    pub(crate) pairs: Vec<Pair>,
-    /// Each pair stays farther apart than its margin until then.
+    /// Both bodies of each pair, and the distance that their meshes have to exceed: the margin and both radii.
+    pub(crate) pairs: Vec<([usize; 2], i128)>,
+    /// The pairs stay apart until then.
     pub(crate) until: i64,
-    /// That time as its bits, twice: numbers that are not negative have the order of their bits.
-    until_bits: u64,
-    witness: Option<Witness>,
 }
 
 /// A mesh on a link, with all that is within a radius of it.
@@ -25,38 +24,23 @@ pub(crate) struct Carried<'b> {
     pub(crate) mesh: &'b Body,
     /// The number of the link; 0 is the world.
     pub(crate) link: usize,
-    /// The point about which the link turns.
-    pub(crate) centre: Vector,
+    /// The point about which the link turns, off by less than 2.
+    pub(crate) centre: Point,
     radius: i64,
 }
 
-pub(crate) struct Pair {
-    pub(crate) bodies: [usize; 2],
-    margin: i64,
-}
-
-/// The claim that two points of a pair are near each other at a time.
-struct Witness {
-    pair: usize,
-    time: Number,
-    tolerance: i64,
-    /// For each body a triangle in the order of its tree, and the weights of its corners.
-    points: [(usize, [i64; 3]); 2],
-}
-
 impl<'b> Statement<'b> {
+    /// Reads what is stated, and checks the witness.
     pub(crate) fn read(reader: &mut Reader<'_>, meshes: &'b [Body]) -> Result<Self, Stop> {
         let is_proof = reader.take(8)? == b"CCDPROOF";
         reader.require(is_proof, "this is no certificate of a query")?;
         let units = [reader.signed(4)?, reader.signed(4)?];
         let [links, bodies, pairs] = [(); 3].map(|()| reader.unsigned(4));
         let mut statement = Statement {
-            links: Vec::new(),
+            links: alloc::vec![Link::WORLD],
             bodies: Vec::new(),
             pairs: Vec::new(),
             until: 0,
-            until_bits: 0,
-            witness: None,
         };
         for _ in 0..links? {
             let link = Link::read(reader, units, &statement.links)?;
@@ -68,19 +52,17 @@ impl<'b> Statement<'b> {
         }
         for _ in 0..pairs? {
             let count = statement.bodies.len();
-            statement.pairs.push(Pair {
-                bodies: [reader.index(count)?, reader.index(count)?],
-                margin: reader.size(units[0], 50)?,
-            });
+            let bodies = [reader.index(count)?, reader.index(count)?];
+            let radii = bodies.map(|body| i128::from(statement.bodies[body].radius));
+            let least = i128::from(reader.size(units[0], 50)?) + radii[0] + radii[1];
+            statement.pairs.push((bodies, least));
         }
-        let time_unit = units[1] - i64::from(TIME);
-        statement.until_bits = reader.clone().unsigned(8)? << 1;
-        statement.until = reader.size(time_unit, TIME)?;
+        let mut exact = reader.clone();
+        statement.until = reader.size(units[1] - i64::from(TIME), TIME)?;
         let count = reader.unsigned(1)?;
         reader.require(count < 2, "there is more than one witness")?;
         if count == 1 {
-            let witness = statement.read_witness(reader, units)?;
-            statement.witness = Some(witness);
+            statement.check_witness(reader, units, exact.unsigned(8)?)?;
         }
         Ok(statement)
     }
@@ -94,81 +76,53 @@ impl<'b> Statement<'b> {
         let digest = reader.take(32)?;
         let mesh = meshes.iter().find(|mesh| mesh.digest == digest);
         let mesh = mesh.ok_or(reader.broken("a mesh is none of those that are given"))?;
-        reader.require(
-            i64::from(mesh.unit) == unit,
-            "a mesh was read in another unit",
-        )?;
-        let link = reader.index(self.links.len() + 1)?;
-        let centre = link
-            .checked_sub(1)
-            .map_or(Vector::exact([0; 3]), |k| self.links[k].centre);
-        let radius = reader.size(unit, 50)?;
+        let is_in_unit = i64::from(mesh.unit) == unit;
+        reader.require(is_in_unit, "a mesh was read in another unit")?;
+        let link = reader.index(self.links.len())?;
         Ok(Carried {
             mesh,
             link,
-            centre,
-            radius,
+            centre: self.links[link].centre.mid,
+            radius: reader.size(unit, 50)?,
         })
     }
 
-    fn read_witness(&self, reader: &mut Reader<'_>, units: [i64; 2]) -> Result<Witness, Stop> {
+    /// Reads the claim that two points of a pair are near each other at a time, and checks it. The end of the time is given by its
+    /// bits: numbers that are not negative have the order of their bits, but for the sign of 0.
+    fn check_witness(
+        &self,
+        reader: &mut Reader<'_>,
+        units: [i64; 2],
+        until: u64,
+    ) -> Result<(), Stop> {
         let pair = reader.index(self.pairs.len())?;
-        let time_bits = reader.clone().unsigned(8)? << 1;
+        let is_in_time = reader.clone().unsigned(8)? << 1 <= until << 1;
         let time = reader.number(units[1] - i64::from(TIME), TIME)?;
+        let is_in_time = is_in_time && time.mid[0] >= 0;
+        reader.require(is_in_time, "the time of the witness is not from 0 to T")?;
         let tolerance = reader.size(units[0], 50)?;
-        let mut points = [(0, [0; 3]); 2];
-        for (point, body) in points.iter_mut().zip(self.pairs[pair].bodies) {
-            let triangle = reader.index(self.bodies[body].mesh.triangles.len())?;
+        let placed = Placed::all(&self.links, time, Number::exact([0]));
+        let (bodies, least) = self.pairs[pair];
+        let [a, b] = bodies.map(|body| {
+            let body = &self.bodies[body];
+            let corners = body.mesh.triangles[reader.index(body.mesh.triangles.len())?];
             let (a, b) = (reader.unsigned(8)?, reader.unsigned(8)?);
             let rest = (1u64 << WEIGHT_BITS).checked_sub(a);
             let rest = rest.and_then(|rest| rest.checked_sub(b));
             let rest = rest.ok_or(reader.broken("the weights of a witness are more than 1"))?;
-            *point = (triangle, [a, b, rest].map(|weight| weight as i64));
-        }
-        let is_in_time = time.mid[0] >= 0 && time_bits <= self.until_bits;
-        reader.require(is_in_time, "the time of the witness is not from 0 to T")?;
-        Ok(Witness {
-            pair,
-            time,
-            tolerance,
-            points,
-        })
-    }
-
-    /// Returns the distance that the meshes of a pair have to exceed: the margin and both radii.
-    pub(crate) fn least(&self, pair: usize) -> i128 {
-        let Pair { bodies, margin } = &self.pairs[pair];
-        i128::from(
-            bodies
-                .iter()
-                .fold(*margin, |sum, &body| sum + self.bodies[body].radius),
-        )
-    }
-
-    /// Returns whether the witnesses are as near each other as is claimed.
-    pub(crate) fn has_near_witnesses(&self) -> bool {
-        let Some(witness) = &self.witness else {
-            return true;
-        };
-        let placed = Placed::all(&self.links, witness.time, Number::exact([0]));
-        let [a, b] = [0, 1].map(|k| {
-            let body = &self.bodies[self.pairs[witness.pair].bodies[k]];
-            let (triangle, weights) = witness.points[k];
-            let corners = body.mesh.triangles[triangle];
-            let sum = |axis| {
-                (0..3)
-                    .map(|c| product(weights[c], corners[c][axis]))
-                    .sum::<i128>()
-            };
+            let weights = [a, b, rest].map(|weight| weight as i64);
+            let sum =
+                |axis| -> i128 { (0..3).map(|k| product(weights[k], corners[k][axis])).sum() };
             // Off by less than 2 with the corners, and by as much with what the shift drops.
             let point = Vector {
                 mid: [0, 1, 2].map(|axis| (sum(axis) >> WEIGHT_BITS) as i64),
                 rad: 4,
             };
-            let link = placed[body.link];
-            link.centre + link.rotation.apply(point - body.centre)
+            let (link, centre) = (placed[body.link], self.links[body.link].centre);
+            Ok(link.whole.arm + link.rotation.apply(point - centre))
         });
         // Margin, radii and tolerance are rounded up: by at most 1 each.
-        (b - a).length() + 4 <= self.least(witness.pair) + i128::from(witness.tolerance)
+        let is_near = (b? - a?).length() + 4 <= least + i128::from(tolerance);
+        reader.require(is_near, "the witnesses are too far from each other")
     }
 }
