@@ -295,8 +295,9 @@ def check(path, tree_of):
                 r.require(t0 < middle < t1, pos, "a part of the time is empty")
                 todo += [(parts, middle, t1), (parts, t0, middle)]
             else:
-                form, bits = ("3h", 14) if step < 6 else ("3i", 30)
-                axis, frame = r.take(form), (links[0], two[0].link, two[1].link)[step % 3]
+                size, bits = (2, 14) if step < 6 else (7, 50)
+                axis = [int.from_bytes(x, "little", signed=True) for x in r.take(f"{size}s" * 3)]
+                frame = (links[0], two[0].link, two[1].link)[step % 3]
                 r.require(sum(x * x for x in axis) <= 1 << 2 * bits, pos, "the axis is longer than 1")
                 apart = leaf(two, parts, margin, t0, t1, [(x << F - bits,) * 2 for x in axis], frame)
                 r.require(apart, pos, f"the axis does not prove the parts of pair {number} apart")

@@ -50,7 +50,7 @@ def link_bytes(link):
 
 
 def leaf(axis, frame=0): return struct.pack("<B3h", 3 + frame, *axis)
-def fine_leaf(axis, frame=0): return struct.pack("<B3i", 6 + frame, *axis)
+def fine_leaf(axis, frame=0): return bytes([6 + frame]) + b"".join(x.to_bytes(7, "little", signed=True) for x in axis)
 def split_time(first, second, part=32768): return struct.pack("<BH", 2, part) + first + second
 
 
@@ -216,11 +216,11 @@ class Case(unittest.TestCase):
         return out
 
     def greatest_margin(self, bodies, parts, t0, t1, axis, frame):
-        """That a leaf proves, by bisection; times in 2^-60, the axis in 2^-30."""
+        """That a leaf proves, by bisection; times in 2^-60, the axis in 2^-50."""
         low, high = -1 << so.F + 6, 1 << so.F + 6
         while high - low > 1 << so.F - 44:
             middle = (low + high) // 2
-            ok = so.leaf(bodies, parts, middle, t0, t1, [(x << so.F - 30,) * 2 for x in axis], frame)
+            ok = so.leaf(bodies, parts, middle, t0, t1, [(x << so.F - 50,) * 2 for x in axis], frame)
             low, high = (middle, high) if ok else (low, middle)
         return low / so.ONE
 
@@ -234,7 +234,7 @@ class Free(Case):
     def test_at_rest(self):
         for frame in range(3):
             self.holds(self.M, self.flat(leaf(Z, frame), margin=0.99))
-            self.holds(self.M, self.flat(fine_leaf((0, 0, 1 << 30), frame), margin=0.99))
+            self.holds(self.M, self.flat(fine_leaf((0, 0, 1 << 50), frame), margin=0.99))
 
     def test_margin_is_strict(self):
         self.fails("does not prove", self.M, self.flat(leaf(Z), margin=1.0))
@@ -293,8 +293,8 @@ class Free(Case):
         self.fails("does not prove", self.M, self.flat(leaf(Y)))
         self.fails("longer than 1", self.M, self.flat(leaf((0, 0, 16385))))
         self.fails("longer than 1", self.M, self.flat(leaf((181, 0, 16384))))
-        self.fails("longer than 1", self.M, self.flat(fine_leaf((1, 0, 1 << 30))))
-        self.fails("longer than 1", self.M, self.flat(fine_leaf((0, 0, -1 << 31))))
+        self.fails("longer than 1", self.M, self.flat(fine_leaf((1, 0, 1 << 50))))
+        self.fails("longer than 1", self.M, self.flat(fine_leaf((0, 0, -1 << 51))))
         # A bent axis shows a shorter gap: here 0.8 less 0.6 of the extent along x.
         bent = (9830, 0, 13107)
         self.holds(self.M, self.flat(leaf(bent), margin=0.19))
@@ -389,7 +389,7 @@ class Joints(Case):
         a = points((1, 0, 0))
         for axis, alpha, beta in (((0, 0, 1), -0.5, 1.0), ((0, 0, -0.5), 1.0, -2.0)):
             def make(margin, depth):
-                steps = halves(depth, lambda t: fine_leaf((1 << 30, 0, 0)))
+                steps = halves(depth, lambda t: fine_leaf((1 << 50, 0, 0)))
                 return two(a, POINT, turns(axis, alpha, beta), free(p=(2, 0, 0)), steps, margin)
             files = (a, certificate(a, ([0], [])), *self.M)
             self.holds(files, make(0.8, 0), make(0.99, 4))
@@ -441,7 +441,7 @@ class Joints(Case):
         links = [turns(beta=3.0), free(c=(5, 5, 5), w=(1, 2, 1), v=(9, 9, 9), on=1)]
         for on, frames in ((0, (0, 1, 2)), (2, (1, 2))):
             middle = direction(links, on, (0, 0, 1), 0.5)
-            axis = [math.trunc(c * (1 << 30) * 0.999999) for c in middle]
+            axis = [math.trunc(c * (1 << 50) * 0.999999) for c in middle]
             def make(margin, frame):
                 return proof(links, [(a, on, 0.0), (b, on, 0.0)], [(0, 1, margin)], fine_leaf(axis, frame))
             for frame in frames:
@@ -522,7 +522,7 @@ class SecondOrder(Case):
     """What the lemmas take off, one term at a time: a margin a little below is proven, one a little above is not.
 
     The stretch is 0.2 long and links turn by 1; all meshes are single points."""
-    def bound(self, want, links, ends, frame, za=(0, 0, 0), zb=(0, 0, 0), axis=(1 << 30, 0, 0)):
+    def bound(self, want, links, ends, frame, za=(0, 0, 0), zb=(0, 0, 0), axis=(1 << 50, 0, 0)):
         a, b = points(za), points(zb)
         files = a, certificate(a, ([0], [])), b, certificate(b, ([0], []))
         def make(margin):
@@ -932,11 +932,11 @@ class Random(Case):
         return [vertices[3 * i:3 * i + 3] for p in below(part) for i in triangles[~p]]
 
     def axis(self, rng, links, ends, corners, t):
-        """Roughly from A to B, in 2^-30."""
+        """Roughly from A to B, in 2^-50."""
         a, b = ([where(links, end, y, t) for y in c] for end, c in zip(ends, corners))
         n = fsub(fscale(1 / len(b), fadd(*b)), fscale(1 / len(a), fadd(*a)))
         n = fadd(fscale(1 / (flength(n) or 1), n), [rng.gauss(0, 0.2) for _ in range(3)])
-        return [math.trunc(c / flength(n) * 0.999999 * (1 << 30)) for c in n]
+        return [math.trunc(c / flength(n) * 0.999999 * (1 << 50)) for c in n]
 
     def readme(self, links, ends, corners, n, frame, t0, t1):
         """The bound of the README, by its words: the velocities are those in the world, and the bounds K are
@@ -1000,7 +1000,7 @@ class Random(Case):
             t0, t1 = i << 60 - k, i + 1 << 60 - k
             axis = self.axis(rng, links, ends, corners, (t0 + t1) / 2 ** 61)
             proven = self.greatest_margin(bodies, parts, t0, t1, axis, exact[frame])
-            n, span = [c / (1 << 30) for c in axis], (t0 / 2 ** 60, t1 / 2 ** 60)
+            n, span = [c / (1 << 50) for c in axis], (t0 / 2 ** 60, t1 / 2 ** 60)
             least = gap(links, ends, corners, n, frame, *span, 16)
             self.assertLessEqual(proven, least + 1e-9)
             said = self.readme(links, ends, corners, n, frame, *span)
@@ -1035,7 +1035,7 @@ class Random(Case):
                 corners = [self.corners(b, data, p) for b, data, p in zip(bodies, files, parts)]
                 span, frame = (t0 / 2 ** 60, t1 / 2 ** 60), rng.randrange(3)
                 axis = self.axis(rng, links, ends, corners, sum(span) / 2)
-                n, link = [c / (1 << 30) for c in axis], (0, *ends)[frame]
+                n, link = [c / (1 << 50) for c in axis], (0, *ends)[frame]
                 found.append(gap(links, ends, corners, n, link, *span, 12) - sum(radii))
                 return fine_leaf(axis, frame)
             made = steps([0, 0], 0, 1 << 60, depth + 1)

@@ -67,9 +67,9 @@ pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
     reader.require(reader.is_at_end(), "the file goes on after its end")
 }
 
-/// Reads an axis that is no longer than 1, in multiples of 2⁻¹⁴, or fine ones of 2⁻³⁰.
+/// Reads an axis that is no longer than 1, in multiples of 2⁻¹⁴, or fine ones of 2⁻⁵⁰.
 fn read_axis(reader: &mut Reader<'_>, is_fine: bool) -> Result<Point, Stop> {
-    let (bytes, bits) = if is_fine { (4, 30) } else { (2, 14) };
+    let (bytes, bits) = if is_fine { (7, 50) } else { (2, 14) };
     let axis = reader.axis(bytes)?;
     let is_short = dot(axis, axis) <= 1 << (2 * bits);
     reader.require(is_short, "an axis is longer than 1")?;

@@ -42,7 +42,7 @@ impl<'a> Reader<'a> {
         Ok(bytes.fold(0, |number, &byte| number << 8 | u64::from(byte)))
     }
 
-    /// Reads a number of so many bytes, at most 4, in two's complement.
+    /// Reads a number of so many bytes, at most 7, in two's complement.
     pub(crate) fn signed(&mut self, count: usize) -> Result<i64, Stop> {
         let half = 1 << (8 * count - 1);
         Ok((self.unsigned(count)? as i64 ^ half) - half)

@@ -10,8 +10,8 @@ use ccd_distance_gjk::{TerminationBounds, Vertex, bound_distance};
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// Axes are multiples of 2⁻¹⁴, or fine ones of 2⁻³⁰.
-const AXIS_UNITS: [f64; 2] = [16_384.0, 1_073_741_824.0];
+/// Axes are multiples of 2⁻¹⁴, or fine ones of 2⁻⁵⁰.
+const AXIS_UNITS: [f64; 2] = [16_384.0, (1u64 << 50) as f64];
 
 /// The largest number of bytes of a proof.
 const MAX_BYTES: usize = 1 << 26;
@@ -27,6 +27,10 @@ const SHORTEST: f64 = 1e-15;
 
 /// Parts that move by less than this share of their radius are not split in time.
 const LEAST_WAY: f64 = 0.1;
+
+/// Triangles nearer to each other than this share of the lengths around them have their axes from edges and motions: the difference of two
+/// points is known too badly.
+const NEAR: f64 = 1e-7;
 
 /// How many leaves are expected where the look ahead ends without a proof.
 const EXPECTED: u32 = 6;
@@ -206,14 +210,19 @@ impl<'a> Cover<'a> {
             }
         }
         task.axis = axis;
-        None
+        if distance > NEAR * task.stretch.size(task.parts) {
+            return None;
+        }
+        let axes = task.stretch.feature_axes(task.parts, axis);
+        axes.into_iter()
+            .find_map(|axis| self.leaf_along(task, axis))
     }
 
     fn leaf_along(&self, task: &Task<'a>, axis: DVec3) -> Option<Leaf> {
         let unit_axis = axis.normalize_or_zero();
         for (fine, unit) in AXIS_UNITS.into_iter().enumerate() {
-            // Rounded towards zero it is no longer than 1.
-            let axis = (unit_axis * (unit - 1.0)).trunc();
+            // Rounded towards zero it is no longer than 1, although the length of the unit axis is rounded.
+            let axis = (unit_axis * (unit - 2.0)).trunc();
             for frame in 0..3 {
                 if frame > 0 && !task.stretch.turns(frame - 1) {
                     continue;
@@ -233,7 +242,7 @@ impl<'a> Cover<'a> {
             if leaf.step < 6 {
                 self.steps.extend((x as i16).to_le_bytes());
             } else {
-                self.steps.extend((x as i32).to_le_bytes());
+                self.steps.extend(&(x as i64).to_le_bytes()[..7]);
             }
         }
         self.leaves += 1;

@@ -153,20 +153,8 @@ pub fn steps_text(certificate: &[u8], statement: &Statement) -> String {
             2 => at
                 .take(2)
                 .map(|k| format!("split time {}", u16::from_le_bytes([k[0], k[1]]))),
-            3..=5 => at.take(6).map(|axis| {
-                let axis: Vec<i16> = axis
-                    .chunks_exact(2)
-                    .map(|x| i16::from_le_bytes([x[0], x[1]]))
-                    .collect();
-                format!("leaf {frame} {axis:?}")
-            }),
-            6..=8 => at.take(12).map(|axis| {
-                let axis: Vec<i32> = axis
-                    .chunks_exact(4)
-                    .map(|x| i32::from_le_bytes([x[0], x[1], x[2], x[3]]))
-                    .collect();
-                format!("fine leaf {frame} {axis:?}")
-            }),
+            3..=5 => axis(&mut at, 2).map(|axis| format!("leaf {frame} {axis:?}")),
+            6..=8 => axis(&mut at, 7).map(|axis| format!("fine leaf {frame} {axis:?}")),
             _ => None,
         };
         match line {
@@ -175,6 +163,22 @@ pub fn steps_text(certificate: &[u8], statement: &Statement) -> String {
         }
     }
     text
+}
+
+/// Reads three numbers of so many bytes in two's complement.
+fn axis(at: &mut Cursor<'_>, bytes: usize) -> Option<Vec<i64>> {
+    let number = |bytes: &[u8]| {
+        let negative = bytes.last().is_some_and(|byte| byte & 0x80 != 0);
+        let first = if negative { -1 } else { 0 };
+        let bytes = bytes.iter().rev();
+        bytes.fold(first, |number, &byte| number << 8 | i64::from(byte))
+    };
+    Some(
+        at.take(3 * bytes)?
+            .chunks_exact(bytes)
+            .map(number)
+            .collect(),
+    )
 }
 
 /// What is not read yet.

@@ -18,8 +18,8 @@ pub struct Proof {
     pub unit: i32,
 }
 
-/// The share of the largest length that is allowed for rounding.
-const ROUNDING: f64 = 1e-13;
+/// The share of the largest length that is allowed for rounding. The checker knows a rotation to within some 2⁻⁴³.
+const ROUNDING: f64 = 1e-12;
 
 /// Weights of corners are multiples of 2⁻⁶².
 const WEIGHT_UNIT: f64 = (1u64 << 62) as f64;

@@ -74,7 +74,7 @@ impl Files {
                 0..=1 => 1,
                 2 => 3,
                 3..=5 => 7,
-                _ => 13,
+                _ => 22,
             };
             steps.push(at..at + size);
             at += size;
