@@ -15,11 +15,11 @@ pub(crate) fn of_quaternion(scalar: Number, vector: Vector, factor: Number) -> M
 pub(crate) fn by(turn: Vector) -> Matrix {
     let half = turn.over(2);
     let (mut part, mut halvings) = (half, 0);
-    while part.size() > ONE.mid[0] / 4 {
+    while part.size() > ONE.mid[0] {
         (part, halvings) = (part.over(2), halvings + 1);
     }
     let square = part.dot(part);
-    // Taylor, for x ≤ 1/4: what is left out is less than (1/16)¹⁰ / 20!, which is less than one unit.
+    // Taylor, for x ≤ 1: what is left out is at most 1 / 20!, which is less than one unit.
     let (mut cos, mut sinc) = (ONE, ONE);
     for k in (1..10).rev() {
         cos = ONE - cos.times(square, FRACTION).over((2 * k - 1) * (2 * k));

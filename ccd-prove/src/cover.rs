@@ -28,10 +28,6 @@ const SHORTEST: f64 = 1e-15;
 /// Parts that move by less than this share of their radius are not split in time.
 const LEAST_WAY: f64 = 0.1;
 
-/// Triangles nearer to each other than this share of the lengths around them have their axes from edges and motions: the difference of two
-/// points is known too badly.
-const NEAR: f64 = 1e-7;
-
 /// How many leaves are expected where the look ahead ends without a proof.
 const EXPECTED: u32 = 6;
 
@@ -210,12 +206,7 @@ impl<'a> Cover<'a> {
             }
         }
         task.axis = axis;
-        if distance > NEAR * task.stretch.size(task.parts) {
-            return None;
-        }
-        let axes = task.stretch.feature_axes(task.parts, axis);
-        axes.into_iter()
-            .find_map(|axis| self.leaf_along(task, axis))
+        None
     }
 
     fn leaf_along(&self, task: &Task<'a>, axis: DVec3) -> Option<Leaf> {

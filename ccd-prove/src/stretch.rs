@@ -100,35 +100,6 @@ impl<'a> Stretch<'a> {
         (index, if k == 0 { arm } else { self.offset + arm })
     }
 
-    /// Returns the axes along which two triangles that nearly touch may be apart, each on the side of a direction: across faces,
-    /// across an edge of each, across an edge along the way, and along the way. There are none for nodes.
-    pub(crate) fn feature_axes(&self, parts: [Part; 2], side: DVec3) -> Vec<DVec3> {
-        let [Part::Triangle(a), Part::Triangle(b)] = parts else {
-            return Vec::new();
-        };
-        let mut edges = Vec::new();
-        for (k, triangle) in [a, b].into_iter().enumerate() {
-            let [a, b, c] = self.bodies[k].triangles[triangle];
-            let of_triangle = [b - a, c - b, a - c].map(|edge| self.placed[k].rotation * edge);
-            edges.extend(of_triangle.into_iter().filter_map(DVec3::try_normalize));
-        }
-        let way = (self.placed[1].velocity - self.placed[0].velocity).normalize_or_zero();
-        let mut axes = vec![way];
-        for (k, edge) in edges.iter().enumerate() {
-            axes.push(way - *edge * edge.dot(way));
-            axes.extend(edges[..k].iter().map(|other| edge.cross(*other)));
-        }
-        let facing = |axis: DVec3| if axis.dot(side) < 0.0 { -axis } else { axis };
-        axes.retain(|axis| axis.length_squared() > 1e-6);
-        axes.into_iter().map(facing).collect()
-    }
-
-    /// Returns the lengths of which the distance of two parts is a difference.
-    pub(crate) fn size(&self, parts: [Part; 2]) -> f64 {
-        let reach = |k: usize| self.bodies[k].reach(parts[k], self.centres[k]);
-        length(self.offset) + reach(0) + reach(1)
-    }
-
     /// Returns how far parts move in half of the stretch, about.
     pub(crate) fn way(&self, parts: [Part; 2]) -> f64 {
         let [a, b] = &self.placed;

@@ -18,7 +18,7 @@ pub struct Proof {
     pub unit: i32,
 }
 
-/// The share of the largest length that is allowed for rounding. The checker knows a rotation to within some 2⁻⁴³.
+/// The share of the largest length that is allowed for rounding. The checker knows a rotation to within some 2⁻⁴².
 const ROUNDING: f64 = 1e-12;
 
 /// Weights of corners are multiples of 2⁻⁶².

@@ -7,7 +7,7 @@ use ccd_prove::{
     AxisKind, Body, Carried, Joint, Link, NotProven, Pair, Proof, Scene, Witness, prove,
 };
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
-use rigid_ccd::{Outcome, Solver};
+use rigid_ccd::{Outcome, Settings, Solver};
 use std::f64::consts::TAU;
 
 /// Where the number of witnesses stands in the file of a query of two free bodies, and where its steps begin if it has none.
@@ -84,8 +84,14 @@ impl Meshes {
 
     /// Asks the engine when the bodies first touch, and proves the answer; `None` if they do at the start.
     fn prove(&self, motions: [Motion; 2]) -> Option<Proof> {
-        let mut solver = Solver::new();
-        let tolerance = rigid_ccd::Settings::DEFAULT.tolerance;
+        self.prove_within(Settings::DEFAULT.tolerance, motions)
+    }
+
+    fn prove_within(&self, tolerance: f64, motions: [Motion; 2]) -> Option<Proof> {
+        let mut solver = Solver::new().with_settings(Settings {
+            tolerance,
+            ..Settings::DEFAULT
+        });
         let (a, b) = ((&self.engine[0], motions[0]), (&self.engine[1], motions[1]));
         let (until, witness) = match solver.first_contact(a, b, 1.0).unwrap().outcome {
             Outcome::Free { .. } => (1.0, None),
@@ -143,6 +149,38 @@ fn answers_of_the_engine_are_proven() {
             assert_eq!(meshes.check(&proof), Ok(()), "{motions:?}");
             assert!(proof.leaves > 0);
         }
+    }
+}
+
+/// A leaf needs an axis that is off by less than the distance over the length of the edge.
+/// Source: `ipc-toolkit`'s test "Point-edge ToI random rigid 0".
+#[test]
+fn a_point_is_proven_to_fly_until_a_billionth_from_an_edge() {
+    let from = [-3.523_344_703_336_752_6, -6.983_016_521_509_961_5, 0.0];
+    let to = [3.018_689_460_797_075, -8.551_274_266_649_145, 0.0];
+    let place = [-9.250_086_831_160_303, -1.327_086_326_752_282_6, 0.0];
+    let point = Body::new(&[[0.0; 3]], &[[0; 3]]);
+    let edge = Body::new(&[from, to], &[[0, 1, 1]]);
+    let flies = |place, velocity| Motion::new(Pose::at(place).unwrap(), velocity, [0.0; 3]);
+    let a = flies(place, [156.693_014_898_532_9, -113.924_839_249_120_31, 0.0]);
+    let b = flies(
+        [0.0; 3],
+        [0.717_640_086_133_783_9, -2.686_221_661_748_289_2, 0.0],
+    );
+    let scene = Scene::of_two((&point, a.unwrap()), (&edge, b.unwrap()), 0.0);
+    let proof = prove(&scene, 0.057_998_924_760_781_87, None).unwrap();
+    let read = |body: &Body| ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit);
+    let bodies = [read(&point).unwrap(), read(&edge).unwrap()];
+    assert_eq!(ccd_check::check(&bodies, &proof.bytes), Ok(()));
+}
+
+#[test]
+fn contacts_within_a_billionth_are_proven() {
+    let meshes = Meshes::new();
+    for (motions, _) in &proofs(&meshes, 8)[1] {
+        let proof = meshes.prove_within(1e-9, *motions).unwrap();
+        assert_eq!(proof.bytes[WITNESSES_AT], 1);
+        assert_eq!(meshes.check(&proof), Ok(()));
     }
 }
 
