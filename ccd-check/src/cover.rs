@@ -1,19 +1,18 @@
 //! The check of a certificate: a tree of splits, whose leaves cover all pairs of triangles at all times.
 
 use crate::body::Part;
-use crate::leaf::Stretch;
+use crate::leaf::{Links, Stretch};
 use crate::motion::Placed;
 use crate::number::{FRACTION, Number, Point, dot, product};
 use crate::reader::Reader;
 use crate::statement::Statement;
 use crate::{Body, Stop};
 use alloc::collections::BTreeMap;
-use alloc::vec::Vec;
 
 type Times = [i64; 2];
 
-/// All links in the middle of each stretch of time that a leaf has named so far.
-type Seen = BTreeMap<Times, Vec<Placed>>;
+/// All links in the middle of each stretch of time over which a leaf was checked so far.
+type Seen = BTreeMap<Times, Links>;
 
 /// Checks a certificate about meshes. Nothing is said of any other statement than the one in the certificate: the caller
 /// compares it with the one that he wants.
@@ -53,7 +52,7 @@ pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
                         let middle = from + (to - from) / 2;
                         let [middle, half] =
                             [middle, to - middle].map(|time| Number::exact([time]));
-                        let place = || Placed::all(&statement.links, middle, half);
+                        let place = || Links::new(Placed::all(&statement.links, middle, half));
                         Stretch::new(bodies, seen.entry(times).or_insert_with(place), frame)
                     });
                     let is_apart = |stretch: &Stretch<'_>| stretch.keeps_apart(parts, axis, *least);

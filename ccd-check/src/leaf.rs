@@ -4,8 +4,23 @@ use crate::body::Part;
 use crate::motion::{Motion, Placed};
 use crate::number::{ONE, Point, Vector, ZERO, cross, dot, minus, plus, up};
 use crate::statement::Carried;
+use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use core::ops::Neg;
+
+/// All links in the middle of a stretch of time, and what ways between two of them add to the second derivatives: the bound of
+/// Lemma 2 for the vectors on the way, and its factor for a body at the end.
+pub(crate) struct Links {
+    placed: Vec<Placed>,
+    ways: BTreeMap<[usize; 2], [i128; 2]>,
+}
+
+impl Links {
+    pub(crate) fn new(placed: Vec<Placed>) -> Links {
+        let ways = BTreeMap::new();
+        Links { placed, ways }
+    }
+}
 
 /// A pair over a stretch of time, as it is seen from what an axis turns with.
 pub(crate) struct Stretch<'a> {
@@ -23,7 +38,12 @@ pub(crate) struct Stretch<'a> {
 impl<'a> Stretch<'a> {
     /// Looks from a link, or from the world, which is 0. Returns `None` if links turn by more than two radians: there is no proof
     /// for so long a stretch.
-    pub(crate) fn new(bodies: [&'a Carried<'a>; 2], links: &[Placed], from: usize) -> Option<Self> {
+    pub(crate) fn new(
+        bodies: [&'a Carried<'a>; 2],
+        Links { placed, ways }: &mut Links,
+        from: usize,
+    ) -> Option<Self> {
+        let links = &placed[..];
         let numbers = bodies.map(|body| body.link);
         let placed @ [a, b] = numbers.map(|link| links[link]);
         if a.turned + b.turned > 2 * i128::from(ONE.mid[0]) {
@@ -31,7 +51,12 @@ impl<'a> Stretch<'a> {
         }
         let turn = links[from].whole.turn;
         let offset = b.whole.arm - a.whole.arm;
-        let ways = numbers.map(|link| Way::new(links, from, link));
+        let way = |link| {
+            *ways
+                .entry([from, link])
+                .or_insert_with(|| Way::bounds(links, from, link))
+        };
+        let [way_a, way_b] = numbers.map(way);
         Some(Stretch {
             bodies,
             placed,
@@ -45,8 +70,8 @@ impl<'a> Stretch<'a> {
                     links[link].whole.turn - turn
                 }
             }),
-            bend: ways.iter().map(|way| way.bend).sum(),
-            bends: ways.map(|way| way.factors().1),
+            bend: way_a[0] + way_b[0],
+            bends: [way_a[1], way_b[1]],
         })
     }
 
@@ -95,7 +120,8 @@ struct Way {
 }
 
 impl Way {
-    fn new(links: &[Placed], from: usize, to: usize) -> Way {
+    /// Goes a way, and returns the bounds.
+    fn bounds(links: &[Placed], from: usize, to: usize) -> [i128; 2] {
         let (mut up, mut down, mut path) = (from, to, Vec::new());
         let mut way = Way {
             last: Motion::NONE,
@@ -121,7 +147,7 @@ impl Way {
             way.turn_by(own.turn);
         }
         way.end_arm();
-        way
+        [way.bend, way.factors().1]
     }
 
     fn turn_by(&mut self, turn: Vector) {
