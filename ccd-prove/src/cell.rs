@@ -117,7 +117,7 @@ impl<'c> ProvenCell<'c> {
     }
 
     /// Returns a contact of an edge as a witness in its scene: of the pairs of bodies that the contact may be of, the one whose
-    /// meshes are nearest to its points. `None` if there is no such pair.
+    /// meshes are nearest to its points. `None` if there is no such pair, or if a deadline has left the contact without points.
     pub fn witness(
         &self,
         scene: &Scene<'_>,
@@ -127,6 +127,9 @@ impl<'c> ProvenCell<'c> {
         let items: Vec<Item<'_>> = self.cell.carried_bodies().map(|body| body.item).collect();
         let links = moving(&scene.links);
         let [a, b] = contact.witnesses;
+        if !(a.is_finite() && b.is_finite()) {
+            return None;
+        }
         let all = scene.pairs.iter().enumerate();
         let candidates = all.filter_map(|(pair, Pair { bodies, .. })| {
             let points = match bodies.map(|body| items[body]) {

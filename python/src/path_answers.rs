@@ -49,10 +49,16 @@ pub(crate) fn contact_object<'py>(
     class.call1(values).map(Some)
 }
 
-/// Returns whether a deadline ended a question.
+/// Returns whether a deadline ended a question, or the search for the witnesses of its contact.
 pub(crate) fn ended_by_deadline(found: &Result<PathAnswer, PathError>) -> bool {
     let limit = match found {
-        Ok(answer) => answer.limit,
+        Ok(answer) => {
+            let is_missing = |x: &Option<f64>| x.is_some_and(f64::is_nan);
+            if answer.row.witness_a.iter().any(is_missing) {
+                return true;
+            }
+            answer.limit
+        }
         Err(PathError::Query(Error::Unresolved(known))) => Some(known.limit),
         Err(_) => None,
     };

@@ -1,6 +1,7 @@
 """Robots and cells: answers against closed forms, poses and distances of one pair after another."""
 
 import pickle
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -349,3 +350,20 @@ def test_curves_are_what_their_objects_say(robot: Robot) -> None:
     assert caught.value.safe_until == -30
     assert cell.closest_approach(late).limit is None
     assert cell.closest_approach(late, deadline=0).limit is not None
+
+
+def test_contacts_have_witnesses_while_threads_compete(robot: Robot) -> None:
+    cell = Cell(robot)
+    # So fine a body that to measure a contact takes a part of the time after which a question goes on on another thread.
+    angles = np.linspace(0, 2 * np.pi, 400)
+    ring = np.stack([1.5 * np.sin(angles), 1.5 * np.cos(angles), 0.05 * np.cos(40 * angles)], axis=1)
+    faces = [[k, k + 1, k + 2] for k in range(len(ring) - 2)]
+    cell.add("ring", Body(ring, faces, surface=True), ([0, 0.4, 0], [1, 0, 0, 0]))
+
+    def lost(seed: int) -> int:
+        ends = np.random.default_rng(seed).uniform(-3, 3, (300, 2, 2))
+        found = [cell.first_contact(path, tolerance=1e-7) for path in ends]
+        return sum(contact is not None and not np.isfinite(contact.witness_a).all() for contact in found)
+
+    with ThreadPoolExecutor(16) as threads:
+        assert sum(threads.map(lost, range(16))) == 0
