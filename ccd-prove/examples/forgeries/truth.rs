@@ -125,7 +125,9 @@ fn on_parent(kind: u8, numbers: &[f64], point: DVec3, time: f64) -> DVec3 {
 
 /// Returns whether two triangles are seen to be farther apart than a distance. Numbers that are none are not seen to be nearer.
 fn are_apart(a: &Corners, b: &Corners, least: f64) -> bool {
-    if balls_are_apart(a, b, least) {
+    // Farther away binary64 has no squares.
+    let is_in_range = a[0].distance(b[0]) < 1e100;
+    if !is_in_range || balls_are_apart(a, b, least) {
         return true;
     }
     let shape = |t: &Corners| {
