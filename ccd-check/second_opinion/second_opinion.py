@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """A second checker of proofs that moving meshes stay apart, written from ccd-check/README.md alone.
 
-Its numbers are intervals of integers in 2^-128 of the units of a proof, of any size. The height of a node is
-the exact least height of the corners below it; boxes along the axes of the mesh only say which corners need no
-look. So it reads the axes of the nodes and does not use them. A stretch may be as long as the lemmas prove.
+Its numbers are intervals of integers in 2^-128 of the units of a proof, of any size. The height of a part is
+the exact least height of its corners; boxes along the axes of the mesh only say which corners need no
+look. So it does not use the axes of volumes. A stretch may be as long as the lemmas prove.
 """
 import argparse, functools, hashlib, heapq, struct, sys
 from fractions import Fraction
@@ -11,7 +11,8 @@ from math import isfinite, isqrt
 F, ONE = 128, 1 << 128       # an integer i stands for i / 2^128
 ZERO, ZERO3 = [Fraction(0)] * 3, [(0, 0)] * 3
 MAX_TURN = 512               # radians by which a joint is turned at the start, and again from there to T
-MAX_CHAIN, MAX_LEVELS = 200, 64   # links, with the world; levels of a tree
+MAX_CHAIN = 200              # links, with the world
+FEW = 8                      # triangles of a part that has no volume, at most
 MAX_UNIT = 1200              # of exponents; no binary64 asks for more
 # ---- intervals: (lo, hi) is all numbers from lo / 2^128 to hi / 2^128 ----
 def fix(x): return (x.numerator << F) // x.denominator, -((-x.numerator << F) // x.denominator)   # the least around x
@@ -102,15 +103,8 @@ class Tree:
         order = r.take(f"{count}I")
         r.require(sorted(order) == list(range(count)), 40, "the order does not have each triangle once")
         self.triangles = [corners[3 * t:3 * t + 3] for t in order]
-        self.parts, levels, used = [], [1], 0       # levels: of each node so far that is the root or a child
-        while len(self.parts) < len(levels):
-            level, nodes, (below, own) = levels[len(self.parts)], len(levels), r.take("BB9h")[:2]
-            r.require((below == 0) != (own == 0), r.pos - 20, "the node has both or neither of nodes and triangles")
-            r.require(used + own <= count, r.pos - 20, "the nodes have more triangles than the mesh")
-            r.require(level <= MAX_LEVELS, r.pos - 20, "the tree has too many levels")
-            self.parts.append([~i for i in range(used, used + own)] + list(range(nodes, nodes + below)))
-            used, levels[nodes:] = used + own, [level + 1] * below
-        r.require(used == count, r.pos, "some triangles are in no node")
+        def volumes(n): return 1 + volumes(n // 2) + volumes(n - n // 2) if n > FEW else 0
+        r.take(f"{9 * volumes(count)}h")            # their axes
         r.require(r.pos == len(r.data), r.pos, "bytes follow the end")
 # ---- links and bodies ----
 class Link:
@@ -164,20 +158,33 @@ def way(here, there):
     k = sum(a is b for a, b in zip(here, there))
     return [(vsub, x, x.up) for x in here[:k - 1:-1]] + [(vadd, x, x) for x in there[k:]]   # sign, joint, then at
 
+def halves(part):
+    """A part is the triangles from one to before another."""
+    middle = sum(part) // 2
+    return (part[0], middle), (middle, part[1])
+
 class Body:
     """Corners as seen from the centre of the link, z = y - c, exact in 2^-bits. The size of a part is
     a box, least x y z and greatest x y z, and the greatest |z|^2. What is told of it is in 2^exponent."""
     def __init__(self, tree, link, radius, exponent):
-        self.parts, self.sizes, self.link, self.radius = tree.parts, {}, link, radius
+        self.sizes, self.link, self.radius = {}, link, radius
         self.bits = max([tree.bits] + [c.denominator.bit_length() - 1 for c in link.centre])
         up, (cx, cy, cz) = self.bits - tree.bits, [int(c * (1 << self.bits)) for c in link.centre]
         seen = [((x << up) - cx, (y << up) - cy, (z << up) - cz) for x, y, z in tree.vertices]
         self.corners, self.shift = [[seen[c] for c in t] for t in tree.triangles], self.bits + exponent
-        for i, c in enumerate(self.corners):
-            self.sizes[~i] = [f(v) for f in (min, max) for v in zip(*c)], max(x * x + y * y + z * z for x, y, z in c)
-        for node in reversed(range(len(self.parts))):   # children have greater numbers
-            boxes, far = zip(*[self.sizes[p] for p in self.parts[node]])
-            self.sizes[node] = [f(v) for f, v in zip([min] * 3 + [max] * 3, zip(*boxes))], max(far)
+        self.whole = 0, len(self.corners)
+        self.measure(self.whole)
+
+    def measure(self, part):
+        a, b = part
+        if b - a == 1:
+            c = self.corners[a]
+            size = [f(v) for f in (min, max) for v in zip(*c)], max(x * x + y * y + z * z for x, y, z in c)
+        else:
+            boxes, far = zip(*map(self.measure, halves(part)))
+            size = [f(v) for f, v in zip([min] * 3 + [max] * 3, zip(*boxes))], max(far)
+        self.sizes[part] = size
+        return size
 
     def lowest(self, part, m):
         """The least m . z of the corners z below the part, exactly. The part of the lowest bound is
@@ -185,13 +192,13 @@ class Body:
         mx, my, mz = m
         ix, iy, iz = (i if c >= 0 else i + 3 for i, c in enumerate(m))   # the lowest corner of any box
         def bound(p):
-            if p < 0:
-                return min(mx * x + my * y + mz * z for x, y, z in self.corners[~p]), p
+            if p[1] - p[0] == 1:
+                return min(mx * x + my * y + mz * z for x, y, z in self.corners[p[0]]), p
             box = self.sizes[p][0]
             return mx * box[ix] + my * box[iy] + mz * box[iz], p
         heap = [bound(part)]
-        while heap[0][1] >= 0:
-            for p in self.parts[heapq.heappop(heap)[1]]:
+        while heap[0][1][1] - heap[0][1][0] > 1:
+            for p in halves(heapq.heappop(heap)[1]):
                 heapq.heappush(heap, bound(p))
         return heap[0][0]
 
@@ -280,16 +287,16 @@ def check(path, tree_of):
         r.require(length_up(gap) <= fix((near + tolerance) / length)[0], pos, "the witnesses are too far apart")
     leaves = 0
     for number, (two, margin) in enumerate(pairs):
-        margin, todo = fix(margin / length)[1], [((0, 0), 0, end)]   # the last one is the next one: depth first
+        margin, todo = fix(margin / length)[1], [((two[0].whole, two[1].whole), 0, end)]   # the last one is the next one: depth first
         while todo:
             (parts, t0, t1), pos = todo.pop(), r.pos
             r.require(pos < len(r.data), pos, f"the file ends, and {len(todo) + 1} parts are not proven")
             step, = r.take("B")
             r.require(step <= 8, pos, "there is no such step")
             if step < 2:
-                r.require(parts[step] >= 0, pos, "a triangle can not be split")
-                below = reversed(two[step].parts[parts[step]])
-                todo += [((parts[0], p) if step else (p, parts[1]), t0, t1) for p in below]
+                first, last = parts[step]
+                r.require(last - first > 1, pos, "a triangle can not be split")
+                todo += [((parts[0], p) if step else (p, parts[1]), t0, t1) for p in reversed(halves(parts[step]))]
             elif step == 2:
                 middle = t0 + ((t1 - t0) * r.take("H")[0] >> 16)
                 r.require(t0 < middle < t1, pos, "a part of the time is empty")

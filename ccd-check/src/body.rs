@@ -1,19 +1,21 @@
 //! A mesh, and a tree of volumes over ranges of its triangles.
 //!
-//! The certificate of a body says only how the tree groups the triangles, and along which axes each node is measured. How far a
-//! node extends along them is measured here, on the triangles themselves.
+//! The certificate of a body says only in which order the triangles are, and along which axes each volume is measured. How far
+//! a part extends along them is measured here, on the triangles themselves.
 
-use crate::number::{Point, dot, minus, product};
+use crate::number::{Ball, Point, dot, product};
 use crate::reader::Reader;
 use crate::{Stop, sha256};
 use alloc::vec::Vec;
-use core::ops::Range;
 
-/// Axes of nodes are multiples of 2⁻¹⁴.
+/// Axes of volumes are multiples of 2⁻¹⁴.
 const AXIS_BITS: u32 = 14;
 
-/// A tree has at most so many levels.
-const MAX_DEPTH: usize = 64;
+/// A part of more triangles has a volume.
+const FEW: usize = 8;
+
+/// Triangles of a body, from one to before another. Both halves of a part are parts.
+pub(crate) type Part = [usize; 2];
 
 /// A mesh with its tree, in integer coordinates.
 #[derive(Clone, Debug)]
@@ -22,21 +24,17 @@ pub struct Body {
     pub(crate) unit: i32,
     /// The corners of each triangle in the order of the tree. Each is off by less than 1 in each coordinate.
     pub(crate) triangles: Vec<[Point; 3]>,
-    nodes: Vec<Node>,
+    /// That of a part is where its halves meet: no other part is halved there.
+    volumes: Vec<Volume>,
 }
 
-/// A volume: the points whose heights along three axes are in ranges, and that are within a ball.
-#[derive(Clone, Debug)]
-struct Node {
+/// The points whose heights along three axes, and whose coordinates, are in ranges.
+#[derive(Clone, Debug, Default)]
+struct Volume {
     axes: [Point; 3],
     ranges: [[i64; 2]; 3],
-    centre: Point,
-    radius: i64,
-    children: Range<Part>,
+    bounds: [[i64; 2]; 3],
 }
-
-/// A triangle of a body by its number, or a node by its number beyond those of the triangles.
-pub(crate) type Part = usize;
 
 impl Body {
     /// Reads a mesh and the certificate of its tree, in the unit of 2 to the power of `unit`.
@@ -45,173 +43,103 @@ impl Body {
     /// The verdict, if the certificate is broken or numbers are out of range.
     pub fn new(mesh: &[u8], certificate: &[u8], unit: i32) -> Result<Body, Stop> {
         let triangles = read_mesh(Reader::new(mesh), unit.into())?;
-        let digest = sha256(mesh);
+        let (count, digest) = (triangles.len(), sha256(mesh));
         let mut reader = Reader::new(certificate);
-        let is_body = reader.take(8)? == b"CCDBODY1";
-        reader.require(is_body, "this is no certificate of a body")?;
+        reader.name(b"CCDBODY1")?;
         let is_of_mesh = reader.take(32)? == digest;
         reader.require(is_of_mesh, "this is the certificate of another mesh")?;
-        let mut body = Body {
-            digest,
-            unit,
-            triangles: Vec::new(),
-            nodes: Vec::new(),
-        };
-        let mut is_missing = alloc::vec![true; triangles.len()];
-        for _ in 0..triangles.len() {
-            let number = reader.index(triangles.len())?;
+        let volumes = alloc::vec![Volume::default(); count];
+        let mut body = Body { digest, unit, triangles: Vec::new(), volumes };
+        let mut is_missing = alloc::vec![true; count];
+        for _ in 0..count {
+            let number = reader.index(count)?;
             reader.require(is_missing[number], "the tree has a triangle twice")?;
             is_missing[number] = false;
             body.triangles.push(triangles[number]);
         }
-        body.read_nodes(&mut reader)?;
-        reader.require(reader.is_at_end(), "the file goes on after its end")?;
-        for k in 0..body.nodes.len() {
-            let mut corners = Vec::new();
-            body.add_corners(triangles.len() + k, &mut corners);
-            body.nodes[k].measure(&corners);
+        let mut parts = alloc::vec![[0, count]];
+        while let Some(part @ [from, to]) = parts.pop() {
+            if to - from > 1 {
+                let mut axes = [[0; 3]; 3];
+                if to - from > FEW {
+                    axes = [reader.axis(2)?, reader.axis(2)?, reader.axis(2)?];
+                }
+                let [first, second] = halves(part);
+                body.volumes[second[0]] = Volume::around(&body.triangles[from..to], axes);
+                parts.extend([second, first]);
+            }
         }
+        reader.end()?;
         Ok(body)
     }
 
-    /// Reads the nodes level by level: the children of a node are the next nodes or the next triangles that are no one's yet.
-    fn read_nodes(&mut self, reader: &mut Reader<'_>) -> Result<(), Stop> {
-        let count = self.triangles.len();
-        let (mut next_triangle, mut next_node, mut level_end, mut depth) =
-            (0, count + 1, count + 1, 1);
-        for number in count.. {
-            if number == next_node {
-                break;
-            }
-            if number == level_end {
-                (level_end, depth) = (next_node, depth + 1);
-                reader.require(depth <= MAX_DEPTH, "a tree has too many levels")?;
-            }
-            let [nodes, triangles] = [reader.unsigned(1)? as usize, reader.unsigned(1)? as usize];
-            reader.require(
-                (nodes == 0) != (triangles == 0),
-                "a node has no children, or both kinds",
-            )?;
-            let next = if nodes == 0 {
-                &mut next_triangle
-            } else {
-                &mut next_node
-            };
-            let first = *next;
-            *next += nodes + triangles;
-            self.nodes.push(Node {
-                axes: [reader.axis(2)?, reader.axis(2)?, reader.axis(2)?],
-                ranges: [[0; 2]; 3],
-                centre: [0; 3],
-                radius: 0,
-                children: first..*next,
-            });
-        }
-        reader.require(
-            next_triangle == count,
-            "a tree has more or fewer triangles than the mesh",
-        )
-    }
-
-    pub(crate) fn root(&self) -> Part {
-        self.triangles.len()
-    }
-
-    /// Returns the parts that a node consists of. A triangle has none.
-    pub(crate) fn children(&self, part: Part) -> Range<Part> {
-        match part.checked_sub(self.root()) {
-            Some(node) => self.nodes[node].children.clone(),
-            None => 0..0,
-        }
-    }
-
-    /// Adds the corners of all triangles of a part.
-    fn add_corners(&self, part: Part, corners: &mut Vec<Point>) {
-        match self.triangles.get(part) {
-            Some(triangle) => corners.extend(triangle),
-            None => self
-                .children(part)
-                .for_each(|child| self.add_corners(child, corners)),
-        }
-    }
-
     /// Returns the largest distance of a part from a point, or more.
-    pub(crate) fn reach(&self, part: Part, from: Point) -> i128 {
-        match self.triangles.get(part) {
-            Some(triangle) => extent(triangle.iter().map(|&corner| length(minus(corner, from))))[1],
-            None => {
-                let node = &self.nodes[part - self.root()];
-                length(minus(node.centre, from)) + i128::from(node.radius)
-            }
-        }
+    pub(crate) fn reach(&self, part @ [from, to]: Part, point: Point) -> i64 {
+        let bounds = if to - from > 1 { self.volume(part).bounds } else { bounds(&self.triangles[from..to]) };
+        let farthest = [0, 1, 2].map(|k| (point[k] - bounds[k][0]).max(bounds[k][1] - point[k]));
+        Ball::exact(farthest).length() as i64
     }
 
     /// Returns the least height of a part along a direction, from a point, or less.
-    pub(crate) fn least_height(&self, part: Part, direction: Point, from: Point) -> i128 {
-        match self.triangles.get(part) {
-            Some(triangle) => extent(
-                triangle
-                    .iter()
-                    .map(|&corner| dot(direction, minus(corner, from))),
-            )[0],
-            None => self.nodes[part - self.root()].least_height(direction, from),
-        }
+    pub(crate) fn least_height(&self, part @ [from, to]: Part, direction: Point, point: Point) -> i128 {
+        let height = if to - from > FEW {
+            self.volume(part).least_height(direction)
+        } else {
+            let corners = self.triangles[from..to].as_flattened();
+            corners.iter().map(|&corner| dot(direction, corner)).min().unwrap_or(i128::MIN)
+        };
+        height - dot(direction, point)
+    }
+
+    fn volume(&self, part: Part) -> &Volume {
+        &self.volumes[halves(part)[1][0]]
     }
 }
 
-impl Node {
-    /// Measures how far corners extend along the axes, and a ball around them.
-    fn measure(&mut self, corners: &[Point]) {
-        self.ranges = self.axes.map(|axis| {
-            let [least, greatest] = extent(corners.iter().map(|&corner| dot(axis, corner)));
-            [least >> AXIS_BITS, (greatest >> AXIS_BITS) + 1].map(|height| height as i64)
+pub(crate) fn halves([from, to]: Part) -> [Part; 2] {
+    let middle = from + (to - from) / 2;
+    [[from, middle], [middle, to]]
+}
+
+impl Volume {
+    fn around(triangles: &[[Point; 3]], axes: [Point; 3]) -> Volume {
+        let ranges = axes.map(|axis| {
+            let [least, most] = range(triangles, |corner| (dot(axis, corner) >> AXIS_BITS) as i64);
+            [least, most + 1]
         });
-        self.centre = [0, 1, 2].map(|k| {
-            let [least, greatest] = extent(corners.iter().map(|corner| corner[k].into()));
-            ((least + greatest) / 2) as i64
-        });
-        let distances = corners
-            .iter()
-            .map(|&corner| length(minus(corner, self.centre)));
-        self.radius = extent(distances)[1] as i64;
+        Volume { axes, ranges, bounds: bounds(triangles) }
     }
 
-    /// Returns a lower bound of the heights of the points along a direction, from a point.
+    /// Returns a lower bound of the heights of the points along a direction.
     ///
     /// The direction is a sum of multiples of the axes and a rest, whatever the multiples. Each multiple has its least height at
-    /// an end of the axis's range, and the rest has it within the ball.
-    fn least_height(&self, direction: Point, from: Point) -> i128 {
-        // A multiple of an axis is one of 2⁻³⁶ of its length, so both are exact.
+    /// an end of the axis's range, and each coordinate of the rest at an end of that coordinate's.
+    fn least_height(&self, direction: Point) -> i128 {
+        // Multiples are in 2⁻³⁶, so that their products with the axes are exact.
         let coarse = direction.map(|x| x >> AXIS_BITS);
         let (mut rest, mut height) = (direction, 0);
-        for (axis, [least, greatest]) in self.axes.iter().zip(self.ranges) {
-            let multiple =
-                (axis[0] * coarse[0] + axis[1] * coarse[1] + axis[2] * coarse[2]) >> AXIS_BITS;
-            height += product(multiple, if multiple < 0 { greatest } else { least });
-            rest = minus(rest, axis.map(|x| multiple * x));
+        for (axis, range) in self.axes.iter().zip(self.ranges) {
+            let multiple = (0..3).map(|k| axis[k] * coarse[k]).sum::<i64>() >> AXIS_BITS;
+            height += least(multiple, range) << AXIS_BITS;
+            rest = [0, 1, 2].map(|k| rest[k] - multiple * axis[k]);
         }
-        let [x, y, z] = rest.map(|x| i128::from(x.abs()));
-        (height << AXIS_BITS) + dot(rest, self.centre)
-            - dot(direction, from)
-            - (x + y + z) * i128::from(self.radius)
+        height + (0..3).map(|k| least(rest[k], self.bounds[k])).sum::<i128>()
     }
 }
 
-/// Returns the least and the greatest of numbers.
-fn extent(mut numbers: impl Iterator<Item = i128>) -> [i128; 2] {
-    let first = numbers.next().unwrap_or(0);
-    numbers.fold([first; 2], |[least, greatest], x| {
-        [least.min(x), greatest.max(x)]
-    })
+/// Returns the least multiple of the numbers in a range.
+fn least(factor: i64, [least, most]: [i64; 2]) -> i128 {
+    product(factor, if factor < 0 { most } else { least })
 }
 
-/// Returns an upper bound of the length of a vector: the largest coordinate and half of the others.
-///
-/// With a ≥ b ≥ c ≥ 0, (a + (b + c)/2)² ≥ a² + a(b + c) ≥ a² + b² + c².
-fn length(v: Point) -> i128 {
-    let [a, b, c] = v.map(|x| i128::from(x.abs()));
-    let largest = a.max(b).max(c);
-    largest + (a + b + c - largest) / 2 + 1
+/// Returns the least and the greatest of what is measured at all corners.
+fn range(triangles: &[[Point; 3]], measure: impl Fn(Point) -> i64) -> [i64; 2] {
+    let measures = triangles.as_flattened().iter().map(|&corner| measure(corner));
+    measures.fold([i64::MAX, i64::MIN], |[least, most], x| [least.min(x), most.max(x)])
+}
+
+fn bounds(triangles: &[[Point; 3]]) -> [[i64; 2]; 3] {
+    [0, 1, 2].map(|k| range(triangles, |corner| corner[k]))
 }
 
 /// Reads a mesh: the numbers of vertices and triangles, the coordinates, and the corners.
@@ -225,9 +153,7 @@ fn read_mesh(mut reader: Reader<'_>, unit: i64) -> Result<Vec<[Point; 3]>, Stop>
         let [a, b, c] = [(); 3].map(|()| reader.index(vertices.len()));
         triangles.push([vertices[a?], vertices[b?], vertices[c?]]);
     }
-    reader.require(
-        !triangles.is_empty() && reader.is_at_end(),
-        "a mesh is empty, or goes on after its end",
-    )?;
+    reader.require(!triangles.is_empty(), "a mesh is empty")?;
+    reader.end()?;
     Ok(triangles)
 }

@@ -13,6 +13,7 @@ mod reader;
 mod rotation;
 mod sha256;
 mod statement;
+mod way;
 
 pub use body::Body;
 pub use cover::check;

@@ -1,10 +1,6 @@
 //! The checker as a command: reads meshes, certificates of bodies, and certificates of queries, and prints a verdict on each.
 
-#![allow(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "verdicts are its output"
-)]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "verdicts are its output")]
 
 use ccd_check::{Body, check};
 use std::fs;
@@ -69,9 +65,8 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<bool, String> {
 fn verdict(proof: &[u8], meshes: &[(Vec<u8>, Vec<u8>, String)]) -> Result<(), String> {
     let unit = proof.get(8..12).and_then(|bytes| bytes.try_into().ok());
     let unit = i32::from_le_bytes(unit.unwrap_or_default());
-    let read = |(mesh, body, name): &(Vec<u8>, Vec<u8>, String)| {
-        Body::new(mesh, body, unit).map_err(|stop| format!("{name}: {stop}"))
-    };
+    let read =
+        |(mesh, body, name): &(Vec<u8>, Vec<u8>, String)| Body::new(mesh, body, unit).map_err(|stop| format!("{name}: {stop}"));
     let bodies: Vec<Body> = meshes.iter().map(read).collect::<Result<_, _>>()?;
     check(&bodies, proof).map_err(|stop| stop.to_string())
 }

@@ -15,8 +15,15 @@ impl<'a> Reader<'a> {
         Reader { bytes, at: 0 }
     }
 
-    pub(crate) fn is_at_end(&self) -> bool {
-        self.at == self.bytes.len()
+    /// Requires that the file begins with a name.
+    pub(crate) fn name(&mut self, name: &[u8; 8]) -> Result<(), Stop> {
+        let is_name = self.take(8)? == name;
+        self.require(is_name, "this is another kind of file")
+    }
+
+    /// Requires that nothing is left.
+    pub(crate) fn end(&self) -> Result<(), Stop> {
+        self.require(self.at == self.bytes.len(), "the file goes on after its end")
     }
 
     /// Returns the verdict that the file is broken before the place that is read next.
@@ -64,34 +71,21 @@ impl<'a> Reader<'a> {
     /// Reads a binary64 as a multiple of 2 to the power of `unit` that has at most so many bits. What is between two multiples
     /// is rounded down.
     pub(crate) fn number(&mut self, unit: i64, bits: u32) -> Result<Number, Stop> {
-        let all = self.unsigned(8)?;
-        let (field, fraction) = ((all >> 52 & 0x7ff) as i64, (all & ((1 << 52) - 1)) as i64);
+        let all = self.unsigned(8)? as i64;
+        let exponent = all >> 52 & 0x7ff;
         // A subnormal number has the exponent of the least normal ones, and no leading 1.
-        let mantissa = if field == 0 {
-            fraction
+        let mantissa = all & ((1 << 52) - 1) | i64::from(exponent > 0) << 52;
+        let mantissa = if all < 0 { -mantissa } else { mantissa };
+        let shift = exponent.max(1) - 1075 - unit;
+        let (mantissa, dropped) = (mantissa << shift.clamp(0, 9), (-shift).clamp(0, 60));
+        let mid = mantissa >> dropped;
+        let number = Number { mid: [mid], rad: i64::from(mid << dropped != mantissa) };
+        let is_finite = exponent < 0x7ff && (shift <= 9 || mantissa == 0);
+        if is_finite && number.size() <= 1 << bits {
+            Ok(number)
         } else {
-            fraction | 1 << 52
-        };
-        let mantissa = if all >> 63 == 1 { -mantissa } else { mantissa };
-        let number = match field.max(1) - 1075 - unit {
-            _ if mantissa == 0 => Number::exact([0]),
-            shift @ 0..=9 => Number::exact([mantissa << shift]),
-            shift @ ..0 => {
-                let dropped = (-shift).min(60);
-                let mid = mantissa >> dropped;
-                Number {
-                    mid: [mid],
-                    rad: i64::from(mid << dropped != mantissa),
-                }
-            }
-            _ => return Err(Stop::Unverifiable("a number is too large in its unit")),
-        };
-        if field == 0x7ff || number.size() > 1 << bits {
-            return Err(Stop::Unverifiable(
-                "a number is infinite, or too large in its unit",
-            ));
+            Err(Stop::Unverifiable("a number is infinite, or too large in its unit"))
         }
-        Ok(number)
     }
 
     /// Reads a binary64 that is not negative, rounded up to a multiple.

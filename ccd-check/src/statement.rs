@@ -1,8 +1,9 @@
 //! What a certificate states: meshes, how they move, which pairs stay apart, and two points that come near.
 
 use crate::motion::{Link, Placed, TIME};
-use crate::number::{Number, Point, Vector, product};
+use crate::number::{Number, Point, Vector, dot};
 use crate::reader::Reader;
+use crate::way::Way;
 use crate::{Body, Stop};
 use alloc::vec::Vec;
 
@@ -32,16 +33,10 @@ pub(crate) struct Carried<'b> {
 impl<'b> Statement<'b> {
     /// Reads what is stated, and checks the witness.
     pub(crate) fn read(reader: &mut Reader<'_>, meshes: &'b [Body]) -> Result<Self, Stop> {
-        let is_proof = reader.take(8)? == b"CCDPROOF";
-        reader.require(is_proof, "this is no certificate of a query")?;
+        reader.name(b"CCDPROOF")?;
         let units = [reader.signed(4)?, reader.signed(4)?];
         let [links, bodies, pairs] = [(); 3].map(|()| reader.unsigned(4));
-        let mut statement = Statement {
-            links: alloc::vec![Link::WORLD],
-            bodies: Vec::new(),
-            pairs: Vec::new(),
-            until: 0,
-        };
+        let mut statement = Statement { links: alloc::vec![Link::WORLD], bodies: Vec::new(), pairs: Vec::new(), until: 0 };
         for _ in 0..links? {
             let link = Link::read(reader, units, &statement.links)?;
             statement.links.push(link);
@@ -67,59 +62,39 @@ impl<'b> Statement<'b> {
         Ok(statement)
     }
 
-    fn read_body(
-        &self,
-        reader: &mut Reader<'_>,
-        unit: i64,
-        meshes: &'b [Body],
-    ) -> Result<Carried<'b>, Stop> {
+    fn read_body(&self, reader: &mut Reader<'_>, unit: i64, meshes: &'b [Body]) -> Result<Carried<'b>, Stop> {
         let digest = reader.take(32)?;
         let mesh = meshes.iter().find(|mesh| mesh.digest == digest);
         let mesh = mesh.ok_or(reader.broken("a mesh is none of those that are given"))?;
         let is_in_unit = i64::from(mesh.unit) == unit;
         reader.require(is_in_unit, "a mesh was read in another unit")?;
         let link = reader.index(self.links.len())?;
-        Ok(Carried {
-            mesh,
-            link,
-            centre: self.links[link].centre.mid,
-            radius: reader.size(unit, 50)?,
-        })
+        Ok(Carried { mesh, link, centre: self.links[link].centre.mid, radius: reader.size(unit, 50)? })
     }
 
     /// Reads the claim that two points of a pair are near each other at a time, and checks it. The end of the time is given by its
     /// bits: numbers that are not negative have the order of their bits, but for the sign of 0.
-    fn check_witness(
-        &self,
-        reader: &mut Reader<'_>,
-        units: [i64; 2],
-        until: u64,
-    ) -> Result<(), Stop> {
-        let pair = reader.index(self.pairs.len())?;
+    fn check_witness(&self, reader: &mut Reader<'_>, units: [i64; 2], until: u64) -> Result<(), Stop> {
+        let (bodies, least) = self.pairs[reader.index(self.pairs.len())?];
         let is_in_time = reader.clone().unsigned(8)? << 1 <= until << 1;
         let time = reader.number(units[1] - i64::from(TIME), TIME)?;
-        let is_in_time = is_in_time && time.mid[0] >= 0;
-        reader.require(is_in_time, "the time of the witness is not from 0 to T")?;
+        reader.require(is_in_time && time.mid[0] >= 0, "the time of the witness is not from 0 to T")?;
         let tolerance = reader.size(units[0], 50)?;
         let placed = Placed::all(&self.links, time, Number::exact([0]));
-        let (bodies, least) = self.pairs[pair];
         let [a, b] = bodies.map(|body| {
             let body = &self.bodies[body];
             let corners = body.mesh.triangles[reader.index(body.mesh.triangles.len())?];
             let (a, b) = (reader.unsigned(8)?, reader.unsigned(8)?);
-            let rest = (1u64 << WEIGHT_BITS).checked_sub(a);
-            let rest = rest.and_then(|rest| rest.checked_sub(b));
+            let rest = (1u64 << WEIGHT_BITS).checked_sub(a).and_then(|rest| rest.checked_sub(b));
             let rest = rest.ok_or(reader.broken("the weights of a witness are more than 1"))?;
             let weights = [a, b, rest].map(|weight| weight as i64);
-            let sum =
-                |axis| -> i128 { (0..3).map(|k| product(weights[k], corners[k][axis])).sum() };
             // Off by less than 2 with the corners, and by as much with what the shift drops.
             let point = Vector {
-                mid: [0, 1, 2].map(|axis| (sum(axis) >> WEIGHT_BITS) as i64),
+                mid: [0, 1, 2].map(|axis| (dot(weights, corners.map(|corner| corner[axis])) >> WEIGHT_BITS) as i64),
                 rad: 4,
             };
-            let (link, centre) = (placed[body.link], self.links[body.link].centre);
-            Ok(link.whole.arm + link.rotation.apply(point - centre))
+            let place = Way::new(&placed, 0, body.link).arm;
+            Ok(place + placed[body.link].rotation.apply(point - self.links[body.link].centre))
         });
         // Margin, radii and tolerance are rounded up: by at most 1 each.
         let is_near = (b? - a?).length() + 4 <= least + i128::from(tolerance);

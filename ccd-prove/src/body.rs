@@ -5,51 +5,36 @@ use ccd_core::order::{greater, lesser};
 use nalgebra::{Matrix3, SymmetricEigen};
 use sha2::{Digest, Sha256};
 use std::cmp::Ordering;
-use std::ops::Range;
 
-/// The number of triangles of a node that has no children, at most.
-const LEAF_TRIANGLES: usize = 4;
+/// A part of more triangles has a volume.
+const FEW: usize = 8;
 
-/// The number of nodes below a node.
-const WIDTH: usize = 2;
-
-/// Axes of nodes are multiples of 2⁻¹⁴.
+/// Axes of volumes are multiples of 2⁻¹⁴.
 const AXIS_UNIT: f64 = 16_384.0;
 
 /// A mesh, with a tree of volumes around its triangles, and both as bytes.
 #[derive(Clone, Debug)]
 pub struct Body {
+    /// In the order of the tree.
     pub(crate) triangles: Vec<[DVec3; 3]>,
-    /// Level by level; the first one is the root.
-    pub(crate) nodes: Vec<Node>,
+    /// That of a part is where its halves meet.
+    volumes: Vec<Option<Volume>>,
     mesh: Vec<u8>,
     /// The SHA-256 digest of the mesh.
     pub(crate) digest: [u8; 32],
     certificate: Vec<u8>,
 }
 
+/// Triangles of a body, from one to before another.
+pub(crate) type Part = [usize; 2];
+
 #[derive(Clone, Debug)]
-pub(crate) struct Node {
+struct Volume {
     /// The axes as they are stored, divided by their unit: nearly orthogonal, and nearly of length 1.
-    pub(crate) axes: [DVec3; 3],
-    pub(crate) ranges: [[f64; 2]; 3],
-    pub(crate) centre: DVec3,
-    pub(crate) radius: f64,
-    pub(crate) children: Children,
-}
-
-/// What a node consists of.
-#[derive(Clone, Debug)]
-pub(crate) enum Children {
-    Nodes(Range<usize>),
-    Triangles(Range<usize>),
-}
-
-/// A node or a triangle of a body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Part {
-    Node(usize),
-    Triangle(usize),
+    axes: [DVec3; 3],
+    ranges: [[f64; 2]; 3],
+    /// The least and the greatest coordinates.
+    bounds: [DVec3; 2],
 }
 
 impl Body {
@@ -63,30 +48,26 @@ impl Body {
         let triangles: Vec<[DVec3; 3]> = faces.iter().map(|face| face.map(corner)).collect();
         assert!(!triangles.is_empty(), "a body has triangles");
         let mesh = mesh_bytes(vertices, faces);
-        let mut body = Body {
-            triangles: Vec::new(),
-            nodes: Vec::new(),
-            digest: Sha256::digest(&mesh).into(),
+        let digest: [u8; 32] = Sha256::digest(&mesh).into();
+        let mut volumes = vec![None; triangles.len()];
+        let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
+        let mut axes = Vec::new();
+        sort(&triangles, &mut order, 0, &mut |middle, volume: Volume| {
+            let numbers = volume.axes.iter().flat_map(|axis| axis.to_array());
+            axes.extend(numbers.flat_map(|x| ((x * AXIS_UNIT) as i16).to_le_bytes()));
+            volumes[middle] = Some(volume);
+        });
+        let triangles = order.iter().map(|&k| triangles[k as usize]).collect();
+        let order = order.iter().flat_map(|k| k.to_le_bytes());
+        let mut certificate = b"CCDBODY1".to_vec();
+        certificate.extend(digest.into_iter().chain(order).chain(axes));
+        Body {
+            triangles,
+            volumes,
             mesh,
-            certificate: Vec::new(),
-        };
-        let order = body.add_nodes(&triangles);
-        body.triangles = order.iter().map(|&k| triangles[k as usize]).collect();
-        body.certificate.extend(b"CCDBODY1");
-        body.certificate.extend(body.digest);
-        body.certificate
-            .extend(order.iter().flat_map(|k| k.to_le_bytes()));
-        for node in &body.nodes {
-            let (nodes, own) = match &node.children {
-                Children::Nodes(range) => (range.len(), 0),
-                Children::Triangles(range) => (0, range.len()),
-            };
-            body.certificate.extend([nodes as u8, own as u8]);
-            let numbers = node.axes.iter().flat_map(|axis| axis.to_array());
-            body.certificate
-                .extend(numbers.flat_map(|x| ((x * AXIS_UNIT) as i16).to_le_bytes()));
+            digest,
+            certificate,
         }
-        body
     }
 
     /// Makes a body of the triangles of one of the engine's, and the radius by which it is rounded. A ball is a triangle whose
@@ -133,116 +114,126 @@ impl Body {
         &self.certificate
     }
 
-    /// Adds all nodes around triangles, level by level. Returns the triangles in the order of the tree.
-    fn add_nodes(&mut self, triangles: &[[DVec3; 3]]) -> Vec<u32> {
-        let mut groups = std::collections::VecDeque::new();
-        groups.push_back((0..triangles.len() as u32).collect::<Vec<u32>>());
-        let (mut order, mut count) = (Vec::new(), 1);
-        while let Some(group) = groups.pop_front() {
-            let mut node = Node::around(triangles, &group);
-            if group.len() <= LEAF_TRIANGLES {
-                node.children = Children::Triangles(order.len()..order.len() + group.len());
-                order.extend(group);
-            } else {
-                let parts = split(triangles, group);
-                node.children = Children::Nodes(count..count + parts.len());
-                count += parts.len();
-                groups.extend(parts);
-            }
-            self.nodes.push(node);
-        }
-        order
-    }
-
-    pub(crate) fn children(&self, part: Part) -> Vec<Part> {
-        match part {
-            Part::Triangle(_) => Vec::new(),
-            Part::Node(number) => match self.nodes[number].children.clone() {
-                Children::Nodes(range) => range.map(Part::Node).collect(),
-                Children::Triangles(range) => range.map(Part::Triangle).collect(),
-            },
-        }
+    /// Returns the part that has all triangles.
+    pub(crate) fn whole(&self) -> Part {
+        [0, self.triangles.len()]
     }
 
     /// Returns the least height of a part along a direction, from a point.
     pub(crate) fn least_height(&self, part: Part, direction: DVec3, point: DVec3) -> f64 {
-        match part {
-            Part::Triangle(number) => {
-                let [a, b, c] = self.triangles[number].map(|corner| direction.dot(corner - point));
-                lesser(a, lesser(b, c))
+        let height = match self.volume(part) {
+            Some(volume) => volume.least_height(direction),
+            None => {
+                let heights = self.corners(part).map(|corner| direction.dot(*corner));
+                heights.fold(f64::INFINITY, lesser)
             }
-            Part::Node(number) => self.nodes[number].least_height(direction) - direction.dot(point),
-        }
+        };
+        height - direction.dot(point)
     }
 
     /// Returns the greatest distance of a part from a point, or more.
     pub(crate) fn reach(&self, part: Part, point: DVec3) -> f64 {
-        match part {
-            Part::Triangle(number) => {
-                let [a, b, c] = self.triangles[number].map(|corner| length(corner - point));
-                greater(a, greater(b, c))
-            }
-            Part::Node(number) => {
-                let node = &self.nodes[number];
-                length(node.centre - point) + node.radius
-            }
-        }
+        let [least, greatest] = self.bounds(part);
+        let farthest = [point - least, greatest - point].map(|v| v.to_array());
+        DVec3::from_array([0, 1, 2].map(|k| greater(farthest[0][k], farthest[1][k]))).length()
     }
 
-    /// Returns half of the size of a part.
+    /// Returns half of the size of a part, and 0 for a triangle.
     pub(crate) fn radius(&self, part: Part) -> f64 {
-        match part {
-            Part::Triangle(_) => 0.0,
-            Part::Node(number) => self.nodes[number].radius,
+        let [least, greatest] = self.bounds(part);
+        if part[1] - part[0] > 1 {
+            0.5 * (greatest - least).length()
+        } else {
+            0.0
         }
     }
 
     /// Returns the corner of a part that is lowest along a direction.
     pub(crate) fn lowest_corner(&self, part: Part, direction: DVec3) -> (u32, DVec3) {
-        match part {
-            Part::Triangle(number) => {
-                let corners = self.triangles[number];
-                let height = |k: &usize| direction.dot(corners[*k]);
-                let lowest = (0..3)
-                    .min_by(|a, b| height(a).total_cmp(&height(b)))
-                    .unwrap_or(0);
-                (lowest as u32, corners[lowest])
-            }
-            Part::Node(number) => {
-                let node = &self.nodes[number];
-                let (mut index, mut corner) = (0, DVec3::ZERO);
-                for (k, (axis, range)) in node.axes.iter().zip(node.ranges).enumerate() {
+        let (mut index, mut corner) = (0, DVec3::ZERO);
+        match self.volume(part) {
+            Some(volume) => {
+                for (k, (axis, range)) in volume.axes.iter().zip(volume.ranges).enumerate() {
                     let end = usize::from(direction.dot(*axis) < 0.0);
                     index |= (end as u32) << k;
                     corner += *axis * (range[end] / axis.length_squared());
                 }
-                (index, corner)
+            }
+            None => {
+                let mut least = f64::INFINITY;
+                for (k, point) in self.corners(part).enumerate() {
+                    let height = direction.dot(*point);
+                    if height < least {
+                        (index, corner, least) = (k as u32, *point, height);
+                    }
+                }
             }
         }
+        (index, corner)
+    }
+
+    fn volume(&self, part: Part) -> Option<&Volume> {
+        self.volumes
+            .get(middle(part))?
+            .as_ref()
+            .filter(|_| part[1] - part[0] > FEW)
+    }
+
+    fn bounds(&self, part: Part) -> [DVec3; 2] {
+        match self.volume(part) {
+            Some(volume) => volume.bounds,
+            None => bounds(&self.corners(part)),
+        }
+    }
+
+    fn corners(&self, [from, to]: Part) -> impl Iterator<Item = &DVec3> + Clone {
+        self.triangles[from..to].iter().flatten()
     }
 }
 
-impl Node {
-    fn around(triangles: &[[DVec3; 3]], order: &[u32]) -> Self {
-        let axes = axes(triangles, order).map(|axis| axis / AXIS_UNIT);
-        let corners = || order.iter().flat_map(|&k| triangles[k as usize]);
-        let extent = |axis: DVec3| {
-            corners().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], corner| {
-                let height = axis.dot(corner);
-                [lesser(low, height), greater(high, height)]
-            })
-        };
-        let middle = |axis| extent(axis).iter().sum::<f64>() / 2.0;
-        let centre = DVec3::new(middle(DVec3::X), middle(DVec3::Y), middle(DVec3::Z));
-        let radius = corners().fold(0.0, |radius: f64, corner| {
-            greater(radius, length(corner - centre))
-        });
-        Node {
+/// Returns the halves of a part; `None` if it is a triangle.
+pub(crate) fn halves(part @ [from, to]: Part) -> Option<[Part; 2]> {
+    (to - from > 1).then_some([[from, middle(part)], [middle(part), to]])
+}
+
+fn middle([from, to]: Part) -> usize {
+    from + (to - from) / 2
+}
+
+/// Sorts triangles from a place on into the order of a tree: halves along their longest axis, and so on. Tells the volumes of
+/// parts, the first part's before its halves', and where the halves meet.
+fn sort(
+    triangles: &[[DVec3; 3]],
+    order: &mut [u32],
+    from: usize,
+    add: &mut impl FnMut(usize, Volume),
+) {
+    let count = order.len();
+    if count == 1 {
+        return;
+    }
+    let axes = axes(triangles, order);
+    let place = |k: &u32| triangles[*k as usize].iter().sum::<DVec3>().dot(axes[0]);
+    let middle = count / 2;
+    order.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)));
+    if count > FEW {
+        let corners = order.iter().flat_map(|&k| &triangles[k as usize]);
+        let volume = Volume::around(&corners, axes);
+        add(from + middle, volume);
+    }
+    let (first, second) = order.split_at_mut(middle);
+    sort(triangles, first, from, add);
+    sort(triangles, second, from + middle, add);
+}
+
+impl Volume {
+    /// Measures corners along axes, which are in multiples of their unit.
+    fn around<'a>(corners: &(impl Iterator<Item = &'a DVec3> + Clone), axes: [DVec3; 3]) -> Self {
+        let axes = axes.map(|axis| axis / AXIS_UNIT);
+        Volume {
             axes,
-            ranges: axes.map(extent),
-            centre,
-            radius,
-            children: Children::Nodes(0..0),
+            ranges: axes.map(|axis| range(corners.clone(), axis)),
+            bounds: bounds(corners),
         }
     }
 
@@ -254,8 +245,28 @@ impl Node {
             rest -= multiple * *axis;
         }
         // The checker rounds multiples to 2⁻³⁶, so what is left of the direction is larger there.
-        height + rest.dot(self.centre) - (rest.abs().element_sum() + 4e-10) * self.radius
+        let [least, greatest] = self.bounds;
+        let lost = 4e-10 * (greatest - least).length();
+        height
+            + [0, 1, 2]
+                .map(|k| lesser(rest[k] * least[k], rest[k] * greatest[k]))
+                .iter()
+                .sum::<f64>()
+            - lost
     }
+}
+
+/// Returns the least and the greatest height of corners along an axis.
+fn range<'a>(corners: impl Iterator<Item = &'a DVec3>, axis: DVec3) -> [f64; 2] {
+    let heights = corners.map(|corner| axis.dot(*corner));
+    heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
+        [lesser(low, height), greater(high, height)]
+    })
+}
+
+fn bounds<'a>(corners: &(impl Iterator<Item = &'a DVec3> + Clone)) -> [DVec3; 2] {
+    let [x, y, z] = DVec3::AXES.map(|axis| range(corners.clone(), axis));
+    [0, 1].map(|end| DVec3::new(x[end], y[end], z[end]))
 }
 
 /// Returns the vertices of triangles in the order of their coordinates, and the triangles in the order of their corners, the
@@ -282,32 +293,6 @@ fn canonical(triangles: &[[DVec3; 3]]) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     }
     faces.sort_unstable();
     (vertices, faces)
-}
-
-/// Splits triangles in halves along their longest axis, until there are as many parts as a node has children.
-fn split(triangles: &[[DVec3; 3]], group: Vec<u32>) -> Vec<Vec<u32>> {
-    let mut parts = vec![group];
-    while parts.len() < WIDTH && parts.iter().any(|part| part.len() > LEAF_TRIANGLES) {
-        let halves = parts.into_iter().flat_map(|mut part| {
-            if part.len() <= LEAF_TRIANGLES {
-                return vec![part];
-            }
-            let axis = axes(triangles, &part)[0];
-            let place = |k: &u32| triangles[*k as usize].iter().sum::<DVec3>().dot(axis);
-            let middle = part.len() / 2;
-            part.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)));
-            let high = part.split_off(middle);
-            vec![part, high]
-        });
-        parts = halves.collect();
-    }
-    parts
-}
-
-/// Returns the upper bound of a length that the checker uses.
-pub(crate) fn length(v: DVec3) -> f64 {
-    let v = v.abs();
-    v.max_element() + 0.5 * (v.element_sum() - v.max_element())
 }
 
 /// Returns the principal axes of triangles, the longest first, in units of 2⁻¹⁴.

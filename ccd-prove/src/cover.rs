@@ -1,6 +1,6 @@
 //! Splits what is to be proven until an axis proves it.
 
-use crate::body::Part;
+use crate::body::{Part, halves};
 use crate::error::NotProven;
 use crate::placed::{Moving, Placed, placed as placed_links};
 use crate::scene::Scene;
@@ -87,7 +87,7 @@ impl<'a> Cover<'a> {
         let stretch = self.stretch([0.0, self.until]);
         let axis = stretch.offset;
         self.cover(Task {
-            parts: [Part::Node(0); 2],
+            parts: stretch.bodies.map(|body| body.whole()),
             stretch,
             axis,
             depth: 0,
@@ -165,13 +165,13 @@ impl<'a> Cover<'a> {
         if !stretch.is_short() {
             return time.into_iter().collect();
         }
-        let nodes = [larger, 1 - larger]
+        let halves = [larger, 1 - larger]
             .into_iter()
-            .filter_map(|side| split_node(task, side));
+            .filter_map(|side| split_part(task, side));
         if way > radii[larger] {
-            time.into_iter().chain(nodes).collect()
+            time.into_iter().chain(halves).collect()
         } else {
-            nodes.chain(time).collect()
+            halves.chain(time).collect()
         }
     }
 
@@ -240,22 +240,20 @@ impl<'a> Cover<'a> {
     }
 }
 
-/// Splits a node of a body of a task; `None` if it is a triangle.
-fn split_node<'a>(task: &Task<'a>, side: usize) -> Option<Split<'a>> {
-    let children = task.stretch.bodies[side].children(task.parts[side]);
-    let tasks = children.into_iter().map(|child| {
+/// Halves the part of a body of a task; `None` if it is a triangle.
+fn split_part<'a>(task: &Task<'a>, side: usize) -> Option<Split<'a>> {
+    let tasks = halves(task.parts[side])?.map(|half| {
         let mut parts = task.parts;
-        parts[side] = child;
+        parts[side] = half;
         Task {
             parts,
             depth: task.depth + 1,
             ..task.clone()
         }
     });
-    let tasks: Vec<Task<'a>> = tasks.collect();
-    (!tasks.is_empty()).then_some(Split {
+    Some(Split {
         step: side as u8,
-        tasks,
+        tasks: tasks.into(),
     })
 }
 

@@ -10,6 +10,7 @@ mod placed;
 mod scene;
 mod statement;
 mod stretch;
+mod way;
 mod write;
 
 pub use body::Body;

@@ -14,18 +14,15 @@ pub(crate) struct Moving {
     pub(crate) turn: DVec3,
 }
 
-/// A link in the middle of a stretch of time, and how it moves in half of it; all in the world.
+/// A link in the middle of a stretch of time, and how it moves on its parent in half of it; all along the axes of the world.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Placed {
     pub(crate) parent: usize,
     pub(crate) centre: DVec3,
     pub(crate) rotation: DMat3,
-    pub(crate) velocity: DVec3,
-    pub(crate) turn: DVec3,
     pub(crate) arm: DVec3,
     pub(crate) travel: DVec3,
-    pub(crate) own_turn: DVec3,
-    pub(crate) turned: f64,
+    pub(crate) turn: DVec3,
 }
 
 /// Returns the world and all links.
@@ -87,31 +84,21 @@ fn turned(turn: DVec3) -> DMat3 {
 /// Returns the world and all links in the middle of a stretch of time.
 pub(crate) fn placed(links: &[Moving], middle: f64, half: f64) -> Vec<Placed> {
     let mut all: Vec<Placed> = Vec::with_capacity(links.len());
-    let world = Placed {
-        parent: 0,
-        centre: DVec3::ZERO,
-        rotation: DMat3::IDENTITY,
-        velocity: DVec3::ZERO,
-        turn: DVec3::ZERO,
-        arm: DVec3::ZERO,
-        travel: DVec3::ZERO,
-        own_turn: DVec3::ZERO,
-        turned: 0.0,
-    };
     for link in links {
-        let on = all.get(link.parent).copied().unwrap_or(world);
-        let arm = on.rotation * (link.arm + link.travel * middle);
-        let [travel, own_turn] = [link.travel, link.turn].map(|v| on.rotation * (v * half));
+        let (centre, rotation) = all
+            .get(link.parent)
+            .map_or((DVec3::ZERO, DMat3::IDENTITY), |on| {
+                (on.centre, on.rotation)
+            });
+        let arm = rotation * (link.arm + link.travel * middle);
+        let [travel, turn] = [link.travel, link.turn].map(|v| rotation * (v * half));
         all.push(Placed {
             parent: link.parent,
-            centre: on.centre + arm,
-            rotation: on.rotation * turned(link.turn * middle) * link.rotation,
-            velocity: on.velocity + on.turn.cross(arm) + travel,
-            turn: on.turn + own_turn,
+            centre: centre + arm,
+            rotation: rotation * turned(link.turn * middle) * link.rotation,
             arm,
             travel,
-            own_turn,
-            turned: on.turned + own_turn.length(),
+            turn,
         });
     }
     all

@@ -5,6 +5,7 @@ use crate::error::NotProven;
 use crate::nearest::MeshPoint;
 use crate::placed::{Moving, moving, placed};
 use crate::scene::{AxisKind, Joint, Scene, Witness};
+use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
 /// A certificate, and what it took.
@@ -99,8 +100,8 @@ fn largest_length(scene: &Scene<'_>, links: &[Moving], time_unit: i32) -> f64 {
         most = greater(most, reach + link.centre.length());
     }
     for carried in &scene.bodies {
-        let root = &carried.body.nodes[0];
-        most = greater(most, carried.radius + root.centre.length() + root.radius);
+        let reach = carried.body.reach(carried.body.whole(), DVec3::ZERO);
+        most = greater(most, carried.radius + reach);
     }
     most
 }

@@ -355,26 +355,6 @@ fn a_witness_is_no_later_than_the_proof_however_short_it_is() {
     }
 }
 
-/// What rotations are off by adds up along a chain: beyond some length nothing is said.
-#[test]
-fn a_chain_that_is_too_long_is_unverifiable() {
-    let meshes = Meshes::new();
-    let motion = Motion::new(Pose::IDENTITY, [0.0; 3], [0.0; 3]).unwrap();
-    let away = Motion::new(Pose::at([9.0, 0.0, 0.0]).unwrap(), [0.0; 3], [0.0; 3]).unwrap();
-    for (length, is_checked) in [(1024, true), (1025, false)] {
-        let [a, b] = &meshes.proofs;
-        let mut scene = Scene::of_two((a, motion), (b, away), 0.0);
-        scene.links.extend((2..=length).map(|depth| Link {
-            parent: if depth == 2 { 1 } else { depth },
-            joint: Joint::Free(motion),
-        }));
-        scene.bodies[0].link = scene.links.len();
-        let proof = prove(&scene, 1.0, None);
-        let verdict = proof.map(|proof| meshes.check(&proof));
-        assert_eq!(verdict == Ok(Ok(())), is_checked, "{length}: {verdict:?}");
-    }
-}
-
 #[test]
 fn witnesses_that_are_not_near_or_not_on_their_triangles_are_seen() {
     let meshes = Meshes::new();

@@ -201,10 +201,13 @@ pub(crate) const KINDS: [(&str, Forge); 32] = [
             tree[a] = tree[b];
         }
     }),
-    ("a node of a tree", |random, files, _| {
+    ("an axis of a volume", |random, files, _| {
         let side = random.below(2);
         let count = u32::from_le_bytes([4, 5, 6, 7].map(|k| files.meshes[side][k])) as usize;
-        flip(random, &mut files.trees[side][40 + 4 * count..]);
+        let axes = &mut files.trees[side][40 + 4 * count..];
+        if !axes.is_empty() {
+            flip(random, axes);
+        }
     }),
 ];
 
