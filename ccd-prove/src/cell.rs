@@ -1,7 +1,7 @@
 //! The bodies of a robot's cell as proofs take them, and the scene of an edge.
 
 use crate::body::Body;
-use crate::error::PathNotProven;
+use crate::error::{NoMesh, PathNotProven};
 use crate::placed::moving;
 use crate::scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
 use crate::write::{Proof, mesh_points, prove};
@@ -22,10 +22,13 @@ impl<'c> ProvenCell<'c> {
     /// Prepares the bodies of a cell.
     ///
     /// # Errors
-    /// The name of a body that has no triangles of a mesh, or is rounded by different radii.
-    pub fn new(cell: &'c Cell) -> Result<Self, &'c str> {
+    /// [`NoMesh`], with the name of an obstacle, a held body or a link.
+    pub fn new(cell: &'c Cell) -> Result<Self, NoMesh> {
         let bodies = cell.carried_bodies();
-        let bodies = bodies.map(|carried| Body::of(carried.body).ok_or(carried.item.name()));
+        let bodies = bodies.map(|carried| {
+            let name = carried.item.name();
+            Body::of(carried.body).ok_or_else(|| NoMesh { body: name.into() })
+        });
         Ok(ProvenCell {
             cell,
             bodies: bodies.collect::<Result<_, _>>()?,
@@ -126,10 +129,7 @@ impl<'c> ProvenCell<'c> {
     ) -> Option<Witness> {
         let items: Vec<Item<'_>> = self.cell.carried_bodies().map(|body| body.item).collect();
         let links = moving(&scene.links);
-        let [a, b] = contact.witnesses;
-        if !(a.is_finite() && b.is_finite()) {
-            return None;
-        }
+        let [a, b] = contact.witnesses?;
         let all = scene.pairs.iter().enumerate();
         let candidates = all.filter_map(|(pair, Pair { bodies, .. })| {
             let points = match bodies.map(|body| items[body]) {

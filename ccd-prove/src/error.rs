@@ -2,6 +2,14 @@
 
 use rigid_ccd_robot::RobotError;
 
+/// No proof can be about a body: it has no triangles of a mesh, or pieces that are rounded by different radii.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{body} has no triangles, or is rounded by different radii")]
+pub struct NoMesh {
+    /// The name of the body.
+    pub body: String,
+}
+
 /// The reason why no certificate is written.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]

@@ -15,7 +15,7 @@ mod write;
 
 pub use body::Body;
 pub use cell::ProvenCell;
-pub use error::{NotProven, PathNotProven};
+pub use error::{NoMesh, NotProven, PathNotProven};
 pub use pair::ProvenPair;
 pub use scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
 pub use statement::{StatedWitness, Statement, steps_text};

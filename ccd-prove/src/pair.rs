@@ -1,7 +1,7 @@
 //! Two bodies as proofs take them, and the proof of an answer about them.
 
 use crate::body::Body;
-use crate::error::NotProven;
+use crate::error::{NoMesh, NotProven};
 use crate::scene::{Scene, Witness};
 use crate::write::{Proof, prove};
 use ccd_core::{Answer, Motion, Outcome};
@@ -17,12 +17,11 @@ impl ProvenPair {
     /// Prepares two bodies.
     ///
     /// # Errors
-    /// The number of the body, 0 or 1, that has no triangles of a mesh, or is rounded by different radii.
-    pub fn new(a: &ccd_core::Body, b: &ccd_core::Body) -> Result<Self, usize> {
-        let [a, b] = [a, b].map(Body::of);
-        Ok(ProvenPair {
-            bodies: [a.ok_or(0usize)?, b.ok_or(1usize)?],
-        })
+    /// [`NoMesh`], with the name `a` or `b`.
+    pub fn new(a: &ccd_core::Body, b: &ccd_core::Body) -> Result<Self, NoMesh> {
+        let [a, b] = [("a", a), ("b", b)]
+            .map(|(name, body)| Body::of(body).ok_or_else(|| NoMesh { body: name.into() }));
+        Ok(ProvenPair { bodies: [a?, b?] })
     }
 
     /// Returns the meshes of the bodies.
@@ -44,7 +43,7 @@ impl ProvenPair {
     /// let flies = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [4.0, 0.0, 0.0], [0.0; 3])?;
     /// let answer = Solver::new().first_contact((&ball, flies), (&wall, Motion::STILL), 1.0)?;
     ///
-    /// let pair = ProvenPair::new(&ball, &wall).expect("both have triangles");
+    /// let pair = ProvenPair::new(&ball, &wall)?;
     /// let proof = pair.prove([flies, Motion::STILL], 1.0, 0.0, &answer).expect("a contact")?;
     /// let read = |body: &ccd_prove::Body| {
     ///     ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit)

@@ -34,11 +34,13 @@ pub(crate) fn contact_object<'py>(
     answer: &PathAnswer,
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
     let row = &answer.row;
-    let point = |[x, y, z]: [Option<f64>; 3]| Some((x?, y?, z?));
-    let witnesses = (point(row.witness_a), point(row.witness_b));
-    let (Some(at), (Some(witness_a), Some(witness_b))) = (answer.at, witnesses) else {
+    let (Some(at), Some(_)) = (answer.at, &row.item_a) else {
         return Ok(None);
     };
+    // A deadline may pass before the points of a contact are found.
+    let point =
+        |point: [Option<f64>; 3]| <(f64, f64, f64)>::from(point.map(|x| x.unwrap_or(f64::NAN)));
+    let (witness_a, witness_b) = (point(row.witness_a), point(row.witness_b));
     let class = py.import("rigid_ccd")?.getattr("PathContact")?;
     let (a, b) = (&row.item_a, &row.item_b);
     let time = row.time;
@@ -53,8 +55,8 @@ pub(crate) fn contact_object<'py>(
 pub(crate) fn ended_by_deadline(found: &Result<PathAnswer, PathError>) -> bool {
     let limit = match found {
         Ok(answer) => {
-            let is_missing = |x: &Option<f64>| x.is_some_and(f64::is_nan);
-            if answer.row.witness_a.iter().any(is_missing) {
+            let is_missing = answer.row.item_a.is_some() && answer.row.witness_a[0].is_none();
+            if is_missing {
                 return true;
             }
             answer.limit

@@ -8,7 +8,7 @@ use crate::path_answers::path_error;
 use crate::path_array::GivenPath;
 use crate::queries::{GivenBodyAndMotion, ask};
 use crate::settings::{CONTACT_SETTING_NAMES, read};
-use ccd_prove::{Body, Proof, ProvenCell, ProvenPair, Statement};
+use ccd_prove::{Body, NoMesh, Proof, ProvenCell, ProvenPair, Statement};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyType};
@@ -74,12 +74,7 @@ pub(crate) fn prove<'py>(
         let proof = pair.prove(motions, duration, settings.margin, &answer);
         Ok((pair, proof))
     });
-    let (pair, proof) = proven.map_err(|number: usize| {
-        let name = ["a", "b"][number];
-        input_error(format!(
-            "{name}: has no triangles, or is rounded by different radii"
-        ))
-    })?;
+    let (pair, proof) = proven.map_err(|error: NoMesh| input_error(error))?;
     let proof = proof.transpose().map_err(input_error)?;
     let object = |proof| proof_object(py, &proof, pair.meshes());
     proof.map(object).transpose()
@@ -101,11 +96,7 @@ pub(crate) fn prove_path<'py>(
         }
     };
     let path = path.configurations();
-    let proven = ProvenCell::new(cell).map_err(|name| {
-        input_error(format!(
-            "{name}: has no triangles, or is rounded by different radii"
-        ))
-    })?;
+    let proven = ProvenCell::new(cell).map_err(input_error)?;
     let work = |stop: &Arc<_>| {
         let mut solver = cell.solver();
         solver.set_settings(Settings {

@@ -7,6 +7,7 @@ use crate::feature::RccdFeature;
 use crate::growing::{self, Growing};
 use crate::status::Failure;
 use rigid_ccd::Error;
+use rigid_ccd::glam::DVec3;
 use rigid_ccd_robot::evidence::RecordedAnswer;
 use rigid_ccd_robot::{ClosestApproach, PathContact, PathError, PathOutcome, PathPoint};
 
@@ -122,7 +123,8 @@ impl RccdPathAnswer {
 
     fn from_contact(contact: &PathContact<'_>) -> Self {
         let [item_a, item_b] = contact.items.map(|item| RccdText::from(item.name()));
-        let [witness_a, witness_b] = contact.witnesses.map(|at| at.to_array());
+        let witnesses = contact.witnesses.unwrap_or([DVec3::NAN; 2]);
+        let [witness_a, witness_b] = witnesses.map(|at| at.to_array());
         let [feature_a, feature_b] = contact
             .features
             .map(|feature| feature.map_or(RccdFeature::NONE, RccdFeature::from));

@@ -1,7 +1,7 @@
 //! `--certificates`: machine-checkable proofs of answers, as files in a folder.
 
 use crate::output::OutputError;
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result};
 use ccd_core::{Answer, Outcome};
 use ccd_prove::{Body, NotProven, Proof, ProvenCell, ProvenPair};
 use rigid_ccd::Settings;
@@ -57,10 +57,7 @@ impl PairCertificates {
     /// Prepares both bodies, and writes their meshes.
     pub(crate) fn new(folder: &Path, pair: BodyPair<'_>, margin: f64) -> Result<Self> {
         let folder = CertificateFolder::create(folder)?;
-        let bodies = ProvenPair::new(pair.a, pair.b).map_err(|number| {
-            let name = ["a", "b"][number];
-            anyhow!("--certificates: --{name} has no triangles, or is rounded by different radii")
-        })?;
+        let bodies = ProvenPair::new(pair.a, pair.b).context("--certificates")?;
         for (name, body) in ["a", "b"].into_iter().zip(bodies.meshes()) {
             folder.write_body(name, body)?;
         }
@@ -99,9 +96,7 @@ impl<'c> CellCertificates<'c> {
     /// Prepares all bodies of a cell, and writes their meshes.
     pub(crate) fn new(folder: &Path, cell: &'c Cell, settings: Settings) -> Result<Self> {
         let folder = CertificateFolder::create(folder)?;
-        let proven = ProvenCell::new(cell).map_err(|name| {
-            anyhow!("--certificates: {name} has no triangles, or is rounded by different radii")
-        })?;
+        let proven = ProvenCell::new(cell).context("--certificates")?;
         for (number, body) in proven.meshes().enumerate() {
             folder.write_body(&format!("body{number}"), body)?;
         }

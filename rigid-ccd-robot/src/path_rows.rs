@@ -206,8 +206,10 @@ impl PathAnswer {
     fn with_contact<P: Path + ?Sized>(mut self, path: &P, contact: &PathContact<'_>) -> Self {
         let [a, b] = contact.items.map(|item| Some(item.name().to_owned()));
         (self.row.item_a, self.row.item_b) = (a, b);
-        let [a, b] = contact.witnesses.map(|point| point.to_array().map(Some));
-        (self.row.witness_a, self.row.witness_b) = (a, b);
+        if let Some(witnesses) = contact.witnesses {
+            let [a, b] = witnesses.map(|point| point.to_array().map(Some));
+            (self.row.witness_a, self.row.witness_b) = (a, b);
+        }
         let [a, b] = contact
             .features
             .map(|feature| feature.map(|feature| feature.to_string()));

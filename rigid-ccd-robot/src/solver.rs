@@ -53,9 +53,9 @@ pub struct PathContact<'c> {
     pub at: PathPoint,
     /// The pair; a link or an attached body comes first.
     pub items: [Item<'c>; 2],
-    /// The nearest points of both, in the frame of the base. If both overlap they are points of two pieces that intersect. They
-    /// are NaN if the deadline passes before they are found.
-    pub witnesses: [DVec3; 2],
+    /// The nearest points of both, in the frame of the base. If both overlap they are points of two pieces that intersect. `None`
+    /// if the deadline passes before they are found.
+    pub witnesses: Option<[DVec3; 2]>,
     /// The vertex, edge or face of each mesh that its witness is on, numbered as in the body. `None` for a convex body, whose
     /// mesh may be its hull, and if one body is inside the other.
     pub features: [Option<Feature>; 2],
@@ -275,7 +275,7 @@ impl<'c> CellSolver<'c> {
         Ok(PathContact {
             at: PathPoint::from_path_position(at, self.search.segment_count()),
             items: bodies.map(|body| self.cell.item_of_body(body)),
-            witnesses: hit.map_or([DVec3::NAN; 2], |hit| [hit.witness_a(), hit.witness_b()]),
+            witnesses: hit.map(|hit| [hit.witness_a(), hit.witness_b()]),
             features: [0, 1].map(|k| features.filter(|_| is_mesh[k]).map(|features| features[k])),
             distance_bounds: match outcome {
                 Outcome::Overlapping { .. } => [0.0; 2],

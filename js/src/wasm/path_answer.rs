@@ -4,6 +4,7 @@ use super::answer::{AnswerKind, feature_numbers};
 use super::limits::limit_number;
 use rigid_ccd::Error;
 use rigid_ccd::answer::Limit;
+use rigid_ccd::glam::DVec3;
 use rigid_ccd_robot::{ClosestApproach, PathContact, PathError, PathOutcome, PathPoint};
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -96,7 +97,8 @@ impl PathAnswer {
 
     fn with_pair(mut self, pair: &PathContact<'_>) -> Self {
         self.numbers.extend([pair.at.segment as f64, pair.at.share]);
-        let witnesses = pair.witnesses.iter().flat_map(|point| point.to_array());
+        let witnesses = pair.witnesses.unwrap_or([DVec3::NAN; 2]);
+        let witnesses = witnesses.iter().flat_map(|point| point.to_array());
         self.numbers.extend(witnesses);
         self.numbers.extend(pair.distance_bounds);
         for feature in pair.features {

@@ -7,6 +7,7 @@
 
 mod folder;
 mod gate;
+mod noise;
 mod pairs;
 mod same;
 mod tally;
@@ -36,6 +37,8 @@ enum Command {
     Gate(gate::Args),
     /// Ask about two bodies under a deadline
     Pairs(pairs::Args),
+    /// Do nothing until a deadline: how late the machine is by itself
+    Noise(noise::Args),
 }
 
 fn main() -> anyhow::Result<()> {
@@ -56,5 +59,6 @@ fn main() -> anyhow::Result<()> {
         }
         Command::Gate(args) => gate::run(&args),
         Command::Pairs(args) => pairs::run(&args),
+        Command::Noise(args) => noise::run(&args),
     }
 }

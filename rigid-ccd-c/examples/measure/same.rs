@@ -183,8 +183,10 @@ fn compare_edge(
             let bits = |point: [f64; 3]| point.map(f64::to_bits);
             answer.outcome == RccdOutcome::Contact
                 && answer.share.to_bits() == contact.at.share.to_bits()
-                && bits(answer.witness_a) == bits(contact.witnesses[0].to_array())
-                && bits(answer.witness_b) == bits(contact.witnesses[1].to_array())
+                && contact.witnesses.is_some_and(|[a, b]| {
+                    bits(answer.witness_a) == bits(a.to_array())
+                        && bits(answer.witness_b) == bits(b.to_array())
+                })
         }
         PathOutcome::Unresolved { .. } => answer.outcome == RccdOutcome::Unresolved,
     };

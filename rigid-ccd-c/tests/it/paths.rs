@@ -39,7 +39,7 @@ fn paths_have_the_bits_of_rust() {
                 let names = [found.item_a, found.item_b].map(text);
                 assert_eq!(names, contact.items.map(|item| item.name().to_owned()));
                 assert_eq!([found.lower, found.upper], contact.distance_bounds);
-                assert_eq!(found.witness_a, contact.witnesses[0].to_array());
+                assert_eq!(found.witness_a, contact.witnesses.unwrap()[0].to_array());
             }
             PathOutcome::Unresolved { .. } => panic!("{number}"),
         }

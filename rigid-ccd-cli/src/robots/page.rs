@@ -210,7 +210,7 @@ fn shown_contact(contact: &PathContact<'_>, seconds: &impl Fn(f64) -> f64) -> Sh
     ShownContact {
         time,
         words: format!("{a} and {b}"),
-        witnesses: Some(contact.witnesses),
+        witnesses: contact.witnesses,
         normal: None,
         highlight_a: Vec::new(),
         highlight_b: Vec::new(),

@@ -117,7 +117,8 @@ impl Report<'_> {
 
     fn contact_json(&self, contact: &PathContact<'_>) -> Value {
         let [a, b] = contact.items.map(Item::name);
-        let [witness_a, witness_b] = contact.witnesses.map(|point| point.to_array());
+        let witnesses = contact.witnesses;
+        let [witness_a, witness_b] = [0, 1].map(|k| witnesses.map(|points| points[k].to_array()));
         json!({
             "time": contact.at.time(),
             "positions": self.positions_json(contact.at),

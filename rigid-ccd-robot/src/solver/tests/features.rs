@@ -84,7 +84,9 @@ fn a_contact_names_the_feature_of_the_mesh() {
         };
         let is_mesh = cell.robot().links()[1].bodies[0].body.pieces().len() > 1;
         assert_eq!(of_link.is_some(), is_mesh);
-        let on_ridge = pose.inverse().transform_point(contact.witnesses[1]);
+        let on_ridge = pose
+            .inverse()
+            .transform_point(contact.witnesses.unwrap()[1]);
         let distance = distance_from_feature(on_ridge, feature, &corners, &faces);
         assert!(distance < 1e-9, "{distance} from {contact:?}");
         match feature {

@@ -111,7 +111,7 @@ fn nothing_touches_before_a_first_contact() {
                 late_segments += usize::from(contact.at.segment > 0);
                 let there = least_distance(&cell, &path.at(contact.at));
                 assert!(there <= margin + 1e-4 + 1e-9, "{there} in {contact:?}");
-                let [a, b] = contact.witnesses;
+                let [a, b] = contact.witnesses.unwrap();
                 let is_near = a.distance(b) <= margin + 1e-4 + 1e-9;
                 assert!(is_near || there == 0.0, "{contact:?}");
                 Some(contact.at)
@@ -147,7 +147,7 @@ fn the_closest_approach_brackets_sampled_distances() {
         assert_eq!(found.limit, None);
         assert!(found.upper - found.lower <= 1e-4 + 1e-9, "{found:?}");
         let nearest = found.nearest.expect("links are checked");
-        let [a, b] = nearest.witnesses;
+        let [a, b] = nearest.witnesses.unwrap();
         let is_near = a.distance(b) <= found.upper + 1e-9;
         assert!(is_near || found.upper <= 1e-9, "{found:?}");
         let least = path
