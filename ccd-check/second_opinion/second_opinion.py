@@ -12,7 +12,7 @@ F, ONE = 128, 1 << 128       # an integer i stands for i / 2^128
 ZERO, ZERO3 = [Fraction(0)] * 3, [(0, 0)] * 3
 MAX_TURN = 512               # radians by which a joint is turned at the start, and again from there to T
 MAX_CHAIN = 200              # links, with the world
-FEW = 8                      # triangles of a part that has no volume, at most
+FEW = 16                     # triangles of a part that has no volume, at most
 MAX_UNIT = 1200              # of exponents; no binary64 asks for more
 # ---- intervals: (lo, hi) is all numbers from lo / 2^128 to hi / 2^128 ----
 def fix(x): return (x.numerator << F) // x.denominator, -((-x.numerator << F) // x.denominator)   # the least around x

@@ -26,11 +26,11 @@ def points(*vertices):
     return mesh(vertices, [(i, i, i) for i in range(len(vertices))])
 
 
-def volumes(n): return 1 + volumes(n // 2) + volumes(n - n // 2) if n > 8 else 0
+def volumes(n): return 1 + volumes(n // 2) + volumes(n - n // 2) if n > 16 else 0
 
 
 def certificate(mesh_bytes, order=(0,), axes=X + Y + Z):
-    """Parts of more than 8 triangles have a volume."""
+    """Parts of more than 16 triangles have a volume."""
     return (b"CCDBODY1" + hashlib.sha256(mesh_bytes).digest()
             + struct.pack(f"<{len(order)}I", *order) + struct.pack("<9h", *axes) * volumes(len(order)))
 
@@ -672,12 +672,12 @@ class Parts(Case):
             self.fails("does not prove", files, make(0.51))
 
     def test_volumes(self):
-        # Both plates five times: the whole has a volume, whose axes do not matter, and its halves have none.
-        a = mesh([(-1, -1, -9), (-1, 9, 0), (-1, -1, 9), (9, -1, 0)], [(0, 1, 2)] * 5 + [(0, 3, 2)] * 5)
-        self.assertEqual([volumes(n) for n in (8, 9, 16, 17, 18, 33)], [0, 1, 1, 2, 3, 4])
+        # Both plates ten times: the whole has a volume, whose axes do not matter, and its halves have none.
+        a = mesh([(-1, -1, -9), (-1, 9, 0), (-1, -1, 9), (9, -1, 0)], [(0, 1, 2)] * 10 + [(0, 3, 2)] * 10)
+        self.assertEqual([volumes(n) for n in (16, 17, 32, 33, 34, 65)], [0, 1, 1, 2, 3, 4])
         def make(steps): return two(a, self.b, *self.rest, steps, margin=0.24)
         for axes in ((0,) * 9, (-32768,) * 9, X + X + X):
-            ca = certificate(a, range(10), axes)
+            ca = certificate(a, range(20), axes)
             files = a, ca, self.b, self.cb
             self.holds(files, make(b"\0" + leaf(X) + leaf(Y)))
             self.fails("does not prove", files, make(leaf(X)))

@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 const AXIS_BITS: u32 = 14;
 
 /// A part of more triangles has a volume.
-const FEW: usize = 8;
+const FEW: usize = 16;
 
 /// Triangles of a body, from one to before another. Both halves of a part are parts.
 pub(crate) type Part = [usize; 2];
@@ -28,12 +28,14 @@ pub struct Body {
     volumes: Vec<Volume>,
 }
 
-/// The points whose heights along three axes, and whose coordinates, are in ranges.
+/// The ranges of the coordinates of a part, and of what its heights along directions are bounded by: the different corners of few
+/// triangles, or of more the ranges of the heights along three axes.
 #[derive(Clone, Debug, Default)]
 struct Volume {
+    bounds: [[i64; 2]; 3],
+    corners: Vec<Point>,
     axes: [Point; 3],
     ranges: [[i64; 2]; 3],
-    bounds: [[i64; 2]; 3],
 }
 
 impl Body {
@@ -60,12 +62,17 @@ impl Body {
         let mut parts = alloc::vec![[0, count]];
         while let Some(part @ [from, to]) = parts.pop() {
             if to - from > 1 {
-                let mut axes = [[0; 3]; 3];
-                if to - from > FEW {
-                    axes = [reader.axis(2)?, reader.axis(2)?, reader.axis(2)?];
-                }
                 let [first, second] = halves(part);
-                body.volumes[second[0]] = Volume::around(&body.triangles[from..to], axes);
+                let (volume, corners) = (&mut body.volumes[second[0]], body.triangles[from..to].as_flattened());
+                volume.bounds = bounds(corners);
+                if to - from > FEW {
+                    volume.axes = [reader.axis(2)?, reader.axis(2)?, reader.axis(2)?];
+                    volume.ranges = volume.axes.map(|axis| range(corners, |corner| (dot(axis, corner) >> AXIS_BITS) as i64));
+                } else {
+                    volume.corners = corners.to_vec();
+                    volume.corners.sort_unstable();
+                    volume.corners.dedup();
+                }
                 parts.extend([second, first]);
             }
         }
@@ -75,19 +82,17 @@ impl Body {
 
     /// Returns the largest distance of a part from a point, or more.
     pub(crate) fn reach(&self, part @ [from, to]: Part, point: Point) -> i64 {
-        let bounds = if to - from > 1 { self.volume(part).bounds } else { bounds(&self.triangles[from..to]) };
+        let bounds = if to - from > 1 { self.volume(part).bounds } else { bounds(&self.triangles[from]) };
         let farthest = [0, 1, 2].map(|k| (point[k] - bounds[k][0]).max(bounds[k][1] - point[k]));
         Ball::exact(farthest).length() as i64
     }
 
     /// Returns the least height of a part along a direction, from a point, or less.
     pub(crate) fn least_height(&self, part @ [from, to]: Part, direction: Point, point: Point) -> i128 {
-        let height = if to - from > FEW {
-            self.volume(part).least_height(direction)
-        } else {
-            let corners = self.triangles[from..to].as_flattened();
-            corners.iter().map(|&corner| dot(direction, corner)).min().unwrap_or(i128::MIN)
-        };
+        let corners = if to - from > 1 { &self.volume(part).corners[..] } else { &self.triangles[from] };
+        let heights = corners.iter().map(|&corner| dot(direction, corner));
+        let height =
+            if to - from > FEW { self.volume(part).least_height(direction) } else { heights.min().unwrap_or(i128::MIN) };
         height - dot(direction, point)
     }
 
@@ -102,14 +107,6 @@ pub(crate) fn halves([from, to]: Part) -> [Part; 2] {
 }
 
 impl Volume {
-    fn around(triangles: &[[Point; 3]], axes: [Point; 3]) -> Volume {
-        let ranges = axes.map(|axis| {
-            let [least, most] = range(triangles, |corner| (dot(axis, corner) >> AXIS_BITS) as i64);
-            [least, most + 1]
-        });
-        Volume { axes, ranges, bounds: bounds(triangles) }
-    }
-
     /// Returns a lower bound of the heights of the points along a direction.
     ///
     /// The direction is a sum of multiples of the axes and a rest, whatever the multiples. Each multiple has its least height at
@@ -118,9 +115,10 @@ impl Volume {
         // Multiples are in 2⁻³⁶, so that their products with the axes are exact.
         let coarse = direction.map(|x| x >> AXIS_BITS);
         let (mut rest, mut height) = (direction, 0);
-        for (axis, range) in self.axes.iter().zip(self.ranges) {
+        for (axis, [low, high]) in self.axes.iter().zip(self.ranges) {
             let multiple = (0..3).map(|k| axis[k] * coarse[k]).sum::<i64>() >> AXIS_BITS;
-            height += least(multiple, range) << AXIS_BITS;
+            // Heights were rounded down.
+            height += least(multiple, [low, high + 1]) << AXIS_BITS;
             rest = [0, 1, 2].map(|k| rest[k] - multiple * axis[k]);
         }
         height + (0..3).map(|k| least(rest[k], self.bounds[k])).sum::<i128>()
@@ -132,14 +130,14 @@ fn least(factor: i64, [least, most]: [i64; 2]) -> i128 {
     product(factor, if factor < 0 { most } else { least })
 }
 
-/// Returns the least and the greatest of what is measured at all corners.
-fn range(triangles: &[[Point; 3]], measure: impl Fn(Point) -> i64) -> [i64; 2] {
-    let measures = triangles.as_flattened().iter().map(|&corner| measure(corner));
+/// Returns the least and the greatest of what is measured at corners.
+fn range(corners: &[Point], measure: impl Fn(Point) -> i64) -> [i64; 2] {
+    let measures = corners.iter().map(|&corner| measure(corner));
     measures.fold([i64::MAX, i64::MIN], |[least, most], x| [least.min(x), most.max(x)])
 }
 
-fn bounds(triangles: &[[Point; 3]]) -> [[i64; 2]; 3] {
-    [0, 1, 2].map(|k| range(triangles, |corner| corner[k]))
+fn bounds(corners: &[Point]) -> [[i64; 2]; 3] {
+    [0, 1, 2].map(|k| range(corners, |corner| corner[k]))
 }
 
 /// Reads a mesh: the numbers of vertices and triangles, the coordinates, and the corners.

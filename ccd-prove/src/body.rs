@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 use std::cmp::Ordering;
 
 /// A part of more triangles has a volume.
-const FEW: usize = 8;
+const FEW: usize = 16;
 
 /// Axes of volumes are multiples of 2⁻¹⁴.
 const AXIS_UNIT: f64 = 16_384.0;
