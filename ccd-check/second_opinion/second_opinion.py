@@ -3,7 +3,7 @@
 
 Its numbers are intervals of integers in 2^-128 of the units of a proof, of any size. The height of a part is
 the exact least height of its corners; boxes along the axes of the mesh only say which corners need no
-look. So it does not use the axes of volumes. A stretch may be as long as the lemmas prove.
+look. A stretch may be as long as the lemmas prove.
 """
 import argparse, functools, hashlib, heapq, struct, sys
 from fractions import Fraction
@@ -12,7 +12,6 @@ F, ONE = 128, 1 << 128       # an integer i stands for i / 2^128
 ZERO, ZERO3 = [Fraction(0)] * 3, [(0, 0)] * 3
 MAX_TURN = 512               # radians by which a joint is turned at the start, and again from there to T
 MAX_CHAIN = 200              # links, with the world
-FEW = 16                     # triangles of a part that has no volume, at most
 MAX_UNIT = 1200              # of exponents; no binary64 asks for more
 # ---- intervals: (lo, hi) is all numbers from lo / 2^128 to hi / 2^128 ----
 def fix(x): return (x.numerator << F) // x.denominator, -((-x.numerator << F) // x.denominator)   # the least around x
@@ -103,8 +102,6 @@ class Tree:
         order = r.take(f"{count}I")
         r.require(sorted(order) == list(range(count)), 40, "the order does not have each triangle once")
         self.triangles = [corners[3 * t:3 * t + 3] for t in order]
-        def volumes(n): return 1 + volumes(n // 2) + volumes(n - n // 2) if n > FEW else 0
-        r.take(f"{9 * volumes(count)}h")            # their axes
         r.require(r.pos == len(r.data), r.pos, "bytes follow the end")
 # ---- links and bodies ----
 class Link:

@@ -26,13 +26,8 @@ def points(*vertices):
     return mesh(vertices, [(i, i, i) for i in range(len(vertices))])
 
 
-def volumes(n): return 1 + volumes(n // 2) + volumes(n - n // 2) if n > 16 else 0
-
-
-def certificate(mesh_bytes, order=(0,), axes=X + Y + Z):
-    """Parts of more than 16 triangles have a volume."""
-    return (b"CCDBODY1" + hashlib.sha256(mesh_bytes).digest()
-            + struct.pack(f"<{len(order)}I", *order) + struct.pack("<9h", *axes) * volumes(len(order)))
+def certificate(mesh_bytes, order=(0,)):
+    return b"CCDBODY1" + hashlib.sha256(mesh_bytes).digest() + struct.pack(f"<{len(order)}I", *order)
 
 
 def free(p=(0, 0, 0), q=(0, 0, 0, 1), v=(0, 0, 0), w=(0, 0, 0), c=(0, 0, 0), on=0): return on, 0, p, q, (v, w, c)
@@ -670,20 +665,6 @@ class Parts(Case):
             def make(margin): return two(a, POINT, free(), free(p=(0.5, 0, 0)), steps, margin)
             self.holds(files, make(0.49))
             self.fails("does not prove", files, make(0.51))
-
-    def test_volumes(self):
-        # Both plates ten times: the whole has a volume, whose axes do not matter, and its halves have none.
-        a = mesh([(-1, -1, -9), (-1, 9, 0), (-1, -1, 9), (9, -1, 0)], [(0, 1, 2)] * 10 + [(0, 3, 2)] * 10)
-        self.assertEqual([volumes(n) for n in (16, 17, 32, 33, 34, 65)], [0, 1, 1, 2, 3, 4])
-        def make(steps): return two(a, self.b, *self.rest, steps, margin=0.24)
-        for axes in ((0,) * 9, (-32768,) * 9, X + X + X):
-            ca = certificate(a, range(20), axes)
-            files = a, ca, self.b, self.cb
-            self.holds(files, make(b"\0" + leaf(X) + leaf(Y)))
-            self.fails("does not prove", files, make(leaf(X)))
-        self.fails("ends too early", (a, ca[:-1], *files[2:]), make(leaf(X)))
-        self.fails("ends too early", (a, ca[:-18], *files[2:]), make(leaf(X)))
-        self.fails("bytes follow", (a, ca + ca[-18:], *files[2:]), make(leaf(X)))
 
     def test_bad_certificates(self):
         steps = b"\0" + leaf(X) + leaf(Y)

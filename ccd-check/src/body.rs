@@ -1,21 +1,17 @@
-//! A mesh, and a tree of volumes over ranges of its triangles.
+//! A mesh, and a tree of boxes over ranges of its triangles.
 //!
-//! The certificate of a body says only in which order the triangles are, and along which axes each volume is measured. How far
-//! a part extends along them is measured here, on the triangles themselves.
+//! The certificate of a body says only in which order the triangles are. The boxes are measured here.
 
 use crate::number::{Ball, Point, dot, product};
 use crate::reader::Reader;
 use crate::{Stop, sha256};
 use alloc::vec::Vec;
 
-/// Axes of volumes are multiples of 2⁻¹⁴.
-const AXIS_BITS: u32 = 14;
-
-/// A part of more triangles has a volume.
-const FEW: usize = 16;
-
-/// Triangles of a body, from one to before another. Both halves of a part are parts.
+/// Triangles of a body, from one to before another.
 pub(crate) type Part = [usize; 2];
+
+/// The least and the greatest of each coordinate.
+type Bounds = [[i64; 2]; 3];
 
 /// A mesh with its tree, in integer coordinates.
 #[derive(Clone, Debug)]
@@ -24,18 +20,8 @@ pub struct Body {
     pub(crate) unit: i32,
     /// The corners of each triangle in the order of the tree. Each is off by less than 1 in each coordinate.
     pub(crate) triangles: Vec<[Point; 3]>,
-    /// That of a part is where its halves meet: no other part is halved there.
-    volumes: Vec<Volume>,
-}
-
-/// The ranges of the coordinates of a part, and of what its heights along directions are bounded by: the different corners of few
-/// triangles, or of more the ranges of the heights along three axes.
-#[derive(Clone, Debug, Default)]
-struct Volume {
-    bounds: [[i64; 2]; 3],
-    corners: Vec<Point>,
-    axes: [Point; 3],
-    ranges: [[i64; 2]; 3],
+    /// Those of a part are where its halves meet, as no other part is halved there; those of the triangles follow.
+    bounds: Vec<Bounds>,
 }
 
 impl Body {
@@ -50,94 +36,67 @@ impl Body {
         reader.name(b"CCDBODY1")?;
         let is_of_mesh = reader.take(32)? == digest;
         reader.require(is_of_mesh, "this is the certificate of another mesh")?;
-        let volumes = alloc::vec![Volume::default(); count];
-        let mut body = Body { digest, unit, triangles: Vec::new(), volumes };
+        let bounds = alloc::vec![Bounds::default(); 2 * count];
+        let mut body = Body { digest, unit, triangles: Vec::new(), bounds };
         let mut is_missing = alloc::vec![true; count];
         for _ in 0..count {
             let number = reader.index(count)?;
-            reader.require(is_missing[number], "the tree has a triangle twice")?;
+            reader.require(is_missing[number], "the order has a triangle twice")?;
             is_missing[number] = false;
             body.triangles.push(triangles[number]);
         }
-        let mut parts = alloc::vec![[0, count]];
-        while let Some(part @ [from, to]) = parts.pop() {
-            if to - from > 1 {
-                let [first, second] = halves(part);
-                let (volume, corners) = (&mut body.volumes[second[0]], body.triangles[from..to].as_flattened());
-                volume.bounds = bounds(corners);
-                if to - from > FEW {
-                    volume.axes = [reader.axis(2)?, reader.axis(2)?, reader.axis(2)?];
-                    volume.ranges = volume.axes.map(|axis| range(corners, |corner| (dot(axis, corner) >> AXIS_BITS) as i64));
-                } else {
-                    volume.corners = corners.to_vec();
-                    volume.corners.sort_unstable();
-                    volume.corners.dedup();
-                }
-                parts.extend([second, first]);
-            }
-        }
         reader.end()?;
+        body.measure([0, count]);
         Ok(body)
     }
 
+    /// Measures a part and all parts of it.
+    fn measure(&mut self, part @ [from, to]: Part) -> Bounds {
+        let bounds = if to - from > 1 {
+            let [a, b] = halves(part).map(|half| self.measure(half));
+            [0, 1, 2].map(|k| [a[k][0].min(b[k][0]), a[k][1].max(b[k][1])])
+        } else {
+            let [a, b, c] = self.triangles[from];
+            [0, 1, 2].map(|k| [a[k].min(b[k]).min(c[k]), a[k].max(b[k]).max(c[k])])
+        };
+        let place = self.place(part);
+        self.bounds[place] = bounds;
+        bounds
+    }
+
+    fn place(&self, part @ [from, to]: Part) -> usize {
+        if to - from > 1 { halves(part)[1][0] } else { self.triangles.len() + from }
+    }
+
     /// Returns the largest distance of a part from a point, or more.
-    pub(crate) fn reach(&self, part @ [from, to]: Part, point: Point) -> i64 {
-        let bounds = if to - from > 1 { self.volume(part).bounds } else { bounds(&self.triangles[from]) };
+    pub(crate) fn reach(&self, part: Part, point: Point) -> i64 {
+        let bounds = self.bounds[self.place(part)];
         let farthest = [0, 1, 2].map(|k| (point[k] - bounds[k][0]).max(bounds[k][1] - point[k]));
         Ball::exact(farthest).length() as i64
     }
 
-    /// Returns the least height of a part along a direction, from a point, or less.
-    pub(crate) fn least_height(&self, part @ [from, to]: Part, direction: Point, point: Point) -> i128 {
-        let corners = if to - from > 1 { &self.volume(part).corners[..] } else { &self.triangles[from] };
-        let heights = corners.iter().map(|&corner| dot(direction, corner));
-        let height =
-            if to - from > FEW { self.volume(part).least_height(direction) } else { heights.min().unwrap_or(i128::MIN) };
-        height - dot(direction, point)
+    /// Returns the least height of a part along a direction, or a limit if no corner is below that.
+    pub(crate) fn least_height(&self, part @ [from, to]: Part, direction: Point, limit: i128) -> i128 {
+        if to - from == 1 {
+            return self.triangles[from].iter().fold(limit, |least, &corner| least.min(dot(direction, corner)));
+        }
+        // The half that may be lower first: then the other one is seldom lower.
+        let [a, b] = halves(part).map(|half| (self.lower_bound(half, direction), half));
+        let halves = if b.0 < a.0 { [b, a] } else { [a, b] };
+        let look = |least, (bound, half)| if bound < least { self.least_height(half, direction, least) } else { least };
+        halves.into_iter().fold(limit, look)
     }
 
-    fn volume(&self, part: Part) -> &Volume {
-        &self.volumes[halves(part)[1][0]]
+    /// Returns the least height of the box of a part.
+    pub(crate) fn lower_bound(&self, part: Part, direction: Point) -> i128 {
+        let bounds = &self.bounds[self.place(part)];
+        (0..3).map(|k| product(direction[k], bounds[k][usize::from(direction[k] < 0)])).sum()
     }
 }
 
 pub(crate) fn halves([from, to]: Part) -> [Part; 2] {
     let middle = from + (to - from) / 2;
     [[from, middle], [middle, to]]
-}
-
-impl Volume {
-    /// Returns a lower bound of the heights of the points along a direction.
-    ///
-    /// The direction is a sum of multiples of the axes and a rest, whatever the multiples. Each multiple has its least height at
-    /// an end of the axis's range, and each coordinate of the rest at an end of that coordinate's.
-    fn least_height(&self, direction: Point) -> i128 {
-        // Multiples are in 2⁻³⁶, so that their products with the axes are exact.
-        let coarse = direction.map(|x| x >> AXIS_BITS);
-        let (mut rest, mut height) = (direction, 0);
-        for (axis, [low, high]) in self.axes.iter().zip(self.ranges) {
-            let multiple = (0..3).map(|k| axis[k] * coarse[k]).sum::<i64>() >> AXIS_BITS;
-            // Heights were rounded down.
-            height += least(multiple, [low, high + 1]) << AXIS_BITS;
-            rest = [0, 1, 2].map(|k| rest[k] - multiple * axis[k]);
-        }
-        height + (0..3).map(|k| least(rest[k], self.bounds[k])).sum::<i128>()
-    }
-}
-
-/// Returns the least multiple of the numbers in a range.
-fn least(factor: i64, [least, most]: [i64; 2]) -> i128 {
-    product(factor, if factor < 0 { most } else { least })
-}
-
-/// Returns the least and the greatest of what is measured at corners.
-fn range(corners: &[Point], measure: impl Fn(Point) -> i64) -> [i64; 2] {
-    let measures = corners.iter().map(|&corner| measure(corner));
-    measures.fold([i64::MAX, i64::MIN], |[least, most], x| [least.min(x), most.max(x)])
-}
-
-fn bounds(corners: &[Point]) -> [[i64; 2]; 3] {
-    [0, 1, 2].map(|k| range(corners, |corner| corner[k]))
 }
 
 /// Reads a mesh: the numbers of vertices and triangles, the coordinates, and the corners.
@@ -154,4 +113,46 @@ fn read_mesh(mut reader: Reader<'_>, unit: i64) -> Result<Vec<[Point; 3]>, Stop>
     reader.require(!triangles.is_empty(), "a mesh is empty")?;
     reader.end()?;
     Ok(triangles)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Least heights, bounds and distances against those of all corners, for all parts of bodies of one to twelve triangles.
+    #[test]
+    fn heights_and_distances_are_those_of_the_corners() {
+        let mut state = 1u64;
+        let mut random = |range: i64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as i64 % range - range / 2
+        };
+        let (mut limited, mut found) = (0, 0);
+        for count in 1..=12 {
+            let triangles = (0..count).map(|_| [(); 3].map(|()| [random(1000), random(30), random(7)])).collect();
+            let bounds = alloc::vec![Bounds::default(); 2 * count];
+            let mut body = Body { digest: [0; 32], unit: 0, triangles, bounds };
+            body.measure([0, count]);
+            let mut parts = alloc::vec![[0, count]];
+            while let Some(part @ [from, to]) = parts.pop() {
+                let corners = body.triangles[from..to].as_flattened();
+                let (direction, point) = ([random(100), random(100), random(100)], [random(2000), 3, 5]);
+                let height = corners.iter().map(|&corner| dot(direction, corner)).min().unwrap();
+                for limit in [i128::MAX, height - 1, height, height + 1, i128::from(random(100_000))] {
+                    assert_eq!(body.least_height(part, direction, limit), height.min(limit));
+                    if limit < height { limited += 1 } else { found += 1 }
+                }
+                assert!(body.lower_bound(part, direction) <= height);
+                let reach = body.reach(part, point);
+                for corner in corners {
+                    let squares: i64 = (0..3).map(|k| (corner[k] - point[k]) * (corner[k] - point[k])).sum();
+                    assert!(reach * reach >= squares);
+                }
+                if to - from > 1 {
+                    parts.extend(halves(part));
+                }
+            }
+        }
+        assert!(limited > 100 && found > 100, "{limited} limited, {found} found");
+    }
 }

@@ -19,25 +19,33 @@ pub(crate) fn keeps_apart(
     let [arm, change] = [b.arm - a.arm, b.change - a.change];
     let [middle, moved] = [arm, change].map(|v| dot(axis, v.mid));
     let lost = i128::from(arm.rad + change.rad) * one;
-    let mut gaps = [middle - moved - lost, middle + moved - lost];
-    let mut bend = a.bend + b.bend;
+    // At both ends of the stretch what the heights of A and B have to add up to, but for what follows.
+    let mut missing = [lost - middle + moved, lost - middle - moved];
+    let (mut bend, mut directions) = (a.bend + b.bend, [[[0; 3]; 2]; 2]);
     for (k, facing) in [axis.map(i64::neg), axis].into_iter().enumerate() {
-        let (body, way, part) = (bodies[k], ways[k], parts[k]);
+        let (body, way) = (bodies[k], ways[k]);
         if !way.is_short() {
             return false;
         }
         // Corners and centre are off by less than 2 each.
-        let reach = body.mesh.reach(part, body.centre) + 4;
+        let reach = body.mesh.reach(parts[k], body.centre) + 4;
         // A direction is no longer than 3. It is off by turn.rad and a rounding, and in the link's frame by 3 times what the
         // rotation is off by, and another rounding.
         let to_mesh = links[body.link].rotation.transposed();
         let lost = product(way.turn.rad + 3 * to_mesh.rad + 4, reach) + 12 * one;
-        let height = |v: Point| body.mesh.least_height(part, to_mesh.turned(v), body.centre) - lost;
         let tilt = cross(facing, way.turn.mid).map(|x| (x >> FRACTION) as i64);
-        let first = height([0, 1, 2].map(|i| facing[i] - tilt[i]));
-        let last = if tilt == [0; 3] { first } else { height([0, 1, 2].map(|i| facing[i] + tilt[i])) };
-        gaps = [gaps[0] + first, gaps[1] + last];
+        directions[k] = [-1, 1].map(|s| to_mesh.turned([0, 1, 2].map(|i| facing[i] + s * tilt[i])));
+        missing = [0, 1].map(|end| missing[end] + lost + dot(directions[k][end], body.centre));
         bend += up(way.factor, reach.into());
     }
-    gaps.iter().all(|gap| gap >> FRACTION > least + bend / 2 + 1)
+    let Ok(least) = i64::try_from(least + bend / 2 + 1) else {
+        return false;
+    };
+    let ([mesh_a, mesh_b], [part_a, part_b], [of_a, of_b]) = (bodies.map(|body| body.mesh), parts, directions);
+    [0, 1].into_iter().all(|end| {
+        let needed = missing[end] + i128::from(least) * one + 1;
+        // A is looked at no more closely than needed where the box of B is, and B where A has been found.
+        let height = mesh_a.least_height(part_a, of_a[end], needed - mesh_b.lower_bound(part_b, of_b[end]));
+        mesh_b.least_height(part_b, of_b[end], needed - height) == needed - height
+    })
 }

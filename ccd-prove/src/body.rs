@@ -6,19 +6,13 @@ use nalgebra::{Matrix3, SymmetricEigen};
 use sha2::{Digest, Sha256};
 use std::cmp::Ordering;
 
-/// A part of more triangles has a volume.
-const FEW: usize = 16;
-
-/// Axes of volumes are multiples of 2⁻¹⁴.
-const AXIS_UNIT: f64 = 16_384.0;
-
-/// A mesh, with a tree of volumes around its triangles, and both as bytes.
+/// A mesh, with a tree of boxes around its triangles, and both as bytes.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// In the order of the tree.
     pub(crate) triangles: Vec<[DVec3; 3]>,
-    /// That of a part is where its halves meet.
-    volumes: Vec<Option<Volume>>,
+    /// The least and the greatest coordinates of each part: those of a part are where its halves meet, those of the triangles follow.
+    bounds: Vec<[DVec3; 2]>,
     mesh: Vec<u8>,
     /// The SHA-256 digest of the mesh.
     pub(crate) digest: [u8; 32],
@@ -27,15 +21,6 @@ pub struct Body {
 
 /// Triangles of a body, from one to before another.
 pub(crate) type Part = [usize; 2];
-
-#[derive(Clone, Debug)]
-struct Volume {
-    /// The axes as they are stored, divided by their unit: nearly orthogonal, and nearly of length 1.
-    axes: [DVec3; 3],
-    ranges: [[f64; 2]; 3],
-    /// The least and the greatest coordinates.
-    bounds: [DVec3; 2],
-}
 
 impl Body {
     /// Makes a body of a mesh. Its digest is that of the mesh as bytes: the numbers of vertices and triangles, the coordinates,
@@ -49,25 +34,19 @@ impl Body {
         assert!(!triangles.is_empty(), "a body has triangles");
         let mesh = mesh_bytes(vertices, faces);
         let digest: [u8; 32] = Sha256::digest(&mesh).into();
-        let mut volumes = vec![None; triangles.len()];
         let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
-        let mut axes = Vec::new();
-        sort(&triangles, &mut order, 0, &mut |middle, volume: Volume| {
-            let numbers = volume.axes.iter().flat_map(|axis| axis.to_array());
-            axes.extend(numbers.flat_map(|x| ((x * AXIS_UNIT) as i16).to_le_bytes()));
-            volumes[middle] = Some(volume);
-        });
-        let triangles = order.iter().map(|&k| triangles[k as usize]).collect();
-        let order = order.iter().flat_map(|k| k.to_le_bytes());
-        let mut certificate = b"CCDBODY1".to_vec();
-        certificate.extend(digest.into_iter().chain(order).chain(axes));
-        Body {
-            triangles,
-            volumes,
+        sort(&triangles, &mut order);
+        let mut body = Body {
+            triangles: order.iter().map(|&k| triangles[k as usize]).collect(),
+            bounds: vec![[DVec3::ZERO; 2]; 2 * triangles.len()],
             mesh,
             digest,
-            certificate,
-        }
+            certificate: b"CCDBODY1".to_vec(),
+        };
+        let order = order.iter().flat_map(|k| k.to_le_bytes());
+        body.certificate.extend(digest.into_iter().chain(order));
+        body.measure(body.whole());
+        body
     }
 
     /// Makes a body of the triangles of one of the engine's, and the radius by which it is rounded. A ball is a triangle whose
@@ -119,28 +98,80 @@ impl Body {
         [0, self.triangles.len()]
     }
 
-    /// Returns the least height of a part along a direction, from a point.
-    pub(crate) fn least_height(&self, part: Part, direction: DVec3, point: DVec3) -> f64 {
-        let height = match self.volume(part) {
-            Some(volume) => volume.least_height(direction),
+    /// Measures a part and all parts of it.
+    fn measure(&mut self, part: Part) -> [DVec3; 2] {
+        let bounds = match halves(part) {
+            Some(halves) => {
+                let [[least_a, greatest_a], [least_b, greatest_b]] =
+                    halves.map(|half| self.measure(half));
+                [
+                    of_each(least_a, least_b, lesser),
+                    of_each(greatest_a, greatest_b, greater),
+                ]
+            }
             None => {
-                let heights = self.corners(part).map(|corner| direction.dot(*corner));
-                heights.fold(f64::INFINITY, lesser)
+                let [a, b, c] = self.triangles[part[0]];
+                [lesser, greater].map(|of: fn(f64, f64) -> f64| of_each(of_each(a, b, of), c, of))
             }
         };
-        height - direction.dot(point)
+        let place = self.place(part);
+        self.bounds[place] = bounds;
+        bounds
+    }
+
+    fn place(&self, part: Part) -> usize {
+        match halves(part) {
+            Some([_, [middle, _]]) => middle,
+            None => self.triangles.len() + part[0],
+        }
+    }
+
+    /// Returns the least height of a part along a direction, or a limit if no corner is below that.
+    pub(crate) fn least_height(&self, part: Part, direction: DVec3, limit: f64) -> f64 {
+        self.lowest(part, direction, (limit, 0)).0
+    }
+
+    /// Returns the height of the corner of a part that is lowest along a direction, and its number; what is given if none is lower.
+    fn lowest(&self, part: Part, direction: DVec3, found: (f64, usize)) -> (f64, usize) {
+        let Some(halves) = halves(part) else {
+            let corners = self.triangles[part[0]].iter().enumerate();
+            return corners.fold(found, |found, (k, corner)| {
+                let height = direction.dot(*corner);
+                if height < found.0 {
+                    (height, 3 * part[0] + k)
+                } else {
+                    found
+                }
+            });
+        };
+        let mut halves = halves.map(|half| (self.lower_bound(half, direction), half));
+        if halves[1].0 < halves[0].0 {
+            halves.swap(0, 1);
+        }
+        halves.into_iter().fold(found, |found, (bound, half)| {
+            if bound < found.0 {
+                self.lowest(half, direction, found)
+            } else {
+                found
+            }
+        })
+    }
+
+    /// Returns the least height of the box of a part.
+    pub(crate) fn lower_bound(&self, part: Part, direction: DVec3) -> f64 {
+        let [least, greatest] = self.bounds[self.place(part)];
+        of_each(direction * least, direction * greatest, lesser).element_sum()
     }
 
     /// Returns the greatest distance of a part from a point, or more.
     pub(crate) fn reach(&self, part: Part, point: DVec3) -> f64 {
-        let [least, greatest] = self.bounds(part);
-        let farthest = [point - least, greatest - point].map(|v| v.to_array());
-        DVec3::from_array([0, 1, 2].map(|k| greater(farthest[0][k], farthest[1][k]))).length()
+        let [least, greatest] = self.bounds[self.place(part)];
+        of_each(point - least, greatest - point, greater).length()
     }
 
     /// Returns half of the size of a part, and 0 for a triangle.
     pub(crate) fn radius(&self, part: Part) -> f64 {
-        let [least, greatest] = self.bounds(part);
+        let [least, greatest] = self.bounds[self.place(part)];
         if part[1] - part[0] > 1 {
             0.5 * (greatest - least).length()
         } else {
@@ -150,123 +181,32 @@ impl Body {
 
     /// Returns the corner of a part that is lowest along a direction.
     pub(crate) fn lowest_corner(&self, part: Part, direction: DVec3) -> (u32, DVec3) {
-        let (mut index, mut corner) = (0, DVec3::ZERO);
-        match self.volume(part) {
-            Some(volume) => {
-                for (k, (axis, range)) in volume.axes.iter().zip(volume.ranges).enumerate() {
-                    let end = usize::from(direction.dot(*axis) < 0.0);
-                    index |= (end as u32) << k;
-                    corner += *axis * (range[end] / axis.length_squared());
-                }
-            }
-            None => {
-                let mut least = f64::INFINITY;
-                for (k, point) in self.corners(part).enumerate() {
-                    let height = direction.dot(*point);
-                    if height < least {
-                        (index, corner, least) = (k as u32, *point, height);
-                    }
-                }
-            }
-        }
-        (index, corner)
-    }
-
-    fn volume(&self, part: Part) -> Option<&Volume> {
-        self.volumes
-            .get(middle(part))?
-            .as_ref()
-            .filter(|_| part[1] - part[0] > FEW)
-    }
-
-    fn bounds(&self, part: Part) -> [DVec3; 2] {
-        match self.volume(part) {
-            Some(volume) => volume.bounds,
-            None => bounds(&self.corners(part)),
-        }
-    }
-
-    fn corners(&self, [from, to]: Part) -> impl Iterator<Item = &DVec3> + Clone {
-        self.triangles[from..to].iter().flatten()
+        let (_, number) = self.lowest(part, direction, (f64::INFINITY, 3 * part[0]));
+        (number as u32, self.triangles[number / 3][number % 3])
     }
 }
 
 /// Returns the halves of a part; `None` if it is a triangle.
-pub(crate) fn halves(part @ [from, to]: Part) -> Option<[Part; 2]> {
-    (to - from > 1).then_some([[from, middle(part)], [middle(part), to]])
+pub(crate) fn halves([from, to]: Part) -> Option<[Part; 2]> {
+    let middle = from + (to - from) / 2;
+    (to - from > 1).then_some([[from, middle], [middle, to]])
 }
 
-fn middle([from, to]: Part) -> usize {
-    from + (to - from) / 2
+fn of_each(a: DVec3, b: DVec3, of: fn(f64, f64) -> f64) -> DVec3 {
+    DVec3::new(of(a.x, b.x), of(a.y, b.y), of(a.z, b.z))
 }
 
-/// Sorts triangles from a place on into the order of a tree: halves along their longest axis, and so on. Tells the volumes of
-/// parts, the first part's before its halves', and where the halves meet.
-fn sort(
-    triangles: &[[DVec3; 3]],
-    order: &mut [u32],
-    from: usize,
-    add: &mut impl FnMut(usize, Volume),
-) {
-    let count = order.len();
-    if count == 1 {
-        return;
+/// Sorts triangles into the order of a tree: in halves along their longest axis, and so on.
+fn sort(triangles: &[[DVec3; 3]], order: &mut [u32]) {
+    if order.len() > 1 {
+        let axis = longest_axis(triangles, order);
+        let place = |k: &u32| triangles[*k as usize].iter().sum::<DVec3>().dot(axis);
+        let middle = order.len() / 2;
+        order.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)));
+        let (first, second) = order.split_at_mut(middle);
+        sort(triangles, first);
+        sort(triangles, second);
     }
-    let axes = axes(triangles, order);
-    let place = |k: &u32| triangles[*k as usize].iter().sum::<DVec3>().dot(axes[0]);
-    let middle = count / 2;
-    order.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)));
-    if count > FEW {
-        let corners = order.iter().flat_map(|&k| &triangles[k as usize]);
-        let volume = Volume::around(&corners, axes);
-        add(from + middle, volume);
-    }
-    let (first, second) = order.split_at_mut(middle);
-    sort(triangles, first, from, add);
-    sort(triangles, second, from + middle, add);
-}
-
-impl Volume {
-    /// Measures corners along axes, which are in multiples of their unit.
-    fn around<'a>(corners: &(impl Iterator<Item = &'a DVec3> + Clone), axes: [DVec3; 3]) -> Self {
-        let axes = axes.map(|axis| axis / AXIS_UNIT);
-        Volume {
-            axes,
-            ranges: axes.map(|axis| range(corners.clone(), axis)),
-            bounds: bounds(corners),
-        }
-    }
-
-    fn least_height(&self, direction: DVec3) -> f64 {
-        let (mut rest, mut height) = (direction, 0.0);
-        for (axis, [low, high]) in self.axes.iter().zip(self.ranges) {
-            let multiple = axis.dot(direction);
-            height += lesser(multiple * low, multiple * high);
-            rest -= multiple * *axis;
-        }
-        // The checker rounds multiples to 2⁻³⁶, so what is left of the direction is larger there.
-        let [least, greatest] = self.bounds;
-        let lost = 4e-10 * (greatest - least).length();
-        height
-            + [0, 1, 2]
-                .map(|k| lesser(rest[k] * least[k], rest[k] * greatest[k]))
-                .iter()
-                .sum::<f64>()
-            - lost
-    }
-}
-
-/// Returns the least and the greatest height of corners along an axis.
-fn range<'a>(corners: impl Iterator<Item = &'a DVec3>, axis: DVec3) -> [f64; 2] {
-    let heights = corners.map(|corner| axis.dot(*corner));
-    heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
-        [lesser(low, height), greater(high, height)]
-    })
-}
-
-fn bounds<'a>(corners: &(impl Iterator<Item = &'a DVec3> + Clone)) -> [DVec3; 2] {
-    let [x, y, z] = DVec3::AXES.map(|axis| range(corners.clone(), axis));
-    [0, 1].map(|end| DVec3::new(x[end], y[end], z[end]))
 }
 
 /// Returns the vertices of triangles in the order of their coordinates, and the triangles in the order of their corners, the
@@ -295,8 +235,8 @@ fn canonical(triangles: &[[DVec3; 3]]) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     (vertices, faces)
 }
 
-/// Returns the principal axes of triangles, the longest first, in units of 2⁻¹⁴.
-fn axes(triangles: &[[DVec3; 3]], order: &[u32]) -> [DVec3; 3] {
+/// Returns the axis along which triangles extend most: the first principal one.
+fn longest_axis(triangles: &[[DVec3; 3]], order: &[u32]) -> DVec3 {
     let corners = || order.iter().flat_map(|&k| triangles[k as usize]);
     let mean = corners().sum::<DVec3>() / (3 * order.len()) as f64;
     let mut covariance = Matrix3::zeros();
@@ -305,18 +245,9 @@ fn axes(triangles: &[[DVec3; 3]], order: &[u32]) -> [DVec3; 3] {
         covariance += from_mean * from_mean.transpose();
     }
     let eigen = SymmetricEigen::new(covariance);
-    let mut columns = [0, 1, 2];
-    columns.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
-    let axes = columns.map(|k| {
-        let column = eigen.eigenvectors.column(k);
-        DVec3::new(column[0], column[1], column[2])
-    });
-    let axes = if axes.iter().all(|axis| axis.is_finite()) {
-        axes
-    } else {
-        [DVec3::X, DVec3::Y, DVec3::Z]
-    };
-    axes.map(|axis| (axis * AXIS_UNIT).round())
+    let column = eigen.eigenvectors.column(eigen.eigenvalues.imax());
+    let axis = DVec3::new(column[0], column[1], column[2]);
+    if axis.is_finite() { axis } else { DVec3::X }
 }
 
 fn mesh_bytes(vertices: &[[f64; 3]], faces: &[[u32; 3]]) -> Vec<u8> {

@@ -218,7 +218,8 @@ impl<'a> Cover<'a> {
                 if frame > 0 && !task.stretch.turns(frame - 1) {
                     continue;
                 }
-                if task.stretch.least_gap(task.parts, axis / unit, frame) > self.least {
+                let seen = (axis / unit, frame);
+                if task.stretch.keeps_apart(task.parts, seen, self.least) {
                     let step = (3 + 3 * fine + frame) as u8;
                     return Some(Leaf { step, axis });
                 }

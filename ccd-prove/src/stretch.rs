@@ -5,7 +5,6 @@ use crate::placed::{Moving, Placed};
 use crate::scene::Scene;
 use crate::way::Way;
 use ccd_core::glam::DVec3;
-use ccd_core::order::lesser;
 
 /// A pair over a stretch of time, and the ways to A and to B from the world, from A, and from B.
 pub(crate) struct Stretch<'a> {
@@ -38,28 +37,38 @@ impl<'a> Stretch<'a> {
         }
     }
 
-    /// Returns the least gap of two parts along an axis over the stretch, or less. The axis turns with the world, A or B.
-    pub(crate) fn least_gap(&self, parts: [Part; 2], axis: DVec3, frame: usize) -> f64 {
+    /// Returns whether an axis keeps two parts farther apart than `least` over the stretch. The axis turns with the world, A or B.
+    pub(crate) fn keeps_apart(
+        &self,
+        parts: [Part; 2],
+        (axis, frame): (DVec3, usize),
+        least: f64,
+    ) -> bool {
         let ways @ [a, b] = &self.ways[frame];
         if !(a.is_short() && b.is_short()) {
-            return f64::NEG_INFINITY;
+            return false;
         }
-        let (centre, change) = (axis.dot(self.offset), axis.dot(b.change - a.change));
-        let mut gaps = [centre - change, centre + change];
         let mut bend = a.bend + b.bend;
-        for (k, facing) in [-axis, axis].into_iter().enumerate() {
-            let (body, centre) = (self.bodies[k], self.centres[k]);
-            let tilt = facing.cross(ways[k].turn);
-            for (gap, direction) in gaps.iter_mut().zip([facing - tilt, facing + tilt]) {
-                let direction = self.placed[k].rotation.transpose() * direction;
-                *gap += body.least_height(parts[k], direction, centre);
-            }
+        for k in 0..2 {
             if ways[k].turn != DVec3::ZERO {
-                bend += ways[k].factor() * body.reach(parts[k], centre);
+                bend += ways[k].factor() * self.bodies[k].reach(parts[k], self.centres[k]);
             }
         }
         // The checker rounds lengths up to 30 bits.
-        lesser(gaps[0], gaps[1]) - 0.5 * bend * (1.0 + 1e-8)
+        let least = least + 0.5 * bend * (1.0 + 1e-8);
+        let (middle, change) = (axis.dot(self.offset), axis.dot(b.change - a.change));
+        [-1.0, 1.0].into_iter().all(|end| {
+            let [of_a, of_b] = [(0, -axis), (1, axis)].map(|(k, facing)| {
+                self.placed[k].rotation.transpose() * (facing + end * facing.cross(ways[k].turn))
+            });
+            let centres = of_a.dot(self.centres[0]) + of_b.dot(self.centres[1]);
+            let needed = least - middle - end * change + centres;
+            let ([a, b], [part_a, part_b]) = (self.bodies, parts);
+            // A is looked at no more closely than needed where the box of B is, and B where A has been found.
+            let limit = needed - b.lower_bound(part_b, of_b);
+            let height = a.least_height(part_a, of_a, limit);
+            height >= limit || b.least_height(part_b, of_b, needed - height) >= needed - height
+        })
     }
 
     /// Returns whether anything can be proven over so long a stretch.

@@ -380,7 +380,7 @@ fn witnesses_that_are_not_near_or_not_on_their_triangles_are_seen() {
 }
 
 #[test]
-fn a_tree_that_omits_a_triangle_or_belongs_to_another_mesh_is_seen() {
+fn an_order_that_omits_a_triangle_or_belongs_to_another_mesh_is_seen() {
     let meshes = Meshes::new();
     let body = &meshes.proofs[0];
     let read = |mesh: &[u8], certificate: &[u8]| {
@@ -389,7 +389,7 @@ fn a_tree_that_omits_a_triangle_or_belongs_to_another_mesh_is_seen() {
     let order = 40;
     let mut twice = body.certificate().to_vec();
     twice.copy_within(order..order + 4, order + 4);
-    assert_eq!(read(body.mesh(), &twice), "the tree has a triangle twice");
+    assert_eq!(read(body.mesh(), &twice), "the order has a triangle twice");
     // A vertex is moved by the least that its numbers can tell.
     let mut moved = body.mesh().to_vec();
     moved[8] ^= 1;
