@@ -53,10 +53,8 @@ pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
                         (Placed::all(&statement.links, middle, half), BTreeMap::new())
                     });
                     let seen_from = [0, numbers[0], numbers[1]][step % 3];
-                    for to in numbers {
-                        ways.entry([seen_from, to]).or_insert_with(|| Way::new(links, seen_from, to));
-                    }
-                    let ways = numbers.map(|to| &ways[&[seen_from, to]]);
+                    let way = |to| *ways.entry([seen_from, to]).or_insert_with(|| Way::new(links, seen_from, to));
+                    let ways = numbers.map(way);
                     let is_apart = keeps_apart((bodies, parts), (links, ways), axis, least);
                     reader.require(is_apart, "an axis does not keep its parts apart")?;
                 }

@@ -11,7 +11,7 @@ use core::ops::Neg;
 /// from what the axis turns with.
 pub(crate) fn keeps_apart(
     (bodies, parts): ([&Carried<'_>; 2], [Part; 2]),
-    (links, ways): (&[Placed], [&Way; 2]),
+    (links, ways): (&[Placed], [Way; 2]),
     axis: Point,
     least: i128,
 ) -> bool {
@@ -44,8 +44,11 @@ pub(crate) fn keeps_apart(
     let ([mesh_a, mesh_b], [part_a, part_b], [of_a, of_b]) = (bodies.map(|body| body.mesh), parts, directions);
     [0, 1].into_iter().all(|end| {
         let needed = missing[end] + i128::from(least) * one + 1;
+        let [bound_a, bound_b] = [mesh_a.lower_bound(part_a, of_a[end]), mesh_b.lower_bound(part_b, of_b[end])];
         // A is looked at no more closely than needed where the box of B is, and B where A has been found.
-        let height = mesh_a.least_height(part_a, of_a[end], needed - mesh_b.lower_bound(part_b, of_b[end]));
-        mesh_b.least_height(part_b, of_b[end], needed - height) == needed - height
+        bound_a + bound_b >= needed || {
+            let height = mesh_a.least_height(part_a, of_a[end], needed - bound_b);
+            mesh_b.least_height(part_b, of_b[end], needed - height) == needed - height
+        }
     })
 }
