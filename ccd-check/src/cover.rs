@@ -10,6 +10,9 @@ use crate::way::Way;
 use crate::{Body, Stop};
 use alloc::collections::BTreeMap;
 
+/// All links in the middle of a stretch of time are kept: no more than so many, which is 200 MB.
+const MAX_PLACED: usize = 1 << 20;
+
 /// Checks a certificate about meshes. Nothing is said of any other statement than the one in the certificate: the caller
 /// compares it with the one that he wants.
 ///
@@ -47,6 +50,9 @@ pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
                     let axis = reader.axis(bytes)?;
                     reader.require(dot(axis, axis) <= 1 << (2 * bits), "an axis is longer than 1")?;
                     let axis = axis.map(|x| x << (FRACTION - bits));
+                    if stretches.len() * statement.links.len() > MAX_PLACED {
+                        return Err(Stop::Unverifiable("there are too many links and stretches of time"));
+                    }
                     let (links, ways) = stretches.entry(times).or_insert_with(|| {
                         let middle = from + (to - from) / 2;
                         let [middle, half] = [middle, to - middle].map(|time| Number::exact([time]));
@@ -63,4 +69,47 @@ pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
         }
     }
     reader.end()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::vec::Vec;
+
+    /// A chain whose links reach and travel as far as they may. At 0.95 the body at its end is where it was at the start without
+    /// the chain: on the other body. But the sum of the travels is more than numbers hold.
+    #[test]
+    fn what_is_unknown_proves_nothing() {
+        let length = 2048u32;
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let mut mesh = [3u32, 1].map(u32::to_le_bytes).concat();
+        mesh.extend(corners.iter().flatten().flat_map(|x: &f64| x.to_le_bytes()));
+        mesh.extend([0u32, 1, 2].map(u32::to_le_bytes).concat());
+        let digest = crate::sha256(&mesh);
+        let certificate = [&b"CCDBODY1"[..], &digest, &[0; 4]].concat();
+        let body = Body::new(&mesh, &certificate, 0).unwrap();
+        let mut proof = b"CCDPROOF".to_vec();
+        let numbers = |numbers: &[f64]| numbers.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+        proof.extend([0, 0, length, 2, 1].map(u32::to_le_bytes).concat());
+        let far = f64::from_bits(0x4310_0000_0000_0000);
+        let near = f64::from_bits(0x430e_6666_6666_6666);
+        for parent in 0..length {
+            proof.extend(parent.to_le_bytes());
+            proof.push(0);
+            proof.extend(numbers(&[near, near, near, 0.0, 0.0, 0.0, 1.0, -far, -far, -far]));
+            proof.extend(numbers(&[0.0; 6]));
+        }
+        for link in [0, length] {
+            proof.extend(digest);
+            proof.extend(link.to_le_bytes());
+            proof.extend(numbers(&[0.0]));
+        }
+        proof.extend([0u32, 1].map(u32::to_le_bytes).concat());
+        proof.extend(numbers(&[0.0, 1.0]));
+        proof.extend([0, 3]);
+        proof.extend([9459u16; 3].map(u16::to_le_bytes).concat());
+        let apart = "an axis does not keep its parts apart";
+        let at = proof.len();
+        assert_eq!(check(&[body], &proof), Err(Stop::Broken { reason: apart, at }));
+    }
 }

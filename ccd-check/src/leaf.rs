@@ -17,6 +17,10 @@ pub(crate) fn keeps_apart(
 ) -> bool {
     let (one, [a, b]) = (i128::from(ONE.mid[0]), ways);
     let [arm, change] = [b.arm - a.arm, b.change - a.change];
+    // What is unknown has no bound: its radius is none.
+    if !(arm.is_known() && change.is_known()) {
+        return false;
+    }
     let [middle, moved] = [arm, change].map(|v| dot(axis, v.mid));
     let lost = i128::from(arm.rad + change.rad) * one;
     // At both ends of the stretch what the heights of A and B have to add up to, but for what follows.
@@ -29,8 +33,8 @@ pub(crate) fn keeps_apart(
         }
         // Corners and centre are off by less than 2 each.
         let reach = body.mesh.reach(parts[k], body.centre) + 4;
-        // A direction is no longer than 3. It is off by turn.rad and a rounding, and in the link's frame by 3 times what the
-        // rotation is off by, and another rounding.
+        // The true direction is no longer than √5. It is known to within turn.rad and a rounding, and in the link's frame 3 times
+        // what the rotation is off by more, and another rounding.
         let to_mesh = links[body.link].rotation.transposed();
         let lost = product(way.turn.rad + 3 * to_mesh.rad + 4, reach) + 12 * one;
         let tilt = cross(facing, way.turn.mid).map(|x| (x >> FRACTION) as i64);

@@ -54,6 +54,10 @@ impl<const N: usize> Ball<N> {
         if is_known { Ball { mid, rad } } else { Ball { mid: [0; N], rad: UNKNOWN } }
     }
 
+    pub(crate) fn is_known(self) -> bool {
+        self.rad < UNKNOWN
+    }
+
     /// Returns the sum or the difference.
     fn with(self, other: Self, op: fn(i64, i64) -> i64) -> Self {
         Ball::new(core::array::from_fn(|k| op(self.mid[k], other.mid[k])), self.rad + other.rad)
