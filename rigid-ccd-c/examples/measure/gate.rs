@@ -4,7 +4,7 @@ use crate::folder::{
     Handle, cell_solver, cells, check, default_settings, empty_path_answer, read_numbers,
     rust_settings,
 };
-use crate::tally::{Answered, Tally, report};
+use crate::tally::{Answered, Tally, on_threads, report};
 use anyhow::Result;
 use ccd_core::order::lesser;
 use rigid_ccd_c::*;
@@ -67,19 +67,11 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         solvers.push(solver);
     }
     let share = args.chunks / solvers.len();
-    let tallies = std::thread::scope(|scope| {
-        let threads = solvers.into_iter().enumerate().map(|(number, solver)| {
-            let chunks = &chunks;
-            scope.spawn(move || {
-                check_chunks(&solver, chunks, joints, (number as u64, share), deadline)
-            })
-        });
-        let threads: Vec<_> = threads.collect();
-        let tallies = threads.into_iter().map(|thread| thread.join());
-        tallies.collect::<Result<Vec<_>, _>>()
+    let chunks = &chunks;
+    let work = solvers.into_iter().enumerate().map(|(number, solver)| {
+        move || check_chunks(&solver, chunks, joints, (number as u64, share), deadline)
     });
-    let tallies = tallies.map_err(|_| anyhow::anyhow!("a thread has panicked"))?;
-    let tallies = tallies.into_iter().collect::<Result<Vec<_>>>()?;
+    let tallies = on_threads(work)?;
     let limit = args
         .deadline
         .map_or("no deadline".to_owned(), |micros| format!("{micros} µs"));

@@ -1,6 +1,6 @@
 //! Does nothing until a deadline: how late the machine is by itself.
 
-use crate::tally::{Tally, report};
+use crate::tally::{Tally, on_threads, report};
 use std::time::{Duration, Instant};
 
 #[derive(clap::Args)]
@@ -17,24 +17,19 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let seconds = args.deadline * 1e-6;
+    let threads = args.threads.max(1);
+    let count = args.count / threads;
     let wait = || {
-        let mut tally = Tally::new(Some(seconds), args.count / args.threads.max(1));
-        for _ in 0..args.count / args.threads.max(1) {
+        let mut tally = Tally::new(Some(seconds), count);
+        for _ in 0..count {
             tally.ask(|| {
                 let end = Instant::now() + Duration::from_secs_f64(seconds);
                 while Instant::now() < end {}
             });
         }
-        tally
+        Ok(tally)
     };
-    let tallies = std::thread::scope(|scope| {
-        let threads: Vec<_> = (0..args.threads.max(1))
-            .map(|_| scope.spawn(wait))
-            .collect();
-        let tallies = threads.into_iter().map(|thread| thread.join());
-        tallies.collect::<Result<Vec<_>, _>>()
-    });
-    let tallies = tallies.map_err(|_| anyhow::anyhow!("a thread has panicked"))?;
+    let tallies = on_threads(std::iter::repeat_n(wait, threads))?;
     report(&format!("waiting for {} µs", args.deadline), &tallies);
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! What questions under a deadline take, and whether their answers hold.
 
+use anyhow::Result;
 use ccd_core::order::{greater, lesser};
 use rigid_ccd_c::RccdOutcome;
 use rustix::time::{ClockId, clock_gettime};
@@ -99,6 +100,20 @@ fn timed<T>(question: &mut impl FnMut() -> T) -> (T, [f64; 2]) {
 fn processor_seconds() -> f64 {
     let time = clock_gettime(ClockId::ThreadCPUTime);
     time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+}
+
+/// Does pieces of work at once, each on a thread of its own.
+pub(crate) fn on_threads<W>(work: impl IntoIterator<Item = W>) -> Result<Vec<Tally>>
+where
+    W: FnOnce() -> Result<Tally> + Send,
+{
+    let joined = std::thread::scope(|scope| {
+        let threads: Vec<_> = work.into_iter().map(|work| scope.spawn(work)).collect();
+        let tallies = threads.into_iter().map(|thread| thread.join());
+        tallies.collect::<Result<Vec<_>, _>>()
+    });
+    let tallies = joined.map_err(|_| anyhow::anyhow!("a thread has panicked"))?;
+    tallies.into_iter().collect()
 }
 
 /// Prints what all threads have seen.
