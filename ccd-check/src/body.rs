@@ -1,8 +1,8 @@
-//! A mesh, and a tree of boxes over ranges of its triangles.
+//! A mesh of rounded triangles, and a tree of boxes over ranges of them.
 //!
 //! The certificate of a body says only in which order the triangles are. The boxes are measured here.
 
-use crate::number::{Ball, Point, dot, product};
+use crate::number::{Ball, ONE, Point, dot, product};
 use crate::reader::Reader;
 use crate::{Stop, sha256};
 use alloc::vec::Vec;
@@ -10,8 +10,11 @@ use alloc::vec::Vec;
 /// Triangles of a body, from one to before another.
 pub(crate) type Part = [usize; 2];
 
-/// The least and the greatest of each coordinate.
-type Bounds = [[i64; 2]; 3];
+/// A point, and the radius of the ball around it.
+type Corner = [i64; 4];
+
+/// The least and the greatest of each coordinate, and of the radius.
+type Bounds = [[i64; 2]; 4];
 
 /// A mesh with its tree, in integer coordinates.
 #[derive(Clone, Debug)]
@@ -19,7 +22,7 @@ pub struct Body {
     pub(crate) digest: [u8; 32],
     pub(crate) unit: i32,
     /// The corners of each triangle in the order of the tree. Each is off by less than 1 in each coordinate.
-    pub(crate) triangles: Vec<[Point; 3]>,
+    pub(crate) triangles: Vec<[Corner; 3]>,
     /// Those of a part are where its halves meet, as no other part is halved there; those of the triangles follow.
     bounds: Vec<Bounds>,
 }
@@ -54,10 +57,10 @@ impl Body {
     fn measure(&mut self, part @ [from, to]: Part) -> Bounds {
         let bounds = if to - from > 1 {
             let [a, b] = halves(part).map(|half| self.measure(half));
-            [0, 1, 2].map(|k| [a[k][0].min(b[k][0]), a[k][1].max(b[k][1])])
+            [0, 1, 2, 3].map(|k| [a[k][0].min(b[k][0]), a[k][1].max(b[k][1])])
         } else {
             let [a, b, c] = self.triangles[from];
-            [0, 1, 2].map(|k| [a[k].min(b[k]).min(c[k]), a[k].max(b[k]).max(c[k])])
+            [0, 1, 2, 3].map(|k| [a[k].min(b[k]).min(c[k]), a[k].max(b[k]).max(c[k])])
         };
         let place = self.place(part);
         self.bounds[place] = bounds;
@@ -68,29 +71,30 @@ impl Body {
         if to - from > 1 { halves(part)[1][0] } else { self.triangles.len() + from }
     }
 
-    /// Returns the largest distance of a part from a point, or more.
+    /// Returns the largest distance of a corner of a part from a point, or more.
     pub(crate) fn reach(&self, part: Part, point: Point) -> i64 {
         let bounds = self.bounds[self.place(part)];
         let farthest = [0, 1, 2].map(|k| (point[k] - bounds[k][0]).max(bounds[k][1] - point[k]));
         Ball::exact(farthest).length() as i64
     }
 
-    /// Returns the least height of a part along a direction, or a limit if no corner is below that.
-    pub(crate) fn least_height(&self, part @ [from, to]: Part, direction: Point, limit: i128) -> i128 {
-        if to - from == 1 {
-            return self.triangles[from].iter().fold(limit, |least, &corner| least.min(dot(direction, corner)));
-        }
-        // The half that may be lower first: then the other one is seldom lower.
-        let [a, b] = halves(part).map(|half| (self.lower_bound(half, direction), half));
-        let halves = if b.0 < a.0 { [b, a] } else { [a, b] };
-        let look = |least, (bound, half)| if bound < least { self.least_height(half, direction, least) } else { least };
-        halves.into_iter().fold(limit, look)
+    /// Returns whether no point of a part is lower along a direction than a limit. A ball sinks below its centre by its radius, as
+    /// the plane's normal is no longer than 1.
+    pub(crate) fn is_above(&self, part: Part, [x, y, z]: Point, limit: i128) -> bool {
+        self.is_above_in(&[x, y, z, -ONE.mid[0]], part, limit)
     }
 
-    /// Returns the least height of the box of a part.
-    pub(crate) fn lower_bound(&self, part: Part, direction: Point) -> i128 {
-        let bounds = &self.bounds[self.place(part)];
-        (0..3).map(|k| product(direction[k], bounds[k][usize::from(direction[k] < 0)])).sum()
+    fn is_above_in(&self, direction: &[i64; 4], part @ [from, to]: Part, limit: i128) -> bool {
+        let [x, y, z, radius] = &self.bounds[self.place(part)];
+        let least = |k: usize, range: &[i64; 2]| product(direction[k], range[usize::from(direction[k] < 0)]);
+        if least(0, x) + least(1, y) + least(2, z) + least(3, radius) >= limit {
+            return true;
+        }
+        if to - from > 1 {
+            halves(part).into_iter().all(|half| self.is_above_in(direction, half, limit))
+        } else {
+            self.triangles[from].iter().all(|&corner| dot(*direction, corner) >= limit)
+        }
     }
 }
 
@@ -99,12 +103,13 @@ pub(crate) fn halves([from, to]: Part) -> [Part; 2] {
     [[from, middle], [middle, to]]
 }
 
-/// Reads a mesh: the numbers of vertices and triangles, the coordinates, and the corners.
-fn read_mesh(mut reader: Reader<'_>, unit: i64) -> Result<Vec<[Point; 3]>, Stop> {
+/// Reads a mesh: the numbers of vertices and triangles, the vertices with their radii, and the corners.
+fn read_mesh(mut reader: Reader<'_>, unit: i64) -> Result<Vec<[Corner; 3]>, Stop> {
     let [vertex_count, triangle_count] = [reader.unsigned(4)?, reader.unsigned(4)?];
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
     for _ in 0..vertex_count {
-        vertices.push(reader.vector(unit, 50)?.mid);
+        let [x, y, z] = reader.vector(unit, 50)?.mid;
+        vertices.push([x, y, z, reader.size(unit, 50)?]);
     }
     for _ in 0..triangle_count {
         let [a, b, c] = [(); 3].map(|()| reader.index(vertices.len()));
@@ -118,8 +123,9 @@ fn read_mesh(mut reader: Reader<'_>, unit: i64) -> Result<Vec<[Point; 3]>, Stop>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::FRACTION;
 
-    /// Least heights, bounds and distances against those of all corners, for all parts of bodies of one to twelve triangles.
+    /// What is above a limit and how far parts reach, against all corners, for all parts of bodies of one to twelve triangles.
     #[test]
     fn heights_and_distances_are_those_of_the_corners() {
         let mut state = 1u64;
@@ -127,22 +133,24 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (state >> 40) as i64 % range - range / 2
         };
-        let (mut limited, mut found) = (0, 0);
+        let one = i128::from(ONE.mid[0]);
+        let (mut above, mut below) = (0, 0);
         for count in 1..=12 {
-            let triangles = (0..count).map(|_| [(); 3].map(|()| [random(1000), random(30), random(7)])).collect();
-            let bounds = alloc::vec![Bounds::default(); 2 * count];
+            let triangles = (0..count).map(|_| [(); 3].map(|()| [random(1000), random(30), random(7), random(9).abs()]));
+            let (triangles, bounds) = (triangles.collect(), alloc::vec![Bounds::default(); 2 * count]);
             let mut body = Body { digest: [0; 32], unit: 0, triangles, bounds };
             body.measure([0, count]);
             let mut parts = alloc::vec![[0, count]];
             while let Some(part @ [from, to]) = parts.pop() {
                 let corners = body.triangles[from..to].as_flattened();
-                let (direction, point) = ([random(100), random(100), random(100)], [random(2000), 3, 5]);
-                let height = corners.iter().map(|&corner| dot(direction, corner)).min().unwrap();
-                for limit in [i128::MAX, height - 1, height, height + 1, i128::from(random(100_000))] {
-                    assert_eq!(body.least_height(part, direction, limit), height.min(limit));
-                    if limit < height { limited += 1 } else { found += 1 }
+                let (direction, point) = ([(); 3].map(|()| random(100) << FRACTION), [random(2000), 3, 5]);
+                let height = |[x, y, z, radius]: &[i64; 4]| dot(direction, [*x, *y, *z]) - one * i128::from(*radius);
+                let height = corners.iter().map(height).min().unwrap();
+                for limit in [i128::MIN, height - 1, height, height + 1, one * i128::from(random(100_000))] {
+                    let is_above = body.is_above(part, direction, limit);
+                    assert_eq!(is_above, height >= limit);
+                    if is_above { above += 1 } else { below += 1 }
                 }
-                assert!(body.lower_bound(part, direction) <= height);
                 let reach = body.reach(part, point);
                 for corner in corners {
                     let squares: i64 = (0..3).map(|k| (corner[k] - point[k]) * (corner[k] - point[k])).sum();
@@ -153,6 +161,6 @@ mod tests {
                 }
             }
         }
-        assert!(limited > 100 && found > 100, "{limited} limited, {found} found");
+        assert!(above > 100 && below > 100, "{above} above, {below} below");
     }
 }

@@ -1,7 +1,7 @@
 //! The check of a certificate: a tree of splits, whose leaves cover all pairs of triangles at all times.
 
 use crate::body::halves;
-use crate::leaf::keeps_apart;
+use crate::leaf::Plane;
 use crate::motion::Placed;
 use crate::number::{FRACTION, Number, dot, product};
 use crate::reader::Reader;
@@ -23,7 +23,7 @@ pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
     let statement = Statement::read(&mut reader, meshes)?;
     // For each stretch of time all links in its middle, and the ways between them that a leaf has asked for.
     let mut stretches = BTreeMap::new();
-    for &(bodies, least) in &statement.pairs {
+    for &(bodies, margin) in &statement.pairs {
         let bodies = bodies.map(|body| &statement.bodies[body]);
         let numbers = bodies.map(|body| body.link);
         // What is to be proven: first both whole bodies over the whole time. Each step splits the last entry, or proves it.
@@ -46,10 +46,11 @@ pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
                     waiting.extend([(parts, [at, to]), (parts, [from, at])]);
                 }
                 step @ 3..=8 => {
-                    let (bytes, bits) = [(2, 14), (7, 50)][step / 6];
-                    let axis = reader.axis(bytes)?;
-                    reader.require(dot(axis, axis) <= 1 << (2 * bits), "an axis is longer than 1")?;
-                    let axis = axis.map(|x| x << (FRACTION - bits));
+                    let [(bytes, bits), (offset_bytes, offset_bits)] = [[(2, 14), (4, 20)], [(7, 50), (7, 0)]][step / 6];
+                    let normal = reader.axis(bytes)?;
+                    reader.require(dot(normal, normal) <= 1 << (2 * bits), "a normal is longer than 1")?;
+                    let normal = normal.map(|x| x << (FRACTION - bits));
+                    let plane = Plane { normal, offset: reader.signed(offset_bytes)? << offset_bits };
                     if stretches.len() * statement.links.len() > MAX_PLACED {
                         return Err(Stop::Unverifiable("there are too many links and stretches of time"));
                     }
@@ -61,8 +62,11 @@ pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
                     let seen_from = [0, numbers[0], numbers[1]][step % 3];
                     let way = |to| *ways.entry([seen_from, to]).or_insert_with(|| Way::new(links, seen_from, to));
                     let ways = numbers.map(way);
-                    let is_apart = keeps_apart((bodies, parts), (links, ways), axis, least);
-                    reader.require(is_apart, "an axis does not keep its parts apart")?;
+                    let is_apart = [plane.reversed(), plane]
+                        .into_iter()
+                        .enumerate()
+                        .all(|(k, plane)| plane.keeps((bodies[k], parts[k]), &links[numbers[k]], &ways[k], margin / 2 + 1));
+                    reader.require(is_apart, "a plane is not between its parts")?;
                 }
                 _ => return Err(reader.broken("there is no such step")),
             }
@@ -81,7 +85,7 @@ mod tests {
     #[test]
     fn what_is_unknown_proves_nothing() {
         let length = 2048u32;
-        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let corners = [[0.0; 4], [1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]];
         let mut mesh = [3u32, 1].map(u32::to_le_bytes).concat();
         mesh.extend(corners.iter().flatten().flat_map(|x: &f64| x.to_le_bytes()));
         mesh.extend([0u32, 1, 2].map(u32::to_le_bytes).concat());
@@ -102,13 +106,13 @@ mod tests {
         for link in [0, length] {
             proof.extend(digest);
             proof.extend(link.to_le_bytes());
-            proof.extend(numbers(&[0.0]));
         }
         proof.extend([0u32, 1].map(u32::to_le_bytes).concat());
         proof.extend(numbers(&[0.0, 1.0]));
         proof.extend([0, 3]);
         proof.extend([9459u16; 3].map(u16::to_le_bytes).concat());
-        let apart = "an axis does not keep its parts apart";
+        proof.extend(0u32.to_le_bytes());
+        let apart = "a plane is not between its parts";
         let at = proof.len();
         assert_eq!(check(&[body], &proof), Err(Stop::Broken { reason: apart, at }));
     }

@@ -1,58 +1,49 @@
-//! Proves that two parts stay apart over a stretch of time, along one axis: Lemmas 1 and 2 of the README.
+//! Proves that a part stays on one side of a plane over a stretch of time: Lemmas 1 and 2 of the README.
 
 use crate::body::Part;
 use crate::motion::Placed;
 use crate::number::{FRACTION, ONE, Point, cross, dot, product, up};
 use crate::statement::Carried;
 use crate::way::Way;
-use core::ops::Neg;
 
-/// Returns whether an axis, no longer than 1, keeps two parts farther apart than `least` over the whole stretch. The ways are
-/// from what the axis turns with.
-pub(crate) fn keeps_apart(
-    (bodies, parts): ([&Carried<'_>; 2], [Part; 2]),
-    (links, ways): (&[Placed], [Way; 2]),
-    axis: Point,
-    least: i128,
-) -> bool {
-    let (one, [a, b]) = (i128::from(ONE.mid[0]), ways);
-    let [arm, change] = [b.arm - a.arm, b.change - a.change];
-    // What is unknown has no bound: its radius is none.
-    if !(arm.is_known() && change.is_known()) {
-        return false;
+/// A plane: the points x with normal · x = offset, where the normal is no longer than 1.
+#[derive(Clone, Copy)]
+pub(crate) struct Plane {
+    pub(crate) normal: Point,
+    pub(crate) offset: i64,
+}
+
+impl Plane {
+    pub(crate) fn reversed(self) -> Plane {
+        Plane { normal: self.normal.map(|x| -x), offset: -self.offset }
     }
-    let [middle, moved] = [arm, change].map(|v| dot(axis, v.mid));
-    let lost = i128::from(arm.rad + change.rad) * one;
-    // At both ends of the stretch what the heights of A and B have to add up to, but for what follows.
-    let mut missing = [lost - middle + moved, lost - middle - moved];
-    let (mut bend, mut directions) = (a.bend + b.bend, [[[0; 3]; 2]; 2]);
-    for (k, facing) in [axis.map(i64::neg), axis].into_iter().enumerate() {
-        let (body, way) = (bodies[k], ways[k]);
-        if !way.is_short() {
+
+    /// Returns whether a part stays farther than `least` from the plane, on the side to which its normal points, over the whole
+    /// stretch. The way is from what the plane turns with.
+    pub(crate) fn keeps(self, (body, part): (&Carried<'_>, Part), link: &Placed, way: &Way, least: i64) -> bool {
+        // What is unknown has no bound: its radius is none.
+        if !(way.arm.is_known() && way.change.is_known() && way.is_short()) {
             return false;
         }
+        let (one, turns) = (i128::from(ONE.mid[0]), way.turn.mid);
         // Corners and centre are off by less than 2 each.
-        let reach = body.mesh.reach(parts[k], body.centre) + 4;
+        let reach = body.mesh.reach(part, body.centre) + 4;
+        let bend = way.bend + up(way.factor, reach.into());
+        let Ok(least) = i64::try_from(i128::from(least) + i128::from(self.offset) + bend / 2 + 1) else {
+            return false;
+        };
         // The true direction is no longer than √5. It is known to within turn.rad and a rounding, and in the link's frame 3 times
         // what the rotation is off by more, and another rounding.
-        let to_mesh = links[body.link].rotation.transposed();
-        let lost = product(way.turn.rad + 3 * to_mesh.rad + 4, reach) + 12 * one;
-        let tilt = cross(facing, way.turn.mid).map(|x| (x >> FRACTION) as i64);
-        directions[k] = [-1, 1].map(|s| to_mesh.turned([0, 1, 2].map(|i| facing[i] + s * tilt[i])));
-        missing = [0, 1].map(|end| missing[end] + lost + dot(directions[k][end], body.centre));
-        bend += up(way.factor, reach.into());
+        let to_mesh = link.rotation.transposed();
+        let lost = product(way.turn.rad + 3 * to_mesh.rad + 4, reach) + (12 + i128::from(way.arm.rad + way.change.rad)) * one;
+        let least = i128::from(least) * one + lost + 1 - dot(self.normal, way.arm.mid);
+        let (change, tilt) = (dot(self.normal, way.change.mid), cross(self.normal, turns).map(|x| (x >> FRACTION) as i64));
+        // What rests is at both ends of the stretch at the same place.
+        let ends: &[i64] = if (turns, way.change.mid) == ([0; 3], [0; 3]) { &[0] } else { &[-1, 1] };
+        ends.iter().all(|&end| {
+            let direction = to_mesh.turned([0, 1, 2].map(|k| self.normal[k] + end * tilt[k]));
+            let least = least - i128::from(end) * change + dot(direction, body.centre);
+            body.mesh.is_above(part, direction, least)
+        })
     }
-    let Ok(least) = i64::try_from(least + bend / 2 + 1) else {
-        return false;
-    };
-    let ([mesh_a, mesh_b], [part_a, part_b], [of_a, of_b]) = (bodies.map(|body| body.mesh), parts, directions);
-    [0, 1].into_iter().all(|end| {
-        let needed = missing[end] + i128::from(least) * one + 1;
-        let [bound_a, bound_b] = [mesh_a.lower_bound(part_a, of_a[end]), mesh_b.lower_bound(part_b, of_b[end])];
-        // A is looked at no more closely than needed where the box of B is, and B where A has been found.
-        bound_a + bound_b >= needed || {
-            let height = mesh_a.least_height(part_a, of_a[end], needed - bound_b);
-            mesh_b.least_height(part_b, of_b[end], needed - height) == needed - height
-        }
-    })
 }

@@ -27,13 +27,19 @@ pub(crate) struct Link {
     pub(crate) centre: Vector,
     /// The motion on the parent, from time 0, in the unit of time.
     motion: Motion,
-    /// The rotation on the parent at time 0.
+    /// The rotation on the parent before any turn, and the turn at time 0.
     start: Matrix,
+    turned: Vector,
 }
 
 impl Link {
-    pub(crate) const WORLD: Link =
-        Link { parent: 0, centre: ZERO, motion: Motion { arm: ZERO, travel: ZERO, turn: ZERO }, start: Matrix::IDENTITY };
+    pub(crate) const WORLD: Link = Link {
+        parent: 0,
+        centre: ZERO,
+        motion: Motion { arm: ZERO, travel: ZERO, turn: ZERO },
+        start: Matrix::IDENTITY,
+        turned: ZERO,
+    };
 
     /// Reads the link after those that are given, of which the first one is the world.
     pub(crate) fn read(reader: &mut Reader<'_>, units: [i64; 2], links: &[Link]) -> Result<Link, Stop> {
@@ -56,8 +62,7 @@ impl Link {
             let [start, rate] =
                 [reader.number(unit, bits)?, reader.number(unit - units[1], bits)?].map(|x| axis.times(x, FRACTION));
             if kind == 1 {
-                link.start = rotation::exp(start).times(link.start);
-                motion.turn = rate;
+                (link.turned, motion.turn) = (start, rate);
             } else {
                 (motion.arm, motion.travel) = (start, rate);
             }
@@ -79,11 +84,12 @@ impl Placed {
     /// Returns all links in the middle of a stretch of time. The first one is the world.
     pub(crate) fn all(links: &[Link], middle: Number, half: Number) -> Vec<Placed> {
         let mut all: Vec<Placed> = Vec::new();
-        for &Link { parent, motion, start, .. } in links {
+        for &Link { parent, motion, start, turned, .. } in links {
             let on = all.get(parent).map_or(Matrix::IDENTITY, |on| on.rotation);
             // What does not turn at all is seen to rest by `Way`.
             let turns = motion.turn != ZERO;
-            let turned = if turns { rotation::exp(motion.turn.times(middle, TIME)).times(start) } else { start };
+            let turned = if turns { turned + motion.turn.times(middle, TIME) } else { turned };
+            let turned = if turned == ZERO { start } else { rotation::exp(turned).times(start) };
             let in_half = |v: Vector| on.apply(v.times(half, TIME));
             all.push(Placed {
                 parent,

@@ -26,8 +26,8 @@ pub(crate) fn product(a: i64, b: i64) -> i128 {
     i128::from(a) * i128::from(b)
 }
 
-pub(crate) fn dot(a: Point, b: Point) -> i128 {
-    product(a[0], b[0]) + product(a[1], b[1]) + product(a[2], b[2])
+pub(crate) fn dot<const N: usize>(a: [i64; N], b: [i64; N]) -> i128 {
+    (0..N).map(|k| product(a[k], b[k])).sum()
 }
 
 /// Returns a number if it is known, and what is not if not.

@@ -14,20 +14,19 @@ pub(crate) struct Statement<'b> {
     /// The world and all links.
     pub(crate) links: Vec<Link>,
     pub(crate) bodies: Vec<Carried<'b>>,
-    /// Both bodies of each pair, and the distance that their meshes have to exceed: the margin and both radii.
-    pub(crate) pairs: Vec<([usize; 2], i128)>,
+    /// Both bodies of each pair, and the margin.
+    pub(crate) pairs: Vec<([usize; 2], i64)>,
     /// The pairs stay apart until then.
     pub(crate) until: i64,
 }
 
-/// A mesh on a link, with all that is within a radius of it.
+/// A mesh on a link.
 pub(crate) struct Carried<'b> {
     pub(crate) mesh: &'b Body,
     /// The number of the link; 0 is the world.
     pub(crate) link: usize,
     /// The point about which the link turns, off by less than 2.
     pub(crate) centre: Point,
-    radius: i64,
 }
 
 impl<'b> Statement<'b> {
@@ -48,9 +47,7 @@ impl<'b> Statement<'b> {
         for _ in 0..pairs? {
             let count = statement.bodies.len();
             let bodies = [reader.index(count)?, reader.index(count)?];
-            let radii = bodies.map(|body| i128::from(statement.bodies[body].radius));
-            let least = i128::from(reader.size(units[0], 50)?) + radii[0] + radii[1];
-            statement.pairs.push((bodies, least));
+            statement.pairs.push((bodies, reader.size(units[0], 50)?));
         }
         let mut exact = reader.clone();
         statement.until = reader.size(units[1] - i64::from(TIME), TIME)?;
@@ -69,13 +66,13 @@ impl<'b> Statement<'b> {
         let is_in_unit = i64::from(mesh.unit) == unit;
         reader.require(is_in_unit, "a mesh was read in another unit")?;
         let link = reader.index(self.links.len())?;
-        Ok(Carried { mesh, link, centre: self.links[link].centre.mid, radius: reader.size(unit, 50)? })
+        Ok(Carried { mesh, link, centre: self.links[link].centre.mid })
     }
 
     /// Reads the claim that two points of a pair are near each other at a time, and checks it. The end of the time is given by its
     /// bits: numbers that are not negative have the order of their bits, but for the sign of 0.
     fn check_witness(&self, reader: &mut Reader<'_>, units: [i64; 2], until: u64) -> Result<(), Stop> {
-        let (bodies, least) = self.pairs[reader.index(self.pairs.len())?];
+        let (bodies, margin) = self.pairs[reader.index(self.pairs.len())?];
         let is_in_time = reader.clone().unsigned(8)? << 1 <= until << 1;
         let time = reader.number(units[1] - i64::from(TIME), TIME)?;
         reader.require(is_in_time && time.mid[0] >= 0, "the time of the witness is not from 0 to T")?;
@@ -88,16 +85,15 @@ impl<'b> Statement<'b> {
             let rest = (1u64 << WEIGHT_BITS).checked_sub(a).and_then(|rest| rest.checked_sub(b));
             let rest = rest.ok_or(reader.broken("the weights of a witness are more than 1"))?;
             let weights = [a, b, rest].map(|weight| weight as i64);
+            let [x, y, z, radius] = [0, 1, 2, 3].map(|k| (dot(weights, corners.map(|corner| corner[k])) >> WEIGHT_BITS) as i64);
             // Off by less than 2 with the corners, and by as much with what the shift drops.
-            let point = Vector {
-                mid: [0, 1, 2].map(|axis| (dot(weights, corners.map(|corner| corner[axis])) >> WEIGHT_BITS) as i64),
-                rad: 4,
-            };
+            let point = Vector { mid: [x, y, z], rad: 4 };
             let place = Way::new(&placed, 0, body.link).arm;
-            Ok(place + placed[body.link].rotation.apply(point - self.links[body.link].centre))
+            Ok((place + placed[body.link].rotation.apply(point - self.links[body.link].centre), radius))
         });
+        let ((a, radius_a), (b, radius_b)) = (a?, b?);
         // Margin, radii and tolerance are rounded up: by at most 1 each.
-        let is_near = (b? - a?).length() + 4 <= least + i128::from(tolerance);
+        let is_near = (b - a).length() + 4 <= i128::from(margin + radius_a + radius_b + tolerance);
         reader.require(is_near, "the witnesses are too far from each other")
     }
 }

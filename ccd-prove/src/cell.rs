@@ -3,19 +3,24 @@
 use crate::body::Body;
 use crate::error::{NoMesh, PathNotProven};
 use crate::placed::moving;
+use crate::resting::{Resting, resting_bodies};
 use crate::scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
 use crate::write::{Proof, mesh_points, prove};
 use ccd_core::{Motion, Pose};
 use rigid_ccd::Settings;
 use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::{Cell, Item, PathContact, PathOutcome, RobotError};
+use std::collections::HashMap;
 
 /// A cell whose bodies are prepared for proofs.
+///
+/// Bodies that rest against each other, such as all obstacles, are one body of a proof if they are compared with the same others.
+/// Its mesh has the corners of all of them in the frame of the link that carries them, rounded to binary64, each with a ball around
+/// it that is larger by what the corner may be off. So a proof about it is one about each of them.
 #[derive(Debug)]
 pub struct ProvenCell<'c> {
     cell: &'c Cell,
-    /// For each body of the cell its mesh, and the radius around it.
-    bodies: Vec<(Body, f64)>,
+    bodies: Vec<Resting>,
 }
 
 impl<'c> ProvenCell<'c> {
@@ -24,20 +29,13 @@ impl<'c> ProvenCell<'c> {
     /// # Errors
     /// [`NoMesh`], with the name of an obstacle, a held body or a link.
     pub fn new(cell: &'c Cell) -> Result<Self, NoMesh> {
-        let bodies = cell.carried_bodies();
-        let bodies = bodies.map(|carried| {
-            let name = carried.item.name();
-            Body::of(carried.body).ok_or_else(|| NoMesh { body: name.into() })
-        });
-        Ok(ProvenCell {
-            cell,
-            bodies: bodies.collect::<Result<_, _>>()?,
-        })
+        let bodies = resting_bodies(cell)?;
+        Ok(ProvenCell { cell, bodies })
     }
 
     /// Returns the meshes of the cell's bodies.
     pub fn meshes(&self) -> impl Iterator<Item = &Body> {
-        self.bodies.iter().map(|(body, _)| body)
+        self.bodies.iter().map(|resting| &resting.body)
     }
 
     /// Returns the scene of an edge, whose joints move from one configuration to another at constant rates from time 0 to 1.
@@ -59,27 +57,38 @@ impl<'c> ProvenCell<'c> {
             });
             numbers[link] = scene.links.len();
         }
-        for (carried, (body, radius)) in self.cell.carried_bodies().zip(&self.bodies) {
-            let mut link = numbers[carried.link];
-            if carried.pose != Pose::IDENTITY {
-                let joint = fixed(carried.pose);
+        for Resting {
+            link, pose, body, ..
+        } in &self.bodies
+        {
+            let mut link = numbers[*link];
+            if *pose != Pose::IDENTITY {
+                let joint = fixed(*pose);
                 scene.links.push(Link {
                     parent: link,
                     joint,
                 });
                 link = scene.links.len();
             }
-            scene.bodies.push(Carried {
-                body,
-                link,
-                radius: *radius,
-            });
+            scene.bodies.push(Carried { body, link });
         }
-        let pairs = self.cell.compared_pairs(margin);
-        scene.pairs = pairs
-            .map(|(bodies, margin)| Pair { bodies, margin })
-            .collect();
+        scene.pairs = self.pairs(margin);
         Ok(scene)
+    }
+
+    /// Returns the pairs of bodies that are compared: those of the first ones of what rests stand for all.
+    fn pairs(&self, margin: f64) -> Vec<Pair> {
+        let firsts = self.bodies.iter().enumerate();
+        let firsts: HashMap<usize, usize> = firsts
+            .map(|(number, resting)| (resting.members[0], number))
+            .collect();
+        let pairs = self.cell.compared_pairs(margin);
+        let number = |body| firsts.get(&body).copied();
+        let of_firsts = pairs.filter_map(|([a, b], margin)| {
+            let bodies = [number(a)?, number(b)?];
+            Some(Pair { bodies, margin })
+        });
+        of_firsts.collect()
     }
 
     /// Proves what is known of a path: for each segment that all pairs of the cell are farther apart than the margin, up to the
@@ -128,14 +137,20 @@ impl<'c> ProvenCell<'c> {
         tolerance: f64,
     ) -> Option<Witness> {
         let items: Vec<Item<'_>> = self.cell.carried_bodies().map(|body| body.item).collect();
+        let has = |body: usize, item: Item<'_>| {
+            let mut members = self.bodies[body].members.iter();
+            members.any(|&member| items[member] == item)
+        };
         let links = moving(&scene.links);
-        let [a, b] = contact.witnesses?;
+        let ([a, b], [x, y]) = (contact.witnesses?, contact.items);
         let all = scene.pairs.iter().enumerate();
-        let candidates = all.filter_map(|(pair, Pair { bodies, .. })| {
-            let points = match bodies.map(|body| items[body]) {
-                of_pair if of_pair == contact.items => [a, b],
-                [y, x] if [x, y] == contact.items => [b, a],
-                _ => return None,
+        let candidates = all.filter_map(|(pair, Pair { bodies: [k, l], .. })| {
+            let points = if has(*k, x) && has(*l, y) {
+                [a, b]
+            } else if has(*k, y) && has(*l, x) {
+                [b, a]
+            } else {
+                return None;
             };
             let witness = Witness {
                 pair,

@@ -1,17 +1,15 @@
-//! Splits what is to be proven until an axis proves it.
+//! Splits what is to be proven until a plane proves it.
 
 use crate::body::{Part, halves};
 use crate::error::NotProven;
 use crate::placed::{Moving, Placed, placed as placed_links};
+use crate::plane::Gap;
 use crate::scene::Scene;
 use crate::stretch::Stretch;
 use ccd_core::glam::DVec3;
 use ccd_distance_gjk::{TerminationBounds, Vertex, bound_distance};
 use std::collections::HashMap;
 use std::rc::Rc;
-
-/// Axes are multiples of 2⁻¹⁴, or fine ones of 2⁻⁵⁰.
-const AXIS_UNITS: [f64; 2] = [16_384.0, (1u64 << 50) as f64];
 
 /// The largest number of bytes of a proof.
 const MAX_BYTES: usize = 1 << 26;
@@ -20,7 +18,7 @@ const MAX_BYTES: usize = 1 << 26;
 const MAX_DEPTH: u32 = 200;
 
 /// The number of splits that are looked ahead to choose the next one.
-const LOOKAHEAD: u32 = 2;
+const LOOKAHEAD: u32 = 1;
 
 /// The shortest stretch that is split, as a share of the whole: the checker has times in 2⁻⁶⁰.
 const SHORTEST: f64 = 1e-15;
@@ -35,7 +33,9 @@ const EXPECTED: u32 = 6;
 pub(crate) struct Cover<'a> {
     scene: (&'a Scene<'a>, &'a [Moving]),
     until: f64,
-    /// The pair, and what its parts have to keep: the margin, radii, and an allowance for the rounding here.
+    /// The unit of length.
+    unit: f64,
+    /// The pair, and what its parts have to keep: the margin, and an allowance for the rounding here.
     pair: usize,
     least: f64,
     stretches: HashMap<[u64; 2], Rc<Stretch<'a>>>,
@@ -54,12 +54,6 @@ struct Task<'a> {
     depth: u32,
 }
 
-/// A leaf: an axis in multiples of its unit, and the byte that says which unit and what it turns with.
-struct Leaf {
-    step: u8,
-    axis: DVec3,
-}
-
 /// What a task is split into.
 struct Split<'a> {
     step: u8,
@@ -67,10 +61,11 @@ struct Split<'a> {
 }
 
 impl<'a> Cover<'a> {
-    pub(crate) fn new(scene: &'a Scene<'a>, links: &'a [Moving], until: f64) -> Self {
+    pub(crate) fn new(scene: (&'a Scene<'a>, &'a [Moving]), until: f64, unit: f64) -> Self {
         Cover {
-            scene: (scene, links),
+            scene,
             until,
+            unit,
             pair: 0,
             least: 0.0,
             stretches: HashMap::new(),
@@ -113,8 +108,12 @@ impl<'a> Cover<'a> {
             let bytes = self.steps.len();
             return Err(NotProven::TooLong { at, bytes });
         }
-        if let Some(leaf) = self.leaf(&mut task) {
-            self.write_leaf(&leaf);
+        if self.is_proven(&mut task) {
+            let (axis, _) = axis_in_the_middle(&task);
+            let plane = self.gap(&task).cheapest_plane([task.axis, axis]);
+            let plane = plane.ok_or(NotProven::Touching { at })?;
+            plane.write(&mut self.steps);
+            self.leaves += 1;
             return Ok(());
         }
         let mut best: Option<(u32, Split<'a>)> = None;
@@ -140,7 +139,7 @@ impl<'a> Cover<'a> {
         let mut cost = 0;
         for task in &split.tasks {
             let mut task = task.clone();
-            cost += if self.leaf(&mut task).is_some() {
+            cost += if self.is_proven(&mut task) {
                 1
             } else if lookahead == 1 {
                 EXPECTED
@@ -192,52 +191,25 @@ impl<'a> Cover<'a> {
         })
     }
 
-    /// Returns a leaf that proves a task, if there is one; if not, the task gets the axis that keeps its parts apart best.
-    fn leaf(&self, task: &mut Task<'a>) -> Option<Leaf> {
-        let leaf = self.leaf_along(task, task.axis);
-        if leaf.is_some() {
-            return leaf;
+    fn gap<'t>(&self, task: &'t Task<'a>) -> Gap<'t> {
+        Gap {
+            parts: task.parts,
+            stretch: &task.stretch,
+            least: self.least,
+            unit: self.unit,
+        }
+    }
+
+    /// Returns whether a plane across its axis proves a task, or one across the axis along which its parts are farthest apart in
+    /// the middle; that is its axis then.
+    fn is_proven(&self, task: &mut Task<'a>) -> bool {
+        if self.gap(task).plane(task.axis).is_some() {
+            return true;
         }
         let (axis, distance) = axis_in_the_middle(task);
-        if distance > self.least && axis != task.axis {
-            let leaf = self.leaf_along(task, axis);
-            if leaf.is_some() {
-                return leaf;
-            }
-        }
+        let is_new = axis != task.axis;
         task.axis = axis;
-        None
-    }
-
-    fn leaf_along(&self, task: &Task<'a>, axis: DVec3) -> Option<Leaf> {
-        let unit_axis = axis.normalize_or_zero();
-        for (fine, unit) in AXIS_UNITS.into_iter().enumerate() {
-            // Rounded towards zero it is no longer than 1, although the length of the unit axis is rounded.
-            let axis = (unit_axis * (unit - 2.0)).trunc();
-            for frame in 0..3 {
-                if frame > 0 && !task.stretch.turns(frame - 1) {
-                    continue;
-                }
-                let seen = (axis / unit, frame);
-                if task.stretch.keeps_apart(task.parts, seen, self.least) {
-                    let step = (3 + 3 * fine + frame) as u8;
-                    return Some(Leaf { step, axis });
-                }
-            }
-        }
-        None
-    }
-
-    fn write_leaf(&mut self, leaf: &Leaf) {
-        self.steps.push(leaf.step);
-        for x in leaf.axis.to_array() {
-            if leaf.step < 6 {
-                self.steps.extend((x as i16).to_le_bytes());
-            } else {
-                self.steps.extend(&(x as i64).to_le_bytes()[..7]);
-            }
-        }
-        self.leaves += 1;
+        is_new && distance > self.least && self.gap(task).plane(axis).is_some()
     }
 }
 

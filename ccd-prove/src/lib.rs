@@ -7,6 +7,8 @@ mod error;
 mod nearest;
 mod pair;
 mod placed;
+mod plane;
+mod resting;
 mod scene;
 mod statement;
 mod stretch;

@@ -1,27 +1,29 @@
 //! The point of a mesh that is nearest to a point.
 
 use crate::body::Body;
-use ccd_core::glam::DVec3;
-use ccd_core::order::lesser;
+use ccd_core::glam::{DVec3, DVec4};
+use ccd_core::order::{greater, lesser};
 
 /// A point of a mesh: a triangle by its place in the order of the tree, and the weights of its corners.
 pub(crate) struct MeshPoint {
     pub(crate) place: usize,
     pub(crate) weights: [f64; 3],
+    /// The distance from the rounded triangle.
     pub(crate) distance: f64,
 }
 
 impl MeshPoint {
-    /// Returns the point of a mesh that is nearest to a point of its frame.
+    /// Returns the point of a mesh that is nearest to a point of its frame: of the nearest points of all triangles, as if they were
+    /// flat, the one whose ball is nearest.
     pub(crate) fn nearest(body: &Body, point: DVec3) -> MeshPoint {
         let triangles = body.triangles.iter().enumerate();
         let points = triangles.map(|(place, triangle)| {
-            let weights = nearest_weights(*triangle, point);
-            let on_mesh = (0..3).map(|k| triangle[k] * weights[k]).sum::<DVec3>();
+            let weights = nearest_weights(triangle.map(DVec4::truncate), point);
+            let ball = (0..3).map(|k| triangle[k] * weights[k]).sum::<DVec4>();
             MeshPoint {
                 place,
                 weights,
-                distance: on_mesh.distance(point),
+                distance: greater(ball.truncate().distance(point) - ball.w, 0.0),
             }
         });
         let nearest = points.min_by(|a, b| a.distance.total_cmp(&b.distance));

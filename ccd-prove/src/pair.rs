@@ -9,8 +9,7 @@ use ccd_core::{Answer, Motion, Outcome};
 /// Two bodies that are prepared for proofs.
 #[derive(Clone, Debug)]
 pub struct ProvenPair {
-    /// For each body its mesh, and the radius around it.
-    bodies: [(Body, f64); 2],
+    bodies: [Body; 2],
 }
 
 impl ProvenPair {
@@ -26,7 +25,7 @@ impl ProvenPair {
 
     /// Returns the meshes of the bodies.
     pub fn meshes(&self) -> [&Body; 2] {
-        self.bodies.each_ref().map(|(body, _)| body)
+        self.bodies.each_ref()
     }
 
     /// Proves what an answer to a question about the first contact says: that the bodies are farther apart than the margin until
@@ -68,11 +67,8 @@ impl ProvenPair {
             }
             _ => return None,
         };
-        let [(a, radius_a), (b, radius_b)] = &self.bodies;
-        let mut scene = Scene::of_two((a, motions[0]), (b, motions[1]), margin);
-        for (body, radius) in scene.bodies.iter_mut().zip([radius_a, radius_b]) {
-            body.radius = *radius;
-        }
+        let [a, b] = &self.bodies;
+        let scene = Scene::of_two((a, motions[0]), (b, motions[1]), margin);
         Some(prove(&scene, until, witness))
     }
 }

@@ -20,7 +20,7 @@ pub struct Scene<'a> {
 pub struct Pair {
     /// The numbers of both bodies.
     pub bodies: [usize; 2],
-    /// The margin, to which the radii of both are added.
+    /// The margin.
     pub margin: f64,
 }
 
@@ -62,15 +62,13 @@ pub enum AxisKind {
     Slides,
 }
 
-/// A mesh on a link, with all that is within a radius of it.
+/// A mesh on a link.
 #[derive(Clone, Copy, Debug)]
 pub struct Carried<'a> {
     /// The mesh.
     pub body: &'a Body,
     /// The number of the link, counted from 1; 0 is the world.
     pub link: usize,
-    /// The radius.
-    pub radius: f64,
 }
 
 /// Two points of a pair that are near each other at a time.
@@ -80,7 +78,7 @@ pub struct Witness {
     pub pair: usize,
     /// The time.
     pub time: f64,
-    /// What the points may be farther apart than the margin and both radii.
+    /// What the points may be farther apart than the margin.
     pub tolerance: f64,
     /// A point of each body, in the world.
     pub points: [DVec3; 2],
@@ -110,11 +108,7 @@ impl<'a> Scene<'a> {
             parent: 0,
             joint: Joint::Free(motion),
         };
-        let carried = |body, link| Carried {
-            body,
-            link,
-            radius: 0.0,
-        };
+        let carried = |body, link| Carried { body, link };
         Scene {
             links: vec![link(a.1), link(b.1)],
             bodies: vec![carried(a.0, 1), carried(b.0, 2)],

@@ -9,8 +9,8 @@ pub struct Statement {
     pub units: [i32; 2],
     /// The links: the number of the parent, counted from 1, the kind, and the numbers.
     pub links: Vec<(u32, u8, Vec<f64>)>,
-    /// The bodies: the digest of the mesh, the number of the link, the radius.
-    pub bodies: Vec<([u8; 32], u32, f64)>,
+    /// The bodies: the digest of the mesh, the number of the link.
+    pub bodies: Vec<([u8; 32], u32)>,
     /// The pairs: both bodies, and the margin.
     pub pairs: Vec<([u32; 2], f64)>,
     /// The time until which the pairs are farther apart.
@@ -53,8 +53,7 @@ impl Statement {
             ))
         });
         let links = links.collect::<Option<_>>()?;
-        let bodies =
-            (0..bodies).map(|_| Some((at.take(32)?.try_into().ok()?, at.u32()?, at.f64()?)));
+        let bodies = (0..bodies).map(|_| Some((at.take(32)?.try_into().ok()?, at.u32()?)));
         let bodies = bodies.collect::<Option<_>>()?;
         let pairs = (0..pairs).map(|_| Some(([at.u32()?, at.u32()?], at.f64()?)));
         let pairs = pairs.collect::<Option<_>>()?;
@@ -117,9 +116,9 @@ impl Display for Statement {
             let kind = names.get(usize::from(*kind)).unwrap_or(&"of no kind");
             writeln!(f, "link {} on {parent} {kind} {numbers:?}", number + 1)?;
         }
-        for (number, (digest, link, radius)) in self.bodies.iter().enumerate() {
+        for (number, (digest, link)) in self.bodies.iter().enumerate() {
             let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
-            writeln!(f, "body {number} {digest} on {link} radius {radius:?}")?;
+            writeln!(f, "body {number} {digest} on {link}")?;
         }
         for (number, ([a, b], margin)) in self.pairs.iter().enumerate() {
             writeln!(f, "pair {number} of {a} and {b} margin {margin:?}")?;
@@ -153,8 +152,8 @@ pub fn steps_text(certificate: &[u8], statement: &Statement) -> String {
             2 => at
                 .take(2)
                 .map(|k| format!("split time {}", u16::from_le_bytes([k[0], k[1]]))),
-            3..=5 => axis(&mut at, 2).map(|axis| format!("leaf {frame} {axis:?}")),
-            6..=8 => axis(&mut at, 7).map(|axis| format!("fine leaf {frame} {axis:?}")),
+            3..=5 => plane(&mut at, [2, 4]).map(|plane| format!("leaf {frame} {plane}")),
+            6..=8 => plane(&mut at, [7, 7]).map(|plane| format!("fine leaf {frame} {plane}")),
             _ => None,
         };
         match line {
@@ -165,20 +164,19 @@ pub fn steps_text(certificate: &[u8], statement: &Statement) -> String {
     text
 }
 
-/// Reads three numbers of so many bytes in two's complement.
-fn axis(at: &mut Cursor<'_>, bytes: usize) -> Option<Vec<i64>> {
-    let number = |bytes: &[u8]| {
-        let negative = bytes.last().is_some_and(|byte| byte & 0x80 != 0);
-        let first = if negative { -1 } else { 0 };
-        let bytes = bytes.iter().rev();
-        bytes.fold(first, |number, &byte| number << 8 | i64::from(byte))
-    };
-    Some(
-        at.take(3 * bytes)?
-            .chunks_exact(bytes)
-            .map(number)
-            .collect(),
-    )
+/// Reads the normal of a plane and its offset, of numbers of so many bytes.
+fn plane(at: &mut Cursor<'_>, [of_normal, of_offset]: [usize; 2]) -> Option<String> {
+    let mut number = |count| Some(signed(at.take(count)?));
+    let normal = [number(of_normal)?, number(of_normal)?, number(of_normal)?];
+    Some(format!("{normal:?} {}", number(of_offset)?))
+}
+
+/// Returns a number in two's complement.
+fn signed(bytes: &[u8]) -> i64 {
+    let negative = bytes.last().is_some_and(|byte| byte & 0x80 != 0);
+    let first = if negative { -1 } else { 0 };
+    let bytes = bytes.iter().rev();
+    bytes.fold(first, |number, &byte| number << 8 | i64::from(byte))
 }
 
 /// What is not read yet.

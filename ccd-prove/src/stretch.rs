@@ -1,10 +1,11 @@
-//! The lemma of the checker in floating point: whether an axis keeps two parts apart over a stretch of time.
+//! The lemma of the checker in floating point: how far from a plane parts stay over a stretch of time.
 
 use crate::body::{Body, Part};
 use crate::placed::{Moving, Placed};
 use crate::scene::Scene;
 use crate::way::Way;
 use ccd_core::glam::DVec3;
+use ccd_core::order::lesser;
 
 /// A pair over a stretch of time, and the ways to A and to B from the world, from A, and from B.
 pub(crate) struct Stretch<'a> {
@@ -37,37 +38,70 @@ impl<'a> Stretch<'a> {
         }
     }
 
-    /// Returns whether an axis keeps two parts farther apart than `least` over the stretch. The axis turns with the world, A or B.
-    pub(crate) fn keeps_apart(
+    /// Returns the least and the greatest offset of a plane that keeps parts farther apart than `least` over the stretch. The plane
+    /// turns with the world, A or B; its offset is from the centre of that.
+    pub(crate) fn room(
         &self,
         parts: [Part; 2],
-        (axis, frame): (DVec3, usize),
+        (normal, frame): (DVec3, usize),
         least: f64,
-    ) -> bool {
-        let ways @ [a, b] = &self.ways[frame];
-        if !(a.is_short() && b.is_short()) {
-            return false;
+    ) -> [f64; 2] {
+        let [below, above] = [-1.0, 1.0].map(|side| {
+            let k = usize::from(side > 0.0);
+            let ends = self.ends((k, parts[k]), (side * normal, frame), 0.5 * least);
+            let rooms = ends
+                .map(|(direction, lost)| self.bodies[k].least_height(parts[k], direction) - lost);
+            rooms.fold(f64::INFINITY, lesser)
+        });
+        [-below, above]
+    }
+
+    /// Returns how often the checker looks at a box or a triangle to see that a plane at an offset keeps parts apart.
+    pub(crate) fn looks(
+        &self,
+        parts: [Part; 2],
+        (normal, frame): (DVec3, usize),
+        least: f64,
+        offset: f64,
+    ) -> usize {
+        let sides = [-1.0, 1.0].into_iter().zip(0..2);
+        sides
+            .flat_map(|(side, k)| {
+                let ends = self.ends((k, parts[k]), (side * normal, frame), 0.5 * least);
+                ends.map(move |(direction, lost)| {
+                    self.bodies[k].looks(parts[k], direction, side * offset + lost)
+                })
+            })
+            .sum()
+    }
+
+    /// Returns for the ends of the stretch a direction, and how much higher along it than the offset of a plane a part has to be to
+    /// stay farther than `least` from the plane, on the side to which its normal points.
+    fn ends(
+        &self,
+        (k, part): (usize, Part),
+        (normal, frame): (DVec3, usize),
+        least: f64,
+    ) -> impl Iterator<Item = (DVec3, f64)> {
+        let (way, placed) = (&self.ways[frame][k], &self.placed[k]);
+        let mut bend = if way.is_short() {
+            way.bend
+        } else {
+            f64::INFINITY
+        };
+        if way.turn != DVec3::ZERO {
+            bend += way.factor() * self.bodies[k].reach(part, self.centres[k]);
         }
-        let mut bend = a.bend + b.bend;
-        for k in 0..2 {
-            if ways[k].turn != DVec3::ZERO {
-                bend += ways[k].factor() * self.bodies[k].reach(parts[k], self.centres[k]);
-            }
-        }
+        let seen_from = [DVec3::ZERO, self.placed[0].centre, self.placed[1].centre][frame];
         // The checker rounds lengths up to 30 bits.
-        let least = least + 0.5 * bend * (1.0 + 1e-8);
-        let (middle, change) = (axis.dot(self.offset), axis.dot(b.change - a.change));
-        [-1.0, 1.0].into_iter().all(|end| {
-            let [of_a, of_b] = [(0, -axis), (1, axis)].map(|(k, facing)| {
-                self.placed[k].rotation.transpose() * (facing + end * facing.cross(ways[k].turn))
-            });
-            let centres = of_a.dot(self.centres[0]) + of_b.dot(self.centres[1]);
-            let needed = least - middle - end * change + centres;
-            let ([a, b], [part_a, part_b]) = (self.bodies, parts);
-            // A is looked at no more closely than needed where the box of B is, and B where A has been found.
-            let limit = needed - b.lower_bound(part_b, of_b);
-            let height = a.least_height(part_a, of_a, limit);
-            height >= limit || b.least_height(part_b, of_b, needed - height) >= needed - height
+        let lost = least + 0.5 * bend * (1.0 + 1e-8) - normal.dot(placed.centre - seen_from);
+        let rests = way.turn == DVec3::ZERO && way.change == DVec3::ZERO;
+        let ends: &[f64] = if rests { &[0.0] } else { &[-1.0, 1.0] };
+        ends.iter().map(move |&end| {
+            let turned = normal + end * normal.cross(way.turn);
+            let direction = placed.rotation.transpose() * turned;
+            let lost = lost + direction.dot(self.centres[k]) - end * normal.dot(way.change);
+            (direction, lost)
         })
     }
 

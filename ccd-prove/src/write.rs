@@ -28,7 +28,7 @@ const WEIGHT_UNIT: f64 = (1u64 << 62) as f64;
 /// The number of bits of the largest length in the unit of a certificate.
 const LENGTH_BITS: i32 = 49;
 
-/// Writes a certificate: each pair of a scene is farther apart than its margin and both radii from time 0 to `until`, and the
+/// Writes a certificate: each pair of a scene is farther apart than its margin from time 0 to `until`, and the
 /// witness, if there is one, comes as near as it says.
 ///
 /// A first contact is proven until its time, with a witness at it. A least clearance is proven for the whole duration, with the
@@ -54,7 +54,6 @@ pub fn prove(scene: &Scene<'_>, until: f64, witness: Option<Witness>) -> Result<
     for carried in &scene.bodies {
         bytes.extend(carried.body.digest);
         bytes.extend((carried.link as u32).to_le_bytes());
-        bytes.extend(carried.radius.to_le_bytes());
     }
     for pair in &scene.pairs {
         bytes.extend(pair.bodies.map(|body| (body as u32).to_le_bytes()).concat());
@@ -65,10 +64,9 @@ pub fn prove(scene: &Scene<'_>, until: f64, witness: Option<Witness>) -> Result<
     if let Some(witness) = witness {
         write_witness(&mut bytes, scene, &links, witness);
     }
-    let mut cover = Cover::new(scene, &links, until);
+    let mut cover = Cover::new((scene, &links), until, 2f64.powi(unit));
     for (number, pair) in scene.pairs.iter().enumerate() {
-        let radii = pair.bodies.map(|body| scene.bodies[body].radius);
-        cover.write(number, pair.margin + radii[0] + radii[1] + ROUNDING * size)?;
+        cover.write(number, pair.margin + ROUNDING * size)?;
     }
     bytes.extend(&cover.steps);
     Ok(Proof {
@@ -101,7 +99,7 @@ fn largest_length(scene: &Scene<'_>, links: &[Moving], time_unit: i32) -> f64 {
     }
     for carried in &scene.bodies {
         let reach = carried.body.reach(carried.body.whole(), DVec3::ZERO);
-        most = greater(most, carried.radius + reach);
+        most = greater(most, carried.body.largest_radius() + reach);
     }
     most
 }

@@ -11,11 +11,12 @@ use rigid_ccd::{Outcome, Settings, Solver};
 use std::f64::consts::TAU;
 
 /// Where the number of witnesses stands in the file of a query of two free bodies, and where its steps begin if it has none.
-const WITNESSES_AT: usize = 28 + 2 * 133 + 2 * 44 + 16 + 8;
+const WITNESSES_AT: usize = 28 + 2 * 133 + 2 * 36 + 16 + 8;
 const FREE_STEPS_AT: usize = WITNESSES_AT + 1;
 
-/// The bytes of a witness.
+/// The bytes of a witness, and of a leaf.
 const WITNESS: usize = 60;
+const LEAF: usize = 11;
 
 /// A torus of triangles about z, a mesh that is not convex.
 fn torus(count: usize, radius: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
@@ -31,6 +32,15 @@ fn torus(count: usize, radius: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
         }
     }
     (vertices, faces)
+}
+
+/// A mesh with balls around its vertices.
+fn rounded((vertices, faces): &(Vec<[f64; 3]>, Vec<[u32; 3]>), radius: f64) -> Body {
+    let vertices: Vec<[f64; 4]> = vertices
+        .iter()
+        .map(|&[x, y, z]| [x, y, z, radius])
+        .collect();
+    Body::rounded(&vertices, faces)
 }
 
 /// A generator of numbers from -1 to 1.
@@ -63,10 +73,10 @@ impl Random {
     }
 }
 
-/// Two meshes, as the engine and as proofs take them.
+/// Two meshes, as the engine and as proofs take them; these have the second one with rounded triangles, too.
 struct Meshes {
     engine: [rigid_ccd::Body; 2],
-    proofs: [Body; 2],
+    proofs: [Body; 3],
 }
 
 impl Meshes {
@@ -78,7 +88,11 @@ impl Meshes {
         };
         Meshes {
             engine: [engine(&meshes[0]), engine(&meshes[1])],
-            proofs: meshes.map(|(vertices, faces)| Body::new(&vertices, &faces)),
+            proofs: [
+                Body::new(&meshes[0].0, &meshes[0].1),
+                Body::new(&meshes[1].0, &meshes[1].1),
+                rounded(&meshes[1], 0.02),
+            ],
         }
     }
 
@@ -100,16 +114,15 @@ impl Meshes {
             }
             _ => return None,
         };
-        let [a, b] = &self.proofs;
+        let [a, b, _] = &self.proofs;
         let scene = Scene::of_two((a, motions[0]), (b, motions[1]), 0.0);
         Some(prove(&scene, until, witness).unwrap())
     }
 
-    fn bodies(&self, unit: i32) -> [ccd_check::Body; 2] {
-        let [a, b] = &self.proofs;
+    fn bodies(&self, unit: i32) -> [ccd_check::Body; 3] {
         let read =
             |body: &Body| ccd_check::Body::new(body.mesh(), body.certificate(), unit).unwrap();
-        [read(a), read(b)]
+        self.proofs.each_ref().map(read)
     }
 
     fn check(&self, proof: &Proof) -> Result<(), Stop> {
@@ -218,12 +231,11 @@ fn arms(meshes: &Meshes) -> Scene<'_> {
         joint(1, AxisKind::Turns, -2.0, DVec3::Y, [0.1, -0.9]),
         joint(4, AxisKind::Slides, -0.5, DVec3::X, [-0.1, -0.3]),
     ];
-    let carried = |k: usize, link, radius| Carried {
+    let carried = |k: usize, link| Carried {
         body: &meshes.proofs[k],
         link,
-        radius,
     };
-    let bodies = vec![carried(0, 3, 0.02), carried(1, 5, 0.0), carried(1, 0, 0.01)];
+    let bodies = vec![carried(0, 3), carried(2, 5), carried(2, 0)];
     Scene {
         links,
         bodies,
@@ -265,7 +277,8 @@ fn arms_and_a_body_at_rest_are_proven_apart_unless_its_radius_reaches_them() {
     let mut scene = arms(&meshes);
     let whole = prove(&scene, 1.0, None).unwrap();
     assert_eq!(meshes.check(&whole), Ok(()));
-    scene.bodies[2].radius = 3.0;
+    let thick = rounded(&torus(9, 0.25), 3.0);
+    scene.bodies[2].body = &thick;
     let touching = prove(&scene, 1.0, None);
     assert!(
         matches!(touching, Err(NotProven::Touching { .. })),
@@ -284,24 +297,31 @@ fn each_kind_of_forgery_is_seen() {
     // The last leaf is dropped, and one too many is there.
     let end = proof.bytes.len();
     assert_eq!(
-        reason_of(&proof.bytes[..end - 7]),
+        reason_of(&proof.bytes[..end - LEAF]),
         "the file ends too early"
     );
-    let longer = [&proof.bytes[..], &proof.bytes[end - 7..]].concat();
+    let longer = [&proof.bytes[..], &proof.bytes[end - LEAF..]].concat();
     assert_eq!(reason_of(&longer), "the file goes on after its end");
-    // A leaf has an axis of no length, or one that is too long.
-    let bent = |axis: [i16; 3]| {
+    // A leaf has a normal of no length, or one that is too long, or its plane is on the other side of A or of B.
+    let bent = |normal: [i16; 3], offset: Option<i32>| {
         let mut bytes = proof.bytes.clone();
-        let axis = axis.map(i16::to_le_bytes).concat();
-        bytes[end - 6..].copy_from_slice(&axis);
+        let normal = normal.map(i16::to_le_bytes).concat();
+        bytes[end - 10..end - 4].copy_from_slice(&normal);
+        if let Some(offset) = offset {
+            bytes[end - 4..].copy_from_slice(&offset.to_le_bytes());
+        }
         bytes
     };
-    let not_apart = "an axis does not keep its parts apart";
-    assert_eq!(reason_of(&bent([0; 3])), not_apart);
+    let not_apart = "a plane is not between its parts";
+    assert_eq!(reason_of(&bent([0; 3], None)), not_apart);
     assert_eq!(
-        reason_of(&bent([16_000, 16_000, 0])),
-        "an axis is longer than 1"
+        reason_of(&bent([16_000, 16_000, 0], None)),
+        "a normal is longer than 1"
     );
+    let normal = [10, 8, 6].map(|k| i16::from_le_bytes([0, 1].map(|j| proof.bytes[end - k + j])));
+    for offset in [i32::MIN, i32::MAX] {
+        assert_eq!(reason_of(&bent(normal, Some(offset))), not_apart);
+    }
     // A mesh is not given.
     assert_eq!(
         reason(ccd_check::check(&bodies[..1], &proof.bytes)),
@@ -309,7 +329,7 @@ fn each_kind_of_forgery_is_seen() {
     );
     // One leaf stands for everything.
     let mut nothing = proof.bytes[..FREE_STEPS_AT].to_vec();
-    nothing.extend([3, 0, 0, 0, 0, 0, 64]);
+    nothing.extend([3, 0, 0, 0, 0, 0, 64, 0, 0, 0, 0]);
     assert_eq!(reason_of(&nothing), not_apart);
     // The bodies are said to be free for longer than they are, and to touch later.
     for (_, proof) in &contacts {

@@ -165,7 +165,7 @@ fn wanted_digest(
         .with_context(|| format!("{option} {text}"))?;
     let body =
         Body::of(&prepared.body).with_context(|| format!("{option} {text}: has no triangles"))?;
-    Ok(Some(body.0.digest()))
+    Ok(Some(body.digest()))
 }
 
 /// Returns whether a statement is about one pair of bodies with these digests.

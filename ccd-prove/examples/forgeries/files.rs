@@ -63,7 +63,7 @@ impl Files {
             at += count as usize * size;
             (first..at).step_by(size).collect()
         };
-        let bodies = entries(count(20), 44);
+        let bodies = entries(count(20), 36);
         let pairs = entries(count(24), 16);
         let (until, witness) = (at, at + 9);
         let witness = (self.proof[at + 8] == 1).then_some(witness);
@@ -73,8 +73,8 @@ impl Files {
             let size = match self.proof[at] {
                 0..=1 => 1,
                 2 => 3,
-                3..=5 => 7,
-                _ => 22,
+                3..=5 => 11,
+                _ => 29,
             };
             steps.push(at..at + size);
             at += size;

@@ -3,10 +3,13 @@
 use crate::files::{Files, Random};
 use sha2::{Digest, Sha256};
 
+/// The bytes of a vertex.
+const VERTEX: usize = 32;
+
 type Forge = fn(&mut Random, &mut Files, &[Files]);
 
 /// Each kind by its name. A change that cannot be made to a proof leaves it as it is.
-pub(crate) const KINDS: [(&str, Forge); 31] = [
+pub(crate) const KINDS: [(&str, Forge); 32] = [
     ("a unit", |random, files, _| {
         flip(random, &mut files.proof[8..16]);
     }),
@@ -54,9 +57,12 @@ pub(crate) const KINDS: [(&str, Forge); 31] = [
         let at = *pick(random, &files.places().bodies) + 32;
         files.proof[at] = random.below(8) as u8;
     }),
-    ("a radius", |random, files, _| {
-        let at = *pick(random, &files.places().bodies) + 36;
-        bend(random, files, at);
+    ("a radius, with all digests", |random, files, _| {
+        let side = random.below(2);
+        let count = u32::from_le_bytes([0, 1, 2, 3].map(|k| files.meshes[side][k])) as usize;
+        let at = 8 + VERTEX * random.below(count) + 24;
+        bend_at(random, &mut files.meshes[side], at);
+        renew_digests(files, side);
     }),
     ("a pair's bodies", |random, files, _| {
         let at = *pick(random, &files.places().pairs) + 4 * random.below(2);
@@ -107,6 +113,14 @@ pub(crate) const KINDS: [(&str, Forge); 31] = [
         let k = random.below(steps.len().max(2) - 1);
         if let [a, b] = &steps[k..(k + 2).min(steps.len())] {
             files.proof[a.start..b.end].rotate_left(a.len());
+        }
+    }),
+    ("a leaf's plane moved", |random, files, _| {
+        let leaves = steps_of(files, 3..9);
+        if !leaves.is_empty() {
+            let leaf = pick(random, &leaves).clone();
+            let bytes = if files.proof[leaf.start] < 6 { 4 } else { 7 };
+            flip(random, &mut files.proof[leaf.end - bytes..leaf.end]);
         }
     }),
     ("a leaf bent", |random, files, _| {
@@ -170,7 +184,7 @@ pub(crate) const KINDS: [(&str, Forge); 31] = [
         // By one unit in the last place, or by more.
         let side = random.below(2);
         let count = u32::from_le_bytes([0, 1, 2, 3].map(|k| files.meshes[side][k])) as usize;
-        let at = 8 + 8 * random.below(3 * count);
+        let at = 8 + VERTEX * random.below(count) + 8 * random.below(3);
         bend_at(random, &mut files.meshes[side], at);
         renew_digests(files, side);
     }),
@@ -181,8 +195,8 @@ pub(crate) const KINDS: [(&str, Forge); 31] = [
             let mesh = &mut files.meshes[side];
             let count = u32::from_le_bytes([0, 1, 2, 3].map(|k| mesh[k])) as usize;
             if random.below(2) == 0 {
-                let corners = (mesh.len() - 8 - 24 * count) / 4;
-                mesh[8 + 24 * count + 4 * random.below(corners)] = random.below(count) as u8;
+                let corners = (mesh.len() - 8 - VERTEX * count) / 4;
+                mesh[8 + VERTEX * count + 4 * random.below(corners)] = random.below(count) as u8;
             } else {
                 mesh.truncate(mesh.len() - 12);
                 mesh[4] -= 1;

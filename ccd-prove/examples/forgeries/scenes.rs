@@ -81,9 +81,12 @@ fn two(rings: &[Mesh; 2], margin: f64, motions: [Motion; 2]) -> Result<Option<Fi
 
 /// Two arms on one turning column, each with a joint that turns and one that slides, and a body at rest.
 fn arms(rings: &[Mesh; 2], random: &mut Random) -> Result<Files> {
-    let meshes = rings
-        .each_ref()
-        .map(|(vertices, faces)| Body::new(vertices, faces));
+    let [flat, round] = rings;
+    let balls = round.0.iter().enumerate();
+    let balls: Vec<[f64; 4]> = balls
+        .map(|(k, &[x, y, z])| [x, y, z, [0.0, 0.01, 0.02][k % 3]])
+        .collect();
+    let meshes = [Body::new(&flat.0, &flat.1), Body::rounded(&balls, &round.1)];
     let turn = [(); 3].map(|()| 0.2 * random.number());
     let pose = |x| Pose::new([x, 0.0, 0.5], [turn[0], turn[1], turn[2], 1.0]);
     let joint = |parent, kind, x, axis: DVec3, [start, rate]: [f64; 2]| -> Result<Link> {
@@ -104,10 +107,9 @@ fn arms(rings: &[Mesh; 2], random: &mut Random) -> Result<Files> {
         joint(1, turns, -3.0, DVec3::Y, [0.1, -0.9])?,
         joint(4, slides, -0.5, DVec3::X, [-0.1, -0.3])?,
     ];
-    let carried = |k: usize, link, radius| Carried {
+    let carried = |k: usize, link| Carried {
         body: &meshes[k],
         link,
-        radius,
     };
     let pair = |bodies| Pair {
         bodies,
@@ -115,7 +117,7 @@ fn arms(rings: &[Mesh; 2], random: &mut Random) -> Result<Files> {
     };
     let scene = Scene {
         links,
-        bodies: vec![carried(0, 3, 0.02), carried(1, 5, 0.0), carried(1, 0, 0.01)],
+        bodies: vec![carried(0, 3), carried(1, 5), carried(1, 0)],
         pairs: vec![pair([0, 1]), pair([2, 0]), pair([1, 2])],
     };
     Ok(files(prove(&scene, 1.0, None)?, [&meshes[0], &meshes[1]]))

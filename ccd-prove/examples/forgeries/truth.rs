@@ -1,8 +1,8 @@
 //! Whether a statement is true, as far as poses at some times show it: by binary64 and another library's distances.
 
 use crate::files::Files;
-use ccd_core::glam::{DQuat, DVec3};
-use ccd_core::order::greater;
+use ccd_core::glam::{DQuat, DVec3, DVec4};
+use ccd_core::order::{greater, lesser};
 use ccd_prove::{StatedWitness, Statement};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::distance;
@@ -29,7 +29,8 @@ pub(crate) fn is_true(files: &Files) -> bool {
     })
 }
 
-type Corners = [DVec3; 3];
+/// The corners of a triangle, each with its radius after its coordinates.
+type Corners = [DVec4; 3];
 
 struct Scene {
     /// The digest of each mesh, and its triangles in the order of its tree, if the files can be read.
@@ -47,10 +48,10 @@ impl Scene {
                 .collect();
             self.statement.pairs.iter().all(|&(bodies, margin)| {
                 let [a, b] = bodies.map(|body| placed.get(body as usize)?.as_ref());
-                let (Some((a, radius_a)), Some((b, radius_b))) = (a, b) else {
+                let (Some(a), Some(b)) = (a, b) else {
                     return true;
                 };
-                let least = margin + radius_a + radius_b - ROUNDING;
+                let least = margin - ROUNDING;
                 balls_are_apart(a.as_flattened(), b.as_flattened(), least)
                     || a.iter().all(|a| b.iter().all(|b| are_apart(a, b, least)))
             })
@@ -71,33 +72,34 @@ impl Scene {
             return true;
         };
         let point = |k: usize| {
-            let (triangles, radius) = self.body(bodies[k] as usize, *time)?;
+            let triangles = self.body(bodies[k] as usize, *time)?;
             let (place, [a, b]) = points[k];
             let corners = triangles.get(place as usize)?;
             let [a, b] = [a, b].map(|weight| weight as f64 / (1u64 << 62) as f64);
-            let point = corners[0] * a + corners[1] * b + corners[2] * (1.0 - a - b);
-            Some((point, radius))
+            Some(corners[0] * a + corners[1] * b + corners[2] * (1.0 - a - b))
         };
-        let (Some((a, radius_a)), Some((b, radius_b))) = (point(0), point(1)) else {
+        let (Some(a), Some(b)) = (point(0), point(1)) else {
             return true;
         };
-        !(a.distance(b) > margin + radius_a + radius_b + tolerance + ROUNDING)
+        let distance = a.truncate().distance(b.truncate());
+        !(distance > margin + a.w + b.w + tolerance + ROUNDING)
     }
 
-    /// Returns the triangles of a body in the world at a time, and its radius; `None` if there is no such body.
-    fn body(&self, number: usize, time: f64) -> Option<(Vec<Corners>, f64)> {
-        let &(digest, link, radius) = self.statement.bodies.get(number)?;
+    /// Returns the triangles of a body in the world at a time; `None` if there is no such body.
+    fn body(&self, number: usize, time: f64) -> Option<Vec<Corners>> {
+        let &(digest, link) = self.statement.bodies.get(number)?;
         let (_, triangles) = self.meshes.iter().find(|(own, _)| *own == digest)?;
         let mut triangles = triangles.clone()?;
         let mut link = link as usize;
         // A link moves on one before it.
         for _ in 0..=self.statement.links.len() {
             if link == 0 {
-                return Some((triangles, radius));
+                return Some(triangles);
             }
             let (parent, kind, numbers) = self.statement.links.get(link - 1)?;
             for corner in triangles.iter_mut().flatten() {
-                *corner = on_parent(*kind, numbers, *corner, time);
+                let moved = on_parent(*kind, numbers, corner.truncate(), time);
+                *corner = moved.extend(corner.w);
             }
             link = *parent as usize;
         }
@@ -134,15 +136,26 @@ fn are_apart(a: &Corners, b: &Corners, least: f64) -> bool {
         let [a, b, c] = t.map(|v| Vector::new(v.x, v.y, v.z));
         Triangle::new(a, b, c)
     };
+    // Of different radii the least is seen for all of a triangle, and those of the corners for these.
+    let radius = |t: &Corners| t.iter().map(|corner| corner.w).fold(f64::INFINITY, lesser);
     let here = Pose::IDENTITY;
-    !distance(&here, &shape(a), &here, &shape(b)).is_ok_and(|found| found.distance < least)
+    let found = distance(&here, &shape(a), &here, &shape(b));
+    let least_of_flat = least + radius(a) + radius(b);
+    let corners_are_apart = a.iter().all(|a| {
+        let is_apart = |b: &DVec4| !(a.truncate().distance(b.truncate()) - a.w - b.w < least);
+        b.iter().all(is_apart)
+    });
+    !found.is_ok_and(|found| found.distance < least_of_flat) && corners_are_apart
 }
 
 /// Returns whether balls around points are farther apart than a distance.
-fn balls_are_apart(a: &[DVec3], b: &[DVec3], least: f64) -> bool {
+fn balls_are_apart(a: &[DVec4], b: &[DVec4], least: f64) -> bool {
     let [(a, reach_a), (b, reach_b)] = [a, b].map(|points| {
-        let middle = points.iter().sum::<DVec3>() / points.len() as f64;
-        let reach = points.iter().map(|point| point.distance(middle));
+        let middle =
+            points.iter().map(|point| point.truncate()).sum::<DVec3>() / points.len() as f64;
+        let reach = points
+            .iter()
+            .map(|point| point.truncate().distance(middle) + point.w);
         (middle, reach.fold(0.0, greater))
     });
     a.distance(b) - reach_a - reach_b > least
@@ -158,16 +171,13 @@ fn triangles(mesh: &[u8], tree: &[u8]) -> Option<Vec<Corners>> {
         Some(f64::from_le_bytes(mesh.get(at..at + 8)?.try_into().ok()?))
     };
     let [vertices, triangles] = [index(mesh, 0)?, index(mesh, 4)?];
-    let corner = |at: usize| -> Option<DVec3> {
-        let vertex = 8 + 24 * index(mesh, at)?;
-        Some(DVec3::new(
-            number(vertex)?,
-            number(vertex + 8)?,
-            number(vertex + 16)?,
-        ))
+    let corner = |at: usize| -> Option<DVec4> {
+        let vertex = 8 + 32 * index(mesh, at)?;
+        let [x, y, z, radius] = [0, 8, 16, 24].map(|k| number(vertex + k));
+        Some(DVec4::new(x?, y?, z?, radius?))
     };
     let triangle = |place: usize| -> Option<Corners> {
-        let at = 8 + 24 * vertices + 12 * index(tree, 40 + 4 * place)?;
+        let at = 8 + 32 * vertices + 12 * index(tree, 40 + 4 * place)?;
         Some([corner(at)?, corner(at + 4)?, corner(at + 8)?])
     };
     (0..triangles.min(mesh.len())).map(triangle).collect()
