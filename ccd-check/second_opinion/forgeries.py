@@ -46,7 +46,7 @@ def verdict(folder, proof, meshes):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("file")
-    parser.add_argument("--share", default="0/1", help="only each record whose number is K modulo N, as K/N; N that is no multiple of 31 has all kinds")
+    parser.add_argument("--share", default="0/1", help="only each record whose number is K modulo N, as K/N; an odd N has all kinds")
     arguments = parser.parse_args()
     k, n = map(int, arguments.share.split("/"))
     counts = collections.defaultdict(lambda: [0] * len(COLUMNS))

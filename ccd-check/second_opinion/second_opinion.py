@@ -2,10 +2,9 @@
 """A second checker of proofs that moving meshes stay apart, written from ccd-check/README.md alone.
 
 Its numbers are intervals of integers in 2^-128 of the units of a proof, of any size. The height of a part is
-the exact least height of its corners; boxes along the axes of the mesh only say which corners need no
-look. A stretch may be as long as the lemmas prove.
-"""
-import argparse, functools, hashlib, heapq, struct, sys
+the exact least height of the balls of its corners; boxes along the axes of the mesh only say which of them
+need no look. A stretch may be as long as the lemmas prove."""
+import argparse, functools, hashlib, heapq, pathlib, struct, sys
 from fractions import Fraction
 from math import isfinite, isqrt
 F, ONE = 128, 1 << 128       # an integer i stands for i / 2^128
@@ -34,28 +33,23 @@ def length_up(v): return root_up(sum(max(-a[0], a[1]) ** 2 for a in v))   # no v
 def plus(u, v, factor=1): return [a + factor * b for a, b in zip(u, v)]   # of fractions
 
 def series(q, k):
-    """An interval around the sum over j of (-q)^j / (2j + k)!; for q = x^2 and k = 1, 2 it is
-    sin x / x and (1 - cos x) / x^2. No term is more than e^x < 2^(2x), and that many more bits are kept.
-    The signs alternate. Once q is less than the divisor d the terms get smaller, so what is left out is
-    no more than its first term."""
+    """An interval around the sum over j of (-q)^j / (2j + k)!; for q = x^2 and k = 1, 2 it is sin x / x and
+    (1 - cos x) / x^2. No term is more than e^x < 2^(2x), and that many more bits are kept. The signs alternate. Once
+    q is less than the divisor d the terms get smaller, so what is left out is no more than its first term."""
     bits = F + 32 + 2 * root_up(-(-q.numerator // q.denominator))
     q_lo, q_hi = (q.numerator << bits) // q.denominator, -(-(q.numerator << bits) // q.denominator)
-    low = high = (1 << bits) // k                   # the bounds of a term without its sign
-    total, j, d = (0, 0), 0, 0
+    total, j, d, low, high = (0, 0), 0, 0, *[(1 << bits) // k] * 2   # low and high bound a term without its sign
     while high > 2 or q_hi >= d << bits:
         total = (sub if j & 1 else add)(total, (low, high))
         j, d = j + 1, (2 * j + k + 1) * (2 * j + k + 2)
         low, high = low * q_lo // (d << bits), -(-high * q_hi // (d << bits))
     return (total[0] - high) >> (bits - F), -(-(total[1] + high) >> (bits - F))
 # ---- files ----
-class Fails(Exception):
-    """Ends a check: (verdict, reason)."""
+class Fails(Exception): """Ends a check: (verdict, reason)."""
 
 class Reader:
     def __init__(self, path, magic=b""):
-        self.path, self.pos = path, len(magic)
-        with open(path, "rb") as f:
-            self.data = f.read()
+        self.path, self.pos, self.data = path, len(magic), pathlib.Path(path).read_bytes()
         self.require(self.data.startswith(magic), 0, "the file is of another kind")
 
     def require(self, condition, pos, reason, verdict="broken"):
@@ -86,17 +80,17 @@ class Reader:
         return choices[i]
 
 class Tree:
-    """Vertices of a mesh as exact integers in 2^-bits, the corners of triangles in the order of the tree, and
-    the nodes. A part is a node i >= 0, or ~place < 0 of a triangle in the order."""
+    """Vertices of a mesh, each x, y, z and the radius of its ball, as exact integers in 2^-bits, and the corners of
+    triangles in the order of the tree."""
     def __init__(self, mesh, tree):
         r = Reader(mesh)
         digest, (vertices, count) = hashlib.sha256(r.data).digest(), r.take("II")
-        r.require(len(r.data) == 8 + 24 * vertices + 12 * count > 8 + 24 * vertices, 0, "the counts are wrong")
-        flat, corners = r.numbers(3 * vertices), r.take(f"{3 * count}I")
-        r.require(max(corners) < vertices, 8 + 24 * vertices, "a corner of a triangle is no vertex")
+        r.require(len(r.data) == 8 + 32 * vertices + 12 * count > 8 + 32 * vertices, 0, "the counts are wrong")
+        flat, corners = r.numbers(4 * vertices), r.take(f"{3 * count}I")
+        r.require(max(corners) < vertices, 8 + 32 * vertices, "a corner of a triangle is no vertex")
+        r.require(min(flat[3::4]) >= 0, 8, "the radius of a vertex is negative")
         self.bits = max(x.denominator.bit_length() - 1 for x in flat)
-        flat = [int(x * (1 << self.bits)) for x in flat]
-        self.vertices = list(zip(flat[0::3], flat[1::3], flat[2::3]))
+        self.vertices = list(zip(*[(int(x * (1 << self.bits)) for x in flat)] * 4))
         r = Reader(tree, b"CCDBODY1")
         r.require(r.take("32s")[0] == digest, 8, "this is the certificate of another mesh")
         order = r.take(f"{count}I")
@@ -150,119 +144,93 @@ class Link:
         vectors = plus(self.place, self.rate, t), self.rate, self.turn
         return [matvec(up, x) for x in columns], *[matvec(up, [fix(x) for x in v]) for v in vectors]
 
-def way(here, there):
-    """The joints from the end of a chain to the end of another. Those that are left have the other sign."""
-    k = sum(a is b for a, b in zip(here, there))
-    return [(vsub, x, x.up) for x in here[:k - 1:-1]] + [(vadd, x, x) for x in there[k:]]   # sign, joint, then at
-
-def halves(part):
-    """A part is the triangles from one to before another."""
-    middle = sum(part) // 2
-    return (part[0], middle), (middle, part[1])
+def halves(part): return (part[0], sum(part) // 2), (sum(part) // 2, part[1])
 
 class Body:
-    """Corners as seen from the centre of the link, z = y - c, exact in 2^-bits. The size of a part is
-    a box, least x y z and greatest x y z, and the greatest |z|^2. What is told of it is in 2^exponent."""
-    def __init__(self, tree, link, radius, exponent):
-        self.sizes, self.link, self.radius = {}, link, radius
-        self.bits = max([tree.bits] + [c.denominator.bit_length() - 1 for c in link.centre])
-        up, (cx, cy, cz) = self.bits - tree.bits, [int(c * (1 << self.bits)) for c in link.centre]
-        seen = [((x << up) - cx, (y << up) - cy, (z << up) - cz) for x, y, z in tree.vertices]
+    """Corners as seen from the centre of the link, z = y - c, and radii, exact in 2^-bits. The unit of length,
+    2^exponent, is 2^shift of these. A part is the triangles from one to before another. Its size is a box, least
+    x y z and greatest x y z, the greatest |z|^2 and the greatest radius."""
+    def __init__(self, tree, link, exponent):
+        self.link, self.bits = link, max([tree.bits] + [c.denominator.bit_length() - 1 for c in link.centre])
+        up, centre = self.bits - tree.bits, [int(c * (1 << self.bits)) for c in (*link.centre, Fraction(0))]
+        seen = [[(x << up) - c for x, c in zip(v, centre)] for v in tree.vertices]
         self.corners, self.shift = [[seen[c] for c in t] for t in tree.triangles], self.bits + exponent
-        self.whole = 0, len(self.corners)
-        self.measure(self.whole)
+        self.whole, self.size = (0, len(self.corners)), functools.cache(self.size)
 
-    def measure(self, part):
-        a, b = part
-        if b - a == 1:
-            c = self.corners[a]
-            size = [f(v) for f in (min, max) for v in zip(*c)], max(x * x + y * y + z * z for x, y, z in c)
-        else:
-            boxes, far = zip(*map(self.measure, halves(part)))
-            size = [f(v) for f, v in zip([min] * 3 + [max] * 3, zip(*boxes))], max(far)
-        self.sizes[part] = size
-        return size
+    def size(self, part):
+        sizes = map(self.size, halves(part)) if part[1] - part[0] > 1 else [
+            (x, y, z, x, y, z, x * x + y * y + z * z, ball) for x, y, z, ball in self.corners[part[0]]]
+        return [f(v) for f, v in zip([min] * 3 + [max] * 5, zip(*sizes))]
 
-    def lowest(self, part, m):
-        """The least m . z of the corners z below the part, exactly. The part of the lowest bound is
-        opened, until that is a triangle, whose bound is its height."""
-        mx, my, mz = m
-        ix, iy, iz = (i if c >= 0 else i + 3 for i, c in enumerate(m))   # the lowest corner of any box
+    @functools.lru_cache(1)                         # if nothing turns, both ends of a stretch ask for the same
+    def lowest(self, part, mx, my, mz):
+        """The least m . z - |ball| of the corners of the part, exactly in 2^-(128 + bits): n is no longer than 1,
+        so a ball reaches down by at most its radius. The part of the lowest bound is opened, until that is a
+        triangle, whose bound is its height."""
+        ix, iy, iz = (i if c >= 0 else i + 3 for i, c in enumerate((mx, my, mz)))   # the lowest corner of any box
         def bound(p):
             if p[1] - p[0] == 1:
-                return min(mx * x + my * y + mz * z for x, y, z in self.corners[p[0]]), p
-            box = self.sizes[p][0]
-            return mx * box[ix] + my * box[iy] + mz * box[iz], p
+                return min(mx * x + my * y + mz * z - (ball << F) for x, y, z, ball in self.corners[p[0]]), p
+            size = self.size(p)
+            return mx * size[ix] + my * size[iy] + mz * size[iz] - (size[7] << F), p
         heap = [bound(part)]
         while heap[0][1][1] - heap[0][1][0] > 1:
             for p in halves(heapq.heappop(heap)[1]):
                 heapq.heappush(heap, bound(p))
         return heap[0][0]
-
-    def heights(self, part, back, n, omega):
-        """Lower bounds of (n + s n x omega) . z for all z of the part, at s = 1 and at s = -1. `back` takes
-        vectors to the coordinates of the mesh, where a direction is an integer vector m and an error of at
-        most e in each coordinate. So the height is no less than m . z - the sum of e |z|."""
-        box, out = self.sizes[part][0], []
-        w, tilt = matvec(back, n), matvec(back, cross(n, omega))
-        for v in [w] if tilt == ZERO3 else [vadd(w, tilt), vsub(w, tilt)]:
-            m = [lo + hi >> 1 for lo, hi in v]
-            error = sum((v[i][1] - m[i]) * max(-box[i], box[i + 3]) for i in range(3))
-            out.append(shift_down(self.lowest(part, m) - error, self.shift))
-        return out[0], out[-1]
 # ---- the lemmas ----
-def leaf(bodies, parts, margin, t0, t1, n, frame):
-    """Whether the parts of two bodies are proven farther apart than the margin from t0 to t1, in 2^-60 of the
-    unit of time. The axis n turns with the link `frame`."""
-    middle, chains = (t0 + t1) // 2, [b.link.chain for b in bodies]
+@functools.lru_cache(1 << 14)
+def motion(frame, link, t, h):
+    """P, P', Omega, K and K' of the lemmas for a link as seen from `frame`, at the middle t of a stretch of time
+    whose half is h. The bounds K and K' are rounded up."""
+    up, down, common = frame.chain, link.chain, sum(a is b for a, b in zip(frame.chain, link.chain))
+    turns, arms = [(ZERO3, 0, 0)], [(ZERO3, ZERO3)]   # Omega, W, rho of what turns as one; the sums of its d and m
+    # What is left has the other sign.
+    for move, x in [(vsub, x) for x in up[:common - 1:-1]] + [(vadd, x) for x in down[common:]]:
+        _, arm, rate, joint = x.pose(t)
+        if any(x.turn):
+            (omega, w, _), joint = turns[-1], scale(joint, h)
+            w += length_up(cross(omega, joint)) + mul_up(w, length_up(joint))
+            omega = move(omega, joint)
+            turns.append((omega, w, length_up(omega) + w))
+            arms.append((ZERO3, ZERO3))
+        # The parent carries the arm: it is behind a joint that is left, and before one that is entered.
+        i = -2 if any(x.turn) and move is vadd else -1
+        arms[i] = move(arms[i][0], arm), move(arms[i][1], scale(rate, h))
+    place, slope, k = ZERO3, ZERO3, 0
+    for (omega, w, rho), (d, m) in zip(turns, arms):
+        place, slope, m_up = vadd(place, d), vadd(slope, vadd(cross(omega, d), m)), length_up(m)
+        factor = w + mul_up(rho, rho)
+        k += mul_up(factor, length_up(d) + m_up) + 2 * mul_up(rho, m_up)
+    return place, slope, omega, k, factor
+
+def leaf(body, part, t0, t1, frame, n, d):
+    """A height below which nothing of the part is from t0 to t1, in 2^-60 of the unit of time, by Lemma 1. The plane
+    n . x = d turns with the link `frame`, and x is from its centre."""
+    middle, size = (t0 + t1) // 2, body.size(part)
     t, h = Fraction(middle, 1 << 60), (t1 - middle << F - 60,) * 2
-    # What turns as one, seen from the axis, has one place in `turns`: Omega, W and rho of Lemma 2.
-    turns, place = [(ZERO3, 0, 0)], {frame: 0}
-    for chain in chains:
-        here = frame
-        for move, x, there in way(frame.chain, chain):
-            if there not in place:
-                place[there], (omega, w, _) = place[here], turns[place[here]]
-                if any(x.turn):
-                    joint = scale(x.pose(t)[3], h)
-                    w += length_up(cross(omega, joint)) + mul_up(w, length_up(joint))
-                    omega, place[there] = move(omega, joint), len(turns)
-                    turns.append((omega, w, length_up(omega) + w))
-            here = there
-    # The arms from centre to centre go up from A to the first common link and down to B: what is above is in
-    # both chains, and cancels. The parent of a link carries its arm d, whose rate there is m. The arms that
-    # turn as one are added. Seen from the axis an arm changes by Omega x d + m, so P' is the sum of these.
-    sums = [(ZERO3, ZERO3)] * len(turns)
-    for move, x, _ in way(*chains):
-        i, (_, arm, rate, _) = place[x.up], x.pose(t)
-        sums[i] = move(sums[i][0], arm), move(sums[i][1], scale(rate, h))
-    start, slope, k = (0, 0), (0, 0), 0
-    for (omega, w, rho), (d, m) in zip(turns, sums):
-        start, slope, m_up = add(start, dot(n, d)), add(slope, dot(n, vadd(cross(omega, d), m))), length_up(m)
-        k += mul_up(w + mul_up(rho, rho), length_up(d) + m_up) + 2 * mul_up(rho, m_up)
-    ends = [start[0] + slope[0], start[0] - slope[1]]
-    for body, part, side in zip(bodies, parts, (vsub(ZERO3, n), n)):
-        omega, w, rho = turns[place[body.link]]
-        # No z of the part is longer than r. 64 more bits make the root fine enough for whole numbers.
-        r = -shift_down(-root_up(body.sizes[part][1] << 128), body.shift + 64 - F)
-        k += mul_up(w + mul_up(rho, rho), r)
-        ends = [e + low for e, low in zip(ends, body.heights(part, body.link.pose(t)[0], side, omega))]
-    return min(ends) - (k + 1 >> 1) > margin
+    place, slope, omega, k, factor = motion(frame, body.link, t, h)
+    r = root_up(-shift_down(-size[6], 2 * (body.shift - F)))   # no z of the part is longer
+    # In the coordinates of the mesh n + s n x Omega, for s = 1 and s = -1, is an integer vector m but for an error
+    # of at most e in each coordinate. So its product with z is no less than m . z - the sum of e |z|.
+    back, start, slope, ends = body.link.pose(t)[0], dot(n, place), dot(n, slope), []
+    w, tilt = matvec(back, n), matvec(back, cross(n, omega))
+    for v, rise in (vadd(w, tilt), slope[0]), (vsub(w, tilt), -slope[1]):
+        m = [lo + hi >> 1 for lo, hi in v]
+        error = sum((v[i][1] - m[i]) * max(-size[i], size[i + 3]) for i in range(3))
+        ends.append(rise + shift_down(body.lowest(part, *m) - error, body.shift))
+    return start[0] - d + min(ends) - (k + mul_up(factor, r) + 1 >> 1)
 # ---- a proof ----
 def check(path, tree_of):
     """Returns what holds, or raises Fails. `tree_of` finds the tree of a digest."""
     r = Reader(path, b"CCDPROOF")
     *units, link_count, body_count, pair_count = r.take("iiIII")
     r.require(max(map(abs, units)) <= MAX_UNIT, 8, "a unit is out of range", "unverifiable")
-    (length, time), links, bodies, pairs = (Fraction(2) ** e for e in units), [Link()], [], []
+    (length, time), links = (Fraction(2) ** e for e in units), [Link()]
     for _ in range(link_count):
         links.append(Link(r.one_of(links, "link before this one")).read(r, length, time))
-    for _ in range(body_count):
-        tree = tree_of(*r.take("32s"))
-        bodies.append(Body(tree, r.one_of(links, "link"), r.at_least_0("radius"), units[0]))
-    for _ in range(pair_count):
-        two = r.one_of(bodies, "body"), r.one_of(bodies, "body")
-        pairs.append((two, r.at_least_0("margin") + two[0].radius + two[1].radius))
+    bodies = [Body(tree_of(*r.take("32s")), r.one_of(links, "link"), units[0]) for _ in range(body_count)]
+    pairs = [([r.one_of(bodies, "body") for _ in "AB"], r.at_least_0("margin") / length) for _ in range(pair_count)]
     duration = r.at_least_0("time")
     r.require(duration <= time, r.pos - 8, "the unit of time is less than the time", "unverifiable")
     end = -(-duration * (1 << 60) // time)          # rounded up
@@ -271,40 +239,40 @@ def check(path, tree_of):
     witnesses, = r.take("B")
     r.require(witnesses < 2, r.pos - 1, "there is more than one witness")
     for _ in range(witnesses):
-        (two, near), (tau, tolerance), pos, gap = r.one_of(pairs, "pair"), r.numbers(2), r.pos - 16, ZERO3
+        (two, near), (tau, tolerance), pos = r.one_of(pairs, "pair"), r.numbers(2), r.pos - 16
         r.require(0 <= tau <= duration, pos, "the time of the witness is not from 0 to the end")
-        for move, x, _ in way(two[0].link.chain, two[1].link.chain):
-            gap = move(gap, x.pose(tau / time)[1])
-        for body, move in zip(two, (vsub, vadd)):
+        gap, near = motion(two[0].link, two[1].link, tau / time, (0, 0))[0], near + tolerance / length
+        for body, move in zip(two, (vsub, vadd)):   # to the centres of two balls, which are nearer by their radii
             corners, weights = r.one_of(body.corners, "triangle"), [*r.take("QQ")]
             weights.append((1 << 62) - sum(weights))
             r.require(weights[2] >= 0, r.pos - 16, "the weights add to more than one")
-            z = [sum(map(int.__mul__, weights, c)) / (length * (1 << 62 + body.bits)) for c in zip(*corners)]
+            *z, ball = [sum(map(int.__mul__, weights, c)) / (length * (1 << 62 + body.bits)) for c in zip(*corners)]
             gap = move(gap, matvec(transpose(body.link.pose(tau / time)[0]), [fix(x) for x in z]))
-        r.require(length_up(gap) <= fix((near + tolerance) / length)[0], pos, "the witnesses are too far apart")
+            near += ball
+        r.require(length_up(gap) <= fix(near)[0], pos, "the witnesses are too far apart")
     leaves = 0
     for number, (two, margin) in enumerate(pairs):
-        margin, todo = fix(margin / length)[1], [((two[0].whole, two[1].whole), 0, end)]   # the last one is the next one: depth first
+        half, todo = fix(margin / 2)[1], [((two[0].whole, two[1].whole), 0, end)]   # the last one is the next one
         while todo:
             (parts, t0, t1), pos = todo.pop(), r.pos
             r.require(pos < len(r.data), pos, f"the file ends, and {len(todo) + 1} parts are not proven")
             step, = r.take("B")
             r.require(step <= 8, pos, "there is no such step")
             if step < 2:
-                first, last = parts[step]
-                r.require(last - first > 1, pos, "a triangle can not be split")
+                r.require(parts[step][1] - parts[step][0] > 1, pos, "a triangle can not be split")
                 todo += [((parts[0], p) if step else (p, parts[1]), t0, t1) for p in reversed(halves(parts[step]))]
             elif step == 2:
                 middle = t0 + ((t1 - t0) * r.take("H")[0] >> 16)
                 r.require(t0 < middle < t1, pos, "a part of the time is empty")
                 todo += [(parts, middle, t1), (parts, t0, middle)]
             else:
-                size, bits = (2, 14) if step < 6 else (7, 50)
-                axis = [int.from_bytes(x, "little", signed=True) for x in r.take(f"{size}s" * 3)]
+                form, bits, up = ("2s2s2s4s", 14, 20) if step < 6 else ("7s7s7s7s", 50, 0)
+                *n, d = [int.from_bytes(x, "little", signed=True) for x in r.take(form)]
+                r.require(sum(x * x for x in n) <= 1 << 2 * bits, pos, "the normal is longer than 1")
                 frame = (links[0], two[0].link, two[1].link)[step % 3]
-                r.require(sum(x * x for x in axis) <= 1 << 2 * bits, pos, "the axis is longer than 1")
-                apart = leaf(two, parts, margin, t0, t1, [(x << F - bits,) * 2 for x in axis], frame)
-                r.require(apart, pos, f"the axis does not prove the parts of pair {number} apart")
+                heights = [leaf(body, part, t0, t1, frame, [(side * x << F - bits,) * 2 for x in n], side * d << F + up)
+                           for body, part, side in zip(two, parts, (-1, 1))]   # A is above the plane -n, -d
+                r.require(min(heights) > half, pos, f"the plane does not prove the parts of pair {number} apart")
                 leaves += 1
     r.require(r.pos == len(r.data), r.pos, "bytes follow the end")
     return f"pairs: {len(pairs)}, leaves: {leaves}, witnesses: {witnesses}"
@@ -323,13 +291,10 @@ def main(argv=None):
     for path in arguments.proofs:
         try:
             verdict, reason = "holds", check(path, tree_of)
-        except Fails as e:
-            verdict, reason = e.args
-        except OSError as e:
-            verdict, reason = "unverifiable", f"{e.filename}: {e.strerror}"
+        except (Fails, OSError) as e:
+            verdict, reason = e.args if isinstance(e, Fails) else ("unverifiable", f"{e.filename}: {e.strerror}")
         print(f"{path}: {verdict}: {reason}", flush=True)
         all_hold = all_hold and verdict == "holds"
     return 0 if all_hold else 1
 
-if __name__ == "__main__":
-    sys.exit(main())
+if __name__ == "__main__": sys.exit(main())

@@ -35,7 +35,7 @@ pub(crate) struct Cover<'a> {
     until: f64,
     /// The unit of length.
     unit: f64,
-    /// The pair, and what its parts have to keep: the margin, and an allowance for the rounding here.
+    /// The pair, and how far its parts have to be from a plane: half of the margin, and an allowance for the rounding here.
     pair: usize,
     least: f64,
     stretches: HashMap<[u64; 2], Rc<Stretch<'a>>>,
@@ -75,7 +75,7 @@ impl<'a> Cover<'a> {
         }
     }
 
-    /// Writes the steps that prove a pair to be farther apart than `least`.
+    /// Writes the steps that prove a pair to be farther apart than twice `least`.
     pub(crate) fn write(&mut self, pair: usize, least: f64) -> Result<(), NotProven> {
         (self.pair, self.least) = (pair, least);
         self.stretches.clear();
@@ -209,7 +209,7 @@ impl<'a> Cover<'a> {
         let (axis, distance) = axis_in_the_middle(task);
         let is_new = axis != task.axis;
         task.axis = axis;
-        is_new && distance > self.least && self.gap(task).plane(axis).is_some()
+        is_new && distance > 2.0 * self.least && self.gap(task).plane(axis).is_some()
     }
 }
 

@@ -31,7 +31,7 @@ const FORMS: [Form; 2] = [
 /// Where a plane may be: as shares of what both parts leave to it, from A to B.
 const SHARES: [f64; 5] = [0.5, 0.65, 0.35, 0.8, 0.2];
 
-/// What a plane has to keep apart, and how far.
+/// What a plane has to keep apart, and how far from it.
 pub(crate) struct Gap<'a> {
     pub(crate) parts: [Part; 2],
     pub(crate) stretch: &'a Stretch<'a>,
@@ -60,7 +60,7 @@ impl Gap<'_> {
             // Rounded towards zero it is no longer than 1, although the length of the unit axis is rounded.
             let normal = (unit_axis * (form.normal - 2.0)).trunc();
             for frame in 0..3 {
-                if frame > 0 && !self.stretch.turns(frame - 1) {
+                if frame > 0 && self.stretch.rests(frame - 1) {
                     continue;
                 }
                 let seen = (normal / form.normal, frame);

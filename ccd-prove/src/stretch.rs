@@ -38,8 +38,8 @@ impl<'a> Stretch<'a> {
         }
     }
 
-    /// Returns the least and the greatest offset of a plane that keeps parts farther apart than `least` over the stretch. The plane
-    /// turns with the world, A or B; its offset is from the centre of that.
+    /// Returns the least and the greatest offset of a plane from which parts stay farther than `least` over the stretch, on its two
+    /// sides. The plane turns with the world, A or B; its offset is from the centre of that.
     pub(crate) fn room(
         &self,
         parts: [Part; 2],
@@ -48,7 +48,7 @@ impl<'a> Stretch<'a> {
     ) -> [f64; 2] {
         let [below, above] = [-1.0, 1.0].map(|side| {
             let k = usize::from(side > 0.0);
-            let ends = self.ends((k, parts[k]), (side * normal, frame), 0.5 * least);
+            let ends = self.ends((k, parts[k]), (side * normal, frame), least);
             let rooms = ends
                 .map(|(direction, lost)| self.bodies[k].least_height(parts[k], direction) - lost);
             rooms.fold(f64::INFINITY, lesser)
@@ -67,7 +67,7 @@ impl<'a> Stretch<'a> {
         let sides = [-1.0, 1.0].into_iter().zip(0..2);
         sides
             .flat_map(|(side, k)| {
-                let ends = self.ends((k, parts[k]), (side * normal, frame), 0.5 * least);
+                let ends = self.ends((k, parts[k]), (side * normal, frame), least);
                 ends.map(move |(direction, lost)| {
                     self.bodies[k].looks(parts[k], direction, side * offset + lost)
                 })
@@ -95,8 +95,7 @@ impl<'a> Stretch<'a> {
         let seen_from = [DVec3::ZERO, self.placed[0].centre, self.placed[1].centre][frame];
         // The checker rounds lengths up to 30 bits.
         let lost = least + 0.5 * bend * (1.0 + 1e-8) - normal.dot(placed.centre - seen_from);
-        let rests = way.turn == DVec3::ZERO && way.change == DVec3::ZERO;
-        let ends: &[f64] = if rests { &[0.0] } else { &[-1.0, 1.0] };
+        let ends: &[f64] = if way.rests() { &[0.0] } else { &[-1.0, 1.0] };
         ends.iter().map(move |&end| {
             let turned = normal + end * normal.cross(way.turn);
             let direction = placed.rotation.transpose() * turned;
@@ -110,9 +109,9 @@ impl<'a> Stretch<'a> {
         self.ways.iter().any(|[a, b]| a.is_short() && b.is_short())
     }
 
-    /// Returns whether a body turns, as it is seen from the world.
-    pub(crate) fn turns(&self, k: usize) -> bool {
-        self.ways[0][k].turned > 0.0
+    /// Returns whether a body rests in the world.
+    pub(crate) fn rests(&self, k: usize) -> bool {
+        self.ways[0][k].rests()
     }
 
     /// Returns a point of a part in the middle of the stretch, from the centre of A: the one that is lowest along a direction.

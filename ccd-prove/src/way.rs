@@ -37,6 +37,11 @@ impl Way {
         way
     }
 
+    /// Returns whether nothing moves on the way.
+    pub(crate) fn rests(&self) -> bool {
+        self.turned == 0.0 && self.change == DVec3::ZERO
+    }
+
     /// Returns whether the checker proves anything over so long a stretch.
     pub(crate) fn is_short(&self) -> bool {
         self.turned < 1.999

@@ -19,7 +19,7 @@ pub struct Proof {
     pub unit: i32,
 }
 
-/// The share of the largest length that is allowed for rounding. The checker knows a rotation to within some 2⁻⁴².
+/// The share of the largest length that is allowed for rounding, for each body. The checker knows a rotation to within some 2⁻⁴².
 const ROUNDING: f64 = 1e-12;
 
 /// Weights of corners are multiples of 2⁻⁶².
@@ -66,7 +66,7 @@ pub fn prove(scene: &Scene<'_>, until: f64, witness: Option<Witness>) -> Result<
     }
     let mut cover = Cover::new((scene, &links), until, 2f64.powi(unit));
     for (number, pair) in scene.pairs.iter().enumerate() {
-        cover.write(number, pair.margin + ROUNDING * size)?;
+        cover.write(number, 0.5 * pair.margin + ROUNDING * size)?;
     }
     bytes.extend(&cover.steps);
     Ok(Proof {
