@@ -10,8 +10,9 @@ use crate::way::Way;
 use crate::{Body, Stop};
 use alloc::collections::BTreeMap;
 
-/// All links in the middle of a stretch of time are kept: no more than so many, which is 200 MB.
-const MAX_PLACED: usize = 1 << 20;
+/// All links in the middle of each stretch of time are kept, and all ways between them that are asked for: no more than so many,
+/// which is 400 MB.
+const MAX_KEPT: usize = 1 << 20;
 
 /// Checks a certificate about meshes. Nothing is said of any other statement than the one in the certificate: the caller
 /// compares it with the one that he wants.
@@ -21,8 +22,7 @@ const MAX_PLACED: usize = 1 << 20;
 pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
     let mut reader = Reader::new(certificate);
     let statement = Statement::read(&mut reader, meshes)?;
-    // For each stretch of time all links in its middle, and the ways between them that a leaf has asked for.
-    let mut stretches = BTreeMap::new();
+    let (mut stretches, mut ways) = (BTreeMap::new(), BTreeMap::new());
     for &(bodies, margin) in &statement.pairs {
         let bodies = bodies.map(|body| &statement.bodies[body]);
         let numbers = bodies.map(|body| body.link);
@@ -51,16 +51,16 @@ pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
                     reader.require(dot(normal, normal) <= 1 << (2 * bits), "a normal is longer than 1")?;
                     let normal = normal.map(|x| x << (FRACTION - bits));
                     let plane = Plane { normal, offset: reader.signed(offset_bytes)? << offset_bits };
-                    if stretches.len() * statement.links.len() > MAX_PLACED {
+                    if (stretches.len() + 1) * statement.links.len() + ways.len() > MAX_KEPT {
                         return Err(Stop::Unverifiable("there are too many links and stretches of time"));
                     }
-                    let (links, ways) = stretches.entry(times).or_insert_with(|| {
+                    let links = stretches.entry(times).or_insert_with(|| {
                         let middle = from + (to - from) / 2;
                         let [middle, half] = [middle, to - middle].map(|time| Number::exact([time]));
-                        (Placed::all(&statement.links, middle, half), BTreeMap::new())
+                        Placed::all(&statement.links, middle, half)
                     });
                     let seen_from = [0, numbers[0], numbers[1]][step % 3];
-                    let way = |to| *ways.entry([seen_from, to]).or_insert_with(|| Way::new(links, seen_from, to));
+                    let way = |to| *ways.entry((times, [seen_from, to])).or_insert_with(|| Way::new(links, seen_from, to));
                     let ways = numbers.map(way);
                     let is_apart = [plane.reversed(), plane]
                         .into_iter()
@@ -80,40 +80,80 @@ mod tests {
     use super::*;
     use alloc::vec::Vec;
 
-    /// A chain whose links reach and travel as far as they may. At 0.95 the body at its end is where it was at the start without
-    /// the chain: on the other body. But the sum of the travels is more than numbers hold.
-    #[test]
-    fn what_is_unknown_proves_nothing() {
-        let length = 2048u32;
+    const STILL: [f64; 10] = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+
+    /// A triangle.
+    fn triangle() -> Body {
         let corners = [[0.0; 4], [1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]];
         let mut mesh = [3u32, 1].map(u32::to_le_bytes).concat();
-        mesh.extend(corners.iter().flatten().flat_map(|x: &f64| x.to_le_bytes()));
+        mesh.extend(numbers(corners.as_flattened()));
         mesh.extend([0u32, 1, 2].map(u32::to_le_bytes).concat());
-        let digest = crate::sha256(&mesh);
-        let certificate = [&b"CCDBODY1"[..], &digest, &[0; 4]].concat();
-        let body = Body::new(&mesh, &certificate, 0).unwrap();
+        let certificate = [&b"CCDBODY1"[..], &crate::sha256(&mesh), &[0; 4]].concat();
+        Body::new(&mesh, &certificate, 0).unwrap()
+    }
+
+    fn numbers(numbers: &[f64]) -> Vec<u8> {
+        numbers.iter().flat_map(|x| x.to_le_bytes()).collect()
+    }
+
+    /// A proof without steps, of two triangles on two links of a chain, that they are apart until 1. Each link moves freely, from a
+    /// pose at a velocity.
+    fn proof(chain: &[[f64; 10]], triangles: ([u32; 2], &Body)) -> Vec<u8> {
         let mut proof = b"CCDPROOF".to_vec();
-        let numbers = |numbers: &[f64]| numbers.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
-        proof.extend([0, 0, length, 2, 1].map(u32::to_le_bytes).concat());
-        let far = f64::from_bits(0x4310_0000_0000_0000);
-        let near = f64::from_bits(0x430e_6666_6666_6666);
-        for parent in 0..length {
+        proof.extend([0, 0, chain.len() as u32, 2, 1].map(u32::to_le_bytes).concat());
+        for (parent, motion) in (0u32..).zip(chain) {
             proof.extend(parent.to_le_bytes());
             proof.push(0);
-            proof.extend(numbers(&[near, near, near, 0.0, 0.0, 0.0, 1.0, -far, -far, -far]));
+            proof.extend(numbers(motion));
             proof.extend(numbers(&[0.0; 6]));
         }
-        for link in [0, length] {
-            proof.extend(digest);
+        for link in triangles.0 {
+            proof.extend(triangles.1.digest);
             proof.extend(link.to_le_bytes());
         }
         proof.extend([0u32, 1].map(u32::to_le_bytes).concat());
         proof.extend(numbers(&[0.0, 1.0]));
-        proof.extend([0, 3]);
-        proof.extend([9459u16; 3].map(u16::to_le_bytes).concat());
-        proof.extend(0u32.to_le_bytes());
+        proof.push(0);
+        proof
+    }
+
+    /// A plane that is 2²⁰ units from the origin.
+    fn leaf(normal: [i16; 3]) -> Vec<u8> {
+        [&[3], &normal.map(i16::to_le_bytes).concat()[..], &[1, 0, 0, 0]].concat()
+    }
+
+    /// A chain whose links reach and travel as far as they may. At 0.95 the body at its end is where it was at the start without
+    /// the chain: on the other body. But the sum of the travels is more than numbers hold.
+    #[test]
+    fn what_is_unknown_proves_nothing() {
+        let [far, near] = [0x4310_0000_0000_0000, 0x430e_6666_6666_6666].map(f64::from_bits);
+        let body = triangle();
+        let chain = [[near, near, near, 0.0, 0.0, 0.0, 1.0, -far, -far, -far]; 2048];
+        let mut proof = proof(&chain, ([0, 2048], &body));
+        proof.extend(leaf([9459; 3]));
         let apart = "a plane is not between its parts";
         let at = proof.len();
         assert_eq!(check(&[body], &proof), Err(Stop::Broken { reason: apart, at }));
+    }
+
+    /// Two triangles far apart on a long chain, over ever shorter stretches: each keeps all links.
+    #[test]
+    fn what_is_kept_is_limited() {
+        let body = triangle();
+        let mut chain = alloc::vec![STILL; 1 << 15];
+        chain[0][2] = 4_194_304.0;
+        let statement = proof(&chain, ([0, 1], &body));
+        let verdict = |splits| {
+            let mut proof = statement.clone();
+            for _ in 0..splits {
+                proof.extend([2, 0, 128]);
+                proof.extend(leaf([0, 0, 1 << 14]));
+            }
+            proof.extend(leaf([0, 0, 1 << 14]));
+            check(core::slice::from_ref(&body), &proof)
+        };
+        assert_eq!(verdict(20), Ok(()));
+        let unverifiable = Stop::Unverifiable("there are too many links and stretches of time");
+        assert_eq!(verdict(40), Err(unverifiable));
     }
 }

@@ -32,13 +32,13 @@ impl Plane {
         let Ok(least) = i64::try_from(i128::from(least) + i128::from(self.offset) + bend / 2 + 1) else {
             return false;
         };
-        // The true direction is no longer than √5. It is known to within turn.rad and a rounding, and in the link's frame 3 times
-        // what the rotation is off by more, and another rounding.
+        // The direction n ± n×Ω is no longer than 3. It is known to within turn.rad, and 2 for its shift; in the link's frame to
+        // within 3 times what the rotation is off by more, and 2 for another shift.
         let to_mesh = link.rotation.transposed();
         let lost = product(way.turn.rad + 3 * to_mesh.rad + 4, reach) + (12 + i128::from(way.arm.rad + way.change.rad)) * one;
         let least = i128::from(least) * one + lost + 1 - dot(self.normal, way.arm.mid);
         let (change, tilt) = (dot(self.normal, way.change.mid), cross(self.normal, turns).map(|x| (x >> FRACTION) as i64));
-        // What rests is at both ends of the stretch at the same place.
+        // If nothing is known to move, both ends ask for the same: what may move yet is in `lost` and `bend`.
         let ends: &[i64] = if (turns, way.change.mid) == ([0; 3], [0; 3]) { &[0] } else { &[-1, 1] };
         ends.iter().all(|&end| {
             let direction = to_mesh.turned([0, 1, 2].map(|k| self.normal[k] + end * tilt[k]));

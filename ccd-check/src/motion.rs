@@ -83,10 +83,10 @@ pub(crate) struct Placed {
 impl Placed {
     /// Returns all links in the middle of a stretch of time. The first one is the world.
     pub(crate) fn all(links: &[Link], middle: Number, half: Number) -> Vec<Placed> {
-        let mut all: Vec<Placed> = Vec::new();
+        let mut all: Vec<Placed> = Vec::with_capacity(links.len());
         for &Link { parent, motion, start, turned, .. } in links {
             let on = all.get(parent).map_or(Matrix::IDENTITY, |on| on.rotation);
-            // What does not turn at all is seen to rest by `Way`.
+            // What does not turn at all is seen to rest by `Way`. A product is never exact, not even that with a rate of 0.
             let turns = motion.turn != ZERO;
             let turned = if turns { turned + motion.turn.times(middle, TIME) } else { turned };
             let turned = if turned == ZERO { start } else { rotation::exp(turned).times(start) };
