@@ -12,6 +12,7 @@ mod resting;
 mod scene;
 mod statement;
 mod stretch;
+mod tolerances;
 mod way;
 mod write;
 

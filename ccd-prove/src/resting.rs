@@ -2,17 +2,12 @@
 
 use crate::body::{Body, triangles_of};
 use crate::error::NoMesh;
+use crate::tolerances::PLACING;
 use ccd_core::Pose;
 use ccd_core::glam::{DVec3, DVec4};
 use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::{CarriedBody, Cell, Robot};
 use std::collections::BTreeMap;
-
-/// What placing a corner by a pose is off by at most, as a share of the lengths of the corner and of the translation.
-///
-/// With u = 2⁻⁵³: the quaternion is off by less than 8 u from one of unit length, so the rotation scales by less than 1 + 16 u.
-/// Its 30 operations round to within 40 u in each coordinate, the sum to within u.
-const PLACING: f64 = 1.0 / (1u64 << 46) as f64;
 
 /// One body of a cell, or several that rest against each other.
 #[derive(Debug)]
@@ -44,7 +39,7 @@ pub(crate) fn resting_bodies(cell: &Cell) -> Result<Vec<Resting>, NoMesh> {
             partners[body].push([partner as u64, least.to_bits(), more.to_bits()]);
         }
     }
-    let mut kinds: BTreeMap<Kind, Vec<Placed<'_>>> = BTreeMap::new();
+    let mut kinds: BTreeMap<Kind, Vec<Member<'_>>> = BTreeMap::new();
     for ((number, carried), partners) in cell.carried_bodies().enumerate().zip(partners) {
         if partners.is_empty() {
             continue;
@@ -52,13 +47,13 @@ pub(crate) fn resting_bodies(cell: &Cell) -> Result<Vec<Resting>, NoMesh> {
         let name = carried.item.name();
         let triangles = triangles_of(carried.body).ok_or_else(|| NoMesh { body: name.into() })?;
         let root = ways[carried.link].0;
-        let placed = Placed {
+        let member = Member {
             number,
             carried,
             triangles,
         };
         let kind = (root, partners);
-        kinds.entry(kind).or_default().push(placed);
+        kinds.entry(kind).or_default().push(member);
     }
     let kinds = kinds.into_iter();
     let mut bodies: Vec<Resting> = kinds
@@ -69,7 +64,7 @@ pub(crate) fn resting_bodies(cell: &Cell) -> Result<Vec<Resting>, NoMesh> {
 }
 
 /// A body of a cell, and the triangles of its mesh.
-struct Placed<'c> {
+struct Member<'c> {
     number: usize,
     carried: CarriedBody<'c>,
     triangles: Vec<[DVec4; 3]>,
@@ -93,10 +88,10 @@ fn ways_to_roots(robot: &Robot) -> Vec<WayToRoot> {
 }
 
 /// Returns bodies of one kind as one.
-fn union(root: usize, mut members: Vec<Placed<'_>>, ways: &[WayToRoot]) -> Resting {
+fn union(root: usize, mut members: Vec<Member<'_>>, ways: &[WayToRoot]) -> Resting {
     let numbers = members.iter().map(|member| member.number).collect();
     if members.len() == 1 {
-        let Placed {
+        let Member {
             carried, triangles, ..
         } = members.remove(0);
         return Resting {
@@ -107,7 +102,7 @@ fn union(root: usize, mut members: Vec<Placed<'_>>, ways: &[WayToRoot]) -> Resti
         };
     }
     let mut all = Vec::new();
-    for Placed {
+    for Member {
         carried, triangles, ..
     } in members
     {

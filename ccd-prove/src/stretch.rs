@@ -3,6 +3,7 @@
 use crate::body::{Body, Part};
 use crate::placed::{Moving, Placed};
 use crate::scene::Scene;
+use crate::tolerances::LENGTHS;
 use crate::way::Way;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
@@ -93,8 +94,7 @@ impl<'a> Stretch<'a> {
             bend += way.factor() * self.bodies[k].reach(part, self.centres[k]);
         }
         let seen_from = [DVec3::ZERO, self.placed[0].centre, self.placed[1].centre][frame];
-        // The checker rounds lengths up to 30 bits.
-        let lost = least + 0.5 * bend * (1.0 + 1e-8) - normal.dot(placed.centre - seen_from);
+        let lost = least + 0.5 * bend * LENGTHS - normal.dot(placed.centre - seen_from);
         let ends: &[f64] = if way.rests() { &[0.0] } else { &[-1.0, 1.0] };
         ends.iter().map(move |&end| {
             let turned = normal + end * normal.cross(way.turn);

@@ -1,6 +1,7 @@
 //! What moves between two links, in floating point.
 
 use crate::placed::Placed;
+use crate::tolerances::MOST_TURN;
 use ccd_core::glam::DVec3;
 
 /// How a link moves, as it is seen from another one, in half of a stretch of time.
@@ -44,7 +45,7 @@ impl Way {
 
     /// Returns whether the checker proves anything over so long a stretch.
     pub(crate) fn is_short(&self) -> bool {
-        self.turned < 1.999
+        self.turned < MOST_TURN
     }
 
     fn turn_by(&mut self, turn: DVec3) {

@@ -5,6 +5,7 @@ use crate::error::NotProven;
 use crate::nearest::MeshPoint;
 use crate::placed::{Moving, moving, placed};
 use crate::scene::{AxisKind, Joint, Scene, Witness};
+use crate::tolerances::ROUNDING;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -18,9 +19,6 @@ pub struct Proof {
     /// The unit of its lengths is 2 to the power of this.
     pub unit: i32,
 }
-
-/// The share of the largest length that is allowed for rounding, for each body. The checker knows a rotation to within some 2⁻⁴².
-const ROUNDING: f64 = 1e-12;
 
 /// Weights of corners are multiples of 2⁻⁶².
 const WEIGHT_UNIT: f64 = (1u64 << 62) as f64;

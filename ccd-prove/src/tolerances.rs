@@ -1,0 +1,19 @@
+//! What the prover, which computes in binary64, allows for rounding: its own, and that of the checker.
+
+/// The share of the largest length by which a part has to be farther from a plane than the checker asks for.
+///
+/// The checker knows a rotation to within some 2⁻⁴² after the turns of a chain, and loses three times that of the reach of a part.
+pub(crate) const ROUNDING: f64 = 1e-12;
+
+/// The factor by which bounds of second derivatives are increased: the checker rounds lengths up to 30 bits, and a bound is a
+/// product of no more than four lengths.
+pub(crate) const LENGTHS: f64 = 1.0 + 1e-8;
+
+/// The largest sum of turns in half of a stretch, in radians. The checker has a limit of 2 for sums that it has rounded up.
+pub(crate) const MOST_TURN: f64 = 1.999;
+
+/// What placing a corner by a pose is off by at most, as a share of the lengths of the corner and of the translation.
+///
+/// With u = 2⁻⁵³: the quaternion is off by less than 8 u from one of unit length, so the rotation scales by less than 1 + 16 u.
+/// Its 30 operations round to within 40 u in each coordinate, the sum to within u: in all less than 2⁷ u.
+pub(crate) const PLACING: f64 = 1.0 / (1u64 << 46) as f64;
