@@ -130,7 +130,7 @@ impl<'c> ProvenCell<'c> {
 
     /// Returns a contact of an edge as a witness in its scene: of the pairs of bodies that the contact may be of, the one whose
     /// meshes are nearest to its points. `None` if there is no such pair, or if a deadline has left the contact without points.
-    pub fn witness(
+    fn witness(
         &self,
         scene: &Scene<'_>,
         contact: &PathContact<'_>,

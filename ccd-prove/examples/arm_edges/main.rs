@@ -6,7 +6,7 @@
 mod tally;
 
 use anyhow::{Context, Result, anyhow, ensure};
-use ccd_prove::{ProvenCell, prove};
+use ccd_prove::ProvenCell;
 use clap::Parser;
 use rigid_ccd::{Body, Pose, Settings, load};
 use rigid_ccd_robot::{Cell, PathOutcome, RobotFile};
@@ -43,10 +43,11 @@ fn main() -> Result<()> {
     let args = Args::parse();
     let cell = read_cell(&args)?;
     let proven = ProvenCell::new(&cell).map_err(|body| anyhow!("body {body} has no triangles"))?;
-    let mut solver = cell.solver().with_settings(Settings {
+    let settings = Settings {
         tolerance: args.tolerance,
         ..Settings::DEFAULT
-    });
+    };
+    let mut solver = cell.solver().with_settings(settings.clone());
     let bytes = fs::read(
         args.folder
             .join(format!("edges_{}_{}.bin", args.cell, args.length)),
@@ -73,28 +74,16 @@ fn main() -> Result<()> {
         let start = Instant::now();
         let answer = solver.first_contact(&path)?;
         let solved = start.elapsed();
-        let scene = proven.edge(from, to, 0.0)?;
-        let (until, witness) = match &answer {
-            PathOutcome::Free { .. } => (1.0, None),
-            PathOutcome::Contact(contact) => {
-                let witness = proven.witness(&scene, contact, args.tolerance);
-                (
-                    contact.at.share,
-                    Some(witness.context("no pair is in contact")?),
-                )
-            }
-            other => {
-                tally.fail(format!("edge-{row}: {other:?}"));
-                continue;
-            }
-        };
         let name = format!("edge-{row}");
-        tally.prove_and_check(
-            &name,
-            solved,
-            || prove(&scene, until, witness),
-            proven.meshes(),
-        )?;
+        if let PathOutcome::Unresolved { .. } = answer {
+            tally.fail(format!("{name}: {answer:?}"));
+            continue;
+        }
+        let prove = || {
+            let proofs = proven.prove_path(&path, &answer, &settings);
+            proofs.map(|mut proofs| proofs.pop()).transpose()
+        };
+        tally.prove_and_check(&name, solved, prove, proven.meshes())?;
     }
     println!("cell {}, edges of {}: {}", args.cell, args.length, tally);
     Ok(())

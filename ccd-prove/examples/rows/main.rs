@@ -6,7 +6,7 @@
 mod tally;
 
 use anyhow::Result;
-use ccd_prove::{Body, Scene, Witness, prove};
+use ccd_prove::ProvenPair;
 use clap::Parser;
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
 use rigid_ccd::table::motions::MotionTable;
@@ -57,51 +57,48 @@ fn main() -> Result<()> {
 
 fn run_pair(args: &Args, names: [&str; 2], motions: &str) -> Result<()> {
     let rows = MotionTable::read(File::open(args.folder.join(format!("{motions}.csv")))?)?.rows;
-    let (mut engine, mut proven, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
-    for name in names {
-        let mesh = TriangleMesh::read(args.folder.join(format!("{name}.obj")))?;
-        engine.push(body_from_mesh(&mesh, Detail::Surface)?.body);
-        let vertices: Vec<_> = mesh.vertices().iter().map(|v| v.to_array()).collect();
-        proven.push(Body::new(&vertices, mesh.faces()));
-        triangles.push(mesh.faces().len());
-    }
+    let meshes = names.map(|name| TriangleMesh::read(args.folder.join(format!("{name}.obj"))));
+    let meshes: Vec<TriangleMesh> = meshes.into_iter().collect::<Result<_, _>>()?;
+    let engine = meshes
+        .iter()
+        .map(|mesh| body_from_mesh(mesh, Detail::Surface));
+    let engine: Vec<_> = engine.collect::<Result<_, _>>()?;
+    let [a, b] = [&engine[0].body, &engine[1].body];
+    let proven = ProvenPair::new(a, b)?;
     if let Some(folder) = &args.write {
-        for (body, name) in proven.iter().zip(names) {
+        for (body, name) in proven.meshes().into_iter().zip(names) {
             write(folder.join(format!("{name}.mesh")), body.mesh())?;
             write(folder.join(format!("{name}.body")), body.certificate())?;
         }
     }
-    let per_triangle = proven[0].certificate().len() as f64 / triangles[0] as f64;
+    let [certificate, triangles] = [
+        proven.meshes()[0].certificate().len(),
+        meshes[0].faces().len(),
+    ];
+    let per_triangle = certificate as f64 / triangles as f64;
     let mut solver = Solver::new().with_settings(Settings {
         tolerance: args.tolerance,
         ..Settings::DEFAULT
     });
     let mut tally = Tally::new(args.write.clone());
     for (row, motion) in rows.iter().step_by(args.step) {
-        let [a, b] = [(&engine[0], motion.a), (&engine[1], motion.b)];
-        solver.first_contact(a, b, motion.duration)?;
+        let mut ask = || solver.first_contact((a, motion.a), (b, motion.b), motion.duration);
+        ask()?;
         let start = Instant::now();
-        let answer = solver.first_contact(a, b, motion.duration)?;
+        let answer = ask()?;
         let solved = start.elapsed();
         let name = format!("{}-{}", names[0], row.row);
-        let (until, witness) = match &answer.outcome {
-            Outcome::Free { .. } => (motion.duration, None),
-            Outcome::Contact { time, contact } => {
-                let witness = Witness::of_two(*time, args.tolerance, contact);
-                (*time, Some(witness))
-            }
-            other => {
-                tally.fail(format!("{name}: {other:?}"));
-                continue;
-            }
-        };
-        let scene = Scene::of_two((&proven[0], motion.a), (&proven[1], motion.b), 0.0);
-        tally.prove_and_check(
-            &name,
-            solved,
-            || prove(&scene, until, witness),
-            proven.iter(),
-        )?;
+        let motions = [motion.a, motion.b];
+        let prove = || proven.prove(motions, motion.duration, 0.0, &answer);
+        let is_decided = matches!(
+            answer.outcome,
+            Outcome::Free { .. } | Outcome::Contact { .. }
+        );
+        if is_decided {
+            tally.prove_and_check(&name, solved, prove, proven.meshes())?;
+        } else {
+            tally.fail(format!("{name}: {:?}", answer.outcome));
+        }
     }
     println!("{}: {per_triangle:.1} bytes a triangle; {tally}", names[0]);
     Ok(())

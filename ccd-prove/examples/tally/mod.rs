@@ -1,7 +1,7 @@
 //! What proofs took: bytes, leaves, the times to prove and to check them over that to solve.
 
 use anyhow::Result;
-use ccd_prove::{Body, NotProven, Proof};
+use ccd_prove::{Body, Proof};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::fmt::{self, Display};
@@ -37,18 +37,22 @@ impl Tally {
     }
 
     /// Proves an answer that took a time to find, and checks the proof.
-    pub(crate) fn prove_and_check<'b>(
+    pub(crate) fn prove_and_check<'b, E: Display>(
         &mut self,
         name: &str,
         solved: Duration,
-        prove: impl FnOnce() -> Result<Proof, NotProven>,
-        meshes: impl Iterator<Item = &'b Body>,
+        prove: impl FnOnce() -> Option<Result<Proof, E>>,
+        meshes: impl IntoIterator<Item = &'b Body>,
     ) -> Result<()> {
         let over_solving = |start: Instant| start.elapsed().as_secs_f64() / solved.as_secs_f64();
         let start = Instant::now();
         let proof = match prove() {
-            Ok(proof) => proof,
-            Err(error) => {
+            Some(Ok(proof)) => proof,
+            None => {
+                self.fail(format!("{name}: touches at the start"));
+                return Ok(());
+            }
+            Some(Err(error)) => {
                 self.fail(format!("{name}: {error}"));
                 return Ok(());
             }
@@ -61,6 +65,7 @@ impl Tally {
             Entry::Occupied(read) => read.into_mut(),
             Entry::Vacant(place) => {
                 let read = meshes
+                    .into_iter()
                     .map(|body| ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit));
                 place.insert(read.collect::<Result<_, _>>()?)
             }
