@@ -1,7 +1,7 @@
 //! The bodies of a robot's cell as proofs take them, and the scene of an edge.
 
 use crate::body::Body;
-use crate::error::{NoMesh, PathNotProven};
+use crate::error::{NoMesh, NotProven, PathNotProven};
 use crate::placed::moving;
 use crate::resting::{Resting, resting_bodies};
 use crate::scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
@@ -92,8 +92,8 @@ impl<'c> ProvenCell<'c> {
     }
 
     /// Proves what is known of a path: for each segment that all pairs of the cell are farther apart than the margin, up to the
-    /// first contact, and two points that are near each other there. The last segment of a path that is free until its start is
-    /// left out: what touches at a start is apart at no time.
+    /// first contact, and two points that are near each other there. A segment at whose start bodies touch is left out, unless they
+    /// are apart there yet, by less than the tolerance.
     ///
     /// # Errors
     /// [`PathNotProven`].
@@ -115,15 +115,15 @@ impl<'c> ProvenCell<'c> {
                 Some(end) if segment == end.segment => end.share,
                 _ => 1.0,
             };
-            if share == 0.0 {
-                break;
-            }
             let scene = self.edge(ends[0].as_ref(), ends[1].as_ref(), settings.margin)?;
             let contact = contact.filter(|contact| contact.at.segment == segment);
             let witness =
                 contact.and_then(|contact| self.witness(&scene, contact, settings.tolerance));
-            let proof = prove(&scene, share, witness);
-            proofs.push(proof.map_err(|reason| PathNotProven::Segment { segment, reason })?);
+            match prove(&scene, share, witness) {
+                Ok(proof) => proofs.push(proof),
+                Err(NotProven::Touching { .. }) if share == 0.0 => break,
+                Err(reason) => return Err(PathNotProven::Segment { segment, reason }),
+            }
         }
         Ok(proofs)
     }

@@ -2,9 +2,9 @@
 
 use rigid_ccd_robot::RobotError;
 
-/// No proof can be about a body: it has no triangles of a mesh, or pieces that are rounded by different radii.
+/// No proof can be about a body: a piece of it has no triangles of a mesh.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{body} has no triangles, or is rounded by different radii")]
+#[error("{body} has pieces without triangles")]
 pub struct NoMesh {
     /// The name of the body.
     pub body: String,

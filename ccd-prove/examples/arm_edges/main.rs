@@ -5,7 +5,7 @@
 #[path = "../tally/mod.rs"]
 mod tally;
 
-use anyhow::{Context, Result, anyhow, ensure};
+use anyhow::{Context, Result, ensure};
 use ccd_prove::ProvenCell;
 use clap::Parser;
 use rigid_ccd::{Body, Pose, Settings, load};
@@ -42,7 +42,7 @@ struct Args {
 fn main() -> Result<()> {
     let args = Args::parse();
     let cell = read_cell(&args)?;
-    let proven = ProvenCell::new(&cell).map_err(|body| anyhow!("body {body} has no triangles"))?;
+    let proven = ProvenCell::new(&cell)?;
     let settings = Settings {
         tolerance: args.tolerance,
         ..Settings::DEFAULT
