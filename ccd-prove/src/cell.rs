@@ -5,7 +5,8 @@ use crate::error::{NoMesh, NotProven, PathNotProven};
 use crate::placed::moving;
 use crate::resting::{Resting, resting_bodies};
 use crate::scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
-use crate::write::{Proof, mesh_points, prove};
+use crate::statement::Statement;
+use crate::write::{Proof, mesh_points, prove, state};
 use ccd_core::{Motion, Pose};
 use rigid_ccd::Settings;
 use rigid_ccd::trajectory::JointKind;
@@ -74,6 +75,23 @@ impl<'c> ProvenCell<'c> {
         }
         scene.pairs = self.pairs(margin);
         Ok(scene)
+    }
+
+    /// Returns the positions at times 0 and 1 that a statement gives to the joints that can move; `None` if the statement is not
+    /// about all pairs of this cell with a margin.
+    pub fn joints_of(&self, statement: &Statement, margin: f64) -> Option<Vec<(&str, [f64; 2])>> {
+        let robot = self.cell.robot();
+        let still = vec![0.0; robot.free_joint_names().len()];
+        let scene = self.edge(&still, &still, margin).ok()?;
+        let (own, ..) = state(&scene, &moving(&scene.links), 0.0, None);
+        let is_own = Statement::read(&own)?.has_cell_of(statement);
+        let joints = robot.joints_parents_first().into_iter();
+        let links = joints.zip(&statement.links);
+        let moving = links.filter_map(|((.., number), (_, kind, numbers))| {
+            let name: &str = &robot.joints()[number].name;
+            (*kind > 0).then(|| (name, [numbers[10], numbers[10] + numbers[11]]))
+        });
+        is_own.then(|| moving.collect())
     }
 
     /// Returns the pairs of bodies that are compared: those of the first ones of what rests stand for all.

@@ -82,6 +82,23 @@ impl Statement {
         })
     }
 
+    /// Returns whether two statements are about the same bodies, on the same links, with the same pairs and margins. The positions
+    /// of joints may differ, and times.
+    pub(crate) fn has_cell_of(&self, other: &Statement) -> bool {
+        let links = || self.links.iter().zip(&other.links);
+        self.bodies == other.bodies
+            && self.pairs == other.pairs
+            && self.links.len() == other.links.len()
+            && links().all(
+                |((parent, kind, numbers), (other_parent, other_kind, others))| {
+                    // The last two numbers of a joint are its position at time 0 and its rate.
+                    let count = if *kind == 0 { 16 } else { 10 };
+                    (parent, kind) == (other_parent, other_kind)
+                        && numbers[..count] == others[..count]
+                },
+            )
+    }
+
     /// Returns the statement in one line.
     pub fn summary(&self) -> String {
         let Statement { pairs, until, .. } = self;

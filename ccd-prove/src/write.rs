@@ -36,8 +36,28 @@ const LENGTH_BITS: i32 = 49;
 /// [`NotProven`].
 pub fn prove(scene: &Scene<'_>, until: f64, witness: Option<Witness>) -> Result<Proof, NotProven> {
     let links = moving(&scene.links);
+    let (mut bytes, unit, size) = state(scene, &links, until, witness);
+    let mut cover = Cover::new((scene, &links), until, 2f64.powi(unit));
+    for (number, pair) in scene.pairs.iter().enumerate() {
+        cover.write(number, 0.5 * pair.margin + ROUNDING * size)?;
+    }
+    bytes.extend(&cover.steps);
+    Ok(Proof {
+        bytes,
+        leaves: cover.leaves,
+        unit,
+    })
+}
+
+/// Returns a statement as bytes, the unit of its lengths as a power of two, and the largest length.
+pub(crate) fn state(
+    scene: &Scene<'_>,
+    links: &[Moving],
+    until: f64,
+    witness: Option<Witness>,
+) -> (Vec<u8>, i32, f64) {
     let time_unit = exponent_above(until);
-    let size = largest_length(scene, &links, time_unit);
+    let size = largest_length(scene, links, time_unit);
     let unit = exponent_above(size) - LENGTH_BITS;
     let mut bytes = b"CCDPROOF".to_vec();
     bytes.extend(unit.to_le_bytes());
@@ -60,18 +80,9 @@ pub fn prove(scene: &Scene<'_>, until: f64, witness: Option<Witness>) -> Result<
     write_numbers(&mut bytes, [until]);
     bytes.push(u8::from(witness.is_some()));
     if let Some(witness) = witness {
-        write_witness(&mut bytes, scene, &links, witness);
+        write_witness(&mut bytes, scene, links, witness);
     }
-    let mut cover = Cover::new((scene, &links), until, 2f64.powi(unit));
-    for (number, pair) in scene.pairs.iter().enumerate() {
-        cover.write(number, 0.5 * pair.margin + ROUNDING * size)?;
-    }
-    bytes.extend(&cover.steps);
-    Ok(Proof {
-        bytes,
-        leaves: cover.leaves,
-        unit,
-    })
+    (bytes, unit, size)
 }
 
 /// Returns the least exponent of a power of two above a number.

@@ -4,11 +4,12 @@ use crate::files::input_name;
 use crate::meshes::MeshArgs;
 use crate::output::OutputError;
 use crate::printable::PrintableText;
+use crate::robots::{CellArgs, length};
 use crate::{RunOutcome, print_error};
 use anyhow::{Context, Result, bail};
 use ccd_check::{Stop, check};
 use ccd_decomp::BodySource;
-use ccd_prove::{Body, Statement, steps_text};
+use ccd_prove::{Body, ProvenCell, Statement, steps_text};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -18,7 +19,12 @@ use std::path::{Path, PathBuf};
 
 /// Check machine-checkable proofs of `ccd query` or `ccd edges`
 #[derive(Clone, Debug, Args)]
-#[command(after_help = AFTER_HELP)]
+#[command(
+    mut_arg("urdf", |urdf| urdf.long("robot").conflicts_with_all(["a", "b"])),
+    mut_arg("srdf", |srdf| srdf.requires("urdf")),
+    mut_arg("cell", |cell| cell.requires("urdf")),
+    after_help = AFTER_HELP
+)]
 pub(crate) struct CheckArgs {
     /// Proofs; each names its meshes by their digests
     #[arg(required = true, value_name = "PROOF")]
@@ -34,6 +40,11 @@ pub(crate) struct CheckArgs {
     b: Option<String>,
     #[command(flatten)]
     meshes: MeshArgs,
+    #[command(flatten)]
+    cell: CellArgs,
+    /// Distance that all pairs of the cell have to keep by the proofs, such as 0.005 or 5mm
+    #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length, requires = "urdf")]
+    clearance: f64,
     /// Print each statement in full
     #[arg(long)]
     show: bool,
@@ -44,20 +55,24 @@ pub(crate) struct CheckArgs {
 
 const AFTER_HELP: &str = "\
 A proof holds for what it states: its meshes, motions, margins and times are printed. With --a and --b it has to be about these
-bodies; whether its motions are those that you want is yours to compare (--show).
+bodies, with --robot about all pairs of the robot and its cell; the positions of its joints are printed. Whether its motions are
+those that you want is yours to compare (--show).
 
 Verdicts:
   holds          what is stated is true
   broken         the proof or a mesh is not what it has to be; the reason follows
   unverifiable   numbers are beyond the range of the checker
   other bodies   the proof is about bodies other than --a and --b
+  other cell     the proof is about bodies, links, pairs or distances other than those of --robot, --cell and --clearance
 
 Exit code: 0 if all proofs hold, 3 if one does not, 2 for bad input.
 
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --certificates proofs
   ccd check proofs/hit.proof --a knot.obj --b knot.obj
-  ccd check proofs/*.proof --show";
+  ccd check proofs/*.proof --show
+  ccd edges arm.urdf --cell cell.toml --edges moves.csv --certificates proofs
+  ccd check proofs/*.proof --robot arm.urdf --cell cell.toml";
 
 /// The meshes of a folder as bytes, each with the certificate of its tree.
 type Meshes = Vec<(Vec<u8>, Vec<u8>)>;
@@ -71,6 +86,9 @@ pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
         wanted_digest(("--a", &args.a), &args.meshes)?,
         wanted_digest(("--b", &args.b), &args.meshes)?,
     ];
+    let cell = args.cell.robot.is_given().then(|| args.cell.load(true));
+    let cell = cell.transpose()?;
+    let cell = cell.as_ref().map(ProvenCell::new).transpose()?;
     // The checker reads the meshes in the unit of each proof, of which there are few.
     let mut bodies = BTreeMap::new();
     let mut outcome = RunOutcome::AllAnswered;
@@ -94,7 +112,15 @@ pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
         let verdict = match verdict {
             Err(stop) => stop.to_string(),
             Ok(()) if !is_about(&statement, &wanted) => "other bodies".to_owned(),
-            Ok(()) => format!("holds: {}", statement.summary()),
+            Ok(()) => match &cell {
+                None => format!("holds: {}", statement.summary()),
+                Some(cell) => match cell.joints_of(&statement, args.clearance) {
+                    None => "other cell".to_owned(),
+                    Some(joints) => {
+                        format!("holds: {}{}", joints_text(&joints), statement.summary())
+                    }
+                },
+            },
         };
         if !verdict.starts_with("holds") {
             outcome = outcome.max(RunOutcome::SomeRowsUnproven);
@@ -110,6 +136,14 @@ pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
         }
     }
     Ok(outcome)
+}
+
+/// Returns the positions of joints at times 0 and 1 as text.
+fn joints_text(joints: &[(&str, [f64; 2])]) -> String {
+    let text = joints
+        .iter()
+        .map(|(name, [from, to])| format!("{name} {from} to {to}; "));
+    text.collect()
 }
 
 fn print_line(line: &str) -> Result<()> {

@@ -138,4 +138,26 @@ fn proofs_of_edges_and_paths_of_a_robot_hold() {
     assert_eq!(text.matches(": holds: ").count(), names.len(), "{text}");
     assert_contains(&text, " pairs farther apart than 0 until ");
     assert_contains(&text, "; pair ");
+    // They are about this cell, and about no other one.
+    let of_cell = ["--robot", "arm.urdf", "--cell", "cell.toml"];
+    let text = check(&scene, &[&args[..], &of_cell[..]].concat(), 0);
+    assert_contains(
+        &text,
+        "proofs/up.proof: holds: shoulder 0 to -0.2; elbow 0 to 0.5; ",
+    );
+    let cell = fs::read_to_string(scene.directory.join("cell.toml")).unwrap();
+    let moved = cell.replace(
+        "position = [0.8, 0, 0.9]",
+        "position = [0.8, 0, 0.9000000001]",
+    );
+    assert_ne!(moved, cell);
+    scene.file("moved.toml", &moved);
+    for other in [
+        &["--robot", "arm.urdf", "--cell", "moved.toml"][..],
+        &["--robot", "arm.urdf"],
+        &[&of_cell[..], &["--clearance", "1mm"]].concat(),
+    ] {
+        let text = check(&scene, &[&args[..], other].concat(), 3);
+        assert_eq!(text.matches(": other cell").count(), names.len(), "{text}");
+    }
 }
