@@ -82,13 +82,15 @@ pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
     let folder = args.bodies.as_deref();
     let folder = folder.or(args.proofs.first().and_then(|proof| proof.parent()));
     let meshes = read_meshes(folder.unwrap_or(Path::new("")))?;
-    let wanted = [
-        wanted_digest(("--a", &args.a), &args.meshes)?,
-        wanted_digest(("--b", &args.b), &args.meshes)?,
-    ];
     let cell = args.cell.robot.is_given().then(|| args.cell.load(true));
     let cell = cell.transpose()?;
-    let cell = cell.as_ref().map(ProvenCell::new).transpose()?;
+    let subject = match &cell {
+        Some(cell) => Subject::Cell(ProvenCell::new(cell)?, args.clearance),
+        None => Subject::Pair([
+            wanted_digest(("--a", &args.a), &args.meshes)?,
+            wanted_digest(("--b", &args.b), &args.meshes)?,
+        ]),
+    };
     // The checker reads the meshes in the unit of each proof, of which there are few.
     let mut bodies = BTreeMap::new();
     let mut outcome = RunOutcome::AllAnswered;
@@ -111,16 +113,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
         };
         let verdict = match verdict {
             Err(stop) => stop.to_string(),
-            Ok(()) if !is_about(&statement, &wanted) => "other bodies".to_owned(),
-            Ok(()) => match &cell {
-                None => format!("holds: {}", statement.summary()),
-                Some(cell) => match cell.joints_of(&statement, args.clearance) {
-                    None => "other cell".to_owned(),
-                    Some(joints) => {
-                        format!("holds: {}{}", joints_text(&joints), statement.summary())
-                    }
-                },
-            },
+            Ok(()) => subject.verdict(&statement),
         };
         if !verdict.starts_with("holds") {
             outcome = outcome.max(RunOutcome::SomeRowsUnproven);
@@ -138,12 +131,33 @@ pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
     Ok(outcome)
 }
 
-/// Returns the positions of joints at times 0 and 1 as text.
-fn joints_text(joints: &[(&str, [f64; 2])]) -> String {
-    let text = joints
-        .iter()
-        .map(|(name, [from, to])| format!("{name} {from} to {to}; "));
-    text.collect()
+/// What proofs have to be about.
+enum Subject<'c> {
+    /// One pair, whose bodies have these digests, as far as they are given; if none is, anything.
+    Pair([Option<[u8; 32]>; 2]),
+    /// All pairs of a cell, with a distance that they keep.
+    Cell(ProvenCell<'c>, f64),
+}
+
+impl Subject<'_> {
+    /// Returns the verdict on a proof that holds.
+    fn verdict(&self, statement: &Statement) -> String {
+        let joints = match self {
+            Subject::Pair(wanted) if is_about(statement, wanted) => Vec::new(),
+            Subject::Pair(_) => return "other bodies".into(),
+            Subject::Cell(cell, clearance) => match cell.joints_of(statement, *clearance) {
+                Some(joints) => joints,
+                None => return "other cell".into(),
+            },
+        };
+        let joints = joints.iter();
+        let joints = joints.map(|(name, [from, to])| format!("{name} {from} to {to}; "));
+        format!(
+            "holds: {}{}",
+            joints.collect::<String>(),
+            statement.summary()
+        )
+    }
 }
 
 fn print_line(line: &str) -> Result<()> {
