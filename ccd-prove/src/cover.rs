@@ -17,16 +17,13 @@ const MAX_BYTES: usize = 1 << 26;
 /// The largest number of splits on a path.
 const MAX_DEPTH: u32 = 200;
 
-/// The number of splits that are looked ahead to choose the next one.
-const LOOKAHEAD: u32 = 1;
-
 /// The shortest stretch that is split, as a share of the whole: the checker has times in 2⁻⁶⁰.
 const SHORTEST: f64 = 1e-15;
 
 /// Parts that move by less than this share of their radius are not split in time.
 const LEAST_WAY: f64 = 0.1;
 
-/// How many leaves are expected where the look ahead ends without a proof.
+/// How many leaves are expected of what a split leaves unproven.
 const EXPECTED: u32 = 6;
 
 /// A proof as it is written.
@@ -45,13 +42,17 @@ pub(crate) struct Cover<'a> {
     pub(crate) leaves: usize,
 }
 
-/// Parts over a stretch of time, the axis that kept a part above them apart best, and the number of splits so far.
+/// Parts over a stretch of time.
 #[derive(Clone)]
 struct Task<'a> {
     parts: [Part; 2],
     stretch: Rc<Stretch<'a>>,
+    /// The axis that kept them apart best, or a part above them.
     axis: DVec3,
+    /// The number of splits so far.
     depth: u32,
+    /// Whether a plane proves them apart, if that has been asked.
+    proven: Option<bool>,
 }
 
 /// What a task is split into.
@@ -86,6 +87,7 @@ impl<'a> Cover<'a> {
             stretch,
             axis,
             depth: 0,
+            proven: None,
         })
     }
 
@@ -117,8 +119,8 @@ impl<'a> Cover<'a> {
             return Ok(());
         }
         let mut best: Option<(u32, Split<'a>)> = None;
-        for split in self.splits(&task) {
-            let cost = self.cost(&split, LOOKAHEAD);
+        for mut split in self.splits(&task) {
+            let cost = self.cost(&mut split);
             if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                 best = Some((cost, split));
             }
@@ -135,21 +137,10 @@ impl<'a> Cover<'a> {
     }
 
     /// Returns the number of leaves that a split leads to, about.
-    fn cost(&mut self, split: &Split<'a>, lookahead: u32) -> u32 {
-        let mut cost = 0;
-        for task in &split.tasks {
-            let mut task = task.clone();
-            cost += if self.is_proven(&mut task) {
-                1
-            } else if lookahead == 1 {
-                EXPECTED
-            } else {
-                let splits = self.splits(&task);
-                let costs = splits.iter().map(|split| self.cost(split, lookahead - 1));
-                costs.min().unwrap_or(1000)
-            };
-        }
-        cost
+    fn cost(&self, split: &mut Split<'a>) -> u32 {
+        let tasks = split.tasks.iter_mut();
+        let costs = tasks.map(|task| if self.is_proven(task) { 1 } else { EXPECTED });
+        costs.sum()
     }
 
     /// Returns the ways to split a task, the one first that looks best.
@@ -182,8 +173,7 @@ impl<'a> Cover<'a> {
         }
         let tasks = [[from, middle], [middle, to]].map(|times| Task {
             stretch: self.stretch(times),
-            depth: task.depth + 1,
-            ..task.clone()
+            ..task.below()
         });
         Some(Split {
             step: 2,
@@ -203,13 +193,28 @@ impl<'a> Cover<'a> {
     /// Returns whether a plane across its axis proves a task, or one across the axis along which its parts are farthest apart in
     /// the middle; that is its axis then.
     fn is_proven(&self, task: &mut Task<'a>) -> bool {
-        if self.gap(task).plane(task.axis).is_some() {
-            return true;
+        let proven = task.proven.unwrap_or_else(|| {
+            let inherited = self.gap(task).plane(task.axis).is_some();
+            inherited || {
+                let (axis, distance) = axis_in_the_middle(task);
+                let is_new = axis != task.axis;
+                task.axis = axis;
+                is_new && distance > 2.0 * self.least && self.gap(task).plane(axis).is_some()
+            }
+        });
+        task.proven = Some(proven);
+        proven
+    }
+}
+
+impl Task<'_> {
+    /// Returns what a split of the task leaves to be proven, as it is before it is told what of.
+    fn below(&self) -> Self {
+        Task {
+            depth: self.depth + 1,
+            proven: None,
+            ..self.clone()
         }
-        let (axis, distance) = axis_in_the_middle(task);
-        let is_new = axis != task.axis;
-        task.axis = axis;
-        is_new && distance > 2.0 * self.least && self.gap(task).plane(axis).is_some()
     }
 }
 
@@ -220,8 +225,7 @@ fn split_part<'a>(task: &Task<'a>, side: usize) -> Option<Split<'a>> {
         parts[side] = half;
         Task {
             parts,
-            depth: task.depth + 1,
-            ..task.clone()
+            ..task.below()
         }
     });
     Some(Split {
