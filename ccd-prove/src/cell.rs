@@ -22,6 +22,8 @@ use std::collections::HashMap;
 pub struct ProvenCell<'c> {
     cell: &'c Cell,
     bodies: Vec<Resting>,
+    /// The links that carry them, each with the one that carries it and the number of its joint; those that carry others first.
+    links: Vec<(usize, usize, usize)>,
 }
 
 impl<'c> ProvenCell<'c> {
@@ -31,7 +33,20 @@ impl<'c> ProvenCell<'c> {
     /// [`NoMesh`], with the name of an obstacle, a held body or a link.
     pub fn new(cell: &'c Cell) -> Result<Self, NoMesh> {
         let bodies = resting_bodies(cell)?;
-        Ok(ProvenCell { cell, bodies })
+        let mut links = cell.robot().joints_parents_first();
+        let mut carries = vec![false; cell.robot().links().len()];
+        for resting in &bodies {
+            carries[resting.link] = true;
+        }
+        for (link, parent, _) in links.iter().rev() {
+            carries[*parent] |= carries[*link];
+        }
+        links.retain(|(link, ..)| carries[*link]);
+        Ok(ProvenCell {
+            cell,
+            bodies,
+            links,
+        })
     }
 
     /// Returns the meshes of the cell's bodies.
@@ -49,7 +64,7 @@ impl<'c> ProvenCell<'c> {
         let mut scene = Scene::default();
         // The number in the scene of each link of the robot; that of the base is the world.
         let mut numbers = vec![0; robot.links().len()];
-        for (link, parent, number) in robot.joints_parents_first() {
+        for &(link, parent, number) in &self.links {
             let joint = &robot.joints()[number].axis_and_limits;
             let positions = [from[number], to[number]];
             scene.links.push(Link {
@@ -77,18 +92,17 @@ impl<'c> ProvenCell<'c> {
         Ok(scene)
     }
 
-    /// Returns the positions at times 0 and 1 that a statement gives to the joints that can move; `None` if the statement is not
+    /// Returns the positions at times 0 and 1 that a statement gives to the joints that move its bodies; `None` if the statement is not
     /// about all pairs of this cell with a margin.
     pub fn joints_of(&self, statement: &Statement, margin: f64) -> Option<Vec<(&str, [f64; 2])>> {
         let robot = self.cell.robot();
         let still = vec![0.0; robot.free_joint_names().len()];
         let scene = self.edge(&still, &still, margin).ok()?;
-        let (own, ..) = state(&scene, &moving(&scene.links), 0.0, None);
+        let (own, ..) = state(&scene, &moving(&scene.links), 0.0, None).ok()?;
         let is_own = Statement::read(&own)?.has_cell_of(statement);
-        let joints = robot.joints_parents_first().into_iter();
-        let links = joints.zip(&statement.links);
+        let links = self.links.iter().zip(&statement.links);
         let moving = links.filter_map(|((.., number), (_, kind, numbers))| {
-            let name: &str = &robot.joints()[number].name;
+            let name: &str = &robot.joints()[*number].name;
             (*kind > 0).then(|| (name, [numbers[10], numbers[10] + numbers[11]]))
         });
         is_own.then(|| moving.collect())
@@ -110,8 +124,8 @@ impl<'c> ProvenCell<'c> {
     }
 
     /// Proves what is known of a path: for each segment that all pairs of the cell are farther apart than the margin, up to the
-    /// first contact, and two points that are near each other there. A segment at whose start bodies touch is left out, unless they
-    /// are apart there yet, by less than the tolerance.
+    /// first contact, and two points that are near each other there. A segment at whose start bodies touch, or one is in another, is
+    /// left out, unless their surfaces are apart there by less than the tolerance.
     ///
     /// # Errors
     /// [`PathNotProven`].
@@ -139,7 +153,9 @@ impl<'c> ProvenCell<'c> {
                 contact.and_then(|contact| self.witness(&scene, contact, settings.tolerance));
             match prove(&scene, share, witness) {
                 Ok(proof) => proofs.push(proof),
-                Err(NotProven::Touching { .. }) if share == 0.0 => break,
+                Err(NotProven::Touching { .. } | NotProven::NoContact { .. }) if share == 0.0 => {
+                    break;
+                }
                 Err(reason) => return Err(PathNotProven::Segment { segment, reason }),
             }
         }

@@ -4,7 +4,7 @@ use rigid_ccd_robot::RobotError;
 
 /// No proof can be about a body: a piece of it has no triangles of a mesh.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{body} has pieces without triangles")]
+#[error("{body} has pieces without triangles; prepare it with exact meshes")]
 pub struct NoMesh {
     /// The name of the body.
     pub body: String,
@@ -15,18 +15,37 @@ pub struct NoMesh {
 #[non_exhaustive]
 pub enum NotProven {
     /// Two triangles are too near each other to be proven apart.
-    #[error("two triangles cannot be proven apart, at time {at} or soon after")]
+    #[error(
+        "two triangles cannot be proven apart, at time {at} or soon after; a proof needs a gap of some 1e-12 of the largest \
+         length, and a larger tolerance leaves a larger one"
+    )]
     Touching {
         /// The start of the stretch of time that is not proven.
         at: f64,
     },
     /// The certificate would be too long.
-    #[error("the certificate has {bytes} bytes, and is not complete from time {at} on")]
+    #[error(
+        "the certificate has {bytes} bytes, and is not complete from time {at} on; a larger tolerance makes it shorter"
+    )]
     TooLong {
         /// The start of the stretch of time that is not proven.
         at: f64,
         /// The number of its bytes.
         bytes: usize,
+    },
+    /// The points of a witness are too far from each other, or not on the bodies.
+    #[error("the points of a contact are {distance} apart, more than the margin and the tolerance")]
+    NoContact {
+        /// The distance of the points of the meshes.
+        distance: f64,
+    },
+    /// A link turns farther than the checker takes.
+    #[error(
+        "link {link} turns by more than the checker takes: 256 radians to its start, or at least 128 from there"
+    )]
+    TurnsTooFar {
+        /// The number of the link, counted from 1.
+        link: usize,
     },
 }
 

@@ -8,6 +8,8 @@ use ccd_core::order::{greater, lesser};
 pub(crate) struct MeshPoint {
     pub(crate) place: usize,
     pub(crate) weights: [f64; 3],
+    /// The point, and the radius of the ball around it.
+    pub(crate) ball: DVec4,
     /// The distance from the rounded triangle.
     pub(crate) distance: f64,
 }
@@ -23,6 +25,7 @@ impl MeshPoint {
             MeshPoint {
                 place,
                 weights,
+                ball,
                 distance: greater(ball.truncate().distance(point) - ball.w, 0.0),
             }
         });
@@ -30,6 +33,7 @@ impl MeshPoint {
         nearest.unwrap_or(MeshPoint {
             place: 0,
             weights: [1.0, 0.0, 0.0],
+            ball: DVec4::NAN,
             distance: f64::INFINITY,
         })
     }

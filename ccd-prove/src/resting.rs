@@ -124,7 +124,9 @@ fn place(ball: DVec4, pose: &Pose) -> DVec4 {
         return ball;
     }
     let (centre, shift): (DVec3, _) = (ball.truncate(), pose.translation());
-    let off = PLACING * (centre.length() + shift.length());
+    // Lengths by their coordinates, which do not underflow as squares do.
+    let lengths = centre.abs().element_sum() + shift.abs().element_sum();
+    let off = PLACING * lengths + f64::MIN_POSITIVE;
     let placed = pose.transform_point(centre);
     placed.extend((ball.w + off).next_up())
 }
@@ -170,10 +172,11 @@ mod tests {
                 .wrapping_add(1);
             (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
         };
-        for round in 0..500 {
-            let size = 10f64.powi(round % 13 - 6);
+        for round in 0..1000 {
+            let size = 10f64.powi([round % 13 - 6, -300 - round % 20][round as usize % 2]);
             let mut vector = |size: f64| [random() * size, random() * size, random() * size];
-            let (point, shift, [x, y, z]) = (vector(size), vector(10.0), vector(1.0));
+            let of_shift = if size < 1e-200 { size } else { 10.0 };
+            let (point, shift, [x, y, z]) = (vector(size), vector(of_shift), vector(1.0));
             let pose = Pose::new(shift, [x, y, z, 0.3]).unwrap();
             let ball = DVec3::from_array(point).extend(0.25);
             let placed = place(ball, &pose);

@@ -4,7 +4,7 @@ use crate::cover::Cover;
 use crate::error::NotProven;
 use crate::nearest::MeshPoint;
 use crate::placed::{Moving, moving, placed};
-use crate::scene::{AxisKind, Joint, Scene, Witness};
+use crate::scene::{AxisKind, Joint, Link, Scene, Witness};
 use crate::tolerances::ROUNDING;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
@@ -19,6 +19,9 @@ pub struct Proof {
     /// The unit of its lengths is 2 to the power of this.
     pub unit: i32,
 }
+
+/// The checker has numbers of 8 bits before the point for turns.
+const MOST_RADIANS: f64 = 256.0;
 
 /// Weights of corners are multiples of 2⁻⁶².
 const WEIGHT_UNIT: f64 = (1u64 << 62) as f64;
@@ -35,8 +38,13 @@ const LENGTH_BITS: i32 = 49;
 /// # Errors
 /// [`NotProven`].
 pub fn prove(scene: &Scene<'_>, until: f64, witness: Option<Witness>) -> Result<Proof, NotProven> {
+    let turns_too_far =
+        |link: &Link| !(largest_turn(&link.joint, 2f64.powi(exponent_above(until))) < MOST_RADIANS);
+    if let Some(number) = scene.links.iter().position(turns_too_far) {
+        return Err(NotProven::TurnsTooFar { link: number + 1 });
+    }
     let links = moving(&scene.links);
-    let (mut bytes, unit, size) = state(scene, &links, until, witness);
+    let (mut bytes, unit, size) = state(scene, &links, until, witness)?;
     let mut cover = Cover::new((scene, &links), until, 2f64.powi(unit));
     for (number, pair) in scene.pairs.iter().enumerate() {
         cover.write(number, 0.5 * pair.margin + ROUNDING * size)?;
@@ -50,12 +58,15 @@ pub fn prove(scene: &Scene<'_>, until: f64, witness: Option<Witness>) -> Result<
 }
 
 /// Returns a statement as bytes, the unit of its lengths as a power of two, and the largest length.
+///
+/// # Errors
+/// [`NotProven::NoContact`].
 pub(crate) fn state(
     scene: &Scene<'_>,
     links: &[Moving],
     until: f64,
     witness: Option<Witness>,
-) -> (Vec<u8>, i32, f64) {
+) -> Result<(Vec<u8>, i32, f64), NotProven> {
     let time_unit = exponent_above(until);
     let size = largest_length(scene, links, time_unit);
     let unit = exponent_above(size) - LENGTH_BITS;
@@ -80,9 +91,23 @@ pub(crate) fn state(
     write_numbers(&mut bytes, [until]);
     bytes.push(u8::from(witness.is_some()));
     if let Some(witness) = witness {
-        write_witness(&mut bytes, scene, links, witness);
+        write_witness(&mut bytes, scene, links, (witness, ROUNDING * size))?;
     }
-    (bytes, unit, size)
+    Ok((bytes, unit, size))
+}
+
+/// Returns the largest of the numbers by which a joint turns: at time 0, and in the unit of time.
+fn largest_turn(joint: &Joint, time_unit: f64) -> f64 {
+    match joint {
+        Joint::Free(motion) => motion.spin().abs().max_element() * time_unit,
+        Joint::Axis {
+            kind: AxisKind::Turns,
+            start,
+            rate,
+            ..
+        } => greater(start.abs(), rate.abs() * time_unit),
+        Joint::Axis { .. } => 0.0,
+    }
 }
 
 /// Returns the least exponent of a power of two above a number.
@@ -140,26 +165,46 @@ fn write_numbers(bytes: &mut Vec<u8>, numbers: impl IntoIterator<Item = f64>) {
     bytes.extend(numbers.into_iter().flat_map(|x| x.to_le_bytes()));
 }
 
-/// Writes the triangle of each witness, and the weights of its corners.
-fn write_witness(bytes: &mut Vec<u8>, scene: &Scene<'_>, links: &[Moving], witness: Witness) {
+/// Writes the triangle of each witness, and the weights of its corners. If only rounding makes the tolerance too small for the
+/// checker, it is as large as it has to be.
+fn write_witness(
+    bytes: &mut Vec<u8>,
+    scene: &Scene<'_>,
+    links: &[Moving],
+    (witness, rounding): (Witness, f64),
+) -> Result<(), NotProven> {
+    let points = mesh_points(scene, links, witness);
+    let [a, b] = &points;
+    let distance = a.ball.truncate().distance(b.ball.truncate()) - a.ball.w - b.ball.w;
+    let needed = distance + rounding - scene.pairs[witness.pair].margin;
+    if !(needed <= witness.tolerance + 2.0 * rounding) {
+        return Err(NotProven::NoContact { distance });
+    }
     bytes.extend((witness.pair as u32).to_le_bytes());
-    write_numbers(bytes, [witness.time, witness.tolerance]);
-    for point in mesh_points(scene, links, witness) {
+    write_numbers(bytes, [witness.time, greater(witness.tolerance, needed)]);
+    for point in points {
         bytes.extend((point.place as u32).to_le_bytes());
         // Both together are no more than the whole, also if they are rounded up.
         let [a, b, _] = point.weights.map(|weight| (weight * WEIGHT_UNIT) as u64);
         let b = b.min((WEIGHT_UNIT as u64).saturating_sub(a));
         bytes.extend([a, b].map(u64::to_le_bytes).concat());
     }
+    Ok(())
 }
 
-/// Returns the points of both meshes that are nearest to those of a witness.
+/// Returns the points of both meshes that are nearest to those of a witness, in the world.
 pub(crate) fn mesh_points(scene: &Scene<'_>, links: &[Moving], witness: Witness) -> [MeshPoint; 2] {
     let all = placed(links, witness.time, 0.0);
     [0, 1].map(|k| {
         let carried = &scene.bodies[scene.pairs[witness.pair].bodies[k]];
         let link = &all[carried.link];
         let local = link.rotation.transpose() * (witness.points[k] - link.centre);
-        MeshPoint::nearest(carried.body, local + links[carried.link].centre)
+        let centre = links[carried.link].centre;
+        let nearest = MeshPoint::nearest(carried.body, local + centre);
+        let place = link.centre + link.rotation * (nearest.ball.truncate() - centre);
+        MeshPoint {
+            ball: place.extend(nearest.ball.w),
+            ..nearest
+        }
     })
 }

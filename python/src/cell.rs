@@ -185,8 +185,8 @@ impl PyCell {
     /// nothing.
     ///
     /// Returns:
-    ///     A list of `Proof`: one for each segment, the last one that of a contact or of where a limit was reached. Where that
-    ///     is at the start of a segment, this one has no proof.
+    ///     A list of `Proof`: one for each segment, the last one that of a contact or of where a limit was reached. A segment at
+    ///     whose start bodies touch, or one is in another, has no proof. A deadline is one for the search, not for proofs.
     ///
     /// Raises:
     ///     InputError: a body has no triangles, the path is a curve, or a segment cannot be proven.

@@ -71,8 +71,8 @@ Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --certificates proofs
   ccd check proofs/hit.proof --a knot.obj --b knot.obj
   ccd check proofs/*.proof --show
-  ccd edges arm.urdf --cell cell.toml --edges moves.csv --certificates proofs
-  ccd check proofs/*.proof --robot arm.urdf --cell cell.toml";
+  ccd edges arm.urdf --cell cell.toml --edges moves.csv --certificates edges
+  ccd check edges/*.proof --robot arm.urdf --cell cell.toml";
 
 /// The meshes of a folder as bytes, each with the certificate of its tree.
 type Meshes = Vec<(Vec<u8>, Vec<u8>)>;

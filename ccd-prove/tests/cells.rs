@@ -1,0 +1,94 @@
+//! Proofs of paths of a small robot: each that is written holds, also at the limits.
+
+use ccd_prove::{NotProven, PathNotProven, Proof, ProvenCell};
+use rigid_ccd::{Body, Pose, Settings, trajectory};
+use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, PositionRule, Robot};
+
+/// A body that slides along x, with a wheel on it that has no body, and another one on an axle that has one if asked for.
+fn cell(car: Body, obstacle: (Body, f64), wheel: Option<Body>) -> Cell {
+    let joint = |parent: &str, child: &str, axis_and_limits| Joint {
+        name: child.into(),
+        parent: parent.into(),
+        child: child.into(),
+        axis_and_limits,
+        position_rule: PositionRule::Independent,
+    };
+    let x = [1.0, 0.0, 0.0];
+    let slide = trajectory::Joint::prismatic(Pose::IDENTITY, x).unwrap();
+    let axle = trajectory::Joint::revolute(Pose::at([0.0, 9.0, 0.0]).unwrap(), x).unwrap();
+    let mut links = vec![
+        Link::named("base"),
+        Link::named("car").with_body(car, Pose::IDENTITY),
+        Link::named("wheel"),
+    ];
+    if let Some(body) = wheel {
+        links[2] = Link::named("wheel").with_body(body, Pose::IDENTITY);
+    }
+    let joints = vec![joint("base", "car", slide), joint("base", "wheel", axle)];
+    let robot = Robot::new(links, joints).unwrap();
+    let mut cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
+    let (body, at) = obstacle;
+    let pose = Pose::at([at, 0.0, 0.0]).unwrap();
+    cell.add_obstacle("obstacle", body, pose).unwrap();
+    cell
+}
+
+fn block(half: f64) -> Body {
+    Body::cuboid([half; 3]).unwrap()
+}
+
+/// Asks when the cell first touches on a path, and proves the answer; all proofs have to hold.
+fn prove_and_check(cell: &Cell, path: &[[f64; 2]]) -> Result<Vec<Proof>, PathNotProven> {
+    let settings = Settings::DEFAULT;
+    let mut solver = cell.solver().with_settings(settings.clone());
+    let outcome = solver.first_contact(path).unwrap();
+    let proven = ProvenCell::new(cell).unwrap();
+    let proofs = proven.prove_path(path, &outcome, &settings)?;
+    for proof in &proofs {
+        let read = |body: &ccd_prove::Body| {
+            ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit).unwrap()
+        };
+        let meshes: Vec<_> = proven.meshes().map(read).collect();
+        assert_eq!(ccd_check::check(&meshes, &proof.bytes), Ok(()));
+    }
+    Ok(proofs)
+}
+
+/// Their surfaces are apart, so there is nothing to prove.
+#[test]
+fn a_body_in_another_at_the_start_has_no_proof() {
+    let ball = || Body::sphere(0.1).unwrap();
+    for (car, obstacle) in [(ball(), block(2.0)), (block(1.0), block(0.1))] {
+        let cell = cell(car, (obstacle, 0.0), None);
+        let path = [[0.0, 0.0], [0.5, 0.0]];
+        assert_eq!(prove_and_check(&cell, &path).unwrap().len(), 0);
+    }
+}
+
+/// The gap is the tolerance but for rounding: at a start, or where one segment ends and the next one begins.
+#[test]
+fn a_contact_at_the_tolerance_is_proven() {
+    let at = 2.0 + Settings::DEFAULT.tolerance;
+    let cell = cell(block(1.0), (block(1.0), at), None);
+    let path = [[0.0, 0.0], [0.5, 0.0]];
+    assert_eq!(prove_and_check(&cell, &path).unwrap().len(), 1);
+    let path = [[-3.0, 0.0], [0.0, 0.0], [0.5, 0.0]];
+    assert_eq!(prove_and_check(&cell, &path).unwrap().len(), 2);
+}
+
+/// A wheel that moves no body is in no statement, one that does turns too far.
+#[test]
+fn turns_beyond_the_range_of_the_checker_are_refused() {
+    for (from, to) in [(300.0, 300.5), (0.0, 129.0)] {
+        let path = [[0.0, from], [0.5, to]];
+        let unused = cell(block(1.0), (block(1.0), 9.0), None);
+        assert_eq!(prove_and_check(&unused, &path).unwrap().len(), 1);
+        let used = cell(block(1.0), (block(1.0), 9.0), Some(block(0.5)));
+        let refused = prove_and_check(&used, &path).map(|proofs| proofs.len());
+        let reason = NotProven::TurnsTooFar { link: 2 };
+        assert_eq!(refused, Err(PathNotProven::Segment { segment: 0, reason }));
+    }
+    let used = cell(block(1.0), (block(1.0), 9.0), Some(block(0.5)));
+    let path = [[0.0, 255.0], [0.5, 129.0]];
+    assert_eq!(prove_and_check(&used, &path).unwrap().len(), 1);
+}
