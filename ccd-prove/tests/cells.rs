@@ -4,7 +4,7 @@ use ccd_prove::{NotProven, PathNotProven, Proof, ProvenCell};
 use rigid_ccd::{Body, Pose, Settings, trajectory};
 use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, PositionRule, Robot};
 
-/// A body that slides along x, with a wheel on it that has no body, and another one on an axle that has one if asked for.
+/// A car that slides along x towards an obstacle, and beside it a wheel that turns, with a body if one is given.
 fn cell(car: Body, obstacle: (Body, f64), wheel: Option<Body>) -> Cell {
     let joint = |parent: &str, child: &str, axis_and_limits| Joint {
         name: child.into(),

@@ -165,66 +165,6 @@ fn answers_of_the_engine_are_proven() {
     }
 }
 
-/// Proves and checks that a point and an edge are apart until a time.
-fn prove_point_and_edge(a: ([f64; 3], Motion), b: ([[f64; 3]; 2], Motion), until: f64) {
-    let point = Body::new(&[a.0], &[[0; 3]]);
-    let edge = Body::new(&b.0, &[[0, 1, 1]]);
-    let scene = Scene::of_two((&point, a.1), (&edge, b.1), 0.0);
-    let proof = prove(&scene, until, None).unwrap();
-    let read = |body: &Body| ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit);
-    let bodies = [read(&point).unwrap(), read(&edge).unwrap()];
-    assert_eq!(ccd_check::check(&bodies, &proof.bytes), Ok(()));
-}
-
-fn flight(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> Motion {
-    Motion::new(Pose::at(place).unwrap(), velocity, spin).unwrap()
-}
-
-/// A leaf needs a normal that is off by less than the distance over the length of the edge.
-/// Source: `ipc-toolkit`'s test "Point-edge ToI random rigid 0".
-#[test]
-fn a_point_is_proven_to_fly_until_a_billionth_from_an_edge() {
-    let from = [-3.523_344_703_336_752_6, -6.983_016_521_509_961_5, 0.0];
-    let to = [3.018_689_460_797_075, -8.551_274_266_649_145, 0.0];
-    let place = [-9.250_086_831_160_303, -1.327_086_326_752_282_6, 0.0];
-    let velocity = [156.693_014_898_532_9, -113.924_839_249_120_31, 0.0];
-    let of_edge = [0.717_640_086_133_783_9, -2.686_221_661_748_289_2, 0.0];
-    prove_point_and_edge(
-        ([0.0; 3], flight(place, velocity, [0.0; 3])),
-        ([from, to], flight([0.0; 3], of_edge, [0.0; 3])),
-        0.057_998_924_760_781_87,
-    );
-}
-
-/// What the checker knows of a rotation is lost to the turning body alone.
-/// Source: `rigid-ipc`'s test "edge-vertex Rotation theta -2 pi order 0".
-#[test]
-fn a_point_is_proven_to_turn_until_a_hundred_billionth_from_an_edge() {
-    prove_point_and_edge(
-        (
-            [-1.0, 0.0, 0.0],
-            flight([0.0, 0.5, 0.0], [0.0; 3], [0.0, 0.0, -TAU]),
-        ),
-        ([[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]], Motion::STILL),
-        0.583_333_333_332_394_2,
-    );
-}
-
-/// No plane of the world stays between them for long, but one that flies with them does.
-/// Source: `ipc-toolkit`'s test "Point-Triangle CCD General".
-#[test]
-fn bodies_that_fly_side_by_side_are_proven_apart() {
-    let along = [3.0, 1.0, -2.0];
-    prove_point_and_edge(
-        ([0.0; 3], flight([0.0, 0.0, 1e-6], along, [0.0; 3])),
-        (
-            [[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
-            flight([0.0; 3], along, [0.0; 3]),
-        ),
-        1.0,
-    );
-}
-
 #[test]
 fn contacts_within_a_billionth_are_proven() {
     let meshes = Meshes::new();
