@@ -1,119 +1,155 @@
-//! A mesh of rounded triangles, and a tree of boxes over ranges of them.
+//! A mesh of rounded triangles, and a tree over them.
 //!
-//! The certificate of a body says only in which order the triangles are. The boxes are measured here.
+//! The certificate of a body says only what is in each part of the tree. How large parts are is measured here.
 
-use crate::number::{Ball, ONE, Point, dot, product};
+use crate::number::*;
 use crate::reader::Reader;
-use crate::{Stop, sha256};
+use crate::{Stop, sha256, verifiable};
 use alloc::vec::Vec;
 
-/// Triangles of a body, from one to before another.
-pub(crate) type Part = [usize; 2];
+/// A part of the triangles, by the number of its node.
+pub(crate) type Part = usize;
+
+/// The part that has all triangles.
+pub(crate) const WHOLE: Part = 0;
 
 /// A point, and the radius of the ball around it.
 type Corner = [i64; 4];
 
-/// The least and the greatest of each coordinate, and of the radius.
-type Bounds = [[i64; 2]; 4];
+type Triangle = [Corner; 3];
+
+/// No part is more than so many splits deep.
+const MAX_DEPTH: usize = 100;
 
 /// A mesh with its tree, in integer coordinates.
 #[derive(Clone, Debug)]
 pub struct Body {
     pub(crate) digest: [u8; 32],
-    pub(crate) unit: i32,
+    pub(crate) unit: i64,
     /// The corners of each triangle in the order of the tree. Each is off by less than 1 in each coordinate.
-    pub(crate) triangles: Vec<[Corner; 3]>,
-    /// Those of a part are where its halves meet, as no other part is halved there; those of the triangles follow.
-    bounds: Vec<Bounds>,
+    pub(crate) triangles: Vec<Triangle>,
+    /// Each before the nodes of its first part, and these before those of the second one.
+    nodes: Vec<Node>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Node {
+    /// The least and the greatest of each coordinate.
+    ranges: [[i64; 2]; 3],
+    /// The largest radius of a corner, and that of a ball around the middle of the ranges that has all in it.
+    radius: i64,
+    ball: i64,
+    /// The first triangle, and the node of the second part, if there is more than one triangle.
+    triangle: usize,
+    second: Option<Part>,
 }
 
 impl Body {
-    /// Reads a mesh and the certificate of its tree, in the unit of 2 to the power of `unit`.
+    /// Reads a mesh and the certificate of its tree, in the unit of a proof.
     ///
     /// # Errors
     /// The verdict, if the certificate is broken or numbers are out of range.
-    pub fn new(mesh: &[u8], certificate: &[u8], unit: i32) -> Result<Body, Stop> {
-        let triangles = read_mesh(Reader::new(mesh), unit.into())?;
-        let (count, digest) = (triangles.len(), sha256(mesh));
-        let mut reader = Reader::new(certificate);
-        reader.name(b"CCDBODY1")?;
-        let is_of_mesh = reader.take(32)? == digest;
+    pub fn new(mesh: &[u8], certificate: &[u8], proof: &[u8]) -> Result<Body, Stop> {
+        let unit = Reader::after(b"CCDPROOF", proof)?.signed(4)?;
+        let triangles = read_mesh(Reader::new(mesh), unit)?;
+        let mut body = Body { digest: sha256(mesh), unit, triangles: Vec::new(), nodes: Vec::new() };
+        let mut reader = Reader::after(b"CCDBODY1", certificate)?;
+        let is_of_mesh = reader.take(32)? == body.digest;
         reader.require(is_of_mesh, "this is the certificate of another mesh")?;
-        let bounds = alloc::vec![Bounds::default(); 2 * count];
-        let mut body = Body { digest, unit, triangles: Vec::new(), bounds };
-        let mut is_missing = alloc::vec![true; count];
-        for _ in 0..count {
-            let number = reader.index(count)?;
-            reader.require(is_missing[number], "the order has a triangle twice")?;
-            is_missing[number] = false;
-            body.triangles.push(triangles[number]);
-        }
-        reader.end()?;
-        body.measure([0, count]);
+        let count = triangles.len();
+        let mut files = (reader, triangles);
+        body.read_part(&mut files, count, 0)?;
+        files.0.end()?;
         Ok(body)
     }
 
-    /// Measures a part and all parts of it.
-    fn measure(&mut self, part @ [from, to]: Part) -> Bounds {
-        let bounds = if to - from > 1 {
-            let [a, b] = halves(part).map(|half| self.measure(half));
-            [0, 1, 2, 3].map(|k| [a[k][0].min(b[k][0]), a[k][1].max(b[k][1])])
+    /// Reads a part of so many triangles: how many its first part has, and both parts, or the number of its triangle.
+    fn read_part(&mut self, files: &mut (Reader<'_>, Vec<Option<Triangle>>), count: usize, depth: usize) -> Result<(), Stop> {
+        let (node, from, (reader, triangles)) = (self.nodes.len(), self.triangles.len(), &mut *files);
+        self.nodes.push(Node { triangle: from, ..Node::default() });
+        if count > 1 {
+            let first = reader.index(count)?;
+            reader.require(first > 0, "a part is empty")?;
+            verifiable(depth < MAX_DEPTH, "a tree is too deep")?;
+            self.read_part(files, first, depth + 1)?;
+            self.nodes[node].second = Some(self.nodes.len());
+            self.read_part(files, count - first, depth + 1)?;
         } else {
-            let [a, b, c] = self.triangles[from];
-            [0, 1, 2, 3].map(|k| [a[k].min(b[k]).min(c[k]), a[k].max(b[k]).max(c[k])])
-        };
-        let place = self.place(part);
-        self.bounds[place] = bounds;
-        bounds
+            let number = reader.index(triangles.len())?;
+            self.triangles.push(triangles[number].take().ok_or(reader.broken("a tree has a triangle twice"))?);
+        }
+        self.nodes[node].measure(self.triangles[from..].as_flattened());
+        Ok(())
     }
 
-    fn place(&self, part @ [from, to]: Part) -> usize {
-        if to - from > 1 { halves(part)[1][0] } else { self.triangles.len() + from }
+    /// Returns both parts of a part; `None` if it is a triangle.
+    pub(crate) fn halves(&self, part: Part) -> Option<[Part; 2]> {
+        Some([part + 1, self.nodes[part].second?])
     }
 
-    /// Returns the largest distance of a corner of a part from a point, or more.
-    pub(crate) fn reach(&self, part: Part, point: Point) -> i64 {
-        let bounds = self.bounds[self.place(part)];
-        let farthest = [0, 1, 2].map(|k| (point[k] - bounds[k][0]).max(bounds[k][1] - point[k]));
-        Ball::exact(farthest).length() as i64
+    /// Returns the centre and the radius of a ball that has all points of a part in it.
+    pub(crate) fn ball(&self, part: Part) -> (Vector, i64) {
+        (self.nodes[part].middle(), self.nodes[part].ball)
+    }
+
+    /// Returns whether all points of a part are farther than a limit from a point.
+    pub(crate) fn is_beyond(&self, part: Part, point: Vector, limit: i64) -> bool {
+        self.all(part, &|Node { ranges, radius, .. }| {
+            let away = [0, 1, 2].map(|k| (ranges[k][0] - point[k]).max(point[k] - ranges[k][1]).max(0));
+            dot(away, away) > product(limit + radius, limit + radius)
+        })
     }
 
     /// Returns whether no point of a part is lower along a direction than a limit. A ball sinks below its centre by its radius, as
     /// the plane's normal is no longer than 1.
-    pub(crate) fn is_above(&self, part: Part, [x, y, z]: Point, limit: i128) -> bool {
-        self.is_above_in(&[x, y, z, -ONE.mid[0]], part, limit)
+    pub(crate) fn is_above(&self, part: Part, direction: Vector, limit: i128) -> bool {
+        let is_high = |centre: Vector, radius: i64| dot(direction, centre) - product(ONE, radius) >= limit;
+        self.all(part, &|Node { ranges, radius, triangle, second, .. }| {
+            let mut corners = self.triangles[*triangle].iter();
+            is_high([0, 1, 2].map(|k| ranges[k][usize::from(direction[k] < 0)]), *radius)
+                || second.is_none() && corners.all(|&[x, y, z, radius]| is_high([x, y, z], radius))
+        })
     }
 
-    fn is_above_in(&self, direction: &[i64; 4], part @ [from, to]: Part, limit: i128) -> bool {
-        let [x, y, z, radius] = &self.bounds[self.place(part)];
-        let least = |k: usize, range: &[i64; 2]| product(direction[k], range[usize::from(direction[k] < 0)]);
-        if least(0, x) + least(1, y) + least(2, z) + least(3, radius) >= limit {
-            return true;
+    /// Returns whether something is so of a part, or of all parts that it is split into.
+    fn all(&self, mut part: Part, is_so: &impl Fn(&Node) -> bool) -> bool {
+        while !is_so(&self.nodes[part]) {
+            let Some([first, second]) = self.halves(part) else { return false };
+            if !self.all(first, is_so) {
+                return false;
+            }
+            part = second;
         }
-        if to - from > 1 {
-            halves(part).into_iter().all(|half| self.is_above_in(direction, half, limit))
-        } else {
-            self.triangles[from].iter().all(|&corner| dot(*direction, corner) >= limit)
-        }
+        true
     }
 }
 
-pub(crate) fn halves([from, to]: Part) -> [Part; 2] {
-    let middle = from + (to - from) / 2;
-    [[from, middle], [middle, to]]
+impl Node {
+    fn measure(&mut self, corners: &[Corner]) {
+        let range =
+            |k| corners.iter().fold([i64::MAX, i64::MIN], |[least, most], c: &Corner| [least.min(c[k]), most.max(c[k])]);
+        (self.ranges, self.radius) = ([0, 1, 2].map(range), range(3)[1]);
+        let middle = self.middle();
+        let squares = corners.iter().map(|&[x, y, z, _]| sub([x, y, z], middle)).map(|v| dot(v, v).unsigned_abs());
+        self.ball = squares.max().unwrap_or(0).isqrt() as i64 + 1 + self.radius;
+    }
+
+    fn middle(&self) -> Vector {
+        self.ranges.map(|[least, most]| (least + most) >> 1)
+    }
 }
 
 /// Reads a mesh: the numbers of vertices and triangles, the vertices with their radii, and the corners.
-fn read_mesh(mut reader: Reader<'_>, unit: i64) -> Result<Vec<[Corner; 3]>, Stop> {
+fn read_mesh(mut reader: Reader<'_>, unit: i64) -> Result<Vec<Option<Triangle>>, Stop> {
     let [vertex_count, triangle_count] = [reader.unsigned(4)?, reader.unsigned(4)?];
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
     for _ in 0..vertex_count {
-        let [x, y, z] = reader.vector(unit, 50)?.mid;
+        let [x, y, z] = reader.vector(unit, 50)?;
         vertices.push([x, y, z, reader.size(unit, 50)?]);
     }
     for _ in 0..triangle_count {
         let [a, b, c] = [(); 3].map(|()| reader.index(vertices.len()));
-        triangles.push([vertices[a?], vertices[b?], vertices[c?]]);
+        triangles.push(Some([vertices[a?], vertices[b?], vertices[c?]]));
     }
     reader.require(!triangles.is_empty(), "a mesh is empty")?;
     reader.end()?;
@@ -125,42 +161,126 @@ mod tests {
     use super::*;
     use crate::number::FRACTION;
 
-    /// What is above a limit and how far parts reach, against all corners, for all parts of bodies of one to twelve triangles.
+    /// The beginning of a proof whose unit of length is 1.
+    const UNIT: &[u8] = b"CCDPROOF\0\0\0\0";
+
+    /// Numbers from −n/2 to n/2.
+    struct Random(u64);
+
+    impl Random {
+        fn below(&mut self, n: i64) -> i64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 40) as i64 % n - n / 2
+        }
+    }
+
+    /// A mesh of triangles that share no corner.
+    fn mesh(triangles: &[Triangle]) -> Vec<u8> {
+        let count = triangles.len() as u32;
+        let mut mesh = [3 * count, count].map(u32::to_le_bytes).concat();
+        mesh.extend(triangles.as_flattened().as_flattened().iter().flat_map(|&x| (x as f64).to_le_bytes()));
+        mesh.extend((0..3 * count).flat_map(u32::to_le_bytes));
+        mesh
+    }
+
+    fn certificate(mesh: &[u8], parts: &[u32]) -> Vec<u8> {
+        let parts: Vec<u8> = parts.iter().flat_map(|x| x.to_le_bytes()).collect();
+        [&b"CCDBODY1"[..], &sha256(mesh), &parts].concat()
+    }
+
+    /// Writes any tree of triangles.
+    fn write_part(random: &mut Random, order: &[u32], parts: &mut Vec<u32>) {
+        if let [number] = *order {
+            return parts.push(number);
+        }
+        let first = 1 + random.below(100).unsigned_abs() as usize % (order.len() - 1);
+        parts.push(first as u32);
+        write_part(random, &order[..first], parts);
+        write_part(random, &order[first..], parts);
+    }
+
+    /// What is above a limit, what is beyond a distance, and what is in a ball, against all corners, for all parts
+    /// of bodies of one to twelve triangles.
     #[test]
     fn heights_and_distances_are_those_of_the_corners() {
-        let mut state = 1u64;
-        let mut random = |range: i64| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 40) as i64 % range - range / 2
-        };
-        let one = i128::from(ONE.mid[0]);
-        let (mut above, mut below) = (0, 0);
+        let mut random = Random(1);
+        let one = i128::from(ONE);
+        let ([mut above, mut below], mut beyond) = ([0, 0], 0);
         for count in 1..=12 {
-            let triangles = (0..count).map(|_| [(); 3].map(|()| [random(1000), random(30), random(7), random(9).abs()]));
-            let (triangles, bounds) = (triangles.collect(), alloc::vec![Bounds::default(); 2 * count]);
-            let mut body = Body { digest: [0; 32], unit: 0, triangles, bounds };
-            body.measure([0, count]);
-            let mut parts = alloc::vec![[0, count]];
-            while let Some(part @ [from, to]) = parts.pop() {
+            let corner = |random: &mut Random| [random.below(1000), random.below(30), random.below(7), random.below(9).abs()];
+            let triangles: Vec<Triangle> = (0..count).map(|_| [(); 3].map(|()| corner(&mut random))).collect();
+            let (mesh, mut parts) = (mesh(&triangles), Vec::new());
+            let order: Vec<u32> = (0..count).rev().collect();
+            write_part(&mut random, &order, &mut parts);
+            let body = Body::new(&mesh, &certificate(&mesh, &parts), UNIT).unwrap();
+            let mut waiting = alloc::vec![(WHOLE, 0, count as usize)];
+            while let Some((part, from, to)) = waiting.pop() {
                 let corners = body.triangles[from..to].as_flattened();
-                let (direction, point) = ([(); 3].map(|()| random(100) << FRACTION), [random(2000), 3, 5]);
-                let height = |[x, y, z, radius]: &[i64; 4]| dot(direction, [*x, *y, *z]) - one * i128::from(*radius);
+                let direction = [(); 3].map(|()| random.below(8) << FRACTION);
+                let point = [random.below(2000), 3, 5];
+                let height = |[x, y, z, radius]: &Corner| dot(direction, [*x, *y, *z]) - one * i128::from(*radius);
                 let height = corners.iter().map(height).min().unwrap();
-                for limit in [i128::MIN, height - 1, height, height + 1, one * i128::from(random(100_000))] {
+                for limit in [i128::MIN, height - 1, height, height + 1, one * i128::from(random.below(100_000))] {
                     let is_above = body.is_above(part, direction, limit);
                     assert_eq!(is_above, height >= limit);
                     if is_above { above += 1 } else { below += 1 }
                 }
-                let reach = body.reach(part, point);
-                for corner in corners {
-                    let squares: i64 = (0..3).map(|k| (corner[k] - point[k]) * (corner[k] - point[k])).sum();
-                    assert!(reach * reach >= squares);
+                let square = |v: Vector| dot(v, v);
+                let (middle, ball) = body.ball(part);
+                for &[x, y, z, radius] in corners {
+                    let room = ball - radius;
+                    assert!(room >= 0 && product(room, room) >= square(sub([x, y, z], middle)));
                 }
-                if to - from > 1 {
-                    parts.extend(halves(part));
+                for limit in [0, 10, 300, 1000] {
+                    // Convex combinations of the corners of each triangle, in sixths.
+                    let weights = (0..=6).flat_map(|a| (0..=6 - a).map(move |b| [a, b, 6 - a - b]));
+                    let is_near = |weights: [i64; 3], [a, b, c]: &Triangle| {
+                        let [x, y, z, radius] = [0, 1, 2, 3].map(|k| weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k]);
+                        let farthest = 6 * limit + radius;
+                        square(sub([x, y, z], point.map(|x| 6 * x))) <= product(farthest, farthest)
+                    };
+                    let is_any_near = weights.clone().any(|w| body.triangles[from..to].iter().any(|t| is_near(w, t)));
+                    let is_beyond = body.is_beyond(part, point, limit);
+                    assert!(!(is_beyond && is_any_near), "{point:?} {limit}");
+                    beyond += usize::from(is_beyond);
+                }
+                if let Some([first, second]) = body.halves(part) {
+                    let middle = body.nodes[second].triangle;
+                    waiting.extend([(first, from, middle), (second, middle, to)]);
                 }
             }
         }
-        assert!(above > 100 && below > 100, "{above} above, {below} below");
+        assert!(above > 100 && below > 100 && beyond > 100, "{above} above, {below} below, {beyond} beyond");
+    }
+
+    /// Trees that are none.
+    #[test]
+    fn trees_that_leave_out_a_triangle_are_broken() {
+        let triangles = [0, 1, 2].map(|x| [[x, 0, 0, 0], [x, 1, 0, 0], [x, 0, 1, 0]]);
+        let mesh = mesh(&triangles);
+        let verdict = |parts: &[u32]| Body::new(&mesh, &certificate(&mesh, parts), UNIT).map(|body| body.triangles.len());
+        assert_eq!(verdict(&[1, 2, 1, 0, 1]), Ok(3));
+        let reason = |parts: &[u32]| match verdict(parts) {
+            Err(Stop::Broken { reason, .. }) => reason,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(reason(&[1, 2, 1, 0, 2]), "a tree has a triangle twice");
+        assert_eq!(reason(&[1, 2, 1, 0, 3]), "there is nothing of this number");
+        assert_eq!(reason(&[0, 2, 1, 0, 1]), "a part is empty");
+        assert_eq!(reason(&[3, 2, 1, 0, 1]), "there is nothing of this number");
+        assert_eq!(reason(&[1, 2, 1, 0]), "the file ends too early");
+        assert_eq!(reason(&[1, 2, 1, 0, 1, 0]), "the file goes on after its end");
+    }
+
+    /// A tree of which each part has one triangle and the rest.
+    #[test]
+    fn trees_have_a_largest_depth() {
+        let verdict = |count: u32| {
+            let mesh = mesh(&alloc::vec![[[0; 4]; 3]; count as usize]);
+            let parts: Vec<u32> = (0..count - 1).flat_map(|number| [1, number]).chain([count - 1]).collect();
+            Body::new(&mesh, &certificate(&mesh, &parts), UNIT).map(|body| body.triangles.len())
+        };
+        assert_eq!(verdict(101), Ok(101));
+        assert_eq!(verdict(102), Err(Stop::Unverifiable("a tree is too deep")));
     }
 }

@@ -1,17 +1,15 @@
 //! The check of a certificate: a tree of splits, whose leaves cover all pairs of triangles at all times.
 
-use crate::body::halves;
-use crate::leaf::Plane;
-use crate::motion::Placed;
-use crate::number::{FRACTION, Number, dot, product};
+use crate::body::WHOLE;
+use crate::leaf::{Side, is_beyond_ball, reads_plane_between};
 use crate::reader::Reader;
 use crate::statement::Statement;
 use crate::way::Way;
-use crate::{Body, Stop};
+use crate::{Body, Stop, verifiable};
 use alloc::collections::BTreeMap;
 
-/// All links in the middle of each stretch of time are kept, and all ways between them that are asked for: no more than so many,
-/// which is 400 MB.
+/// All links in the middle of each stretch of time are kept, and the ways to all from those that are asked for: no more than so many
+/// in all, which is 200 MB.
 const MAX_KEPT: usize = 1 << 20;
 
 /// Checks a certificate about meshes. Nothing is said of any other statement than the one in the certificate: the caller
@@ -20,53 +18,46 @@ const MAX_KEPT: usize = 1 << 20;
 /// # Errors
 /// [`Stop`] if the certificate does not prove its statement, or the checker cannot tell.
 pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
-    let mut reader = Reader::new(certificate);
+    let mut reader = Reader::after(b"CCDPROOF", certificate)?;
     let statement = Statement::read(&mut reader, meshes)?;
+    let links = &statement.links;
     let (mut stretches, mut ways) = (BTreeMap::new(), BTreeMap::new());
     for &(bodies, margin) in &statement.pairs {
-        let bodies = bodies.map(|body| &statement.bodies[body]);
-        let numbers = bodies.map(|body| body.link);
+        let bodies = bodies.map(|body| statement.bodies[body]);
         // What is to be proven: first both whole bodies over the whole time. Each step splits the last entry, or proves it.
-        let wholes = bodies.map(|body| [0, body.mesh.triangles.len()]);
-        let mut waiting = alloc::vec![(wholes, [0, statement.until])];
+        let mut waiting = alloc::vec![([WHOLE; 2], [0, statement.until])];
         while let Some((parts, times @ [from, to])) = waiting.pop() {
+            let middle = from + (to - from) / 2;
             match reader.unsigned(1)? as usize {
                 side @ 0..=1 => {
-                    let [first, end] = parts[side];
-                    reader.require(end - first > 1, "a triangle is split")?;
-                    waiting.extend(halves(parts[side]).into_iter().rev().map(|half| {
+                    let halves = bodies[side].0.halves(parts[side]).ok_or(reader.broken("a triangle is split"))?;
+                    waiting.extend(halves.into_iter().rev().map(|half| {
                         let mut parts = parts;
                         parts[side] = half;
                         (parts, times)
                     }));
                 }
                 2 => {
-                    let at = from + (product(to - from, reader.unsigned(2)? as i64) >> 16) as i64;
-                    reader.require(from < at && at < to, "a time is split at an end")?;
-                    waiting.extend([(parts, [at, to]), (parts, [from, at])]);
+                    reader.require(to - from > 1, "a time is too short to be split")?;
+                    waiting.extend([(parts, [middle, to]), (parts, [from, middle])]);
                 }
-                step @ 3..=8 => {
-                    let [(bytes, bits), (offset_bytes, offset_bits)] = [[(2, 14), (4, 20)], [(7, 50), (7, 0)]][step / 6];
-                    let normal = reader.axis(bytes)?;
-                    reader.require(dot(normal, normal) <= 1 << (2 * bits), "a normal is longer than 1")?;
-                    let normal = normal.map(|x| x << (FRACTION - bits));
-                    let plane = Plane { normal, offset: reader.signed(offset_bytes)? << offset_bits };
-                    if (stretches.len() + 1) * statement.links.len() + ways.len() > MAX_KEPT {
-                        return Err(Stop::Unverifiable("there are too many links and stretches of time"));
-                    }
-                    let links = stretches.entry(times).or_insert_with(|| {
-                        let middle = from + (to - from) / 2;
-                        let [middle, half] = [middle, to - middle].map(|time| Number::exact([time]));
-                        Placed::all(&statement.links, middle, half)
+                step @ 3..=7 => {
+                    let is_kept = (stretches.len() + ways.len() + 2) * links.all.len() <= MAX_KEPT;
+                    verifiable(is_kept, "there are too many links and stretches of time")?;
+                    let placed = stretches.entry(times).or_insert_with(|| links.placed(middle, to - middle));
+                    let numbers = bodies.map(|body| body.1);
+                    let seen_from = [0, numbers[0], numbers[1], numbers[1], numbers[0]][step - 3];
+                    let ways = ways.entry((times, seen_from)).or_insert_with(|| Way::all(links, placed, seen_from));
+                    let [a, b] = [0, 1].map(|k| {
+                        let (mesh, link) = bodies[k];
+                        Side { mesh, part: parts[k], centre: links.all[link].centre, link: &placed[link], way: &ways[link] }
                     });
-                    let seen_from = [0, numbers[0], numbers[1]][step % 3];
-                    let way = |to| *ways.entry((times, [seen_from, to])).or_insert_with(|| Way::new(links, seen_from, to));
-                    let ways = numbers.map(way);
-                    let is_apart = [plane.reversed(), plane]
-                        .into_iter()
-                        .enumerate()
-                        .all(|(k, plane)| plane.keeps((bodies[k], parts[k]), &links[numbers[k]], &ways[k], margin / 2 + 1));
-                    reader.require(is_apart, "a plane is not between its parts")?;
+                    let is_apart = match step {
+                        6 => is_beyond_ball(&b, &a, links, margin),
+                        7 => is_beyond_ball(&a, &b, links, margin),
+                        _ => reads_plane_between(&mut reader, &a, &b, links, margin / 2 + 1)?,
+                    };
+                    reader.require(is_apart, "a leaf does not prove that its parts are apart")?;
                 }
                 _ => return Err(reader.broken("there is no such step")),
             }
@@ -89,7 +80,7 @@ mod tests {
         mesh.extend(numbers(corners.as_flattened()));
         mesh.extend([0u32, 1, 2].map(u32::to_le_bytes).concat());
         let certificate = [&b"CCDBODY1"[..], &crate::sha256(&mesh), &[0; 4]].concat();
-        Body::new(&mesh, &certificate, 0).unwrap()
+        Body::new(&mesh, &certificate, b"CCDPROOF\0\0\0\0").unwrap()
     }
 
     fn numbers(numbers: &[f64]) -> Vec<u8> {
@@ -117,23 +108,26 @@ mod tests {
         proof
     }
 
-    /// A plane that is 2²⁰ units from the origin.
-    fn leaf(normal: [i16; 3]) -> Vec<u8> {
-        [&[3], &normal.map(i16::to_le_bytes).concat()[..], &[1, 0, 0, 0]].concat()
+    /// A plane across z at a height.
+    fn leaf(height: i64) -> Vec<u8> {
+        let numbers = [0, 0, 1 << 50, height].map(|x: i64| x.to_le_bytes());
+        [&[3], numbers.map(|bytes| [0, 1, 2, 3, 4, 5, 6].map(|k| bytes[k])).as_flattened()].concat()
     }
 
-    /// A chain whose links reach and travel as far as they may. At 0.95 the body at its end is where it was at the start without
-    /// the chain: on the other body. But the sum of the travels is more than numbers hold.
+    /// A chain whose links reach as far as they may, each by itself and in all, and one more.
     #[test]
-    fn what_is_unknown_proves_nothing() {
-        let [far, near] = [0x4310_0000_0000_0000, 0x430e_6666_6666_6666].map(f64::from_bits);
+    fn what_reaches_too_far_is_unverifiable() {
         let body = triangle();
-        let chain = [[near, near, near, 0.0, 0.0, 0.0, 1.0, -far, -far, -far]; 2048];
-        let mut proof = proof(&chain, ([0, 2048], &body));
-        proof.extend(leaf([9459; 3]));
-        let apart = "a plane is not between its parts";
-        let at = proof.len();
-        assert_eq!(check(&[body], &proof), Err(Stop::Broken { reason: apart, at }));
+        let far = f64::from_bits(0x4310_0000_0000_0000);
+        let verdict = |count: usize| {
+            let link = [0.0, 0.0, far, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+            let mut proof = proof(&alloc::vec![link; count], ([0, count as u32], &body));
+            proof.extend(leaf(1 << 54));
+            check(core::slice::from_ref(&body), &proof)
+        };
+        assert_eq!(verdict(64), Ok(()));
+        let unverifiable = Stop::Unverifiable("there are too many links, or they turn or reach too far");
+        assert_eq!(verdict(65), Err(unverifiable));
     }
 
     /// Two triangles far apart on a long chain, over ever shorter stretches: each keeps all links.
@@ -141,19 +135,19 @@ mod tests {
     fn what_is_kept_is_limited() {
         let body = triangle();
         let mut chain = alloc::vec![STILL; 1 << 15];
-        chain[0][2] = 4_194_304.0;
+        chain[0][2] = 67_108_864.0;
         let statement = proof(&chain, ([0, 1], &body));
         let verdict = |splits| {
             let mut proof = statement.clone();
             for _ in 0..splits {
-                proof.extend([2, 0, 128]);
-                proof.extend(leaf([0, 0, 1 << 14]));
+                proof.push(2);
+                proof.extend(leaf(1 << 25));
             }
-            proof.extend(leaf([0, 0, 1 << 14]));
+            proof.extend(leaf(1 << 25));
             check(core::slice::from_ref(&body), &proof)
         };
-        assert_eq!(verdict(20), Ok(()));
+        assert_eq!(verdict(10), Ok(()));
         let unverifiable = Stop::Unverifiable("there are too many links and stretches of time");
-        assert_eq!(verdict(40), Err(unverifiable));
+        assert_eq!(verdict(20), Err(unverifiable));
     }
 }

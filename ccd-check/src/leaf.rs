@@ -1,49 +1,69 @@
-//! Proves that a part stays on one side of a plane over a stretch of time: Lemmas 1 and 2 of the README.
+//! Proves that two parts stay apart over a stretch of time: the lemmas of the README.
 
-use crate::body::Part;
-use crate::motion::Placed;
-use crate::number::{FRACTION, ONE, Point, cross, dot, product, up};
-use crate::statement::Carried;
+use crate::Stop;
+use crate::body::{Body, Part};
+use crate::motion::{Links, Placed};
+use crate::number::*;
+use crate::reader::Reader;
 use crate::way::Way;
 
-/// A plane: the points x with normal · x = offset, where the normal is no longer than 1.
-#[derive(Clone, Copy)]
-pub(crate) struct Plane {
-    pub(crate) normal: Point,
-    pub(crate) offset: i64,
+/// A plane: the points x with normal · x = offset, as the normal, which is no longer than 1, and the offset.
+type Plane = (Vector, i64);
+
+/// A part of a body, and the link that carries it, with the way to that.
+pub(crate) struct Side<'a> {
+    pub(crate) mesh: &'a Body,
+    pub(crate) part: Part,
+    /// The point about which the link turns, off by less than 2.
+    pub(crate) centre: Vector,
+    pub(crate) link: &'a Placed,
+    pub(crate) way: &'a Way,
 }
 
-impl Plane {
-    pub(crate) fn reversed(self) -> Plane {
-        Plane { normal: self.normal.map(|x| -x), offset: -self.offset }
-    }
+/// Reads a plane, and returns whether it stays between two parts over the whole stretch, farther than `least` from both. The ways are
+/// from what the plane turns with.
+pub(crate) fn reads_plane_between(
+    reader: &mut Reader<'_>,
+    a: &Side<'_>,
+    b: &Side<'_>,
+    links: &Links,
+    least: i64,
+) -> Result<bool, Stop> {
+    let [x, y, z, offset] = [(); 4].map(|()| reader.signed(7));
+    let (normal, offset) = ([x?, y?, z?], offset?);
+    reader.require(dot(normal, normal) <= 1 << 100, "a normal is longer than 1")?;
+    let normal = normal.map(|x| x << (FRACTION - 50));
+    Ok(is_above(a, (sub(ZERO, normal), -offset), links, least) && is_above(b, (normal, offset), links, least))
+}
 
-    /// Returns whether a part stays farther than `least` from the plane, on the side to which its normal points, over the whole
-    /// stretch. The way is from what the plane turns with.
-    pub(crate) fn keeps(self, (body, part): (&Carried<'_>, Part), link: &Placed, way: &Way, least: i64) -> bool {
-        // What is unknown has no bound: its radius is none.
-        if !(way.arm.is_known() && way.change.is_known() && way.is_short()) {
-            return false;
-        }
-        let (one, turns) = (i128::from(ONE.mid[0]), way.turn.mid);
-        // Corners and centre are off by less than 2 each.
-        let reach = body.mesh.reach(part, body.centre) + 4;
-        let bend = way.bend + up(way.factor, reach.into());
-        let Ok(least) = i64::try_from(i128::from(least) + i128::from(self.offset) + bend / 2 + 1) else {
-            return false;
-        };
-        // The direction n ± n×Ω is no longer than 3. It is known to within turn.rad, and 2 for its shift; in the link's frame to
-        // within 3 times what the rotation is off by more, and 2 for another shift.
-        let to_mesh = link.rotation.transposed();
-        let lost = product(way.turn.rad + 3 * to_mesh.rad + 4, reach) + (12 + i128::from(way.arm.rad + way.change.rad)) * one;
-        let least = i128::from(least) * one + lost + 1 - dot(self.normal, way.arm.mid);
-        let (change, tilt) = (dot(self.normal, way.change.mid), cross(self.normal, turns).map(|x| (x >> FRACTION) as i64));
-        // If nothing is known to move, both ends ask for the same: what may move yet is in `lost` and `bend`.
-        let ends: &[i64] = if (turns, way.change.mid) == ([0; 3], [0; 3]) { &[0] } else { &[-1, 1] };
-        ends.iter().all(|&end| {
-            let direction = to_mesh.turned([0, 1, 2].map(|k| self.normal[k] + end * tilt[k]));
-            let least = least - i128::from(end) * change + dot(direction, body.centre);
-            body.mesh.is_above(part, direction, least)
+/// Returns whether a part stays farther than `least` above a plane: on the side to which its normal points.
+fn is_above(&Side { mesh, part, centre, link, way }: &Side<'_>, (normal, offset): Plane, links: &Links, least: i64) -> bool {
+    // Corners and centre are off by less than 2 each.
+    let (middle, radius) = mesh.ball(part);
+    let reach = length(sub(middle, centre)) + i128::from(radius) + 4;
+    let bend = way.bend + up(way.factor, reach);
+    let least = i128::from(least + offset) + bend / 2 + 1 + 8 * links.loss(reach);
+    let least = least * i128::from(ONE) - dot(normal, way.arm);
+    let (change, tilt) = (dot(normal, way.change), cross(normal, way.turn));
+    // If nothing is known to move, both ends ask for the same: what may move yet is in what is lost.
+    let ends: &[i64] = if (way.turn, way.change) == (ZERO, ZERO) { &[0] } else { &[-1, 1] };
+    let to_mesh = transposed(&link.rotation);
+    way.is_short()
+        && ends.iter().all(|&end| {
+            let direction = turned(&to_mesh, add(normal, tilt.map(|x| end * x)));
+            mesh.is_above(part, direction, least - i128::from(end) * change + dot(direction, centre))
         })
-    }
+}
+
+/// Returns whether a part stays farther than a margin from a ball around another one over the whole stretch. The way is from the
+/// part's link, with which the ball turns, to that of the other one.
+pub(crate) fn is_beyond_ball(side: &Side<'_>, around: &Side<'_>, links: &Links, margin: i64) -> bool {
+    let (way, (middle, radius)) = (around.way, around.mesh.ball(around.part));
+    let arm = turned(&around.link.rotation, sub(middle, around.centre));
+    let reach = length(arm);
+    let loss = links.loss(reach);
+    let travel = length(add(way.change, cross(way.turn, arm))) + (way.bend + up(way.factor, reach + loss)) / 2 + 1;
+    let point = add(side.centre, turned(&transposed(&side.link.rotation), add(way.arm, arm)));
+    let limit = i128::from(radius + margin) + travel + 8 * loss;
+    way.is_short() && limit < 1 << 60 && side.mesh.is_beyond(side.part, point, limit as i64)
 }

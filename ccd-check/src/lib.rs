@@ -10,7 +10,6 @@ mod leaf;
 mod motion;
 mod number;
 mod reader;
-mod rotation;
 mod sha256;
 mod statement;
 mod way;
@@ -43,3 +42,8 @@ impl core::fmt::Display for Stop {
 }
 
 impl core::error::Error for Stop {}
+
+/// Requires that numbers are in the range of the checker.
+fn verifiable(condition: bool, reason: &'static str) -> Result<(), Stop> {
+    condition.then_some(()).ok_or(Stop::Unverifiable(reason))
+}

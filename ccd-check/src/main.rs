@@ -22,9 +22,9 @@ Example:
 ";
 
 fn main() -> ExitCode {
-    match run(std::env::args().skip(1)) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match run(&arguments) {
+        Ok(all_hold) => ExitCode::from(u8::from(!all_hold)),
         Err(error) => {
             eprintln!("ccd-check: {error}");
             ExitCode::from(2)
@@ -32,41 +32,32 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(mut arguments: impl Iterator<Item = String>) -> Result<bool, String> {
-    let read = |name: &str| fs::read(name).map_err(|error| format!("{name}: {error}"));
-    let (mut meshes, mut proofs) = (Vec::new(), Vec::new());
-    while let Some(argument) = arguments.next() {
-        match argument.as_str() {
-            "--help" | "-h" => {
-                print!("{HELP}");
-                return Ok(true);
-            }
-            "--mesh" => {
-                let files = arguments.next().zip(arguments.next());
-                let (mesh, body) = files.ok_or("--mesh needs two files; see --help")?;
-                meshes.push((read(&mesh)?, read(&body)?, body));
-            }
-            _ => proofs.push(argument),
-        }
+fn run(mut arguments: &[String]) -> Result<bool, String> {
+    let read = |name: &String| fs::read(name).map_err(|error| format!("{name}: {error}"));
+    let mut meshes = Vec::new();
+    while let [option, mesh, body, rest @ ..] = arguments
+        && option == "--mesh"
+    {
+        meshes.push((read(mesh)?, read(body)?, body));
+        arguments = rest;
     }
-    if proofs.is_empty() {
-        return Err("no proof is given; see --help".into());
+    if arguments.iter().any(|argument| argument == "--help" || argument == "-h") {
+        print!("{HELP}");
+        return Ok(true);
+    }
+    if arguments.first().is_none_or(|argument| argument.starts_with("--")) {
+        return Err("meshes of two files each, and then proofs are needed; see --help".into());
     }
     let mut all_hold = true;
-    for name in proofs {
-        let verdict = verdict(&read(&name)?, &meshes).map_or_else(|stop| stop, |()| "holds".into());
-        all_hold &= verdict == "holds";
-        println!("{name}: {verdict}");
+    for name in arguments {
+        let proof = read(name)?;
+        let body = |(mesh, body, name): &(Vec<u8>, Vec<u8>, &String)| {
+            Body::new(mesh, body, &proof).map_err(|stop| format!("{name}: {stop}"))
+        };
+        let bodies: Result<Vec<Body>, _> = meshes.iter().map(body).collect();
+        let verdict = bodies.and_then(|bodies| check(&bodies, &proof).map_err(|stop| stop.to_string()));
+        all_hold &= verdict.is_ok();
+        println!("{name}: {}", verdict.map_or_else(|why| why, |()| "holds".into()));
     }
     Ok(all_hold)
-}
-
-/// Checks a proof. Its unit of length is in its header, and the meshes are read in it.
-fn verdict(proof: &[u8], meshes: &[(Vec<u8>, Vec<u8>, String)]) -> Result<(), String> {
-    let unit = proof.get(8..12).and_then(|bytes| bytes.try_into().ok());
-    let unit = i32::from_le_bytes(unit.unwrap_or_default());
-    let read =
-        |(mesh, body, name): &(Vec<u8>, Vec<u8>, String)| Body::new(mesh, body, unit).map_err(|stop| format!("{name}: {stop}"));
-    let bodies: Vec<Body> = meshes.iter().map(read).collect::<Result<_, _>>()?;
-    check(&bodies, proof).map_err(|stop| stop.to_string())
 }

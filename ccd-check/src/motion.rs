@@ -1,23 +1,12 @@
 //! Links, each of which moves on the one that carries it, and where they are at a time.
 
-use crate::Stop;
-use crate::number::{FRACTION, Matrix, Number, Vector, ZERO};
+use crate::number::*;
 use crate::reader::Reader;
-use crate::rotation;
+use crate::{Stop, verifiable};
 use alloc::vec::Vec;
 
 /// Times are in multiples of 2⁻⁶⁰ of the unit of time, which is no less than the duration.
 pub(crate) const TIME: u32 = 60;
-
-const UNIT: i64 = -(FRACTION as i64);
-
-/// Where the centre of a link is from that of its parent, how that changes, and how the link turns on the parent.
-#[derive(Clone, Copy)]
-pub(crate) struct Motion {
-    pub(crate) arm: Vector,
-    pub(crate) travel: Vector,
-    pub(crate) turn: Vector,
-}
 
 /// How a link moves on its parent: its centre along a line, and the link about it at a constant rate.
 pub(crate) struct Link {
@@ -25,50 +14,97 @@ pub(crate) struct Link {
     parent: usize,
     /// The point of the link about which it turns.
     pub(crate) centre: Vector,
-    /// The motion on the parent, from time 0, in the unit of time.
-    motion: Motion,
-    /// The rotation on the parent before any turn, and the turn at time 0.
+    /// From the centre of the parent to that of the link at time 0, and how that changes in the unit of time.
+    arm: Vector,
+    travel: Vector,
+    /// The rotation on the parent before any turn, the turn at time 0, and that in the unit of time.
     start: Matrix,
     turned: Vector,
+    turn: Vector,
 }
 
 impl Link {
-    pub(crate) const WORLD: Link = Link {
-        parent: 0,
-        centre: ZERO,
-        motion: Motion { arm: ZERO, travel: ZERO, turn: ZERO },
-        start: Matrix::IDENTITY,
-        turned: ZERO,
-    };
+    pub(crate) const WORLD: Link =
+        Link { parent: 0, centre: ZERO, arm: ZERO, travel: ZERO, start: IDENTITY, turned: ZERO, turn: ZERO };
+}
 
-    /// Reads the link after those that are given, of which the first one is the world.
-    pub(crate) fn read(reader: &mut Reader<'_>, units: [i64; 2], links: &[Link]) -> Result<Link, Stop> {
-        let [length, per_time] = [units[0], units[0] - units[1]];
-        let mut link = Link { parent: reader.index(links.len())?, ..Link::WORLD };
-        let (motion, kind) = (&mut link.motion, reader.unsigned(1)?);
+/// The world and all links, and how well their places are known.
+pub(crate) struct Links {
+    pub(crate) all: Vec<Link>,
+    /// No rotation of a link is off by a matrix whose norm is more, in fractions.
+    pub(crate) off: i64,
+    /// The sum of all arms and travels.
+    pub(crate) size: i64,
+}
+
+impl Links {
+    /// Reads the next link.
+    pub(crate) fn read(&mut self, reader: &mut Reader<'_>, units: [i64; 2]) -> Result<(), Stop> {
+        let ([length, time], [fraction, radian]) = (units, [FRACTION, RADIAN].map(|bits| -i64::from(bits)));
+        let parent = reader.index(self.all.len())?;
+        let kind = reader.unsigned(1)?;
         reader.require(kind < 3, "there is no such kind of link")?;
         let position = reader.vector(length, 50)?;
-        link.start = rotation::read(reader)?;
+        let start = read_rotation(reader)?;
+        let mut link = Link { parent, start, ..Link::WORLD };
+        let mut angles = 0;
         if kind == 0 {
-            motion.travel = reader.vector(per_time, 50)?;
-            motion.turn = reader.vector(UNIT - units[1], FRACTION + 8)?;
+            link.travel = reader.vector(length - time, 50)?;
+            link.turn = reader.vector(radian - time, RADIAN + 8)?;
             link.centre = reader.vector(length, 50)?;
-            motion.arm = link.start.apply(link.centre);
+            link.arm = turned(&start, link.centre);
+            angles = link.turn.iter().map(|x| x.abs()).sum();
         } else {
             // The joint's axis in the frame of the parent.
-            let axis = link.start.apply(reader.vector(UNIT, FRACTION + 1)?);
-            let bits = [50, FRACTION + 8][usize::from(kind == 1)];
-            let unit = if kind == 1 { UNIT } else { length };
-            let [start, rate] =
-                [reader.number(unit, bits)?, reader.number(unit - units[1], bits)?].map(|x| axis.times(x, FRACTION));
+            let axis = turned(&start, reader.vector(fraction, FRACTION)?);
+            let (unit, bits) = if kind == 1 { (radian, RADIAN + 8) } else { (length, 50) };
+            let [at, rate] = [reader.number(unit, bits)?, reader.number(unit - time, bits)?];
+            let [from, change] = [at, rate].map(|x| scaled(axis, x, FRACTION));
             if kind == 1 {
-                (link.turned, motion.turn) = (start, rate);
+                (link.turned, link.turn, angles) = (from, change, at.abs() + rate.abs());
             } else {
-                (motion.arm, motion.travel) = (start, rate);
+                (link.arm, link.travel) = (from, change);
             }
         }
-        motion.arm = position + motion.arm - links[link.parent].centre;
-        Ok(link)
+        link.arm = sub(add(position, link.arm), self.all[parent].centre);
+        self.off += (3 + (angles >> RADIAN)) << 10;
+        self.size += [link.arm, link.travel].iter().flatten().map(|x| x.abs()).sum::<i64>();
+        self.all.push(link);
+        let is_known = self.off <= ONE >> 20 && self.size <= 1 << 56;
+        verifiable(is_known, "there are too many links, or they turn or reach too far")
+    }
+
+    /// Returns what bounds are made of for what is lost of arms, and of points that are so far from the centre of a link.
+    pub(crate) fn loss(&self, reach: i128) -> i128 {
+        8 * (self.all.len() as i128 + 1) + up(self.off.into(), reach + i128::from(self.size))
+    }
+
+    /// Returns a bound of what turns, and sums of turns, are off by.
+    pub(crate) fn loss_of_turns(&self) -> i128 {
+        3 * i128::from(self.off)
+    }
+
+    /// Returns all links in the middle of a stretch of time. The first one is the world.
+    pub(crate) fn placed(&self, middle: i64, half: i64) -> Vec<Placed> {
+        let mut all: Vec<Placed> = Vec::with_capacity(self.all.len());
+        for link in &self.all {
+            let on = all.get(link.parent).map_or(IDENTITY, |on| on.rotation);
+            let turn = add(link.turned, scaled(link.turn, middle, TIME));
+            let rotation = if turn == [0; 3] { link.start } else { times(&exp(turn), &link.start) };
+            // More than what a short way turns is as good as any more.
+            let most = 3 * i128::from(ONE);
+            let moves = [
+                add(link.arm, scaled(link.travel, middle, TIME)),
+                scaled(link.travel, half, TIME),
+                link.turn.map(|x| (product(x, half) >> (RADIAN + TIME - FRACTION)).clamp(-most, most) as i64),
+            ]
+            .map(|v| turned(&on, v));
+            let [arm, travel, turn] = moves.map(length);
+            let lengths = [arm + self.loss(0), travel + self.loss(0), turn + self.loss_of_turns()];
+            let rotation = times(&on, &rotation);
+            all.push(Placed { parent: link.parent, rotation, moves, lengths });
+        }
+        all
     }
 }
 
@@ -77,30 +113,18 @@ impl Link {
 pub(crate) struct Placed {
     pub(crate) parent: usize,
     pub(crate) rotation: Matrix,
-    pub(crate) motion: Motion,
+    /// From the centre of the parent to that of the link, how that changes, and how the link turns; bounds of the lengths of these.
+    pub(crate) moves: [Vector; 3],
+    pub(crate) lengths: [i128; 3],
 }
 
-impl Placed {
-    /// Returns all links in the middle of a stretch of time. The first one is the world.
-    pub(crate) fn all(links: &[Link], middle: Number, half: Number) -> Vec<Placed> {
-        let mut all: Vec<Placed> = Vec::with_capacity(links.len());
-        for &Link { parent, motion, start, turned, .. } in links {
-            let on = all.get(parent).map_or(Matrix::IDENTITY, |on| on.rotation);
-            // What does not turn at all is seen to rest by `Way`. A product is never exact, not even that with a rate of 0.
-            let turns = motion.turn != ZERO;
-            let turned = if turns { turned + motion.turn.times(middle, TIME) } else { turned };
-            let turned = if turned == ZERO { start } else { rotation::exp(turned).times(start) };
-            let in_half = |v: Vector| on.apply(v.times(half, TIME));
-            all.push(Placed {
-                parent,
-                rotation: on.times(turned),
-                motion: Motion {
-                    arm: on.apply(motion.arm + motion.travel.times(middle, TIME)),
-                    travel: in_half(motion.travel),
-                    turn: if turns { in_half(motion.turn) } else { ZERO },
-                },
-            });
-        }
-        all
-    }
+/// Reads a quaternion x, y, z, w, and returns its rotation.
+fn read_rotation(reader: &mut Reader<'_>) -> Result<Matrix, Stop> {
+    let vector = reader.vector(-i64::from(FRACTION), FRACTION + 1)?;
+    let scalar = reader.number(-i64::from(FRACTION), FRACTION + 1)?;
+    let excess = ((dot(vector, vector) + product(scalar, scalar)) >> FRACTION) - i128::from(ONE);
+    verifiable(excess.abs() <= i128::from(ONE >> 20), "a quaternion is not of unit length")?;
+    // 1 / (1 + e) is 1 − e + e² to within 2 |e|³.
+    let twice = 2 * (i128::from(ONE) - excess + ((excess * excess) >> FRACTION)) as i64;
+    Ok(about(vector, (product(scalar, twice) >> FRACTION) as i64, twice))
 }

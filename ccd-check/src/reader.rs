@@ -1,7 +1,7 @@
 //! Reads numbers from bytes.
 
-use crate::Stop;
-use crate::number::{Number, Vector};
+use crate::number::Vector;
+use crate::{Stop, verifiable};
 
 /// The bytes of a file, and how far they are read.
 #[derive(Clone)]
@@ -15,10 +15,12 @@ impl<'a> Reader<'a> {
         Reader { bytes, at: 0 }
     }
 
-    /// Requires that the file begins with a name.
-    pub(crate) fn name(&mut self, name: &[u8; 8]) -> Result<(), Stop> {
-        let is_name = self.take(8)? == name;
-        self.require(is_name, "this is another kind of file")
+    /// Returns what a file has after its name.
+    pub(crate) fn after(name: &[u8; 8], bytes: &'a [u8]) -> Result<Self, Stop> {
+        let mut reader = Reader::new(bytes);
+        let is_name = reader.take(8)? == name;
+        reader.require(is_name, "this is another kind of file")?;
+        Ok(reader)
     }
 
     /// Requires that nothing is left.
@@ -55,12 +57,6 @@ impl<'a> Reader<'a> {
         Ok((self.unsigned(count)? as i64 ^ half) - half)
     }
 
-    /// Reads three numbers of so many bytes in two's complement.
-    pub(crate) fn axis(&mut self, count: usize) -> Result<[i64; 3], Stop> {
-        let [x, y, z] = [(); 3].map(|()| self.signed(count));
-        Ok([x?, y?, z?])
-    }
-
     /// Reads the number of one of so many things, in 4 bytes.
     pub(crate) fn index(&mut self, count: usize) -> Result<usize, Stop> {
         let index = self.unsigned(4)? as usize;
@@ -68,36 +64,30 @@ impl<'a> Reader<'a> {
         Ok(index)
     }
 
-    /// Reads a binary64 as a multiple of 2 to the power of `unit` that has at most so many bits. What is between two multiples
-    /// is rounded down.
-    pub(crate) fn number(&mut self, unit: i64, bits: u32) -> Result<Number, Stop> {
+    /// Reads a binary64 as a multiple of 2 to the power of `unit` that has at most so many bits, rounded down.
+    pub(crate) fn number(&mut self, unit: i64, bits: u32) -> Result<i64, Stop> {
         let all = self.unsigned(8)? as i64;
         let exponent = all >> 52 & 0x7ff;
         // A subnormal number has the exponent of the least normal ones, and no leading 1.
         let mantissa = all & ((1 << 52) - 1) | i64::from(exponent > 0) << 52;
         let mantissa = if all < 0 { -mantissa } else { mantissa };
         let shift = exponent.max(1) - 1075 - unit;
-        let (mantissa, dropped) = (mantissa << shift.clamp(0, 9), (-shift).clamp(0, 60));
-        let mid = mantissa >> dropped;
-        let number = Number { mid: [mid], rad: i64::from(mid << dropped != mantissa) };
-        let is_finite = exponent < 0x7ff && (shift <= 9 || mantissa == 0);
-        if is_finite && number.size() <= 1 << bits {
-            Ok(number)
-        } else {
-            Err(Stop::Unverifiable("a number is infinite, or too large in its unit"))
-        }
+        let number = (mantissa << shift.clamp(0, 9)) >> (-shift).clamp(0, 60);
+        let is_exact = exponent < 0x7ff && (shift <= 9 || mantissa == 0);
+        verifiable(is_exact && number.unsigned_abs() <= 1 << bits, "a number is infinite, or too large in its unit")?;
+        Ok(number)
     }
 
-    /// Reads a binary64 that is not negative, rounded up to a multiple.
+    /// Reads a binary64 that is not negative as a multiple that is larger, by at most one.
     pub(crate) fn size(&mut self, unit: i64, bits: u32) -> Result<i64, Stop> {
         let number = self.number(unit, bits)?;
-        self.require(number.mid[0] >= 0, "a length or a time is negative")?;
-        Ok(number.size())
+        self.require(number >= 0, "a length or a time is negative")?;
+        Ok(number + 1)
     }
 
     /// Reads three binary64.
     pub(crate) fn vector(&mut self, unit: i64, bits: u32) -> Result<Vector, Stop> {
         let [x, y, z] = [(); 3].map(|()| self.number(unit, bits));
-        Ok(Vector::of([x?, y?, z?]))
+        Ok([x?, y?, z?])
     }
 }

@@ -1,5 +1,7 @@
 //! The hash function SHA-256 `[FIPS180-4]`.
 
+use alloc::vec::Vec;
+
 /// The first 32 bits of the fractional parts of the cube roots of the first 64 primes.
 const K: [u32; 64] = [
     0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5, 0xd807aa98, 0x12835b01,
@@ -14,39 +16,28 @@ const K: [u32; 64] = [
 /// Returns the SHA-256 digest of bytes.
 pub fn sha256(bytes: &[u8]) -> [u8; 32] {
     let mut state: [u32; 8] = [0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19];
-    let (blocks, rest) = bytes.as_chunks::<64>();
-    for block in blocks {
-        add_block(&mut state, block);
-    }
-    // The rest, a bit that is 1, zeros, and the length in bits fill one block or two.
-    let mut last = [0; 128];
-    last[..rest.len()].copy_from_slice(rest);
-    last[rest.len()] = 0x80;
-    let end = if rest.len() < 56 { 64 } else { 128 };
-    last[end - 8..end].copy_from_slice(&(8 * bytes.len() as u64).to_be_bytes());
-    for block in last[..end].as_chunks::<64>().0 {
-        add_block(&mut state, block);
+    // A bit that is 1, zeros, and the length in bits fill the last block.
+    let mut padded = bytes.to_vec();
+    padded.push(0x80);
+    padded.resize((bytes.len() + 72) / 64 * 64 - 8, 0);
+    padded.extend((8 * bytes.len() as u64).to_be_bytes());
+    for block in padded.as_chunks::<64>().0 {
+        add_block(&mut state, block.as_chunks::<4>().0);
     }
     let mut digest = [0; 32];
-    for (place, word) in digest.as_chunks_mut::<4>().0.iter_mut().zip(state) {
-        *place = word.to_be_bytes();
-    }
+    digest.copy_from_slice(state.map(u32::to_be_bytes).as_flattened());
     digest
 }
 
-fn add_block(state: &mut [u32; 8], block: &[u8; 64]) {
-    let mut w = [0; 64];
-    for (word, bytes) in w.iter_mut().zip(block.as_chunks::<4>().0) {
-        *word = u32::from_be_bytes(*bytes);
-    }
-    for t in 16..64 {
-        let (x, y) = (w[t - 15], w[t - 2]);
-        let s0 = x.rotate_right(7) ^ x.rotate_right(18) ^ (x >> 3);
-        let s1 = y.rotate_right(17) ^ y.rotate_right(19) ^ (y >> 10);
-        w[t] = sum(&[w[t - 16], s0, w[t - 7], s1]);
-    }
+fn add_block(state: &mut [u32; 8], block: &[[u8; 4]]) {
+    let sum = |words: &[u32]| words.iter().fold(0, |sum: u32, &word| sum.wrapping_add(word));
+    let mut w: Vec<u32> = block.iter().map(|&bytes| u32::from_be_bytes(bytes)).collect();
     let [mut a, mut b, mut c, mut d, mut e, mut f, mut g, mut h] = *state;
     for t in 0..64 {
+        let (x, y) = (w[t + 1], w[t + 14]);
+        let s0 = x.rotate_right(7) ^ x.rotate_right(18) ^ (x >> 3);
+        let s1 = y.rotate_right(17) ^ y.rotate_right(19) ^ (y >> 10);
+        w.push(sum(&[w[t], s0, w[t + 9], s1]));
         let s1 = e.rotate_right(6) ^ e.rotate_right(11) ^ e.rotate_right(25);
         let t1 = sum(&[h, s1, (e & f) ^ (!e & g), K[t], w[t]]);
         let s0 = a.rotate_right(2) ^ a.rotate_right(13) ^ a.rotate_right(22);
@@ -56,10 +47,6 @@ fn add_block(state: &mut [u32; 8], block: &[u8; 64]) {
     for (word, add) in state.iter_mut().zip([a, b, c, d, e, f, g, h]) {
         *word = word.wrapping_add(add);
     }
-}
-
-fn sum(words: &[u32]) -> u32 {
-    words.iter().fold(0, |sum, &word| sum.wrapping_add(word))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What moves between two links.
 
-use crate::motion::{Motion, Placed};
-use crate::number::{ONE, Vector, ZERO, up};
+use crate::motion::{Links, Placed};
+use crate::number::*;
 use alloc::vec::Vec;
 
 /// A link in the middle of a stretch of time as it is seen from another one, and how it moves in half of it: what Lemma 2 of the
@@ -23,48 +23,51 @@ pub(crate) struct Way {
 }
 
 impl Way {
-    pub(crate) fn new(links: &[Placed], from: usize, to: usize) -> Way {
-        let mut way = Way { arm: ZERO, change: ZERO, turn: ZERO, turned: 0, twist: 0, rate: 0, factor: 0, bend: 0 };
-        let (mut left, mut entered, mut path) = (from, to, Vec::new());
-        while left != entered {
-            // A link has a larger number than its parent.
-            if left > entered {
-                let Placed { parent, motion, .. } = links[left];
-                way.turn_by(ZERO - motion.turn);
-                way.move_by(ZERO - motion.arm, ZERO - motion.travel);
-                left = parent;
-            } else {
-                path.push(links[entered].motion);
-                entered = links[entered].parent;
-            }
+    /// Returns the ways from a link to all links.
+    pub(crate) fn all(links: &Links, placed: &[Placed], from: usize) -> Vec<Way> {
+        let twist = links.loss_of_turns();
+        let mut way = Way { arm: ZERO, change: ZERO, turn: ZERO, turned: 0, twist, rate: 0, factor: 0, bend: 0 };
+        let mut ways = alloc::vec![None; placed.len()];
+        let mut at = from;
+        while at != 0 {
+            ways[at] = Some(way);
+            let moves = placed[at].moves.map(|v| sub(ZERO, v));
+            way.turn_by(moves, placed[at].lengths);
+            way.move_by(moves, placed[at].lengths);
+            at = placed[at].parent;
         }
-        for Motion { arm, travel, turn } in path.into_iter().rev() {
-            way.move_by(arm, travel);
-            way.turn_by(turn);
+        ways[0] = Some(way);
+        let mut all: Vec<Way> = Vec::with_capacity(placed.len());
+        for (link, known) in placed.iter().zip(ways) {
+            all.push(known.unwrap_or_else(|| {
+                let mut way: Way = all[link.parent];
+                way.move_by(link.moves, link.lengths);
+                way.turn_by(link.moves, link.lengths);
+                way
+            }));
         }
-        way
+        all
     }
 
     /// Returns whether the joints turn by no more than two radians: nothing is proven over a longer stretch.
     pub(crate) fn is_short(&self) -> bool {
-        self.turned <= 2 * i128::from(ONE.mid[0])
+        self.turned <= 2 * i128::from(ONE)
     }
 
-    fn turn_by(&mut self, turn: Vector) {
-        let angle = turn.length();
+    fn turn_by(&mut self, [.., turn]: [Vector; 3], [.., angle]: [i128; 3]) {
         self.turned += angle;
         // Of a way that is not short nothing else is of use.
-        if turn != ZERO && self.is_short() {
-            self.twist += self.turn.cross(turn).length() + up(self.twist, angle);
-            self.turn = self.turn + turn;
-            self.rate = self.turn.length() + self.twist;
+        if self.is_short() {
+            self.twist += up(self.rate, angle);
+            self.turn = add(self.turn, turn);
+            self.rate = length(self.turn) + self.twist;
             self.factor = self.twist + up(self.rate, self.rate);
         }
     }
 
-    fn move_by(&mut self, arm: Vector, travel: Vector) {
-        self.arm = self.arm + arm;
-        self.change = self.change + travel + self.turn.cross(arm);
-        self.bend += up(self.factor, arm.length() + travel.length()) + 2 * up(self.rate, travel.length());
+    fn move_by(&mut self, [arm, travel, _]: [Vector; 3], [arm_length, travel_length, _]: [i128; 3]) {
+        self.arm = add(self.arm, arm);
+        self.change = add(self.change, add(travel, cross(self.turn, arm)));
+        self.bend += up(self.factor, arm_length + travel_length) + 2 * up(self.rate, travel_length);
     }
 }

@@ -6,7 +6,7 @@ use crate::placed::moving;
 use crate::resting::{Resting, resting_bodies};
 use crate::scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
 use crate::statement::Statement;
-use crate::write::{Proof, mesh_points, prove, state};
+use crate::write::{Proof, mesh_points, prove_unless_stopped, state};
 use ccd_core::{Motion, Pose};
 use rigid_ccd::Settings;
 use rigid_ccd::trajectory::JointKind;
@@ -151,7 +151,7 @@ impl<'c> ProvenCell<'c> {
             let contact = contact.filter(|contact| contact.at.segment == segment);
             let witness =
                 contact.and_then(|contact| self.witness(&scene, contact, settings.tolerance));
-            match prove(&scene, share, witness) {
+            match prove_unless_stopped(&scene, share, witness, settings.stop.as_deref()) {
                 Ok(proof) => proofs.push(proof),
                 Err(NotProven::Touching { .. } | NotProven::NoContact { .. }) if share == 0.0 => {
                     break;

@@ -1,15 +1,16 @@
-//! Splits what is to be proven until a plane proves it.
+//! Splits what is to be proven until leaves prove it that are cheap to check.
 
-use crate::body::{Part, halves};
 use crate::error::NotProven;
 use crate::placed::{Moving, Placed, placed as placed_links};
 use crate::plane::Gap;
 use crate::scene::Scene;
 use crate::stretch::Stretch;
+use crate::tree::{Part, Tree};
 use ccd_core::glam::DVec3;
 use ccd_distance_gjk::{TerminationBounds, Vertex, bound_distance};
 use std::collections::HashMap;
 use std::rc::Rc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The largest number of bytes of a proof.
 const MAX_BYTES: usize = 1 << 26;
@@ -23,13 +24,24 @@ const SHORTEST: f64 = 1e-15;
 /// Parts that move by less than this share of their radius are not split in time.
 const LEAST_WAY: f64 = 0.1;
 
-/// How many leaves are expected of what a split leaves unproven.
-const EXPECTED: u32 = 6;
+/// What it takes to check a leaf with a ball or a plane besides the looks at boxes, and to place a link in the middle of a stretch
+/// of time: as many looks as take as long, about.
+const BALL: usize = 15;
+const PLANE: usize = 35;
+const LINK: usize = 40;
+
+/// A leaf that takes less to check is not split to find cheaper ones.
+const CHEAP: usize = 30;
+
+/// What is expected to check what a split leaves unproven.
+const EXPECTED: usize = 800;
 
 /// A proof as it is written.
 pub(crate) struct Cover<'a> {
     scene: (&'a Scene<'a>, &'a [Moving]),
     until: f64,
+    /// What another thread sets to stop the work.
+    stop: Option<&'a AtomicBool>,
     /// The unit of length.
     unit: f64,
     /// The pair, and how far its parts have to be from a plane: half of the margin, and an allowance for the rounding here.
@@ -51,21 +63,43 @@ struct Task<'a> {
     axis: DVec3,
     /// The number of splits so far.
     depth: u32,
-    /// Whether a plane proves them apart, if that has been asked.
-    proven: Option<bool>,
+    /// The cheapest leaf that is known to prove them apart, if that has been asked.
+    leaf: Option<Option<Leaf>>,
+}
+
+/// What proves a task, and what it takes to check that.
+#[derive(Clone, Copy)]
+struct Leaf {
+    price: usize,
+    by: By,
+}
+
+#[derive(Clone, Copy)]
+enum By {
+    /// A ball around A or B.
+    Ball(usize),
+    /// A plane across the axis of the task.
+    Plane,
 }
 
 /// What a task is split into.
 struct Split<'a> {
     step: u8,
+    /// What it takes to check the split itself.
+    price: usize,
     tasks: Vec<Task<'a>>,
 }
 
 impl<'a> Cover<'a> {
-    pub(crate) fn new(scene: (&'a Scene<'a>, &'a [Moving]), until: f64, unit: f64) -> Self {
+    pub(crate) fn new(
+        scene: (&'a Scene<'a>, &'a [Moving]),
+        (until, stop): (f64, Option<&'a AtomicBool>),
+        unit: f64,
+    ) -> Self {
         Cover {
             scene,
             until,
+            stop,
             unit,
             pair: 0,
             least: 0.0,
@@ -83,11 +117,11 @@ impl<'a> Cover<'a> {
         let stretch = self.stretch([0.0, self.until]);
         let axis = stretch.offset;
         self.cover(Task {
-            parts: stretch.bodies.map(|body| body.whole()),
+            parts: [Tree::WHOLE; 2],
             stretch,
             axis,
             depth: 0,
-            proven: None,
+            leaf: None,
         })
     }
 
@@ -110,37 +144,53 @@ impl<'a> Cover<'a> {
             let bytes = self.steps.len();
             return Err(NotProven::TooLong { at, bytes });
         }
-        if self.is_proven(&mut task) {
-            let (axis, _) = axis_in_the_middle(&task);
-            let plane = self.gap(&task).cheapest_plane([task.axis, axis]);
-            let plane = plane.ok_or(NotProven::Touching { at })?;
-            plane.write(&mut self.steps);
-            self.leaves += 1;
-            return Ok(());
+        if self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+            return Err(NotProven::Stopped { at });
         }
-        let mut best: Option<(u32, Split<'a>)> = None;
-        for mut split in self.splits(&task) {
-            let cost = self.cost(&mut split);
-            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, split));
+        let leaf = self.leaf(&mut task);
+        let price = leaf.map_or(usize::MAX, |leaf| leaf.price);
+        let mut best: (usize, Option<Split<'a>>) = (price, None);
+        if price > CHEAP {
+            // What a leaf proves is not left to splits of which more is not known.
+            let expected = if leaf.is_some() { usize::MAX } else { EXPECTED };
+            for mut split in self.splits(&task) {
+                let price = self.price(&mut split, expected);
+                if price < best.0 {
+                    best = (price, Some(split));
+                }
             }
         }
-        let (_, split) = best.ok_or(NotProven::Touching { at })?;
+        let Some(split) = best.1 else {
+            let leaf = leaf.ok_or(NotProven::Touching { at })?;
+            return self.write_leaf(&task, leaf.by);
+        };
         self.steps.push(split.step);
-        if split.step == 2 {
-            self.steps.extend((1u16 << 15).to_le_bytes());
-        }
         split
             .tasks
             .into_iter()
             .try_for_each(|task| self.cover(task))
     }
 
-    /// Returns the number of leaves that a split leads to, about.
-    fn cost(&self, split: &mut Split<'a>) -> u32 {
+    fn write_leaf(&mut self, task: &Task<'a>, by: By) -> Result<(), NotProven> {
+        match by {
+            By::Ball(k) => self.steps.push(6 + k as u8),
+            By::Plane => {
+                let (axis, _) = axis_in_the_middle(task);
+                let plane = self.gap(task).cheapest_plane([task.axis, axis]);
+                let at = task.stretch.from;
+                let plane = plane.ok_or(NotProven::Touching { at })?;
+                plane.write(&mut self.steps);
+            }
+        }
+        self.leaves += 1;
+        Ok(())
+    }
+
+    /// Returns what it takes to check what a split leads to: what is expected for each task that no leaf proves.
+    fn price(&self, split: &mut Split<'a>, expected: usize) -> usize {
         let tasks = split.tasks.iter_mut();
-        let costs = tasks.map(|task| if self.is_proven(task) { 1 } else { EXPECTED });
-        costs.sum()
+        let prices = tasks.map(|task| self.leaf(task).map_or(expected, |leaf| leaf.price));
+        prices.fold(split.price, usize::saturating_add)
     }
 
     /// Returns the ways to split a task, the one first that looks best.
@@ -171,12 +221,19 @@ impl<'a> Cover<'a> {
         if to - from <= SHORTEST * self.until {
             return None;
         }
-        let tasks = [[from, middle], [middle, to]].map(|times| Task {
+        let halves = [[from, middle], [middle, to]];
+        let is_new = !self.placed.contains_key(&halves[0].map(f64::to_bits));
+        let tasks = halves.map(|times| Task {
             stretch: self.stretch(times),
             ..task.below()
         });
         Some(Split {
             step: 2,
+            price: if is_new {
+                2 * LINK * self.scene.1.len()
+            } else {
+                0
+            },
             tasks: tasks.into(),
         })
     }
@@ -190,20 +247,38 @@ impl<'a> Cover<'a> {
         }
     }
 
-    /// Returns whether a plane across its axis proves a task, or one across the axis along which its parts are farthest apart in
-    /// the middle; that is its axis then.
-    fn is_proven(&self, task: &mut Task<'a>) -> bool {
-        let proven = task.proven.unwrap_or_else(|| {
-            let inherited = self.gap(task).plane(task.axis).is_some();
-            inherited || {
-                let (axis, distance) = axis_in_the_middle(task);
-                let is_new = axis != task.axis;
-                task.axis = axis;
-                is_new && distance > 2.0 * self.least && self.gap(task).plane(axis).is_some()
-            }
+    /// Returns the cheapest leaf that is found to prove a task: with a ball, or with a plane across its axis, or across the axis along
+    /// which its parts are farthest apart in the middle; that is its axis then.
+    fn leaf(&self, task: &mut Task<'a>) -> Option<Leaf> {
+        if let Some(known) = task.leaf {
+            return known;
+        }
+        let ball = [0, 1].into_iter().filter_map(|k| {
+            let looks = task
+                .stretch
+                .looks_beyond_ball(task.parts, k, 2.0 * self.least)?;
+            let (price, by) = (BALL + looks, By::Ball(k));
+            Some(Leaf { price, by })
         });
-        task.proven = Some(proven);
-        proven
+        let mut leaf = ball.min_by_key(|leaf| leaf.price);
+        if leaf.is_none_or(|leaf| leaf.price > PLANE) {
+            let mut looks = self.gap(task).looks(task.axis);
+            if looks.is_none() {
+                let (axis, distance) = axis_in_the_middle(task);
+                if axis != task.axis && distance > 2.0 * self.least {
+                    looks = self.gap(task).looks(axis);
+                }
+                task.axis = axis;
+            }
+            let price = looks.map(|looks| PLANE + looks);
+            let is_cheaper = |price: &usize| leaf.is_none_or(|leaf| *price < leaf.price);
+            if let Some(price) = price.filter(is_cheaper) {
+                let by = By::Plane;
+                leaf = Some(Leaf { price, by });
+            }
+        }
+        task.leaf = Some(leaf);
+        leaf
     }
 }
 
@@ -212,7 +287,7 @@ impl Task<'_> {
     fn below(&self) -> Self {
         Task {
             depth: self.depth + 1,
-            proven: None,
+            leaf: None,
             ..self.clone()
         }
     }
@@ -220,16 +295,19 @@ impl Task<'_> {
 
 /// Halves the part of a body of a task; `None` if it is a triangle.
 fn split_part<'a>(task: &Task<'a>, side: usize) -> Option<Split<'a>> {
-    let tasks = halves(task.parts[side])?.map(|half| {
-        let mut parts = task.parts;
-        parts[side] = half;
-        Task {
-            parts,
-            ..task.below()
-        }
-    });
+    let tasks = task.stretch.bodies[side]
+        .halves(task.parts[side])?
+        .map(|half| {
+            let mut parts = task.parts;
+            parts[side] = half;
+            Task {
+                parts,
+                ..task.below()
+            }
+        });
     Some(Split {
         step: side as u8,
+        price: 0,
         tasks: tasks.into(),
     })
 }

@@ -39,6 +39,12 @@ pub enum NotProven {
         /// The distance of the points of the meshes.
         distance: f64,
     },
+    /// Another thread has set the flag that stops the work.
+    #[error("the proof is not complete from time {at} on: it was stopped")]
+    Stopped {
+        /// The start of the stretch of time that is not proven.
+        at: f64,
+    },
     /// A link turns farther than the checker takes.
     #[error(
         "link {link} turns by more than the checker takes: 256 radians to its start, or at least 128 from there"

@@ -10,9 +10,11 @@ mod placed;
 mod plane;
 mod resting;
 mod scene;
+mod split;
 mod statement;
 mod stretch;
 mod tolerances;
+mod tree;
 mod way;
 mod write;
 

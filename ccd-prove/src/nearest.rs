@@ -1,6 +1,6 @@
 //! The point of a mesh that is nearest to a point.
 
-use crate::body::Body;
+use crate::tree::Tree;
 use ccd_core::glam::{DVec3, DVec4};
 use ccd_core::order::{greater, lesser};
 
@@ -17,8 +17,8 @@ pub(crate) struct MeshPoint {
 impl MeshPoint {
     /// Returns the point of a mesh that is nearest to a point of its frame: of the nearest points of all triangles, as if they were
     /// flat, the one whose ball is nearest.
-    pub(crate) fn nearest(body: &Body, point: DVec3) -> MeshPoint {
-        let triangles = body.triangles.iter().enumerate();
+    pub(crate) fn nearest(tree: &Tree, point: DVec3) -> MeshPoint {
+        let triangles = tree.triangles.iter().enumerate();
         let points = triangles.map(|(place, triangle)| {
             let weights = nearest_weights(triangle.map(DVec4::truncate), point);
             let ball = (0..3).map(|k| triangle[k] * weights[k]).sum::<DVec4>();

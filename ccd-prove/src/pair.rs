@@ -3,8 +3,8 @@
 use crate::body::Body;
 use crate::error::{NoMesh, NotProven};
 use crate::scene::{Scene, Witness};
-use crate::write::{Proof, prove};
-use ccd_core::{Answer, Motion, Outcome};
+use crate::write::{Proof, prove_unless_stopped};
+use ccd_core::{Answer, Motion, Outcome, Settings};
 
 /// Two bodies that are prepared for proofs.
 #[derive(Clone, Debug)]
@@ -30,6 +30,7 @@ impl ProvenPair {
 
     /// Proves what an answer to a question about the first contact says: that the bodies are farther apart than the margin until
     /// then, and two points that are near each other. For a question that a limit has ended it proves what is known.
+    /// The settings are those of the question; its flag stops the proof, too.
     /// Returns `None` if there is nothing to prove, as the bodies touch at the start or the question was about a distance.
     ///
     /// # Errors
@@ -37,15 +38,15 @@ impl ProvenPair {
     ///
     /// ```
     /// use ccd_prove::ProvenPair;
-    /// use rigid_ccd::{Body, Motion, Pose, Solver};
+    /// use rigid_ccd::{Body, Motion, Pose, Settings, Solver};
     /// let (ball, wall) = (Body::sphere(0.5)?, Body::cuboid([0.1, 5.0, 5.0])?);
     /// let flies = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [4.0, 0.0, 0.0], [0.0; 3])?;
     /// let answer = Solver::new().first_contact((&ball, flies), (&wall, Motion::STILL), 1.0)?;
     ///
     /// let pair = ProvenPair::new(&ball, &wall)?;
-    /// let proof = pair.prove([flies, Motion::STILL], 1.0, 0.0, &answer).expect("a contact")?;
+    /// let proof = pair.prove([flies, Motion::STILL], 1.0, &Settings::DEFAULT, &answer).expect("a contact")?;
     /// let read = |body: &ccd_prove::Body| {
-    ///     ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit)
+    ///     ccd_check::Body::new(body.mesh(), body.certificate(), &proof.bytes)
     /// };
     /// let [a, b] = pair.meshes();
     /// ccd_check::check(&[read(a)?, read(b)?], &proof.bytes)?;
@@ -55,7 +56,7 @@ impl ProvenPair {
         &self,
         motions: [Motion; 2],
         duration: f64,
-        margin: f64,
+        settings: &Settings,
         answer: &Answer,
     ) -> Option<Result<Proof, NotProven>> {
         let (until, witness) = match &answer.outcome {
@@ -68,7 +69,8 @@ impl ProvenPair {
             _ => return None,
         };
         let [a, b] = &self.bodies;
-        let scene = Scene::of_two((a, motions[0]), (b, motions[1]), margin);
-        Some(prove(&scene, until, witness))
+        let scene = Scene::of_two((a, motions[0]), (b, motions[1]), settings.margin);
+        let stop = settings.stop.as_deref();
+        Some(prove_unless_stopped(&scene, until, witness, stop))
     }
 }

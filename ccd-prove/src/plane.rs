@@ -1,32 +1,14 @@
 //! The plane of a leaf: how its numbers are written, and where it is.
 
-use crate::body::Part;
 use crate::stretch::Stretch;
+use crate::tree::Part;
 use ccd_core::glam::DVec3;
 
-/// How the numbers of a plane are written, coarse and fine: its normal in multiples of 1 / `normal`, its offset in multiples of
-/// `offset` units of length, less than `most` of them.
-struct Form {
-    normal: f64,
-    offset: f64,
-    most: f64,
-    bytes: [usize; 2],
-}
+/// The normal of a plane is written in multiples of 2⁻⁵⁰.
+const NORMAL_UNIT: f64 = (1u64 << 50) as f64;
 
-const FORMS: [Form; 2] = [
-    Form {
-        normal: (1u64 << 14) as f64,
-        offset: (1u64 << 20) as f64,
-        most: (1u64 << 31) as f64,
-        bytes: [2, 4],
-    },
-    Form {
-        normal: (1u64 << 50) as f64,
-        offset: 1.0,
-        most: (1u64 << 55) as f64,
-        bytes: [7, 7],
-    },
-];
+/// Each number of a plane has 7 bytes, with its sign.
+const MOST_OFFSET: f64 = (1u64 << 55) as f64;
 
 /// Where a plane may be: as shares of what both parts leave to it, from A to B.
 const SHARES: [f64; 5] = [0.5, 0.65, 0.35, 0.8, 0.2];
@@ -40,10 +22,8 @@ pub(crate) struct Gap<'a> {
     pub(crate) unit: f64,
 }
 
-/// A plane that keeps parts apart, in the numbers of its form.
+/// A plane that keeps parts apart, in the numbers in which it is written.
 pub(crate) struct Plane {
-    form: &'static Form,
-    step: u8,
     /// What it turns with: the world, A, B.
     frame: usize,
     normal: DVec3,
@@ -55,49 +35,40 @@ pub(crate) struct Plane {
 impl Gap<'_> {
     /// Returns a plane across an axis, about half way between the parts.
     pub(crate) fn plane(&self, axis: DVec3) -> Option<Plane> {
-        let unit_axis = axis.normalize_or_zero();
-        for (fine, form) in FORMS.iter().enumerate() {
-            // Rounded towards zero it is no longer than 1, although the length of the unit axis is rounded.
-            let normal = (unit_axis * (form.normal - 2.0)).trunc();
-            for frame in 0..3 {
-                if frame > 0 && self.stretch.rests(frame - 1) {
-                    continue;
-                }
-                let seen = (normal / form.normal, frame);
-                let unit = self.unit * form.offset;
-                let range = self
-                    .stretch
-                    .room(self.parts, seen, self.least)
-                    .map(|x| x / unit);
-                let plane = Plane {
-                    form,
-                    step: (3 + 3 * fine + frame) as u8,
-                    frame,
-                    normal,
-                    range,
-                    offset: 0.0,
-                };
-                let plane = plane.at(SHARES[0]);
-                if plane.is_some() {
-                    return plane;
-                }
-            }
-        }
-        None
+        // Rounded towards zero it is no longer than 1, although the length of the unit axis is rounded.
+        let normal = (axis.normalize_or_zero() * (NORMAL_UNIT - 2.0)).trunc();
+        let frames = (0..3).filter(|&frame| frame == 0 || !self.stretch.rests(frame - 1));
+        let mut planes = frames.filter_map(|frame| {
+            let seen = (normal / NORMAL_UNIT, frame);
+            let room = self.stretch.room(self.parts, seen, self.least);
+            let plane = Plane {
+                frame,
+                normal,
+                range: room.map(|x| x / self.unit),
+                offset: 0.0,
+            };
+            plane.at(SHARES[0])
+        });
+        planes.next()
+    }
+
+    /// Returns how often the checker looks at a box for a plane across an axis, about half way between the parts; `None` if it does
+    /// not keep them apart.
+    pub(crate) fn looks(&self, axis: DVec3) -> Option<usize> {
+        self.plane(axis).map(|plane| self.looks_for(&plane))
     }
 
     /// Returns the plane that is cheapest to check of those across some axes.
     pub(crate) fn cheapest_plane(&self, axes: [DVec3; 2]) -> Option<Plane> {
         let planes = axes.into_iter().filter_map(|axis| self.plane(axis));
-        let planes: Vec<Plane> = planes
-            .flat_map(|plane| SHARES.map(|share| plane.at(share)))
-            .flatten()
-            .collect();
-        planes.into_iter().min_by_key(|plane| {
-            let seen = (plane.normal / plane.form.normal, plane.frame);
-            let offset = plane.offset * self.unit * plane.form.offset;
-            self.stretch.looks(self.parts, seen, self.least, offset)
-        })
+        let places = planes.flat_map(|plane| SHARES.map(|share| plane.at(share)));
+        places.flatten().min_by_key(|plane| self.looks_for(plane))
+    }
+
+    pub(crate) fn looks_for(&self, plane: &Plane) -> usize {
+        let seen = (plane.normal / NORMAL_UNIT, plane.frame);
+        let offset = plane.offset * self.unit;
+        self.stretch.looks(self.parts, seen, self.least, offset)
     }
 }
 
@@ -106,17 +77,15 @@ impl Plane {
     fn at(&self, share: f64) -> Option<Plane> {
         let [least, most] = self.range;
         let offset = (least + share * (most - least)).round();
-        let fits = least <= offset && offset <= most && offset.abs() < self.form.most;
+        let fits = least <= offset && offset <= most && offset.abs() < MOST_OFFSET;
         fits.then_some(Plane { offset, ..*self })
     }
 
     /// Writes the step.
     pub(crate) fn write(&self, steps: &mut Vec<u8>) {
-        let [of_normal, of_offset] = self.form.bytes;
-        steps.push(self.step);
-        for x in self.normal.to_array() {
-            steps.extend(&(x as i64).to_le_bytes()[..of_normal]);
+        steps.push(3 + self.frame as u8);
+        for x in [self.normal.x, self.normal.y, self.normal.z, self.offset] {
+            steps.extend(&(x as i64).to_le_bytes()[..7]);
         }
-        steps.extend(&(self.offset as i64).to_le_bytes()[..of_offset]);
     }
 }

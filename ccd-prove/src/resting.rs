@@ -244,9 +244,9 @@ mod tests {
         compared.sort_by(by_bodies);
         assert_eq!(stated, compared);
         let proof = prove(&scene, 1.0, None).unwrap();
-        let meshes = proven
-            .meshes()
-            .map(|body| ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit).unwrap());
+        let meshes = proven.meshes().map(|body| {
+            ccd_check::Body::new(body.mesh(), body.certificate(), &proof.bytes).unwrap()
+        });
         let meshes: Vec<_> = meshes.collect();
         assert_eq!(ccd_check::check(&meshes, &proof.bytes), Ok(()));
     }

@@ -162,15 +162,13 @@ pub fn steps_text(certificate: &[u8], statement: &Statement) -> String {
     let mut at = Cursor(certificate.get(statement.bytes..).unwrap_or_default());
     let mut text = String::new();
     while let Some(&[step]) = at.take(1) {
-        let frame = ["world", "A", "B"][usize::from(step % 3)];
+        let frame = ["world", "A", "B", "A", "B"][usize::from(step.clamp(3, 7)) - 3];
         let line = match step {
             0 => Some("split A".to_owned()),
             1 => Some("split B".to_owned()),
-            2 => at
-                .take(2)
-                .map(|k| format!("split time {}", u16::from_le_bytes([k[0], k[1]]))),
-            3..=5 => plane(&mut at, [2, 4]).map(|plane| format!("leaf {frame} {plane}")),
-            6..=8 => plane(&mut at, [7, 7]).map(|plane| format!("fine leaf {frame} {plane}")),
+            2 => Some("split time".to_owned()),
+            3..=5 => plane(&mut at).map(|plane| format!("plane with {frame} {plane}")),
+            6..=7 => Some(format!("ball around {frame}")),
             _ => None,
         };
         match line {
@@ -181,11 +179,11 @@ pub fn steps_text(certificate: &[u8], statement: &Statement) -> String {
     text
 }
 
-/// Reads the normal of a plane and its offset, of numbers of so many bytes.
-fn plane(at: &mut Cursor<'_>, [of_normal, of_offset]: [usize; 2]) -> Option<String> {
-    let mut number = |count| Some(signed(at.take(count)?));
-    let normal = [number(of_normal)?, number(of_normal)?, number(of_normal)?];
-    Some(format!("{normal:?} {}", number(of_offset)?))
+/// Reads the normal of a plane and its offset, of 7 bytes each.
+fn plane(at: &mut Cursor<'_>) -> Option<String> {
+    let mut number = || Some(signed(at.take(7)?));
+    let normal = [number()?, number()?, number()?];
+    Some(format!("{normal:?} {}", number()?))
 }
 
 /// Returns a number in two's complement.

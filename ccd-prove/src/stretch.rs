@@ -1,9 +1,9 @@
-//! The lemma of the checker in floating point: how far from a plane parts stay over a stretch of time.
+//! The lemmas of the checker in floating point: how far from a plane or a ball parts stay over a stretch of time.
 
-use crate::body::{Body, Part};
 use crate::placed::{Moving, Placed};
 use crate::scene::Scene;
 use crate::tolerances::LENGTHS;
+use crate::tree::{Part, Tree};
 use crate::way::Way;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
@@ -12,7 +12,7 @@ use ccd_core::order::lesser;
 pub(crate) struct Stretch<'a> {
     pub(crate) from: f64,
     pub(crate) to: f64,
-    pub(crate) bodies: [&'a Body; 2],
+    pub(crate) bodies: [&'a Tree; 2],
     centres: [DVec3; 2],
     placed: [Placed; 2],
     pub(crate) offset: DVec3,
@@ -31,7 +31,7 @@ impl<'a> Stretch<'a> {
         Stretch {
             from,
             to,
-            bodies: bodies.map(|body| body.body),
+            bodies: bodies.map(|body| &body.body.tree),
             centres: [links[a].centre, links[b].centre],
             placed,
             offset: placed[1].centre - placed[0].centre,
@@ -74,6 +74,27 @@ impl<'a> Stretch<'a> {
                 })
             })
             .sum()
+    }
+
+    /// Returns how often the checker looks at a box to see that the part of another body is farther than `least` from a ball around
+    /// the part of body `k`; `None` if it does not see that.
+    pub(crate) fn looks_beyond_ball(
+        &self,
+        parts: [Part; 2],
+        k: usize,
+        least: f64,
+    ) -> Option<usize> {
+        let other = 1 - k;
+        let way = &self.ways[1 + other][k];
+        let (middle, radius) = self.bodies[k].ball(parts[k]);
+        let arm = self.placed[k].rotation * (middle - self.centres[k]);
+        let bend = way.bend + way.factor() * arm.length();
+        let travel = (way.change + way.turn.cross(arm)).length() + 0.5 * bend;
+        let seen = self.placed[k].centre - self.placed[other].centre + arm;
+        let centre = self.placed[other].rotation.transpose() * seen + self.centres[other];
+        let limit = radius + travel * LENGTHS + least;
+        way.is_short()
+            .then(|| self.bodies[other].looks_beyond(parts[other], centre, limit))?
     }
 
     /// Returns for the ends of the stretch a direction, and how much higher along it than the offset of a plane a part has to be to

@@ -1,9 +1,8 @@
 //! What the prover, which computes in binary64, allows for rounding: its own, and that of the checker.
 
-/// The share of the largest length by which a part has to be farther from a plane than the checker asks for.
-///
-/// The checker knows a rotation to within some 2⁻⁴² after the turns of a chain, and loses three times that of the reach of a part.
-pub(crate) const ROUNDING: f64 = 1e-12;
+/// The share of the largest length that heights and distances may lose here for each link, and for each part as if it were one more: it
+/// is placed by less than 200 operations on numbers that are no larger, and each loses 2⁻⁵³ at most.
+pub(crate) const ROUNDING: f64 = 2e-14;
 
 /// The factor by which bounds of second derivatives are increased: the checker rounds lengths up to 30 bits, and a bound is a
 /// product of no more than four lengths.

@@ -50,19 +50,24 @@ impl Way {
 
     fn turn_by(&mut self, turn: DVec3) {
         self.turned += turn.length();
-        self.twist += self.turn.cross(turn).length() + self.twist * turn.length();
+        self.twist += self.rate() * turn.length();
         self.turn += turn;
     }
 
     fn move_by(&mut self, arm: DVec3, travel: DVec3) {
         self.change += travel + self.turn.cross(arm);
-        let (rate, travel) = (self.turn.length() + self.twist, travel.length());
+        let (rate, travel) = (self.rate(), travel.length());
         self.bend += self.factor() * (arm.length() + travel) + 2.0 * rate * travel;
     }
 
     /// Returns the factor by which the distance from the centre bounds the second derivative of what the link carries.
     pub(crate) fn factor(&self) -> f64 {
-        let rate = self.turn.length() + self.twist;
+        let rate = self.rate();
         self.twist + rate * rate
+    }
+
+    /// Returns a bound of the turn over the whole stretch.
+    fn rate(&self) -> f64 {
+        self.turn.length() + self.twist
     }
 }

@@ -6,8 +6,10 @@ use crate::nearest::MeshPoint;
 use crate::placed::{Moving, moving, placed};
 use crate::scene::{AxisKind, Joint, Link, Scene, Witness};
 use crate::tolerances::ROUNDING;
+use crate::tree::Tree;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
+use std::sync::atomic::AtomicBool;
 
 /// A certificate, and what it took.
 #[derive(Clone, Debug)]
@@ -29,6 +31,12 @@ const WEIGHT_UNIT: f64 = (1u64 << 62) as f64;
 /// The number of bits of the largest length in the unit of a certificate.
 const LENGTH_BITS: i32 = 49;
 
+/// What a rotation is off by in the checker: the share of a turn of about a radian.
+const TURNS: f64 = 1.0 / (1u64 << 50) as f64;
+
+/// The checker has 56 bits for the sum of lengths.
+const LENGTHS_IN_SUM: f64 = 64.0;
+
 /// Writes a certificate: each pair of a scene is farther apart than its margin from time 0 to `until`, and the
 /// witness, if there is one, comes as near as it says.
 ///
@@ -38,16 +46,29 @@ const LENGTH_BITS: i32 = 49;
 /// # Errors
 /// [`NotProven`].
 pub fn prove(scene: &Scene<'_>, until: f64, witness: Option<Witness>) -> Result<Proof, NotProven> {
-    let turns_too_far =
-        |link: &Link| !(largest_turn(&link.joint, 2f64.powi(exponent_above(until))) < MOST_RADIANS);
+    prove_unless_stopped(scene, until, witness, None)
+}
+
+/// As [`prove`], but ends soon after another thread sets a flag.
+pub(crate) fn prove_unless_stopped(
+    scene: &Scene<'_>,
+    until: f64,
+    witness: Option<Witness>,
+    stop: Option<&AtomicBool>,
+) -> Result<Proof, NotProven> {
+    let time_unit = exponent_above(until);
+    let turns_too_far = |link: &Link| {
+        let mut turns = turns(&link.joint, time_unit).into_iter();
+        !turns.all(|turn| turn < MOST_RADIANS)
+    };
     if let Some(number) = scene.links.iter().position(turns_too_far) {
         return Err(NotProven::TurnsTooFar { link: number + 1 });
     }
     let links = moving(&scene.links);
-    let (mut bytes, unit, size) = state(scene, &links, until, witness)?;
-    let mut cover = Cover::new((scene, &links), until, 2f64.powi(unit));
+    let (mut bytes, unit, lost) = state(scene, &links, until, witness)?;
+    let mut cover = Cover::new((scene, &links), (until, stop), 2f64.powi(unit));
     for (number, pair) in scene.pairs.iter().enumerate() {
-        cover.write(number, 0.5 * pair.margin + ROUNDING * size)?;
+        cover.write(number, 0.5 * pair.margin + lost)?;
     }
     bytes.extend(&cover.steps);
     Ok(Proof {
@@ -57,7 +78,8 @@ pub fn prove(scene: &Scene<'_>, until: f64, witness: Option<Witness>) -> Result<
     })
 }
 
-/// Returns a statement as bytes, the unit of its lengths as a power of two, and the largest length.
+/// Returns a statement as bytes, the unit of its lengths as a power of two, and how much farther than is asked for parts have to be
+/// from a plane so that the checker sees it.
 ///
 /// # Errors
 /// [`NotProven::NoContact`].
@@ -69,7 +91,10 @@ pub(crate) fn state(
 ) -> Result<(Vec<u8>, i32, f64), NotProven> {
     let time_unit = exponent_above(until);
     let size = largest_length(scene, links, time_unit);
-    let unit = exponent_above(size) - LENGTH_BITS;
+    let sum = sum_of_lengths(links, time_unit);
+    let unit = exponent_above(greater(size, sum / LENGTHS_IN_SUM)) - LENGTH_BITS;
+    let lost = lost(scene, time_unit, [2f64.powi(unit), 2.0 * size + sum])
+        + ROUNDING * size * (scene.links.len() + 2) as f64;
     let mut bytes = b"CCDPROOF".to_vec();
     bytes.extend(unit.to_le_bytes());
     bytes.extend(time_unit.to_le_bytes());
@@ -91,23 +116,40 @@ pub(crate) fn state(
     write_numbers(&mut bytes, [until]);
     bytes.push(u8::from(witness.is_some()));
     if let Some(witness) = witness {
-        write_witness(&mut bytes, scene, links, (witness, ROUNDING * size))?;
+        write_witness(&mut bytes, scene, links, (witness, lost))?;
     }
-    Ok((bytes, unit, size))
+    Ok((bytes, unit, lost))
 }
 
-/// Returns the largest of the numbers by which a joint turns: at time 0, and in the unit of time.
-fn largest_turn(joint: &Joint, time_unit: f64) -> f64 {
+/// Returns the numbers by which a joint turns: at time 0 and in the unit of time, or about each axis in the unit of time.
+fn turns(joint: &Joint, time_unit: i32) -> [f64; 3] {
+    let time_unit = 2f64.powi(time_unit);
     match joint {
-        Joint::Free(motion) => motion.spin().abs().max_element() * time_unit,
+        Joint::Free(motion) => (motion.spin() * time_unit).abs().to_array(),
         Joint::Axis {
             kind: AxisKind::Turns,
             start,
             rate,
             ..
-        } => greater(start.abs(), rate.abs() * time_unit),
-        Joint::Axis { .. } => 0.0,
+        } => [start.abs(), rate.abs() * time_unit, 0.0],
+        Joint::Axis { .. } => [0.0; 3],
     }
+}
+
+/// Returns the sum of the coordinates of all arms and of their changes in the unit of time, of which the checker has 56 bits.
+fn sum_of_lengths(links: &[Moving], time_unit: i32) -> f64 {
+    let lengths = links.iter().map(|link| {
+        let travel = link.travel * 2f64.powi(time_unit);
+        (link.arm.abs() + travel.abs()).element_sum()
+    });
+    lengths.sum()
+}
+
+/// Returns 8 L of the checker's README, for lengths in a unit that add up to so much.
+fn lost(scene: &Scene<'_>, time_unit: i32, [unit, lengths]: [f64; 2]) -> f64 {
+    let of_turns = |link: &Link| 3.0 + turns(&link.joint, time_unit).iter().sum::<f64>();
+    let off = scene.links.iter().map(of_turns).sum::<f64>() * TURNS;
+    8.0 * (8.0 * unit * (scene.links.len() + 2) as f64 + off * lengths)
 }
 
 /// Returns the least exponent of a power of two above a number.
@@ -132,8 +174,9 @@ fn largest_length(scene: &Scene<'_>, links: &[Moving], time_unit: i32) -> f64 {
         most = greater(most, reach + link.centre.length());
     }
     for carried in &scene.bodies {
-        let reach = carried.body.reach(carried.body.whole(), DVec3::ZERO);
-        most = greater(most, carried.body.largest_radius() + reach);
+        let tree = &carried.body.tree;
+        let reach = tree.reach(Tree::WHOLE, DVec3::ZERO);
+        most = greater(most, tree.largest_radius() + reach);
     }
     most
 }
@@ -200,7 +243,7 @@ pub(crate) fn mesh_points(scene: &Scene<'_>, links: &[Moving], witness: Witness)
         let link = &all[carried.link];
         let local = link.rotation.transpose() * (witness.points[k] - link.centre);
         let centre = links[carried.link].centre;
-        let nearest = MeshPoint::nearest(carried.body, local + centre);
+        let nearest = MeshPoint::nearest(&carried.body.tree, local + centre);
         let place = link.centre + link.rotation * (nearest.ball.truncate() - centre);
         MeshPoint {
             ball: place.extend(nearest.ball.w),

@@ -3,6 +3,8 @@
 use ccd_prove::{NotProven, PathNotProven, Proof, ProvenCell};
 use rigid_ccd::{Body, Pose, Settings, trajectory};
 use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, PositionRule, Robot};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// A car that slides along x towards an obstacle, and beside it a wheel that turns, with a body if one is given.
 fn cell(car: Body, obstacle: (Body, f64), wheel: Option<Body>) -> Cell {
@@ -46,7 +48,7 @@ fn prove_and_check(cell: &Cell, path: &[[f64; 2]]) -> Result<Vec<Proof>, PathNot
     let proofs = proven.prove_path(path, &outcome, &settings)?;
     for proof in &proofs {
         let read = |body: &ccd_prove::Body| {
-            ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit).unwrap()
+            ccd_check::Body::new(body.mesh(), body.certificate(), &proof.bytes).unwrap()
         };
         let meshes: Vec<_> = proven.meshes().map(read).collect();
         assert_eq!(ccd_check::check(&meshes, &proof.bytes), Ok(()));
@@ -63,6 +65,26 @@ fn a_body_in_another_at_the_start_has_no_proof() {
         let path = [[0.0, 0.0], [0.5, 0.0]];
         assert_eq!(prove_and_check(&cell, &path).unwrap().len(), 0);
     }
+}
+
+/// The answer is found before the flag is set.
+#[test]
+fn a_proof_ends_when_it_is_stopped() {
+    let cell = cell(block(0.1), (block(0.1), 2.0), None);
+    let path = [[0.0, 0.0], [0.5, 0.0]];
+    let outcome = cell.solver().first_contact(&path).unwrap();
+    let proven = ProvenCell::new(&cell).unwrap();
+    let prove = |is_stopped: bool| {
+        let settings = Settings {
+            stop: Some(Arc::new(AtomicBool::new(is_stopped))),
+            ..Settings::DEFAULT
+        };
+        proven.prove_path(&path, &outcome, &settings)
+    };
+    assert_eq!(prove(false).unwrap().len(), 1);
+    let (segment, reason) = (0, NotProven::Stopped { at: 0.0 });
+    let stopped = PathNotProven::Segment { segment, reason };
+    assert_eq!(prove(true).unwrap_err(), stopped);
 }
 
 /// The gap is the tolerance but for rounding: at a start, or where one segment ends and the next one begins.

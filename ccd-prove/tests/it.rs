@@ -4,19 +4,19 @@ use ccd_check::Stop;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
 use ccd_prove::{
-    AxisKind, Body, Carried, Joint, Link, NotProven, Pair, Proof, Scene, Witness, prove,
+    AxisKind, Body, Carried, Joint, Link, NotProven, Pair, Proof, Scene, Statement, Witness, prove,
+    steps_text,
 };
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
 use rigid_ccd::{Outcome, Settings, Solver};
 use std::f64::consts::TAU;
 
-/// Where the number of witnesses stands in the file of a query of two free bodies, and where its steps begin if it has none.
+/// Where the number of witnesses stands in the file of a query of two free bodies.
 const WITNESSES_AT: usize = 28 + 2 * 133 + 2 * 36 + 16 + 8;
-const FREE_STEPS_AT: usize = WITNESSES_AT + 1;
 
-/// The bytes of a witness, and of a leaf.
+/// The bytes of a witness, and of a leaf with a plane.
 const WITNESS: usize = 60;
-const LEAF: usize = 11;
+const PLANE: usize = 29;
 
 /// A torus of triangles about z, a mesh that is not convex.
 fn torus(count: usize, radius: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
@@ -119,14 +119,14 @@ impl Meshes {
         Some(prove(&scene, until, witness).unwrap())
     }
 
-    fn bodies(&self, unit: i32) -> [ccd_check::Body; 3] {
+    fn bodies(&self, proof: &[u8]) -> [ccd_check::Body; 3] {
         let read =
-            |body: &Body| ccd_check::Body::new(body.mesh(), body.certificate(), unit).unwrap();
+            |body: &Body| ccd_check::Body::new(body.mesh(), body.certificate(), proof).unwrap();
         self.proofs.each_ref().map(read)
     }
 
     fn check(&self, proof: &Proof) -> Result<(), Stop> {
-        ccd_check::check(&self.bodies(proof.unit), &proof.bytes)
+        ccd_check::check(&self.bodies(&proof.bytes), &proof.bytes)
     }
 }
 
@@ -264,54 +264,81 @@ fn arms_and_a_body_at_rest_are_proven_apart_unless_its_radius_reaches_them() {
     );
 }
 
+/// Returns the last step of a proof as text.
+fn last_step(bytes: &[u8]) -> String {
+    let steps = steps_text(bytes, &Statement::read(bytes).unwrap());
+    steps.lines().last().unwrap_or_default().to_owned()
+}
+
 #[test]
 fn each_kind_of_forgery_is_seen() {
     let meshes = Meshes::new();
     let [free, contacts] = proofs(&meshes, 10);
-    let (_, proof) = &free[0];
-    let bodies = meshes.bodies(proof.unit);
+    // One whose last leaf has a plane, and one whose last leaf has a ball.
+    let [proof, with_ball] = ["plane", "ball"].map(|name| {
+        let mut proofs = free.iter().map(|(_, proof)| proof);
+        let is_last = |proof: &&Proof| last_step(&proof.bytes).starts_with(name);
+        proofs.find(is_last).unwrap()
+    });
+    let bodies = meshes.bodies(&proof.bytes);
     let reason_of = |bytes: &[u8]| reason(ccd_check::check(&bodies, bytes));
     assert_eq!(ccd_check::check(&bodies, &proof.bytes), Ok(()));
     // The last leaf is dropped, and one too many is there.
     let end = proof.bytes.len();
     assert_eq!(
-        reason_of(&proof.bytes[..end - LEAF]),
+        reason_of(&proof.bytes[..end - PLANE]),
         "the file ends too early"
     );
-    let longer = [&proof.bytes[..], &proof.bytes[end - LEAF..]].concat();
+    let longer = [&proof.bytes[..], &proof.bytes[end - PLANE..]].concat();
     assert_eq!(reason_of(&longer), "the file goes on after its end");
     // A leaf has a normal of no length, or one that is too long, or its plane is on the other side of A or of B.
-    let bent = |normal: [i16; 3], offset: Option<i32>| {
+    let bent = |normal: [i64; 3], offset: Option<i64>| {
         let mut bytes = proof.bytes.clone();
-        let normal = normal.map(i16::to_le_bytes).concat();
-        bytes[end - 10..end - 4].copy_from_slice(&normal);
-        if let Some(offset) = offset {
-            bytes[end - 4..].copy_from_slice(&offset.to_le_bytes());
+        let mut numbers: Vec<i64> = normal.into();
+        numbers.extend(offset);
+        for (k, number) in numbers.into_iter().enumerate() {
+            let at = end - PLANE + 1 + 7 * k;
+            bytes[at..at + 7].copy_from_slice(&number.to_le_bytes()[..7]);
         }
         bytes
     };
-    let not_apart = "a plane is not between its parts";
+    let not_apart = "a leaf does not prove that its parts are apart";
     assert_eq!(reason_of(&bent([0; 3], None)), not_apart);
     assert_eq!(
-        reason_of(&bent([16_000, 16_000, 0], None)),
+        reason_of(&bent([1 << 50, 1, 0], None)),
         "a normal is longer than 1"
     );
-    let normal = [10, 8, 6].map(|k| i16::from_le_bytes([0, 1].map(|j| proof.bytes[end - k + j])));
-    for offset in [i32::MIN, i32::MAX] {
+    let normal = [1, 8, 15].map(|k| {
+        let bytes = &proof.bytes[end - PLANE + k..end - PLANE + k + 7];
+        let high = if bytes[6] < 128 { 0 } else { 255 };
+        i64::from_le_bytes([&[high], bytes].concat().try_into().unwrap()) >> 8
+    });
+    for offset in [-(1 << 55), (1 << 55) - 1] {
         assert_eq!(reason_of(&bent(normal, Some(offset))), not_apart);
     }
+    // One leaf stands for everything.
+    for leaf in [&[6][..], &[7], &proof.bytes[end - PLANE..]] {
+        let contact = &contacts[0].1;
+        let nothing = [&contact.bytes[..WITNESSES_AT], &[0], leaf].concat();
+        let verdict = ccd_check::check(&meshes.bodies(&contact.bytes), &nothing);
+        assert_eq!(reason(verdict), not_apart);
+    }
+    // The ball is around the other body, or there is no such step.
+    let mut around = with_ball.bytes.clone();
+    *around.last_mut().unwrap() = 8;
+    let bodies_of_ball = meshes.bodies(&with_ball.bytes);
+    assert_eq!(
+        reason(ccd_check::check(&bodies_of_ball, &around)),
+        "there is no such step"
+    );
     // A mesh is not given.
     assert_eq!(
         reason(ccd_check::check(&bodies[..1], &proof.bytes)),
-        "a mesh is none of those that are given"
+        "a mesh is none of those that are given, in this unit"
     );
-    // One leaf stands for everything.
-    let mut nothing = proof.bytes[..FREE_STEPS_AT].to_vec();
-    nothing.extend([3, 0, 0, 0, 0, 0, 64, 0, 0, 0, 0]);
-    assert_eq!(reason_of(&nothing), not_apart);
     // The bodies are said to be free for longer than they are, and to touch later.
     for (_, proof) in &contacts {
-        let bodies = meshes.bodies(proof.unit);
+        let bodies = meshes.bodies(&proof.bytes);
         let mut bytes = proof.bytes.clone();
         let until = WITNESSES_AT - 8..WITNESSES_AT;
         let time = f64::from_le_bytes(bytes[until.clone()].try_into().unwrap());
@@ -321,35 +348,6 @@ fn each_kind_of_forgery_is_seen() {
         free.push(0);
         free.extend(&bytes[WITNESSES_AT + 1 + WITNESS..]);
         assert!(ccd_check::check(&bodies, &free).is_err());
-        // The witness is later than the proof, by the least that can be said.
-        let mut late = proof.bytes.clone();
-        late[WITNESSES_AT + 5..WITNESSES_AT + 13].copy_from_slice(&time.next_up().to_le_bytes());
-        assert_eq!(
-            reason(ccd_check::check(&bodies, &late)),
-            "the time of the witness is not from 0 to T"
-        );
-    }
-}
-
-/// The times of a statement may be less than the multiples that the checker computes with.
-#[test]
-fn a_witness_is_no_later_than_the_proof_however_short_it_is() {
-    let meshes = Meshes::new();
-    let [_, contacts] = proofs(&meshes, 10);
-    let bodies = meshes.bodies(contacts[0].1.unit);
-    let mut bytes = contacts[0].1.bytes.clone();
-    let times = [WITNESSES_AT - 8, WITNESSES_AT + 5];
-    for (until, witness, is_in_time) in [
-        (1e-300, 8e-19, false),
-        (8e-19, 1e-300, true),
-        (-0.0, 1e-300, false),
-    ] {
-        for (at, time) in times.into_iter().zip([until, witness]) {
-            bytes[at..at + 8].copy_from_slice(&f64::to_le_bytes(time));
-        }
-        let verdict = reason(ccd_check::check(&bodies, &bytes));
-        let is_refused = verdict == "the time of the witness is not from 0 to T";
-        assert_eq!(is_refused, !is_in_time, "{until:e} {witness:e}: {verdict}");
     }
 }
 
@@ -359,7 +357,7 @@ fn witnesses_that_are_not_near_or_not_on_their_triangles_are_seen() {
     let [_, contacts] = proofs(&meshes, 10);
     let triangle = WITNESSES_AT + 1 + 4 + 16;
     for (_, proof) in &contacts {
-        let bodies = meshes.bodies(proof.unit);
+        let bodies = meshes.bodies(&proof.bytes);
         // Another triangle, one that is none, and weights that are more than 1.
         let verdict_with = |at: usize, with: &[u8]| {
             let mut bytes = proof.bytes.clone();
@@ -381,13 +379,18 @@ fn witnesses_that_are_not_near_or_not_on_their_triangles_are_seen() {
 fn an_order_that_omits_a_triangle_or_belongs_to_another_mesh_is_seen() {
     let meshes = Meshes::new();
     let body = &meshes.proofs[0];
+    let proof = proofs(&meshes, 1)[0][0].1.bytes.clone();
     let read = |mesh: &[u8], certificate: &[u8]| {
-        reason(ccd_check::Body::new(mesh, certificate, -48).map(|_| ()))
+        reason(ccd_check::Body::new(mesh, certificate, &proof).map(|_| ()))
     };
-    let order = 40;
+    // The last part of a tree is a triangle, and so is one before.
     let mut twice = body.certificate().to_vec();
-    twice.copy_within(order..order + 4, order + 4);
-    assert_eq!(read(body.mesh(), &twice), "the order has a triangle twice");
+    let end = twice.len();
+    let places = (40..end - 4).step_by(4).rev();
+    let number = |at: usize| u32::from_le_bytes(twice[at..at + 4].try_into().unwrap());
+    let another = places.map(number).find(|&other| other > 144).unwrap();
+    twice[end - 4..].copy_from_slice(&another.to_le_bytes());
+    assert_eq!(read(body.mesh(), &twice), "a tree has a triangle twice");
     // A vertex is moved by the least that its numbers can tell.
     let mut moved = body.mesh().to_vec();
     moved[8] ^= 1;
@@ -406,7 +409,7 @@ fn no_random_forgery_is_accepted_that_is_false() {
     all.extend(contacts);
     let (mut accepted, mut refused) = (0, 0);
     for (_, proof) in &all {
-        let bodies = meshes.bodies(proof.unit);
+        let bodies = meshes.bodies(&proof.bytes);
         for _ in 0..500 {
             let mut bytes = proof.bytes.clone();
             // Half of the changes are to the statement.

@@ -10,7 +10,7 @@ fn prove_point_and_edge(a: ([f64; 3], Motion), b: ([[f64; 3]; 2], Motion), until
     let edge = Body::new(&b.0, &[[0, 1, 1]]);
     let scene = Scene::of_two((&point, a.1), (&edge, b.1), 0.0);
     let proof = prove(&scene, until, None).unwrap();
-    let read = |body: &Body| ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit);
+    let read = |body: &Body| ccd_check::Body::new(body.mesh(), body.certificate(), &proof.bytes);
     let bodies = [read(&point).unwrap(), read(&edge).unwrap()];
     assert_eq!(ccd_check::check(&bodies, &proof.bytes), Ok(()));
 }

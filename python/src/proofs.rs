@@ -69,11 +69,17 @@ pub(crate) fn prove<'py>(
         &settings,
     )?;
     let [a, b] = [extract_body(a, "a")?, extract_body(b, "b")?];
-    let proven = py.detach(|| {
+    let work = |stop: &Arc<_>| {
+        let settings = Settings {
+            stop: Some(Arc::clone(stop)),
+            ..settings.clone()
+        };
         let pair = ProvenPair::new(a, b)?;
-        let proof = pair.prove(motions, duration, settings.margin, &answer);
+        let proof = pair.prove(motions, duration, &settings, &answer);
         Ok((pair, proof))
-    });
+    };
+    let (proven, seen) = run_interruptibly(py, work, |_| Ok(()))?;
+    seen?;
     let (pair, proof) = proven.map_err(|error: NoMesh| input_error(error))?;
     let proof = proof.transpose().map_err(input_error)?;
     let object = |proof| proof_object(py, &proof, pair.meshes());
@@ -98,11 +104,12 @@ pub(crate) fn prove_path<'py>(
     let path = path.configurations();
     let proven = ProvenCell::new(cell).map_err(input_error)?;
     let work = |stop: &Arc<_>| {
-        let mut solver = cell.solver();
-        solver.set_settings(Settings {
+        let settings = Settings {
             stop: Some(Arc::clone(stop)),
             ..settings.clone()
-        });
+        };
+        let mut solver = cell.solver();
+        solver.set_settings(settings.clone());
         let outcome = solver.first_contact(&path)?;
         Ok(proven.prove_path(&path, &outcome, &settings))
     };
@@ -133,9 +140,8 @@ fn constant_motion((_, motion): GivenBodyAndMotion<'_, '_>, what: &str) -> PyRes
 ///     "holds", or why it does not: "broken: …", or "unverifiable: …" for numbers beyond the range of the checker.
 #[pyfunction]
 pub(crate) fn check_proof(py: Python<'_>, proof: &[u8], meshes: Vec<(Vec<u8>, Vec<u8>)>) -> String {
-    let unit = Statement::read(proof).map_or(0, |statement| statement.units[0]);
     let verdict = py.detach(|| {
-        let read = |(mesh, tree): &(Vec<u8>, Vec<u8>)| ccd_check::Body::new(mesh, tree, unit);
+        let read = |(mesh, tree): &(Vec<u8>, Vec<u8>)| ccd_check::Body::new(mesh, tree, proof);
         let bodies = meshes.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         ccd_check::check(&bodies, proof)
     });

@@ -50,12 +50,12 @@ impl CertificateFolder {
 pub(crate) struct PairCertificates {
     pub(crate) folder: CertificateFolder,
     bodies: ProvenPair,
-    margin: f64,
+    settings: Settings,
 }
 
 impl PairCertificates {
     /// Prepares both bodies, and writes their meshes.
-    pub(crate) fn new(folder: &Path, pair: BodyPair<'_>, margin: f64) -> Result<Self> {
+    pub(crate) fn new(folder: &Path, pair: BodyPair<'_>, settings: Settings) -> Result<Self> {
         let folder = CertificateFolder::create(folder)?;
         let bodies = ProvenPair::new(pair.a, pair.b).context("--certificates")?;
         for (name, body) in ["a", "b"].into_iter().zip(bodies.meshes()) {
@@ -64,7 +64,7 @@ impl PairCertificates {
         Ok(PairCertificates {
             folder,
             bodies,
-            margin,
+            settings,
         })
     }
 
@@ -80,7 +80,7 @@ impl PairCertificates {
         let bodies = [motions.a, motions.b];
         is_proven.then(|| {
             self.bodies
-                .prove(bodies, motions.duration, self.margin, answer)
+                .prove(bodies, motions.duration, &self.settings, answer)
         })?
     }
 }

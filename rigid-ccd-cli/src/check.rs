@@ -102,10 +102,9 @@ pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
             outcome = outcome.max(RunOutcome::SomeRowsBad);
             continue;
         };
-        let unit = statement.units[0];
-        let bodies = match bodies.entry(unit) {
+        let bodies = match bodies.entry(statement.units[0]) {
             Entry::Occupied(bodies) => bodies.into_mut(),
-            Entry::Vacant(place) => place.insert(read_bodies(&meshes, unit)),
+            Entry::Vacant(place) => place.insert(read_bodies(&meshes, &bytes)),
         };
         let verdict = match bodies {
             Ok(bodies) => check(bodies, &bytes),
@@ -194,8 +193,8 @@ fn read_meshes(folder: &Path) -> Result<Meshes> {
     Ok(meshes)
 }
 
-fn read_bodies(meshes: &Meshes, unit: i32) -> Result<Vec<ccd_check::Body>, Stop> {
-    let read = |(mesh, body): &(Vec<u8>, Vec<u8>)| ccd_check::Body::new(mesh, body, unit);
+fn read_bodies(meshes: &Meshes, proof: &[u8]) -> Result<Vec<ccd_check::Body>, Stop> {
+    let read = |(mesh, body): &(Vec<u8>, Vec<u8>)| ccd_check::Body::new(mesh, body, proof);
     meshes.iter().map(read).collect()
 }
 

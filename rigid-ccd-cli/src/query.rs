@@ -49,7 +49,10 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     let pair = args.bodies.load(method(args), args.quiet)?;
     let certificates = args.certificates.as_deref();
     let certificates = certificates
-        .map(|folder| PairCertificates::new(folder, pair.bodies(), args.margin))
+        .map(|folder| {
+            let settings = timed_question_from_args(args).settings;
+            PairCertificates::new(folder, pair.bodies(), settings)
+        })
         .transpose()?;
     let (mut outputs, earlier) =
         match OpenedTables::new(&files, places, &recorded_options(args, given, &pair))? {

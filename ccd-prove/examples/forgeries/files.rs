@@ -71,10 +71,8 @@ impl Files {
         let mut steps = Vec::new();
         while at < self.proof.len() {
             let size = match self.proof[at] {
-                0..=1 => 1,
-                2 => 3,
-                3..=5 => 11,
-                _ => 29,
+                3..=5 => 29,
+                _ => 1,
             };
             steps.push(at..at + size);
             at += size;
@@ -91,12 +89,7 @@ impl Files {
 
     /// Returns the first letter of the checker's verdict.
     pub(crate) fn verdict(&self) -> u8 {
-        let unit = self
-            .proof
-            .get(8..12)
-            .and_then(|bytes| bytes.try_into().ok());
-        let unit = i32::from_le_bytes(unit.unwrap_or_default());
-        let read = |k: usize| ccd_check::Body::new(&self.meshes[k], &self.trees[k], unit);
+        let read = |k: usize| ccd_check::Body::new(&self.meshes[k], &self.trees[k], &self.proof);
         let verdict = read(0).and_then(|a| ccd_check::check(&[a, read(1)?], &self.proof));
         match verdict {
             Ok(()) => b'h',

@@ -9,7 +9,7 @@ const VERTEX: usize = 32;
 type Forge = fn(&mut Random, &mut Files, &[Files]);
 
 /// Each kind by its name. A change that cannot be made to a proof leaves it as it is.
-pub(crate) const KINDS: [(&str, Forge); 32] = [
+pub(crate) const KINDS: [(&str, Forge); 34] = [
     ("a unit", |random, files, _| {
         flip(random, &mut files.proof[8..16]);
     }),
@@ -115,40 +115,43 @@ pub(crate) const KINDS: [(&str, Forge); 32] = [
             files.proof[a.start..b.end].rotate_left(a.len());
         }
     }),
-    ("a leaf's plane moved", |random, files, _| {
-        let leaves = steps_of(files, 3..9);
+    ("a plane moved", |random, files, _| {
+        let leaves = steps_of(files, 3..6);
         if !leaves.is_empty() {
             let leaf = pick(random, &leaves).clone();
-            let bytes = if files.proof[leaf.start] < 6 { 4 } else { 7 };
-            flip(random, &mut files.proof[leaf.end - bytes..leaf.end]);
+            flip(random, &mut files.proof[leaf.end - 7..leaf.end]);
         }
     }),
-    ("a leaf bent", |random, files, _| {
-        let leaves = steps_of(files, 3..9);
+    ("a plane bent", |random, files, _| {
+        let leaves = steps_of(files, 3..6);
         if !leaves.is_empty() {
             let leaf = pick(random, &leaves).clone();
             flip(random, &mut files.proof[leaf.start + 1..leaf.end]);
         }
     }),
-    ("a leaf seen from elsewhere", |random, files, _| {
-        let leaves = steps_of(files, 3..9);
+    ("a plane seen from elsewhere", |random, files, _| {
+        let leaves = steps_of(files, 3..6);
         if !leaves.is_empty() {
             let at = pick(random, &leaves).start;
-            files.proof[at] = files.proof[at] / 3 * 3 + random.below(3) as u8;
+            files.proof[at] = 3 + random.below(3) as u8;
         }
     }),
-    ("a split of something else", |random, files, _| {
-        let splits = steps_of(files, 0..2);
-        if !splits.is_empty() {
-            let at = pick(random, &splits).start;
+    ("a ball around the other part", |random, files, _| {
+        let leaves = steps_of(files, 6..8);
+        if !leaves.is_empty() {
+            let at = pick(random, &leaves).start;
             files.proof[at] ^= 1;
         }
     }),
-    ("a time split elsewhere", |random, files, _| {
-        let splits = steps_of(files, 2..3);
+    ("a leaf with a ball instead", |random, files, _| {
+        let step = pick(random, &files.places().steps).clone();
+        files.proof.splice(step, [6 + random.below(2) as u8]);
+    }),
+    ("a split of something else", |random, files, _| {
+        let splits = steps_of(files, 0..3);
         if !splits.is_empty() {
             let at = pick(random, &splits).start;
-            flip(random, &mut files.proof[at + 1..at + 3]);
+            files.proof[at] = random.below(3) as u8;
         }
     }),
     ("the steps of another proof", |random, files, scenes| {
@@ -204,16 +207,25 @@ pub(crate) const KINDS: [(&str, Forge); 32] = [
             renew_digests(files, side);
         },
     ),
-    ("the order of a tree", |random, files, _| {
+    ("a part of a tree", |random, files, _| {
         let side = random.below(2);
         let tree = &mut files.trees[side];
-        let count = u32::from_le_bytes([4, 5, 6, 7].map(|k| files.meshes[side][k])) as usize;
-        let [a, b] = [0, 1].map(|_| 40 + 4 * random.below(count));
-        if random.below(2) == 0 {
-            tree.swap(a, b);
-        } else {
-            tree[a] = tree[b];
-        }
+        let [a, b] = [0, 1].map(|_| 40 + 4 * random.below((tree.len() - 40) / 4));
+        let number = u32::from_le_bytes([0, 1, 2, 3].map(|k| tree[b + k]));
+        let number = match random.below(3) {
+            0 => number,
+            1 => number + 1,
+            _ => number.saturating_sub(1),
+        };
+        tree[a..a + 4].copy_from_slice(&number.to_le_bytes());
+    }),
+    ("two numbers of a tree exchanged", |random, files, _| {
+        let side = random.below(2);
+        let tree = &mut files.trees[side];
+        let [a, b] = [0, 1].map(|_| 40 + 4 * random.below((tree.len() - 40) / 4));
+        let number = tree[a..a + 4].to_vec();
+        tree.copy_within(b..b + 4, a);
+        tree[b..b + 4].copy_from_slice(&number);
     }),
 ];
 

@@ -67,15 +67,16 @@ fn two(rings: &[Mesh; 2], margin: f64, motions: [Motion; 2]) -> Result<Option<Fi
         Ok(body_from_mesh(&mesh, Detail::Surface)?.body)
     };
     let [a, b] = [engine(&rings[0])?, engine(&rings[1])?];
-    let mut solver = Solver::new().with_settings(Settings {
+    let settings = Settings {
         margin,
         ..Settings::DEFAULT
-    });
+    };
+    let mut solver = Solver::new().with_settings(settings.clone());
     let answer = solver.first_contact((&a, motions[0]), (&b, motions[1]), 1.0)?;
     let pair = ProvenPair::new(&a, &b)
         .ok()
         .context("rings have triangles")?;
-    let proof = pair.prove(motions, 1.0, margin, &answer).transpose()?;
+    let proof = pair.prove(motions, 1.0, &settings, &answer).transpose()?;
     Ok(proof.map(|proof| files(proof, pair.meshes())))
 }
 

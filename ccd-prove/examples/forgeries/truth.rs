@@ -12,8 +12,9 @@ use sha2::{Digest, Sha256};
 /// The number of times that are looked at.
 const SAMPLES: u32 = 64;
 
-/// What distances may be off by.
+/// What distances may be off by, of corners that are nearer than this to the origin.
 const ROUNDING: f64 = 1e-9;
+const FAR: f64 = 1e6;
 
 /// Returns whether a statement is not seen to be false. What cannot be read states nothing.
 pub(crate) fn is_true(files: &Files) -> bool {
@@ -127,8 +128,11 @@ fn on_parent(kind: u8, numbers: &[f64], point: DVec3, time: f64) -> DVec3 {
 
 /// Returns whether two triangles are seen to be farther apart than a distance. Numbers that are none are not seen to be nearer.
 fn are_apart(a: &Corners, b: &Corners, least: f64) -> bool {
-    // Farther away binary64 has no squares.
-    let is_in_range = a[0].distance(b[0]) < 1e100;
+    // Farther away binary64 rounds by more than is allowed for here.
+    let is_in_range = a
+        .iter()
+        .chain(b)
+        .all(|corner| corner.abs().max_element() < FAR);
     if !is_in_range || balls_are_apart(a, b, least) {
         return true;
     }
@@ -176,9 +180,20 @@ fn triangles(mesh: &[u8], tree: &[u8]) -> Option<Vec<Corners>> {
         let [x, y, z, radius] = [0, 8, 16, 24].map(|k| number(vertex + k));
         Some(DVec4::new(x?, y?, z?, radius?))
     };
-    let triangle = |place: usize| -> Option<Corners> {
-        let at = 8 + 32 * vertices + 12 * index(tree, 40 + 4 * place)?;
+    let triangle = |number: usize| -> Option<Corners> {
+        let at = 8 + 32 * vertices + 12 * number;
         Some([corner(at)?, corner(at + 4)?, corner(at + 8)?])
     };
-    (0..triangles.min(mesh.len())).map(triangle).collect()
+    // Parts whose nodes are not read yet, by their numbers of triangles.
+    let (mut parts, mut ordered) = (vec![triangles.min(mesh.len())], Vec::new());
+    for at in (40..).step_by(4) {
+        let Some(count) = parts.pop() else { break };
+        let number = index(tree, at)?;
+        if count == 1 {
+            ordered.push(triangle(number)?);
+        } else {
+            parts.extend([count.checked_sub(number)?, number]);
+        }
+    }
+    Some(ordered)
 }

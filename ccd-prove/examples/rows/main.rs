@@ -76,10 +76,11 @@ fn run_pair(args: &Args, names: [&str; 2], motions: &str) -> Result<()> {
         meshes[0].faces().len(),
     ];
     let per_triangle = certificate as f64 / triangles as f64;
-    let mut solver = Solver::new().with_settings(Settings {
+    let settings = Settings {
         tolerance: args.tolerance,
         ..Settings::DEFAULT
-    });
+    };
+    let mut solver = Solver::new().with_settings(settings.clone());
     let mut tally = Tally::new(args.write.clone());
     for (row, motion) in rows.iter().step_by(args.step) {
         let mut ask = || solver.first_contact((a, motion.a), (b, motion.b), motion.duration);
@@ -89,7 +90,7 @@ fn run_pair(args: &Args, names: [&str; 2], motions: &str) -> Result<()> {
         let solved = start.elapsed();
         let name = format!("{}-{}", names[0], row.row);
         let motions = [motion.a, motion.b];
-        let prove = || proven.prove(motions, motion.duration, 0.0, &answer);
+        let prove = || proven.prove(motions, motion.duration, &settings, &answer);
         let is_decided = matches!(
             answer.outcome,
             Outcome::Free { .. } | Outcome::Contact { .. }

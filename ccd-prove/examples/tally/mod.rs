@@ -64,9 +64,9 @@ impl Tally {
         let meshes = match self.read.entry(proof.unit) {
             Entry::Occupied(read) => read.into_mut(),
             Entry::Vacant(place) => {
-                let read = meshes
-                    .into_iter()
-                    .map(|body| ccd_check::Body::new(body.mesh(), body.certificate(), proof.unit));
+                let read = meshes.into_iter().map(|body| {
+                    ccd_check::Body::new(body.mesh(), body.certificate(), &proof.bytes)
+                });
                 place.insert(read.collect::<Result<_, _>>()?)
             }
         };

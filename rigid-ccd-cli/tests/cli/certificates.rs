@@ -60,7 +60,7 @@ fn statements_and_steps_are_shown() {
         "body 0 ",
         "pair 0 of 0 and 1 margin 0.0",
         "until 1.0",
-        "leaf ",
+        "ball around ",
     ] {
         assert_contains(&text, line);
     }
