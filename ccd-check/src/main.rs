@@ -35,15 +35,15 @@ fn main() -> ExitCode {
 fn run(mut arguments: &[String]) -> Result<bool, String> {
     let read = |name: &String| fs::read(name).map_err(|error| format!("{name}: {error}"));
     let mut meshes = Vec::new();
+    if arguments.first().is_some_and(|option| option == "--help" || option == "-h") {
+        print!("{HELP}");
+        return Ok(true);
+    }
     while let [option, mesh, body, rest @ ..] = arguments
         && option == "--mesh"
     {
         meshes.push((read(mesh)?, read(body)?, body));
         arguments = rest;
-    }
-    if arguments.iter().any(|argument| argument == "--help" || argument == "-h") {
-        print!("{HELP}");
-        return Ok(true);
     }
     if arguments.first().is_none_or(|argument| argument.starts_with("--")) {
         return Err("meshes of two files each, and then proofs are needed; see --help".into());

@@ -74,7 +74,7 @@ impl Links {
         verifiable(is_known, "there are too many links, or they turn or reach too far")
     }
 
-    /// Returns what bounds are made of for what is lost of arms, and of points that are so far from the centre of a link.
+    /// Returns L of the README, of which bounds for what is lost are made, for points that are so far from the centre of a link.
     pub(crate) fn loss(&self, reach: i128) -> i128 {
         8 * (self.all.len() as i128 + 1) + up(self.off.into(), reach + i128::from(self.size))
     }
@@ -124,7 +124,7 @@ fn read_rotation(reader: &mut Reader<'_>) -> Result<Matrix, Stop> {
     let scalar = reader.number(-i64::from(FRACTION), FRACTION + 1)?;
     let excess = ((dot(vector, vector) + product(scalar, scalar)) >> FRACTION) - i128::from(ONE);
     verifiable(excess.abs() <= i128::from(ONE >> 20), "a quaternion is not of unit length")?;
-    // 1 / (1 + e) is 1 − e + e² to within 2 |e|³.
+    // 1 / (1 + e) is 1 − e + e² to within |e|³ / (1 − |e|).
     let twice = 2 * (i128::from(ONE) - excess + ((excess * excess) >> FRACTION)) as i64;
     Ok(about(vector, (product(scalar, twice) >> FRACTION) as i64, twice))
 }
