@@ -1,7 +1,7 @@
 //! The check of a certificate: a tree of splits, whose leaves cover all pairs of triangles at all times.
 
 use crate::body::WHOLE;
-use crate::leaf::{Side, is_beyond_ball, reads_plane_between};
+use crate::leaf::{Side, is_between, is_beyond_ball, read_plane};
 use crate::reader::Reader;
 use crate::statement::Statement;
 use crate::way::Way;
@@ -55,7 +55,7 @@ pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
                     let is_apart = match step {
                         6 => is_beyond_ball(&b, &a, links, margin),
                         7 => is_beyond_ball(&a, &b, links, margin),
-                        _ => reads_plane_between(&mut reader, &a, &b, links, margin / 2 + 1)?,
+                        _ => is_between(read_plane(&mut reader)?, [&a, &b], links, margin / 2 + 1),
                     };
                     reader.require(is_apart, "a leaf does not prove that its parts are apart")?;
                 }

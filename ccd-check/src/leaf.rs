@@ -8,7 +8,7 @@ use crate::reader::Reader;
 use crate::way::Way;
 
 /// A plane: the points x with normal · x = offset, as the normal, which is no longer than 1, and the offset.
-type Plane = (Vector, i64);
+pub(crate) type Plane = (Vector, i64);
 
 /// A part of a body, and the link that carries it, with the way to that.
 pub(crate) struct Side<'a> {
@@ -20,20 +20,17 @@ pub(crate) struct Side<'a> {
     pub(crate) way: &'a Way,
 }
 
-/// Reads a plane, and returns whether it stays between two parts over the whole stretch, farther than `least` from both. The ways are
-/// from what the plane turns with.
-pub(crate) fn reads_plane_between(
-    reader: &mut Reader<'_>,
-    a: &Side<'_>,
-    b: &Side<'_>,
-    links: &Links,
-    least: i64,
-) -> Result<bool, Stop> {
+pub(crate) fn read_plane(reader: &mut Reader<'_>) -> Result<Plane, Stop> {
     let [x, y, z, offset] = [(); 4].map(|()| reader.signed(7));
-    let (normal, offset) = ([x?, y?, z?], offset?);
+    let normal = [x?, y?, z?];
     reader.require(dot(normal, normal) <= 1 << 100, "a normal is longer than 1")?;
-    let normal = normal.map(|x| x << (FRACTION - 50));
-    Ok(is_above(a, (sub(ZERO, normal), -offset), links, least) && is_above(b, (normal, offset), links, least))
+    Ok((normal.map(|x| x << (FRACTION - 50)), offset?))
+}
+
+/// Returns whether a plane stays between two parts over the whole stretch, farther than `least` from both. The ways are from what the
+/// plane turns with.
+pub(crate) fn is_between((normal, offset): Plane, [a, b]: [&Side<'_>; 2], links: &Links, least: i64) -> bool {
+    is_above(a, (sub(ZERO, normal), -offset), links, least) && is_above(b, (normal, offset), links, least)
 }
 
 /// Returns whether a part stays farther than `least` above a plane: on the side to which its normal points.
