@@ -40,6 +40,8 @@ def verdict(folder, proof, meshes):
         so.check(write("forged.proof", proof), tree_of)
     except so.Fails as e:
         return e.args[0]
+    except RecursionError:
+        return "unverifiable"
     return "holds"
 
 
