@@ -222,7 +222,7 @@ def is_beyond_ball(body, part, other, others, t, h, margin):
 # ---- a proof ----
 def check(path, tree_of):
     """Returns what holds, or raises Fails. `tree_of` finds the tree of a digest."""
-    r = Reader(path, b"CCDPROOF")
+    r = Reader(path, b"CCDPROF1")
     *units, link_count, body_count, pair_count = r.take("iiIII")
     r.require(max(map(abs, units)) <= MAX_UNIT, 8, "a unit is out of range", "unverifiable")
     (length, time), links = (Fraction(2) ** e for e in units), [Link()]

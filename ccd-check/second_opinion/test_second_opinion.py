@@ -122,7 +122,7 @@ def proof(links, bodies, pairs, steps, duration=1.0, witness=None, units=None):
     """bodies: (mesh, link); pairs: (body, body, margin);
     witness = (pair, time, tolerance, (place, weights) of A, of B), weights in 2^-62, of which two are written."""
     units = units or (-40, max(-60, math.frexp(max(duration, witness[1] if witness else 0.0))[1]))
-    out = b"CCDPROOF" + struct.pack("<iiIII", *units, len(links), len(bodies), len(pairs))
+    out = b"CCDPROF1" + struct.pack("<iiIII", *units, len(links), len(bodies), len(pairs))
     out += b"".join(map(link_bytes, links))
     for m, link in bodies:
         out += hashlib.sha256(m).digest() + struct.pack("<I", link)

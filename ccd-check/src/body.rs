@@ -50,7 +50,7 @@ impl Body {
     /// # Errors
     /// The verdict, if the certificate is broken or numbers are out of range.
     pub fn new(mesh: &[u8], certificate: &[u8], proof: &[u8]) -> Result<Body, Stop> {
-        let unit = Reader::after(b"CCDPROOF", proof)?.signed(4)?;
+        let unit = Reader::after(b"CCDPROF1", proof)?.signed(4)?;
         let triangles = read_mesh(Reader::new(mesh), unit)?;
         let mut body = Body { digest: sha256(mesh), unit, triangles: Vec::new(), nodes: Vec::new() };
         let mut reader = Reader::after(b"CCDBODY1", certificate)?;
@@ -162,7 +162,7 @@ mod tests {
     use crate::number::FRACTION;
 
     /// The beginning of a proof whose unit of length is 1.
-    const UNIT: &[u8] = b"CCDPROOF\0\0\0\0";
+    const UNIT: &[u8] = b"CCDPROF1\0\0\0\0";
 
     /// Numbers from −n/2 to n/2.
     struct Random(u64);

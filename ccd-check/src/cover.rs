@@ -18,7 +18,7 @@ const MAX_KEPT: usize = 1 << 20;
 /// # Errors
 /// [`Stop`] if the certificate does not prove its statement, or the checker cannot tell.
 pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
-    let mut reader = Reader::after(b"CCDPROOF", certificate)?;
+    let mut reader = Reader::after(b"CCDPROF1", certificate)?;
     let statement = Statement::read(&mut reader, meshes)?;
     let links = &statement.links;
     let (mut stretches, mut ways) = (BTreeMap::new(), BTreeMap::new());
@@ -80,7 +80,7 @@ mod tests {
         mesh.extend(numbers(corners.as_flattened()));
         mesh.extend([0u32, 1, 2].map(u32::to_le_bytes).concat());
         let certificate = [&b"CCDBODY1"[..], &crate::sha256(&mesh), &[0; 4]].concat();
-        Body::new(&mesh, &certificate, b"CCDPROOF\0\0\0\0").unwrap()
+        Body::new(&mesh, &certificate, b"CCDPROF1\0\0\0\0").unwrap()
     }
 
     fn numbers(numbers: &[f64]) -> Vec<u8> {
@@ -90,7 +90,7 @@ mod tests {
     /// A proof without steps, of two triangles on two links of a chain, that they are apart until 1. Each link moves freely, from a
     /// pose at a velocity.
     fn proof(chain: &[[f64; 10]], triangles: ([u32; 2], &Body)) -> Vec<u8> {
-        let mut proof = b"CCDPROOF".to_vec();
+        let mut proof = b"CCDPROF1".to_vec();
         proof.extend([0, 0, chain.len() as u32, 2, 1].map(u32::to_le_bytes).concat());
         for (parent, motion) in (0u32..).zip(chain) {
             proof.extend(parent.to_le_bytes());

@@ -38,7 +38,7 @@ impl Statement {
     /// Reads the statement of a certificate; `None` if it ends too early, or is none.
     pub fn read(certificate: &[u8]) -> Option<Self> {
         let mut at = Cursor(certificate);
-        if at.take(8)? != b"CCDPROOF" {
+        if at.take(8)? != b"CCDPROF1" {
             return None;
         }
         let units = [at.u32()? as i32, at.u32()? as i32];

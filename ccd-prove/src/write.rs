@@ -95,7 +95,7 @@ pub(crate) fn state(
     let unit = exponent_above(greater(size, sum / LENGTHS_IN_SUM)) - LENGTH_BITS;
     let lost = lost(scene, time_unit, [2f64.powi(unit), 2.0 * size + sum])
         + ROUNDING * size * (scene.links.len() + 2) as f64;
-    let mut bytes = b"CCDPROOF".to_vec();
+    let mut bytes = b"CCDPROF1".to_vec();
     bytes.extend(unit.to_le_bytes());
     bytes.extend(time_unit.to_le_bytes());
     for count in [scene.links.len(), scene.bodies.len(), scene.pairs.len()] {

@@ -80,7 +80,7 @@ fn forged_proofs_and_those_of_other_bodies_are_refused() {
     fs::write(&path, &forged).unwrap();
     let text = check(&scene, &["proofs/aside.proof"], 3);
     assert_contains(&text, "aside.proof: broken: ");
-    fs::write(&path, b"CCDPROOF").unwrap();
+    fs::write(&path, b"CCDPROF1").unwrap();
     let text = check(&scene, &["proofs/aside.proof"], 2);
     assert_contains(&text, "aside.proof: this is no proof");
     let text = check(&scene, &["proofs/drop.proof", "--bodies", "."], 2);
