@@ -18,7 +18,11 @@ fn what_was_asked_before_changes_no_first_contact() {
 
             let is_timed = random.random_range(0..2) == 0;
             used.set_settings(Settings {
-                deadline: is_timed.then(|| Duration::from_nanos(random.random_range(0..60_000))),
+                // Some have passed at the start, on a machine as fast as may be.
+                deadline: is_timed.then(|| {
+                    let nanos: u64 = random.random_range(0..60_000);
+                    Duration::from_nanos(if nanos < 20_000 { 0 } else { nanos })
+                }),
                 budget: random.random_range(0..20),
                 ..Settings::DEFAULT
             });
@@ -39,9 +43,8 @@ fn what_was_asked_before_changes_no_first_contact() {
             );
         }
     }
-    // How many deadlines pass depends on the machine: a fast one has 900 stopped, a busy one 2,000.
     assert!(
-        contacts > 1500 && stopped > 300 && others > 10,
+        contacts > 1500 && stopped > 1000 && others > 10,
         "{contacts} {stopped} {others}"
     );
 }
