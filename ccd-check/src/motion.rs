@@ -24,20 +24,24 @@ pub(crate) struct Link {
 }
 
 impl Link {
-    pub(crate) const WORLD: Link =
-        Link { parent: 0, centre: ZERO, arm: ZERO, travel: ZERO, start: IDENTITY, turned: ZERO, turn: ZERO };
+    const WORLD: Link = Link { parent: 0, centre: ZERO, arm: ZERO, travel: ZERO, start: IDENTITY, turned: ZERO, turn: ZERO };
 }
 
 /// The world and all links, and how well their places are known.
 pub(crate) struct Links {
     pub(crate) all: Vec<Link>,
     /// No rotation of a link is off by a matrix whose norm is more, in fractions.
-    pub(crate) off: i64,
+    off: i64,
     /// The sum of all arms and travels.
-    pub(crate) size: i64,
+    size: i64,
 }
 
 impl Links {
+    /// Returns the world alone.
+    pub(crate) fn new() -> Links {
+        Links { all: alloc::vec![Link::WORLD], off: 0, size: 0 }
+    }
+
     /// Reads the next link.
     pub(crate) fn read(&mut self, reader: &mut Reader<'_>, units: [i64; 2]) -> Result<(), Stop> {
         let ([length, time], [fraction, radian]) = (units, [FRACTION, RADIAN].map(|bits| -i64::from(bits)));
@@ -86,13 +90,14 @@ impl Links {
 
     /// Returns all links in the middle of a stretch of time. The first one is the world.
     pub(crate) fn placed(&self, middle: i64, half: i64) -> Vec<Placed> {
+        let [loss, loss_of_turns] = [self.loss(0), self.loss_of_turns()];
+        // More than what a short way turns is as good as any more.
+        let most = 3 * i128::from(ONE);
         let mut all: Vec<Placed> = Vec::with_capacity(self.all.len());
         for link in &self.all {
             let on = all.get(link.parent).map_or(IDENTITY, |on| on.rotation);
             let turn = add(link.turned, scaled(link.turn, middle, TIME));
-            let rotation = if turn == [0; 3] { link.start } else { times(&exp(turn), &link.start) };
-            // More than what a short way turns is as good as any more.
-            let most = 3 * i128::from(ONE);
+            let rotation = if turn == ZERO { link.start } else { times(&exp(turn), &link.start) };
             let moves = [
                 add(link.arm, scaled(link.travel, middle, TIME)),
                 scaled(link.travel, half, TIME),
@@ -100,7 +105,7 @@ impl Links {
             ]
             .map(|v| turned(&on, v));
             let [arm, travel, turn] = moves.map(length);
-            let lengths = [arm + self.loss(0), travel + self.loss(0), turn + self.loss_of_turns()];
+            let lengths = [arm + loss, travel + loss, turn + loss_of_turns];
             let rotation = times(&on, &rotation);
             all.push(Placed { parent: link.parent, rotation, moves, lengths });
         }

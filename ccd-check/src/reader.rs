@@ -4,7 +4,6 @@ use crate::number::Vector;
 use crate::{Stop, verifiable};
 
 /// The bytes of a file, and how far they are read.
-#[derive(Clone)]
 pub(crate) struct Reader<'a> {
     bytes: &'a [u8],
     at: usize,

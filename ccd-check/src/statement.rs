@@ -1,6 +1,6 @@
 //! What a certificate states: meshes, how they move, which pairs stay apart, and two points that come near.
 
-use crate::motion::{Link, Links, TIME};
+use crate::motion::{Links, TIME};
 use crate::number::*;
 use crate::reader::Reader;
 use crate::way::Way;
@@ -24,10 +24,9 @@ impl<'b> Statement<'b> {
     /// Reads what is stated, and checks the witness.
     pub(crate) fn read(reader: &mut Reader<'_>, meshes: &'b [Body]) -> Result<Self, Stop> {
         let units = [reader.signed(4)?, reader.signed(4)?];
-        let [link_count, bodies, pairs] = [(); 3].map(|()| reader.unsigned(4));
-        let links = Links { all: alloc::vec![Link::WORLD], off: 0, size: 0 };
-        let mut statement = Statement { links, bodies: Vec::new(), pairs: Vec::new(), until: 0 };
-        for _ in 0..link_count? {
+        let [links, bodies, pairs] = [(); 3].map(|()| reader.unsigned(4));
+        let mut statement = Statement { links: Links::new(), bodies: Vec::new(), pairs: Vec::new(), until: 0 };
+        for _ in 0..links? {
             statement.links.read(reader, units)?;
         }
         for _ in 0..bodies? {

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod body;
+mod bounds;
 mod cell;
 mod cover;
 mod error;

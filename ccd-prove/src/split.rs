@@ -1,6 +1,6 @@
 //! Where a tree of boxes splits triangles.
 
-use crate::tree::Bounds;
+use crate::bounds::Bounds;
 
 /// A part that is so many splits deep is halved: until then splits may be as uneven as they like. The checker has a limit of 100.
 const MOST_UNEVEN: usize = 60;

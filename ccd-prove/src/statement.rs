@@ -162,13 +162,15 @@ pub fn steps_text(certificate: &[u8], statement: &Statement) -> String {
     let mut at = Cursor(certificate.get(statement.bytes..).unwrap_or_default());
     let mut text = String::new();
     while let Some(&[step]) = at.take(1) {
-        let frame = ["world", "A", "B", "A", "B"][usize::from(step.clamp(3, 7)) - 3];
         let line = match step {
             0 => Some("split A".to_owned()),
             1 => Some("split B".to_owned()),
             2 => Some("split time".to_owned()),
-            3..=5 => plane(&mut at).map(|plane| format!("plane with {frame} {plane}")),
-            6..=7 => Some(format!("ball around {frame}")),
+            3 => plane(&mut at).map(|plane| format!("plane with world {plane}")),
+            4 => plane(&mut at).map(|plane| format!("plane with A {plane}")),
+            5 => plane(&mut at).map(|plane| format!("plane with B {plane}")),
+            6 => Some("ball around A".to_owned()),
+            7 => Some("ball around B".to_owned()),
             _ => None,
         };
         match line {

@@ -1,8 +1,9 @@
 //! The tree of a body's triangles that its certificate describes.
 
+use crate::bounds::{Bounds, of_each};
 use crate::split::split;
 use ccd_core::glam::{DVec3, DVec4};
-use ccd_core::order::{greater, lesser};
+use ccd_core::order::greater;
 
 /// Triangles, and parts of them: a part of more than one triangle has two parts.
 #[derive(Clone, Debug)]
@@ -25,13 +26,6 @@ struct Node {
     triangle: usize,
     /// The node of the second part, if there is more than one triangle.
     second: Option<Part>,
-}
-
-/// The least and the greatest coordinates and radius of corners.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Bounds {
-    least: DVec4,
-    greatest: DVec4,
 }
 
 impl Tree {
@@ -181,51 +175,4 @@ impl Node {
             second: None,
         }
     }
-}
-
-impl Bounds {
-    fn of(triangle: &[DVec4; 3]) -> Bounds {
-        Bounds::around(triangle.iter().copied())
-    }
-
-    fn around(corners: impl Iterator<Item = DVec4>) -> Bounds {
-        let none = Bounds {
-            least: DVec4::INFINITY,
-            greatest: DVec4::NEG_INFINITY,
-        };
-        corners.fold(none, |all, corner| {
-            all.with(&Bounds {
-                least: corner,
-                greatest: corner,
-            })
-        })
-    }
-
-    /// Returns the bounds of both.
-    pub(crate) fn with(&self, other: &Bounds) -> Bounds {
-        Bounds {
-            least: of_each(self.least, other.least, lesser),
-            greatest: of_each(self.greatest, other.greatest, greater),
-        }
-    }
-
-    pub(crate) fn middle(&self) -> DVec3 {
-        (0.5 * (self.least + self.greatest)).truncate()
-    }
-
-    /// Returns half of the area of the box, and a tenth of the square of its diagonal, which tells boxes without an area apart.
-    pub(crate) fn area(&self) -> f64 {
-        let size = (self.greatest - self.least).truncate();
-        let [x, y, z] = size.to_array();
-        x * y + y * z + z * x + 0.1 * size.length_squared()
-    }
-
-    /// Returns the least height of the box.
-    fn least_height(&self, direction: DVec4) -> f64 {
-        of_each(direction * self.least, direction * self.greatest, lesser).element_sum()
-    }
-}
-
-fn of_each(a: DVec4, b: DVec4, of: fn(f64, f64) -> f64) -> DVec4 {
-    DVec4::new(of(a.x, b.x), of(a.y, b.y), of(a.z, b.z), of(a.w, b.w))
 }

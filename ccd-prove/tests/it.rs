@@ -336,6 +336,12 @@ fn each_kind_of_forgery_is_seen() {
         reason(ccd_check::check(&bodies[..1], &proof.bytes)),
         "a mesh is none of those that are given, in this unit"
     );
+}
+
+#[test]
+fn contacts_that_are_said_to_be_later_are_seen() {
+    let meshes = Meshes::new();
+    let [_, contacts] = proofs(&meshes, 10);
     // The bodies are said to be free for longer than they are, and to touch later.
     for (_, proof) in &contacts {
         let bodies = meshes.bodies(&proof.bytes);
