@@ -97,16 +97,14 @@ class Tree:
         r.require(r.pos == len(r.data), r.pos, "bytes follow the end")
 # ---- links and bodies ----
 class Link:
-    """All links are of one form, in exact fractions: at time t the centre is at place + t rate from the centre of
-    the parent `up`, in the frame of the parent, where the link is R0, turned by the vector start + t turn."""
+    """In exact fractions: at time t the centre is at place + t rate from the centre of the parent `up`, in the frame
+    of the parent, where the link is R0, turned by the vector start + t turn."""
     centre = place = rate = start = turn = ZERO     # of the world
     columns = [[(ONE * (i == j),) * 2 for i in range(3)] for j in range(3)]   # of R0
     def __init__(self, up=None):
         self.up, self.chain = up, (up.chain if up else []) + [self]   # from the world to this link
     def read(self, r, length, time):
         r.require(len(self.chain) <= MAX_CHAIN, r.pos, "the chain is too long", "unverifiable")
-        kind, = r.take("B")
-        r.require(kind < 3, r.pos - 1, "there is no such kind of link")
         p, q = r.numbers(3), r.numbers(4)
         r.require(abs(sum(c * c for c in q) - 1) <= Fraction(1, 1 << 20), r.pos - 32, "the quaternion is not 1 long")
         (x, y, z, w), s = q, 2 / sum(c * c for c in q)   # of q / |q|, exactly
@@ -115,17 +113,12 @@ class Link:
                 [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)]]
         self.columns = [[fix(entry) for entry in column] for column in zip(*rows)]
         def rotate(v): return [sum(a * b for a, b in zip(row, v)) for row in rows]
-        if kind == 0:
-            self.rate, self.turn, self.centre = (r.numbers(3) for _ in range(3))
-            p = plus(p, rotate(self.centre))
-        else:
-            axis, (alpha, beta) = rotate(r.numbers(3)), r.numbers(2)
-            if kind == 1:                           # R0 exp(angle [a]x) = exp(angle [R0 a]x) R0
-                self.start, self.turn = plus(ZERO, axis, alpha), plus(ZERO, axis, beta)
-            else:
-                p, self.rate = plus(p, axis, alpha), plus(ZERO, axis, beta)
-        self.place = plus(ZERO, plus(p, self.up.centre, -1), 1 / length)
-        self.rate, self.turn = plus(ZERO, self.rate, time / length), plus(ZERO, self.turn, time)
+        self.centre, (axes,), v, a, (alpha, beta) = r.numbers(3), r.take("I"), *map(r.numbers, (3, 3, 2))
+        r.require(axes < 2, r.pos - 68, "there are no such axes")
+        if axes: v, a = rotate(v), rotate(a)
+        place = plus(plus(plus(p, rotate(self.centre)), v, alpha), self.up.centre, -1)
+        self.place, self.rate = plus(ZERO, place, 1 / length), plus(ZERO, v, beta * time / length)
+        self.start, self.turn = plus(ZERO, a, alpha), plus(ZERO, a, beta * time)
         return self
     @functools.lru_cache(1 << 14)
     def pose(self, t):
@@ -178,22 +171,18 @@ def motion(frame, link, t, h):
     """P, P', Omega, K and K' of the lemmas for a link as seen from `frame`, at the middle t of a stretch of time
     whose half is h. The bounds K and K' are rounded up. What is left on the way has the other sign."""
     up, down, common = frame.chain, link.chain, sum(a is b for a, b in zip(frame.chain, link.chain))
-    turns = [[ZERO3, 0, 0, ZERO3, ZERO3]]           # Omega, W, rho of what turns as one; the sums of its d and m
+    place, slope, omega, theta, k = ZERO3, ZERO3, ZERO3, 0, 0
     for move, x in [(vsub, x) for x in up[:common - 1:-1]] + [(vadd, x) for x in down[common:]]:
         _, arm, rate, joint = x.pose(t)
-        if any(x.turn):
-            (omega, w, rho, *_), joint = turns[-1], scale(joint, h)
-            omega, w = move(omega, joint), w + mul_up(rho, length_up(joint))
-            turns.append([omega, w, length_up(omega) + w, ZERO3, ZERO3])
+        rate, joint = scale(rate, h), scale(joint, h)
         # The parent carries the arm: it is behind a joint that is left, and before one that is entered.
-        carrier = turns[-2 if any(x.turn) and move is vadd else -1]
-        carrier[3:] = move(carrier[3], arm), move(carrier[4], scale(rate, h))
-    place, slope, k = ZERO3, ZERO3, 0
-    for omega, w, rho, d, m in turns:
-        place, slope, m_up = vadd(place, d), vadd(slope, vadd(cross(omega, d), m)), length_up(m)
-        factor = w + mul_up(rho, rho)
-        k += mul_up(factor, length_up(d) + m_up) + 2 * mul_up(rho, m_up)
-    return place, slope, omega, k, factor
+        before, after = (joint, ZERO3) if move is vsub else (ZERO3, joint)
+        omega, theta = vsub(omega, before), theta + length_up(before)
+        place, slope = move(place, arm), move(slope, vadd(cross(omega, arm), rate))
+        m = length_up(rate)
+        k += mul_up(mul_up(theta, theta), length_up(arm) + m) + 2 * mul_up(theta, m)
+        omega, theta = vadd(omega, after), theta + length_up(after)
+    return place, slope, omega, k, mul_up(theta, theta)
 def height(body, part, frame, t, h, n, d):
     """A height below which nothing of the part is during the stretch of time, by Lemma 1. The plane n . x = d turns
     with the link `frame`, and x is from its centre."""
@@ -236,17 +225,17 @@ def check(path, tree_of):
             r.require(sum((f * x) ** 2 for x in v) <= MAX_TURN ** 2, r.pos - 8, "a link turns too far", "unverifiable")
     until = r.at_least_0("time") / time
     require_range(until)
-    (witnesses,), leaves = r.take("B"), 0
-    r.require(witnesses < 2, r.pos - 1, "there is more than one witness")
+    (witnesses,), leaves = r.take("I"), 0
+    r.require(witnesses < 2, r.pos - 4, "there is more than one witness")
     for _ in range(witnesses):
         (two, near), t, pos = r.one_of(pairs, "pair"), r.at_least_0("time of the witness") / time, r.pos - 8
         require_range(t)
         near, gap = near + r.at_least_0("tolerance") / length, motion(two[0].link, two[1].link, t, (0, 0))[0]
         for body, move in zip(two, (vsub, vadd)):   # to the centres of two balls, which are nearer by their radii
-            corners, weights = r.one_of(body.corners, "triangle"), [*r.take("QQ")]
-            weights.append((1 << 62) - sum(weights))
-            r.require(weights[2] >= 0, r.pos - 16, "the weights add to more than one")
-            *z, ball = [sum(map(int.__mul__, weights, c)) / (length * (1 << 62 + body.bits)) for c in zip(*corners)]
+            corners = r.one_of(body.corners, "triangle")
+            weights = [int.from_bytes(x, "little") for x in r.take("7s7s7s")]
+            r.require(sum(weights) == 1 << 55, r.pos - 21, "the weights do not add up to 1")
+            *z, ball = [sum(map(int.__mul__, weights, c)) / (length * (1 << 55 + body.bits)) for c in zip(*corners)]
             gap = move(gap, matvec(transpose(body.link.pose(t)[0]), [fix(x) for x in z]))
             near += ball
         r.require(length_up(gap) <= fix(near)[0], pos, "the witnesses are too far apart")
@@ -267,11 +256,11 @@ def check(path, tree_of):
                 todo += [(parts, middle, t1), (parts, t0, middle)]
             elif step < 6:
                 *n, d = [int.from_bytes(x, "little", signed=True) for x in r.take("7s7s7s7s")]
-                r.require(sum(x * x for x in n) <= 1 << 100, pos, "the normal is longer than 1")
                 frame = (links[0], two[0].link, two[1].link)[step - 3]
                 heights = [height(body, part, frame, t, h, [(side * x << F - 50,) * 2 for x in n], side * d << F)
                            for body, part, side in zip(two, parts, (-1, 1))]   # A is above the plane -n, -d
-                r.require(min(heights) > half, pos, f"the plane does not prove the parts of pair {number} apart")
+                proves = sum(x * x for x in n) <= 1 << 100 and min(heights) > half   # n is no longer than 1
+                r.require(proves, pos, f"the plane does not prove the parts of pair {number} apart")
             else:
                 around, other = [(two[i], parts[i]) for i in (step - 6, 7 - step)]
                 is_far = is_beyond_ball(*around, *other, t, h, 2 * half)

@@ -2,16 +2,8 @@
 //!
 //! The certificate of a body says only what is in each part of the tree. How large parts are is measured here.
 
-use crate::number::*;
-use crate::reader::Reader;
-use crate::{Stop, sha256, verifiable};
+use crate::{Checked, Stop, number::*, reader::Reader, sha256, verifiable};
 use alloc::vec::Vec;
-
-/// A part of the triangles, by the number of its node.
-pub(crate) type Part = usize;
-
-/// The part that has all triangles.
-pub(crate) const WHOLE: Part = 0;
 
 /// A point, and the radius of the ball around it.
 type Corner = [i64; 4];
@@ -29,19 +21,26 @@ pub struct Body {
     /// The corners of each triangle in the order of the tree. Each is off by less than 1 in each coordinate.
     pub(crate) triangles: Vec<Triangle>,
     /// Each before the nodes of its first part, and these before those of the second one.
-    nodes: Vec<Node>,
+    pub(crate) nodes: Vec<Node>,
 }
 
-#[derive(Clone, Debug, Default)]
-struct Node {
-    /// The least and the greatest of each coordinate.
-    ranges: [[i64; 2]; 3],
-    /// The largest radius of a corner, and that of a ball around the middle of the ranges that has all in it.
-    radius: i64,
-    ball: i64,
-    /// The first triangle, and the node of the second part, if there is more than one triangle.
+#[derive(Clone, Debug)]
+pub(crate) struct Node {
+    /// The number of its first triangle, and the nodes of both of its parts, if it has more than one triangle.
     triangle: usize,
-    second: Option<Part>,
+    parts: Option<[usize; 2]>,
+    /// The least and the greatest of each coordinate, and of the radii.
+    ranges: [[i64; 2]; 4],
+    /// The middle of the ranges, and the radius of a ball around it that has all in it.
+    pub(crate) ball: (Vector, i64),
+}
+
+/// A part of a body, and the number of the link that carries it.
+#[derive(Clone, Copy)]
+pub(crate) struct Part<'a> {
+    pub(crate) body: &'a Body,
+    pub(crate) node: &'a Node,
+    pub(crate) link: usize,
 }
 
 impl Body {
@@ -50,108 +49,90 @@ impl Body {
     /// # Errors
     /// The verdict, if the certificate is broken or numbers are out of range.
     pub fn new(mesh: &[u8], certificate: &[u8], proof: &[u8]) -> Result<Body, Stop> {
-        let unit = Reader::after(b"CCDPROF1", proof)?.signed(4)?;
-        let triangles = read_mesh(Reader::new(mesh), unit)?;
-        let mut body = Body { digest: sha256(mesh), unit, triangles: Vec::new(), nodes: Vec::new() };
-        let mut reader = Reader::after(b"CCDBODY1", certificate)?;
-        let is_of_mesh = reader.take(32)? == body.digest;
+        let unit = Reader::new(b"CCDPROF1", proof)?.signed(4)?;
+        let (mut all, mut triangles, mut nodes) = (read_mesh(mesh, unit)?, Vec::new(), Vec::new());
+        let (digest, mut reader) = (sha256(mesh), Reader::new(b"CCDBODY1", certificate)?);
+        let is_of_mesh = reader.take(32)? == digest;
         reader.require(is_of_mesh, "this is the certificate of another mesh")?;
-        let count = triangles.len();
-        let mut files = (reader, triangles);
-        body.read_part(&mut files, count, 0)?;
-        files.0.end()?;
-        Ok(body)
-    }
-
-    /// Reads a part of so many triangles: how many its first part has, and both parts, or the number of its triangle.
-    fn read_part(&mut self, files: &mut (Reader<'_>, Vec<Option<Triangle>>), count: usize, depth: usize) -> Result<(), Stop> {
-        let (node, from, (reader, triangles)) = (self.nodes.len(), self.triangles.len(), &mut *files);
-        self.nodes.push(Node { triangle: from, ..Node::default() });
-        if count > 1 {
-            let first = reader.index(count)?;
-            reader.require(first > 0, "a part is empty")?;
-            verifiable(depth < MAX_DEPTH, "a tree is too deep")?;
-            self.read_part(files, first, depth + 1)?;
-            self.nodes[node].second = Some(self.nodes.len());
-            self.read_part(files, count - first, depth + 1)?;
-        } else {
-            let number = reader.index(triangles.len())?;
-            self.triangles.push(triangles[number].take().ok_or(reader.broken("a tree has a triangle twice"))?);
-        }
-        self.nodes[node].measure(self.triangles[from..].as_flattened());
-        Ok(())
-    }
-
-    /// Returns both parts of a part; `None` if it is a triangle.
-    pub(crate) fn halves(&self, part: Part) -> Option<[Part; 2]> {
-        Some([part + 1, self.nodes[part].second?])
-    }
-
-    /// Returns the centre and the radius of a ball that has all points of a part in it.
-    pub(crate) fn ball(&self, part: Part) -> (Vector, i64) {
-        (self.nodes[part].middle(), self.nodes[part].ball)
-    }
-
-    /// Returns whether all points of a part are farther than a limit from a point.
-    pub(crate) fn is_beyond(&self, part: Part, point: Vector, limit: i64) -> bool {
-        self.all(part, &|Node { ranges, radius, .. }| {
-            let away = [0, 1, 2].map(|k| (ranges[k][0] - point[k]).max(point[k] - ranges[k][1]).max(0));
-            dot(away, away) > product(limit + radius, limit + radius)
-        })
-    }
-
-    /// Returns whether no point of a part is lower along a direction than a limit. A ball sinks below its centre by its radius, as
-    /// the plane's normal is no longer than 1.
-    pub(crate) fn is_above(&self, part: Part, direction: Vector, limit: i128) -> bool {
-        let is_high = |centre: Vector, radius: i64| dot(direction, centre) - product(ONE, radius) >= limit;
-        self.all(part, &|Node { ranges, radius, triangle, second, .. }| {
-            let mut corners = self.triangles[*triangle].iter();
-            is_high([0, 1, 2].map(|k| ranges[k][usize::from(direction[k] < 0)]), *radius)
-                || second.is_none() && corners.all(|&[x, y, z, radius]| is_high([x, y, z], radius))
-        })
-    }
-
-    /// Returns whether something is so of a part, or of all parts that it is split into.
-    fn all(&self, mut part: Part, is_so: &impl Fn(&Node) -> bool) -> bool {
-        while !is_so(&self.nodes[part]) {
-            let Some([first, second]) = self.halves(part) else { return false };
-            if !self.all(first, is_so) {
-                return false;
+        // How many triangles the parts have that are read next, and how deep these are.
+        let mut waiting = alloc::vec![(all.len(), 0)];
+        while let Some((count, depth)) = waiting.pop() {
+            let (from, node, mut parts) = (triangles.len(), nodes.len(), None);
+            if count > 1 {
+                let first = reader.index(count)?;
+                reader.require(first > 0, "a part is empty")?;
+                verifiable(depth < MAX_DEPTH, "a tree is too deep")?;
+                waiting.extend([(count - first, depth + 1), (first, depth + 1)]);
+                // A part of n triangles has 2 n − 1 nodes.
+                parts = Some([node + 1, node + 2 * first]);
+            } else {
+                let number = reader.index(all.len())?;
+                triangles.push(all[number].take().ok_or(reader.broken("a tree has a triangle twice"))?);
             }
-            part = second;
+            nodes.push((from..from + count, parts));
         }
-        true
+        reader.end()?;
+        let nodes = nodes.into_iter().map(|(range, parts)| Node::new(range.start, parts, &triangles[range])).collect();
+        Ok(Body { digest, unit, triangles, nodes })
     }
 }
 
 impl Node {
-    fn measure(&mut self, corners: &[Corner]) {
-        let range =
-            |k| corners.iter().fold([i64::MAX, i64::MIN], |[least, most], c: &Corner| [least.min(c[k]), most.max(c[k])]);
-        (self.ranges, self.radius) = ([0, 1, 2].map(range), range(3)[1]);
-        let middle = self.middle();
-        let squares = corners.iter().map(|&[x, y, z, _]| sub([x, y, z], middle)).map(|v| dot(v, v).unsigned_abs());
-        self.ball = squares.max().unwrap_or(0).isqrt() as i64 + 1 + self.radius;
+    fn new(triangle: usize, parts: Option<[usize; 2]>, triangles: &[Triangle]) -> Node {
+        let corners = triangles.as_flattened().iter();
+        let range = |k| corners.clone().fold([i64::MAX, i64::MIN], |[least, most], c| [least.min(c[k]), most.max(c[k])]);
+        let ranges @ [x, y, z, radius] = [0, 1, 2, 3].map(range);
+        let middle = [x, y, z].map(|[least, most]| (least + most) >> 1);
+        let squares = corners.clone().map(|&[x, y, z, _]| sub([x, y, z], middle)).map(|v| dot(v, v));
+        Node { triangle, parts, ranges, ball: (middle, squares.max().unwrap_or(0).isqrt() as i64 + 1 + radius[1]) }
+    }
+}
+
+impl<'a> Part<'a> {
+    /// Returns both parts of a part; `None` if it is a triangle.
+    pub(crate) fn halves(self) -> Option<[Part<'a>; 2]> {
+        Some(self.node.parts?.map(|node| Part { node: &self.body.nodes[node], ..self }))
     }
 
-    fn middle(&self) -> Vector {
-        self.ranges.map(|[least, most]| (least + most) >> 1)
+    /// Returns whether all points of the part are farther than a limit from a point.
+    pub(crate) fn is_beyond(self, point: Vector, limit: i64) -> bool {
+        self.all(&|part| {
+            let [x, y, z, [_, radius]] = part.node.ranges;
+            let away = [0, 1, 2].map(|k| ([x, y, z][k][0] - point[k]).max(point[k] - [x, y, z][k][1]).max(0));
+            dot(away, away) > product(limit + radius, limit + radius)
+        })
+    }
+
+    /// Returns whether no point of the part is lower along a direction than a limit. A ball sinks below its centre by its radius, as
+    /// the plane's normal is no longer than 1.
+    pub(crate) fn is_above(self, direction: Vector, limit: i128) -> bool {
+        let [i, j, k] = direction.map(|x| usize::from(x < 0));
+        let is_high = |&[x, y, z, radius]: &Corner| dot(direction, [x, y, z]) - product(ONE, radius) >= limit;
+        self.all(&|part| {
+            let Node { triangle, parts, ranges: [x, y, z, radius], .. } = part.node;
+            is_high(&[x[i], y[j], z[k], radius[1]]) || parts.is_none() && self.body.triangles[*triangle].iter().all(is_high)
+        })
+    }
+
+    /// Returns whether something is so of the part, or of all parts that it is split into.
+    fn all(self, is_so: &impl Fn(Self) -> bool) -> bool {
+        is_so(self) || self.halves().is_some_and(|halves| halves.iter().all(|half| half.all(is_so)))
     }
 }
 
 /// Reads a mesh: the numbers of vertices and triangles, the vertices with their radii, and the corners.
-fn read_mesh(mut reader: Reader<'_>, unit: i64) -> Result<Vec<Option<Triangle>>, Stop> {
-    let [vertex_count, triangle_count] = [reader.unsigned(4)?, reader.unsigned(4)?];
+fn read_mesh(mesh: &[u8], unit: i64) -> Checked<Vec<Option<Triangle>>> {
+    let mut reader = Reader::new(b"", mesh)?;
+    let [vertex_count, triangle_count] = reader.all(|reader| reader.unsigned(4))?;
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
     for _ in 0..vertex_count {
-        let [x, y, z] = reader.vector(unit, 50)?;
-        vertices.push([x, y, z, reader.size(unit, 50)?]);
+        let [x, y, z] = reader.all(|reader| reader.number(unit, [LENGTH, 0]))?;
+        vertices.push([x, y, z, reader.size(unit, [LENGTH, 0])?]);
     }
     for _ in 0..triangle_count {
-        let [a, b, c] = [(); 3].map(|()| reader.index(vertices.len()));
-        triangles.push(Some([vertices[a?], vertices[b?], vertices[c?]]));
+        let [a, b, c] = reader.all(|reader| reader.index(vertices.len()))?;
+        triangles.push(Some([vertices[a], vertices[b], vertices[c]]));
     }
-    reader.require(!triangles.is_empty(), "a mesh is empty")?;
     reader.end()?;
     Ok(triangles)
 }
@@ -159,7 +140,6 @@ fn read_mesh(mut reader: Reader<'_>, unit: i64) -> Result<Vec<Option<Triangle>>,
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::FRACTION;
 
     /// The beginning of a proof whose unit of length is 1.
     const UNIT: &[u8] = b"CCDPROF1\0\0\0\0";
@@ -213,7 +193,7 @@ mod tests {
             let order: Vec<u32> = (0..count).rev().collect();
             write_part(&mut random, &order, &mut parts);
             let body = Body::new(&mesh, &certificate(&mesh, &parts), UNIT).unwrap();
-            let mut waiting = alloc::vec![(WHOLE, 0, count as usize)];
+            let mut waiting = alloc::vec![(Part { body: &body, node: &body.nodes[0], link: 0 }, 0, count as usize)];
             while let Some((part, from, to)) = waiting.pop() {
                 let corners = body.triangles[from..to].as_flattened();
                 let direction = [(); 3].map(|()| random.below(8) << FRACTION);
@@ -221,12 +201,12 @@ mod tests {
                 let height = |[x, y, z, radius]: &Corner| dot(direction, [*x, *y, *z]) - one * i128::from(*radius);
                 let height = corners.iter().map(height).min().unwrap();
                 for limit in [i128::MIN, height - 1, height, height + 1, one * i128::from(random.below(100_000))] {
-                    let is_above = body.is_above(part, direction, limit);
+                    let is_above = part.is_above(direction, limit);
                     assert_eq!(is_above, height >= limit);
                     if is_above { above += 1 } else { below += 1 }
                 }
                 let square = |v: Vector| dot(v, v);
-                let (middle, ball) = body.ball(part);
+                let (middle, ball) = part.node.ball;
                 for &[x, y, z, radius] in corners {
                     let room = ball - radius;
                     assert!(room >= 0 && product(room, room) >= square(sub([x, y, z], middle)));
@@ -240,12 +220,12 @@ mod tests {
                         square(sub([x, y, z], point.map(|x| 6 * x))) <= product(farthest, farthest)
                     };
                     let is_any_near = weights.clone().any(|w| body.triangles[from..to].iter().any(|t| is_near(w, t)));
-                    let is_beyond = body.is_beyond(part, point, limit);
+                    let is_beyond = part.is_beyond(point, limit);
                     assert!(!(is_beyond && is_any_near), "{point:?} {limit}");
                     beyond += usize::from(is_beyond);
                 }
-                if let Some([first, second]) = body.halves(part) {
-                    let middle = body.nodes[second].triangle;
+                if let Some([first, second]) = part.halves() {
+                    let middle = second.node.triangle;
                     waiting.extend([(first, from, middle), (second, middle, to)]);
                 }
             }
@@ -261,7 +241,7 @@ mod tests {
         let verdict = |parts: &[u32]| Body::new(&mesh, &certificate(&mesh, parts), UNIT).map(|body| body.triangles.len());
         assert_eq!(verdict(&[1, 2, 1, 0, 1]), Ok(3));
         let reason = |parts: &[u32]| match verdict(parts) {
-            Err(Stop::Broken { reason, .. }) => reason,
+            Err(Stop::Broken(reason, _)) => reason,
             other => panic!("{other:?}"),
         };
         assert_eq!(reason(&[1, 2, 1, 0, 2]), "a tree has a triangle twice");

@@ -5,29 +5,22 @@
 extern crate alloc;
 
 mod body;
-mod cover;
+mod check;
 mod leaf;
 mod motion;
 mod number;
 mod reader;
 mod sha256;
-mod statement;
-mod way;
 
 pub use body::Body;
-pub use cover::check;
+pub use check::check;
 pub use sha256::sha256;
 
 /// Why a certificate proves nothing. A check that returns none of these has proven the statement in the certificate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// A file is broken.
-    Broken {
-        /// What is wrong.
-        reason: &'static str,
-        /// The number of bytes that were read before.
-        at: usize,
-    },
+    /// A file is broken: what is wrong, and how many bytes were read before.
+    Broken(&'static str, usize),
     /// Numbers are beyond the range in which the checker computes; nothing is said.
     Unverifiable(&'static str),
 }
@@ -35,7 +28,7 @@ pub enum Stop {
 impl core::fmt::Display for Stop {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Stop::Broken { reason, at } => write!(f, "broken: {reason} (before byte {at})"),
+            Stop::Broken(reason, at) => write!(f, "broken: {reason} (before byte {at})"),
             Stop::Unverifiable(reason) => write!(f, "unverifiable: {reason}"),
         }
     }
@@ -43,7 +36,10 @@ impl core::fmt::Display for Stop {
 
 impl core::error::Error for Stop {}
 
+/// What is read, or why the check stops.
+type Checked<T> = Result<T, Stop>;
+
 /// Requires that numbers are in the range of the checker.
-fn verifiable(condition: bool, reason: &'static str) -> Result<(), Stop> {
+fn verifiable(condition: bool, reason: &'static str) -> Checked<()> {
     condition.then_some(()).ok_or(Stop::Unverifiable(reason))
 }

@@ -1,12 +1,8 @@
-//! Links, each of which moves on the one that carries it, and where they are at a time.
+//! Links, each of which moves on the one that carries it, where they are in the middle of a stretch of time, and how they move in
+//! half of it.
 
-use crate::number::*;
-use crate::reader::Reader;
-use crate::{Stop, verifiable};
+use crate::{Checked, number::*, reader::Reader, verifiable};
 use alloc::vec::Vec;
-
-/// Times are in multiples of 2⁻⁶⁰ of the unit of time, which is no less than the duration.
-pub(crate) const TIME: u32 = 60;
 
 /// How a link moves on its parent: its centre along a line, and the link about it at a constant rate.
 pub(crate) struct Link {
@@ -14,122 +10,138 @@ pub(crate) struct Link {
     parent: usize,
     /// The point of the link about which it turns.
     pub(crate) centre: Vector,
-    /// From the centre of the parent to that of the link at time 0, and how that changes in the unit of time.
-    arm: Vector,
-    travel: Vector,
-    /// The rotation on the parent before any turn, the turn at time 0, and that in the unit of time.
-    start: Matrix,
-    turned: Vector,
-    turn: Vector,
-}
-
-impl Link {
-    const WORLD: Link = Link { parent: 0, centre: ZERO, arm: ZERO, travel: ZERO, start: IDENTITY, turned: ZERO, turn: ZERO };
+    /// The rotation on the parent before any turn.
+    start: Rotation,
+    /// From the centre of the parent to that of the link, and the turn: both at time 0, and how they change in the unit of time.
+    arm: [Vector; 2],
+    turn: [Vector; 2],
 }
 
 /// The world and all links, and how well their places are known.
 pub(crate) struct Links {
     pub(crate) all: Vec<Link>,
-    /// No rotation of a link is off by a matrix whose norm is more, in fractions.
+    /// E of the README, of which bounds for what rotations lose are made, in fractions.
     off: i64,
-    /// The sum of all arms and travels.
+    /// S of the README: all lengths that are turned, in all.
     size: i64,
 }
 
 impl Links {
-    /// Returns the world alone.
-    pub(crate) fn new() -> Links {
-        Links { all: alloc::vec![Link::WORLD], off: 0, size: 0 }
-    }
-
-    /// Reads the next link.
-    pub(crate) fn read(&mut self, reader: &mut Reader<'_>, units: [i64; 2]) -> Result<(), Stop> {
-        let ([length, time], [fraction, radian]) = (units, [FRACTION, RADIAN].map(|bits| -i64::from(bits)));
-        let parent = reader.index(self.all.len())?;
-        let kind = reader.unsigned(1)?;
-        reader.require(kind < 3, "there is no such kind of link")?;
-        let position = reader.vector(length, 50)?;
-        let start = read_rotation(reader)?;
-        let mut link = Link { parent, start, ..Link::WORLD };
-        let mut angles = 0;
-        if kind == 0 {
-            link.travel = reader.vector(length - time, 50)?;
-            link.turn = reader.vector(radian - time, RADIAN + 8)?;
-            link.centre = reader.vector(length, 50)?;
-            link.arm = turned(&start, link.centre);
-            angles = link.turn.iter().map(|x| x.abs()).sum();
-        } else {
-            // The joint's axis in the frame of the parent.
-            let axis = turned(&start, reader.vector(fraction, FRACTION)?);
-            let (unit, bits) = if kind == 1 { (radian, RADIAN + 8) } else { (length, 50) };
-            let [at, rate] = [reader.number(unit, bits)?, reader.number(unit - time, bits)?];
-            let [from, change] = [at, rate].map(|x| scaled(axis, x, FRACTION));
-            if kind == 1 {
-                (link.turned, link.turn, angles) = (from, change, at.abs() + rate.abs());
-            } else {
-                (link.arm, link.travel) = (from, change);
-            }
+    /// Reads so many links.
+    pub(crate) fn read(reader: &mut Reader<'_>, count: u64, [length, time]: [i64; 2]) -> Checked<Links> {
+        let world = Link { parent: 0, centre: ZERO, start: IDENTITY, arm: [ZERO; 2], turn: [ZERO; 2] };
+        let mut links = Links { all: alloc::vec![world], off: 0, size: 1 << (LENGTH - 6) };
+        for _ in 0..count {
+            let parent = reader.index(links.all.len())?;
+            let position = reader.all(|reader| reader.number(length, [LENGTH, 0]))?;
+            let q: [i64; 4] = reader.all(|reader| reader.number(0, [1, FRACTION]))?;
+            let square = dot(q, q);
+            verifiable((square - (1 << 120)).abs() <= 1 << 100, "a quaternion is not of unit length")?;
+            let [x, y, z, w] = q.map(|x| ((i128::from(x) << FRACTION) / square.isqrt()) as i64);
+            let (start, centre) = (([x, y, z], w), reader.all(|reader| reader.number(length, [LENGTH, 0]))?);
+            // What moves does so along the axes of the parent, or of the link.
+            let axes = [IDENTITY, start][reader.index(2)?];
+            let slide = turned(axes, reader.all(|reader| reader.number(length, [LENGTH, 6]))?);
+            let axis = turned(axes, reader.all(|reader| reader.number(0, [0, FRACTION]))?);
+            let at = [reader.number(0, [8, RADIAN])?, reader.number(-time, [8, RADIAN])?];
+            let mut arm = at.map(|at| scaled(slide, at, RADIAN + 6));
+            arm[0] = sub(add(add(position, turned(start, centre)), arm[0]), links.all[parent].centre);
+            let turn = at.map(|at| scaled(axis, at, FRACTION));
+            links.off += (3 + ((at[0].abs() + at[1].abs()) >> RADIAN)) << 10;
+            links.size += arm.as_flattened().iter().map(|x| x.abs()).sum::<i64>();
+            verifiable(links.off <= ONE >> 30 && links.size <= 1 << (LENGTH + 6), "links turn or reach too far in all")?;
+            links.all.push(Link { parent, centre, start, arm, turn });
         }
-        link.arm = sub(add(position, link.arm), self.all[parent].centre);
-        self.off += (3 + (angles >> RADIAN)) << 10;
-        self.size += [link.arm, link.travel].iter().flatten().map(|x| x.abs()).sum::<i64>();
-        self.all.push(link);
-        let is_known = self.off <= ONE >> 20 && self.size <= 1 << 56;
-        verifiable(is_known, "there are too many links, or they turn or reach too far")
+        Ok(links)
     }
 
     /// Returns L of the README, of which bounds for what is lost are made, for points that are so far from the centre of a link.
     pub(crate) fn loss(&self, reach: i128) -> i128 {
-        8 * (self.all.len() as i128 + 1) + up(self.off.into(), reach + i128::from(self.size))
-    }
-
-    /// Returns a bound of what turns, and sums of turns, are off by.
-    pub(crate) fn loss_of_turns(&self) -> i128 {
-        3 * i128::from(self.off)
+        13 * (self.all.len() as i128 + 1) + up(self.off.into(), reach + i128::from(self.size))
     }
 
     /// Returns all links in the middle of a stretch of time. The first one is the world.
-    pub(crate) fn placed(&self, middle: i64, half: i64) -> Vec<Placed> {
-        let [loss, loss_of_turns] = [self.loss(0), self.loss_of_turns()];
-        // More than what a short way turns is as good as any more.
-        let most = 3 * i128::from(ONE);
-        let mut all: Vec<Placed> = Vec::with_capacity(self.all.len());
+    pub(crate) fn stretch(&self, middle: i64, half: i64) -> Stretch<'_> {
+        let (loss, loss_of_turns) = (self.loss(0), 3 * i128::from(self.off));
+        let mut placed: Vec<Placed> = Vec::with_capacity(self.all.len());
         for link in &self.all {
-            let on = all.get(link.parent).map_or(IDENTITY, |on| on.rotation);
-            let turn = add(link.turned, scaled(link.turn, middle, TIME));
-            let rotation = if turn == ZERO { link.start } else { times(&exp(turn), &link.start) };
-            let moves = [
-                add(link.arm, scaled(link.travel, middle, TIME)),
-                scaled(link.travel, half, TIME),
-                link.turn.map(|x| (product(x, half) >> (RADIAN + TIME - FRACTION)).clamp(-most, most) as i64),
-            ]
-            .map(|v| turned(&on, v));
-            let [arm, travel, turn] = moves.map(length);
-            let lengths = [arm + loss, travel + loss, turn + loss_of_turns];
-            let rotation = times(&on, &rotation);
-            all.push(Placed { parent: link.parent, rotation, moves, lengths });
+            let (place, on) = placed.get(link.parent).map_or((ZERO, IDENTITY), |on| (on.place, on.rotation));
+            let [arm, turn] = [link.arm, link.turn].map(|[at, rate]| add(at, scaled(rate, middle, FRACTION)));
+            let rotation = if turn == ZERO { link.start } else { times(exp(turn), link.start) };
+            // More than the two radians that a way may turn by is as good as any more.
+            let turn = link.turn[1].map(|x| (product(x, half) >> RADIAN).clamp(-product(2, ONE), product(2, ONE)) as i64);
+            let seen = |v, loss| (turned(on, v), length(v) + loss);
+            let (arm, travel) = (seen(arm, loss), seen(scaled(link.arm[1], half, FRACTION), loss));
+            let (place, rotation, turn) = (add(place, arm.0), times(on, rotation), seen(turn, loss_of_turns));
+            placed.push(Placed { place, rotation, arm, travel, turn });
         }
-        all
+        Stretch { links: self, placed }
     }
 }
 
-/// A link in the middle of a stretch of time, and how it moves on its parent in half of it; all along the axes of the world.
-#[derive(Clone, Copy)]
-pub(crate) struct Placed {
-    pub(crate) parent: usize,
-    pub(crate) rotation: Matrix,
-    /// From the centre of the parent to that of the link, how that changes, and how the link turns; bounds of the lengths of these.
-    pub(crate) moves: [Vector; 3],
-    pub(crate) lengths: [i128; 3],
+/// All links in the middle of a stretch of time.
+pub(crate) struct Stretch<'a> {
+    pub(crate) links: &'a Links,
+    pub(crate) placed: Vec<Placed>,
 }
 
-/// Reads a quaternion x, y, z, w, and returns its rotation.
-fn read_rotation(reader: &mut Reader<'_>) -> Result<Matrix, Stop> {
-    let vector = reader.vector(-i64::from(FRACTION), FRACTION + 1)?;
-    let scalar = reader.number(-i64::from(FRACTION), FRACTION + 1)?;
-    let excess = ((dot(vector, vector) + product(scalar, scalar)) >> FRACTION) - i128::from(ONE);
-    verifiable(excess.abs() <= i128::from(ONE >> 20), "a quaternion is not of unit length")?;
-    // 1 / (1 + e) is 1 − e + e² to within |e|³ / (1 − |e|).
-    let twice = 2 * (i128::from(ONE) - excess + ((excess * excess) >> FRACTION)) as i64;
-    Ok(about(vector, (product(scalar, twice) >> FRACTION) as i64, twice))
+/// A link in the middle of a stretch of time, and how it moves on its parent in half of it; all along the axes of the world.
+pub(crate) struct Placed {
+    /// The point about which it turns.
+    pub(crate) place: Vector,
+    pub(crate) rotation: Rotation,
+    /// From the centre of the parent to that of the link, how that changes, and how the link turns; each with a bound of its length.
+    arm: (Vector, i128),
+    travel: (Vector, i128),
+    turn: (Vector, i128),
+}
+
+/// How a link moves in half of a stretch of time as it is seen from another one: what the lemmas of the README need.
+#[derive(Default)]
+pub(crate) struct Way {
+    /// How the vector from centre to centre changes, and how the link turns.
+    pub(crate) change: Vector,
+    pub(crate) turn: Vector,
+    /// The sum of the angles of all joints, and a bound of the second derivative of the vector.
+    angle: i128,
+    bend: i128,
+}
+
+impl Way {
+    /// Returns the way from a link to another one; `None` if the joints turn by more than two radians, over which nothing is proven.
+    pub(crate) fn new(Stretch { links, placed }: &Stretch<'_>, from: usize, to: usize) -> Option<Way> {
+        let (mut way, mut left, mut entered, mut path) = (Way::default(), from, to, Vec::new());
+        while left != entered {
+            if left > entered {
+                way.turn_by(&placed[left], -1)?;
+                way.move_by(&placed[left], -1);
+                left = links.all[left].parent;
+            } else {
+                path.push(entered);
+                entered = links.all[entered].parent;
+            }
+        }
+        for link in path.into_iter().rev() {
+            way.move_by(&placed[link], 1);
+            way.turn_by(&placed[link], 1)?;
+        }
+        Some(way)
+    }
+
+    /// Returns a bound of the second derivative of a point that the link carries so far from its centre.
+    pub(crate) fn bend(&self, reach: i128) -> i128 {
+        self.bend + up(self.angle, up(self.angle, reach))
+    }
+
+    fn turn_by(&mut self, &Placed { turn: (turn, angle), .. }: &Placed, sign: i64) -> Option<()> {
+        self.turn = add(self.turn, turn.map(|x| sign * x));
+        self.angle += angle;
+        (self.angle <= product(2, ONE)).then_some(())
+    }
+
+    fn move_by(&mut self, &Placed { arm: (arm, reach), travel: (travel, rate), .. }: &Placed, sign: i64) {
+        let change = add(travel, cross(self.turn, arm));
+        self.change = add(self.change, change.map(|x| sign * x));
+        self.bend = self.bend(reach + rate) + 2 * up(self.angle, rate);
+    }
 }

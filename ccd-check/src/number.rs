@@ -1,22 +1,24 @@
 //! Vectors and rotations of integers.
 //!
-//! Fractions, such as the entries of a rotation, are multiples of 2⁻⁶⁰. What is dropped is dropped downwards. The README bounds what
-//! that loses.
+//! Fractions, such as the numbers of a quaternion, are multiples of 2⁻⁶⁰. What is dropped is dropped downwards. The README bounds
+//! what that loses.
 
 /// A point or a vector.
 pub(crate) type Vector = [i64; 3];
 
-/// The rows of a rotation.
-pub(crate) type Matrix = [Vector; 3];
+/// A unit quaternion, as its vector and its scalar.
+pub(crate) type Rotation = (Vector, i64);
 
 pub(crate) const FRACTION: u32 = 60;
 pub(crate) const ONE: i64 = 1 << FRACTION;
-pub(crate) const IDENTITY: Matrix = [[ONE, 0, 0], [0, ONE, 0], [0, 0, ONE]];
-
 pub(crate) const ZERO: Vector = [0; 3];
+pub(crate) const IDENTITY: Rotation = (ZERO, ONE);
 
 /// Rotation vectors are in multiples of 2⁻⁵³ radians.
 pub(crate) const RADIAN: u32 = 53;
+
+/// Lengths have so many bits.
+pub(crate) const LENGTH: u32 = 53;
 
 pub(crate) fn product(a: i64, b: i64) -> i128 {
     i128::from(a) * i128::from(b)
@@ -35,6 +37,7 @@ pub(crate) fn add(a: Vector, b: Vector) -> Vector {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
+/// Returns a − b.
 pub(crate) fn sub(a: Vector, b: Vector) -> Vector {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
@@ -52,28 +55,28 @@ pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
 
 /// Returns an upper bound of the length of a vector.
 pub(crate) fn length(v: Vector) -> i128 {
-    // Rounded up to numbers of 30 bits, so that the sum of their squares has 62.
-    let all = v.iter().fold(0, |all, x| all | x.unsigned_abs());
-    let bits = (64 - all.leading_zeros()).saturating_sub(30);
-    let squares: u64 = v.iter().map(|x| (x.unsigned_abs() >> bits) + 1).map(|x| x * x).sum();
-    i128::from(squares.isqrt() + 1) << bits
+    dot(v, v).isqrt() + 1
 }
 
-pub(crate) fn turned(rotation: &Matrix, v: Vector) -> Vector {
-    rotation.map(|row| (dot(row, v) >> FRACTION) as i64)
+/// Returns v + 2 w u×v + 2 u×(u×v) for the rotation by u and w.
+pub(crate) fn turned((u, w): Rotation, v: Vector) -> Vector {
+    let twice = cross(u.map(|x| 2 * x), v);
+    add(v, add(scaled(twice, w, FRACTION), cross(u, twice)))
 }
 
-pub(crate) fn transposed(rotation: &Matrix) -> Matrix {
-    [0, 1, 2].map(|k| rotation.map(|row| row[k]))
+/// Returns the vector that is turned to v.
+pub(crate) fn turned_back((u, w): Rotation, v: Vector) -> Vector {
+    turned((sub(ZERO, u), w), v)
 }
 
-/// Returns the rotation by b, then by a.
-pub(crate) fn times(a: &Matrix, b: &Matrix) -> Matrix {
-    transposed(&transposed(b).map(|column| turned(a, column)))
+/// Returns the rotation by the second one, then by the first one.
+pub(crate) fn times((u, s): Rotation, (v, t): Rotation) -> Rotation {
+    let vector = add(cross(u, v), add(scaled(u, t, FRACTION), scaled(v, s, FRACTION)));
+    (vector, ((product(s, t) - dot(u, v)) >> FRACTION) as i64)
 }
 
 /// Returns the rotation by a vector: about its direction, by its length.
-pub(crate) fn exp(turn: Vector) -> Matrix {
+pub(crate) fn exp(turn: Vector) -> Rotation {
     // With a part 2⁻ⁿ of it that is no longer than 1: the quaternion of that, squared n times.
     let size: u64 = turn.iter().map(|x| x.unsigned_abs()).sum();
     let squarings = 64 - (size >> RADIAN).leading_zeros();
@@ -84,18 +87,5 @@ pub(crate) fn exp(turn: Vector) -> Matrix {
         let step = |sum, n: i64| ONE - (product(sum, square) >> FRACTION) as i64 / ((n + k) * (n + k + 1));
         [17, 15, 13, 11, 9, 7, 5, 3, 1].into_iter().fold(ONE, step)
     });
-    let (mut scalar, mut vector) = (cosine, scaled(half, sine, FRACTION));
-    for _ in 0..squarings {
-        let squared = (product(scalar, scalar) - dot(vector, vector)) >> FRACTION;
-        (scalar, vector) = (squared as i64, scaled(vector, scalar, FRACTION - 1));
-    }
-    about(vector, 2 * scalar, 2 * ONE)
-}
-
-/// Returns I + f [v]× + g [v]×².
-pub(crate) fn about(v: Vector, f: i64, g: i64) -> Matrix {
-    transposed(&IDENTITY.map(|axis| {
-        let once = cross(v, axis);
-        add(axis, add(scaled(once, f, FRACTION), scaled(cross(v, once), g, FRACTION)))
-    }))
+    (0..squarings).fold((scaled(half, sine, FRACTION), cosine), |part, _| times(part, part))
 }

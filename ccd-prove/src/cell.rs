@@ -98,14 +98,16 @@ impl<'c> ProvenCell<'c> {
         let robot = self.cell.robot();
         let still = vec![0.0; robot.free_joint_names().len()];
         let scene = self.edge(&still, &still, margin).ok()?;
-        let (own, ..) = state(&scene, &moving(&scene.links), 0.0, None).ok()?;
-        let is_own = Statement::read(&own)?.has_cell_of(statement);
-        let links = self.links.iter().zip(&statement.links);
-        let moving = links.filter_map(|((.., number), (_, kind, numbers))| {
-            let name: &str = &robot.joints()[*number].name;
-            (*kind > 0).then(|| (name, [numbers[10], numbers[10] + numbers[11]]))
+        let (own, ..) = state(&scene, &moving(&scene.links, 0).ok()?, 0.0, None).ok()?;
+        let own = Statement::read(&own)?;
+        let links = own.links.iter().zip(&statement.links).zip(&self.links);
+        let joints = links.filter(|((own, _), _)| own.axes > 0);
+        let moving = joints.map(|((own, stated), (.., number))| {
+            let (name, scale) = (&*robot.joints()[*number].name, own.scale(stated)?);
+            let positions = [stated.start, stated.start + stated.rate].map(|by| by * scale);
+            Some((name, positions))
         });
-        is_own.then(|| moving.collect())
+        own.has_cell_of(statement).then(|| moving.collect())?
     }
 
     /// Returns the pairs of bodies that are compared: those of the first ones of what rests stand for all.
@@ -175,7 +177,7 @@ impl<'c> ProvenCell<'c> {
             let mut members = self.bodies[body].members.iter();
             members.any(|&member| items[member] == item)
         };
-        let links = moving(&scene.links);
+        let links = moving(&scene.links, 0).ok()?;
         let ([a, b], [x, y]) = (contact.witnesses?, contact.items);
         let all = scene.pairs.iter().enumerate();
         let candidates = all.filter_map(|(pair, Pair { bodies: [k, l], .. })| {

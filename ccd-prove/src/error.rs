@@ -45,6 +45,14 @@ pub enum NotProven {
         /// The start of the stretch of time that is not proven.
         at: f64,
     },
+    /// A link moves by numbers that cannot be scaled by a power of two.
+    #[error(
+        "link {link} moves by numbers so small that they have fewer bits than others, near 1e-308"
+    )]
+    TooSmall {
+        /// The number of the link, counted from 1.
+        link: usize,
+    },
     /// A link turns farther than the checker takes.
     #[error(
         "link {link} turns by more than the checker takes: 256 radians to its start, or at least 128 from there"

@@ -1,17 +1,19 @@
 //! Where links are in the middle of a stretch of time, in floating point.
 
-use crate::scene::{AxisKind, Joint, Link};
+use crate::error::NotProven;
+use crate::scene::Link;
+use crate::screw::Screw;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 
 /// How a link moves on its parent, as the checker takes it: its centre along a line, and the link about it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moving {
     pub(crate) parent: usize,
-    pub(crate) centre: DVec3,
+    pub(crate) screw: Screw,
     pub(crate) arm: DVec3,
     pub(crate) travel: DVec3,
     rotation: DMat3,
-    pub(crate) turn: DVec3,
+    turn: DVec3,
 }
 
 /// A link in the middle of a stretch of time, and how it moves on its parent in half of it; all along the axes of the world.
@@ -25,55 +27,32 @@ pub(crate) struct Placed {
     pub(crate) turn: DVec3,
 }
 
-/// Returns the world and all links.
-pub(crate) fn moving(links: &[Link]) -> Vec<Moving> {
-    let mut all = vec![Moving {
-        parent: 0,
-        centre: DVec3::ZERO,
-        arm: DVec3::ZERO,
-        travel: DVec3::ZERO,
-        rotation: DMat3::IDENTITY,
-        turn: DVec3::ZERO,
-    }];
+/// Returns the world and all links, in a unit of time of which the exponent is given.
+///
+/// # Errors
+/// [`NotProven::TooSmall`].
+pub(crate) fn moving(links: &[Link], time_unit: i32) -> Result<Vec<Moving>, NotProven> {
+    let mut all = vec![on_parent(0, Screw::REST)];
     for link in links {
-        let mut moving = of_joint(&link.joint);
-        moving.parent = link.parent;
-        moving.arm -= all[link.parent].centre;
+        let number = all.len();
+        let screw =
+            Screw::of(&link.joint, time_unit).ok_or(NotProven::TooSmall { link: number })?;
+        let mut moving = on_parent(link.parent, screw);
+        moving.arm -= all[link.parent].screw.centre;
         all.push(moving);
     }
-    all
+    Ok(all)
 }
 
-fn of_joint(joint: &Joint) -> Moving {
-    match joint {
-        Joint::Free(motion) => Moving {
-            parent: 0,
-            centre: motion.centre(),
-            arm: motion.start().transform_point(motion.centre()),
-            travel: motion.velocity(),
-            rotation: DMat3::from_quat(motion.start().rotation()),
-            turn: motion.spin(),
-        },
-        Joint::Axis {
-            kind,
-            pose,
-            axis,
-            start,
-            rate,
-        } => {
-            let rotation = DMat3::from_quat(pose.rotation());
-            let axis = rotation * *axis;
-            let [turns, slides] = [AxisKind::Turns, AxisKind::Slides]
-                .map(|of| if *kind == of { axis } else { DVec3::ZERO });
-            Moving {
-                parent: 0,
-                centre: DVec3::ZERO,
-                arm: pose.translation() + slides * *start,
-                travel: slides * *rate,
-                rotation: turned(turns * *start) * rotation,
-                turn: turns * *rate,
-            }
-        }
+fn on_parent(parent: usize, screw: Screw) -> Moving {
+    let [[slid, turned_before], [travel, turn]] = screw.moves();
+    Moving {
+        parent,
+        screw,
+        arm: screw.pose.transform_point(screw.centre) + slid,
+        travel,
+        rotation: turned(turned_before) * DMat3::from_quat(screw.pose.rotation()),
+        turn,
     }
 }
 

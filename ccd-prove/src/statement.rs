@@ -1,5 +1,6 @@
 //! What a certificate states, read for people: the checker reads it by itself.
 
+use ccd_core::glam::DVec3;
 use std::fmt::{self, Display};
 
 /// The statement of a certificate.
@@ -7,8 +8,8 @@ use std::fmt::{self, Display};
 pub struct Statement {
     /// The exponents of the units of length and of time.
     pub units: [i32; 2],
-    /// The links: the number of the parent, counted from 1, the kind, and the numbers.
-    pub links: Vec<(u32, u8, Vec<f64>)>,
+    /// The links.
+    pub links: Vec<StatedLink>,
     /// The bodies: the digest of the mesh, the number of the link.
     pub bodies: Vec<([u8; 32], u32)>,
     /// The pairs: both bodies, and the margin.
@@ -21,6 +22,67 @@ pub struct Statement {
     pub bytes: usize,
 }
 
+/// A link, and how it moves on the one that carries it: a point y is at `p + R c + s v + exp(s [a]×) R (y − c)` with
+/// s = start + t rate, where p is the position, R the rotation of the quaternion, c the centre, v the velocity, a the axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StatedLink {
+    /// The number of the link that carries it, counted from 1; 0 is the world.
+    pub parent: u32,
+    /// The position.
+    pub position: [f64; 3],
+    /// The quaternion x, y, z, w.
+    pub quaternion: [f64; 4],
+    /// The point of the link about which it turns.
+    pub centre: [f64; 3],
+    /// What velocity and axis are along: 0 the axes of the parent, 1 those of the joint, so that v and a are R times them.
+    pub axes: u32,
+    /// The velocity, by which the centre moves.
+    pub velocity: [f64; 3],
+    /// The axis, about which it turns.
+    pub axis: [f64; 3],
+    /// What it has moved by at time 0.
+    pub start: f64,
+    /// What it moves by in a unit of time.
+    pub rate: f64,
+}
+
+impl StatedLink {
+    fn read(at: &mut Cursor<'_>) -> Option<Self> {
+        Some(StatedLink {
+            parent: at.u32()?,
+            position: at.numbers()?,
+            quaternion: at.numbers()?,
+            centre: at.numbers()?,
+            axes: at.u32()?,
+            velocity: at.numbers()?,
+            axis: at.numbers()?,
+            start: at.f64()?,
+            rate: at.f64()?,
+        })
+    }
+
+    /// Returns by what its start and rate are to be multiplied to be those of the same joint at other positions, which a power of two
+    /// may have been taken from; `None` if that is another joint.
+    pub(crate) fn scale(&self, other: &StatedLink) -> Option<f64> {
+        let is_fixed = self.axes == 0;
+        let [own, theirs] = [self.velocity, other.velocity].map(DVec3::from_array);
+        let largest = own.abs().max_position();
+        let scale = if own == DVec3::ZERO {
+            1.0
+        } else {
+            own[largest] / theirs[largest]
+        };
+        let is_power = scale.is_normal() && scale > 0.0 && scale.to_bits() << 12 == 0;
+        let as_theirs = StatedLink {
+            velocity: (own / scale).to_array(),
+            start: if is_fixed { self.start } else { other.start },
+            rate: if is_fixed { self.rate } else { other.rate },
+            ..self.clone()
+        };
+        (is_power && as_theirs == *other).then_some(1.0 / scale)
+    }
+}
+
 /// Two points of a pair that are near each other at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StatedWitness {
@@ -30,8 +92,24 @@ pub struct StatedWitness {
     pub time: f64,
     /// What the points may be farther apart than the pair has to be.
     pub tolerance: f64,
-    /// For each body the place of a triangle in the order of its tree, and the weights of two corners in 2⁻⁶².
-    pub points: [(u32, [u64; 2]); 2],
+    /// For each body the place of a triangle in the order of its tree, and the weights of its corners in 2⁻⁵⁵.
+    pub points: [(u32, [u64; 3]); 2],
+}
+
+impl StatedWitness {
+    fn read(at: &mut Cursor<'_>) -> Option<Self> {
+        let (pair, time, tolerance) = (at.u32()?, at.f64()?, at.f64()?);
+        let mut point = || {
+            let (triangle, mut weight) = (at.u32()?, || Some(signed(at.take(7)?) as u64));
+            Some((triangle, [weight()?, weight()?, weight()?]))
+        };
+        Some(StatedWitness {
+            pair,
+            time,
+            tolerance,
+            points: [point()?, point()?],
+        })
+    }
 }
 
 impl Statement {
@@ -43,33 +121,17 @@ impl Statement {
         }
         let units = [at.u32()? as i32, at.u32()? as i32];
         let [links, bodies, pairs] = [at.u32()?, at.u32()?, at.u32()?];
-        let links = (0..links).map(|_| {
-            let (parent, kind) = (at.u32()?, at.take(1)?[0]);
-            let count = if kind == 0 { 16 } else { 12 };
-            Some((
-                parent,
-                kind,
-                (0..count).map(|_| at.f64()).collect::<Option<_>>()?,
-            ))
-        });
+        let links = (0..links).map(|_| StatedLink::read(&mut at));
         let links = links.collect::<Option<_>>()?;
         let bodies = (0..bodies).map(|_| Some((at.take(32)?.try_into().ok()?, at.u32()?)));
         let bodies = bodies.collect::<Option<_>>()?;
         let pairs = (0..pairs).map(|_| Some(([at.u32()?, at.u32()?], at.f64()?)));
         let pairs = pairs.collect::<Option<_>>()?;
         let until = at.f64()?;
-        let witness = match at.take(1)?[0] {
+        let witness = match at.u32()? {
             0 => None,
-            _ => {
-                let (pair, time, tolerance) = (at.u32()?, at.f64()?, at.f64()?);
-                let mut point = || Some((at.u32()?, [at.u64()?, at.u64()?]));
-                Some(StatedWitness {
-                    pair,
-                    time,
-                    tolerance,
-                    points: [point()?, point()?],
-                })
-            }
+            1 => Some(StatedWitness::read(&mut at)?),
+            _ => return None,
         };
         Some(Statement {
             units,
@@ -85,18 +147,11 @@ impl Statement {
     /// Returns whether two statements are about the same bodies, on the same links, with the same pairs and margins. The positions
     /// of joints may differ, and times.
     pub(crate) fn has_cell_of(&self, other: &Statement) -> bool {
-        let links = || self.links.iter().zip(&other.links);
+        let mut links = self.links.iter().zip(&other.links);
         self.bodies == other.bodies
             && self.pairs == other.pairs
             && self.links.len() == other.links.len()
-            && links().all(
-                |((parent, kind, numbers), (other_parent, other_kind, others))| {
-                    // The last two numbers of a joint are its position at time 0 and its rate.
-                    let count = if *kind == 0 { 16 } else { 10 };
-                    (parent, kind) == (other_parent, other_kind)
-                        && numbers[..count] == others[..count]
-                },
-            )
+            && links.all(|(own, theirs)| own.scale(theirs).is_some())
     }
 
     /// Returns the statement in one line.
@@ -128,10 +183,25 @@ impl Display for Statement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [length, time] = self.units;
         writeln!(f, "units 2^{length} of length, 2^{time} of time")?;
-        for (number, (parent, kind, numbers)) in self.links.iter().enumerate() {
-            let names = ["free", "turns", "slides"];
-            let kind = names.get(usize::from(*kind)).unwrap_or(&"of no kind");
-            writeln!(f, "link {} on {parent} {kind} {numbers:?}", number + 1)?;
+        for (number, link) in self.links.iter().enumerate() {
+            let axes = if link.axes == 0 { "parent" } else { "joint" };
+            let StatedLink {
+                parent,
+                position,
+                quaternion,
+                centre,
+                velocity,
+                axis,
+                start,
+                rate,
+                ..
+            } = link;
+            writeln!(
+                f,
+                "link {} on {parent} position {position:?} quaternion {quaternion:?} centre {centre:?} axes of the {axes} velocity \
+                 {velocity:?} axis {axis:?} start {start:?} rate {rate:?}",
+                number + 1
+            )?;
         }
         for (number, (digest, link)) in self.bodies.iter().enumerate() {
             let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
@@ -210,8 +280,12 @@ impl<'a> Cursor<'a> {
         Some(u32::from_le_bytes(self.take(4)?.try_into().ok()?))
     }
 
-    fn u64(&mut self) -> Option<u64> {
-        Some(u64::from_le_bytes(self.take(8)?.try_into().ok()?))
+    fn numbers<const N: usize>(&mut self) -> Option<[f64; N]> {
+        let mut numbers = [0.0; N];
+        for number in &mut numbers {
+            *number = self.f64()?;
+        }
+        Some(numbers)
     }
 
     fn f64(&mut self) -> Option<f64> {

@@ -32,7 +32,7 @@ impl<'a> Stretch<'a> {
             from,
             to,
             bodies: bodies.map(|body| &body.body.tree),
-            centres: [links[a].centre, links[b].centre],
+            centres: [a, b].map(|link| links[link].screw.centre),
             placed,
             offset: placed[1].centre - placed[0].centre,
             ways: [0, a, b].map(|from| [a, b].map(|to| Way::new(all, from, to))),
@@ -88,8 +88,7 @@ impl<'a> Stretch<'a> {
         let way = &self.ways[1 + other][k];
         let (middle, radius) = self.bodies[k].ball(parts[k]);
         let arm = self.placed[k].rotation * (middle - self.centres[k]);
-        let bend = way.bend + way.factor() * arm.length();
-        let travel = (way.change + way.turn.cross(arm)).length() + 0.5 * bend;
+        let travel = (way.change + way.turn.cross(arm)).length() + 0.5 * way.bend(arm.length());
         let seen = self.placed[k].centre - self.placed[other].centre + arm;
         let centre = self.placed[other].rotation.transpose() * seen + self.centres[other];
         let limit = radius + travel * LENGTHS + least;
@@ -106,14 +105,11 @@ impl<'a> Stretch<'a> {
         least: f64,
     ) -> impl Iterator<Item = (DVec3, f64)> {
         let (way, placed) = (&self.ways[frame][k], &self.placed[k]);
-        let mut bend = if way.is_short() {
-            way.bend
+        let bend = if way.rests() {
+            0.0
         } else {
-            f64::INFINITY
+            way.bend(self.bodies[k].reach(part, self.centres[k]))
         };
-        if way.turn != DVec3::ZERO {
-            bend += way.factor() * self.bodies[k].reach(part, self.centres[k]);
-        }
         let seen_from = [DVec3::ZERO, self.placed[0].centre, self.placed[1].centre][frame];
         let lost = least + 0.5 * bend * LENGTHS - normal.dot(placed.centre - seen_from);
         let ends: &[f64] = if way.rests() { &[0.0] } else { &[-1.0, 1.0] };

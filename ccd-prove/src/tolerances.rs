@@ -4,9 +4,9 @@
 /// is placed by less than 200 operations on numbers that are no larger, and each loses 2⁻⁵³ at most.
 pub(crate) const ROUNDING: f64 = 2e-14;
 
-/// The factor by which bounds of second derivatives are increased: the checker rounds lengths up to 30 bits, and a bound is a
-/// product of no more than four lengths.
-pub(crate) const LENGTHS: f64 = 1.0 + 1e-8;
+/// The factor by which bounds of second derivatives are increased: they are made of fewer than 1,000 operations on numbers that are not
+/// negative, here and in the checker, which rounds each up by less than a unit besides.
+pub(crate) const LENGTHS: f64 = 1.0 + 1e-12;
 
 /// The largest sum of turns in half of a stretch, in radians. The checker has a limit of 2 for sums that it has rounded up.
 pub(crate) const MOST_TURN: f64 = 1.999;

@@ -11,9 +11,9 @@ pub(crate) struct Way {
     pub(crate) change: DVec3,
     pub(crate) turn: DVec3,
     /// The sum of the angles of all joints.
-    pub(crate) turned: f64,
-    twist: f64,
-    pub(crate) bend: f64,
+    angle: f64,
+    /// A bound of the second derivative of the arm.
+    bend: f64,
 }
 
 impl Way {
@@ -40,34 +40,32 @@ impl Way {
 
     /// Returns whether nothing moves on the way.
     pub(crate) fn rests(&self) -> bool {
-        self.turned == 0.0 && self.change == DVec3::ZERO
+        self.angle == 0.0 && self.change == DVec3::ZERO
     }
 
     /// Returns whether the checker proves anything over so long a stretch.
     pub(crate) fn is_short(&self) -> bool {
-        self.turned < MOST_TURN
+        self.angle < MOST_TURN
+    }
+
+    /// Returns a bound of the second derivative of a point that the link carries so far from its centre; infinity if the checker
+    /// proves nothing over so long a stretch.
+    pub(crate) fn bend(&self, reach: f64) -> f64 {
+        if self.is_short() {
+            self.bend + self.angle * self.angle * reach
+        } else {
+            f64::INFINITY
+        }
     }
 
     fn turn_by(&mut self, turn: DVec3) {
-        self.turned += turn.length();
-        self.twist += self.rate() * turn.length();
+        self.angle += turn.length();
         self.turn += turn;
     }
 
     fn move_by(&mut self, arm: DVec3, travel: DVec3) {
         self.change += travel + self.turn.cross(arm);
-        let (rate, travel) = (self.rate(), travel.length());
-        self.bend += self.factor() * (arm.length() + travel) + 2.0 * rate * travel;
-    }
-
-    /// Returns the factor by which the distance from the centre bounds the second derivative of what the link carries.
-    pub(crate) fn factor(&self) -> f64 {
-        let rate = self.rate();
-        self.twist + rate * rate
-    }
-
-    /// Returns a bound of the turn over the whole stretch.
-    fn rate(&self) -> f64 {
-        self.turn.length() + self.twist
+        let (angle, rate) = (self.angle, travel.length());
+        self.bend += angle * (angle * (arm.length() + rate) + 2.0 * rate);
     }
 }

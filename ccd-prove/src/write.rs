@@ -4,7 +4,8 @@ use crate::cover::Cover;
 use crate::error::NotProven;
 use crate::nearest::MeshPoint;
 use crate::placed::{Moving, moving, placed};
-use crate::scene::{AxisKind, Joint, Link, Scene, Witness};
+use crate::scene::{Scene, Witness};
+use crate::screw::exponent_above;
 use crate::tolerances::ROUNDING;
 use crate::tree::Tree;
 use ccd_core::glam::DVec3;
@@ -25,17 +26,20 @@ pub struct Proof {
 /// The checker has numbers of 8 bits before the point for turns.
 const MOST_RADIANS: f64 = 256.0;
 
-/// Weights of corners are multiples of 2⁻⁶².
-const WEIGHT_UNIT: f64 = (1u64 << 62) as f64;
+/// Weights of corners are multiples of 2⁻⁵⁵.
+const WEIGHT_UNIT: f64 = (1u64 << 55) as f64;
 
 /// The number of bits of the largest length in the unit of a certificate.
-const LENGTH_BITS: i32 = 49;
+const LENGTH_BITS: i32 = 52;
 
 /// What a rotation is off by in the checker: the share of a turn of about a radian.
 const TURNS: f64 = 1.0 / (1u64 << 50) as f64;
 
-/// The checker has 56 bits for the sum of lengths.
+/// The checker has 59 bits for the sum of lengths.
 const LENGTHS_IN_SUM: f64 = 64.0;
+
+/// What the checker adds to the sum of lengths, in units: it is turned as much as lengths are.
+const ADDED_TO_SUM: f64 = (1u64 << 47) as f64;
 
 /// Writes a certificate: each pair of a scene is farther apart than its margin from time 0 to `until`, and the
 /// witness, if there is one, comes as near as it says.
@@ -57,14 +61,12 @@ pub(crate) fn prove_unless_stopped(
     stop: Option<&AtomicBool>,
 ) -> Result<Proof, NotProven> {
     let time_unit = exponent_above(until);
-    let turns_too_far = |link: &Link| {
-        let mut turns = turns(&link.joint, time_unit).into_iter();
-        !turns.all(|turn| turn < MOST_RADIANS)
-    };
-    if let Some(number) = scene.links.iter().position(turns_too_far) {
-        return Err(NotProven::TurnsTooFar { link: number + 1 });
+    let links = moving(&scene.links, time_unit)?;
+    let turns_too_far =
+        |link: &Moving| !moved(link, time_unit).iter().all(|&by| by <= MOST_RADIANS);
+    if let Some(link) = links.iter().position(turns_too_far) {
+        return Err(NotProven::TurnsTooFar { link });
     }
-    let links = moving(&scene.links);
     let (mut bytes, unit, lost) = state(scene, &links, until, witness)?;
     let mut cover = Cover::new((scene, &links), (until, stop), 2f64.powi(unit));
     for (number, pair) in scene.pairs.iter().enumerate() {
@@ -93,7 +95,7 @@ pub(crate) fn state(
     let size = largest_length(scene, links, time_unit);
     let sum = sum_of_lengths(links, time_unit);
     let unit = exponent_above(greater(size, sum / LENGTHS_IN_SUM)) - LENGTH_BITS;
-    let lost = lost(scene, time_unit, [2f64.powi(unit), 2.0 * size + sum])
+    let lost = lost(links, time_unit, [2f64.powi(unit), 2.0 * size + sum])
         + ROUNDING * size * (scene.links.len() + 2) as f64;
     let mut bytes = b"CCDPROF1".to_vec();
     bytes.extend(unit.to_le_bytes());
@@ -101,9 +103,12 @@ pub(crate) fn state(
     for count in [scene.links.len(), scene.bodies.len(), scene.pairs.len()] {
         bytes.extend((count as u32).to_le_bytes());
     }
-    for link in &scene.links {
+    for link in &links[1..] {
         bytes.extend((link.parent as u32).to_le_bytes());
-        write_joint(&mut bytes, &link.joint);
+        let (before, axes, after) = link.screw.numbers();
+        write_numbers(&mut bytes, before);
+        bytes.extend(axes.to_le_bytes());
+        write_numbers(&mut bytes, after);
     }
     for carried in &scene.bodies {
         bytes.extend(carried.body.digest);
@@ -114,26 +119,17 @@ pub(crate) fn state(
         write_numbers(&mut bytes, [pair.margin]);
     }
     write_numbers(&mut bytes, [until]);
-    bytes.push(u8::from(witness.is_some()));
+    bytes.extend(u32::from(witness.is_some()).to_le_bytes());
     if let Some(witness) = witness {
         write_witness(&mut bytes, scene, links, (witness, lost))?;
     }
     Ok((bytes, unit, lost))
 }
 
-/// Returns the numbers by which a joint turns: at time 0 and in the unit of time, or about each axis in the unit of time.
-fn turns(joint: &Joint, time_unit: i32) -> [f64; 3] {
-    let time_unit = 2f64.powi(time_unit);
-    match joint {
-        Joint::Free(motion) => (motion.spin() * time_unit).abs().to_array(),
-        Joint::Axis {
-            kind: AxisKind::Turns,
-            start,
-            rate,
-            ..
-        } => [start.abs(), rate.abs() * time_unit, 0.0],
-        Joint::Axis { .. } => [0.0; 3],
-    }
+/// Returns by what a link has moved at time 0, and moves in the unit of time.
+fn moved(link: &Moving, time_unit: i32) -> [f64; 2] {
+    let [start, rate] = link.screw.moved();
+    [start, rate * 2f64.powi(time_unit)]
 }
 
 /// Returns the sum of the coordinates of all arms and of their changes in the unit of time, of which the checker has 56 bits.
@@ -146,19 +142,10 @@ fn sum_of_lengths(links: &[Moving], time_unit: i32) -> f64 {
 }
 
 /// Returns 8 L of the checker's README, for lengths in a unit that add up to so much.
-fn lost(scene: &Scene<'_>, time_unit: i32, [unit, lengths]: [f64; 2]) -> f64 {
-    let of_turns = |link: &Link| 3.0 + turns(&link.joint, time_unit).iter().sum::<f64>();
-    let off = scene.links.iter().map(of_turns).sum::<f64>() * TURNS;
-    8.0 * (8.0 * unit * (scene.links.len() + 2) as f64 + off * lengths)
-}
-
-/// Returns the least exponent of a power of two above a number.
-fn exponent_above(number: f64) -> i32 {
-    if number == 0.0 {
-        0
-    } else {
-        number.log2().floor() as i32 + 1
-    }
+fn lost(links: &[Moving], time_unit: i32, [unit, lengths]: [f64; 2]) -> f64 {
+    let of_moves = |link: &Moving| 3.0 + moved(link, time_unit).iter().sum::<f64>();
+    let off = links.iter().map(of_moves).sum::<f64>() * TURNS;
+    8.0 * (13.0 * unit * (links.len() + 1) as f64 + off * (lengths + ADDED_TO_SUM * unit))
 }
 
 /// Returns the largest length that the checker computes with.
@@ -171,7 +158,7 @@ fn largest_length(scene: &Scene<'_>, links: &[Moving], time_unit: i32) -> f64 {
         // What is read before it is added up is no longer than half of the sum, but for centres.
         let reach = reaches.get(link.parent).unwrap_or(&0.0) + 2.0 * (link.arm.length() + travel);
         reaches.push(reach);
-        most = greater(most, reach + link.centre.length());
+        most = greater(most, reach + link.screw.centre.length());
     }
     for carried in &scene.bodies {
         let tree = &carried.body.tree;
@@ -179,29 +166,6 @@ fn largest_length(scene: &Scene<'_>, links: &[Moving], time_unit: i32) -> f64 {
         most = greater(most, tree.largest_radius() + reach);
     }
     most
-}
-
-fn write_joint(bytes: &mut Vec<u8>, joint: &Joint) {
-    let (kind, pose, rest) = match joint {
-        Joint::Free(motion) => {
-            let rest = [motion.velocity(), motion.spin(), motion.centre()];
-            (0, motion.start(), rest.map(|v| v.to_array()).concat())
-        }
-        Joint::Axis {
-            kind,
-            pose,
-            axis,
-            start,
-            rate,
-        } => {
-            let number = if *kind == AxisKind::Turns { 1 } else { 2 };
-            (number, *pose, vec![axis.x, axis.y, axis.z, *start, *rate])
-        }
-    };
-    bytes.push(kind);
-    write_numbers(bytes, pose.translation().to_array());
-    write_numbers(bytes, pose.rotation().to_array());
-    write_numbers(bytes, rest);
 }
 
 fn write_numbers(bytes: &mut Vec<u8>, numbers: impl IntoIterator<Item = f64>) {
@@ -230,7 +194,12 @@ fn write_witness(
         // Both together are no more than the whole, also if they are rounded up.
         let [a, b, _] = point.weights.map(|weight| (weight * WEIGHT_UNIT) as u64);
         let b = b.min((WEIGHT_UNIT as u64).saturating_sub(a));
-        bytes.extend([a, b].map(u64::to_le_bytes).concat());
+        let rest = WEIGHT_UNIT as u64 - a - b;
+        bytes.extend(
+            [a, b, rest]
+                .iter()
+                .flat_map(|weight| weight.to_le_bytes()[..7].to_vec()),
+        );
     }
     Ok(())
 }
@@ -242,7 +211,7 @@ pub(crate) fn mesh_points(scene: &Scene<'_>, links: &[Moving], witness: Witness)
         let carried = &scene.bodies[scene.pairs[witness.pair].bodies[k]];
         let link = &all[carried.link];
         let local = link.rotation.transpose() * (witness.points[k] - link.centre);
-        let centre = links[carried.link].centre;
+        let centre = links[carried.link].screw.centre;
         let nearest = MeshPoint::nearest(&carried.body.tree, local + centre);
         let place = link.centre + link.rotation * (nearest.ball.truncate() - centre);
         MeshPoint {

@@ -3,6 +3,11 @@
 use std::io::{self, Write};
 use std::ops::Range;
 
+/// The bytes of a link, where the number of its axes is in it, and the bytes of a witness.
+pub(crate) const LINK: usize = 152;
+pub(crate) const AXES: usize = 84;
+pub(crate) const WITNESS: usize = 70;
+
 /// A generator of random numbers.
 pub(crate) struct Random(pub(crate) u64);
 
@@ -37,8 +42,8 @@ pub(crate) struct Files {
 
 /// Where what stands in a proof.
 pub(crate) struct Places {
-    /// Each link: the place of its parent and kind, and of its numbers.
-    pub(crate) links: Vec<(usize, Range<usize>)>,
+    /// Each link, body and pair.
+    pub(crate) links: Vec<usize>,
     pub(crate) bodies: Vec<usize>,
     pub(crate) pairs: Vec<usize>,
     pub(crate) until: usize,
@@ -51,23 +56,17 @@ impl Files {
     pub(crate) fn places(&self) -> Places {
         let count = |at: usize| u32::from_le_bytes([0, 1, 2, 3].map(|k| self.proof[at + k]));
         let mut at = 28;
-        let mut links = Vec::new();
-        for _ in 0..count(16) {
-            let numbers = if self.proof[at + 4] == 0 { 16 } else { 12 };
-            let end = at + 5 + 8 * numbers;
-            links.push((at, at + 5..end));
-            at = end;
-        }
         let mut entries = |count: u32, size: usize| -> Vec<usize> {
             let first = at;
             at += count as usize * size;
             (first..at).step_by(size).collect()
         };
+        let links = entries(count(16), LINK);
         let bodies = entries(count(20), 36);
         let pairs = entries(count(24), 16);
-        let (until, witness) = (at, at + 9);
+        let (until, witness) = (at, at + 12);
         let witness = (self.proof[at + 8] == 1).then_some(witness);
-        at += 9 + 60 * usize::from(witness.is_some());
+        at += 12 + WITNESS * usize::from(witness.is_some());
         let mut steps = Vec::new();
         while at < self.proof.len() {
             let size = match self.proof[at] {
@@ -93,7 +92,7 @@ impl Files {
         let verdict = read(0).and_then(|a| ccd_check::check(&[a, read(1)?], &self.proof));
         match verdict {
             Ok(()) => b'h',
-            Err(ccd_check::Stop::Broken { .. }) => b'b',
+            Err(ccd_check::Stop::Broken(..)) => b'b',
             Err(ccd_check::Stop::Unverifiable(_)) => b'u',
         }
     }

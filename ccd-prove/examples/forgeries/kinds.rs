@@ -1,6 +1,6 @@
 //! The kinds of forgery.
 
-use crate::files::{Files, Random};
+use crate::files::{AXES, Files, LINK, Random, WITNESS};
 use sha2::{Digest, Sha256};
 
 /// The bytes of a vertex.
@@ -9,7 +9,7 @@ const VERTEX: usize = 32;
 type Forge = fn(&mut Random, &mut Files, &[Files]);
 
 /// Each kind by its name. A change that cannot be made to a proof leaves it as it is.
-pub(crate) const KINDS: [(&str, Forge); 34] = [
+pub(crate) const KINDS: [(&str, Forge); 35] = [
     ("a unit", |random, files, _| {
         flip(random, &mut files.proof[8..16]);
     }),
@@ -19,28 +19,36 @@ pub(crate) const KINDS: [(&str, Forge); 34] = [
             add(random, &mut files.proof[16..28]);
         },
     ),
-    ("a link's parent or kind", |random, files, _| {
-        let (at, _) = pick(random, &files.places().links).clone();
-        let place = at + 4 * random.below(2);
-        files.proof[place] = random.below(4) as u8;
+    ("a link's parent or axes", |random, files, _| {
+        let at = *pick(random, &files.places().links) + [0, AXES][random.below(2)];
+        files.proof[at] = random.below(4) as u8;
     }),
     ("a bit of a link's motion", |random, files, _| {
-        let (_, numbers) = pick(random, &files.places().links).clone();
-        flip(random, &mut files.proof[numbers]);
+        let at = *pick(random, &files.places().links);
+        flip(random, &mut files.proof[at + 4..at + LINK]);
     }),
     ("a number of a link's motion", |random, files, _| {
-        let (_, numbers) = pick(random, &files.places().links).clone();
-        let at = numbers.start + 8 * random.below(numbers.len() / 8);
-        bend(random, files, at);
+        let at = *pick(random, &files.places().links);
+        let number = 8 * random.below((LINK - 8) / 8) + 4;
+        let number = if number < AXES { number } else { number + 4 };
+        bend(random, files, at + number);
+    }),
+    ("a line or an axis with another's", |random, files, _| {
+        // All of velocity, axis, start and rate, or two of their numbers.
+        let links = files.places().links;
+        let [a, b] = [0, 1].map(|_| *pick(random, &links) + AXES + 4);
+        let size = [LINK - AXES - 4, 8][random.below(2)];
+        let [a, b] = [a, b].map(|at| at + 8 * random.below((LINK - AXES - 4 - size) / 8 + 1));
+        let text = files.proof[a..a + size].to_vec();
+        files.proof.copy_within(b..b + size, a);
+        files.proof[b..b + size].copy_from_slice(&text);
     }),
     ("two links' motions exchanged", |random, files, _| {
         let links = files.places().links;
-        let [(_, a), (_, b)] = [0, 1].map(|_| pick(random, &links).clone());
-        if a.len() == b.len() {
-            let text = files.proof[a.clone()].to_vec();
-            files.proof.copy_within(b.clone(), a.start);
-            files.proof[b].copy_from_slice(&text);
-        }
+        let [a, b] = [0, 1].map(|_| *pick(random, &links) + 4);
+        let text = files.proof[a..a + LINK - 4].to_vec();
+        files.proof.copy_within(b..b + LINK - 4, a);
+        files.proof[b..b + LINK - 4].copy_from_slice(&text);
     }),
     ("a digest", |random, files, _| {
         let at = *pick(random, &files.places().bodies);
@@ -80,7 +88,7 @@ pub(crate) const KINDS: [(&str, Forge); 34] = [
         let places = files.places();
         let at = places.until + 8;
         match places.witness {
-            Some(witness) => drop(files.proof.splice(at..witness + 60, [0])),
+            Some(witness) => drop(files.proof.splice(at..witness + WITNESS, [0; 4])),
             None => files.proof[at] = 1,
         }
     }),
@@ -96,7 +104,7 @@ pub(crate) const KINDS: [(&str, Forge); 34] = [
     }),
     ("the points of a witness", |random, files, _| {
         if let Some(at) = files.places().witness {
-            flip(random, &mut files.proof[at + 20..at + 60]);
+            flip(random, &mut files.proof[at + 20..at + WITNESS]);
         }
     }),
     ("a step left out", |random, files, _| {

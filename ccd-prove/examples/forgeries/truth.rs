@@ -3,7 +3,7 @@
 use crate::files::Files;
 use ccd_core::glam::{DQuat, DVec3, DVec4};
 use ccd_core::order::{greater, lesser};
-use ccd_prove::{StatedWitness, Statement};
+use ccd_prove::{StatedLink, StatedWitness, Statement};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::distance;
 use parry3d_f64::shape::Triangle;
@@ -74,10 +74,10 @@ impl Scene {
         };
         let point = |k: usize| {
             let triangles = self.body(bodies[k] as usize, *time)?;
-            let (place, [a, b]) = points[k];
+            let (place, weights) = points[k];
             let corners = triangles.get(place as usize)?;
-            let [a, b] = [a, b].map(|weight| weight as f64 / (1u64 << 62) as f64);
-            Some(corners[0] * a + corners[1] * b + corners[2] * (1.0 - a - b))
+            let [a, b, c] = weights.map(|weight| weight as f64 / (1u64 << 55) as f64);
+            Some(corners[0] * a + corners[1] * b + corners[2] * c)
         };
         let (Some(a), Some(b)) = (point(0), point(1)) else {
             return true;
@@ -97,33 +97,30 @@ impl Scene {
             if link == 0 {
                 return Some(triangles);
             }
-            let (parent, kind, numbers) = self.statement.links.get(link - 1)?;
+            let stated = self.statement.links.get(link - 1)?;
             for corner in triangles.iter_mut().flatten() {
-                let moved = on_parent(*kind, numbers, corner.truncate(), time);
+                let moved = on_parent(stated, corner.truncate(), time);
                 *corner = moved.extend(corner.w);
             }
-            link = *parent as usize;
+            link = stated.parent as usize;
         }
         None
     }
 }
 
 /// Returns where a point of a link is on its parent.
-fn on_parent(kind: u8, numbers: &[f64], point: DVec3, time: f64) -> DVec3 {
-    let vector = |k: usize| DVec3::new(numbers[k], numbers[k + 1], numbers[k + 2]);
-    let start = DQuat::from_xyzw(numbers[3], numbers[4], numbers[5], numbers[6]).normalize();
-    let moved = if kind == 0 {
-        let (velocity, turn, centre) = (vector(7), vector(10), vector(13));
-        let arm = DQuat::from_scaled_axis(turn * time) * (start * (point - centre));
-        start * centre + velocity * time + arm
-    } else {
-        let along = vector(7) * (numbers[10] + time * numbers[11]);
-        match kind {
-            1 => start * (DQuat::from_scaled_axis(along) * point),
-            _ => start * (point + along),
-        }
-    };
-    vector(0) + moved
+fn on_parent(link: &StatedLink, point: DVec3, time: f64) -> DVec3 {
+    let [position, centre, velocity, axis] =
+        [link.position, link.centre, link.velocity, link.axis].map(DVec3::from_array);
+    let start = DQuat::from_array(link.quaternion).normalize();
+    let by = link.start + time * link.rate;
+    if link.axes == 1 {
+        // The frame of the joint first, and all that moves in it.
+        let arm = DQuat::from_scaled_axis(axis * by) * (point - centre);
+        return position + start * (centre + velocity * by + arm);
+    }
+    let arm = DQuat::from_scaled_axis(axis * by) * (start * (point - centre));
+    position + start * centre + velocity * by + arm
 }
 
 /// Returns whether two triangles are seen to be farther apart than a distance. Numbers that are none are not seen to be nearer.
