@@ -88,13 +88,19 @@ def certificate(mesh_bytes, order=None, tree=None, numbers=None):
 Link = collections.namedtuple("Link", "on p q c axes v a alpha beta")
 
 
-def link(v=ZERO, a=ZERO, alpha=0.0, beta=0.0, axes=0, p=ZERO, q=(0, 0, 0, 1), c=ZERO, on=0):
+def moves(v=ZERO, a=ZERO, alpha=0.0, beta=0.0, axes=0, p=ZERO, q=(0, 0, 0, 1), c=ZERO, on=0):
     return Link(on, p, q, c, axes, v, a, alpha, beta)
 
 
-def free(p=ZERO, q=(0, 0, 0, 1), v=ZERO, w=ZERO, c=ZERO, on=0): return link(v, w, 0.0, 1.0, 0, p, q, c, on)
-def turns(a=(0, 0, 1), alpha=0.0, beta=0.0, p=ZERO, q=(0, 0, 0, 1), on=0): return link(ZERO, a, alpha, beta, 1, p, q, ZERO, on)
-def slides(v=(0, 0, 1), alpha=0.0, beta=0.0, p=ZERO, q=(0, 0, 0, 1), on=0): return link(v, ZERO, alpha, beta, 1, p, q, ZERO, on)
+def free(p=ZERO, q=(0, 0, 0, 1), v=ZERO, w=ZERO, c=ZERO, on=0): return moves(v, w, 0.0, 1.0, 0, p, q, c, on)
+def turns(a=(0, 0, 1), alpha=0.0, beta=0.0, p=ZERO, q=(0, 0, 0, 1), on=0):
+    return moves(ZERO, a, alpha, beta, 1, p, q, ZERO, on)
+
+
+def slides(v=(0, 0, 1), alpha=0.0, beta=0.0, p=ZERO, q=(0, 0, 0, 1), on=0):
+    return moves(v, ZERO, alpha, beta, 1, p, q, ZERO, on)
+
+
 def link_bytes(x): return struct.pack("<I10dI8d", x.on, *x.p, *x.q, *x.c, x.axes, *x.v, *x.a, x.alpha, x.beta)
 def seven(x): return x.to_bytes(7, "little", signed=True)
 def leaf(axis, frame=0, d=AUTO): return bytes([3 + frame]) + b"".join(map(seven, (*axis, d)))
@@ -233,7 +239,7 @@ def random_link(rng, on, speed=1.0):
         speed = 0
     alpha, beta = rng.uniform(-2, 2), rng.uniform(-2, 2) * speed
     if kind == 3:
-        return link(vec(1), vec(1), alpha, beta, rng.randrange(2), p, q, vec(0.5), on)
+        return moves(vec(1), vec(1), alpha, beta, rng.randrange(2), p, q, vec(0.5), on)
     return (turns, slides)[kind - 1](vec(1), alpha, beta, p, q, on)
 
 
@@ -459,7 +465,8 @@ class Free(Case):
         # One that is 1 long exactly is not, and one that is a bit longer proves nothing, however far B is.
         lb, half = free(p=(0, 0, 100)), 1 << 45
         self.holds(self.M, self.flat(leaf(Z, 0, half), lb=lb), self.flat(leaf((0, 0, ONE - 1), 0, half), lb=lb))
-        self.fails("does not prove", self.M, *(self.flat(leaf(axis, 0, half), lb=lb) for axis in ((0, 0, ONE + 1), (1, 0, ONE))))
+        for axis in ((0, 0, ONE + 1), (1, 0, ONE)):
+            self.fails("does not prove", self.M, self.flat(leaf(axis, 0, half), lb=lb))
         # A bent axis shows a shorter gap: here 0.8 less 0.6 of the extent along x.
         bent = along(0.6, 0, 0.8)
         self.holds(self.M, self.flat(leaf(bent), margin=0.19))
@@ -498,10 +505,10 @@ class Free(Case):
         self.fails("no such body", self.M, make(pairs=((0, 2, 0.5),)), make(pairs=((2, 0, 0.5),)))
         self.fails("does not prove", self.M, make(pairs=((1, 0, 0.5),)), make(pairs=((0, 0, 0.0),)))
         for axes in (0, 1):
-            self.holds(self.M, make(links=(link(axes=axes), link(axes=axes, p=(0, 0, 1)))))
+            self.holds(self.M, make(links=(moves(axes=axes), moves(axes=axes, p=(0, 0, 1)))))
         for axes in (2, 3, 256, 1 << 16, 1 << 31, (1 << 32) - 1):
-            self.fails("no such axes", self.M, make(links=(link(axes=axes), free(p=(0, 0, 1)))),
-                       make(links=(free(), link(axes=axes, p=(0, 0, 1)))))
+            self.fails("no such axes", self.M, make(links=(moves(axes=axes), free(p=(0, 0, 1)))),
+                       make(links=(free(), moves(axes=axes, p=(0, 0, 1)))))
         deep = [turns(on=i) for i in range(199)]
         self.holds(self.M, make(links=(*deep, free(p=(0, 0, 1))), bodies=((FLAT, 199), (FLAT, 200))))
         self.fails("chain", self.M, make(links=(*deep, turns(on=199))), verdict="unverifiable")
@@ -509,7 +516,8 @@ class Free(Case):
     def test_numbers(self):
         for bad in (math.nan, math.inf, -math.inf):
             for place, x in ((4, free((0, bad, 1))), (28, free(q=(0, bad, 0, 1))), (60, free(c=(0, bad, 0))),
-                             (88, free(v=(0, bad, 0))), (112, free(w=(0, bad, 0))), (136, link(alpha=bad)), (136, link(beta=bad))):
+                             (88, free(v=(0, bad, 0))), (112, free(w=(0, bad, 0))), (136, moves(alpha=bad)),
+                             (136, moves(beta=bad))):
                 self.fails(f"byte {28 + LINK + place} ", self.M, self.flat(leaf(Z), lb=x), verdict="unverifiable")
         p = 0, 0, 1
         for link in (free(p, w=(0, 0, 1000)), turns(p=p, beta=1000.0), turns(p=p, alpha=-1000.0)):
@@ -631,21 +639,21 @@ class Joints(Case):
         self.fails("does not prove", files, make(0.0, 0))
 
     def test_axes(self):
-        # R0 takes x to y. B goes along x of the parent, or of the joint, which is y of the parent: from 0.5 to 1.5, as s v.
+        # R0 takes x to y. B goes along x of the parent, or of the joint, which is y of the parent: from 0.5 to 1.5.
         q = 0, 0, math.sqrt(0.5), math.sqrt(0.5)
         for axes, n, other, end in ((0, X, Y, (2, 0, 0)), (1, Y, X, (0, 2, 0))):
             for scale in (1.0, -0.25):
-                x = link((scale, 0, 0), ZERO, 0.5 / scale, 1 / scale, axes, q=q)
+                x = moves((scale, 0, 0), ZERO, 0.5 / scale, 1 / scale, axes, q=q)
                 def make(axis, margin, p=ZERO): return two(POINT, POINT, free(p), x, leaf(axis), margin)
                 self.holds(self.M, make(n, 0.4999), make(minus(n), 0.4999, end))
                 self.fails("does not prove", self.M, make(n, 0.5001), make(minus(n), 0.5001, end), make(other, 0.0),
                            make(minus(other), 0.0))
-        # An axis that is x of the parent, or of the joint: a point at x = 1 of the link, which is y = 1 of the parent, goes
-        # to y = -1 by half of a turn about x, or stays.
+        # An axis that is x of the parent, or of the joint: a point at x = 1 of the link, which is y = 1 of the parent,
+        # goes to y = -1 by half of a turn about x, or stays.
         b = points((1, 0, 0))
         files = *self.M, b, certificate(b)
         for axes, n in ((0, minus(Y)), (1, Y)):
-            x = link(ZERO, (1, 0, 0), math.pi - 0.001, 0.002, axes, q=q)
+            x = moves(ZERO, (1, 0, 0), math.pi - 0.001, 0.002, axes, q=q)
             def make(axis, margin): return two(POINT, b, free(), x, leaf(axis), margin)
             self.holds(files, make(n, 0.9999))
             self.fails("does not prove", files, make(minus(n), 0.0), make(n, 1.0001))
@@ -659,10 +667,9 @@ class Joints(Case):
         # With R0 v and R0 a along the axes of the parent it is the same link, and so it is with powers of two.
         rng = random.Random(12)
         for _ in range(30):
-            x, t = link(*([rng.uniform(-1, 1) for _ in range(3)] for _ in "va"), rng.uniform(-2, 2), rng.uniform(-2, 2), 1,
-                        [rng.uniform(-1, 1) for _ in range(3)], [rng.gauss(0, 1) for _ in range(4)],
-                        [rng.uniform(-1, 1) for _ in range(3)]), rng.random()
-            x = x._replace(q=fscale(1 / flength(x.q), x.q))
+            v, a, p, c, (alpha, beta, t) = ([rng.uniform(-1, 1) for _ in range(3)] for _ in range(5))
+            q = [rng.gauss(0, 1) for _ in range(4)]
+            x = moves(v, a, 2 * alpha, 2 * beta, 1, p, fscale(1 / flength(q), q), c)
             turned = x._replace(axes=0, v=rotate(x.q, x.v), a=rotate(x.q, x.a))
             double = x._replace(v=fscale(8, x.v), a=fscale(8, x.a), alpha=x.alpha / 8, beta=x.beta / 8)
             want = self.poses(x, t)
@@ -683,7 +690,7 @@ class Joints(Case):
             v, a, p, c, y = ([rng.uniform(-1, 1) for _ in range(3)] for _ in range(5))
             q, t = [rng.gauss(0, 1) for _ in range(4)], rng.random()
             q = fscale(1 / flength(q), q)
-            x = link(v, a, rng.uniform(-3, 3), rng.uniform(-3, 3), trial & 1, p, q, c)
+            x = moves(v, a, rng.uniform(-3, 3), rng.uniform(-3, 3), trial & 1, p, q, c)
             matrix = [rotate(q, e) for e in UNIT3]  # its columns
             def r0(u): return fadd(*[fscale(f, column) for f, column in zip(u, matrix)])
             if x.axes:
@@ -703,14 +710,15 @@ class Joints(Case):
             self.assertLess(flength(fsub(where([x], 1, y, t), at)), 1e-8)
 
     def test_screw(self):
-        # A point at (2, 0, 0) of a link whose centre is (1, 0, 0) goes by one turn along a helix about that, and up or down
-        # by 0.75. There is a plate at z = 1. R0 is half of a turn about x, so that v and a of the joint point down.
+        # A point at (2, 0, 0) of a link whose centre is (1, 0, 0) goes by one turn along a helix about that, and up or
+        # down by 0.75. There is a plate at z = 1. Half of a turn about x lets v and a of the joint point down.
         b, corner = points((2, 0, 0)), (0, (WHOLE, 0, 0))
         plate = mesh([(-9, -9, 1), (9, -9, 1), (0, 9, 1)], [(0, 1, 2)])
         files, turn, over = (b, certificate(b), plate, certificate(plate), *self.M), 2 * math.pi, (1, 0, 0, 0)
-        for (axes, q, side), pitch in itertools.product(((0, (0, 0, 0, 1), 1), (0, over, 1), (1, over, -1)), (0.75, -0.75)):
+        ways = (0, (0, 0, 0, 1), 1), (1, (0, 0, 0, 1), 1), (0, over, 1), (1, over, -1)
+        for (axes, q, side), pitch in itertools.product(ways, (0.75, -0.75)):
             v, p = (0, 0, pitch / turn), (0, 0, -side * 0.25 * pitch / turn)
-            x, gap = link(v, (0, 0, 1), 0.25, turn, axes, p, q, (1, 0, 0)), 0.25 if side * pitch > 0 else 1.0
+            x, gap = moves(v, (0, 0, 1), 0.25, turn, axes, p, q, (1, 0, 0)), 0.25 if side * pitch > 0 else 1.0
             def make(margin):
                 return proof([x], [(b, 1), (plate, 0)], [(0, 1, margin)], halves(7, lambda _: leaf(Z)))
             self.holds(files, make(gap - 0.001))
@@ -760,7 +768,7 @@ class Turning(Case):
                 self.fails("does not prove", self.M, self.plates(leaf(X, frame), 0.0, apart))
 
     def test_two_links_that_turn_alike(self):
-        # The lemmas do not know that both turn about one axis. In half of a stretch either turns by 1.5 / 2^(depth + 1), so
+        # The lemmas do not know that both turn about one axis. In half of a stretch either turns by 0.75 / 2^depth, and
         # theta is twice that. Corners are at up to sqrt 18 (A) and sqrt 19 (B).
         for depth, frame in itertools.product((3, 4, 5), (1, 2)):
             theta = 1.5 / 2 ** depth
@@ -883,8 +891,8 @@ class SecondOrder(Case):
         # An arm that gets longer: theta^2 (|d| + |m|) + 2 theta |m|.
         slide = [z, slides((1, 0, 0), 0.9, 1.0, on=1)]
         self.bound(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, slide, (0, 2), 0)
-        # A screw is a joint that turns and an arm that gets longer: the arm is before the turn, and the point behind it.
-        screw = [z, link((1, 0, 0), (0, 0, 1), -0.1, 1.0, 1, p=(1, 0, 0), on=1)]
+        # A screw turns, and its arm gets longer: the arm is before the turn, and the point behind it.
+        screw = [z, moves((1, 0, 0), (0, 0, 1), -0.1, 1.0, 1, p=(1, 0, 0), on=1)]
         self.bound(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, screw, (0, 2), 0)
         self.bound(2 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1 + 0.04) / 2, screw, (0, 2), 0, zb=(1, 0, 0))
         # From the link of the screw its turn is before the arm; A is at the place of z.
@@ -903,7 +911,7 @@ class SecondOrder(Case):
 
 class SecondDerivatives(Case):
     """Lemma 2 against motions in binary64, which are differentiated as numbers."""
-    STENCIL, STEP = (-49 / 18, 3 / 2, -3 / 20, 1 / 90), 0.02   # of the second derivative, to both sides
+    STENCIL, STEP = (1 / 90, -3 / 20, 3 / 2, -49 / 18, 3 / 2, -3 / 20, 1 / 90), 0.02   # of a second derivative
 
     def seen(self, links, frame, end, t):
         """As the link `frame` sees them: the place of the centre of the other link, and its axes."""
@@ -927,8 +935,7 @@ class SecondDerivatives(Case):
         needs, out = [0, 0], []
         for i in range(-4, 5):
             sides = [self.seen(links, frame, end, t + (i / 4 + j * self.STEP) * h) for j in range(-3, 4)]
-            place, *columns = [fscale(self.STEP ** -2, fadd(*[fscale(self.STENCIL[abs(j - 3)], x) for j, x in enumerate(v)]))
-                               for v in zip(*sides)]
+            place, *columns = [fscale(self.STEP ** -2, fadd(*map(fscale, self.STENCIL, v))) for v in zip(*sides)]
             needs = [*map(max, needs, (flength(place), self.longest(columns)))]
         for need, bound in zip(needs, (k / so.ONE, bend / so.ONE)):
             self.assertLessEqual(need, bound * (1 + 1e-6) + 1e-8)
@@ -937,7 +944,7 @@ class SecondDerivatives(Case):
 
     def test_random_chains(self):
         rng, shares = random.Random(14), ([], [])
-        for trial in range(150):
+        for trial in range(200):
             count = rng.randint(1, 5)
             links = random_links(rng, count, rng.choice((1.0, 3.0)))
             frame, end, k = rng.randint(0, count), rng.randint(0, count), rng.randrange(1, 5)
@@ -945,9 +952,9 @@ class SecondDerivatives(Case):
             for found, share in zip(shares, self.shares(links, frame, end, i / 2 ** k, (i + 1) / 2 ** k)):
                 if share is not None:
                     found.append(share)
-        for found in shares:
+        for found, mean in zip(shares, (0.4, 0.7)):
             self.assertGreater(len(found), 50)
-            print(len(found), sum(found) / len(found), max(found), min(found))
+            self.assertGreater(sum(found) / len(found), mean)
 
     def test_bounds_that_are_needed(self):
         # All along one axis: all of K' is needed, and all of the bound of an arm across it, left or entered.
@@ -1476,7 +1483,7 @@ class Parts(Case):
         # Swapped in the proof: then A is the small triangle, which has no halves.
         links, digests = HEADER - 8 - 16 - 72, [hashlib.sha256(m).digest() for m in (a, b)]
         self.assertEqual(good[links:links + 32] + good[links + 36:links + 68], b"".join(digests))
-        swapped = good.replace(digests[0], b"?" * 32).replace(digests[1], digests[0]).replace(b"?" * 32, digests[1])
+        swapped = good[:links] + digests[1] + good[links + 32:links + 36] + digests[0] + good[links + 68:]
         self.fails("", (a, ca, b, cb), swapped)
         # Really swapped, the axes point the other way.
         self.holds((a, ca, b, cb), two(b, a, *self.rest, b"\1" + leaf(minus(X)) + leaf(minus(Y)), margin=0.24))
@@ -1619,10 +1626,10 @@ class Contact(Case):
                     self.fails("too far apart", files, made)
         # The least weight counts: it takes the point 2^-55 down from 0, where it is 1 below that of B.
         for low, high in itertools.permutations(range(3), 2):
-            a = mesh([(0, 0, -(i == low)) for i in range(3)], [(0, 1, 2)])
-            files, w = (a, certificate(a), POINT, POINT_TREE), (0, [(i == low) + (WHOLE - 1) * (i == high) for i in range(3)])
+            a, w = mesh([(0, 0, -(i == low)) for i in range(3)], [(0, 1, 2)]), [0, 0, 0]
+            w[low], w[high], files = 1, WHOLE - 1, (a, certificate(a), POINT, POINT_TREE)
             def make(tolerance):
-                return two(a, POINT, free(), free((0, 0, 1)), leaf(Z), 0.5, (0.5, tolerance, w, self.corner))
+                return two(a, POINT, free(), free((0, 0, 1)), leaf(Z), 0.5, (0.5, tolerance, (0, w), self.corner))
             self.holds(files, make(math.nextafter(0.5, 1)))
             self.fails("too far apart", files, make(0.5))
 
@@ -1660,16 +1667,16 @@ class Contact(Case):
         rng, a, b = random.Random(4), points((1, 0, 2, 0.25), (5, 5, 5)), points((0, -1, 1, 0.5))
         files = a, certificate(a, [1, 0]), b, certificate(b)
         for _ in range(25):
-            links, corner, tau = random_links(rng, 5), (WHOLE, 0, 0), rng.random()
-            ends = rng.randint(0, 5), rng.randint(0, 5)
-            far = flength(fsub(where(links, ends[0], (1, 0, 2), tau), where(links, ends[1], (0, -1, 1), tau)))
+            far = 0
+            while far < 1:                          # not within the margin and the radii
+                links, tau, ends = random_links(rng, 5), rng.random(), [rng.randint(0, 5) for _ in "AB"]
+                far = flength(fsub(where(links, ends[0], (1, 0, 2), tau), where(links, ends[1], (0, -1, 1), tau)))
             def make(tolerance):
+                corner = WHOLE, 0, 0
                 return proof(links, [(a, ends[0]), (b, ends[1])], [(0, 1, 0.125)], leaf(Z), 1.0,
                              (0, tau, tolerance - 0.875, (1, corner), (0, corner)))
-            self.assertIn(["too far apart"], [[c for c in ("too far apart",) if c in reason]
-                                              for _, reason in self.run_files(files, make(far - 1e-9))])
-            for _, reason in self.run_files(files, make(far + 1e-9)):
-                self.assertNotIn("too far apart", reason)
+            self.fails("too far apart", files, make(far - 1e-9))
+            self.assertNotIn("too far apart", self.run_files(files, make(far + 1e-9))[0][1])
 
 
 class Arithmetic(Case):
@@ -1839,15 +1846,17 @@ class Random(Case):
             want, most = self.readme_ball(links, end, corners, frame, *span)
             self.assertLess(flength(fsub(point, want)), 1e-9)
             self.assertAlmostEqual(limit, most, 9)
-            farthest = 0
+            farthest, centres = 0, 0
             for j in range(17):
                 t = span[0] + (span[1] - span[0]) * j / 16
                 for *y, ball in corners:
                     x = self.seen(links, frame, where(links, end, y, t), t)
+                    centres = max(centres, flength(fsub(x, point)))
                     farthest = max(farthest, flength(fsub(x, point)) + ball)
             self.assertLessEqual(farthest, limit + 1e-9)
             if k == 8 and len(corners) == 3:
-                self.assertLess(limit - farthest, 0.1)
+                # The ball has the largest radius all around, so that of the farthest corner may be smaller.
+                self.assertLess(limit - centres - max(ball for *_, ball in corners), 0.02)
                 close += 1
         self.assertGreater(close, 3)
 

@@ -96,8 +96,8 @@ impl<'a> Part<'a> {
 
     /// Returns whether all points of the part are farther than a limit from a point.
     pub(crate) fn is_beyond(self, point: Vector, limit: i64) -> bool {
-        self.all(&|part| {
-            let [x, y, z, [_, radius]] = part.node.ranges;
+        self.all(&|node| {
+            let [x, y, z, [_, radius]] = node.ranges;
             let away = [0, 1, 2].map(|k| ([x, y, z][k][0] - point[k]).max(point[k] - [x, y, z][k][1]).max(0));
             dot(away, away) > product(limit + radius, limit + radius)
         })
@@ -108,15 +108,14 @@ impl<'a> Part<'a> {
     pub(crate) fn is_above(self, direction: Vector, limit: i128) -> bool {
         let [i, j, k] = direction.map(|x| usize::from(x < 0));
         let is_high = |&[x, y, z, radius]: &Corner| dot(direction, [x, y, z]) - product(ONE, radius) >= limit;
-        self.all(&|part| {
-            let Node { triangle, parts, ranges: [x, y, z, radius], .. } = part.node;
+        self.all(&|Node { triangle, parts, ranges: [x, y, z, radius], .. }| {
             is_high(&[x[i], y[j], z[k], radius[1]]) || parts.is_none() && self.body.triangles[*triangle].iter().all(is_high)
         })
     }
 
     /// Returns whether something is so of the part, or of all parts that it is split into.
-    fn all(self, is_so: &impl Fn(Self) -> bool) -> bool {
-        is_so(self) || self.halves().is_some_and(|halves| halves.iter().all(|half| half.all(is_so)))
+    fn all(self, is_so: &impl Fn(&Node) -> bool) -> bool {
+        is_so(self.node) || self.halves().is_some_and(|[first, second]| first.all(is_so) && second.all(is_so))
     }
 }
 

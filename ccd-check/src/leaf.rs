@@ -13,7 +13,7 @@ impl Stretch<'_> {
         let ((middle, radius), centre) = (part.node.ball, self.links.all[part.link].centre);
         // Corners and centre are off by less than 2 each.
         let reach = length(sub(middle, centre)) + i128::from(radius) + 4;
-        let least = i128::from(least + d) + way.bend(reach) / 2 + 1 + 8 * self.links.loss(reach);
+        let least = i128::from(least + d) + way.bend(reach, 0) / 2 + 1 + 8 * self.links.loss(reach);
         let least = least * i128::from(ONE) - dot(normal, sub(link.place, seen_from.place));
         let (change, tilt) = (dot(normal, way.change), cross(normal, way.turn));
         // If nothing is known to move, both ends ask for the same: what may move yet is in what is lost.
@@ -29,8 +29,9 @@ impl Stretch<'_> {
         let [link, carrier] = [part, around].map(|part| (&self.placed[part.link], self.links.all[part.link].centre));
         let ((middle, radius), way) = (around.node.ball, Way::new(self, part.link, around.link)?);
         let arm = turned(carrier.0.rotation, sub(middle, carrier.1));
-        let loss = self.links.loss(length(arm));
-        let travel = length(add(way.change, cross(way.turn, arm))) + way.bend(length(arm) + loss) / 2 + 1;
+        let reach = length(arm);
+        let loss = self.links.loss(reach);
+        let travel = length(add(way.change, cross(way.turn, arm))) + way.bend(reach + loss, 0) / 2 + 1;
         let point = add(link.1, turned_back(link.0.rotation, add(sub(carrier.0.place, link.0.place), arm)));
         let limit = i128::from(radius + margin) + travel + 8 * loss;
         Some(limit < 1 << 60 && part.is_beyond(point, limit as i64))

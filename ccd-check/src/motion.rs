@@ -110,7 +110,7 @@ pub(crate) struct Way {
 impl Way {
     /// Returns the way from a link to another one; `None` if the joints turn by more than two radians, over which nothing is proven.
     pub(crate) fn new(Stretch { links, placed }: &Stretch<'_>, from: usize, to: usize) -> Option<Way> {
-        let (mut way, mut left, mut entered, mut path) = (Way::default(), from, to, Vec::new());
+        let (mut way, mut left, mut entered, mut path) = (Way::default(), from, to, Vec::with_capacity(8));
         while left != entered {
             if left > entered {
                 way.turn_by(&placed[left], -1)?;
@@ -128,9 +128,9 @@ impl Way {
         Some(way)
     }
 
-    /// Returns a bound of the second derivative of a point that the link carries so far from its centre.
-    pub(crate) fn bend(&self, reach: i128) -> i128 {
-        self.bend + up(self.angle, up(self.angle, reach))
+    /// Returns a bound of the second derivative of the vector and one more, so long, that the link carries and that changes at a rate.
+    pub(crate) fn bend(&self, long: i128, rate: i128) -> i128 {
+        self.bend + up(self.angle, up(self.angle, long + rate) + 2 * rate)
     }
 
     fn turn_by(&mut self, &Placed { turn: (turn, angle), .. }: &Placed, sign: i64) -> Option<()> {
@@ -139,9 +139,9 @@ impl Way {
         (self.angle <= product(2, ONE)).then_some(())
     }
 
-    fn move_by(&mut self, &Placed { arm: (arm, reach), travel: (travel, rate), .. }: &Placed, sign: i64) {
+    fn move_by(&mut self, &Placed { arm: (arm, long), travel: (travel, rate), .. }: &Placed, sign: i64) {
         let change = add(travel, cross(self.turn, arm));
         self.change = add(self.change, change.map(|x| sign * x));
-        self.bend = self.bend(reach + rate) + 2 * up(self.angle, rate);
+        self.bend = self.bend(long, rate);
     }
 }

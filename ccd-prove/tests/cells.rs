@@ -1,6 +1,6 @@
 //! Proofs of paths of a small robot: each that is written holds, also at the limits.
 
-use ccd_prove::{NotProven, PathNotProven, Proof, ProvenCell};
+use ccd_prove::{NotProven, PathNotProven, Proof, ProvenCell, StatedLink, Statement};
 use rigid_ccd::{Body, Pose, Settings, trajectory};
 use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, PositionRule, Robot};
 use std::sync::Arc;
@@ -113,4 +113,70 @@ fn turns_beyond_the_range_of_the_checker_are_refused() {
     let used = cell(block(1.0), (block(1.0), 9.0), Some(block(0.5)));
     let path = [[0.0, 255.0], [0.5, 129.0]];
     assert_eq!(prove_and_check(&used, &path).unwrap().len(), 1);
+}
+
+/// Positions of joints are stated as they are asked for, whatever power of two a sliding one has given to its line.
+#[test]
+fn positions_of_joints_are_read_from_statements() {
+    let cell = cell(block(0.5), (block(0.5), 900.0), Some(block(1.0)));
+    let proven = ProvenCell::new(&cell).unwrap();
+    let paths = [
+        [[0.0, 0.0], [0.0, 0.0]],
+        [[0.1, 0.2], [0.3, -0.4]],
+        [[600.7, -100.0], [-0.3, 20.0]],
+    ];
+    for path in paths {
+        let [proof] = &prove_and_check(&cell, &path).unwrap()[..] else {
+            panic!("one proof for a segment");
+        };
+        let statement = Statement::read(&proof.bytes).unwrap();
+        let joints = proven.joints_of(&statement, 0.0).unwrap();
+        let [from, to] = [0, 1].map(|k| [joints[0].1[k], joints[1].1[k]]);
+        assert_eq!([joints[0].0, joints[1].0], ["car", "wheel"]);
+        let ends = [
+            path[0],
+            [0, 1].map(|k| path[0][k] + (path[1][k] - path[0][k])),
+        ];
+        assert_eq!([from, to], ends);
+        // Other margins, other obstacles.
+        assert_eq!(proven.joints_of(&statement, 0.1), None);
+        let other = self::cell(block(0.5), (block(0.4), 900.0), Some(block(1.0)));
+        let other = ProvenCell::new(&other).unwrap();
+        assert_eq!(other.joints_of(&statement, 0.0), None);
+    }
+}
+
+/// Joints that are not those of the statement, in what it leaves to a power of two.
+#[test]
+fn statements_about_other_joints_are_seen() {
+    let cell = cell(block(0.5), (block(0.5), 900.0), Some(block(1.0)));
+    let proven = ProvenCell::new(&cell).unwrap();
+    let proof = &prove_and_check(&cell, &[[0.1, 0.2], [0.3, -0.4]]).unwrap()[0];
+    let statement = Statement::read(&proof.bytes).unwrap();
+    assert!(proven.joints_of(&statement, 0.0).is_some());
+    let changes: [fn(&mut StatedLink); 8] = [
+        |link| link.velocity[0] *= 3.0,
+        |link| link.velocity[0] *= -1.0,
+        |link| link.velocity[1] = 1.0,
+        |link| link.velocity = [0.0; 3],
+        |link| link.velocity[0] = f64::NAN,
+        |link| link.axis[0] += 0.5,
+        |link| link.axes = 0,
+        |link| link.position[2] = 1.0,
+    ];
+    for (number, change) in changes.into_iter().enumerate() {
+        for link in 0..2 {
+            let mut other = statement.clone();
+            change(&mut other.links[link]);
+            let is_same = other == statement;
+            assert_eq!(proven.joints_of(&other, 0.0).is_some(), is_same, "{number}");
+        }
+    }
+    // A power of two is taken from positions and given to the line.
+    let mut same = statement.clone();
+    same.links[0].velocity[0] *= 8.0;
+    same.links[0].start /= 8.0;
+    same.links[0].rate /= 8.0;
+    let joints = |of| proven.joints_of(of, 0.0);
+    assert_eq!(joints(&same), joints(&statement));
 }

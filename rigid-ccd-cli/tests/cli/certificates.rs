@@ -56,7 +56,9 @@ fn statements_and_steps_are_shown() {
     let scene = proofs();
     let text = check(&scene, &["proofs/aside.proof", "--show", "--steps"], 0);
     for line in [
-        "link 1 on 0 free [0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 3.0, 0.0,",
+        "link 1 on 0 position [0.0, 0.0, 4.0] quaternion [0.0, 0.0, 0.0, 1.0] centre [0.0, 0.0, 0.0] axes of the parent",
+        "velocity [0.0, 0.0, -0.25] axis [0.75, 0.0,",
+        "start 0.0 rate 4.0",
         "body 0 ",
         "pair 0 of 0 and 1 margin 0.0",
         "until 1.0",
