@@ -462,7 +462,7 @@ class Free(Case):
         self.fails("does not prove", self.M, self.flat(leaf(Y)))
         for axis in ((0, 0, ONE + 1), (1, 0, ONE), (0, 0, -2 * ONE), (32 * ONE - 1, 0, 0), (0, -32 * ONE, 0)):
             self.fails("does not prove", self.M, self.flat(leaf(axis, 0, 1 << 39)))
-        # One that is 1 long exactly is not, and one that is a bit longer proves nothing, however far B is.
+        # A normal that is 1 long exactly proves something, and one that is a bit longer does not, however far B is.
         lb, half = free(p=(0, 0, 100)), 1 << 45
         self.holds(self.M, self.flat(leaf(Z, 0, half), lb=lb), self.flat(leaf((0, 0, ONE - 1), 0, half), lb=lb))
         for axis in ((0, 0, ONE + 1), (1, 0, ONE)):
@@ -507,8 +507,9 @@ class Free(Case):
         for axes in (0, 1):
             self.holds(self.M, make(links=(moves(axes=axes), moves(axes=axes, p=(0, 0, 1)))))
         for axes in (2, 3, 256, 1 << 16, 1 << 31, (1 << 32) - 1):
-            self.fails("no such axes", self.M, make(links=(moves(axes=axes), free(p=(0, 0, 1)))),
-                       make(links=(free(), moves(axes=axes, p=(0, 0, 1)))))
+            for at, links in (28, (moves(axes=axes), free(p=(0, 0, 1)))), (28 + LINK, (free(), moves(axes=axes))):
+                self.fails(f"byte {at + 84} ", self.M, make(links=links))
+                self.fails("no such axes", self.M, make(links=links))
         deep = [turns(on=i) for i in range(199)]
         self.holds(self.M, make(links=(*deep, free(p=(0, 0, 1))), bodies=((FLAT, 199), (FLAT, 200))))
         self.fails("chain", self.M, make(links=(*deep, turns(on=199))), verdict="unverifiable")

@@ -100,7 +100,7 @@ impl StatedWitness {
     fn read(at: &mut Cursor<'_>) -> Option<Self> {
         let (pair, time, tolerance) = (at.u32()?, at.f64()?, at.f64()?);
         let mut point = || {
-            let (triangle, mut weight) = (at.u32()?, || Some(signed(at.take(7)?) as u64));
+            let (triangle, mut weight) = (at.u32()?, || Some(unsigned(at.take(7)?)));
             Some((triangle, [weight()?, weight()?, weight()?]))
         };
         Some(StatedWitness {
@@ -258,12 +258,14 @@ fn plane(at: &mut Cursor<'_>) -> Option<String> {
     Some(format!("{normal:?} {}", number()?))
 }
 
-/// Returns a number in two's complement.
+/// Returns a number of 7 bytes in two's complement.
 fn signed(bytes: &[u8]) -> i64 {
-    let negative = bytes.last().is_some_and(|byte| byte & 0x80 != 0);
-    let first = if negative { -1 } else { 0 };
+    (unsigned(bytes) as i64) << 8 >> 8
+}
+
+fn unsigned(bytes: &[u8]) -> u64 {
     let bytes = bytes.iter().rev();
-    bytes.fold(first, |number, &byte| number << 8 | i64::from(byte))
+    bytes.fold(0, |number, &byte| number << 8 | u64::from(byte))
 }
 
 /// What is not read yet.

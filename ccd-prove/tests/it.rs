@@ -335,6 +335,30 @@ fn each_kind_of_forgery_is_seen() {
     );
 }
 
+/// Weights are read as they are stated, also that of a point that is a corner, which has all.
+#[test]
+fn weights_of_witnesses_add_up_to_one() {
+    let point = Body::new(&[[0.0; 3]], &[[0; 3]]);
+    let falls = Motion::new(
+        Pose::at([0.0, 0.0, 1.0]).unwrap(),
+        [0.0, 0.0, -1.0],
+        [0.0; 3],
+    );
+    let scene = Scene::of_two((&point, falls.unwrap()), (&point, Motion::STILL), 0.0);
+    let witness = Witness {
+        pair: 0,
+        time: 0.9995,
+        tolerance: 1e-3,
+        points: [DVec3::new(0.0, 0.0, 0.0005), DVec3::ZERO],
+    };
+    let proof = prove(&scene, 0.9995, Some(witness)).unwrap();
+    let stated = Statement::read(&proof.bytes).unwrap().witness.unwrap();
+    for (_, weights) in stated.points {
+        assert_eq!(weights.iter().sum::<u64>(), 1 << 55);
+        assert_eq!(weights.iter().max(), Some(&(1 << 55)));
+    }
+}
+
 #[test]
 fn contacts_that_are_said_to_be_later_are_seen() {
     let meshes = Meshes::new();
