@@ -3,8 +3,8 @@
 use crate::{Body, Checked, Stop, body::Part, motion::Links, number::*, reader::Reader};
 use alloc::{collections::BTreeMap, vec::Vec};
 
-/// Links are kept as they are in the middle of stretches of time, until these are so many, which is 200 MB.
-const MAX_KEPT: usize = 1 << 20;
+/// Links are kept as they are in the middle of stretches of time, until these are so many, which is some 200 MB.
+const MAX_KEPT: usize = 1 << 19;
 
 /// Weights of corners are multiples of 2⁻⁵⁵.
 const WEIGHT: u32 = 55;
@@ -14,6 +14,9 @@ type Pair<'b> = ([Part<'b>; 2], i64);
 
 /// Checks a certificate about meshes. Nothing is said of any other statement than the one in the certificate: the caller
 /// compares it with the one that he wants.
+///
+/// A leaf takes time in proportion to the links, if no other one had its stretch of time, and to its parts: so of a hostile file in
+/// proportion to the square of its length.
 ///
 /// # Errors
 /// [`Stop`] if the certificate does not prove its statement, or the checker cannot tell.
@@ -123,13 +126,19 @@ mod tests {
     /// A proof without steps, of two triangles on two links of a chain, that they are apart until 1. Each link rests at a height above
     /// the one before.
     fn proof(heights: &[f64], triangles: ([u32; 2], &Body)) -> Vec<u8> {
+        let rest: Vec<[f64; 9]> = heights.iter().map(|&height| [height, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).collect();
+        proof_of_moving(&rest, triangles)
+    }
+
+    /// Such a proof about links of which the height is given, and v, a, α and β.
+    fn proof_of_moving(chain: &[[f64; 9]], triangles: ([u32; 2], &Body)) -> Vec<u8> {
         let mut proof = b"CCDPROF1".to_vec();
-        proof.extend([0, 0, heights.len() as u32, 2, 1].map(u32::to_le_bytes).concat());
-        for (parent, height) in (0u32..).zip(heights) {
+        proof.extend([0, 0, chain.len() as u32, 2, 1].map(u32::to_le_bytes).concat());
+        for (parent, [height, moves @ ..]) in (0u32..).zip(chain) {
             proof.extend(parent.to_le_bytes());
             proof.extend(numbers(&[0.0, 0.0, *height, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]));
             proof.extend([0; 4]);
-            proof.extend(numbers(&[0.0; 8]));
+            proof.extend(numbers(moves));
         }
         for link in triangles.0 {
             proof.extend(triangles.1.digest);
@@ -159,6 +168,23 @@ mod tests {
         };
         assert_eq!(verdict(63), Ok(()));
         assert_eq!(verdict(64), Err(Stop::Unverifiable("links turn or reach too far in all")));
+    }
+
+    /// A link that reaches so far that the sum of its lengths has more bits than a number: one that wraps around would leave nothing
+    /// to be lost, and two triangles at one place would be apart.
+    #[test]
+    fn lengths_beyond_all_numbers_are_unverifiable() {
+        let body = triangle();
+        let far = (1u64 << LENGTH) as f64;
+        for [start, rate] in [[256.0, 256.0], [256.0, -256.0], [-256.0, 0.0], [0.0, 256.0]] {
+            let strange = [0.0, far, far, far, 0.0, 0.0, 0.0, start, rate];
+            for links in [[0, 0], [1, 1], [0, 1]] {
+                let mut proof = proof_of_moving(&[strange], (links, &body));
+                proof.extend(leaf(0));
+                let verdict = check(core::slice::from_ref(&body), &proof);
+                assert_eq!(verdict, Err(Stop::Unverifiable("links turn or reach too far in all")));
+            }
+        }
     }
 
     /// Two triangles far apart on a long chain, over ever shorter stretches, so that not all links are kept.

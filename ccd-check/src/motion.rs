@@ -48,7 +48,7 @@ impl Links {
             arm[0] = sub(add(add(position, turned(start, centre)), arm[0]), links.all[parent].centre);
             let turn = at.map(|at| scaled(axis, at, FRACTION));
             links.off += (3 + ((at[0].abs() + at[1].abs()) >> RADIAN)) << 10;
-            links.size += arm.as_flattened().iter().map(|x| x.abs()).sum::<i64>();
+            links.size = arm.as_flattened().iter().fold(links.size, |size, x| size.saturating_add(x.abs()));
             verifiable(links.off <= ONE >> 30 && links.size <= 1 << (LENGTH + 6), "links turn or reach too far in all")?;
             links.all.push(Link { parent, centre, start, arm, turn });
         }
