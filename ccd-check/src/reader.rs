@@ -48,7 +48,9 @@ impl<'a> Reader<'a> {
 
     /// Reads a number of so many bytes, at most 8, without a sign.
     pub(crate) fn unsigned(&mut self, count: usize) -> Checked<u64> {
-        Ok(self.take(count)?.iter().rev().fold(0, |number, &byte| number << 8 | u64::from(byte)))
+        let mut number = [0; 8];
+        number[..count].copy_from_slice(self.take(count)?);
+        Ok(u64::from_le_bytes(number))
     }
 
     /// Reads a number of so many bytes, at most 7, in two's complement.
