@@ -75,10 +75,10 @@ fn forged_proofs_and_those_of_other_bodies_are_refused() {
     assert_contains(&text, "proofs/drop.proof: other bodies");
     let path = scene.directory.join("proofs/aside.proof");
     let mut forged = fs::read(&path).unwrap();
-    // The cube falls at 4 instead of 1.
-    let velocity = 33 + 9 * 8..33 + 10 * 8;
-    assert_eq!(forged[velocity.clone()], (-1.0f64).to_le_bytes());
-    forged[velocity].copy_from_slice(&(-4.0f64).to_le_bytes());
+    // The cube falls at 4 instead of 1: four times what is stated, as a link moves by 4 in a second.
+    let velocity = 132..140;
+    assert_eq!(forged[velocity.clone()], (-0.25f64).to_le_bytes());
+    forged[velocity].copy_from_slice(&(-1.0f64).to_le_bytes());
     fs::write(&path, &forged).unwrap();
     let text = check(&scene, &["proofs/aside.proof"], 3);
     assert_contains(&text, "aside.proof: broken: ");
