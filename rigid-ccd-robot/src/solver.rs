@@ -39,7 +39,8 @@ use search::Search;
 /// [`JointCurve`](crate::JointCurve).
 ///
 /// The margin of the settings is the distance at which bodies count as touching. A deadline is for a whole question, the
-/// budget for each query of two bodies that a path leaves to the engine. Contacts at the start are always reported.
+/// budget for each query of two bodies that a path leaves to the engine. A budget may end such a query at a contact that is later,
+/// within the tolerance of what is asked for, than the one that a larger budget finds. Contacts at the start are always reported.
 pub struct CellSolver<'c> {
     cell: &'c Cell,
     search: Search<'c>,
