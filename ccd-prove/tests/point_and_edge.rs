@@ -1,7 +1,7 @@
 //! Proofs of a point and an edge that come very near each other, by cases from the tests of other libraries.
 
 use ccd_core::{Motion, Pose};
-use ccd_prove::{Body, Scene, prove};
+use ccd_prove::{Body, NotProven, Scene, prove};
 use std::f64::consts::TAU;
 
 /// Proves and checks that a point and an edge are apart until a time.
@@ -62,4 +62,18 @@ fn bodies_that_fly_side_by_side_are_proven_apart() {
         ),
         1.0,
     );
+}
+
+/// A power of two cannot be taken from the least numbers.
+#[test]
+fn a_velocity_that_loses_bits_is_refused() {
+    let point = Body::new(&[[0.0; 3]], &[[0; 3]]);
+    let velocity = [3.0 * 5e-324, 0.0, 0.0];
+    let verdict = |spin: f64| {
+        let motion = flight([0.0, 0.0, 1.0], velocity, [0.0, 0.0, spin]);
+        let scene = Scene::of_two((&point, motion), (&point, Motion::STILL), 0.0);
+        prove(&scene, 1.0, None).map(|_| ())
+    };
+    assert_eq!(verdict(3.0), Err(NotProven::TooSmall { link: 1 }));
+    assert_eq!(verdict(0.0), Ok(()));
 }
