@@ -26,13 +26,13 @@ impl Stretch<'_> {
 
     /// Returns whether a part stays farther than a margin from a ball around another one, as it is seen from the link of the part.
     pub(crate) fn keeps_beyond_ball(&self, part: Part<'_>, around: Part<'_>, margin: i64) -> Option<bool> {
-        let [link, carrier] = [part, around].map(|part| (&self.placed[part.link], self.links.all[part.link].centre));
+        let [(link, centre), (carrier, pivot)] = [part.link, around.link].map(|k| (&self.placed[k], self.links.all[k].centre));
         let ((middle, radius), way) = (around.node.ball, Way::new(self, part.link, around.link)?);
-        let arm = turned(carrier.0.rotation, sub(middle, carrier.1));
+        let arm = turned(carrier.rotation, sub(middle, pivot));
         let reach = length(arm);
         let loss = self.links.loss(reach);
         let travel = length(add(way.change, cross(way.turn, arm))) + way.bend(reach + loss, 0) / 2 + 1;
-        let point = add(link.1, turned_back(link.0.rotation, add(sub(carrier.0.place, link.0.place), arm)));
+        let point = add(centre, turned_back(link.rotation, add(sub(carrier.place, link.place), arm)));
         let limit = i128::from(radius + margin) + travel + 8 * loss;
         Some(limit < 1 << 60 && part.is_beyond(point, limit as i64))
     }

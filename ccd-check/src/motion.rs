@@ -39,7 +39,7 @@ impl Links {
             verifiable((square - (1 << 120)).abs() <= 1 << 100, "a quaternion is not of unit length")?;
             let [x, y, z, w] = q.map(|x| ((i128::from(x) << FRACTION) / square.isqrt()) as i64);
             let (start, centre) = (([x, y, z], w), reader.all(|reader| reader.number(length, [LENGTH, 0]))?);
-            // What moves does so along the axes of the parent, or of the link.
+            // What is read next is along the axes of the parent, or along those of the joint.
             let axes = [IDENTITY, start][reader.index(2)?];
             let slide = turned(axes, reader.all(|reader| reader.number(length, [LENGTH, 6]))?);
             let axis = turned(axes, reader.all(|reader| reader.number(0, [0, FRACTION]))?);

@@ -1,7 +1,7 @@
 //! Vectors and rotations of integers.
 //!
-//! Fractions, such as the numbers of a quaternion, are multiples of 2⁻⁶⁰. What is dropped is dropped downwards. The README bounds
-//! what that loses.
+//! Fractions, such as the numbers of a quaternion, are multiples of 2⁻⁶⁰. What is dropped is dropped downwards, or towards 0 by a
+//! division. The README bounds what that loses.
 
 /// A point or a vector.
 pub(crate) type Vector = [i64; 3];

@@ -99,15 +99,14 @@ impl<'c> ProvenCell<'c> {
         let still = vec![0.0; robot.free_joint_names().len()];
         let scene = self.edge(&still, &still, margin).ok()?;
         let (own, ..) = state(&scene, &moving(&scene.links, 0).ok()?, 0.0, None).ok()?;
-        let own = Statement::read(&own)?;
-        let links = own.links.iter().zip(&statement.links).zip(&self.links);
-        let joints = links.filter(|((own, _), _)| own.axes > 0);
-        let moving = joints.map(|((own, stated), (.., number))| {
-            let (name, scale) = (&*robot.joints()[*number].name, own.scale(stated)?);
+        let scales = Statement::read(&own)?.scales(statement)?;
+        let links = statement.links.iter().zip(scales).zip(&self.links);
+        let joints = links.filter(|((stated, _), _)| stated.axes > 0);
+        let positions = joints.map(|((stated, scale), (.., number))| {
             let positions = [stated.start, stated.start + stated.rate].map(|by| by * scale);
-            Some((name, positions))
+            (&*robot.joints()[*number].name, positions)
         });
-        own.has_cell_of(statement).then(|| moving.collect())?
+        Some(positions.collect())
     }
 
     /// Returns the pairs of bodies that are compared: those of the first ones of what rests stand for all.

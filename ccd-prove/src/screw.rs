@@ -76,34 +76,32 @@ impl Screw {
 
     fn free(motion: &Motion, time_unit: f64) -> Option<Screw> {
         let (velocity, spin) = (motion.velocity(), motion.spin());
-        let rests = velocity == DVec3::ZERO && spin == DVec3::ZERO;
-        let most = spin.abs().max_element();
-        let rate = match (rests, most > 0.0) {
-            (true, _) => 0.0,
-            (false, true) => greater(power_above(most), 1.0 / time_unit),
-            (false, false) => 1.0 / time_unit,
-        };
-        let scaled = |v| {
-            if rests {
-                Some(v)
-            } else {
-                exactly(v, 1.0 / rate)
-            }
-        };
-        Some(Screw {
+        let at_rest = Screw {
             pose: motion.start(),
             centre: motion.centre(),
             axes: Axes::Parent,
-            velocity: scaled(velocity)?,
-            axis: scaled(spin)?,
-            start: 0.0,
+            ..Screw::REST
+        };
+        if velocity == DVec3::ZERO && spin == DVec3::ZERO {
+            return Some(at_rest);
+        }
+        let (least, most) = (1.0 / time_unit, spin.abs().max_element());
+        let rate = if most > 0.0 {
+            greater(power_above(most), least)
+        } else {
+            least
+        };
+        Some(Screw {
+            velocity: exactly(velocity, 1.0 / rate)?,
+            axis: exactly(spin, 1.0 / rate)?,
             rate,
+            ..at_rest
         })
     }
 
-    /// Returns start and rate, without their signs.
-    pub(crate) fn moved(&self) -> [f64; 2] {
-        [self.start.abs(), self.rate.abs()]
+    /// Returns by how much the link has moved at time 0, and how much it moves in the unit of time, without signs.
+    pub(crate) fn moved(&self, time_unit: i32) -> [f64; 2] {
+        [self.start.abs(), self.rate.abs() * 2f64.powi(time_unit)]
     }
 
     /// Returns by what the centre is moved and the link turned, along the axes of the parent: at time 0, and in a unit of time.

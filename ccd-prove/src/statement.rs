@@ -61,9 +61,9 @@ impl StatedLink {
         })
     }
 
-    /// Returns by what its start and rate are to be multiplied to be those of the same joint at other positions, which a power of two
-    /// may have been taken from; `None` if that is another joint.
-    pub(crate) fn scale(&self, other: &StatedLink) -> Option<f64> {
+    /// Returns by what start and rate of the same joint at other positions are to be multiplied, from which a power of two may have
+    /// been taken; `None` if that is another joint.
+    fn scale(&self, other: &StatedLink) -> Option<f64> {
         let is_fixed = self.axes == 0;
         let [own, theirs] = [self.velocity, other.velocity].map(DVec3::from_array);
         let largest = own.abs().max_position();
@@ -144,14 +144,14 @@ impl Statement {
         })
     }
 
-    /// Returns whether two statements are about the same bodies, on the same links, with the same pairs and margins. The positions
-    /// of joints may differ, and times.
-    pub(crate) fn has_cell_of(&self, other: &Statement) -> bool {
-        let mut links = self.links.iter().zip(&other.links);
-        self.bodies == other.bodies
+    /// Returns by what start and rate of each link of another statement are to be multiplied; `None` if it is not about the same
+    /// bodies, on the same links, with the same pairs and margins. The positions of joints may differ, and times.
+    pub(crate) fn scales(&self, other: &Statement) -> Option<Vec<f64>> {
+        let is_of_cell = self.bodies == other.bodies
             && self.pairs == other.pairs
-            && self.links.len() == other.links.len()
-            && links.all(|(own, theirs)| own.scale(theirs).is_some())
+            && self.links.len() == other.links.len();
+        let links = self.links.iter().zip(&other.links);
+        is_of_cell.then(|| links.map(|(own, theirs)| own.scale(theirs)).collect())?
     }
 
     /// Returns the statement in one line.

@@ -105,11 +105,7 @@ impl<'a> Stretch<'a> {
         least: f64,
     ) -> impl Iterator<Item = (DVec3, f64)> {
         let (way, placed) = (&self.ways[frame][k], &self.placed[k]);
-        let bend = if way.rests() {
-            0.0
-        } else {
-            way.bend(self.bodies[k].reach(part, self.centres[k]))
-        };
+        let bend = way.bend(self.bodies[k].reach(part, self.centres[k]));
         let seen_from = [DVec3::ZERO, self.placed[0].centre, self.placed[1].centre][frame];
         let lost = least + 0.5 * bend * LENGTHS - normal.dot(placed.centre - seen_from);
         let ends: &[f64] = if way.rests() { &[0.0] } else { &[-1.0, 1.0] };

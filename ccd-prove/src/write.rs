@@ -23,7 +23,7 @@ pub struct Proof {
     pub unit: i32,
 }
 
-/// The checker has numbers of 8 bits before the point for turns.
+/// The checker has numbers of 8 bits before the point for what a link has moved by.
 const MOST_RADIANS: f64 = 256.0;
 
 /// Weights of corners are multiples of 2⁻⁵⁵.
@@ -63,7 +63,7 @@ pub(crate) fn prove_unless_stopped(
     let time_unit = exponent_above(until);
     let links = moving(&scene.links, time_unit)?;
     let turns_too_far =
-        |link: &Moving| !moved(link, time_unit).iter().all(|&by| by <= MOST_RADIANS);
+        |link: &Moving| !(link.screw.moved(time_unit).iter()).all(|&by| by <= MOST_RADIANS);
     if let Some(link) = links.iter().position(turns_too_far) {
         return Err(NotProven::TurnsTooFar { link });
     }
@@ -126,13 +126,7 @@ pub(crate) fn state(
     Ok((bytes, unit, lost))
 }
 
-/// Returns by what a link has moved at time 0, and moves in the unit of time.
-fn moved(link: &Moving, time_unit: i32) -> [f64; 2] {
-    let [start, rate] = link.screw.moved();
-    [start, rate * 2f64.powi(time_unit)]
-}
-
-/// Returns the sum of the coordinates of all arms and of their changes in the unit of time, of which the checker has 56 bits.
+/// Returns the sum of the coordinates of all arms and of their changes in the unit of time, of which the checker has 59 bits.
 fn sum_of_lengths(links: &[Moving], time_unit: i32) -> f64 {
     let lengths = links.iter().map(|link| {
         let travel = link.travel * 2f64.powi(time_unit);
@@ -143,7 +137,7 @@ fn sum_of_lengths(links: &[Moving], time_unit: i32) -> f64 {
 
 /// Returns 8 L of the checker's README, for lengths in a unit that add up to so much.
 fn lost(links: &[Moving], time_unit: i32, [unit, lengths]: [f64; 2]) -> f64 {
-    let of_moves = |link: &Moving| 3.0 + moved(link, time_unit).iter().sum::<f64>();
+    let of_moves = |link: &Moving| 3.0 + link.screw.moved(time_unit).iter().sum::<f64>();
     let off = links.iter().map(of_moves).sum::<f64>() * TURNS;
     8.0 * (13.0 * unit * (links.len() + 1) as f64 + off * (lengths + ADDED_TO_SUM * unit))
 }
@@ -191,15 +185,14 @@ fn write_witness(
     write_numbers(bytes, [witness.time, greater(witness.tolerance, needed)]);
     for point in points {
         bytes.extend((point.place as u32).to_le_bytes());
-        // Both together are no more than the whole, also if they are rounded up.
-        let [a, b, _] = point.weights.map(|weight| (weight * WEIGHT_UNIT) as u64);
-        let b = b.min((WEIGHT_UNIT as u64).saturating_sub(a));
-        let rest = WEIGHT_UNIT as u64 - a - b;
-        bytes.extend(
-            [a, b, rest]
-                .iter()
-                .flat_map(|weight| weight.to_le_bytes()[..7].to_vec()),
-        );
+        // Together they are the whole, also if they are rounded up.
+        let (whole, weights) = (WEIGHT_UNIT as u64, point.weights);
+        let [a, b, _] = weights.map(|weight| (weight * WEIGHT_UNIT) as u64);
+        let a = a.min(whole);
+        let b = b.min(whole - a);
+        for weight in [a, b, whole - a - b] {
+            bytes.extend(&weight.to_le_bytes()[..7]);
+        }
     }
     Ok(())
 }
