@@ -56,10 +56,10 @@ fn run(mut arguments: &[String]) -> Result<bool, String> {
         for (mesh, body, name) in &meshes {
             match Body::new(mesh, body, &proof) {
                 Ok(body) => bodies.push(body),
-                Err(stop) => left_out = Some(format!("{name}: {stop}")),
+                Err(stop) => left_out = Some(format!("; {name}: {stop}")),
             }
         }
-        let verdict = check(&bodies, &proof).map_err(|stop| left_out.unwrap_or_else(|| stop.to_string()));
+        let verdict = check(&bodies, &proof).map_err(|stop| format!("{stop}{}", left_out.unwrap_or_default()));
         all_hold &= verdict.is_ok();
         println!("{name}: {}", verdict.map_or_else(|why| why, |()| "holds".into()));
     }
