@@ -131,7 +131,7 @@ pub use fearless_simd;
 pub use glam;
 #[cfg(feature = "exact")]
 pub use math::exact;
-pub use math::{order, point_tree, vector};
+pub use math::{double_double, order, point_tree, vector};
 pub use motion::Motion;
 pub use motion::bound::VelocityBound;
 pub use motion::pose::{Frame, Pose};

@@ -1,5 +1,6 @@
 //! Arithmetic on numbers and vectors: rounding, underflow and exact signs.
 
+pub mod double_double;
 #[cfg(feature = "exact")]
 pub mod exact;
 pub mod order;

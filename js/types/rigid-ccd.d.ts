@@ -141,7 +141,7 @@ export class LinkMotion extends Movement {
 export interface Settings {
   /** A contact is reported at a distance of at most margin + tolerance; 0.001 by default. */
   tolerance?: number;
-  /** The work after which a question is given up, a whole number or infinity; a million takes about a second. For a path it is that between two poses. */
+  /** The work after which a question is given up, a whole number or infinity; a million takes about a second. For a path it is that between two poses, and of a cell that of a segment, for all pairs together. */
   budget?: number;
 }
 
@@ -350,11 +350,14 @@ export interface Pair {
   featureB: Feature | null;
 }
 
-/** A free path is safe until its end, which is the number of its segments. */
-export type PathContact = { kind: "free"; safeUntil: number } | ({ kind: "contact" } & Pair) | ({ kind: "unresolved"; safeUntil: number } & Limit);
+/**
+ * A free path is safe until its end, which is the number of its segments. A contact is within margin + tolerance: that of the
+ * options, unless the rounding of positions allows only a larger one.
+ */
+export type PathContact = { kind: "free"; safeUntil: number } | ({ kind: "contact"; tolerance: number } & Pair) | ({ kind: "unresolved"; safeUntil: number } & Limit);
 
-/** Bounds of the least distance on a path, and the nearest pair that was measured. */
-export type PathDistance = { lower: number; upper: number; nearest: Pair | null } & ({ kind: "leastDistance" } | ({ kind: "unresolved" } & Limit));
+/** Bounds of the least distance on a path, to within the tolerance, and the nearest pair that was measured. */
+export type PathDistance = { lower: number; upper: number; tolerance: number; nearest: Pair | null } & ({ kind: "leastDistance" } | ({ kind: "unresolved" } & Limit));
 
 /** Whether all pairs keep their distance everywhere in a range, or one is nearer everywhere in it, or neither is proven. */
 export interface PathRange {

@@ -215,7 +215,8 @@ impl PyCell {
         let lower = answer.row.distance_lower.unwrap_or(0.0);
         let upper = answer.row.distance_upper.unwrap_or(f64::INFINITY);
         let limit = answer.limit.map(|limit| limit.to_string());
-        class.call1((lower, upper, contact_object(py, &answer)?, limit))
+        let nearest = contact_object(py, &answer)?;
+        class.call1((lower, upper, nearest, limit, answer.tolerance))
     }
 
     /// Divides a path into ranges in which all pairs keep their distance, ranges in which one certainly does not, and the rest.

@@ -46,7 +46,16 @@ pub(crate) fn contact_object<'py>(
     let time = row.time;
     let features = (&row.feature_a, &row.feature_b);
     let values = (
-        at.segment, at.share, time, a, b, witness_a, witness_b, features.0, features.1,
+        at.segment,
+        at.share,
+        time,
+        a,
+        b,
+        witness_a,
+        witness_b,
+        features.0,
+        features.1,
+        answer.tolerance,
     );
     class.call1(values).map(Some)
 }

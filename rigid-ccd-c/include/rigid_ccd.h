@@ -236,8 +236,9 @@ typedef struct rccd_settings {
     // The distance at which bodies count as touching; 0 reports actual contact.
     double margin;
     // The largest amount of work, in visits of about a microsecond or less. Along a trajectory it is for each part between two
-    // poses or pieces of a curve. A visit of a curve of a high degree takes longer. In a cell it is for each pair of bodies on
-    // each part of a path that needs a closer look: only a deadline bounds a whole path.
+    // poses or pieces of a curve. A visit of a curve of a high degree takes longer. In a cell it is for all pairs of bodies
+    // together, and for each segment of a path: what one does not need is for the others. The closest approach takes up to half
+    // as much again.
     uint64_t budget;
     // The time in seconds after which a query ends as unresolved; infinity for none.
     double deadline;
@@ -299,6 +300,8 @@ typedef struct rccd_path_answer {
     struct rccd_feature feature_a;
     // What of the other one's mesh is in contact.
     struct rccd_feature feature_b;
+    // The tolerance that the answer meets: that of the settings, unless the rounding of positions allows only a larger one.
+    double tolerance;
 } rccd_path_answer;
 
 // A motion at constant velocities: the centre of rotation moves straight, and the body turns about it.

@@ -169,7 +169,10 @@ unsafe fn ask(
         } = unsafe { exclusive("solver", solver) }?;
         // SAFETY: the contract of this function.
         let size = unsafe { growing::size_of_place("the answer", out) }?;
-        let call = |path: &dyn Path| question(solver, path);
+        let call = |path: &dyn Path| {
+            let answer = question(solver, path)?;
+            Ok(answer.with_tolerance(solver.met_tolerance()))
+        };
         // SAFETY: the contract of this function.
         let answer = unsafe { memory.with_path(path, joint_count(cell), call) }?;
         // SAFETY: the contract of this function.

@@ -42,11 +42,13 @@ pub struct RccdPathAnswer {
     pub feature_a: RccdFeature,
     /// What of the other one's mesh is in contact.
     pub feature_b: RccdFeature,
+    /// The tolerance that the answer meets: that of the settings, unless the rounding of positions allows only a larger one.
+    pub tolerance: f64,
 }
 
-// SAFETY: it is `repr(C)`, begins with its size, and is of the first version.
+// SAFETY: it is `repr(C)`, begins with its size, and has grown by its last field.
 unsafe impl Growing for RccdPathAnswer {
-    const FIRST_SIZE: usize = size_of::<RccdPathAnswer>();
+    const FIRST_SIZE: usize = std::mem::offset_of!(RccdPathAnswer, tolerance);
 }
 
 impl RccdPathAnswer {
@@ -64,7 +66,12 @@ impl RccdPathAnswer {
         witness_b: [f64::NAN; 3],
         feature_a: RccdFeature::NONE,
         feature_b: RccdFeature::NONE,
+        tolerance: f64::NAN,
     };
+
+    pub(crate) fn with_tolerance(self, tolerance: f64) -> Self {
+        RccdPathAnswer { tolerance, ..self }
+    }
 
     pub(crate) fn from_outcome(outcome: &PathOutcome<'_>, segments: usize) -> Self {
         match outcome {

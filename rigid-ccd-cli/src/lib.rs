@@ -22,6 +22,7 @@ pub mod picture;
 mod printable;
 mod progress;
 mod query;
+mod raised_tolerances;
 mod resumable;
 mod robots;
 mod scene;

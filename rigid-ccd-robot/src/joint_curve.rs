@@ -224,8 +224,9 @@ impl JointCurve {
         };
         let before = self.polynomial(before, joint);
         let after = self.polynomial(segment, joint);
-        let jump = factor.abs() * (after.constant() - before.about(1.0).constant()).abs();
-        let rounding = factor.abs() * (before.rounding() + after.rounding());
+        let jump = factor.abs() * (after.constant() - before.value(1.0)).abs();
+        let rounding =
+            factor.abs() * (before.rounding_of_coefficients() + after.rounding_of_coefficients());
         // Written so that NaN is refused.
         if jump <= MAX_JUMP + rounding {
             return Ok(());
@@ -285,7 +286,7 @@ impl JointCurve {
         let share = ((time - from) / (to - from)).clamp(0.0, 1.0);
         let joints = 0..self.joint_count;
         joints
-            .map(|joint| self.polynomial(segment, joint).about(share).constant())
+            .map(|joint| self.polynomial(segment, joint).value(share))
             .collect()
     }
 
@@ -301,7 +302,7 @@ impl JointCurve {
 
     fn polynomial(&self, segment: usize, joint: usize) -> Polynomial {
         Polynomial::new(self.degree, |power| {
-            self.coefficients(segment, power)[joint]
+            self.coefficients(segment, power)[joint].into()
         })
     }
 
@@ -348,10 +349,10 @@ fn time_rounding([from, to]: [f64; 2]) -> f64 {
 /// Finds a share at which a polynomial is outside of limits, by more than it is rounded, and its value there. It looks at both
 /// ends, and at middles of ranges that may leave the limits, down to a millionth of the segment; no proof depends on it.
 fn find_outside(polynomial: &Polynomial, [low, high]: [f64; 2]) -> Option<(f64, f64)> {
-    let rounding = polynomial.rounding();
+    let rounding = polynomial.rounding_of_coefficients();
     let [low, high] = [low - rounding, high + rounding];
     for share in [0.0, 1.0] {
-        let value = polynomial.about(share).constant();
+        let value = polynomial.value(share);
         // Written so that NaN is outside.
         if !(low <= value && value <= high) {
             return Some((share, value));

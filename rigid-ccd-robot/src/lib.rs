@@ -48,6 +48,10 @@ mod path_point;
 #[doc(hidden)]
 pub mod path_rows;
 mod polynomial;
+#[cfg(test)]
+#[allow(dead_code)]
+#[path = "../../ccd-core/src/tests/rational.rs"]
+mod rational;
 mod robot;
 mod robot_file;
 mod solver;
@@ -55,6 +59,10 @@ mod srdf;
 #[cfg(test)]
 mod test_robots;
 mod tuning;
+#[cfg(test)]
+#[allow(dead_code)]
+#[path = "../../ccd-core/src/tests/worst.rs"]
+mod worst;
 
 pub use cell::{CarriedBody, Cell, Item};
 pub use combine::PlacedRobot;

@@ -30,6 +30,8 @@ pub struct PathAnswer {
     pub at: Option<PathPoint>,
     /// The limit that ended the search.
     pub limit: Option<Limit>,
+    /// The [tolerance](CellSolver::met_tolerance) that the answer meets.
+    pub tolerance: f64,
 }
 
 impl PathQuestion {
@@ -81,7 +83,7 @@ impl PathQuestion {
         path: &P,
         clearance: Option<f64>,
     ) -> Result<PathAnswer, PathError> {
-        match self {
+        let answer = match self {
             PathQuestion::IsFree => {
                 let is_free = solver.is_free(path)?;
                 let status = if is_free {
@@ -89,11 +91,15 @@ impl PathQuestion {
                 } else {
                     Status::Contact
                 };
-                Ok(PathAnswer::from_status(status))
+                PathAnswer::from_status(status)
             }
-            PathQuestion::FirstContact => PathAnswer::first_contact(solver, path),
-            PathQuestion::ClosestApproach => PathAnswer::closest_approach(solver, path, clearance),
-        }
+            PathQuestion::FirstContact => PathAnswer::first_contact(solver, path)?,
+            PathQuestion::ClosestApproach => PathAnswer::closest_approach(solver, path, clearance)?,
+        };
+        Ok(PathAnswer {
+            tolerance: solver.met_tolerance(),
+            ..answer
+        })
     }
 
     /// Answers the question; an error becomes a row.
@@ -128,6 +134,7 @@ impl PathAnswer {
             row,
             at: None,
             limit: None,
+            tolerance: f64::NAN,
         }
     }
 

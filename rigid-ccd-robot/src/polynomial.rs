@@ -1,5 +1,10 @@
 //! The position of a joint as a polynomial, with bounds of its values.
+//!
+//! The values of a polynomial on a segment may be far smaller than its coefficients: those of a Chebyshev polynomial of degree 9
+//! are up to 1, and the sum of its coefficients is 4 million. Coefficients are therefore double-double numbers. What is computed
+//! of them is then rounded like the values, not like the coefficients.
 
+use ccd_core::double_double::DoubleDouble;
 use ccd_core::order::{greater, lesser};
 
 /// The largest degree of a polynomial, which has a fixed place in memory.
@@ -11,29 +16,30 @@ const MAX_RANGE_WIDTH_RATIO: f64 = 2.0;
 /// The number of times that a segment is halved to bound a polynomial's range.
 const MAX_RANGE_HALVINGS: u32 = 6;
 
-/// Returns the factor from the sum of a polynomial's coefficients, on a segment, to the magnitude of which its values are
-/// rounded.
+/// A bound of the errors of double-double arithmetic in values and in bounds of deviations, relative to the sum of the
+/// coefficients' magnitudes.
 ///
-/// Horner's scheme rounds twice for each power, relative to the sum. So are the coefficients about a middle `m`, summed with
-/// the powers of a half `h` as a deviation: `Σ |cₙ| (m + h)ⁿ` is at most the sum, because `m + h` is at most 1. As a deviation
-/// from a chord they are weighted by at most `n (n−1)/2 h²`, which is at most 9 for degree 9. Each bound moves the polynomial
-/// once. In units of `U` times the sum a value takes at most `2 n`, a deviation `4 n`, one from a chord `18 n`; the error of a
-/// position has 16 for each unit of the factor.
-pub(crate) fn rounding_factor(degree: usize) -> f64 {
-    2.0 * (degree + 1) as f64
-}
+/// Horner's scheme rounds twice for each power, by at most 2⁻¹⁰² of the sum. So are the coefficients about a middle `m`, summed
+/// with the powers of a half `h` as a deviation: `Σ |cₙ| (m + h)ⁿ` is at most the sum, because `m + h` is at most 1. As a deviation
+/// from a chord they are weighted by at most `n (n−1)/2 h²`, which is at most 9 for degree 9. That is below `18 · 10 · 2⁻¹⁰²`, or
+/// 2⁻⁹⁴.
+pub(crate) const EXTENDED_PRECISION_ERROR: f64 = 1.0 / (1u128 << 94) as f64;
+
+/// The factor that raises a bound of a deviation. Coefficients are rounded to f64, and each of at most ten terms has a few
+/// roundings.
+const ROUNDING_FACTOR: f64 = 1.0 + 1e-12;
 
 /// The position of a joint as a polynomial of the share of a segment, about some share of it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Polynomial {
     degree: usize,
     /// The coefficients, that of the lowest power first.
-    coefficients: [f64; MAX_DEGREE + 1],
+    coefficients: [DoubleDouble; MAX_DEGREE + 1],
 }
 
 impl Polynomial {
-    pub(crate) fn new(degree: usize, coefficient: impl Fn(usize) -> f64) -> Self {
-        let mut coefficients = [0.0; MAX_DEGREE + 1];
+    pub(crate) fn new(degree: usize, coefficient: impl Fn(usize) -> DoubleDouble) -> Self {
+        let mut coefficients = [DoubleDouble::default(); MAX_DEGREE + 1];
         for (power, own) in coefficients[..=degree].iter_mut().enumerate() {
             *own = coefficient(power);
         }
@@ -45,27 +51,38 @@ impl Polynomial {
 
     /// Returns the same polynomial about another share: its Taylor series there, by Horner's scheme.
     pub(crate) fn about(mut self, share: f64) -> Self {
+        let share = DoubleDouble::from(share);
         for lowest in 0..self.degree {
             for power in (lowest..self.degree).rev() {
-                self.coefficients[power] += share * self.coefficients[power + 1];
+                self.coefficients[power] =
+                    self.coefficients[power] + share * self.coefficients[power + 1];
             }
         }
         self
     }
 
-    #[cfg(test)]
-    pub(crate) fn coefficient(&self, power: usize) -> f64 {
-        self.coefficients[power]
+    /// Returns the value at a share, by Horner's scheme. It is rounded to f64.
+    pub(crate) fn value(&self, share: f64) -> f64 {
+        let share = DoubleDouble::from(share);
+        let all = self.coefficients[..=self.degree].iter().rev();
+        let zero = DoubleDouble::default();
+        all.fold(zero, |value, &own| own + share * value).value()
     }
 
-    /// Bounds the rounding error of values on the segment.
-    pub(crate) fn rounding(&self) -> f64 {
-        8.0 * f64::EPSILON * rounding_factor(self.degree) * self.size()
+    #[cfg(test)]
+    pub(crate) fn coefficient(&self, power: usize) -> f64 {
+        self.coefficients[power].value()
+    }
+
+    /// Bounds how far values are from those of the polynomial that is meant, if each coefficient was rounded a few times.
+    pub(crate) fn rounding_of_coefficients(&self) -> f64 {
+        16.0 * f64::EPSILON * (self.degree + 1) as f64 * self.size()
     }
 
     /// Returns the sum of the absolute values of all coefficients.
-    fn size(&self) -> f64 {
-        self.coefficients.iter().map(|own| own.abs()).sum()
+    pub(crate) fn size(&self) -> f64 {
+        let all = self.coefficients.iter();
+        all.map(|own| own.value().abs()).sum()
     }
 
     /// Bounds the values on the segment, for the polynomial about its start.
@@ -78,7 +95,7 @@ impl Polynomial {
     fn range_within(&self, middle: f64, half: f64, halvings: u32) -> [f64; 2] {
         let about = self.about(middle);
         let (value, deviation) = (about.constant(), about.deviation_bound(half));
-        let ends = [-half, half].map(|offset| about.about(offset).constant());
+        let ends = [-half, half].map(|offset| about.value(offset));
         let seen = greater((ends[0] - value).abs(), (ends[1] - value).abs());
         if halvings == 0 || deviation <= MAX_RANGE_WIDTH_RATIO * seen {
             return [value - deviation, value + deviation];
@@ -91,13 +108,23 @@ impl Polynomial {
 
     /// Returns the value at the share about which the polynomial is.
     pub(crate) fn constant(&self) -> f64 {
-        self.coefficients[0]
+        self.coefficients[0].value()
     }
 
     /// Bounds how far values are from the one in the middle, within a share of it to both sides: `Σ |cᵢ| hⁱ`.
     pub(crate) fn deviation_bound(&self, half: f64) -> f64 {
         let rest = self.coefficients[1..=self.degree].iter().rev();
-        half * rest.fold(0.0, |sum, coefficient| coefficient.abs() + half * sum)
+        let sum = rest.fold(0.0, |sum, own| own.value().abs() + half * sum);
+        half * sum * ROUNDING_FACTOR
+    }
+
+    /// Bounds the absolute value of the derivative within a share of the middle to both sides: `Σ i |cᵢ| hⁱ⁻¹`.
+    pub(crate) fn rate_bound(&self, half: f64) -> f64 {
+        let rest = self.coefficients[..=self.degree].iter().enumerate().skip(1);
+        let sum = rest.rev().fold(0.0, |sum, (power, own)| {
+            power as f64 * own.value().abs() + half * sum
+        });
+        sum * ROUNDING_FACTOR
     }
 
     /// Bounds how far values are from those of the line between both ends, within a share of the middle to both sides.
@@ -107,10 +134,10 @@ impl Polynomial {
         let curved = self.coefficients[..=self.degree].iter().enumerate().skip(2);
         let sum = curved.rev().fold(0.0, |sum, (power, coefficient)| {
             let pairs = (power * (power - 1) / 2) as f64;
-            pairs * coefficient.abs() + half * sum
+            pairs * coefficient.value().abs() + half * sum
         });
-        // The square of a short half may be zero; each term has a few roundings.
-        half * (half * sum) * (1.0 + 1e-12)
+        // The square of a short half may be zero.
+        half * (half * sum) * ROUNDING_FACTOR
     }
 }
 

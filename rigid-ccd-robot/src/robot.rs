@@ -8,6 +8,7 @@ pub use chain_between::ChainBetween;
 pub use compound_joint::CompoundKind;
 
 use crate::error::RobotError;
+use ccd_core::double_double::DoubleDouble;
 use rigid_ccd::trajectory::{self, Chain};
 use rigid_ccd::{Body, InputError, Pose};
 use std::sync::Arc;
@@ -105,6 +106,11 @@ impl PositionSource {
         self.multiplier
     }
 
+    /// Returns the position of the joint when the position in a configuration is 0.
+    pub(crate) fn offset(&self) -> f64 {
+        self.offset
+    }
+
     /// Returns whether the factor is a whole number. While the position in the configuration makes one turn, the joint
     /// then makes a whole number of turns.
     pub(crate) fn has_integer_multiplier(&self) -> bool {
@@ -125,7 +131,21 @@ impl PositionSource {
     /// Returns a bound of the numbers of which the position of the joint is computed, more the more often it is rounded.
     pub(crate) fn magnitude(&self, configuration: &[f64]) -> f64 {
         let moved = (self.multiplier * configuration[self.position_index]).abs();
+        self.magnitude_of_product(moved)
+    }
+
+    /// Returns the same for a bound of the absolute value of the product with the factor.
+    pub(crate) fn magnitude_of_product(&self, moved: f64) -> f64 {
         (moved + self.offset_magnitude) * f64::from(1 + self.mimic_chain_length)
+    }
+
+    /// Returns one coefficient of the joint's position as a polynomial, from that of the position in the configuration.
+    pub(crate) fn polynomial_coefficient(&self, power: usize, followed: f64) -> DoubleDouble {
+        let product = DoubleDouble::product(self.multiplier, followed);
+        match power {
+            0 => product + DoubleDouble::from(self.offset),
+            _ => product,
+        }
     }
 }
 

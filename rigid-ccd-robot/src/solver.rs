@@ -9,15 +9,16 @@ mod engine;
 mod exact;
 pub(crate) mod joint_path;
 pub(crate) mod kinematics;
+mod limits;
 pub(crate) mod measure;
 mod open_pairs;
 pub(crate) mod pair_chain;
 pub(crate) mod part_pairs;
+mod periods;
 pub(crate) mod placement;
 mod rounding;
 mod search;
 mod stretch;
-mod time_limit;
 pub(crate) mod violation;
 
 pub use clearance_ranges::{ClearanceRange, RangeSettings};
@@ -38,9 +39,14 @@ use search::Search;
 /// A [`Path`] is a slice of configurations, between two of which all joints move at constant rates, or a
 /// [`JointCurve`](crate::JointCurve).
 ///
-/// The margin of the settings is the distance at which bodies count as touching. A deadline is for a whole question, the
-/// budget for each query of two bodies that a path leaves to the engine. A budget may end such a query at a contact that is later,
-/// within the tolerance of what is asked for, than the one that a larger budget finds. Contacts at the start are always reported.
+/// The margin of the settings is the distance at which bodies count as touching. Contacts at the start are always reported.
+///
+/// A deadline and a budget are for a whole question, all pairs together. A budget grows with the path: it is for each segment, and
+/// what one does not need is for the others. It counts the pairs that are measured, and the [work](rigid_ccd::Settings::budget) of
+/// those that a path leaves to the engine; each takes about a microsecond or less. The closest approach takes up to half as much
+/// again. Each range of a [distance curve](Self::distance_curve) has a budget, and each stretch that is examined for [clearance
+/// ranges](Self::clearance_ranges). A budget may end a search at a contact that is later, within the tolerance of what is asked
+/// for, than the one that a larger budget finds.
 pub struct CellSolver<'c> {
     cell: &'c Cell,
     search: Search<'c>,
@@ -146,11 +152,20 @@ impl<'c> CellSolver<'c> {
         self.search.set_settings(settings);
     }
 
+    /// Returns the tolerance that the last answer meets. It is that of the settings, unless the rounding of positions allows only
+    /// a larger one: far from the base, or after thousands of turns.
+    ///
+    /// A contact is within this distance beyond the margin, and a closest approach has bounds that differ by at most as much,
+    /// unless a limit is reached; both to within a thousandth of the tolerance. That nothing touches holds without any tolerance.
+    pub fn met_tolerance(&self) -> f64 {
+        self.search.met_tolerance()
+    }
+
     /// Returns whether the robot touches nothing on a path, itself included.
     ///
     /// # Guarantee
     /// On a free path all pairs that are checked stay apart by more than the margin. On other paths a pair comes within
-    /// margin + tolerance.
+    /// margin + [tolerance](Self::met_tolerance).
     ///
     /// # Errors
     /// [`PathError`]; also if a limit is reached.
@@ -174,7 +189,7 @@ impl<'c> CellSolver<'c> {
     ///
     /// # Guarantee
     /// All pairs that are checked stay apart by more than the margin before that point. There the pair is within
-    /// margin + tolerance.
+    /// margin + [tolerance](Self::met_tolerance).
     ///
     /// # Errors
     /// [`PathError`].
@@ -199,8 +214,8 @@ impl<'c> CellSolver<'c> {
     ///
     /// # Guarantee
     /// No pair is ever nearer than the lower bound, and the nearest one comes at least as near as the upper bound. They
-    /// differ by at most the tolerance, and by what the nearest bodies [exceed](rigid_ccd::Body::excess) their shapes by, unless
-    /// a limit is reached.
+    /// differ by at most the [tolerance](Self::met_tolerance), which includes what the nearest bodies
+    /// [exceed](rigid_ccd::Body::excess) their shapes by, unless a limit is reached.
     ///
     /// # Errors
     /// [`PathError`].
@@ -256,6 +271,7 @@ impl<'c> CellSolver<'c> {
 
     /// Measures a pair at a point of the path.
     fn measure_contact(&mut self, (at, pair): (f64, PartPair)) -> Result<PathContact<'c>, Error> {
+        self.search.add_rounding_of_contact_point((at, pair));
         let bodies = pair.body_numbers(self.cell.parts());
         let placement = self.search.place_frames(at);
         let (a, b) = (

@@ -42,3 +42,6 @@ pub(crate) const PAIRS_BETWEEN_CLOCK_READS: usize = 8;
 /// pair takes 64 bytes: the place is at most 4 MB.
 pub(crate) const MAX_PREPARED_PAIRS: usize = 4096;
 pub(crate) const PREPARED_HALVINGS: usize = 16;
+
+/// The largest number of turns, of the joint that turns least, in a period of two links.
+pub(crate) const MAX_TURNS_IN_PERIOD: u32 = 128;

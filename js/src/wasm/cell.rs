@@ -129,18 +129,19 @@ impl Cell {
         path: &[f64],
         settings: &[f64],
     ) -> Result<PathAnswer, JsError> {
-        self.with_solver_for(path, settings, |solver, path| match question {
-            Question::AnyContact => {
-                PathAnswer::from_any_contact(solver.any_contact(path), segments(path))
-            }
-            Question::ClosestApproach | Question::KeptClearance => {
-                let closest = solver.closest_approach(path)?;
-                Ok(PathAnswer::from_closest_approach(&closest))
-            }
-            Question::FirstContact | Question::ContactInterval => {
-                let outcome = solver.first_contact(path)?;
-                Ok(PathAnswer::from_outcome(outcome, segments(path)))
-            }
+        self.with_solver_for(path, settings, |solver, path| {
+            let answer = match question {
+                Question::AnyContact => {
+                    PathAnswer::from_any_contact(solver.any_contact(path), segments(path))?
+                }
+                Question::ClosestApproach | Question::KeptClearance => {
+                    PathAnswer::from_closest_approach(&solver.closest_approach(path)?)
+                }
+                Question::FirstContact | Question::ContactInterval => {
+                    PathAnswer::from_outcome(solver.first_contact(path)?, segments(path))
+                }
+            };
+            Ok(answer.with_tolerance(solver.met_tolerance()))
         })
     }
 

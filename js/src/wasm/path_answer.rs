@@ -8,6 +8,9 @@ use rigid_ccd::glam::DVec3;
 use rigid_ccd_robot::{ClosestApproach, PathContact, PathError, PathOutcome, PathPoint};
 use wasm_bindgen::prelude::wasm_bindgen;
 
+/// The index of the tolerance in the numbers of an answer.
+const TOLERANCE: usize = 3;
+
 /// An answer about a path: its kind, numbers at places that `js/module/cell.js` knows, and the names of a pair.
 #[wasm_bindgen]
 #[derive(Debug)]
@@ -21,7 +24,7 @@ pub struct PathAnswer {
 #[wasm_bindgen]
 impl PathAnswer {
     /// Returns the numbers: two bounds of the distance and the number of the limit, or the segment, the share and the number of the
-    /// limit. If a pair is named, the segment, the share, both witnesses, bounds of the distance and both features follow.
+    /// limit; and the tolerance that is met. If a pair is named, the segment, the share, both witnesses, bounds of the distance and both features follow.
     pub fn numbers(&self) -> Vec<f64> {
         self.numbers.clone()
     }
@@ -33,14 +36,20 @@ impl PathAnswer {
 }
 
 impl PathAnswer {
+    /// Returns the answer with the tolerance that it meets.
+    pub(crate) fn with_tolerance(mut self, tolerance: f64) -> Self {
+        self.numbers[TOLERANCE] = tolerance;
+        self
+    }
+
     /// Makes an answer about a path of some segments.
     pub(crate) fn from_outcome(outcome: PathOutcome<'_>, segments: usize) -> Self {
         match outcome {
             PathOutcome::Free => {
-                PathAnswer::without_pair(AnswerKind::Free, vec![segments as f64, 0.0, 0.0])
+                PathAnswer::without_pair(AnswerKind::Free, [segments as f64, 0.0, 0.0])
             }
             PathOutcome::Contact(contact) => {
-                PathAnswer::without_pair(AnswerKind::Contact, vec![0.0; 3]).with_pair(&contact)
+                PathAnswer::without_pair(AnswerKind::Contact, [0.0; 3]).with_pair(&contact)
             }
             PathOutcome::Unresolved { free_until, limit } => {
                 PathAnswer::from_limit(free_until, limit)
@@ -74,7 +83,7 @@ impl PathAnswer {
             None => AnswerKind::LeastDistance,
         };
         let limit = closest.limit.map_or(0, limit_number) as f64;
-        let answer = PathAnswer::without_pair(kind, vec![closest.lower, closest.upper, limit]);
+        let answer = PathAnswer::without_pair(kind, [closest.lower, closest.upper, limit]);
         match &closest.nearest {
             Some(nearest) => answer.with_pair(nearest),
             None => answer,
@@ -83,14 +92,14 @@ impl PathAnswer {
 
     fn from_limit(free_until: PathPoint, limit: Limit) -> Self {
         let PathPoint { segment, share } = free_until;
-        let numbers = vec![segment as f64, share, limit_number(limit) as f64];
+        let numbers = [segment as f64, share, limit_number(limit) as f64];
         PathAnswer::without_pair(AnswerKind::Unresolved, numbers)
     }
 
-    fn without_pair(kind: AnswerKind, numbers: Vec<f64>) -> Self {
+    fn without_pair(kind: AnswerKind, [first, second, limit]: [f64; TOLERANCE]) -> Self {
         PathAnswer {
             kind,
-            numbers,
+            numbers: vec![first, second, limit, f64::NAN],
             names: Vec::new(),
         }
     }

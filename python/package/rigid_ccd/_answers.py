@@ -73,6 +73,8 @@ class PathContact:
         witness_b: the point of `b` nearest to `a`.
         feature_a, feature_b: the vertex, edge or face of the mesh that a witness is on: "v7", "e3-4" or "f5". None for a
             convex body or a hull, and if one body is inside the other.
+        tolerance: a contact is within this distance beyond the margin: the tolerance that was asked for, unless the rounding of
+            positions allows only a larger one, far from the base or after thousands of turns.
     """
 
     segment: int
@@ -84,6 +86,7 @@ class PathContact:
     witness_b: Point
     feature_a: str | None
     feature_b: str | None
+    tolerance: float
 
 
 @dataclass(frozen=True)
@@ -98,12 +101,15 @@ class PathDistance:
         upper: the nearest pair comes at least as near as this.
         nearest: the nearest pair; None if no pair was measured.
         limit: the limit that ended the search; None if there was none.
+        tolerance: the bounds differ by at most this, unless a limit was reached: the tolerance that was asked for, unless rounding
+            or what bodies exceed their shapes by allows only a larger one.
     """
 
     lower: float
     upper: float
     nearest: PathContact | None
     limit: str | None
+    tolerance: float
 
 
 @dataclass(frozen=True)

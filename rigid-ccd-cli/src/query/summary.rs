@@ -5,8 +5,8 @@ mod tests;
 
 use super::limits::LIMIT_ADVICE;
 use crate::counts::StatusCounts;
+use crate::raised_tolerances::RaisedTolerances;
 use crate::time_histogram::TimeHistogram;
-use ccd_core::order::greater;
 use rigid_ccd::batch::TimedAnswer;
 use rigid_ccd::table::results::Status;
 use std::fmt;
@@ -29,22 +29,16 @@ pub(super) struct Summary {
     pub(super) advancements: u64,
     /// The number of steps in the distance backend's searches, in all queries.
     pub(super) oracle_steps: u64,
-    /// The tolerance given for the queries, in the scene's unit of length.
-    tolerance: f64,
     /// For each of the [`LIMIT_ADVICE`], the number of queries that the limit ended.
     limit_counts: [usize; LIMIT_ADVICE.len()],
-    /// The number of answers with a larger tolerance than the given one, because of rounding.
-    pub(super) raised_tolerance_count: usize,
-    /// The largest tolerance of any answer, in the scene's unit of length.
-    pub(super) largest_tolerance: f64,
+    pub(super) raised_tolerances: RaisedTolerances,
 }
 
 impl Summary {
     /// Creates an empty summary of queries with the given tolerance.
     pub(super) fn new(tolerance: f64) -> Self {
         Summary {
-            tolerance,
-            largest_tolerance: tolerance,
+            raised_tolerances: RaisedTolerances::new(tolerance),
             ..Summary::default()
         }
     }
@@ -69,8 +63,7 @@ impl Summary {
         self.oracle_calls += answer.stats.oracle_calls;
         self.advancements += answer.stats.advancements;
         self.oracle_steps += answer.stats.oracle_effort.steps;
-        self.raised_tolerance_count += usize::from(answer.tolerance > self.tolerance);
-        self.largest_tolerance = greater(self.largest_tolerance, answer.tolerance);
+        self.raised_tolerances.add(answer.tolerance);
         self.time_histogram.add(timed.micros);
     }
 
@@ -117,14 +110,6 @@ impl fmt::Display for Summary {
                 write!(f, "\n{count} unresolved: {advice}")?;
             }
         }
-        if self.raised_tolerance_count > 0 {
-            write!(
-                f,
-                "\n--tolerance {:e} cannot be certified at these coordinates: raised for {} rows, to \
-                 at most {:.2e}",
-                self.tolerance, self.raised_tolerance_count, self.largest_tolerance
-            )?;
-        }
-        Ok(())
+        self.raised_tolerances.fmt(f)
     }
 }

@@ -86,6 +86,13 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     let path = args.read_path(&cell)?;
     let mut solver = cell.solver().with_settings(args.settings(0.0));
     let closest = solver.closest_approach(&path.configurations)?;
+    let tolerance = solver.met_tolerance();
+    if tolerance > args.tolerance {
+        print_error(&format!(
+            "--tolerance {:e} m cannot be certified at these coordinates: raised to {tolerance:.2e} m",
+            args.tolerance
+        ));
+    }
     let mut ranges = Vec::new();
     if let Some(clearance) = args.require {
         let how = RangeSettings {
@@ -101,6 +108,7 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
         pose_error: args.pose_error,
         required: args.require,
         closest,
+        tolerance,
         ranges,
     };
     let printed = if args.json {

@@ -11,6 +11,7 @@ use crate::counts::StatusCounts;
 use crate::files::input_name;
 use crate::output::OutputError;
 use crate::progress::Progress;
+use crate::raised_tolerances::RaisedTolerances;
 use crate::resumable::{
     self, Batches, Checkpoint, ClaimedFiles, FILE_CHECKSUM_PREFIX, OpenedTables, Outputs, RunFiles,
     answer_in_batches, option_values, options_text,
@@ -86,6 +87,7 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
         certificates,
         counts: start.counts,
         times: TimeHistogram::default(),
+        raised_tolerances: RaisedTolerances::new(args.tolerance),
     };
     let end = answer_in_batches(&files, &mut table, start, &mut run)?;
     let EdgesRun {
@@ -93,13 +95,14 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
         progress,
         bad_rows,
         times,
+        raised_tolerances,
         ..
     } = run;
     outputs.finish(end)?;
     drop(progress);
     bad_rows.print_total();
     if !args.quiet {
-        print_summary(end, &times);
+        print_summary(end, &times, &raised_tolerances);
     }
     Ok(report_outcome(&files, end))
 }
@@ -116,6 +119,7 @@ struct EdgesRun<'a> {
     certificates: Option<CellCertificates<'a>>,
     counts: StatusCounts,
     times: TimeHistogram,
+    raised_tolerances: RaisedTolerances,
 }
 
 impl Batches<Result<TablePath, RowError>> for EdgesRun<'_> {
@@ -139,10 +143,13 @@ impl Batches<Result<TablePath, RowError>> for EdgesRun<'_> {
                 Err(error) => ResultRow::error(&error.id, &error.problem),
             };
             progress.step();
-            row
+            (row, solver.met_tolerance())
         });
         self.batch_size.adapt(start.elapsed());
-        for (path, row) in paths.iter().zip(rows) {
+        for (path, (row, tolerance)) in paths.iter().zip(rows) {
+            if row.status != Status::Error {
+                self.raised_tolerances.add(tolerance);
+            }
             self.write(path, row)?;
         }
         self.prove_and_write(paths)
@@ -265,7 +272,7 @@ fn checksum_of_bodies(cell: &Cell) -> Result<u32> {
     Ok(sum.finalize())
 }
 
-fn print_summary(end: Checkpoint, times: &TimeHistogram) {
+fn print_summary(end: Checkpoint, times: &TimeHistogram, raised_tolerances: &RaisedTolerances) {
     let mut text = end.counts.to_string();
     if times.count() > 0 {
         text += &format!(
@@ -274,6 +281,7 @@ fn print_summary(end: Checkpoint, times: &TimeHistogram) {
             times.mean()
         );
     }
+    text += &raised_tolerances.to_string();
     crate::print_escaped_to_stderr(&text);
 }
 

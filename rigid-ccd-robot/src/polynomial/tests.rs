@@ -1,88 +1,139 @@
-//! Tests the bounds of polynomials against samples.
+//! Tests the bounds of polynomials against exact arithmetic, in the worst cases that a search finds, and against samples.
 
 use super::*;
-use ccd_core::order::greater;
+use crate::rational::exact_fraction;
+use crate::worst::{RandomCase, WorstCaseSearch, error_share};
+use dashu_ratio::Relaxed;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
+
+const U: f64 = 0.5 * f64::EPSILON;
 
 fn random_polynomial(random: &mut Pcg64) -> Polynomial {
     let degree = random.random_range(0..=MAX_DEGREE);
     let coefficients: Vec<f64> = (0..=degree)
         .map(|_| random.random_range(-2.0..2.0))
         .collect();
-    Polynomial::new(degree, |power| coefficients[power])
+    Polynomial::new(degree, |power| coefficients[power].into())
 }
 
-/// Returns the value at a share, power by power.
-fn value(polynomial: &Polynomial, share: f64) -> f64 {
-    let powers = polynomial.coefficients.iter().enumerate();
-    powers
-        .map(|(power, coefficient)| coefficient * share.powi(power as i32))
-        .sum()
-}
-
-/// Tests that a polynomial about another share has the same values, within the error that its size allows.
-#[test]
-fn a_polynomial_about_another_share_is_the_same() {
-    let mut random = Pcg64::seed_from_u64(31);
-    let mut largest_share = 0.0;
-    for _ in 0..2000 {
-        let polynomial = random_polynomial(&mut random);
-        let share = random.random_range(0.0..1.0);
-        let about = polynomial.about(share);
-        let allowed = 2.0 * f64::EPSILON * rounding_factor(polynomial.degree) * polynomial.size();
-        let error = (about.constant() - value(&polynomial, share)).abs();
-        largest_share = greater(largest_share, error / allowed);
-        let other = random.random_range(0.0..1.0);
-        let there = value(&about, other - share);
-        let error = (there - value(&polynomial, other)).abs();
-        largest_share = greater(largest_share, error / allowed);
+/// Returns a polynomial with coefficients of any size, or one whose coefficients cancel.
+fn polynomial_of_case(case: &mut RandomCase) -> Polynomial {
+    let degree = case.index_below(MAX_DEGREE + 1);
+    if case.index_below(2) == 0 {
+        let coefficients = [(); MAX_DEGREE + 1].map(|()| case.any_number(-30..=10));
+        let low = [(); MAX_DEGREE + 1].map(|()| case.any_number(-110..=-54));
+        return Polynomial::new(degree, |power| {
+            let high = coefficients[power];
+            DoubleDouble::from(high) + DoubleDouble::from(high * low[power])
+        });
     }
-    assert!(
-        largest_share < 1.0 && largest_share > 1e-3,
-        "{largest_share}"
-    );
+    let scale = case.any_number(-10..=10);
+    let chebyshev = chebyshev(degree.max(1));
+    Polynomial::new(degree.max(1), |power| {
+        DoubleDouble::product(scale, chebyshev.coefficient(power))
+    })
 }
 
-/// Tests that no sample is farther from the middle, or from the chord, than the bounds say, and that straight lines and
-/// parabolas reach them.
+/// Returns the exact value at a share.
+fn exact_value(polynomial: &Polynomial, share: f64) -> Relaxed {
+    let share = exact_fraction(share);
+    let exact = |own: &DoubleDouble| {
+        let [high, low] = own.parts().map(exact_fraction);
+        high + low
+    };
+    let all = polynomial.coefficients.iter().rev().map(exact);
+    all.fold(Relaxed::ZERO, |sum, own| own + &share * sum)
+}
+
+fn size_of(exact: &Relaxed) -> f64 {
+    exact.to_f64().value().abs()
+}
+
+/// Returns a bound of the rounding of values, and of deviations besides their own.
+fn allowance(polynomial: &Polynomial, exact: &Relaxed) -> f64 {
+    U * size_of(exact) + EXTENDED_PRECISION_ERROR * polynomial.size()
+}
+
+/// Tests that values are rounded like themselves, and not like the coefficients, also of the polynomial about another share.
 #[test]
-fn deviations_are_within_their_bounds() {
-    let mut random = Pcg64::seed_from_u64(32);
-    let [mut from_middle, mut from_chord] = [0.0; 2];
-    for _ in 0..3000 {
-        let polynomial = random_polynomial(&mut random);
-        let middle: f64 = random.random_range(0.01..0.99);
-        let half = random.random_range(0.001..1.0) * lesser(middle, 1.0 - middle);
+fn worst_values_are_within_their_rounding() {
+    let search = WorstCaseSearch::new("value of a polynomial", 5_000);
+    let worst = search.search(|case| {
+        let polynomial = polynomial_of_case(case);
+        // Differences of these shares are exact.
+        let [share, other] = [(); 2].map(|()| (case.next_word() >> 44) as f64 * 0.5f64.powi(20));
+        let exact = exact_value(&polynomial, share);
+        let values = [
+            polynomial.value(share),
+            polynomial.about(share).constant(),
+            polynomial.about(other).value(share - other),
+        ];
+        let errors = values.map(|value| size_of(&(exact_fraction(value) - &exact)));
+        let error = errors.into_iter().fold(0.0, greater);
+        Some(error_share(error, allowance(&polynomial, &exact)))
+    });
+    worst.assert_tight_bound(2.0);
+}
+
+/// The middle of a range of shares, its half, and one share in it, of which sums and differences are exact.
+fn range_and_share(case: &mut RandomCase) -> [f64; 3] {
+    let share = |case: &mut RandomCase| (case.next_word() >> 44) as f64 * 0.5f64.powi(20);
+    let [middle, half] = [(); 2].map(|()| share(case));
+    let half = lesser(half, lesser(middle, 1.0 - middle)) * 0.5f64.powi(case.index_below(3) as i32);
+    let along = (case.index_below(17) as f64 - 8.0) / 8.0;
+    [middle, half, along]
+}
+
+/// Tests that no value is farther from the middle than the bound says, and that straight lines reach it.
+#[test]
+fn worst_deviations_are_within_their_bounds() {
+    let search = WorstCaseSearch::new("deviation of a polynomial", 5_000);
+    let worst = search.search(|case| {
+        let polynomial = polynomial_of_case(case);
+        let [middle, half, along] = range_and_share(case);
         let about = polynomial.about(middle);
-        let (deviation, chord) = (
-            about.deviation_bound(half),
-            about.chord_deviation_bound(half),
-        );
-        let ends = [middle - half, middle + half].map(|share| value(&polynomial, share));
-        for k in 0..=16 {
-            let along = f64::from(k) / 16.0;
-            let here = value(&polynomial, middle - half + 2.0 * half * along);
-            let moved = (here - about.constant()).abs();
-            assert!(
-                moved <= deviation * (1.0 + 1e-9) + 1e-12,
-                "{moved} {deviation}"
-            );
-            let line = ends[0] + along * (ends[1] - ends[0]);
-            let curved = (here - line).abs();
-            assert!(curved <= chord + 1e-12, "{curved} {chord}");
-            if deviation > 1e-6 {
-                from_middle = greater(from_middle, moved / deviation);
-            }
-            if chord > 1e-6 {
-                from_chord = greater(from_chord, curved / chord);
-            }
-        }
-    }
-    assert!(
-        from_middle > 0.99 && from_chord > 0.99,
-        "{from_middle} {from_chord}"
-    );
+        let at = |share| exact_value(&polynomial, share);
+        let moved = at(middle + along * half) - at(middle);
+        let bound = about.deviation_bound(half) + allowance(&polynomial, &Relaxed::ZERO);
+        Some(error_share(size_of(&moved), bound))
+    });
+    worst.assert_tight_bound(1.01);
+}
+
+/// Tests that no value is farther from the chord than the bound says, and that parabolas reach it.
+#[test]
+fn worst_deviations_from_a_chord_are_within_their_bounds() {
+    let search = WorstCaseSearch::new("deviation of a polynomial from a chord", 5_000);
+    let worst = search.search(|case| {
+        let polynomial = polynomial_of_case(case);
+        let [middle, half, along] = range_and_share(case);
+        let about = polynomial.about(middle);
+        let at = |share| exact_value(&polynomial, share);
+        let [first, last] = [middle - half, middle + half].map(at);
+        let share = exact_fraction(0.5 + 0.5 * along);
+        let line = &first + share * (&last - &first);
+        let curved = at(middle + along * half) - line;
+        let bound = about.chord_deviation_bound(half) + allowance(&polynomial, &Relaxed::ZERO);
+        Some(error_share(size_of(&curved), bound))
+    });
+    worst.assert_tight_bound(1.01);
+}
+
+/// Tests that no value changes faster than the bound says.
+#[test]
+fn worst_rates_are_within_their_bounds() {
+    let search = WorstCaseSearch::new("rate of a polynomial", 5_000);
+    let worst = search.search(|case| {
+        let polynomial = polynomial_of_case(case);
+        let [middle, half, along] = range_and_share(case);
+        let (from, to) = (middle - half, middle + along * half);
+        let change = exact_value(&polynomial, to) - exact_value(&polynomial, from);
+        let rate = polynomial.about(middle).rate_bound(half);
+        let bound = rate * (to - from) + allowance(&polynomial, &Relaxed::ZERO);
+        Some(error_share(size_of(&change), bound))
+    });
+    worst.assert_tight_bound(1.01);
 }
 
 /// Tests that no value is outside of a range, and that ranges are narrow even if coefficients cancel.
@@ -98,7 +149,7 @@ fn ranges_enclose_all_values_and_fit() {
             chebyshev(random.random_range(1..=MAX_DEGREE))
         };
         let range = polynomial.range();
-        let values = (0..=200).map(|k| value(&polynomial, f64::from(k) / 200.0));
+        let values = (0..=200).map(|k| polynomial.value(f64::from(k) / 200.0));
         let (mut min, mut max) = (f64::INFINITY, f64::NEG_INFINITY);
         for value in values {
             (min, max) = (lesser(min, value), greater(max, value));
@@ -127,5 +178,5 @@ fn chebyshev(degree: usize) -> Polynomial {
         }
         last = [now.clone(), next];
     }
-    Polynomial::new(degree, |power| last[1][power])
+    Polynomial::new(degree, |power| last[1][power].into())
 }

@@ -143,7 +143,7 @@ impl CellSolver<'_> {
         resolution: f64,
         found: &mut Vec<(f64, f64, ClearanceVerdict)>,
     ) -> Result<(), Error> {
-        let is_in_time = self.search.stop_condition.reached_limit().is_none();
+        let is_in_time = self.search.stop_condition.interruption().is_none();
         let clearance = if is_in_time && self.is_clearance_kept(stretch)? {
             ClearanceVerdict::Kept
         } else if is_in_time && self.search.is_margin_violated(&stretch)? {

@@ -35,9 +35,11 @@ pub(crate) struct CurvedLink<'a> {
 impl Trajectory for CurvedLink<'_> {
     fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let PathSection { path, segment, .. } = self.section;
-        let [start, end] = self.section.ends();
+        // A late segment has a large number, by which a share is not to be rounded.
+        let [start, end] = self.section.ends().map(|at| at - segment as f64);
         let ends = [from, to].map(|time| start + time * (end - start));
-        let [first, last] = ends.map(|at| self.values(|joint| path.position(segment, at, joint)));
+        let positions = |share| self.values(|joint| path.position(segment, share, joint));
+        let [first, last] = ends.map(positions);
         let deviations = self.values(|joint| path.chord_deviation_bound(segment, ends, joint));
         let time = to - from;
         // A stretch of no length has no rates.

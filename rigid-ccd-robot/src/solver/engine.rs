@@ -52,7 +52,10 @@ impl Search<'_> {
         }
         // A pair that a limit leaves undecided here stays a candidate.
         Ok(match answer.outcome.hit() {
-            Ok(Some(_)) => self.keep_contact(pair, at),
+            Ok(Some(_)) => {
+                let beyond = self.distance_beyond_margin(pair, &answer.outcome);
+                self.keep_contact(pair, at, beyond)
+            }
             Ok(None) | Err(_) => Continue(()),
         })
     }
@@ -104,7 +107,8 @@ impl Search<'_> {
             Ok(None) => Continue(()),
             Ok(Some(hit)) => {
                 self.result.limit_reached = None;
-                self.keep_contact(&open.pair, open.point(hit.time))
+                let beyond = self.distance_beyond_margin(&open.pair, outcome);
+                self.keep_contact(&open.pair, open.point(hit.time), beyond)
             }
             Err(known) => {
                 let until = match self.question {
@@ -120,9 +124,15 @@ impl Search<'_> {
         }
     }
 
+    /// Bounds how far beyond its margin a pair in contact is. The engine gets rounded positions.
+    fn distance_beyond_margin(&self, pair: &PartPair, contact: &Outcome) -> f64 {
+        let rounding = 2.0 * self.placement.rounding;
+        (contact.upper() + rounding - pair.margin).next_up()
+    }
+
     /// Measures the least distance of an open pair, if it may be less than what is found.
     fn measure_least_distance(&mut self, open: &OpenPair) -> StepResult {
-        let least = self.result.distance_upper_bound - self.settings.tolerance;
+        let least = self.result.distance_upper_bound - self.tolerance;
         // Written so that NaN is measured.
         if least <= 0.0 {
             return Ok(Break(()));
@@ -131,7 +141,7 @@ impl Search<'_> {
             let answer = self.ask(Question::ClosestApproach, open, Some(least))?;
             if answer
                 .outcome
-                .clearance_verdict(least + 2.0 * self.placement.rounding)
+                .clearance_verdict(least + self.allowance(open))
                 == ClearanceVerdict::Kept
             {
                 return Ok(Continue(()));
@@ -146,10 +156,10 @@ impl Search<'_> {
         if let Some(limit) = outcome.limit() {
             self.result.limit_reached = Some((limit, 0.0));
         }
-        let rounding = 2.0 * self.placement.rounding;
         // The bounds of bodies that exceed their shapes may differ by more than the tolerance.
-        self.result.lower = lesser(self.result.lower, outcome.lower() - rounding);
-        let upper = outcome.upper() + rounding;
+        let lower = outcome.lower() - self.allowance(open);
+        self.result.lower = lesser(self.result.lower, lower);
+        let upper = outcome.upper() + 2.0 * self.placement.rounding;
         if upper < self.result.distance_upper_bound {
             let at = open.point(outcome.time().unwrap_or(0.0));
             self.keep_nearest(&open.pair, at, upper);
@@ -162,17 +172,19 @@ impl Search<'_> {
     }
 
     /// Asks the engine about an open pair. Its margin or clearance is larger because the positions that the engine gets are
-    /// rounded.
+    /// rounded, and because a period may stand for others.
     fn ask(
         &mut self,
         question: Question,
         open: &OpenPair,
         clearance: Option<f64>,
     ) -> Result<Answer, Error> {
-        let rounding = 2.0 * self.placement.rounding;
+        let allowance = self.allowance(open);
         self.solver.set_settings(Settings {
-            margin: open.pair.margin + rounding,
-            clearance: clearance.map(|clearance| greater(clearance + rounding, 0.0)),
+            tolerance: self.tolerance,
+            margin: open.pair.margin + allowance,
+            clearance: clearance.map(|clearance| greater(clearance + allowance, 0.0)),
+            budget: self.stop_condition.work_left(),
             deadline: self.stop_condition.remaining(),
             contact_normals: ContactNormals::OfPieces,
             ..self.settings.clone()
@@ -183,7 +195,12 @@ impl Search<'_> {
             from: open.from,
             to: open.to,
         };
-        self.exact_chains
-            .ask(&mut self.solver, question, open.bodies, &section)
+        let answer = self
+            .exact_chains
+            .ask(&mut self.solver, question, open.bodies, &section)?;
+        // A query is a step, even if bounding volumes decide it.
+        self.stop_condition
+            .add_work(1 + answer.stats.budgeted_work());
+        Ok(answer)
     }
 }

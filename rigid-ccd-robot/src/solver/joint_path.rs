@@ -3,12 +3,13 @@
 //! Between two configurations of a path all joints move at constant rates: the polynomials are of degree 1. A
 //! [`JointCurve`] has polynomials of a higher degree.
 
-use super::kinematics::Kinematics;
-use super::rounding::Magnitude;
+use super::kinematics::{Kinematics, MovingJoint};
+use super::rounding::{Magnitude, U};
 use super::stretch::Stretch;
 use crate::joint_curve::JointCurve;
 use crate::path_point::PathPoint;
-use crate::polynomial::{Polynomial, rounding_factor};
+use crate::polynomial::{EXTENDED_PRECISION_ERROR, Polynomial};
+use ccd_core::double_double::DoubleDouble;
 use ccd_core::order::{greater, lesser};
 
 /// The positions of all moving joints along a path.
@@ -20,6 +21,8 @@ pub struct JointPath {
     /// The coefficients of each segment; for each power of the share, lowest first, those of all joints. A path without
     /// segments has the constant ones.
     coefficients: Vec<f64>,
+    /// What rounding to f64 has left of the coefficients of a curve, which are double-double numbers; empty for other paths.
+    low_coefficients: Vec<f64>,
     /// For each segment and joint, bounds of its positions.
     ranges: Vec<[f64; 2]>,
     /// For each joint, the magnitude of its positions on the path.
@@ -66,23 +69,22 @@ impl JointPath {
         let (joints, degree) = (kinematics.joints(), curve.degree());
         self.clear(joints.len(), curve.segment_count(), degree);
         for segment in 0..self.segment_count {
-            let first = self.coefficients.len();
             for power in 0..=degree {
                 let given = curve.coefficients(segment, power);
-                let own = joints.iter().map(|joint| match power {
-                    0 => joint.source.position(given),
-                    _ => joint.source.factor() * given[joint.source.position_index()],
-                });
-                self.coefficients.extend(own);
+                for MovingJoint { source, .. } in joints {
+                    let given = given[source.position_index()];
+                    let [high, low] = source.polynomial_coefficient(power, given).parts();
+                    self.coefficients.push(high);
+                    self.low_coefficients.push(low);
+                }
             }
             for (number, joint) in joints.iter().enumerate() {
-                let polynomial = |power| self.coefficients[first + power * joints.len() + number];
-                let polynomial = Polynomial::new(degree, polynomial);
-                let magnitudes = (0..=degree)
-                    .map(|power| joint.source.magnitude(curve.coefficients(segment, power)));
-                let rounding = rounding_factor(degree) * magnitudes.sum::<f64>();
+                let polynomial = self.polynomial(segment, number);
                 let range = polynomial.range();
                 let position = greater(range[0].abs(), range[1].abs());
+                let moved = position + joint.source.offset().abs();
+                let rounding = joint.source.magnitude_of_product(moved)
+                    + EXTENDED_PRECISION_ERROR / U * polynomial.size();
                 let magnitude = &mut self.magnitudes[number];
                 *magnitude = magnitude.or_larger(Magnitude { position, rounding });
                 self.ranges.push(range);
@@ -95,6 +97,7 @@ impl JointPath {
         self.segment_count = segment_count;
         self.degree = degree;
         self.coefficients.clear();
+        self.low_coefficients.clear();
         self.ranges.clear();
         self.magnitudes.clear();
         self.magnitudes.resize(joint_count, Magnitude::default());
@@ -110,8 +113,13 @@ impl JointPath {
         self.degree <= 1
     }
 
+    /// Returns the changes of all joints in a segment in which they move at constant rates.
+    pub(crate) fn changes(&self, segment: usize) -> &[f64] {
+        self.coefficient_row(segment, 1)
+    }
+
     /// Returns for each joint the magnitude of its positions on the path.
-    pub(crate) fn magnitudes(&self) -> impl Iterator<Item = Magnitude> {
+    pub(crate) fn magnitudes(&self) -> impl Iterator<Item = Magnitude> + Clone {
         self.magnitudes.iter().copied()
     }
 
@@ -131,14 +139,14 @@ impl JointPath {
             positions.extend_from_slice(self.coefficient_row(segment, 0));
             return;
         }
-        // Horner's rule.
-        positions.extend_from_slice(self.coefficient_row(segment, self.degree));
-        for power in (0..self.degree).rev() {
-            let row = self.coefficient_row(segment, power);
-            for (position, coefficient) in positions.iter_mut().zip(row) {
-                *position = coefficient + share * *position;
-            }
+        if !self.has_constant_rates() {
+            let joints = 0..self.joint_count;
+            positions.extend(joints.map(|joint| self.polynomial(segment, joint).value(share)));
+            return;
         }
+        let [starts, changes] = [0, 1].map(|power| self.coefficient_row(segment, power));
+        let joints = starts.iter().zip(changes);
+        positions.extend(joints.map(|(start, change)| start + share * change));
     }
 
     /// Computes how far each joint is at most from its position in the middle of a stretch, at any point of the stretch.
@@ -184,24 +192,23 @@ impl JointPath {
         }
     }
 
-    /// Returns the position of a joint at a point of a segment.
-    pub(crate) fn position(&self, segment: usize, at: f64, joint: usize) -> f64 {
-        let share = at - segment as f64;
-        self.polynomial(segment, joint).about(share).constant()
+    /// Returns the position of a joint of a curve at a share of a segment.
+    pub(crate) fn position(&self, segment: usize, share: f64, joint: usize) -> f64 {
+        self.polynomial(segment, joint).value(share)
     }
 
-    /// Bounds how far a joint is from its position at a constant rate between two points of a segment.
+    /// Bounds how far a joint of a curve is from its position at a constant rate between two shares of a segment, which are
+    /// off by at most a unit in the last place of 1.
     pub(crate) fn chord_deviation_bound(
         &self,
         segment: usize,
         [from, to]: [f64; 2],
         joint: usize,
     ) -> f64 {
-        let half = 0.5 * (to - from);
-        // A late segment has a large number.
-        let middle = (from - segment as f64) + half;
-        let polynomial = self.polynomial(segment, joint);
-        polynomial.about(middle).chord_deviation_bound(half)
+        let (half, rounding) = (0.5 * (to - from), f64::EPSILON);
+        let about = self.polynomial(segment, joint).about(from + half);
+        // The middle is rounded, too.
+        about.chord_deviation_bound(half + rounding) + rounding * about.rate_bound(half + rounding)
     }
 
     #[inline(always)]
@@ -210,9 +217,12 @@ impl JointPath {
         &self.coefficients[start..][..self.joint_count]
     }
 
+    /// Returns the position of a joint in a segment of a curve.
     fn polynomial(&self, segment: usize, joint: usize) -> Polynomial {
+        let first = segment * (self.degree + 1) * self.joint_count + joint;
         Polynomial::new(self.degree, |power| {
-            self.coefficient_row(segment, power)[joint]
+            let index = first + power * self.joint_count;
+            DoubleDouble::from_parts([self.coefficients[index], self.low_coefficients[index]])
         })
     }
 }

@@ -103,6 +103,23 @@ impl Kinematics {
         a
     }
 
+    /// Iterates over the joints by which two frames move, as they see each other.
+    pub(crate) fn joints_between(
+        &self,
+        [mut a, mut b]: [usize; 2],
+    ) -> impl Iterator<Item = usize> + '_ {
+        std::iter::from_fn(move || {
+            if a == b {
+                return None;
+            }
+            // A frame has a greater number than those nearer to the base.
+            let farther = if a > b { &mut a } else { &mut b };
+            let joint = *farther - 1;
+            *farther = self.joints[joint].parent;
+            Some(joint)
+        })
+    }
+
     /// Computes the poses of all frames in the base, for one position for each moving joint.
     pub(crate) fn place(&self, positions: impl Iterator<Item = f64>, frames: &mut Vec<Frame>) {
         frames.clear();

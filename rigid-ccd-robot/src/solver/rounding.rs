@@ -5,7 +5,7 @@ use crate::cell::part::HullPart;
 use ccd_core::order::greater;
 
 /// Half the distance of 1 to the next number.
-const U: f64 = 0.5 * f64::EPSILON;
+pub(crate) const U: f64 = 0.5 * f64::EPSILON;
 
 /// The error of a rotation matrix for each joint. The product of two rotations rounds each entry by 3 units, and the
 /// matrix by at most 9. The joint's rotation is a sum of three matrices, each a product of two, whose entries are rounded
@@ -18,6 +18,10 @@ const ROTATION_ERROR_PER_JOINT: f64 = 64.0;
 /// the magnitude includes its factor times the followed position, and its offset. That of a polynomial includes what its
 /// degree adds. The difference to the position in the middle of a stretch has the errors of both positions.
 const POSITION_ERROR_ULPS: f64 = 16.0;
+
+/// The share of the tolerance by which an answer may exceed it without a word. Near the base, and with the usual tolerances,
+/// positions are rounded by less than a millionth of the tolerance.
+pub(crate) const UNSTATED_TOLERANCE_SHARE: f64 = 1e-3;
 
 /// The sizes of a joint's positions on a path, or in a range.
 #[derive(Clone, Copy, Debug, Default)]
@@ -43,23 +47,37 @@ impl Magnitude {
 pub(crate) fn point_error_bound(
     kinematics: &Kinematics,
     parts: &[HullPart],
-    magnitudes: impl Iterator<Item = Magnitude>,
+    magnitudes: impl Iterator<Item = Magnitude> + Clone,
 ) -> f64 {
     let joints = kinematics.joints();
-    let (mut angles, mut slides, mut arms) = (0.0, 0.0, kinematics.arm_length_sum);
-    for (joint, magnitude) in joints.iter().zip(magnitudes) {
+    let (mut angles, mut slides) = (0.0, 0.0);
+    for (joint, magnitude) in joints.iter().zip(magnitudes.clone()) {
         if joint.is_prismatic {
-            arms += magnitude.position;
             slides += magnitude.rounding;
         } else {
             angles += magnitude.rounding;
         }
     }
+    let turn = ROTATION_ERROR_PER_JOINT * (kinematics.total_joint_count + 2) as f64
+        + POSITION_ERROR_ULPS * angles;
+    U * (turn + POSITION_ERROR_ULPS) * largest_arm(kinematics, parts, magnitudes)
+        + U * POSITION_ERROR_ULPS * slides
+}
+
+/// Returns a bound of the distance of any point of a part from any joint's axis.
+pub(crate) fn largest_arm(
+    kinematics: &Kinematics,
+    parts: &[HullPart],
+    magnitudes: impl Iterator<Item = Magnitude>,
+) -> f64 {
+    let joints = kinematics.joints().iter().zip(magnitudes);
+    let slides = joints.filter(|(joint, _)| joint.is_prismatic);
+    let arms = slides.fold(kinematics.arm_length_sum, |arms, (_, magnitude)| {
+        arms + magnitude.position
+    });
     let reach = parts
         .iter()
         .map(|part| part.coordinate_bound)
         .fold(0.0, greater);
-    let turn = ROTATION_ERROR_PER_JOINT * (kinematics.total_joint_count + 2) as f64
-        + POSITION_ERROR_ULPS * angles;
-    U * (turn + POSITION_ERROR_ULPS) * (arms + reach) + U * POSITION_ERROR_ULPS * slides
+    arms + reach
 }

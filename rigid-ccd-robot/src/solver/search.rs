@@ -7,15 +7,18 @@
 use super::Question;
 use super::exact::PairChains;
 use super::joint_path::JointPath;
+use super::limits::StopCondition;
 use super::measure::{DistanceVerdict, Thresholds, bounding_volume_gap, measure};
-use super::open_pairs::UndecidedPairs;
+use super::open_pairs::{OpenPair, UndecidedPairs};
 use super::part_pairs::{PartPair, PartPairs, sort_by_proof_distance};
+use super::periods::{DriftLimit, Period, Periods};
 use super::placement::Placement;
+use super::rounding::{UNSTATED_TOLERANCE_SHARE, largest_arm};
 use super::stretch::{StepResult, Stretch};
-use super::time_limit::StopCondition;
 use crate::cell::Cell;
 use crate::error::PathError;
 use crate::path::Path;
+use crate::path_point::PathPoint;
 use crate::tuning::{
     MAX_APPROACH_STRETCH_LENGTH, MAX_ENGINE_DISPLACEMENT, MAX_ENGINE_STRETCH_LENGTH,
     MAX_PREPARED_PAIRS, MIN_ENGINE_HALVINGS, PAIRS_BETWEEN_CLOCK_READS, PREPARED_HALVINGS,
@@ -34,6 +37,7 @@ pub(crate) struct Search<'c> {
     pub(super) exact_chains: PairChains<'c>,
     pub(super) path: JointPath,
     pub(super) placement: Placement,
+    periods: Periods,
     /// Pairs that may touch in the stretches from the whole path down to the current one.
     pub(super) candidates: Vec<PartPair>,
     /// Pairs of bodies that are not convex, whose hulls are near each other in the middle of the stretch, or nearer than
@@ -43,8 +47,12 @@ pub(crate) struct Search<'c> {
     pub(super) open_pairs: UndecidedPairs,
     pub(super) solver: Solver,
     pub(super) settings: Settings,
+    /// The tolerance of the current path: that of the settings, or what the rounding of positions costs.
+    pub(super) tolerance: f64,
     // Of the current question.
     pub(super) question: Question,
+    /// The start of the stretch that the question is about.
+    search_start: f64,
     pub(super) stop_condition: StopCondition,
     pub(crate) result: SearchResult,
 }
@@ -62,6 +70,8 @@ pub(crate) struct SearchResult {
     pub(crate) limit_reached: Option<(Limit, f64)>,
     /// A lower bound of the distance of what the engine measured, and of what a limit left open.
     pub(crate) lower: f64,
+    /// How far beyond its margin the pair in contact may be, if that is more than the tolerance.
+    pub(crate) distance_beyond_margin: f64,
 }
 
 impl SearchResult {
@@ -71,7 +81,20 @@ impl SearchResult {
         end: f64::INFINITY,
         limit_reached: None,
         lower: f64::INFINITY,
+        distance_beyond_margin: 0.0,
     };
+}
+
+/// The first period of a pair in a segment, which stands for the rest of the segment.
+#[derive(Clone, Copy)]
+struct SearchedPeriod {
+    /// The point of the path at which it ends, rounded up.
+    end: f64,
+    drift: f64,
+}
+
+fn drift(period: Option<SearchedPeriod>) -> f64 {
+    period.map_or(0.0, |period| period.drift)
 }
 
 impl<'c> Search<'c> {
@@ -83,12 +106,15 @@ impl<'c> Search<'c> {
             exact_chains: PairChains::new(cell),
             path: JointPath::default(),
             placement,
+            periods: Periods::default(),
             candidates: Vec::new(),
             near_nonconvex_pairs: Vec::new(),
             open_pairs: UndecidedPairs::default(),
             solver: Solver::new(),
             settings: Settings::DEFAULT,
+            tolerance: Settings::DEFAULT.tolerance,
             question: Question::AnyContact,
+            search_start: 0.0,
             stop_condition: StopCondition::NONE,
             result: SearchResult::NOTHING_FOUND,
         }
@@ -121,8 +147,41 @@ impl<'c> Search<'c> {
             ..
         } = self.result;
         // Pairs are left out that stay farther apart than the upper bound at that time, less the tolerance.
-        let least = upper - self.settings.tolerance - 4.0 * self.placement.rounding;
+        let least = upper - self.tolerance - 4.0 * self.placement.rounding;
         (greater(lesser(least, lower), 0.0), upper)
+    }
+
+    /// Returns the tolerance that the last answer meets.
+    pub(crate) fn met_tolerance(&self) -> f64 {
+        let found = &self.result;
+        let shown = match self.question {
+            Question::AnyContact | Question::FirstContact => found.distance_beyond_margin,
+            Question::ClosestApproach if found.limit_reached.is_some() => 0.0,
+            Question::ClosestApproach => {
+                let (lower, upper) = self.distance_bounds();
+                // Without a pair there is no upper bound.
+                found.nearest.map_or(0.0, |_| upper - lower)
+            }
+        };
+        if shown > self.tolerance * (1.0 + UNSTATED_TOLERANCE_SHARE) {
+            shown
+        } else {
+            self.tolerance
+        }
+    }
+
+    /// Takes into account that a contact is reported at a point that is rounded to a number before it.
+    pub(crate) fn add_rounding_of_contact_point(&mut self, (at, pair): (f64, PartPair)) {
+        if self.segment_count() == 0 {
+            return;
+        }
+        let stretch = Stretch {
+            from: at,
+            to: at.next_up().next_up(),
+            halvings: 0,
+        };
+        self.placement.place(self.cell, &self.path, &stretch);
+        self.result.distance_beyond_margin += 2.0 * pair.displacement(&self.placement);
     }
 
     /// Returns the number of segments of the current path.
@@ -135,6 +194,16 @@ impl<'c> Search<'c> {
         self.stop_condition = StopCondition::starting_now(&self.settings);
         path.write_to(self.cell, &mut self.path)?;
         self.placement.begin(self.cell, &self.path);
+        // A margin is raised by half of that, and distances may be off by as much.
+        let rounding = 4.0 * self.placement.rounding;
+        self.tolerance = greater(self.settings.tolerance, rounding);
+        let (kinematics, parts) = (self.cell.kinematics(), self.cell.parts());
+        let limit = || DriftLimit {
+            largest_arm: largest_arm(kinematics, parts, self.path.magnitudes()),
+            rounding: self.placement.rounding,
+            most: 0.5 * UNSTATED_TOLERANCE_SHARE * self.tolerance,
+        };
+        self.periods.set_path(kinematics, &self.path, limit);
         Ok(())
     }
 
@@ -145,7 +214,9 @@ impl<'c> Search<'c> {
         stretch: Stretch,
     ) -> Result<(), Error> {
         self.question = question;
+        self.search_start = stretch.from;
         self.result = SearchResult::NOTHING_FOUND;
+        self.stop_condition.begin_search(&stretch);
         self.candidates.clear();
         self.open_pairs.clear();
         match self.search(stretch, None)? {
@@ -229,19 +300,25 @@ impl<'c> Search<'c> {
         });
         let first = self.candidates.len();
         self.near_nonconvex_pairs.clear();
+        // The stretch, and each pair.
+        self.stop_condition.add_work(1 + among.len() as u64);
         for k in among {
             if k % PAIRS_BETWEEN_CLOCK_READS == 0 {
                 self.check_limit(&stretch)?;
             }
             let mut pair = self.candidates[k];
+            let period = self.period_of(&stretch, &pair);
+            if period.is_some_and(|period| stretch.from >= period.end) {
+                continue;
+            }
             let is_last = self.goes_to_engine(&stretch, &pair);
-            let thresholds = self.thresholds(&pair);
+            let thresholds = self.thresholds(&pair, drift(period));
             match measure(self.cell, &self.placement, &mut pair, thresholds, !is_last) {
                 DistanceVerdict::Free => continue,
                 DistanceVerdict::Near if !pair.is_convex(self.cell.parts()) => {
                     self.near_nonconvex_pairs.push(pair);
                 }
-                DistanceVerdict::Near => self.keep_contact(&pair, stretch.middle())?,
+                DistanceVerdict::Near => self.keep_contact(&pair, stretch.middle(), 0.0)?,
                 DistanceVerdict::Undecided(upper) if self.is_nearest(upper) => {
                     if pair.is_convex(self.cell.parts()) {
                         self.keep_nearest(&pair, stretch.middle(), upper);
@@ -252,8 +329,10 @@ impl<'c> Search<'c> {
                 DistanceVerdict::Undecided(_) => {}
             }
             if is_last {
+                let end = period.map_or(stretch.to, |period| lesser(stretch.to, period.end));
+                let searched = Stretch { to: end, ..stretch };
                 self.open_pairs
-                    .add_or_merge(pair, pair.body_numbers(self.cell.parts()), &stretch);
+                    .add_or_merge(pair, pair.body_numbers(self.cell.parts()), &searched);
             } else {
                 self.candidates.push(pair);
             }
@@ -261,18 +340,49 @@ impl<'c> Search<'c> {
         Continue(first)
     }
 
-    /// Returns the distances that decide about a pair.
+    /// Returns the period of a pair in a stretch of a segment in which joints turn many times, if it has one.
     #[inline(always)]
-    fn thresholds(&self, pair: &PartPair) -> Thresholds {
-        let tolerance = self.settings.tolerance;
+    fn period_of(&self, stretch: &Stretch, pair: &PartPair) -> Option<SearchedPeriod> {
+        if self.periods.is_empty() || !stretch.is_within_segment() {
+            return None;
+        }
+        self.searched_period(stretch.from, pair)
+    }
+
+    #[cold]
+    fn searched_period(&self, at: f64, pair: &PartPair) -> Option<SearchedPeriod> {
+        let segment = PathPoint::from_path_position(at, self.segment_count()).segment;
+        let frames = [pair.a, pair.b].map(|part| self.cell.parts()[part as usize].frame);
+        let Period { length, drift } = self.periods.period(segment, frames)?;
+        let start = greater(segment as f64, self.search_start);
+        Some(SearchedPeriod {
+            end: (start + length).next_up(),
+            drift,
+        })
+    }
+
+    /// Bounds how much nearer a pair may be than the engine finds it, in the part of a segment that an open pair stands for.
+    pub(super) fn allowance(&self, open: &OpenPair) -> f64 {
+        let period = if self.periods.is_empty() {
+            None
+        } else {
+            self.searched_period(open.from, &open.pair)
+        };
+        2.0 * self.placement.rounding + drift(period)
+    }
+
+    /// Returns the distances that decide about a pair, whose distances in other periods are less by at most the drift.
+    #[inline(always)]
+    fn thresholds(&self, pair: &PartPair, drift: f64) -> Thresholds {
+        let tolerance = self.tolerance;
         match self.question {
             Question::AnyContact | Question::FirstContact => Thresholds {
-                free_distance_threshold: pair.margin,
+                free_distance_threshold: pair.margin + drift,
                 near_distance: pair.margin + tolerance,
             },
             // Touching hulls end the search; others are measured exactly.
             Question::ClosestApproach => Thresholds {
-                free_distance_threshold: self.result.distance_upper_bound - tolerance,
+                free_distance_threshold: self.result.distance_upper_bound - tolerance + drift,
                 near_distance: 0.0,
             },
         }
@@ -300,7 +410,7 @@ impl<'c> Search<'c> {
     pub(super) fn append_candidates(&mut self) {
         let first = self.candidates.len();
         let allowance = match self.question {
-            Question::AnyContact | Question::FirstContact => self.settings.tolerance,
+            Question::AnyContact | Question::FirstContact => self.tolerance,
             Question::ClosestApproach => f64::INFINITY,
         };
         let allowance = allowance + 2.0 * self.placement.rounding;
@@ -328,8 +438,15 @@ impl<'c> Search<'c> {
         self.result.nearest = Some((at, *pair));
     }
 
-    /// Keeps a contact of a pair at a point. The search ends unless an earlier contact is looked for.
-    pub(super) fn keep_contact(&mut self, pair: &PartPair, at: f64) -> ControlFlow<()> {
+    /// Keeps a contact of a pair at a point, at a distance of at most the margin and the tolerance, or a distance beyond the
+    /// margin. The search ends unless an earlier contact is looked for.
+    pub(super) fn keep_contact(
+        &mut self,
+        pair: &PartPair,
+        at: f64,
+        distance_beyond_margin: f64,
+    ) -> ControlFlow<()> {
+        self.result.distance_beyond_margin = distance_beyond_margin;
         self.result.nearest = Some((at, *pair));
         let parts = self.cell.parts();
         self.result.distance_upper_bound =

@@ -1,10 +1,12 @@
 //! Tests of paths in random cells against sampled configurations.
 
 mod bounds;
+mod budgets;
 mod features;
 mod history;
 mod inputs;
 mod questions;
+mod tolerances;
 
 use super::*;
 use crate::pairs::LinkPairs;

@@ -22,6 +22,7 @@ impl Search<'_> {
     pub(super) fn is_margin_violated(&mut self, stretch: &Stretch) -> Result<bool, Error> {
         let parts = self.cell.parts();
         self.question = Question::AnyContact;
+        self.stop_condition.begin_search(stretch);
         self.placement.place(self.cell, &self.path, stretch);
         self.candidates.clear();
         self.append_candidates();
@@ -62,10 +63,14 @@ impl Search<'_> {
         let a = self.placement.body(self.cell, a)?;
         let b = self.placement.body(self.cell, b)?;
         self.solver.set_settings(Settings {
+            budget: self.stop_condition.work_left(),
             deadline: self.stop_condition.remaining(),
             ..self.settings.clone()
         });
-        Ok(self.solver.distance(a, b)?.outcome.upper() < distance)
+        let answer = self.solver.distance(a, b)?;
+        self.stop_condition
+            .add_work(1 + answer.stats.budgeted_work());
+        Ok(answer.outcome.upper() < distance)
     }
 }
 

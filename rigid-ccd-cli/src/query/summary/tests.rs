@@ -72,7 +72,10 @@ fn raised_tolerances_are_counted() {
     ];
     let summary = sum(&answers, 1e-9);
     assert_eq!(
-        (summary.raised_tolerance_count, summary.largest_tolerance),
+        (
+            summary.raised_tolerances.count,
+            summary.raised_tolerances.largest
+        ),
         (2, 4e-8)
     );
     let text = summary.to_string();

@@ -24,6 +24,8 @@ pub(super) struct Report<'a> {
     /// The clearance that is required, if any.
     pub(super) required: Option<f64>,
     pub(super) closest: ClosestApproach<'a>,
+    /// The tolerance that the closest approach meets.
+    pub(super) tolerance: f64,
     pub(super) ranges: Vec<ClearanceRange>,
 }
 
@@ -147,6 +149,7 @@ impl Report<'_> {
         };
         json!({
             "closest": self.closest_json(&self.closest),
+            "tolerance": self.tolerance,
             "required": self.required,
             "verdict": self.verdict().map(verdict_name),
             "ranges": self.ranges.iter().map(|found| {

@@ -1,0 +1,91 @@
+//! The limits that end a search: its work, a time, and the flag that stops it.
+
+use super::stretch::Stretch;
+use rigid_ccd::Settings;
+use rigid_ccd::answer::Limit;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// The work that is left for a search, the time after which it ends, and the flag by which another thread stops it.
+#[derive(Clone, Debug)]
+pub(crate) struct StopCondition {
+    /// The budget of a segment.
+    budget: u64,
+    /// The largest amount of work for all pairs together, in units of the budget.
+    most_work: u64,
+    /// The work of all pairs so far.
+    work: u64,
+    end: Option<Instant>,
+    stop: Option<Arc<AtomicBool>>,
+}
+
+impl StopCondition {
+    pub(crate) const NONE: StopCondition = StopCondition {
+        budget: u64::MAX,
+        most_work: u64::MAX,
+        work: 0,
+        end: None,
+        stop: None,
+    };
+
+    /// Returns the limit of searches of a path whose time starts now.
+    pub(crate) fn starting_now(settings: &Settings) -> Self {
+        StopCondition {
+            budget: settings.budget,
+            most_work: settings.budget,
+            work: 0,
+            // A time beyond the end of the clock is none.
+            end: settings
+                .deadline
+                .and_then(|deadline| Instant::now().checked_add(deadline)),
+            stop: settings.stop.clone(),
+        }
+    }
+
+    /// Allows new work for a search of a stretch: a budget for each segment, or for a part of one.
+    pub(crate) fn begin_search(&mut self, stretch: &Stretch) {
+        let segments = (stretch.to - stretch.from).ceil() as u64;
+        self.most_work = self.budget.saturating_mul(segments.max(1));
+        self.work = 0;
+    }
+
+    /// Counts work, in units of the budget.
+    pub(crate) fn add_work(&mut self, work: u64) {
+        self.work = self.work.saturating_add(work);
+    }
+
+    /// Returns the work that is left, in units of the budget.
+    pub(crate) fn work_left(&self) -> u64 {
+        self.most_work.saturating_sub(self.work)
+    }
+
+    /// Returns the work of the present search, in units of the budget.
+    #[cfg(test)]
+    pub(crate) fn work(&self) -> u64 {
+        self.work
+    }
+
+    /// Returns the limit that ends the search now; `None` if it goes on.
+    pub(crate) fn reached_limit(&self) -> Option<Limit> {
+        let is_spent = self.work_left() == 0;
+        self.interruption()
+            .or_else(|| is_spent.then_some(Limit::Budget))
+    }
+
+    /// Returns the limit that ends all searches of the path now, whatever their work.
+    pub(crate) fn interruption(&self) -> Option<Limit> {
+        if self.end.is_some_and(|end| Instant::now() >= end) {
+            return Some(Limit::Deadline);
+        }
+        let stop = self.stop.as_ref();
+        let is_stopped = stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
+        is_stopped.then_some(Limit::Stopped)
+    }
+
+    /// Returns the time that is left.
+    pub(crate) fn remaining(&self) -> Option<Duration> {
+        self.end
+            .map(|end| end.saturating_duration_since(Instant::now()))
+    }
+}

@@ -1,0 +1,123 @@
+//! Tests that a budget is for a whole question, and that no limit leaves a wrong answer.
+
+use super::*;
+use rigid_ccd::answer::Limit;
+use std::time::Duration;
+
+/// A tree of links of many pieces among many obstacles of many pieces: each pair alone may take a budget.
+fn crowded_cell(random: &mut Pcg64) -> Cell {
+    let robot = random_robot(random);
+    let pairs = LinkPairs::from_robot(&robot);
+    let mut cell = Cell::new(robot, pairs);
+    for k in 0..30 {
+        let corners: Vec<DVec3> = (0..60)
+            .map(|_| DVec3::from_array([(); 3].map(|()| random.random_range(-0.2..0.2))))
+            .collect();
+        let faces: Vec<[u32; 3]> = (0..20).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        let labels: Vec<u32> = (0..20).collect();
+        let pieces = Pieces::from_triangles(&corners, &faces, &labels).unwrap();
+        let body = Body::new(&pieces, Solidity::Surface).unwrap();
+        let pose = random_pose(random, 1.2);
+        cell.add_obstacle(format!("obstacle{k}"), body, pose)
+            .unwrap();
+    }
+    cell
+}
+
+/// Tests that all pairs together take hardly more than the budget, and that what is told at the limit holds.
+#[test]
+fn a_budget_is_for_a_whole_question() {
+    let mut random = Pcg64::seed_from_u64(31);
+    let (mut unresolved, mut measured_bounds, mut largest) = (0, 0, 0.0);
+    for number in 0..40 {
+        let cell = crowded_cell(&mut random);
+        let budget = [1, 100, 1000][number % 3];
+        let settings = Settings {
+            budget,
+            tolerance: 1e-6,
+            ..Settings::DEFAULT
+        };
+        let mut solver = cell.solver().with_settings(settings);
+        let count = random.random_range(2..5);
+        let path: Vec<_> = (0..count)
+            .map(|_| random_configuration(&mut random, cell.robot()))
+            .collect();
+        // A stretch and a query end after they have begun, and bounds of a distance take half as much again.
+        let most = 2 * budget * (count - 1) + solver.search.pairs.count() as u64;
+        let check_work = |solver: &CellSolver<'_>| {
+            let work = solver.search.stop_condition.work();
+            assert!(work <= most, "{work} of {most}");
+            work as f64 / most as f64
+        };
+        let samples = |until: f64| {
+            let shares = (0..=20).map(move |k| until * f64::from(k) / 20.0);
+            let at = |time: f64| {
+                let segment = (time as usize).min(path.len() - 2);
+                let share = time - segment as f64;
+                configuration_between(&path[segment], &path[segment + 1], share)
+            };
+            let distances = shares.map(|time| least_distance(&cell, &at(time)));
+            distances.fold(f64::INFINITY, lesser)
+        };
+        let free_until = match solver.first_contact(&path).unwrap() {
+            PathOutcome::Free => (count - 1) as f64,
+            PathOutcome::Contact(contact) => contact.at.time(),
+            PathOutcome::Unresolved { free_until, limit } => {
+                unresolved += 1;
+                assert_eq!(limit, Limit::Budget);
+                free_until.time()
+            }
+        };
+        largest = greater(largest, check_work(&solver));
+        assert!(free_until == 0.0 || samples(free_until * (1.0 - 1e-9)) > 0.0);
+        let closest = solver.closest_approach(&path).unwrap();
+        largest = greater(largest, check_work(&solver));
+        let least = samples((count - 1) as f64);
+        assert!(closest.lower <= least, "{closest:?} {least}");
+        assert!(closest.limit.is_none_or(|limit| limit == Limit::Budget));
+        measured_bounds += usize::from(closest.limit.is_some());
+        let _ = solver.is_free(&path);
+        check_work(&solver);
+    }
+    assert!(
+        unresolved > 10 && measured_bounds > 10 && largest > 0.3,
+        "{unresolved} {measured_bounds} {largest}"
+    );
+}
+
+/// Tests that no question does more than begin once the deadline has passed.
+#[test]
+fn a_deadline_of_no_time_ends_all_questions() {
+    let mut random = Pcg64::seed_from_u64(32);
+    let settings = Settings {
+        deadline: Some(Duration::ZERO),
+        ..Settings::DEFAULT
+    };
+    for _ in 0..5 {
+        let cell = crowded_cell(&mut random);
+        let path: Vec<_> = (0..50)
+            .map(|_| random_configuration(&mut random, cell.robot()))
+            .collect();
+        let mut solver = cell.solver().with_settings(settings.clone());
+        let outcome = solver.first_contact(&path).unwrap();
+        let PathOutcome::Unresolved { free_until, limit } = outcome else {
+            panic!("{outcome:?}");
+        };
+        assert_eq!((free_until.time(), limit), (0.0, Limit::Deadline));
+        assert!(solver.is_free(&path).is_err());
+        assert_eq!(solver.search.stop_condition.work(), 0);
+        let closest = solver.closest_approach(&path).unwrap();
+        assert_eq!((closest.lower, closest.limit), (0.0, Some(Limit::Deadline)));
+        let ranges = solver
+            .clearance_ranges(&path, RangeSettings::DEFAULT)
+            .unwrap();
+        let [range] = ranges[..] else {
+            panic!("{ranges:?}");
+        };
+        assert_eq!(range.verdict, ClearanceVerdict::Unverified);
+        let curve = solver.distance_curve(&path, 2).unwrap();
+        let is_ended = |range: &DistanceRange<'_>| range.closest.limit == Some(Limit::Deadline);
+        assert!(curve.len() == 49 * 4 && curve.iter().all(is_ended));
+        assert_eq!(solver.search.stop_condition.work(), 0);
+    }
+}
