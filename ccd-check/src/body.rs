@@ -41,6 +41,8 @@ pub(crate) struct Part<'a> {
     pub(crate) body: &'a Body,
     pub(crate) node: &'a Node,
     pub(crate) link: usize,
+    /// How much the check has looked at so far.
+    pub(crate) work: &'a core::cell::Cell<u64>,
 }
 
 impl Body {
@@ -115,15 +117,15 @@ impl<'a> Part<'a> {
 
     /// Returns whether something is so of the part, or of all parts that it is split into.
     fn all(self, is_so: &impl Fn(&Node) -> bool) -> bool {
+        self.work.set(self.work.get() + 1);
         is_so(self.node) || self.halves().is_some_and(|[first, second]| first.all(is_so) && second.all(is_so))
     }
 }
 
 /// Reads a mesh: the numbers of vertices and triangles, the vertices with their radii, and the corners.
 fn read_mesh(mesh: &[u8], unit: i64) -> Checked<Vec<Option<Triangle>>> {
-    let mut reader = Reader::new(b"", mesh)?;
+    let (mut reader, mut vertices, mut triangles) = (Reader::new(b"", mesh)?, Vec::new(), Vec::new());
     let [vertex_count, triangle_count] = reader.all(|reader| reader.unsigned(4))?;
-    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
     for _ in 0..vertex_count {
         let [x, y, z] = reader.all(|reader| reader.number(unit, [LENGTH, 0]))?;
         vertices.push([x, y, z, reader.size(unit, [LENGTH, 0])?]);
@@ -192,7 +194,8 @@ mod tests {
             let order: Vec<u32> = (0..count).rev().collect();
             write_part(&mut random, &order, &mut parts);
             let body = Body::new(&mesh, &certificate(&mesh, &parts), UNIT).unwrap();
-            let mut waiting = alloc::vec![(Part { body: &body, node: &body.nodes[0], link: 0 }, 0, count as usize)];
+            let work = &core::cell::Cell::new(0);
+            let mut waiting = alloc::vec![(Part { body: &body, node: &body.nodes[0], link: 0, work }, 0, count as usize)];
             while let Some((part, from, to)) = waiting.pop() {
                 let corners = body.triangles[from..to].as_flattened();
                 let direction = [(); 3].map(|()| random.below(8) << FRACTION);

@@ -1,10 +1,14 @@
 //! The check of a certificate: a tree of splits, whose leaves cover all pairs of triangles at all times.
 
-use crate::{Body, Checked, Stop, body::Part, motion::Links, number::*, reader::Reader};
+use crate::{Body, Checked, Stop, body::Part, motion::Links, number::*, reader::Reader, verifiable};
 use alloc::{collections::BTreeMap, vec::Vec};
+use core::cell::Cell;
 
 /// Links are kept as they are in the middle of stretches of time, until these are so many, which is some 200 MB.
 const MAX_KEPT: usize = 1 << 19;
+
+/// No check looks at more links and parts.
+const MAX_WORK: u64 = 1 << 32;
 
 /// Weights of corners are multiples of 2⁻⁵⁵.
 const WEIGHT: u32 = 55;
@@ -15,21 +19,20 @@ type Pair<'b> = ([Part<'b>; 2], i64);
 /// Checks a certificate about meshes. Nothing is said of any other statement than the one in the certificate: the caller
 /// compares it with the one that he wants.
 ///
-/// A leaf takes time in proportion to the links, if no other one had its stretch of time, and to its parts: so of a hostile file in
-/// proportion to the square of its length.
+/// A leaf takes time in proportion to the links and to its parts: so a hostile file would take it in proportion to the square of its
+/// length. A check that looks at more than 2³² of both stops as unverifiable.
 ///
 /// # Errors
 /// [`Stop`] if the certificate does not prove its statement, or the checker cannot tell.
 pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
     let mut reader = Reader::new(b"CCDPROF1", certificate)?;
-    let (links, pairs, until) = read_statement(&mut reader, meshes)?;
-    let mut kept = BTreeMap::new();
+    let (work, mut kept) = (Cell::new(0), BTreeMap::new());
+    let (links, pairs, until) = read_claim(&mut reader, meshes, &work)?;
     for (bodies, margin) in pairs {
         // What is to be proven: first both whole bodies over the whole time. Each step splits the last entry, or proves it.
         let mut waiting = alloc::vec![(bodies, [0, until])];
         while let Some((parts @ [a, b], times @ [from, to])) = waiting.pop() {
-            let middle = from + (to - from) / 2;
-            let step = reader.unsigned(1)? as usize;
+            let (middle, step) = (from + (to - from) / 2, reader.unsigned(1)? as usize);
             if step < 2 {
                 let [first, second] = parts[step].halves().ok_or(reader.broken("a triangle is split"))?;
                 let with = |half| if step == 0 { [half, b] } else { [a, half] };
@@ -41,6 +44,9 @@ pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
                 if kept.len() * links.all.len() > MAX_KEPT {
                     kept.clear();
                 }
+                // The stretch, and the ways from and to two bodies.
+                work.set(work.get() + 3 * links.all.len() as u64);
+                verifiable(work.get() <= MAX_WORK, "the check takes too long")?;
                 let stretch = kept.entry(times).or_insert_with(|| links.stretch(middle, to - middle));
                 let is_apart = match step {
                     3..=5 => {
@@ -62,7 +68,7 @@ pub fn check(meshes: &[Body], certificate: &[u8]) -> Result<(), Stop> {
 
 /// Reads what is stated, and checks the witness. Returns links, pairs, and until when these stay apart, in multiples of 2⁻⁶⁰ of the
 /// unit of time.
-fn read_statement<'b>(reader: &mut Reader<'_>, meshes: &'b [Body]) -> Checked<(Links, Vec<Pair<'b>>, i64)> {
+fn read_claim<'b>(reader: &mut Reader<'_>, meshes: &'b [Body], work: &'b Cell<u64>) -> Checked<(Links, Vec<Pair<'b>>, i64)> {
     let units @ [length, time] = reader.all(|reader| reader.signed(4))?;
     let [link_count, body_count, pair_count] = reader.all(|reader| reader.unsigned(4))?;
     let links = Links::read(reader, link_count, units)?;
@@ -71,7 +77,7 @@ fn read_statement<'b>(reader: &mut Reader<'_>, meshes: &'b [Body]) -> Checked<(L
         let digest = reader.take(32)?;
         let mesh = meshes.iter().find(|mesh| mesh.digest == digest && mesh.unit == length);
         let mesh = mesh.ok_or(reader.broken("a mesh is none of those that are given, in this unit"))?;
-        bodies.push(Part { body: mesh, node: &mesh.nodes[0], link: reader.index(links.all.len())? });
+        bodies.push(Part { body: mesh, node: &mesh.nodes[0], link: reader.index(links.all.len())?, work });
     }
     for _ in 0..pair_count {
         let pair: [usize; 2] = reader.all(|reader| reader.index(bodies.len()))?;
@@ -89,9 +95,8 @@ fn check_witness(reader: &mut Reader<'_>, [unit, time]: [i64; 2], links: &Links,
     let (bodies, margin) = pairs[reader.index(pairs.len())?];
     // The time may be rounded up by one: what moves then is less than what is lost.
     let placed = links.stretch(reader.size(time, [0, FRACTION])?, 0).placed;
-    let tolerance = reader.size(unit, [LENGTH, 0])?;
     // Margin, radii and tolerance are rounded up: by at most 1 each.
-    let (mut apart, mut limit) = (ZERO, margin + tolerance - 4);
+    let (mut apart, mut limit) = (ZERO, margin + reader.size(unit, [LENGTH, 0])? - 4);
     for Part { body, link, .. } in bodies {
         let corners = body.triangles[reader.index(body.triangles.len())?];
         let weights = reader.all(|reader| Ok(reader.unsigned(7)? as i64))?;
@@ -101,8 +106,7 @@ fn check_witness(reader: &mut Reader<'_>, [unit, time]: [i64; 2], links: &Links,
         apart = sub(add(placed[link].place, turned(placed[link].rotation, arm)), apart);
         limit += radius - 3 * links.loss(length(arm)) as i64;
     }
-    let is_near = limit >= 0 && dot(apart, apart) <= product(limit, limit);
-    reader.require(is_near, "the witnesses are too far from each other")
+    reader.require(limit >= 0 && dot(apart, apart) <= product(limit, limit), "the witnesses are too far from each other")
 }
 
 #[cfg(test)]
@@ -208,5 +212,26 @@ mod tests {
             proof.extend(leaf(1 << 25));
         }
         assert_eq!(check(core::slice::from_ref(&body), &proof), Ok(()));
+    }
+
+    /// Leaves of many pairs on a long chain, as many as a check looks at and one more: a longer file would take hours.
+    #[test]
+    fn a_check_has_an_end() {
+        let body = triangle();
+        let mut chain = alloc::vec![0.0; 1 << 15];
+        chain[0] = 67_108_864.0;
+        let proof = proof(&chain, ([0, 1], &body));
+        let (before, rest) = proof.split_at(proof.len() - 4 - 8 - 16);
+        let (pair, end) = rest.split_at(16);
+        let verdict = |count: usize| {
+            let leaves = leaf(1 << 25).repeat(count);
+            let mut proof = [before, &pair.repeat(count), end, &leaves].concat();
+            proof[24..28].copy_from_slice(&(count as u32).to_le_bytes());
+            check(core::slice::from_ref(&body), &proof)
+        };
+        // Of each leaf three times all links, and both triangles, each at both ends or once.
+        let most = MAX_WORK as usize / (3 * (chain.len() + 1) + 4);
+        assert_eq!(verdict(most), Ok(()));
+        assert_eq!(verdict(most + 10), Err(Stop::Unverifiable("the check takes too long")));
     }
 }

@@ -62,8 +62,7 @@ impl<'a> Reader<'a> {
     /// Reads the number of one of so many things, in 4 bytes.
     pub(crate) fn index(&mut self, count: usize) -> Checked<usize> {
         let index = self.unsigned(4)? as usize;
-        self.require(index < count, "there is nothing of this number")?;
-        Ok(index)
+        self.require(index < count, "there is nothing of this number").map(|()| index)
     }
 
     /// Reads a binary64, rounded down to a number of so many bits in a unit, which is a power of two, and so many bits after it.
@@ -82,7 +81,6 @@ impl<'a> Reader<'a> {
     /// Reads a binary64 that is not negative, rounded up by at most one.
     pub(crate) fn size(&mut self, unit: i64, bits: [u32; 2]) -> Checked<i64> {
         let number = self.number(unit, bits)?;
-        self.require(number >= 0, "a length or a time is negative")?;
-        Ok(number + 1)
+        self.require(number >= 0, "a length or a time is negative").map(|()| number + 1)
     }
 }

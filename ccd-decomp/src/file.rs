@@ -9,7 +9,6 @@ use crate::prepare::report::Report;
 use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::{Hierarchy, HullNode, HullTree, Pieces, Solidity};
 use error::{StoreError, StoreFault};
-use std::fs::File;
 use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 
@@ -57,7 +56,7 @@ impl StoredBodyContent {
     /// [`StoreError`], which names the file.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, StoreError> {
         let path = path.as_ref();
-        let file = File::open(path).map_err(StoreFault::Unreadable);
+        let file = ccd_file::open(path).map_err(StoreFault::Unreadable);
         file.and_then(|file| StoredBodyContent::read_stored_body(BufReader::new(file)))
             .map_err(|fault| StoreError::new(path, fault))
     }

@@ -76,8 +76,8 @@ pub(crate) fn open_stream(path: &Path) -> io::Result<File> {
 }
 
 /// Returns whether a path names an open file of a process, such as `/dev/stdout`, which cannot be replaced by a rename.
-fn is_descriptor_path(path: &Path) -> bool {
-    let named = ["/dev/stdout", "/dev/stderr"];
+pub(crate) fn is_descriptor_path(path: &Path) -> bool {
+    let named = ["/dev/stdin", "/dev/stdout", "/dev/stderr"];
     let in_proc = || path.starts_with("/proc") && path.parent().is_some_and(|p| p.ends_with("fd"));
     named.iter().any(|name| path == Path::new(name)) || path.starts_with("/dev/fd") || in_proc()
 }

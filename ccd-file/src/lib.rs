@@ -1,22 +1,26 @@
-//! Atomic writes of output files, by one process at a time.
+//! Atomic writes of output files, by one process at a time, and reads of input files that end.
 //!
 //! | to … | see |
 //! |---|---|
 //! | write a file in one go | [`write()`] |
 //! | write a file for long, alone | [`Claim`] |
 //! | tell files from pipes and devices | [`Destination`] |
+//! | read a whole file, and no device | [`read()`], [`read_to_string`], [`open`] |
 //!
 //! # Guarantee
 //! A file has its final name only when it is complete and on the disk. Until then an older file of that name is
-//! unchanged: an error, a full disk or a killed process loses nothing. A new file has the permissions of the file that
+//! unchanged: an error, a full disk or a killed process loses nothing. What a killed process left beside it, [`write()`]
+//! removes later. A new file has the permissions of the file that
 //! it replaces. Links are followed: their targets are replaced.
 
 mod claim;
 mod destination;
+mod read;
 mod temp_file;
 
 pub use claim::{Claim, PARTIAL_EXTENSION};
 pub use destination::{Destination, check_parent_folder, resolve_links};
+pub use read::{MAX_FILE_BYTES, MAX_PIPE_BYTES, open, read, read_to_string};
 
 use std::io::{self, Write};
 use std::path::Path;

@@ -1,10 +1,18 @@
 //! Temporary files that are renamed to their final names.
 
 use same_file::Handle;
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The extension of temporary files.
+const TEMP_EXTENSION: &str = ".part";
+
+/// The maximum number of attempts to create a temporary file.
+const MAX_CREATE_ATTEMPTS: usize = 1000;
 
 /// A file under a temporary name in its target's folder; when it is complete, it is renamed to the target.
 #[derive(Debug)]
@@ -21,23 +29,33 @@ impl TempFile {
     /// Creates an empty file in the target's folder, under a name that no other thread or process uses.
     pub(crate) fn new(target: PathBuf) -> io::Result<Self> {
         static NEXT_FILE_NUMBER: AtomicU64 = AtomicU64::new(0);
-        loop {
+        remove_abandoned_files_once(target.parent().unwrap_or(Path::new("")));
+        for _ in 0..MAX_CREATE_ATTEMPTS {
             let count = NEXT_FILE_NUMBER.fetch_add(1, Ordering::Relaxed);
-            let path = sibling(&target, &format!(".{}-{count}.part", std::process::id()));
+            let ending = format!(".{}-{count}{TEMP_EXTENSION}", std::process::id());
+            let path = sibling(&target, &ending);
             match File::create_new(&path) {
                 // Left behind by a process with the same id.
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error_with_path(&path, &error)),
                 Ok(file) => {
-                    return Ok(TempFile {
-                        file,
-                        path,
-                        target,
-                        is_kept_on_drop: false,
-                    });
+                    // The lock says that the file is in use. A file system without locks has no abandoned files removed.
+                    let _ = file.try_lock();
+                    // Before it was locked another process may have taken it for an abandoned one.
+                    if leads_to_file(&file, &path)? {
+                        return Ok(TempFile {
+                            file,
+                            path,
+                            target,
+                            is_kept_on_drop: false,
+                        });
+                    }
                 }
             }
         }
+        Err(io::Error::other(
+            "temporary files are removed as soon as they are made",
+        ))
     }
 
     /// Renames the complete file to its target, after it is synced to disk.
@@ -66,6 +84,46 @@ impl Drop for TempFile {
             let _ = fs::remove_file(&self.path);
         }
     }
+}
+
+/// Removes the temporary files in a folder whose processes have ended before they were complete: those that no process has
+/// locked. A process does so once for each folder.
+fn remove_abandoned_files_once(folder: &Path) {
+    static DONE: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    let is_first = DONE
+        .lock()
+        .is_ok_and(|mut done| done.insert(folder.to_owned()));
+    let here = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let entries = is_first.then(|| fs::read_dir(here).ok()).flatten();
+    for entry in entries.into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        if name.to_str().is_some_and(is_temp_name)
+            && entry.file_type().is_ok_and(|kind| kind.is_file())
+        {
+            // What cannot be removed stays, and does no harm.
+            let _ = remove_if_abandoned(&entry.path());
+        }
+    }
+}
+
+/// Returns whether a name is one that [`TempFile::new`] gives: `NAME.PROCESS-COUNT.part`.
+fn is_temp_name(name: &str) -> bool {
+    let number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let ending = name
+        .strip_suffix(TEMP_EXTENSION)
+        .and_then(|name| name.rsplit_once('.'))
+        .and_then(|(_, numbers)| numbers.split_once('-'));
+    ending.is_some_and(|(process, count)| number(process) && number(count))
+}
+
+fn remove_if_abandoned(path: &Path) -> io::Result<()> {
+    let file = File::options().write(true).open(path)?;
+    file.try_lock()?;
+    fs::remove_file(path)
 }
 
 /// Returns whether a path still leads to a given open file, rather than to a newer file or to none.

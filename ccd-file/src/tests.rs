@@ -62,6 +62,44 @@ fn a_write_that_fails_leaves_the_older_file() {
     }
 }
 
+/// Tests that what a killed process left is removed, and nothing else: not what is being written, nor files of other names.
+#[test]
+fn abandoned_temporary_files_are_removed() {
+    let folder = Folder::new("abandoned");
+    let (left, own) = (folder.path("page.77-0.part"), folder.path("notes.part"));
+    let busy = folder.path("page.78-0.part");
+    for file in [&left, &own, &busy, &folder.path("x.7-a.part")] {
+        fs::write(file, "half").unwrap();
+    }
+    let lock = fs::File::options().write(true).open(&busy).unwrap();
+    lock.try_lock().unwrap();
+    write(folder.path("page"), |out| out.write_all(b"whole")).unwrap();
+    assert_eq!(
+        folder.names(),
+        ["notes.part", "page", "page.78-0.part", "x.7-a.part"]
+    );
+}
+
+#[test]
+fn a_file_is_read_whole_and_a_folder_is_none() {
+    let folder = Folder::new("read");
+    let file = folder.path("text");
+    fs::write(&file, "whole").unwrap();
+    assert_eq!(read(&file).unwrap(), b"whole");
+    assert_eq!(read_to_string(&file).unwrap(), "whole");
+    fs::write(&file, b"\xff").unwrap();
+    let error = read_to_string(&file).unwrap_err();
+    assert_eq!(error.kind(), io::ErrorKind::InvalidData);
+    let error = read(&folder.0).unwrap_err();
+    assert_eq!(error.kind(), io::ErrorKind::IsADirectory);
+    let error = open(folder.path("none")).unwrap_err();
+    assert_eq!(error.kind(), io::ErrorKind::NotFound);
+    // Sparse: no memory is as large.
+    let long = fs::File::create(&file).unwrap();
+    long.set_len(MAX_FILE_BYTES + 1).unwrap();
+    assert_eq!(read(&file).unwrap_err().kind(), io::ErrorKind::FileTooLarge);
+}
+
 #[test]
 fn a_claimed_file_is_given_to_one() {
     let folder = Folder::new("claimed");
@@ -198,6 +236,20 @@ mod unix {
         symlink("round", &round).unwrap();
         assert!(write(&round, |_| Ok(())).is_err());
         assert_eq!(folder.names(), ["early", "late", "link", "round", "target"]);
+    }
+
+    #[test]
+    fn what_may_never_end_is_not_read() {
+        let folder = Folder::new("endless");
+        let link = folder.path("part.stl");
+        symlink("/dev/zero", &link).unwrap();
+        let pipe = folder.path("pipe.stl");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.unwrap().success());
+        for endless in [&link, &pipe, Path::new("/dev/zero")] {
+            let error = read(endless).unwrap_err().to_string();
+            assert!(error.contains("may never end"), "{error}");
+        }
     }
 
     #[test]

@@ -3,10 +3,11 @@
 use crate::body::Body;
 use crate::error::{NoMesh, NotProven, PathNotProven};
 use crate::placed::moving;
+use crate::positions::{ImpossiblePosition, check_positions};
 use crate::resting::{Resting, resting_bodies};
 use crate::scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
 use crate::statement::Statement;
-use crate::write::{Proof, mesh_points, prove_unless_stopped, state};
+use crate::write::{Proof, mesh_points, prove_unless_stopped, statement_of};
 use ccd_core::{Motion, Pose};
 use rigid_ccd::Settings;
 use rigid_ccd::trajectory::JointKind;
@@ -47,6 +48,11 @@ impl<'c> ProvenCell<'c> {
             bodies,
             links,
         })
+    }
+
+    /// Returns the cell.
+    pub fn cell(&self) -> &'c Cell {
+        self.cell
     }
 
     /// Returns the meshes of the cell's bodies.
@@ -97,9 +103,8 @@ impl<'c> ProvenCell<'c> {
     pub fn joints_of(&self, statement: &Statement, margin: f64) -> Option<Vec<(&str, [f64; 2])>> {
         let robot = self.cell.robot();
         let still = vec![0.0; robot.free_joint_names().len()];
-        let scene = self.edge(&still, &still, margin).ok()?;
-        let (own, ..) = state(&scene, &moving(&scene.links, 0).ok()?, 0.0, None).ok()?;
-        let scales = Statement::read(&own)?.scales(statement)?;
+        let own = statement_of(&self.edge(&still, &still, margin).ok()?, 0.0)?;
+        let scales = own.scales(statement)?;
         let links = statement.links.iter().zip(scales).zip(&self.links);
         let joints = links.filter(|((stated, _), _)| stated.axes > 0);
         let positions = joints.map(|((stated, scale), (.., number))| {
@@ -107,6 +112,27 @@ impl<'c> ProvenCell<'c> {
             (&*robot.joints()[*number].name, positions)
         });
         Some(positions.collect())
+    }
+
+    /// Says whether joints may be at positions that a statement gives them, as [`ProvenCell::joints_of`] returns them: within their
+    /// limits, and as the rules of those that follow others say.
+    ///
+    /// # Errors
+    /// [`ImpossiblePosition`], with the first joint that may not.
+    pub fn check_positions(&self, joints: &[(&str, [f64; 2])]) -> Result<(), ImpossiblePosition> {
+        check_positions(self.cell.robot(), joints)
+    }
+
+    /// Returns what a proof of an edge states, until its end; `None` if no certificate can state it, as its numbers are too small.
+    ///
+    /// # Errors
+    /// [`RobotError::WrongPositionCount`].
+    pub fn statement(
+        &self,
+        [from, to]: [&[f64]; 2],
+        margin: f64,
+    ) -> Result<Option<Statement>, RobotError> {
+        Ok(statement_of(&self.edge(from, to, margin)?, 1.0))
     }
 
     /// Returns the pairs of bodies that are compared: those of the first ones of what rests stand for all.

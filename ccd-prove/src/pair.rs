@@ -3,7 +3,8 @@
 use crate::body::Body;
 use crate::error::{NoMesh, NotProven};
 use crate::scene::{Scene, Witness};
-use crate::write::{Proof, prove_unless_stopped};
+use crate::statement::Statement;
+use crate::write::{Proof, prove_unless_stopped, statement_of};
 use ccd_core::{Answer, Motion, Outcome, Settings};
 
 /// Two bodies that are prepared for proofs.
@@ -26,6 +27,14 @@ impl ProvenPair {
     /// Returns the meshes of the bodies.
     pub fn meshes(&self) -> [&Body; 2] {
         self.bodies.each_ref()
+    }
+
+    /// Returns what a proof of two motions states, until their end; `None` if no certificate can state it, as its numbers are too
+    /// small.
+    pub fn statement(&self, motions: [Motion; 2], duration: f64, margin: f64) -> Option<Statement> {
+        let [a, b] = &self.bodies;
+        let scene = Scene::of_two((a, motions[0]), (b, motions[1]), margin);
+        statement_of(&scene, duration)
     }
 
     /// Proves what an answer to a question about the first contact says: that the bodies are farther apart than the margin until

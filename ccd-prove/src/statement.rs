@@ -1,6 +1,7 @@
 //! What a certificate states, read for people: the checker reads it by itself.
 
-use ccd_core::glam::DVec3;
+use crate::cursor::{Cursor, signed, unsigned};
+use crate::stated_link::StatedLink;
 use std::fmt::{self, Display};
 
 /// The statement of a certificate.
@@ -22,65 +23,13 @@ pub struct Statement {
     pub bytes: usize,
 }
 
-/// A link, and how it moves on the one that carries it: a point y is at `p + R c + s v + exp(s [a]×) R (y − c)` with
-/// s = start + t rate, where p is the position, R the rotation of the quaternion, c the centre, v the velocity, a the axis.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StatedLink {
-    /// The number of the link that carries it, counted from 1; 0 is the world.
-    pub parent: u32,
-    /// The position.
-    pub position: [f64; 3],
-    /// The quaternion x, y, z, w.
-    pub quaternion: [f64; 4],
-    /// The point of the link about which it turns.
-    pub centre: [f64; 3],
-    /// What velocity and axis are along: 0 the axes of the parent, 1 those of the joint, so that v and a are R times them.
-    pub axes: u32,
-    /// The velocity, by which the centre moves.
-    pub velocity: [f64; 3],
-    /// The axis, about which it turns.
-    pub axis: [f64; 3],
-    /// What it has moved by at time 0.
-    pub start: f64,
-    /// What it moves by in a unit of time.
-    pub rate: f64,
-}
-
-impl StatedLink {
-    fn read(at: &mut Cursor<'_>) -> Option<Self> {
-        Some(StatedLink {
-            parent: at.u32()?,
-            position: at.numbers()?,
-            quaternion: at.numbers()?,
-            centre: at.numbers()?,
-            axes: at.u32()?,
-            velocity: at.numbers()?,
-            axis: at.numbers()?,
-            start: at.f64()?,
-            rate: at.f64()?,
-        })
-    }
-
-    /// Returns by what start and rate of the same joint at other positions are to be multiplied, from which a power of two may have
-    /// been taken; `None` if that is another joint.
-    fn scale(&self, other: &StatedLink) -> Option<f64> {
-        let is_fixed = self.axes == 0;
-        let [own, theirs] = [self.velocity, other.velocity].map(DVec3::from_array);
-        let largest = own.abs().max_position();
-        let scale = if own == DVec3::ZERO {
-            1.0
-        } else {
-            own[largest] / theirs[largest]
-        };
-        let is_power = scale.is_normal() && scale > 0.0 && scale.to_bits() << 12 == 0;
-        let as_theirs = StatedLink {
-            velocity: (own / scale).to_array(),
-            start: if is_fixed { self.start } else { other.start },
-            rate: if is_fixed { self.rate } else { other.rate },
-            ..self.clone()
-        };
-        (is_power && as_theirs == *other).then_some(1.0 / scale)
-    }
+/// What a statement is about but for its margins and times: which meshes move how, and which pairs are compared. Two statements
+/// have the same subject if their numbers are the same, up to powers of two that a certificate moves between factors.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Subject {
+    links: Vec<Vec<u64>>,
+    bodies: Vec<([u8; 32], u32)>,
+    pairs: Vec<[u32; 2]>,
 }
 
 /// Two points of a pair that are near each other at a time.
@@ -144,6 +93,22 @@ impl Statement {
         })
     }
 
+    /// Returns what the statement is about, for comparison with the one that is wanted.
+    pub fn subject(&self) -> Subject {
+        Subject {
+            links: self.links.iter().map(StatedLink::numbers).collect(),
+            bodies: self.bodies.clone(),
+            pairs: self.pairs.iter().map(|(bodies, _)| *bodies).collect(),
+        }
+    }
+
+    /// Returns whether all pairs keep at least the margins that they have in another statement of the same subject.
+    pub fn keeps_margins_of(&self, wanted: &Statement) -> bool {
+        let pairs = self.pairs.iter().zip(&wanted.pairs);
+        self.pairs.len() == wanted.pairs.len()
+            && pairs.into_iter().all(|(own, wanted)| own.1 >= wanted.1)
+    }
+
     /// Returns by what start and rate of each link of another statement are to be multiplied; `None` if it is not about the same
     /// bodies, on the same links, with the same pairs and margins. The positions of joints may differ, and times.
     pub(crate) fn scales(&self, other: &Statement) -> Option<Vec<f64>> {
@@ -178,12 +143,14 @@ impl Statement {
     }
 }
 
-/// The statement as text, a line for each link, body and pair. Numbers are the shortest that are read as the same binary64.
+/// The statement as text, a line for each link, body and pair; links move by the numbers that they were [given
+/// with](StatedLink::as_given). Numbers are the shortest that are read as the same binary64.
 impl Display for Statement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [length, time] = self.units;
         writeln!(f, "units 2^{length} of length, 2^{time} of time")?;
         for (number, link) in self.links.iter().enumerate() {
+            let link = link.as_given();
             let axes = if link.axes == 0 { "parent" } else { "joint" };
             let StatedLink {
                 parent,
@@ -195,7 +162,7 @@ impl Display for Statement {
                 start,
                 rate,
                 ..
-            } = link;
+            } = &link;
             writeln!(
                 f,
                 "link {} on {parent} position {position:?} quaternion {quaternion:?} centre {centre:?} axes of the {axes} velocity \
@@ -256,41 +223,4 @@ fn plane(at: &mut Cursor<'_>) -> Option<String> {
     let mut number = || Some(signed(at.take(7)?));
     let normal = [number()?, number()?, number()?];
     Some(format!("{normal:?} {}", number()?))
-}
-
-/// Returns a number of 7 bytes in two's complement.
-fn signed(bytes: &[u8]) -> i64 {
-    (unsigned(bytes) as i64) << 8 >> 8
-}
-
-fn unsigned(bytes: &[u8]) -> u64 {
-    let bytes = bytes.iter().rev();
-    bytes.fold(0, |number, &byte| number << 8 | u64::from(byte))
-}
-
-/// What is not read yet.
-struct Cursor<'a>(&'a [u8]);
-
-impl<'a> Cursor<'a> {
-    fn take(&mut self, count: usize) -> Option<&'a [u8]> {
-        let (taken, rest) = self.0.split_at_checked(count)?;
-        self.0 = rest;
-        Some(taken)
-    }
-
-    fn u32(&mut self) -> Option<u32> {
-        Some(u32::from_le_bytes(self.take(4)?.try_into().ok()?))
-    }
-
-    fn numbers<const N: usize>(&mut self) -> Option<[f64; N]> {
-        let mut numbers = [0.0; N];
-        for number in &mut numbers {
-            *number = self.f64()?;
-        }
-        Some(numbers)
-    }
-
-    fn f64(&mut self) -> Option<f64> {
-        Some(f64::from_le_bytes(self.take(8)?.try_into().ok()?))
-    }
 }

@@ -6,6 +6,7 @@ use crate::nearest::MeshPoint;
 use crate::placed::{Moving, moving, placed};
 use crate::scene::{Scene, Witness};
 use crate::screw::exponent_above;
+use crate::statement::Statement;
 use crate::tolerances::ROUNDING;
 use crate::tree::Tree;
 use ccd_core::glam::DVec3;
@@ -85,7 +86,7 @@ pub(crate) fn prove_unless_stopped(
 ///
 /// # Errors
 /// [`NotProven::NoContact`].
-pub(crate) fn state(
+fn state(
     scene: &Scene<'_>,
     links: &[Moving],
     until: f64,
@@ -124,6 +125,13 @@ pub(crate) fn state(
         write_witness(&mut bytes, scene, links, (witness, lost))?;
     }
     Ok((bytes, unit, lost))
+}
+
+/// Returns what a certificate of a scene states without a witness; `None` if none can state it.
+pub(crate) fn statement_of(scene: &Scene<'_>, until: f64) -> Option<Statement> {
+    let links = moving(&scene.links, exponent_above(until)).ok()?;
+    let (bytes, ..) = state(scene, &links, until, None).ok()?;
+    Statement::read(&bytes)
 }
 
 /// Returns the sum of the coordinates of all arms and of their changes in the unit of time, of which the checker has 59 bits.

@@ -1,21 +1,24 @@
 //! `ccd check`: checks machine-checkable proofs, by a checker that shares no code with what found and wrote them.
 
+mod meshes;
+mod rows;
+mod subject;
+
 use crate::files::input_name;
 use crate::meshes::MeshArgs;
-use crate::output::OutputError;
-use crate::printable::PrintableText;
-use crate::robots::{CellArgs, length};
+use crate::numbers::parse_nonnegative;
+use crate::output::print_line;
+use crate::robots::{CellArgs, JointsArgs, length};
 use crate::{RunOutcome, print_error};
 use anyhow::{Context, Result, bail};
-use ccd_check::{Stop, check};
-use ccd_decomp::BodySource;
-use ccd_prove::{Body, ProvenCell, Statement, steps_text};
+use ccd_check::check;
+use ccd_prove::{ProvenCell, Statement, steps_text};
 use clap::Args;
+use meshes::{Meshes, files_ending_in};
+use rows::{AskedTable, Proofs};
 use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
-use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use subject::{Subject, WantedPair};
 
 /// Check machine-checkable proofs of `ccd query` or `ccd edges`
 #[derive(Clone, Debug, Args)]
@@ -23,11 +26,13 @@ use std::path::{Path, PathBuf};
     mut_arg("urdf", |urdf| urdf.long("robot").conflicts_with_all(["a", "b"])),
     mut_arg("srdf", |srdf| srdf.requires("urdf")),
     mut_arg("cell", |cell| cell.requires("urdf")),
+    mut_arg("joint", |joint| joint.requires("edges")),
+    mut_arg("rest", |rest| rest.requires("edges")),
     after_help = AFTER_HELP
 )]
 pub(crate) struct CheckArgs {
-    /// Proofs; each names its meshes by their digests
-    #[arg(required = true, value_name = "PROOF")]
+    /// Proofs, or folders of them; each proof names its meshes by their digests
+    #[arg(required = true, value_name = "PROOF|FOLDER")]
     proofs: Vec<PathBuf>,
     /// Folder with NAME.mesh and NAME.body of all meshes [default: that of the first proof]
     #[arg(long, value_name = "FOLDER")]
@@ -40,8 +45,19 @@ pub(crate) struct CheckArgs {
     b: Option<String>,
     #[command(flatten)]
     meshes: MeshArgs,
+    /// Distance that a and b have to keep by the proofs, in the unit of length of the meshes
+    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = parse_nonnegative, conflicts_with = "urdf")]
+    margin: f64,
+    /// Table of motions of which each row has to have a proof, as of `ccd query`
+    #[arg(long, value_name = "TABLE", requires_all = ["a", "b"], conflicts_with = "urdf")]
+    motions: Option<PathBuf>,
     #[command(flatten)]
     cell: CellArgs,
+    /// Table of edges or paths of which each row has to have proofs, as of `ccd edges`
+    #[arg(long, value_name = "TABLE", requires = "urdf")]
+    edges: Option<PathBuf>,
+    #[command(flatten)]
+    joints: JointsArgs,
     /// Distance that all pairs of the cell have to keep by the proofs, such as 0.005 or 5mm
     #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length, requires = "urdf")]
     clearance: f64,
@@ -55,69 +71,77 @@ pub(crate) struct CheckArgs {
 
 const AFTER_HELP: &str = "\
 A proof holds for what it states: its meshes, motions, margins and times are printed. With --a and --b it has to be about these
-bodies, with --robot about all pairs of the robot and its cell; the positions of its joints are printed. Whether its motions are
-those that you want is yours to compare (--show).
+bodies, with --robot about all pairs of the robot and its cell; the positions of its joints are printed, and have to keep limits and
+mimic rules. With --motions or --edges each row of the table has to have proofs that state its motion, to the end or until a proven
+contact; files may have any names. Else whether the motions are those that you want is yours to compare (--show).
 
 Verdicts:
-  holds          what is stated is true
-  broken         the proof or a mesh is not what it has to be; the reason follows
-  unverifiable   numbers are beyond the range of the checker
-  other bodies   the proof is about bodies other than --a and --b
-  other cell     the proof is about bodies, links, pairs or distances other than those of --robot, --cell and --clearance
+  holds           what is stated is true
+  broken          the proof or a mesh is not what it has to be; the reason follows
+  unverifiable    numbers are beyond the range of the checker, or it would take too long
+  other bodies    the proof is about bodies other than --a and --b
+  smaller margin  it is about a smaller distance than --margin
+  other cell      the proof is about bodies, links, pairs or distances other than those of --robot, --cell and --clearance
+  impossible      a joint is beyond its limits, or not where its mimic rule moves it
 
-Exit code: 0 if all proofs hold, 3 if one does not, 2 for bad input.
+Exit codes:
+  0  all proofs hold, and each row of the table has its own
+  1  the verdicts cannot be written
+  2  bad input, or bad rows of the table
+  3  a proof does not hold, a row is not proven to the end or a contact, or a proof is of no row
 
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --certificates proofs
-  ccd check proofs/hit.proof --a knot.obj --b knot.obj
-  ccd check proofs/*.proof --show
+  ccd check proofs --a knot.obj --b knot.obj --motions motions.csv
+  ccd check proofs/0-hit.proof --a knot.obj --b knot.obj --show
   ccd edges arm.urdf --cell cell.toml --edges moves.csv --certificates edges
-  ccd check edges/*.proof --robot arm.urdf --cell cell.toml";
+  ccd check edges --robot arm.urdf --cell cell.toml
+  ccd check edges --robot arm.urdf --cell cell.toml --edges moves.csv";
 
-/// The meshes of a folder as bytes, each with the certificate of its tree.
-type Meshes = Vec<(Vec<u8>, Vec<u8>)>;
+/// The number of units in which the meshes are kept.
+const MAX_UNITS: usize = 16;
 
 /// Runs `ccd check`.
 pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
-    let folder = args.bodies.as_deref();
-    let folder = folder.or(args.proofs.first().and_then(|proof| proof.parent()));
-    let meshes = read_meshes(folder.unwrap_or(Path::new("")))?;
+    let proofs = args.proof_files()?;
+    let meshes = Meshes::read(args.folder_of_meshes())?;
     let cell = args.cell.robot.is_given().then(|| args.cell.load(true));
     let cell = cell.transpose()?;
     let subject = match &cell {
         Some(cell) => Subject::Cell(ProvenCell::new(cell)?, args.clearance),
-        None => Subject::Pair([
-            wanted_digest(("--a", &args.a), &args.meshes)?,
-            wanted_digest(("--b", &args.b), &args.meshes)?,
-        ]),
+        None => {
+            let wanted = WantedPair::load([&args.a, &args.b], &args.meshes)?;
+            Subject::Pair(wanted, args.margin)
+        }
     };
     // The checker reads the meshes in the unit of each proof, of which there are few.
     let mut bodies = BTreeMap::new();
     let mut outcome = RunOutcome::AllAnswered;
-    for path in &args.proofs {
+    let mut held = Proofs::default();
+    for path in &proofs {
         let name = input_name(path);
-        let bytes = fs::read(path).with_context(|| format!("{name}: cannot read it"))?;
+        let bytes = ccd_file::read(path).with_context(|| format!("{name}: cannot read it"))?;
         let Some(statement) = Statement::read(&bytes) else {
             print_error(&format!("{name}: this is no proof"));
             outcome = outcome.max(RunOutcome::SomeRowsBad);
             continue;
         };
-        let bodies = match bodies.entry(statement.units[0]) {
-            Entry::Occupied(bodies) => bodies.into_mut(),
-            Entry::Vacant(place) => place.insert(read_bodies(&meshes, &bytes)),
-        };
-        let verdict = match bodies {
-            Ok(bodies) => check(bodies, &bytes),
-            Err(stop) => Err(*stop),
-        };
-        let verdict = match verdict {
-            Err(stop) => stop.to_string(),
-            Ok(()) => subject.verdict(&statement),
-        };
-        if !verdict.starts_with("holds") {
-            outcome = outcome.max(RunOutcome::SomeRowsUnproven);
+        if bodies.len() > MAX_UNITS {
+            bodies.clear();
         }
-        print_line(&format!("{name}: {verdict}"))?;
+        let (bodies, left_out) = bodies
+            .entry(statement.units[0])
+            .or_insert_with(|| meshes.bodies(&bytes));
+        let checked = check(bodies, &bytes).map_err(|stop| match left_out {
+            Some(other) => format!("{stop}; a mesh is {other}"),
+            None => stop.to_string(),
+        });
+        let verdict = checked.and_then(|()| subject.verdict(&statement));
+        let (is_held, text) = match verdict {
+            Ok(text) => (true, text),
+            Err(text) => (false, text),
+        };
+        print_line(&format!("{name}: {text}"))?;
         if args.show {
             statement.to_string().lines().try_for_each(print_line)?;
         }
@@ -126,104 +150,52 @@ pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
                 .lines()
                 .try_for_each(print_line)?;
         }
+        if is_held {
+            held.add(&name, statement);
+        } else {
+            outcome = outcome.max(RunOutcome::SomeRowsUnproven);
+        }
     }
-    Ok(outcome)
+    let matched = args
+        .table()
+        .map(|table| held.match_rows(table, &subject))
+        .transpose()?;
+    Ok(matched.map_or(outcome, |matched| outcome.max(matched)))
 }
 
-/// What proofs have to be about.
-enum Subject<'c> {
-    /// One pair, whose bodies have these digests, as far as they are given; if none is, anything.
-    Pair([Option<[u8; 32]>; 2]),
-    /// All pairs of a cell, with a distance that they keep.
-    Cell(ProvenCell<'c>, f64),
-}
-
-impl Subject<'_> {
-    /// Returns the verdict on a proof that holds.
-    fn verdict(&self, statement: &Statement) -> String {
-        let joints = match self {
-            Subject::Pair(wanted) if is_about(statement, wanted) => Vec::new(),
-            Subject::Pair(_) => return "other bodies".into(),
-            Subject::Cell(cell, clearance) => match cell.joints_of(statement, *clearance) {
-                Some(joints) => joints,
-                None => return "other cell".into(),
-            },
-        };
-        let joints = joints.iter();
-        let joints = joints.map(|(name, [from, to])| format!("{name} {from} to {to}; "));
-        format!(
-            "holds: {}{}",
-            joints.collect::<String>(),
-            statement.summary()
-        )
+impl CheckArgs {
+    /// Returns the files of the proofs; of a folder all that it has.
+    fn proof_files(&self) -> Result<Vec<PathBuf>> {
+        let mut files = Vec::new();
+        for path in &self.proofs {
+            if path.is_dir() {
+                let found = files_ending_in("proof", path)?;
+                if found.is_empty() && self.table().is_none() {
+                    bail!("{}: has no file NAME.proof", path.display());
+                }
+                files.extend(found);
+            } else {
+                files.push(path.clone());
+            }
+        }
+        Ok(files)
     }
-}
 
-fn print_line(line: &str) -> Result<()> {
-    writeln!(io::stdout(), "{}", PrintableText(line))
-        .map_err(OutputError::standard_output_error)?;
-    Ok(())
-}
-
-/// Reads all files NAME.mesh of a folder, with NAME.body beside them.
-fn read_meshes(folder: &Path) -> Result<Meshes> {
-    let folder = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    };
-    let shown = folder.display();
-    let mut meshes = Meshes::new();
-    let mut paths = fs::read_dir(folder)
-        .with_context(|| shown.to_string())?
-        .map(|entry| entry.map(|entry| entry.path()))
-        .collect::<io::Result<Vec<_>>>()
-        .with_context(|| shown.to_string())?;
-    paths.sort();
-    for mesh in paths
-        .iter()
-        .filter(|path| path.extension().is_some_and(|end| end == "mesh"))
-    {
-        let read = |path: &Path| fs::read(path).with_context(|| path.display().to_string());
-        meshes.push((read(mesh)?, read(&mesh.with_extension("body"))?));
+    fn folder_of_meshes(&self) -> &Path {
+        let of_first = self.proofs.first().and_then(|first| {
+            if first.is_dir() {
+                Some(first.as_path())
+            } else {
+                first.parent()
+            }
+        });
+        self.bodies.as_deref().or(of_first).unwrap_or(Path::new(""))
     }
-    if meshes.is_empty() {
-        bail!("{shown}: has no file NAME.mesh; give --bodies FOLDER");
+
+    /// Returns the table whose rows have to be proven, if one is given.
+    fn table(&self) -> Option<AskedTable<'_>> {
+        let motions = self.motions.as_deref().map(AskedTable::Motions);
+        let edges = self.edges.as_deref();
+        motions.or_else(|| edges.map(|path| AskedTable::Edges(path, self.joints.given())))
     }
-    Ok(meshes)
-}
-
-fn read_bodies(meshes: &Meshes, proof: &[u8]) -> Result<Vec<ccd_check::Body>, Stop> {
-    let read = |(mesh, body): &(Vec<u8>, Vec<u8>)| ccd_check::Body::new(mesh, body, proof);
-    meshes.iter().map(read).collect()
-}
-
-/// Returns the digest of the mesh of a body that is named.
-fn wanted_digest(
-    (option, body): (&'static str, &Option<String>),
-    meshes: &MeshArgs,
-) -> Result<Option<[u8; 32]>> {
-    let Some(text) = body else {
-        return Ok(None);
-    };
-    let source: BodySource = text.parse().context(option)?;
-    let prepared = source
-        .load_adjusted(&meshes.adjustments(), meshes.detail())
-        .with_context(|| format!("{option} {text}"))?;
-    let body =
-        Body::of(&prepared.body).with_context(|| format!("{option} {text}: has no triangles"))?;
-    Ok(Some(body.digest()))
-}
-
-/// Returns whether a statement is about one pair of bodies with these digests.
-fn is_about(statement: &Statement, wanted: &[Option<[u8; 32]>; 2]) -> bool {
-    if wanted.iter().all(Option::is_none) {
-        return true;
-    }
-    let [([a, b], _)] = statement.pairs[..] else {
-        return false;
-    };
-    let digest = |number: u32| statement.bodies.get(number as usize).map(|body| body.0);
-    let is = |wanted: Option<[u8; 32]>, number| wanted.is_none() || wanted == digest(number);
-    is(wanted[0], a) && is(wanted[1], b)
 }

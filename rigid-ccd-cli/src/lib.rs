@@ -73,11 +73,11 @@ Examples:
   ccd view --a knot.obj --b knot.obj --motions motions.csv --out view.html
   ccd scene scene.csv --duration 0.5 --out contacts.csv
   ccd edges arm.urdf --cell cell.toml --edges moves.csv --out results.csv
-  ccd clearance arm.urdf --joint elbow=-30deg:60deg --require 5mm
+  ccd clearance arm.urdf --joint elbow=-30deg:60deg --rest --require 5mm
   ccd acm arm.urdf --out arm.srdf
   ccd replay arm.urdf --cell cell.toml --record stop.json
   ccd query --a knot.obj --b knot.obj --motions motions.csv --certificates proofs
-  ccd check proofs/hit.proof --a knot.obj --b knot.obj
+  ccd check proofs --a knot.obj --b knot.obj --motions motions.csv
   ccd decompose knot.obj --pieces patches --out knot.ccd
   ccd completions bash > ~/.local/share/bash-completion/completions/ccd
 
@@ -114,10 +114,9 @@ enum Command {
 pub enum RunOutcome {
     /// Every row has an answer.
     AllAnswered,
-    /// Every row has an answer, and `--check` found rows that are not proven `free` or `kept`.
+    /// Every row has an answer, and some are not proven: to be `free` or `kept` with `--check`, to keep a clearance that is
+    /// required, or by a proof that holds.
     SomeRowsUnproven,
-    /// A clearance is violated that `ccd clearance` requires.
-    ClearanceViolated,
     /// Some rows could not be read, answered or drawn; all others are done.
     SomeRowsBad,
 }
@@ -143,11 +142,10 @@ pub fn main() -> ExitCode {
 }
 
 /// Returns the exit code of a run, and prints its error, if there is one. The code is 0 for success, 1 for results that
-/// cannot be written, 2 for bad input, and 3 for rows that fail `--check`.
+/// cannot be written, 2 for bad input, and 3 for what is not proven.
 pub fn print_error_and_get_exit_code(outcome: anyhow::Result<RunOutcome>) -> ExitCode {
     match outcome {
         Ok(RunOutcome::AllAnswered) => ExitCode::SUCCESS,
-        Ok(RunOutcome::ClearanceViolated) => ExitCode::FAILURE,
         Ok(RunOutcome::SomeRowsBad) => ExitCode::from(2),
         Ok(RunOutcome::SomeRowsUnproven) => ExitCode::from(3),
         Err(error) => match error.downcast_ref::<OutputError>() {

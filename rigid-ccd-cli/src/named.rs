@@ -5,6 +5,7 @@ use ccd_core::{StartPolicy, VectorInstructions};
 use ccd_decomp::{Axis, PatchOrder, Unit};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use rigid_ccd::batch::Question;
+use rigid_ccd::table::results::{ANSWERS, QuestionAnswers};
 
 /// The values of an option, each with its name on the command line and its help.
 pub(super) type Named<T> = [(&'static str, T, &'static str)];
@@ -63,32 +64,19 @@ pub(super) const PATCH_ORDERS: &Named<PatchOrder> = &[
 
 /// The questions of `--ask`.
 pub(super) const QUESTIONS: &Named<Question> = &[
-    (
-        Question::FirstContact.name(),
-        Question::FirstContact,
-        "When do the bodies first touch?",
-    ),
-    (
-        Question::IsFree.name(),
-        Question::IsFree,
-        "Do they touch at all? The time is that of any contact",
-    ),
-    (
-        Question::ContactInterval.name(),
-        Question::ContactInterval,
-        "When do they first touch, and when last?",
-    ),
-    (
-        Question::ClosestApproach.name(),
-        Question::ClosestApproach,
-        "How close do they come, and when?",
-    ),
-    (
-        Question::Distance.name(),
-        Question::Distance,
-        "How far apart are they at the start; of a path, in each row?",
-    ),
+    named_question(0),
+    named_question(1),
+    named_question(2),
+    named_question(3),
+    named_question(4),
 ];
+
+const fn named_question(number: usize) -> (&'static str, Question, &'static str) {
+    let QuestionAnswers {
+        question, words, ..
+    } = ANSWERS[number];
+    (question.name(), question, words)
+}
 
 /// The treatments of bodies in contact at the start, for `--start`.
 pub(super) const START_POLICIES: &Named<StartPolicy> = &[

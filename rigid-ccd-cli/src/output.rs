@@ -1,5 +1,6 @@
 //! Outputs of a run: streams, and files that this process reserves and first writes under a temporary name.
 
+use crate::printable::PrintableText;
 use ccd_file::{Claim, Destination};
 use std::fs::File;
 use std::io::{self, Write};
@@ -106,6 +107,11 @@ impl Output {
         };
         written.map_err(|source| OutputError::error_for_path(&self.path, source))
     }
+}
+
+/// Writes a line to standard output, with control characters escaped.
+pub(super) fn print_line(line: &str) -> Result<(), OutputError> {
+    writeln!(io::stdout(), "{}", PrintableText(line)).map_err(OutputError::standard_output_error)
 }
 
 /// Returns whether a path is `-` or `/dev/stdout`, which stand for standard output. A file to which standard output is

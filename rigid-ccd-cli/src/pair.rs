@@ -12,7 +12,6 @@ use ccd_decomp::{BodySource, PreparedBody, Unit, build_hull_tree};
 use clap::Args;
 use rigid_ccd::Remark;
 use rigid_ccd::batch::BodyPair;
-use std::fs;
 use std::path::PathBuf;
 
 /// The options that name both bodies.
@@ -188,7 +187,7 @@ fn files_of_source(source: &BodySource) -> Vec<PathBuf> {
 fn checksum(source: &BodySource) -> u32 {
     let mut sum = crc32fast::Hasher::new();
     let files = files_of_source(source);
-    let mut add = |path: &PathBuf| fs::read(path).map(|bytes| sum.update(&bytes));
+    let mut add = |path: &PathBuf| ccd_file::read(path).map(|bytes| sum.update(&bytes));
     match files.iter().try_for_each(&mut add) {
         Ok(()) if !files.is_empty() => sum.finalize(),
         _ => 0,

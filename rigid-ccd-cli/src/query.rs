@@ -15,7 +15,7 @@ use super::output::{Output, is_standard_output};
 use super::view::{ChosenRows, title, write_rows_page};
 use super::{RunOutcome, print_error};
 use crate::bad_rows::BadRowCounter;
-use crate::certificates::PairCertificates;
+use crate::certificates::{PairCertificates, begin_or_resume};
 use crate::pair::Pair;
 use crate::picture::{Painter, QueryContext, TimeMeaning};
 use crate::progress::Progress;
@@ -60,6 +60,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
             OpenedTables::Finished(end) => {
                 warn_of_partial_page(args);
                 resumable::check_finished(&files, &mut rows, end)?;
+                begin_or_resume(&certificates, Some(end))?;
                 if !args.quiet {
                     let summary = Summary::new(args.tolerance).with_earlier_counts(end.counts);
                     print_summary(args, &summary);
@@ -67,6 +68,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
                 return Ok(resumable::report_outcome(&files, end));
             }
         };
+    begin_or_resume(&certificates, earlier)?;
     if args.resume {
         if earlier.is_some() {
             warn_of_partial_page(args);

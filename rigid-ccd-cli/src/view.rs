@@ -13,7 +13,7 @@ use super::pair::BodiesArgs;
 use super::scene_table;
 use super::{RunOutcome, print_error};
 use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
-use crate::robots::{CellArgs, RobotPainter, RobotPaths};
+use crate::robots::{CellArgs, FoundPaths, RobotPainter, RobotPaths};
 use crate::solver_kind::SolverKind;
 use crate::timed::{TimedQuestion, answer_timed};
 use anyhow::{Context, Result, bail};
@@ -23,9 +23,11 @@ use rigid_ccd::batch::Question;
 use rigid_ccd::table::results::{self, ResultRow};
 use std::collections::{HashMap, VecDeque};
 use std::ffi::OsStr;
-use std::fs::File;
 use std::num::NonZeroUsize;
 use std::path::Path;
+
+/// The maximum number of paths of a robot that cannot be shown and are printed one by one.
+const MAX_PRINTED_PROBLEMS: usize = 5;
 
 /// The maximum number of rows that are read to choose a few of them for the page.
 const MAX_ROWS_READ: usize = 10_000;
@@ -156,7 +158,7 @@ pub(super) fn write_rows_page(
 /// Reads a table of results into lists by id; rows with the same id stay in their order.
 fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
     let name = || path.display().to_string();
-    let file = File::open(path).with_context(name)?;
+    let file = ccd_file::open(path).with_context(name)?;
     let rows = results::read(file).with_context(name)?;
     let mut known: HashMap<String, VecDeque<ResultRow>> = HashMap::new();
     for row in rows {
@@ -182,7 +184,7 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
     robot.refuse_overwriting(&[("--out", &args.out)])?;
     let asked = RobotPaths {
         table: args.path.as_deref(),
-        joints: &args.joint,
+        joints: args.joints.given(),
         ids: &args.ids,
     };
     if let Some(path) = asked.table {
@@ -195,17 +197,37 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
         ..settings(args)
     });
     let painter = RobotPainter::new(&cell)?;
-    let paths = asked.read(&cell)?;
-    let views = paths
-        .iter()
-        .map(|path| painter.animation(&mut solver, path, args.clearance));
-    let views = views.collect::<Result<Vec<_>>>()?;
+    let FoundPaths {
+        paths,
+        mut problems,
+    } = asked.read(&cell)?;
+    let mut views = Vec::new();
+    for path in &paths {
+        match painter.animation(&mut solver, path, args.clearance) {
+            Ok(view) => views.push(view),
+            Err(error) => problems.push(format!("path {:?}: {error}", path.id)),
+        }
+    }
+    for problem in problems.iter().take(MAX_PRINTED_PROBLEMS) {
+        print_error(&format!("not shown: {problem}"));
+    }
+    if problems.len() > MAX_PRINTED_PROBLEMS {
+        print_error(&format!("{} paths are not shown in all", problems.len()));
+    }
+    if views.is_empty() {
+        print_error("there is no row to show, and no page");
+        return Ok(RunOutcome::SomeRowsBad);
+    }
     if let ([view], false) = (&views[..], args.quiet) {
         print_error(&view.verdict);
     }
     let title = input_name(robot.robot.path());
     write_page(&painter.page(&title, views), out, args.quiet)?;
-    Ok(RunOutcome::AllAnswered)
+    Ok(if problems.is_empty() {
+        RunOutcome::AllAnswered
+    } else {
+        RunOutcome::SomeRowsBad
+    })
 }
 
 fn view_scene(args: &ViewArgs, path: &Path) -> Result<RunOutcome> {

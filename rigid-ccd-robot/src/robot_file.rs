@@ -23,7 +23,6 @@ use packages::SearchFolders;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use std::borrow::Cow;
-use std::fs;
 use std::path::{Path, PathBuf};
 use urdf::UrdfReader;
 
@@ -221,7 +220,7 @@ fn root_element(text: &str) -> Option<String> {
 }
 
 fn read(file: &Path) -> Result<String, RobotFileError> {
-    fs::read_to_string(file).map_err(|error| RobotFileError::Unreadable {
+    ccd_file::read_to_string(file).map_err(|error| RobotFileError::Unreadable {
         file: file.to_owned(),
         error: error.to_string(),
     })

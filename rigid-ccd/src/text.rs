@@ -1,4 +1,4 @@
-//! Formats numbers for messages.
+//! Formats numbers and quotes texts for messages.
 
 use std::fmt;
 
@@ -14,6 +14,23 @@ impl fmt::Display for Number {
             write!(f, "{value}")
         } else {
             write!(f, "{value:e}")
+        }
+    }
+}
+
+/// Displays the beginning of a text from a file, with its length if that is not all.
+#[derive(Clone, Copy)]
+pub struct Excerpt<'a>(pub &'a str);
+
+/// The greatest number of characters of a text that a message quotes.
+const MAX_QUOTED_CHARS: usize = 60;
+
+impl fmt::Display for Excerpt<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Excerpt(text) = *self;
+        match text.char_indices().nth(MAX_QUOTED_CHARS) {
+            Some((end, _)) => write!(f, "{}… ({} bytes)", &text[..end], text.len()),
+            None => f.write_str(text),
         }
     }
 }

@@ -257,7 +257,7 @@ fn read_format_and_bytes(path: &Path) -> Result<(Format, Vec<u8>), MeshFault> {
         return Err(MeshFault::Folder);
     }
     let format = Format::from_path(path)?;
-    let bytes = fs::read(path).map_err(MeshFault::Unreadable)?;
+    let bytes = ccd_file::read(path).map_err(MeshFault::Unreadable)?;
     Ok((format, bytes))
 }
 

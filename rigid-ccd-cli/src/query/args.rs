@@ -1,6 +1,6 @@
 //! The options of `ccd query`.
 
-use super::help::{AFTER_HELP, AFTER_LONG_HELP};
+use super::help::{AFTER_HELP, after_long_help};
 use crate::named::{
     QUESTIONS, SHORTCUTS, SIMD_INSTRUCTION_SETS, START_POLICIES, named_value_parser,
 };
@@ -19,7 +19,7 @@ use std::time::Duration;
 
 /// Find the first contact of two bodies, or their least distance, for each row of a table of motions
 #[derive(Clone, Debug, Args)]
-#[command(after_help = AFTER_HELP, after_long_help = AFTER_LONG_HELP)]
+#[command(after_help = AFTER_HELP, after_long_help = after_long_help())]
 pub(crate) struct QueryArgs {
     #[command(flatten)]
     pub(super) bodies: BodiesArgs,
@@ -91,7 +91,7 @@ pub(crate) struct QueryArgs {
     /// Write an HTML page to this file with pictures of some rows: up to 4 of each status, or those of --html-ids
     #[arg(long, value_name = "HTML")]
     pub(super) html: Option<PathBuf>,
-    /// Write machine-checkable proofs of the answers to this folder: ID.proof for each row that is free, or free until it
+    /// Write machine-checkable proofs of the answers to this folder: ROW-ID.proof for each row that is free, or free until it
     /// touches or a limit is reached; `ccd check` checks them
     #[arg(long, value_name = "FOLDER")]
     pub(super) certificates: Option<PathBuf>,
@@ -130,8 +130,7 @@ impl QueryArgs {
 /// The ids of the options that the journal does not record as they are given. Most of them change no byte of the
 /// tables. The journal has a checksum of the motions instead of their path, and one form of `--rows` instead of
 /// several.
-pub(super) const UNRECORDED_OPTIONS: [&str; 11] = [
-    "certificates",
+pub(super) const UNRECORDED_OPTIONS: [&str; 10] = [
     "motions",
     "threads",
     "instructions",

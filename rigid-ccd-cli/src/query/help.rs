@@ -1,5 +1,7 @@
 //! The texts that follow the options in the help of `ccd query`.
 
+use rigid_ccd::table::results::{ANSWERS, QuestionAnswers, Status, names};
+
 /// The text at the end of `ccd query -h`.
 pub(super) const AFTER_HELP: &str = "\
 Examples:
@@ -11,8 +13,44 @@ Examples:
 
 See `ccd query --help` for the columns of all tables and the exit codes.";
 
-/// The text at the end of `ccd query --help`.
-pub(super) const AFTER_LONG_HELP: &str = "\
+/// Returns the text at the end of `ccd query --help`.
+pub(super) fn after_long_help() -> String {
+    let questions: Vec<String> = ANSWERS.iter().map(question_text).collect();
+    LONG_HELP.replace(QUESTIONS_PLACE, &questions.concat())
+}
+
+/// Describes a question with the statuses and columns of its answers.
+fn question_text(answers: &QuestionAnswers) -> String {
+    let list = |statuses: &[Status]| {
+        let names: Vec<&str> = statuses.iter().map(|status| status.name()).collect();
+        names.join(", ")
+    };
+    let QuestionAnswers {
+        question,
+        words,
+        statuses,
+        compared_statuses,
+        more_columns,
+    } = answers;
+    let indent = " ".repeat(28);
+    let mut text = format!(
+        "  {:<26}{words}\n{indent}statuses {}",
+        question.name(),
+        list(statuses)
+    );
+    if !compared_statuses.is_empty() {
+        text += &format!("; with --clearance {}", list(compared_statuses));
+    }
+    for column in names(more_columns) {
+        text += &format!("; column {column}");
+    }
+    text + "\n"
+}
+
+/// The place of the questions in the help.
+const QUESTIONS_PLACE: &str = "{questions}\n";
+
+const LONG_HELP: &str = "\
 Table of motions:
   Columns go by name, in any order. Every column is optional. An empty cell is an error of its row, but
   rows with an end pose leave the velocities of that body empty, and the other way round.
@@ -52,11 +90,8 @@ Table of paths:
   row. Times are those of column `t`.
 
 Questions (--ask):
-  first-contact             when do they first touch?
-  is-free                   do they touch at all? `time` is that of any contact, found sooner
-  contact-interval          when do they first touch, when last? Column `last_time` follows the others
-  closest-approach          how close do they come, and when? Bounds to within --tolerance
-  distance                  how far apart are they at the start; of paths, in each row?
+{questions}
+  Any of them may also be unresolved. An interval has the status of its first contact, and the last time of any.
 
 Table of results:
   id                        as in the table of motions
@@ -89,7 +124,7 @@ Table of results:
                             deadline, stalled, oracle gave up, undecided. Where the budget is spent, a
                             larger --tolerance or --ask is-free with a --margin often decides at once
   With --ask contact-interval also:
-  last_time                 certified: no contact after it
+  last_time                 certified: no contact after it, also where they touch or overlap at the start
   With --counters also:
   advancements              steps that advanced all pairs together; 0 for best-first
   oracle_steps, cycles      steps of the distance backend's search; returns to an earlier step

@@ -135,7 +135,10 @@ impl QueryRun<'_> {
             for ((position, course, _), proof) in few.iter().zip(proofs) {
                 match proof {
                     None => {}
-                    Some(Ok(proof)) => certificates.folder.write_proof(course.id(), &proof)?,
+                    Some(Ok(proof)) => {
+                        let row = (position.row, None);
+                        certificates.folder.write_proof(row, course.id(), &proof)?;
+                    }
                     Some(Err(error)) => {
                         let problem = format!("certificate: {error}");
                         self.bad_rows.report(*position, &problem, &self.progress);

@@ -9,7 +9,7 @@ use crate::table::LengthAndChecksum;
 use clap::{ArgMatches, Args, Command};
 use crc32fast::Hasher;
 use serde::{Deserialize, Serialize};
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -137,7 +137,7 @@ impl EarlierRun {
     /// # Errors
     /// [`JournalError`] when the journal is missing or damaged.
     pub(crate) fn read(journal: &Path) -> Result<Option<Self>, JournalError> {
-        let text = fs::read_to_string(journal).map_err(|_| JournalError)?;
+        let text = ccd_file::read_to_string(journal).map_err(|_| JournalError)?;
         let (options, checkpoints) = text.split_once(CHECKPOINTS_HEADING).ok_or(JournalError)?;
         // A line without a line end may be incomplete.
         let Some((checkpoints, incomplete)) = checkpoints.rsplit_once('\n') else {

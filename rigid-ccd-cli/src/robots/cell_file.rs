@@ -8,7 +8,6 @@ use rigid_ccd::{Body, Pose, load_parts};
 use rigid_ccd_robot::{Cell, CompoundKind, Link, LinkPairs, PlacedRobot, Robot, RobotFile};
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::Path;
 
 /// The content of the TOML file.
@@ -118,7 +117,7 @@ impl<'p> CellSource<'p> {
         if matches!(extension, Some("glb" | "gltf")) {
             return Ok(CellSource::Gltf(path));
         }
-        let text = fs::read_to_string(path)?;
+        let text = ccd_file::read_to_string(path)?;
         let file = toml::from_str(&text).map_err(|error| {
             let start = error.span().map_or(0, |span| span.start);
             let line = 1 + text[..start].matches('\n').count();

@@ -3,14 +3,14 @@
 mod page;
 mod report;
 
-use super::joint_values::{JointRange, length, tolerance_length};
+use super::joint_values::{JointsArgs, length, tolerance_length};
 use super::loading::CellArgs;
-use super::page::RobotPainter;
+use super::page::{RobotPainter, halvings};
 use super::path_table::TablePath;
-use super::robot_paths::RobotPaths;
+use super::robot_paths::{FoundPaths, RobotPaths};
 use crate::files::{input_name, refuse_overwriting_input};
 use crate::html::write_page;
-use crate::output::{Output, OutputError};
+use crate::output::{Output, OutputError, is_standard_output};
 use crate::{RunOutcome, print_error};
 use anyhow::{Result, bail};
 use clap::Args;
@@ -27,10 +27,8 @@ use std::path::PathBuf;
 pub(crate) struct ClearanceArgs {
     #[command(flatten)]
     cell: CellArgs,
-    /// Range over which a joint moves, such as knee=-90deg:40deg, or its position; several joints move together. A joint that is
-    /// not named rests at 0, or at its limit nearest to 0; without any, the only joint moves over all its limits
-    #[arg(long, value_name = "NAME=FROM:TO", allow_hyphen_values = true)]
-    joint: Vec<JointRange>,
+    #[command(flatten)]
+    joints: JointsArgs,
     /// Table with a path, CSV or Parquet, as `ccd edges` reads it; in place of ranges, for closed loops of joints
     #[arg(long, value_name = "TABLE")]
     path: Option<PathBuf>,
@@ -60,15 +58,18 @@ pub(crate) struct ClearanceArgs {
 const AFTER_HELP: &str = "\
 Prints bounds of the least distance of all pairs that are checked, with the pair and where it is. With --require also the
 ranges in which all pairs certainly keep the clearance, in which one certainly violates it, and the rest. The ends of kept
-ranges are limits of the joints that would keep it.
+ranges are limits of the joints that would keep it. Times are those of column `t` of --path; without it, each segment takes 1.
+The curve of --json has at most 512 ranges, each with bounds of the least distance in it. Without --joint and --path the only
+joint moves over all its limits.
 
 Exit codes:
   0  the clearance is kept everywhere, or none is required
-  1  it is violated somewhere, or the output cannot be written
-  2  it is unverified somewhere, or bad input
+  1  the output cannot be written
+  2  bad input
+  3  the clearance is violated somewhere, or unverified
 
 Examples:
-  ccd clearance arm.urdf --joint elbow=-30deg:60deg
+  ccd clearance arm.urdf --joint elbow=-30deg:60deg --rest
   ccd clearance arm.urdf --joint elbow=-30deg:60deg --joint shoulder=20deg --cell cell.toml --require 5mm --json
   ccd clearance arm.urdf --path path.csv --pose-error 0.1mm
   ccd clearance arm.urdf --path path.csv --html clearance.html";
@@ -76,6 +77,9 @@ Examples:
 /// Runs `ccd clearance`.
 pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     if let Some(html) = &args.html {
+        if is_standard_output(html) {
+            bail!("--html - and the report are both standard output; give --html a file");
+        }
         args.cell.refuse_overwriting(&[("--html", html)])?;
         if let Some(path) = &args.path {
             refuse_overwriting_input(("--path", path), ("--html", html))?;
@@ -112,7 +116,8 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
         ranges,
     };
     let printed = if args.json {
-        let curve = solver.distance_curve(&path.configurations, report::CURVE_HALVINGS)?;
+        let halvings = halvings(path.configurations.len() - 1);
+        let curve = solver.distance_curve(&path.configurations, halvings)?;
         writeln!(io::stdout(), "{}", report.to_json(&curve))
     } else {
         writeln!(io::stdout(), "{report}")
@@ -132,12 +137,12 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
 
 fn outcome(report: &Report<'_>) -> RunOutcome {
     match report.verdict() {
-        Some(ClearanceVerdict::Violated) => RunOutcome::ClearanceViolated,
+        Some(ClearanceVerdict::Violated) => RunOutcome::SomeRowsUnproven,
         Some(ClearanceVerdict::Unverified) => {
             print_error(
                 "the clearance is unverified in a part of the path; a smaller --resolution or --tolerance may decide",
             );
-            RunOutcome::SomeRowsBad
+            RunOutcome::SomeRowsUnproven
         }
         Some(ClearanceVerdict::Kept) | None => RunOutcome::AllAnswered,
     }
@@ -156,10 +161,16 @@ impl ClearanceArgs {
     fn read_path(&self, cell: &Cell) -> Result<TablePath> {
         let asked = RobotPaths {
             table: self.path.as_deref(),
-            joints: &self.joint,
+            joints: self.joints.given(),
             ids: &[],
         };
-        let mut paths = asked.read(cell)?;
+        let FoundPaths {
+            mut paths,
+            problems,
+        } = asked.read(cell)?;
+        if let Some(problem) = problems.into_iter().next() {
+            bail!(problem);
+        }
         match (paths.pop(), paths.is_empty()) {
             (Some(path), true) => Ok(path),
             _ => bail!("--path: has several paths; give a table of one"),

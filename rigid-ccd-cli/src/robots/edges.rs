@@ -6,7 +6,7 @@ pub(crate) use args::{DEFAULT_PATH_TOLERANCE, EdgesArgs};
 
 use super::path_table::{PathTable, TablePath};
 use crate::bad_rows::BadRowCounter;
-use crate::certificates::CellCertificates;
+use crate::certificates::{CellCertificates, begin_or_resume};
 use crate::counts::StatusCounts;
 use crate::files::input_name;
 use crate::output::OutputError;
@@ -27,7 +27,6 @@ use rigid_ccd::table::results::{Column, Line, ResultRow, Status, names};
 use rigid_ccd::{ParallelSolver, Settings};
 use rigid_ccd_robot::path_rows::PathQuestion;
 use rigid_ccd_robot::{Cell, CellSolver};
-use std::fs;
 use std::iter::once;
 use std::time::Instant;
 
@@ -53,8 +52,9 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     };
     let claimed = ClaimedFiles::claim(&files)?;
     let cell = args.cell.load(args.quiet)?;
-    let (mut table, length) = PathTable::open("--edges", &args.edges, cell.robot(), &args.joint)
-        .with_context(|| input_name(&args.edges))?;
+    let (mut table, length) =
+        PathTable::open("--edges", &args.edges, cell.robot(), args.joints.given())
+            .with_context(|| input_name(&args.edges))?;
     let certificates = args
         .certificates
         .as_deref()
@@ -65,9 +65,11 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
         OpenedTables::Unfinished(outputs, earlier) => (*outputs, earlier),
         OpenedTables::Finished(end) => {
             resumable::check_finished(&files, &mut table, end)?;
+            begin_or_resume(&certificates, Some(end))?;
             return Ok(report_outcome(&files, end));
         }
     };
+    begin_or_resume(&certificates, earlier)?;
     if args.resume {
         resumable::report(&files, earlier);
     }
@@ -176,13 +178,14 @@ impl EdgesRun<'_> {
         let paths: Vec<&TablePath> = paths.iter().filter_map(|path| path.as_ref().ok()).collect();
         for few in paths.chunks(PROVEN_BATCH_ROWS) {
             let proven = self.solver.map(few, |solver, path| {
-                certificates.prove(solver, (&path.id, &path.configurations))
+                certificates.prove(solver, &path.configurations)
             });
             for (path, proofs) in few.iter().zip(proven) {
                 match proofs {
                     Ok(proofs) => {
-                        for (name, proof) in proofs {
-                            certificates.folder.write_proof(&name, &proof)?;
+                        for (segment, proof) in proofs {
+                            let row = (path.position.row, segment);
+                            certificates.folder.write_proof(row, &path.id, &proof)?;
                         }
                     }
                     Err(error) => {
@@ -243,7 +246,7 @@ fn recorded_options(args: &EdgesArgs, given: &ArgMatches, cell: &Cell) -> Result
     let rows = ("--rows".to_owned(), args.rows.to_string());
     let mut checksums = Vec::new();
     for (option, file) in args.cell.files() {
-        let bytes = fs::read(file).with_context(|| file.display().to_string())?;
+        let bytes = ccd_file::read(file).with_context(|| file.display().to_string())?;
         let checksum = format!("{:08x}", crc32fast::hash(&bytes));
         checksums.push((format!("{FILE_CHECKSUM_PREFIX}{option}"), checksum));
     }

@@ -3,9 +3,54 @@
 use crate::numbers::{parse_finite, tolerance};
 use anyhow::{Result, bail};
 use ccd_core::limits::MAX_COORDINATE;
+use clap::Args;
 use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::Robot;
 use std::str::FromStr;
+
+/// The options that say where joints are that a table has no columns for.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct JointsArgs {
+    /// Position at which a joint rests, such as finger=0.04 or hip=30deg, or without a table a range over which it moves, such as
+    /// knee=-90deg:40deg; several joints move together
+    #[arg(long, value_name = "NAME=FROM:TO", allow_hyphen_values = true)]
+    joint: Vec<JointRange>,
+    /// Let all joints rest that have neither columns nor --joint: at 0, or at their limit nearest to 0; without this option they are
+    /// an error
+    #[arg(long)]
+    rest: bool,
+}
+
+/// Where joints are that a table has no columns for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GivenJoints<'a> {
+    /// The positions and ranges of the joints that are named.
+    pub(super) named: &'a [JointRange],
+    pub(super) others: OtherJoints,
+}
+
+/// What joints do that have neither columns nor a position.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum OtherJoints {
+    /// They are an error.
+    Refused,
+    /// They rest at 0, or at their limit nearest to 0.
+    Rest,
+}
+
+impl JointsArgs {
+    pub(crate) fn given(&self) -> GivenJoints<'_> {
+        let others = if self.rest {
+            OtherJoints::Rest
+        } else {
+            OtherJoints::Refused
+        };
+        GivenJoints {
+            named: &self.joint,
+            others,
+        }
+    }
+}
 
 /// The positions between which a joint moves; both are the same for a joint at rest.
 #[derive(Clone, Debug, PartialEq)]

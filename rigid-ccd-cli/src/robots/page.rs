@@ -12,7 +12,7 @@ use rigid_ccd_robot::{Cell, CellSolver, Item, PathContact, PathOutcome};
 use std::collections::HashMap;
 
 /// The greatest number of poses of a path that are drawn, and of ranges in which the distance is measured.
-const MAX_RANGES: usize = 512;
+pub(super) const MAX_RANGES: usize = 512;
 /// The greatest number of halvings of a segment.
 const MAX_HALVINGS: u32 = 6;
 /// The step in hue from one body to the next, in degrees: the golden angle.
@@ -153,8 +153,8 @@ impl<'c> RobotPainter<'c> {
     }
 }
 
-/// Returns the number of halvings of each segment.
-fn halvings(segments: usize) -> u32 {
+/// Returns the number of halvings of each segment of a path for the curve of its distances.
+pub(super) fn halvings(segments: usize) -> u32 {
     let mut halvings = 0;
     while halvings < MAX_HALVINGS && segments << (halvings + 1) <= MAX_RANGES {
         halvings += 1;

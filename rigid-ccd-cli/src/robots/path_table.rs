@@ -1,12 +1,14 @@
 //! Reads a table of edges or paths of a robot, with columns named like its joints.
 
-use super::joint_values::{JointRange, check_joints};
+use super::joint_values::{GivenJoints, OtherJoints, check_joints};
 use crate::files::open_table;
 use crate::resumable::RowSource;
 use anyhow::{Result, bail};
+use ccd_core::order::{greater, lesser};
 use rigid_ccd::table::motions::{RowError, RowPosition, RowProblem, TableError};
 use rigid_ccd::table::records::{Record, Records};
 use rigid_ccd::table::table_records::TableRecords;
+use rigid_ccd::text::Excerpt;
 use rigid_ccd_robot::Robot;
 use std::collections::HashSet;
 use std::path::Path;
@@ -15,9 +17,9 @@ use std::path::Path;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TablePath {
     /// The place of its first row.
-    pub(super) position: RowPosition,
-    pub(super) id: String,
-    pub(super) configurations: Vec<Vec<f64>>,
+    pub(crate) position: RowPosition,
+    pub(crate) id: String,
+    pub(crate) configurations: Vec<Vec<f64>>,
     /// The times of the configurations, if the table has any.
     pub(super) times: Option<Vec<f64>>,
 }
@@ -26,7 +28,7 @@ pub(crate) struct TablePath {
 ///
 /// A table of edges has columns `from_JOINT` and `to_JOINT`, and a row for each edge. A table of paths has a column for each
 /// joint, and a row for each configuration; rows of one `id` follow each other.
-pub(super) struct PathTable {
+pub(crate) struct PathTable {
     records: TableRecords,
     columns: PathColumns,
     /// The row that begins the next path.
@@ -57,15 +59,15 @@ enum PositionCell {
 }
 
 impl PathTable {
-    /// Opens a table. Joints that it has no columns for rest as given.
+    /// Opens a table. Joints that it has no columns for rest as given, or as all others do.
     ///
     /// # Errors
     /// If the table cannot be read, or a joint has no position.
-    pub(super) fn open(
+    pub(crate) fn open(
         option: &str,
         path: &Path,
         robot: &Robot,
-        at_rest: &[JointRange],
+        at_rest: GivenJoints<'_>,
     ) -> Result<(Self, Option<u64>)> {
         let (mut records, length) = open_table(option, path)?;
         let columns = PathColumns::new(records.header()?, robot, at_rest)?;
@@ -161,8 +163,9 @@ impl RowSource for PathTable {
 }
 
 impl PathColumns {
-    fn new(header: Vec<String>, robot: &Robot, at_rest: &[JointRange]) -> Result<Self> {
-        check_joints(robot, at_rest)?;
+    fn new(header: Vec<String>, robot: &Robot, at_rest: GivenJoints<'_>) -> Result<Self> {
+        check_joints(robot, at_rest.named)?;
+        let nearest_zero = robot.configuration_nearest_zero();
         if let [only] = &header[..] {
             if only.is_empty() {
                 return Err(TableError::Empty.into());
@@ -192,10 +195,10 @@ impl PathColumns {
         };
         let mut missing = Vec::new();
         let mut positions = |prefix: &str| {
-            let cell = |joint: &&str| {
+            let cell = |(number, joint): (usize, &&str)| {
                 let (column, rests) = (
                     find(&format!("{prefix}{joint}")),
-                    at_rest.iter().find(|range| range.joint == **joint),
+                    at_rest.named.iter().find(|range| range.joint == **joint),
                 );
                 match (column, rests) {
                     (Some(_), Some(_)) => {
@@ -208,13 +211,17 @@ impl PathColumns {
                     (None, Some(_)) => {
                         bail!("--joint {joint}: give one position, at which the joint rests")
                     }
+                    (None, None) if at_rest.others == OtherJoints::Rest => {
+                        Ok(PositionCell::AtRest(nearest_zero[number]))
+                    }
                     (None, None) => {
                         missing.push(format!("{prefix}{joint}"));
                         Ok(PositionCell::AtRest(f64::NAN))
                     }
                 }
             };
-            joints.iter().map(cell).collect::<Result<Vec<_>>>()
+            let cells = joints.iter().enumerate().map(cell);
+            cells.collect::<Result<Vec<_>>>()
         };
         let mut found = prefixes
             .iter()
@@ -223,7 +230,7 @@ impl PathColumns {
         if !missing.is_empty() {
             bail!(
                 "header: no column {}; a table of edges has from_JOINT and to_JOINT, one of paths a column for each joint, and \
-                 --joint NAME=POSITION says where a joint rests",
+                 --joint NAME=POSITION says where a joint rests; --rest lets all others rest at 0, or at their limit nearest to 0",
                 missing.join(", ")
             );
         }
@@ -254,7 +261,7 @@ impl PathColumns {
             None => Ok(()),
             Some(unknown) => bail!(
                 "header: unknown column `{}`; known are id, t and the joints: of edges from_JOINT and to_JOINT",
-                self.header[unknown]
+                Excerpt(&self.header[unknown])
             ),
         }
     }
@@ -328,18 +335,29 @@ impl TablePath {
     /// Converts the time of a path whose segments take one unit of time each to the time of the table, rounded down; without
     /// times, it stays as it is.
     pub(super) fn table_time_rounded_down(&self, time: f64) -> f64 {
+        self.table_time(time, -1.0)
+    }
+
+    /// As [`TablePath::table_time_rounded_down`], rounded up.
+    pub(super) fn table_time_rounded_up(&self, time: f64) -> f64 {
+        self.table_time(time, 1.0)
+    }
+
+    /// Converts a time to the table's, with what it may be off by added with a sign. Times of rows stay exact.
+    fn table_time(&self, time: f64, sign: f64) -> f64 {
         let Some(times) = &self.times else {
             return time;
         };
         let last = times.len() - 1;
         let segment = (time as usize).min(last);
-        if segment == last {
-            return times[last];
+        let share = time - segment as f64;
+        if segment == last || share == 0.0 {
+            return times[segment];
         }
         let (from, to) = (times[segment], times[segment + 1]);
-        let magnitude = from.abs() + to.abs();
-        let at = from + (time - segment as f64) * (to - from) - 4.0 * f64::EPSILON * magnitude;
-        if at > from { at } else { from }
+        // Beside the rounding here, the number of the segment leaves its share fewer bits.
+        let off = 4.0 * f64::EPSILON * (from.abs() + to.abs() + time * (to - from));
+        lesser(to, greater(from, from + share * (to - from) + sign * off))
     }
 }
 

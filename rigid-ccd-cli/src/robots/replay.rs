@@ -3,15 +3,12 @@
 use super::loading::CellArgs;
 use crate::causes::message_with_causes;
 use crate::files::input_name;
-use crate::output::OutputError;
-use crate::printable::PrintableText;
+use crate::output::print_line;
 use crate::{RunOutcome, print_error};
 use anyhow::{Context, Result};
 use clap::Args;
 use rigid_ccd_robot::Cell;
 use rigid_ccd_robot::evidence::{Evidence, RecordedAnswer, Replay, Verdict};
-use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Ask recorded questions about a robot again, and say whether the recorded answers hold
@@ -59,8 +56,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<RunOutcome> {
             }
         };
         let line = format!("{name}: {}", describe(&record, &replay));
-        writeln!(io::stdout(), "{}", PrintableText(&line))
-            .map_err(OutputError::standard_output_error)?;
+        print_line(&line)?;
         if matches!(replay.verdict, Verdict::Refuted { .. } | Verdict::Undecided) {
             outcome = outcome.max(RunOutcome::SomeRowsUnproven);
         }
@@ -69,7 +65,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<RunOutcome> {
 }
 
 fn read_and_replay(cell: &Cell, path: &Path) -> Result<(Evidence, Replay)> {
-    let text = fs::read_to_string(path).context("cannot read it")?;
+    let text = ccd_file::read_to_string(path).context("cannot read it")?;
     let record = Evidence::from_json(&text)?;
     let replay = record.replay(cell)?;
     Ok((record, replay))

@@ -1,6 +1,6 @@
 //! The paths that `ccd view` and `ccd clearance` show: those of a table, or joints that move over ranges.
 
-use super::joint_values::{JointRange, check_joints};
+use super::joint_values::{GivenJoints, OtherJoints, check_joints};
 use super::path_table::{PathTable, TablePath};
 use crate::files::input_name;
 use anyhow::{Context, Result, bail};
@@ -12,7 +12,7 @@ use std::path::Path;
 pub(crate) struct RobotPaths<'a> {
     /// The table of edges or paths; without it, the joints move over their ranges.
     pub(crate) table: Option<&'a Path>,
-    pub(crate) joints: &'a [JointRange],
+    pub(crate) joints: GivenJoints<'a>,
     /// The ids of the paths to show; the first few if there are none.
     pub(crate) ids: &'a [String],
 }
@@ -20,57 +20,80 @@ pub(crate) struct RobotPaths<'a> {
 /// The greatest number of paths that are shown if no ids are given.
 const MAX_PATHS: usize = 4;
 
+/// The paths that are asked for.
+#[derive(Debug, Default)]
+pub(crate) struct FoundPaths {
+    pub(crate) paths: Vec<TablePath>,
+    /// What is wrong with the rows of others, and ids that no path has.
+    pub(crate) problems: Vec<String>,
+}
+
 impl RobotPaths<'_> {
-    /// Returns at least one path.
+    /// Returns the paths, at least one or one problem.
     ///
     /// # Errors
-    /// If the table cannot be read, or has no such path.
-    pub(crate) fn read(self, cell: &Cell) -> Result<Vec<TablePath>> {
+    /// If the table cannot be read or has no rows, or a joint has no position.
+    pub(crate) fn read(self, cell: &Cell) -> Result<FoundPaths> {
+        let mut found = FoundPaths::default();
         let Some(file) = self.table else {
-            if self.joints.is_empty() {
-                return Ok(vec![TablePath::between(whole_range(cell.robot())?)]);
-            }
-            let ends = configurations(cell.robot(), self.joints)?;
-            return Ok(vec![TablePath::between(ends)]);
+            let ends = if self.joints.named.is_empty() {
+                whole_range(cell.robot())?
+            } else {
+                configurations(cell.robot(), self.joints)?
+            };
+            found.paths.push(TablePath::between(ends));
+            return Ok(found);
         };
         let name = || input_name(file);
         let (table, _) =
             PathTable::open("--path", file, cell.robot(), self.joints).with_context(name)?;
-        let mut paths = Vec::new();
         for path in table {
-            let path = match path.with_context(name)? {
-                Err(error) if !self.ids.is_empty() && !self.ids.contains(&error.id) => continue,
-                path => path.with_context(name)?,
-            };
-            if self.ids.is_empty() || self.ids.contains(&path.id) {
-                paths.push(path);
+            match path.with_context(name)? {
+                Err(error) if self.ids.is_empty() || self.ids.contains(&error.id) => {
+                    found.problems.push(format!("{}: {error}", name()));
+                }
+                Ok(path) if self.ids.is_empty() || self.ids.contains(&path.id) => {
+                    found.paths.push(path);
+                }
+                _ => {}
             }
-            if self.ids.is_empty() && paths.len() == MAX_PATHS {
+            if self.ids.is_empty() && found.paths.len() == MAX_PATHS {
                 break;
             }
         }
-        if let Some(missing) = self
-            .ids
-            .iter()
-            .find(|id| paths.iter().all(|path| path.id != **id))
-        {
-            bail!("{}: no path has the id {missing}", name());
-        }
-        if paths.is_empty() {
+        if self.ids.is_empty() && found.paths.is_empty() && found.problems.is_empty() {
             bail!("{}: has a header, but no rows", name());
         }
-        Ok(paths)
+        for id in self.ids {
+            if found.paths.iter().all(|path| path.id != *id) {
+                let problem = format!("{}: no path to show has the id {id:?}", name());
+                found.problems.push(problem);
+            }
+        }
+        Ok(found)
     }
 }
 
-/// Returns the two configurations between which joints move as given. A joint that is not named rests at 0 or, if that is
-/// outside of its limits, at the nearest limit.
+/// Returns the two configurations between which joints move as given.
 ///
 /// # Errors
-/// A name that no joint with a position of its own has, or that is given twice.
-fn configurations(robot: &Robot, given: &[JointRange]) -> Result<[Vec<f64>; 2]> {
+/// A name that no joint with a position of its own has, or that is given twice, and joints without a position.
+fn configurations(robot: &Robot, joints: GivenJoints<'_>) -> Result<[Vec<f64>; 2]> {
+    let given = joints.named;
     check_joints(robot, given)?;
     let names: Vec<&str> = robot.free_joint_names().collect();
+    let is_named = |name: &&str| given.iter().any(|range| range.joint == *name);
+    let missing: Vec<&str> = names
+        .iter()
+        .copied()
+        .filter(|name| !is_named(name))
+        .collect();
+    if joints.others == OtherJoints::Refused && !missing.is_empty() {
+        bail!(
+            "no --joint for {}: give their positions, or --rest, which lets them rest at 0, or at their limit nearest to 0",
+            missing.join(", ")
+        );
+    }
     let from = robot.configuration_nearest_zero();
     let mut path = [from.clone(), from];
     for range in given {

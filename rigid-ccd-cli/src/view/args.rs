@@ -3,7 +3,7 @@
 use crate::meshes::MeshArgs;
 use crate::numbers::{parse_nonnegative, tolerance};
 use crate::pair::BodiesArgs;
-use crate::robots::{CellArgs, DEFAULT_PATH_TOLERANCE, JointRange, length};
+use crate::robots::{CellArgs, DEFAULT_PATH_TOLERANCE, JointsArgs, length};
 use crate::scene_table::SceneArgs;
 use ccd_core::limits::DEFAULT_TOLERANCE;
 use clap::Args;
@@ -11,7 +11,12 @@ use std::path::{Path, PathBuf};
 
 /// Write a page that shows queries, a scene of many bodies, or a robot: motions, contacts, the gap over time
 #[derive(Clone, Debug, Args)]
-#[command(after_help = AFTER_HELP, arg_required_else_help = true)]
+#[command(
+    mut_arg("joint", |joint| joint.requires("urdf")),
+    mut_arg("rest", |rest| rest.requires("urdf")),
+    after_help = AFTER_HELP,
+    arg_required_else_help = true
+)]
 pub(crate) struct ViewArgs {
     #[command(flatten)]
     pub(super) cell: CellArgs,
@@ -21,14 +26,8 @@ pub(crate) struct ViewArgs {
     /// Table of edges or paths of the robot, CSV or Parquet, as of `ccd edges`; - reads CSV from standard input
     #[arg(long, visible_alias = "edges", value_name = "TABLE", requires = "urdf", conflicts_with_all = ["motions", "a", "b", "scene"])]
     pub(super) path: Option<PathBuf>,
-    /// Range over which a joint of the robot moves, or a position at which it rests, as of `ccd clearance`
-    #[arg(
-        long,
-        value_name = "NAME=FROM:TO",
-        allow_hyphen_values = true,
-        requires = "urdf"
-    )]
-    pub(super) joint: Vec<JointRange>,
+    #[command(flatten)]
+    pub(super) joints: JointsArgs,
     /// Body A, in the forms of `ccd query --a`
     #[arg(long, value_name = "BODY", requires_all = ["b", "motions"])]
     a: Option<String>,
@@ -127,7 +126,7 @@ Examples:
   ccd view --a knot.obj --b knot.obj --motions motions.csv --results results.csv --out knots.html
   ccd view --scene scene.csv --duration 0.5
   ccd view arm.urdf --cell cell.toml --path moves.csv
-  ccd view arm.urdf --joint elbow=-30deg:60deg
+  ccd view arm.urdf --joint elbow=-30deg:60deg --joint shoulder=0
   printf 'id,a_px,a_vx\\nhit,-3,4\\n' | ccd view --a box:.5,.5,.5 --b sphere:.3 --motions -
   printf 'body,id,px,vx\\nsphere:.5,ball,-3,4\\n\"box:.5,1,1\",wall,0,0\\n' > balls.csv; ccd view --scene balls.csv
 

@@ -2,6 +2,8 @@
 
 use crate::command::{CommandCall, Row, Scene, assert_contains, parse, stderr};
 use crate::{CUBE_AND_SLAB_OPTIONS, DROP_CONTACT_TIME, FALLING_CUBE_MOTION};
+use rigid_ccd::table::results::{ANSWERS, Status, names};
+use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_4, TAU};
 use std::fmt::Write;
 use std::fs;
@@ -486,4 +488,121 @@ fn a_long_path_is_measured_with_what_its_parts_need() {
     let one = measured(1, "80000");
     let all = measured(120, "80000");
     assert!(all > 80_000.0 && one < 40_000.0, "{one} and {all}");
+}
+
+/// A table of a cube and a slab in all kinds of places, at rest and in motion.
+fn all_kinds_of_motions() -> String {
+    let mut table = "a_px,a_pz,a_vz,a_wx\n".to_owned();
+    for (k, x) in [0.0, 9.4, 9.5005, 9.7, 19.0].into_iter().enumerate() {
+        for z in [0.0, 1.4, 1.5, 1.5005, 1.5015, 1.7, 4.0] {
+            for v in [0.0, -1.0, 1.0, -4.0] {
+                table += &format!("{x},{z},{v},{}\n", k % 2);
+            }
+        }
+    }
+    table
+}
+
+/// Tests that the statuses that a question has are those of the one table in the code: all of them occur, and no other.
+#[test]
+fn questions_have_the_statuses_of_their_table() {
+    let table = all_kinds_of_motions();
+    for answers in ANSWERS {
+        let statuses = |more: &[&str]| {
+            let call = question_call(answers.question.name(), &CUBE_AND_SLAB_OPTIONS, &table);
+            let rows = call.args(more).run_for_rows();
+            let found = rows.iter().map(|row| row.text("status").to_owned());
+            found.collect::<BTreeSet<_>>()
+        };
+        let names = |listed: &[Status]| {
+            listed
+                .iter()
+                .map(|status| status.name().to_owned())
+                .collect()
+        };
+        assert_eq!(
+            statuses(&[]),
+            names(answers.statuses),
+            "{}",
+            answers.question
+        );
+        if answers.question.is_for_a_distance() {
+            let mut found = statuses(&["--clearance", "0.2005"]);
+            found.extend(statuses(&["--clearance", "0.0005"]));
+            assert_eq!(
+                found,
+                names(answers.compared_statuses),
+                "{}",
+                answers.question
+            );
+        }
+    }
+}
+
+/// Tests that the documentation and the help have the same statuses and columns.
+#[test]
+fn the_documentation_has_the_statuses_of_the_table() {
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/command.md");
+    let page = fs::read_to_string(page).unwrap();
+    let help = CommandCall::with_args(&["query", "--help"])
+        .run_expecting_code(0)
+        .stdout;
+    let help = String::from_utf8(help).unwrap();
+    for answers in ANSWERS {
+        let name = answers.question.name();
+        let start = [format!("| `{name}` | "), format!("| `{name}` (default) | ")];
+        let is_row = |line: &&str| start.iter().any(|start| line.starts_with(start));
+        let row = page.lines().find(is_row).unwrap();
+        let cell = row.trim_end_matches(" |").rsplit(" | ").next().unwrap();
+        let list = |listed: &[Status]| {
+            let names: Vec<String> = listed
+                .iter()
+                .map(|status| format!("`{}`", status.name()))
+                .collect();
+            names.join(", ")
+        };
+        let expected = match answers.compared_statuses {
+            [] => list(answers.statuses),
+            compared => format!(
+                "{}; with `--clearance`: {}",
+                list(answers.statuses),
+                list(compared)
+            ),
+        };
+        assert_eq!(cell, expected, "{name}");
+        for column in names(answers.more_columns) {
+            assert_contains(row, &format!("`{column}`"));
+            assert_contains(&page, &format!("| `{column}` | with `--ask {name}` only"));
+        }
+        let at = help.find(&format!("  {name}  ")).unwrap();
+        let in_help = expected
+            .replace(['`'], "")
+            .replace("clearance:", "clearance");
+        assert_contains(&help[at..], &format!("statuses {in_help}"));
+    }
+}
+
+/// Tests that bodies that touch or overlap at the start have a last time, which is not early.
+#[test]
+fn an_interval_from_the_start_has_a_last_time() {
+    let parts = "id,a_pz,a_vz\nin,1.4,1\non,1.5005,1\nstays,1.4,0\nback,1.4,-1\n";
+    let rows = question_call("contact-interval", &CUBE_AND_SLAB_OPTIONS, parts).run_for_rows();
+    let found: Vec<_> = rows
+        .iter()
+        .map(|row| (row.text("status"), row.text("time")))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            ("overlapping", "0.0"),
+            ("touching", "0.0"),
+            ("overlapping", "0.0"),
+            ("overlapping", "0.0")
+        ]
+    );
+    let last: Vec<f64> = rows.iter().map(|row| row.number("last_time")).collect();
+    // The cube leaves the slab when it is 0.5 above its top at 1, and is in contact within the tolerance.
+    assert!((0.1..=0.1011).contains(&last[0]), "{last:?}");
+    assert!((0.0..=0.0006).contains(&last[1]), "{last:?}");
+    assert_eq!(last[2..], [1.0, 1.0]);
 }

@@ -200,3 +200,56 @@ fn git_lfs_pointers_are_recognised() {
         .run_for_messages(2);
     assert_contains(&message, advice);
 }
+
+/// Tests that a long cell is refused at once, and not repeated in the message.
+#[test]
+fn long_cells_are_refused_and_not_repeated() {
+    let digits = "7".repeat(8 << 20);
+    let long = format!("a_pz\n{digits}\n");
+    let table = CommandCall::query(&CUBE_AND_SLAB_OPTIONS).stdin(&long);
+    let output = table.run_expecting_code(2);
+    assert_contains(
+        &stderr(&output),
+        "column a_pz: a cell of 8388608 bytes; 65536 are the most",
+    );
+    assert!(output.stdout.len() + output.stderr.len() < 2000);
+    // Shorter ones are quoted up to 60 characters.
+    let digits = "7".repeat(1000) + "x";
+    let names = format!("{digits},{digits}\n1\n");
+    for (table, words) in [
+        (
+            format!("a_pz\n{digits}\n"),
+            "… (1001 bytes)` is not a finite number",
+        ),
+        (names, "… (1001 bytes)"),
+    ] {
+        let output = CommandCall::query(&CUBE_AND_SLAB_OPTIONS)
+            .stdin(&table)
+            .run_expecting_code(2);
+        let message = stderr(&output);
+        assert_contains(&message, words);
+        assert!(message.len() < 1000, "{message}");
+    }
+}
+
+/// Tests that a table that never ends is refused before it fills the memory.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_device_is_no_table() {
+    for args in [
+        &[
+            "query",
+            "--motions",
+            "/dev/zero",
+            "--a",
+            "box:1,1,1",
+            "--b",
+            "box:1,1,1",
+        ][..],
+        &["view", "--scene", "/dev/zero"],
+        &["scene", "/dev/zero"],
+    ] {
+        let message = CommandCall::with_args(args).run_for_messages(2);
+        assert_contains(&message, "does not end within 16 MB");
+    }
+}

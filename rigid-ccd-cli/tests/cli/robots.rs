@@ -187,14 +187,26 @@ fn inputs_are_not_overwritten() {
 fn a_clearance_has_exit_codes_and_ranges() {
     let scene = folder();
     // The hand comes near the base when the elbow folds; its least distance to the upper arm is where it is most bent.
-    let clearance = ["clearance", "arm.urdf", "--joint", "elbow=-30deg:160deg"];
+    let clearance = [
+        "clearance",
+        "arm.urdf",
+        "--rest",
+        "--joint",
+        "elbow=-30deg:160deg",
+    ];
     let output = call(&scene, &clearance)
         .args(&["--require", "5mm"])
-        .run_expecting_code(1);
+        .run_expecting_code(3);
     let text = String::from_utf8(output.stdout).unwrap();
     assert_contains(&text, "5 mm required: violated");
     assert_contains(&text, "  kept       elbow = -30.0000° to elbow = 146.");
-    let half = ["clearance", "arm.urdf", "--joint", "elbow=-30deg:60deg"];
+    let half = [
+        "clearance",
+        "arm.urdf",
+        "--rest",
+        "--joint",
+        "elbow=-30deg:60deg",
+    ];
     let output = call(&scene, &half)
         .args(&["--require", "5mm", "--json"])
         .run_expecting_code(0);
@@ -218,8 +230,14 @@ fn a_clearance_has_exit_codes_and_ranges() {
             "--tolerance",
             "1mm",
         ])
-        .run_for_messages(2);
+        .run_for_messages(3);
     assert_contains(&message, "unverified");
+    // What cannot be written and bad input have codes of their own.
+    for (html, code) in [("/dev/full", 1), ("none/page.html", 1), ("arm.urdf", 2)] {
+        call(&scene, &half)
+            .args(&["--html", html])
+            .run_expecting_code(code);
+    }
 }
 
 #[test]
@@ -300,6 +318,8 @@ fn a_page_shows_the_robot() {
         "arm.urdf",
         "--joint",
         "elbow=0:1",
+        "--joint",
+        "shoulder=0",
         "--html",
         "clearance.html",
     ];
@@ -337,14 +357,14 @@ fn a_mechanism_without_pairs_is_no_proof() {
     scene.file("hinge.srdf", srdf);
     call(&scene, &args)
         .args(&["--srdf", "hinge.srdf"])
-        .run_expecting_code(1);
+        .run_expecting_code(3);
     scene.file(
         "hinge.toml",
         "[[clearance]]\nbetween = ['frame', 'lever']\ndistance = 0.01\n",
     );
     call(&scene, &args)
         .args(&["--cell", "hinge.toml"])
-        .run_expecting_code(1);
+        .run_expecting_code(3);
 }
 
 #[test]
@@ -402,4 +422,226 @@ fn options_that_do_not_apply_to_a_robot_are_refused() {
         &call(&scene, &EDGES).args(&["--check"]).run_for_messages(2),
         "no row",
     );
+}
+
+/// Tests that one rule is about joints without a position, in all commands: an error, unless they are told to rest.
+#[test]
+fn joints_without_a_position_are_refused_unless_they_are_told_to_rest() {
+    let scene = folder();
+    scene.file("path.csv", "elbow\n0\n1\n");
+    for args in [
+        &["edges", "arm.urdf", "--edges", "path.csv"][..],
+        &["clearance", "arm.urdf", "--path", "path.csv"],
+        &["clearance", "arm.urdf", "--joint", "elbow=0:1"],
+        &["view", "arm.urdf", "--path", "path.csv"],
+        &["view", "arm.urdf", "--joint", "elbow=0:1"],
+    ] {
+        let message = call(&scene, args).run_for_messages(2);
+        assert_contains(&message, "shoulder");
+        assert_contains(&message, "--rest");
+        call(&scene, args).args(&["--rest"]).run_expecting_code(0);
+        call(&scene, args)
+            .args(&["--joint", "shoulder=0"])
+            .run_expecting_code(0);
+    }
+}
+
+/// Tests that all outputs have the times of the table.
+#[test]
+fn times_of_a_clearance_are_those_of_the_table() {
+    let scene = folder();
+    scene.file(
+        "path.csv",
+        "t,shoulder,elbow\n0,0,0\n0.1,0,0.1\n0.2,1.2,0.1\n",
+    );
+    let clearance = [
+        "clearance",
+        "arm.urdf",
+        "--cell",
+        "cell.toml",
+        "--path",
+        "path.csv",
+    ];
+    let require = ["--require", "5mm"];
+    let output = call(&scene, &clearance)
+        .args(&require)
+        .args(&["--json"])
+        .run_expecting_code(3);
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let ranges = report["ranges"].as_array().unwrap();
+    let number = |value: &Value| value.as_f64().unwrap();
+    assert_eq!(number(&ranges[0]["from"]), 0.0);
+    assert_eq!(number(&ranges.last().unwrap()["to"]), 0.2);
+    let violated = ranges.iter().find(|range| range["clearance"] == "violated");
+    let violated = number(&violated.unwrap()["from"]);
+    assert!((0.1..0.2).contains(&violated), "{violated}");
+    for two in ranges.windows(2) {
+        let gap = number(&two[1]["from"]) - number(&two[0]["to"]);
+        assert!((0.0..1e-14).contains(&gap), "{gap}");
+    }
+    let nearest = number(&report["closest"]["nearest"]["time"]);
+    assert!((0.1..=0.2).contains(&nearest), "{nearest}");
+    let curve = report["curve"].as_array().unwrap();
+    assert_eq!(number(&curve.last().unwrap()["to"]), 0.2);
+}
+
+#[test]
+fn a_curve_has_a_bounded_number_of_ranges() {
+    let scene = folder();
+    let mut table = "shoulder,elbow\n".to_owned();
+    for k in 0..721 {
+        table += &format!("{},0\n", 1e-3 * f64::from(k % 50));
+    }
+    scene.file("path.csv", &table);
+    let clearance = ["clearance", "arm.urdf", "--path", "path.csv", "--json"];
+    let output = call(&scene, &clearance).run_expecting_code(0);
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let curve = report["curve"].as_array().unwrap();
+    assert_eq!(curve.len(), 360);
+    assert!(output.stdout.len() < 1 << 20, "{}", output.stdout.len());
+    assert_eq!(
+        (&curve[0]["from"], &curve[359]["to"]),
+        (&0.0.into(), &720.0.into())
+    );
+    for two in curve.windows(2) {
+        assert_eq!(two[0]["to"], two[1]["from"]);
+    }
+    let least = |name: &str| {
+        let bounds = curve.iter().map(|range| range[name].as_f64().unwrap());
+        bounds.fold(f64::INFINITY, f64::min)
+    };
+    let closest = &report["closest"];
+    let [lower, upper] =
+        ["distance_lower", "distance_upper"].map(|name| closest[name].as_f64().unwrap());
+    assert!(least("distance_lower") >= lower - 1e-6 && least("distance_upper") <= upper + 1e-6);
+}
+
+/// Tests that the page has the good rows, and that what is left out is said.
+#[test]
+fn a_page_of_a_robot_leaves_out_bad_rows() {
+    let scene = folder();
+    scene.file(
+        "moves.csv",
+        "id,from_shoulder,from_elbow,to_shoulder,to_elbow\ngood,0,0,-0.2,0.5\nbad,0,x,0,0\nfar,0,0,9,0\nfine,0,0,0,0.1\n",
+    );
+    let args = [
+        "view",
+        "arm.urdf",
+        "--cell",
+        "cell.toml",
+        "--path",
+        "moves.csv",
+    ];
+    let message = call(&scene, &args).run_for_messages(2);
+    assert_contains(
+        &message,
+        "not shown: moves.csv: row 1 (line 3): column from_elbow: `x` is not a finite number",
+    );
+    assert_contains(
+        &message,
+        "not shown: path \"far\": configuration 1 of the path: joint `shoulder`",
+    );
+    let page = fs::read_to_string(scene.directory.join("view.html")).unwrap();
+    assert!(page.contains("\"good\"") && page.contains("\"fine\"") && !page.contains("\"far\""));
+    fs::remove_file(scene.directory.join("view.html")).unwrap();
+    let message = call(&scene, &args)
+        .args(&["--ids", "bad,none"])
+        .run_for_messages(2);
+    assert_contains(&message, "no path to show has the id \"none\"");
+    assert_contains(&message, "there is no row to show, and no page");
+    assert!(!scene.directory.join("view.html").exists());
+}
+
+/// Tests that a body of a cell or a mesh of a robot that may never end is refused.
+#[cfg(unix)]
+#[test]
+fn endless_files_are_refused_at_once() {
+    let scene = folder();
+    let link = |name: &str, to: &str| {
+        let link = scene.directory.join(name);
+        let _ = fs::remove_file(&link);
+        std::os::unix::fs::symlink(to, link).unwrap();
+    };
+    let pipe = scene.directory.join("pipe");
+    let made = std::process::Command::new("mkfifo")
+        .arg(&pipe)
+        .status()
+        .unwrap();
+    assert!(made.success());
+    for endless in ["/dev/zero", "pipe"] {
+        for name in [
+            "zero.stl",
+            "zero.ccd",
+            "zero.urdf",
+            "zero.toml",
+            "zero.srdf",
+            "zero.json",
+        ] {
+            link(name, endless);
+        }
+        scene.file(
+            "zeros.toml",
+            "[[obstacle]]\nname = 'wall'\nbody = 'zero.stl'\n",
+        );
+        for args in [
+            &[
+                "edges",
+                "arm.urdf",
+                "--edges",
+                "moves.csv",
+                "--cell",
+                "zeros.toml",
+            ][..],
+            &[
+                "edges",
+                "arm.urdf",
+                "--edges",
+                "moves.csv",
+                "--cell",
+                "zero.toml",
+            ],
+            &[
+                "edges",
+                "arm.urdf",
+                "--edges",
+                "moves.csv",
+                "--srdf",
+                "zero.srdf",
+            ],
+            &["edges", "zero.urdf", "--edges", "moves.csv"],
+            &[
+                "replay",
+                "arm.urdf",
+                "--cell",
+                "cell.toml",
+                "--record",
+                "zero.json",
+            ],
+            &[
+                "query",
+                "--motions",
+                "-",
+                "--a",
+                "zero.stl",
+                "--b",
+                "box:1,1,1",
+            ],
+            &[
+                "query",
+                "--motions",
+                "-",
+                "--a",
+                "zero.ccd",
+                "--b",
+                "box:1,1,1",
+            ],
+            &["check", "zero.json", "--bodies", "."],
+            &["decompose", "zero.stl"],
+        ] {
+            let message = call(&scene, args).stdin("a_px\n5\n").run_for_messages(2);
+            let is_refused =
+                message.contains("may never end") || message.contains("has no file NAME.mesh");
+            assert!(is_refused, "{args:?}: {message}");
+        }
+    }
 }

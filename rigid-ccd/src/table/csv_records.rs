@@ -23,6 +23,12 @@ pub struct CsvRecords<R> {
 
 type Reader<R> = csv::Reader<io::Chain<LineEndConverter<R>, &'static [u8]>>;
 
+/// The greatest length in bytes of a record, with the empty lines before it.
+const MAX_RECORD_BYTES: u64 = 1 << 24;
+
+/// The greatest length in bytes of a cell.
+const MAX_CELL_BYTES: usize = 1 << 16;
+
 /// What follows the input. The line number of a row is computed from its end, so that the last row needs a line end,
 /// too. No row takes the second one, unless a quote is still open.
 const APPENDED_LINE_ENDS: &[u8] = b"\n\n";
@@ -39,6 +45,7 @@ impl<R: Read> CsvRecords<R> {
             .has_headers(false)
             .from_reader(input.chain(APPENDED_LINE_ENDS));
         let mut raw_record = csv::ByteRecord::new();
+        reader.get_mut().get_mut().0.allow_up_to(MAX_RECORD_BYTES);
         reader.read_byte_record(&mut raw_record)?;
         let mut records = CsvRecords {
             reader,
@@ -51,6 +58,13 @@ impl<R: Read> CsvRecords<R> {
         }
         add_record(&mut records.checksum, &records.raw_record);
         Ok(records)
+    }
+
+    /// Allows the next record, with the empty lines before it, as many bytes as any may have: a device or a line without an end
+    /// would fill the memory.
+    fn allow_next_record(&mut self) {
+        let end = self.reader.position().byte() + MAX_RECORD_BYTES;
+        self.reader.get_mut().get_mut().0.allow_up_to(end);
     }
 
     /// Returns the line of a quote that the current record opens and does not close; `None` without one.
@@ -95,6 +109,7 @@ impl<R: Read> Records for CsvRecords<R> {
 
     fn advance(&mut self) -> Result<Option<RowPosition>, TableError> {
         let before = self.reader.position().line();
+        self.allow_next_record();
         if !self.reader.read_byte_record(&mut self.raw_record)? {
             return Ok(None);
         }
@@ -124,12 +139,20 @@ impl Record for csv::ByteRecord {
                 column_count: header.len(),
             });
         }
-        match self.iter().position(|cell| str::from_utf8(cell).is_err()) {
-            Some(cell) => Err(RowProblem::NotText {
-                column: header[cell].clone(),
-            }),
-            None => Ok(()),
+        for (cell, column) in self.iter().zip(header) {
+            if cell.len() > MAX_CELL_BYTES {
+                return Err(RowProblem::CellTooLong {
+                    column: column.clone(),
+                    bytes: cell.len(),
+                    most: MAX_CELL_BYTES,
+                });
+            }
+            if str::from_utf8(cell).is_err() {
+                let column = column.clone();
+                return Err(RowProblem::NotText { column });
+            }
         }
+        Ok(())
     }
 
     fn has_value(&self, cell: usize) -> bool {

@@ -1,7 +1,7 @@
 //! Errors of a table of motions or paths.
 
 use super::position::RowPosition;
-use crate::text::Number;
+use crate::text::{Excerpt, Number};
 use ccd_core::InputError;
 
 /// An error that makes a whole table unusable.
@@ -47,7 +47,8 @@ pub enum TableError {
     },
     /// The first line has numbers instead of names.
     #[error(
-        "header: `{first_number_in_header}` is a number: the first line must name the columns, such as id,a_px,a_vx; {known_columns}"
+        "header: `{}` is a number: the first line must name the columns, such as id,a_px,a_vx; {known_columns}",
+        Excerpt(.first_number_in_header)
     )]
     NoHeader {
         /// The first number in that line.
@@ -60,7 +61,8 @@ pub enum TableError {
     HeaderNotText,
     /// The cells are not separated by commas.
     #[error(
-        "header: cells are separated by {found:?}; use commas, and numbers with a decimal point: {header}"
+        "header: cells are separated by {found:?}; use commas, and numbers with a decimal point: {}",
+        Excerpt(.header)
     )]
     WrongSeparator {
         /// The character that separates the cells.
@@ -70,7 +72,8 @@ pub enum TableError {
     },
     /// The header has a column that is not known. If it were ignored, a part of a motion could be lost silently.
     #[error(
-        "header: unknown column `{column}`; {}",
+        "header: unknown column `{}`; {}",
+        Excerpt(.column),
         .most_similar_column.as_ref().map_or((*.known_columns).to_owned(), |nearest| format!("did you mean `{nearest}`?"))
     )]
     UnknownColumn {
@@ -102,7 +105,7 @@ pub enum TableError {
         column: String,
     },
     /// A column appears twice in the header.
-    #[error("header: column `{column}` appears twice")]
+    #[error("header: column `{}` appears twice", Excerpt(.column))]
     RepeatedColumn {
         /// The name that appears twice.
         column: String,
@@ -172,8 +175,18 @@ pub enum RowProblem {
         /// The number of columns of the header.
         column_count: usize,
     },
+    /// A cell is longer than any number or name.
+    #[error("column {}: a cell of {bytes} bytes; {most} are the most", Excerpt(.column))]
+    CellTooLong {
+        /// The name of the column that the cell is in.
+        column: String,
+        /// The length of the cell.
+        bytes: usize,
+        /// The greatest length of a cell.
+        most: usize,
+    },
     /// A cell is not a finite number.
-    #[error("column {column}: `{value}` is not a finite number")]
+    #[error("column {column}: `{}` is not a finite number", Excerpt(.value))]
     NotANumber {
         /// The name of the column that the cell is in.
         column: String,
@@ -244,7 +257,10 @@ pub enum RowProblem {
     #[error("column id: no value; each row of a path needs its name")]
     NoId,
     /// The rows of a path are not consecutive.
-    #[error("path `{id}` goes on here after rows of other paths; sort the table by id, then by t")]
+    #[error(
+        "path `{}` goes on here after rows of other paths; sort the table by id, then by t",
+        Excerpt(.id)
+    )]
     PathNotConsecutive {
         /// The id of the path.
         id: String,

@@ -12,6 +12,8 @@ pub(super) struct LineEndConverter<R> {
     read_byte_count: u64,
     /// The number of these bytes that were dropped: those of byte order marks, and one for each `\r\n`.
     dropped_byte_count: u64,
+    /// The number of bytes that this reader may give in all.
+    allowed_byte_count: u64,
 }
 
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
@@ -38,7 +40,13 @@ impl<R: Read> LineEndConverter<R> {
             is_after_carriage_return: false,
             read_byte_count: marks,
             dropped_byte_count: marks,
+            allowed_byte_count: u64::MAX,
         })
+    }
+
+    /// Allows this reader to give so many bytes in all; a read after that fails.
+    pub(super) fn allow_up_to(&mut self, bytes: u64) {
+        self.allowed_byte_count = bytes;
     }
 
     /// Returns the number of bytes that this reader has given so far.
@@ -54,6 +62,10 @@ impl<R: Read> LineEndConverter<R> {
 
 impl<R: Read> Read for LineEndConverter<R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        if self.output_byte_count() > self.allowed_byte_count {
+            let problem = "a row does not end within 16 MB; is this a table?";
+            return Err(io::Error::new(io::ErrorKind::InvalidData, problem));
+        }
         loop {
             let read = self.input.read(out)?;
             self.read_byte_count += read as u64;

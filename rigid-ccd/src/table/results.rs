@@ -3,13 +3,13 @@
 #[cfg(test)]
 mod tests;
 
+mod answers;
 mod columns;
 mod status;
 
+pub use answers::{ANSWERS, QuestionAnswers};
 pub use columns::reordered_columns;
-pub use columns::{
-    COLUMNS, COUNTER_COLUMNS, CellGetter, Column, ITEM_COLUMNS, Line, columns, names,
-};
+pub use columns::{COLUMNS, COUNTER_COLUMNS, CellGetter, Column, ITEM_COLUMNS, Line, names};
 pub use status::Status;
 
 use crate::batch::question::Question;
@@ -19,6 +19,12 @@ use ccd_core::glam::DVec3;
 use ccd_core::{Answer, Contact, HitKind, Outcome, Overlap, Stats};
 use serde::Deserialize;
 use std::io;
+
+/// Returns the columns of the answers to a question, without counters.
+pub fn columns(question: Question) -> Vec<Column> {
+    let more = QuestionAnswers::of(question).more_columns;
+    COLUMNS.into_iter().chain(more.iter().copied()).collect()
+}
 
 /// The clearance that distances are compared with, and by how much the measured bodies exceed their shapes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

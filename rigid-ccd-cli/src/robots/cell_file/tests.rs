@@ -1,6 +1,7 @@
 use super::*;
 use rigid_ccd::trajectory;
 use rigid_ccd_robot::{Joint, Link, LinkPairs, PositionRule, Robot};
+use std::fs;
 
 fn empty_cell() -> Cell {
     let ball = Link::named("arm").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);

@@ -1,6 +1,8 @@
 //! What `ccd clearance` prints.
 
+use crate::robots::page::MAX_RANGES;
 use crate::robots::path_table::TablePath;
+use ccd_core::order::lesser;
 use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::{
@@ -8,9 +10,6 @@ use rigid_ccd_robot::{
 };
 use serde_json::{Value, json};
 use std::fmt;
-
-/// The number of halvings of each segment of a path for the curve of the distance.
-pub(super) const CURVE_HALVINGS: u32 = 6;
 
 /// The greatest number of joints by whose positions a point of the path is described. With more, it is the time on the path.
 const MAX_NAMED_JOINTS: usize = 3;
@@ -122,7 +121,7 @@ impl Report<'_> {
         let witnesses = contact.witnesses;
         let [witness_a, witness_b] = [0, 1].map(|k| witnesses.map(|points| points[k].to_array()));
         json!({
-            "time": contact.at.time(),
+            "time": self.path.table_time_rounded_down(contact.at.time()),
             "positions": self.positions_json(contact.at),
             "a": a,
             "b": b,
@@ -133,10 +132,11 @@ impl Report<'_> {
 
     /// Returns the report with the curve of the distance; lengths in metres, angles in radians.
     pub(super) fn to_json(&self, curve: &[DistanceRange<'_>]) -> Value {
+        // Rounded inwards, so that what is said of a range holds in all of it.
         let range = |from: PathPoint, to: PathPoint| {
             json!({
-                "from": from.time(),
-                "to": to.time(),
+                "from": self.path.table_time_rounded_up(from.time()),
+                "to": self.path.table_time_rounded_down(to.time()),
                 "from_positions": self.positions_json(from),
                 "to_positions": self.positions_json(to),
             })
@@ -155,8 +155,9 @@ impl Report<'_> {
             "ranges": self.ranges.iter().map(|found| {
                 with(range(found.from, found.to), json!({ "clearance": verdict_name(found.verdict) }))
             }).collect::<Vec<_>>(),
-            "curve": curve.iter().map(|found| {
-                with(range(found.from, found.to), self.closest_json(&found.closest))
+            "curve": curve.chunks(curve.len().div_ceil(MAX_RANGES).max(1)).filter_map(|few| {
+                let found = merged(few)?;
+                Some(with(range(found.from, found.to), self.closest_json(&found.closest)))
             }).collect::<Vec<_>>(),
             "not_checked": self.pairs_not_checked().map(|([a, b], reason)| {
                 json!({ "a": a, "b": b, "reason": reason })
@@ -186,6 +187,28 @@ impl Report<'_> {
             (names, reason.to_string())
         })
     }
+}
+
+/// Returns ranges that follow each other as one: with the least bounds, the place of the least distance, and any limit.
+fn merged<'a>(ranges: &[DistanceRange<'a>]) -> Option<DistanceRange<'a>> {
+    let merge = |one: DistanceRange<'a>, next: &DistanceRange<'a>| {
+        let nearer = if next.closest.upper < one.closest.upper {
+            &next.closest
+        } else {
+            &one.closest
+        };
+        DistanceRange {
+            from: one.from,
+            to: next.to,
+            closest: ClosestApproach {
+                lower: lesser(one.closest.lower, next.closest.lower),
+                limit: one.closest.limit.or(next.closest.limit),
+                ..*nearer
+            },
+        }
+    };
+    let (first, others) = ranges.split_first()?;
+    Some(others.iter().fold(*first, merge))
 }
 
 /// Rounds to an integer, in the direction of another number.

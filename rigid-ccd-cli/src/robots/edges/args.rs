@@ -3,7 +3,7 @@
 use crate::named::{Named, named_value_parser};
 use crate::numbers::parse_seconds;
 use crate::resumable::RowRange;
-use crate::robots::joint_values::{JointRange, length, tolerance_length};
+use crate::robots::joint_values::{JointsArgs, length, tolerance_length};
 use crate::robots::loading::CellArgs;
 use clap::Args;
 use rigid_ccd_robot::path_rows::PathQuestion;
@@ -22,9 +22,8 @@ pub(crate) struct EdgesArgs {
     /// Table of edges or paths, CSV or Parquet; - reads CSV from standard input
     #[arg(long, value_name = "TABLE")]
     pub(super) edges: PathBuf,
-    /// Position at which a joint rests that the table has no columns for, such as finger=0.04 or hip=30deg
-    #[arg(long, value_name = "NAME=POSITION", allow_hyphen_values = true)]
-    pub(super) joint: Vec<JointRange>,
+    #[command(flatten)]
+    pub(super) joints: JointsArgs,
     /// Question that every row answers
     #[arg(long, value_parser = named_value_parser(QUESTIONS), default_value = "is-free")]
     pub(super) ask: PathQuestion,
@@ -48,8 +47,8 @@ pub(crate) struct EdgesArgs {
     /// Write the table of results to this file, CSV; - writes to standard output
     #[arg(long, value_name = "CSV", default_value = "-")]
     pub(super) out: PathBuf,
-    /// Write machine-checkable proofs to this folder: ID.proof for each edge, ID-SEGMENT.proof for each segment of a path, until
-    /// the first contact; `ccd check` checks them
+    /// Write machine-checkable proofs to this folder: ROW-ID.proof for each edge, ROW.SEGMENT-ID.proof for each segment of a path
+    /// that begins in a row, until the first contact; `ccd check` checks them
     #[arg(long, value_name = "FOLDER")]
     pub(super) certificates: Option<PathBuf>,
     /// Leave column `micros` empty, so that equal answers give equal files
@@ -85,15 +84,8 @@ const QUESTIONS: &Named<PathQuestion> = &[
 ];
 
 /// The ids of the options that the journal does not record, because they change no byte of the table, or are recorded otherwise.
-pub(super) const UNRECORDED_OPTIONS: [&str; 8] = [
-    "certificates",
-    "edges",
-    "threads",
-    "out",
-    "resume",
-    "check",
-    "quiet",
-    "rows",
+pub(super) const UNRECORDED_OPTIONS: [&str; 7] = [
+    "edges", "threads", "out", "resume", "check", "quiet", "rows",
 ];
 
 const AFTER_HELP: &str = "\

@@ -1,5 +1,6 @@
 use super::*;
 use crate::causes::message_with_causes;
+use crate::robots::joint_values::JointRange;
 use rigid_ccd::{Body, Pose, trajectory};
 use rigid_ccd_robot::{Joint, Link, PositionRule};
 use std::fs;
@@ -27,8 +28,12 @@ fn open(text: &str, at_rest: &[&str]) -> Result<PathTable> {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("edges.csv");
     fs::write(&path, text)?;
-    let at_rest: Vec<JointRange> = at_rest.iter().map(|text| text.parse().unwrap()).collect();
-    Ok(PathTable::open("--edges", &path, &robot(), &at_rest)?.0)
+    let named: Vec<JointRange> = at_rest.iter().map(|text| text.parse().unwrap()).collect();
+    let at_rest = GivenJoints {
+        named: &named,
+        others: OtherJoints::Refused,
+    };
+    Ok(PathTable::open("--edges", &path, &robot(), at_rest)?.0)
 }
 
 fn read(text: &str, at_rest: &[&str]) -> Vec<Result<TablePath, RowError>> {

@@ -4,7 +4,6 @@ use super::attributes::Attributes;
 use crate::robot_file::error::RobotFileError;
 use crate::robot_file::mjcf_error::MjcfError;
 use roxmltree::{Document, Node, ParsingOptions};
-use std::fs;
 use std::path::Path;
 
 /// The largest depth of elements and of files that include each other. Deeper ones would exhaust the stack.
@@ -77,10 +76,11 @@ impl Reader<'_> {
         let attributes = Attributes::read(node);
         if node.tag_name().name() == "include" {
             let file = self.folder.join(attributes.required("file")?);
-            let text = fs::read_to_string(&file).map_err(|error| RobotFileError::Unreadable {
-                file: file.clone(),
-                error: error.to_string(),
-            })?;
+            let text =
+                ccd_file::read_to_string(&file).map_err(|error| RobotFileError::Unreadable {
+                    file: file.clone(),
+                    error: error.to_string(),
+                })?;
             let document =
                 parse_xml(&text).map_err(|error| RobotFileError::Syntax { file, error })?;
             return self.children(document.root_element(), depth + 1);

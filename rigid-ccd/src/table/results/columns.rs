@@ -1,7 +1,6 @@
 //! The columns of rows of results: of `ccd query`, of its contacts, of scenes and of Python's tables.
 
 use super::ResultRow;
-use crate::batch::question::Question;
 use CellGetter::{Count, Number, Text};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
@@ -45,7 +44,7 @@ pub const COLUMNS: [Column; 20] = [
 ];
 
 /// The column of the time after which no contact happens, in the answers about contact intervals.
-const LAST_TIME_COLUMN: Column = Column("last_time", Number(|row| row.last_time));
+pub(super) const LAST_TIME_COLUMN: Column = Column("last_time", Number(|row| row.last_time));
 
 /// The columns of the counters, in order; they follow all other columns.
 pub const COUNTER_COLUMNS: [Column; 5] = [
@@ -70,12 +69,6 @@ pub const ITEM_COLUMNS: [Column; 2] = [
     Column("a", Text(|row| row.item_a.as_deref())),
     Column("b", Text(|row| row.item_b.as_deref())),
 ];
-
-/// Returns the columns of the answers to a question, without counters.
-pub fn columns(question: Question) -> Vec<Column> {
-    let last_time = (question == Question::ContactInterval).then_some(LAST_TIME_COLUMN);
-    COLUMNS.into_iter().chain(last_time).collect()
-}
 
 /// Returns the columns of results in another order: the columns `first`, then all others that are not `left_out`.
 pub fn reordered_columns(first: &[&str], left_out: &[&str]) -> Vec<Column> {

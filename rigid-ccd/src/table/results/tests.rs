@@ -256,6 +256,21 @@ fn an_interval_has_its_last_time_after_the_other_columns() {
 }
 
 #[test]
+fn answers_are_listed_in_the_order_of_the_questions() {
+    assert_eq!(ANSWERS.map(|answers| answers.question), Question::ALL);
+    for answers in ANSWERS {
+        assert_eq!(
+            QuestionAnswers::of(answers.question).question,
+            answers.question
+        );
+        assert_eq!(
+            !answers.compared_statuses.is_empty(),
+            answers.question.is_for_a_distance()
+        );
+    }
+}
+
+#[test]
 fn distances_are_compared_to_the_clearance() {
     let measured = |lower| Outcome::LeastDistance {
         lower,

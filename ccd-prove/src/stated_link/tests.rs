@@ -1,0 +1,47 @@
+use super::*;
+
+fn link(axes: u32, [velocity, axis]: [[f64; 3]; 2], [start, rate]: [f64; 2]) -> StatedLink {
+    StatedLink {
+        parent: 0,
+        position: [0.0; 3],
+        quaternion: [0.0, 0.0, 0.0, 1.0],
+        centre: [0.0; 3],
+        axes,
+        velocity,
+        axis,
+        start,
+        rate,
+    }
+}
+
+#[test]
+fn a_free_motion_has_its_velocity_in_a_unit_of_time() {
+    let stated = link(0, [[0.0, 0.0, -0.25], [0.75, 0.0, 0.0]], [0.0, 4.0]);
+    let given = link(0, [[0.0, 0.0, -1.0], [3.0, 0.0, 0.0]], [0.0, 1.0]);
+    assert_eq!(stated.as_given(), given);
+    assert_eq!(stated.numbers(), given.numbers());
+    // What no power of two relates, or has moved before, stays as it is.
+    for other in [
+        link(0, [[0.0, 0.0, -0.25], [0.0; 3]], [0.0, 3.0]),
+        link(0, [[0.0, 0.0, -0.25], [0.0; 3]], [1.0, 4.0]),
+        link(0, [[5e-324, 0.0, 1.0], [0.0; 3]], [0.0, 0.5]),
+        link(0, [[0.0; 3]; 2], [0.0, 0.0]),
+    ] {
+        assert_eq!(other.as_given(), other);
+    }
+}
+
+#[test]
+fn a_joint_has_its_axis_of_length_one() {
+    let diagonal = 1.0 / 3f64.sqrt();
+    for axis in [[1.0, 0.0, 0.0], [0.6, 0.0, -0.8], [diagonal; 3]] {
+        for power in [-30, 0, 3] {
+            let scale = 2f64.powi(power);
+            let by = [0.3 / scale, -1.2 / scale];
+            let stated = link(1, [axis.map(|x| x * scale), [0.0; 3]], by);
+            let given = link(1, [axis, [0.0; 3]], [0.3, -1.2]);
+            assert_eq!(stated.as_given(), given);
+            assert_eq!(stated.numbers(), given.numbers());
+        }
+    }
+}

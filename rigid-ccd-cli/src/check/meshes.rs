@@ -1,0 +1,55 @@
+//! The meshes of a folder, which proofs name by their digests.
+
+use anyhow::{Context, Result, bail};
+use ccd_check::{Body, Stop};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The meshes of a folder as bytes, each with the certificate of its tree.
+pub(super) struct Meshes(Vec<(Vec<u8>, Vec<u8>)>);
+
+impl Meshes {
+    /// Reads all files NAME.mesh of a folder, with NAME.body beside them.
+    pub(super) fn read(folder: &Path) -> Result<Self> {
+        let paths = files_ending_in("mesh", folder)?;
+        let read = |path: &Path| ccd_file::read(path).with_context(|| path.display().to_string());
+        let read_both = |mesh: PathBuf| Ok((read(&mesh)?, read(&mesh.with_extension("body"))?));
+        let meshes: Vec<_> = paths.into_iter().map(read_both).collect::<Result<_>>()?;
+        if meshes.is_empty() {
+            let shown = folder.display();
+            bail!("{shown}: has no file NAME.mesh; give --bodies FOLDER");
+        }
+        Ok(Meshes(meshes))
+    }
+
+    /// Reads the meshes in the unit of a proof. A proof may be about some of them: what is wrong with another one does not matter,
+    /// and is the second value.
+    pub(super) fn bodies(&self, proof: &[u8]) -> (Vec<Body>, Option<Stop>) {
+        let (mut bodies, mut left_out) = (Vec::new(), None);
+        for (mesh, tree) in &self.0 {
+            match Body::new(mesh, tree, proof) {
+                Ok(body) => bodies.push(body),
+                Err(stop) => left_out = Some(stop),
+            }
+        }
+        (bodies, left_out)
+    }
+}
+
+/// Returns the files of a folder that have an extension, in the order of their names.
+pub(super) fn files_ending_in(extension: &str, folder: &Path) -> Result<Vec<PathBuf>> {
+    let here = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let entries = fs::read_dir(here).and_then(|entries| {
+        let paths = entries.map(|entry| Ok(entry?.path()));
+        paths.collect::<io::Result<Vec<_>>>()
+    });
+    let mut paths = entries.with_context(|| here.display().to_string())?;
+    paths.retain(|path| path.extension().is_some_and(|end| end == extension));
+    paths.sort();
+    Ok(paths)
+}
