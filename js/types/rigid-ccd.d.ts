@@ -141,7 +141,7 @@ export class LinkMotion extends Movement {
 export interface Settings {
   /** A contact is reported at a distance of at most margin + tolerance; 0.001 by default. */
   tolerance?: number;
-  /** The work after which a question is given up, a whole number or infinity; a million takes about a second. For a path it is that between two poses, and of a cell that of a segment, for all pairs together. */
+  /** The work after which a question is given up, a whole number or infinity; a million takes about a second. For a path it is that between two poses; in a cell that of two bodies, and a question takes at most 8 budgets for each segment of the path. */
   budget?: number;
 }
 

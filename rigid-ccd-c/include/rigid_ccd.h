@@ -236,8 +236,8 @@ typedef struct rccd_settings {
     // The distance at which bodies count as touching; 0 reports actual contact.
     double margin;
     // The largest amount of work, in visits of about a microsecond or less. Along a trajectory it is for each part between two
-    // poses or pieces of a curve. A visit of a curve of a high degree takes longer. In a cell it is for all pairs of bodies
-    // together, and for each segment of a path: what one does not need is for the others. The closest approach takes up to half
+    // poses or pieces of a curve. A visit of a curve of a high degree takes longer. In a cell it is for each query of two bodies;
+    // a question about a path takes at most 8 budgets for each segment, all pairs together, and the closest approach up to half
     // as much again.
     uint64_t budget;
     // The time in seconds after which a query ends as unresolved; infinity for none.

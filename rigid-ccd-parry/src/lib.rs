@@ -49,7 +49,7 @@
 //! |---|---|
 //! | `motion1`, `motion2` | the same poses at all times. Orientations are those of the quaternions made units in double precision; parry's own arithmetic scales a shape by the square of the quaternion's length, which rounding takes 1e-7 from 1 |
 //! | `pos1`, `vel1`, `pos2`, `vel2` | a motion without turning |
-//! | `start_time`, `end_time` | both belong to the interval. Times count from time 0 of the motions. The start may be negative. An end before the start leaves no time, and no hit. The end may be the largest number, or infinite: the cast looks until the bodies have passed each other, or have repeated all poses; if they never do, until one has turned by a million radians, where it ends as `OutOfIterations` |
+//! | `start_time`, `end_time` | both belong to the interval. Times count from time 0 of the motions. The start may be negative. An end before the start leaves no time, and no hit. The end may be the largest number, or infinite: the cast looks until the bodies have passed each other, or have repeated all poses; if they never do, until one has turned by a million radians, or the budget is spent after some seconds, where it ends as `OutOfIterations` |
 //! | `max_time_of_impact` | the end, of an interval that starts at 0 |
 //! | `target_distance` | bodies are in contact within it, from 0 on. It may be larger than the bodies |
 //! | `stop_at_penetration: true` | a contact at the start is a hit |

@@ -21,7 +21,8 @@ pub struct Options {
     /// Whether a triangle mesh is a surface or a solid.
     pub meshes: Meshes,
     /// The maximum work before a cast ends as `OutOfIterations`: [`Settings::budget`](ccd_core::Settings::budget). By
-    /// default it is a quarter of the engine's, about a second.
+    /// default it is a quarter of the engine's: about a second, and some seconds for bodies that both turn many times, of which a
+    /// step costs more. A cast that has to end in time has a deadline.
     pub budget: u64,
     /// The maximum duration before a cast ends as `OutOfIterations`:
     /// [`Settings::deadline`](ccd_core::Settings::deadline).

@@ -41,12 +41,12 @@ use search::Search;
 ///
 /// The margin of the settings is the distance at which bodies count as touching. Contacts at the start are always reported.
 ///
-/// A deadline and a budget are for a whole question, all pairs together. A budget grows with the path: it is for each segment, and
-/// what one does not need is for the others. It counts the pairs that are measured, and the [work](rigid_ccd::Settings::budget) of
-/// those that a path leaves to the engine; each takes about a microsecond or less. The closest approach takes up to half as much
-/// again. Each range of a [distance curve](Self::distance_curve) has a budget, and each stretch that is examined for [clearance
-/// ranges](Self::clearance_ranges). A budget may end a search at a contact that is later, within the tolerance of what is asked
-/// for, than the one that a larger budget finds.
+/// A deadline is for a whole question. A [budget](rigid_ccd::Settings::budget) is for each query of two bodies that a path leaves to
+/// the engine. A whole question takes at most 8 budgets for each segment of its path, all pairs together: what one segment does
+/// not need is for the others. That counts the pairs that are measured as well; each takes less than a microsecond. The closest
+/// approach takes up to half as much again. Each range of a [distance curve](Self::distance_curve) counts as a question, and so
+/// does each stretch that is examined for [clearance ranges](Self::clearance_ranges). A budget may end a search at a contact that
+/// is later, within the tolerance of what is asked for, than the one that a larger budget finds.
 pub struct CellSolver<'c> {
     cell: &'c Cell,
     search: Search<'c>,
@@ -155,8 +155,9 @@ impl<'c> CellSolver<'c> {
     /// Returns the tolerance that the last answer meets. It is that of the settings, unless the rounding of positions allows only
     /// a larger one: far from the base, or after thousands of turns.
     ///
-    /// A contact is within this distance beyond the margin, and a closest approach has bounds that differ by at most as much,
-    /// unless a limit is reached; both to within a thousandth of the tolerance. That nothing touches holds without any tolerance.
+    /// A contact is within this distance beyond the margin. The bounds of a closest approach differ by at most as much, and by what
+    /// the nearest bodies [exceed](rigid_ccd::Body::excess) their shapes by, unless a limit is reached. Both hold to within a
+    /// thousandth of the tolerance. That nothing touches holds without any tolerance.
     pub fn met_tolerance(&self) -> f64 {
         self.search.met_tolerance()
     }
@@ -214,7 +215,7 @@ impl<'c> CellSolver<'c> {
     ///
     /// # Guarantee
     /// No pair is ever nearer than the lower bound, and the nearest one comes at least as near as the upper bound. They
-    /// differ by at most the [tolerance](Self::met_tolerance), which includes what the nearest bodies
+    /// differ by at most the [tolerance](Self::met_tolerance), and by what the nearest bodies
     /// [exceed](rigid_ccd::Body::excess) their shapes by, unless a limit is reached.
     ///
     /// # Errors

@@ -43,5 +43,14 @@ pub(crate) const PAIRS_BETWEEN_CLOCK_READS: usize = 8;
 pub(crate) const MAX_PREPARED_PAIRS: usize = 4096;
 pub(crate) const PREPARED_HALVINGS: usize = 16;
 
+/// The number of budgets that a question about a path takes at most for each segment, all pairs together.
+pub(crate) const BUDGETS_PER_SEGMENT: u64 = 8;
+
+/// The number of times that the stretch of a pair is halved because the budget of a query does not suffice.
+pub(crate) const MAX_BUDGET_SPLITS: u32 = 3;
+
+/// The largest drift of a period of two links, as a share of the tolerance, of which the rest is left for the search.
+pub(crate) const MAX_DRIFT_SHARE: f64 = 0.25;
+
 /// The largest number of turns, of the joint that turns least, in a period of two links.
 pub(crate) const MAX_TURNS_IN_PERIOD: u32 = 128;

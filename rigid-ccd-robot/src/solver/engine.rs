@@ -6,8 +6,9 @@ use super::open_pairs::OpenPair;
 use super::part_pairs::{PartPair, sort_by_proof_distance};
 use super::search::Search;
 use super::stretch::{StepResult, Stretch};
+use crate::tuning::MAX_BUDGET_SPLITS;
 use ccd_core::order::{greater, lesser};
-use rigid_ccd::answer::ClearanceVerdict;
+use rigid_ccd::answer::{ClearanceVerdict, Limit};
 use rigid_ccd::{Answer, ContactNormals, Error, Outcome, Settings};
 use std::ops::ControlFlow::{self, Break, Continue};
 
@@ -83,22 +84,57 @@ impl Search<'_> {
                 self.result.lower = 0.0;
                 break;
             }
-            let pair = OpenPair {
-                to: lesser(pair.to, self.result.end),
-                ..*pair
-            };
-            let step = match self.question {
-                Question::AnyContact | Question::FirstContact => {
-                    let answer = self.ask(self.question, &pair, None)?;
-                    self.record_contact_answer(&pair, &answer.outcome)
-                }
-                Question::ClosestApproach => self.measure_least_distance(&pair)?,
-            };
-            if step.is_break() {
+            if self.decide_pair(*pair, MAX_BUDGET_SPLITS)?.is_break() {
                 break;
             }
         }
         Ok(())
+    }
+
+    /// Lets the engine decide about an open pair. If the budget of a query does not suffice, its stretch is halved, as often as
+    /// `splits` says and as long as budgets are left for the question.
+    fn decide_pair(&mut self, mut pair: OpenPair, splits: u32) -> StepResult {
+        if pair.from >= self.result.end {
+            return Ok(Continue(()));
+        }
+        pair.to = lesser(pair.to, self.result.end);
+        // Over a period a pair comes near many times: one budget hardly suffices.
+        if splits > 0 && self.drift(&pair) > 0.0 {
+            return self.decide_halves(&pair, splits - 1);
+        }
+        if self.question == Question::ClosestApproach {
+            // Nothing is nearer by more than the tolerance. Written so that NaN is measured.
+            if self.result.distance_upper_bound - self.tolerance <= 0.0 {
+                return Ok(Break(()));
+            }
+            if self.is_no_nearer(&pair)? {
+                return Ok(Continue(()));
+            }
+        }
+        let outcome = self.ask(self.question, &pair, None)?.outcome;
+        let is_spent = outcome.limit() == Some(Limit::Budget);
+        if is_spent && splits > 0 && self.stop_condition.reached_limit().is_none() {
+            if self.question == Question::ClosestApproach {
+                self.record_upper_bound(&pair, &outcome);
+            }
+            return self.decide_halves(&pair, splits - 1);
+        }
+        Ok(match self.question {
+            Question::AnyContact | Question::FirstContact => {
+                self.record_contact_answer(&pair, &outcome)
+            }
+            Question::ClosestApproach => self.record_distance(&pair, &outcome),
+        })
+    }
+
+    /// Lets the engine decide about both halves of an open pair's stretch.
+    fn decide_halves(&mut self, pair: &OpenPair, splits: u32) -> StepResult {
+        for half in pair.halves() {
+            if self.decide_pair(half, splits)?.is_break() {
+                return Ok(Break(()));
+            }
+        }
+        Ok(Continue(()))
     }
 
     /// Keeps an answer about contacts of an open pair.
@@ -130,25 +166,15 @@ impl Search<'_> {
         (contact.upper() + rounding - pair.margin).next_up()
     }
 
-    /// Measures the least distance of an open pair, if it may be less than what is found.
-    fn measure_least_distance(&mut self, open: &OpenPair) -> StepResult {
+    /// Returns whether an open pair stays farther apart than what is found, but for the tolerance.
+    fn is_no_nearer(&mut self, open: &OpenPair) -> Result<bool, Error> {
         let least = self.result.distance_upper_bound - self.tolerance;
-        // Written so that NaN is measured.
-        if least <= 0.0 {
-            return Ok(Break(()));
+        if !(least < f64::INFINITY) {
+            return Ok(false);
         }
-        if least < f64::INFINITY {
-            let answer = self.ask(Question::ClosestApproach, open, Some(least))?;
-            if answer
-                .outcome
-                .clearance_verdict(least + self.allowance(open))
-                == ClearanceVerdict::Kept
-            {
-                return Ok(Continue(()));
-            }
-        }
-        let answer = self.ask(Question::ClosestApproach, open, None)?;
-        Ok(self.record_distance(open, &answer.outcome))
+        let answer = self.ask(Question::ClosestApproach, open, Some(least))?;
+        let required = least + self.allowance(open);
+        Ok(answer.outcome.clearance_verdict(required) == ClearanceVerdict::Kept)
     }
 
     /// Keeps the distance of an open pair, if it is the least.
@@ -159,11 +185,7 @@ impl Search<'_> {
         // The bounds of bodies that exceed their shapes may differ by more than the tolerance.
         let lower = outcome.lower() - self.allowance(open);
         self.result.lower = lesser(self.result.lower, lower);
-        let upper = outcome.upper() + 2.0 * self.placement.rounding;
-        if upper < self.result.distance_upper_bound {
-            let at = open.point(outcome.time().unwrap_or(0.0));
-            self.keep_nearest(&open.pair, at, upper);
-        }
+        self.record_upper_bound(open, outcome);
         if outcome.upper() > 0.0 {
             Continue(())
         } else {
@@ -171,8 +193,22 @@ impl Search<'_> {
         }
     }
 
-    /// Asks the engine about an open pair. Its margin or clearance is larger because the positions that the engine gets are
-    /// rounded, and because a period may stand for others.
+    /// Keeps the upper bound of the distance of an open pair, if it is the least.
+    fn record_upper_bound(&mut self, open: &OpenPair, outcome: &Outcome) {
+        let upper = outcome.upper() + 2.0 * self.placement.rounding;
+        if upper < self.result.distance_upper_bound {
+            let at = open.point(outcome.time().unwrap_or(0.0));
+            self.keep_nearest(&open.pair, at, upper);
+        }
+    }
+
+    /// Bounds how much nearer a pair may be than the engine finds it: the engine gets rounded positions, and a period may stand for
+    /// others.
+    fn allowance(&self, open: &OpenPair) -> f64 {
+        2.0 * self.placement.rounding + self.drift(open)
+    }
+
+    /// Asks the engine about an open pair. Its margin or clearance is larger by the allowance.
     fn ask(
         &mut self,
         question: Question,
@@ -181,10 +217,11 @@ impl Search<'_> {
     ) -> Result<Answer, Error> {
         let allowance = self.allowance(open);
         self.solver.set_settings(Settings {
-            tolerance: self.tolerance,
+            // A drift is at most a share of the tolerance.
+            tolerance: self.tolerance - self.drift(open),
             margin: open.pair.margin + allowance,
             clearance: clearance.map(|clearance| greater(clearance + allowance, 0.0)),
-            budget: self.stop_condition.work_left(),
+            budget: self.stop_condition.budget_of_query(),
             deadline: self.stop_condition.remaining(),
             contact_normals: ContactNormals::OfPieces,
             ..self.settings.clone()

@@ -1,6 +1,7 @@
 //! The limits that end a search: its work, a time, and the flag that stops it.
 
 use super::stretch::Stretch;
+use crate::tuning::BUDGETS_PER_SEGMENT;
 use rigid_ccd::Settings;
 use rigid_ccd::answer::Limit;
 use std::sync::Arc;
@@ -10,7 +11,7 @@ use std::time::{Duration, Instant};
 /// The work that is left for a search, the time after which it ends, and the flag by which another thread stops it.
 #[derive(Clone, Debug)]
 pub(crate) struct StopCondition {
-    /// The budget of a segment.
+    /// The budget of a query of two bodies.
     budget: u64,
     /// The largest amount of work for all pairs together, in units of the budget.
     most_work: u64,
@@ -43,10 +44,11 @@ impl StopCondition {
         }
     }
 
-    /// Allows new work for a search of a stretch: a budget for each segment, or for a part of one.
+    /// Allows new work for a search of a stretch: some budgets for each segment, or for a part of one.
     pub(crate) fn begin_search(&mut self, stretch: &Stretch) {
         let segments = (stretch.to - stretch.from).ceil() as u64;
-        self.most_work = self.budget.saturating_mul(segments.max(1));
+        let budgets = segments.max(1).saturating_mul(BUDGETS_PER_SEGMENT);
+        self.most_work = self.budget.saturating_mul(budgets);
         self.work = 0;
     }
 
@@ -55,8 +57,12 @@ impl StopCondition {
         self.work = self.work.saturating_add(work);
     }
 
-    /// Returns the work that is left, in units of the budget.
-    pub(crate) fn work_left(&self) -> u64 {
+    /// Returns the budget of a query of two bodies: no more than is left for all.
+    pub(crate) fn budget_of_query(&self) -> u64 {
+        self.budget.min(self.work_left())
+    }
+
+    fn work_left(&self) -> u64 {
         self.most_work.saturating_sub(self.work)
     }
 

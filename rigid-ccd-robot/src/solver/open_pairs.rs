@@ -32,6 +32,12 @@ impl OpenPair {
         }
     }
 
+    /// Returns the pair in the parts before and after the middle of its stretch.
+    pub(crate) fn halves(&self) -> [Self; 2] {
+        let middle = self.from + 0.5 * (self.to - self.from);
+        [(self.from, middle), (middle, self.to)].map(|(from, to)| OpenPair { from, to, ..*self })
+    }
+
     /// Returns the point of the path after a share of the stretch, 0 at its start and 1 at its end, rounded towards the start.
     pub(crate) fn point(&self, share: f64) -> f64 {
         let at = self.from + share * (self.to - self.from);

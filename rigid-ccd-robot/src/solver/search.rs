@@ -20,8 +20,9 @@ use crate::error::PathError;
 use crate::path::Path;
 use crate::path_point::PathPoint;
 use crate::tuning::{
-    MAX_APPROACH_STRETCH_LENGTH, MAX_ENGINE_DISPLACEMENT, MAX_ENGINE_STRETCH_LENGTH,
-    MAX_PREPARED_PAIRS, MIN_ENGINE_HALVINGS, PAIRS_BETWEEN_CLOCK_READS, PREPARED_HALVINGS,
+    MAX_APPROACH_STRETCH_LENGTH, MAX_DRIFT_SHARE, MAX_ENGINE_DISPLACEMENT,
+    MAX_ENGINE_STRETCH_LENGTH, MAX_PREPARED_PAIRS, MIN_ENGINE_HALVINGS, PAIRS_BETWEEN_CLOCK_READS,
+    PREPARED_HALVINGS,
 };
 use ccd_core::order::{greater, lesser};
 use ccd_core::vectorize;
@@ -159,8 +160,14 @@ impl<'c> Search<'c> {
             Question::ClosestApproach if found.limit_reached.is_some() => 0.0,
             Question::ClosestApproach => {
                 let (lower, upper) = self.distance_bounds();
+                let excess = |pair: PartPair| {
+                    let parts = [pair.a, pair.b].map(|part| &self.cell.parts()[part as usize]);
+                    parts[0].excess_over_shape + parts[1].excess_over_shape
+                };
                 // Without a pair there is no upper bound.
-                found.nearest.map_or(0.0, |_| upper - lower)
+                found
+                    .nearest
+                    .map_or(0.0, |(_, pair)| upper - lower - excess(pair))
             }
         };
         if shown > self.tolerance * (1.0 + UNSTATED_TOLERANCE_SHARE) {
@@ -201,7 +208,7 @@ impl<'c> Search<'c> {
         let limit = || DriftLimit {
             largest_arm: largest_arm(kinematics, parts, self.path.magnitudes()),
             rounding: self.placement.rounding,
-            most: 0.5 * UNSTATED_TOLERANCE_SHARE * self.tolerance,
+            most: MAX_DRIFT_SHARE * self.tolerance,
         };
         self.periods.set_path(kinematics, &self.path, limit);
         Ok(())
@@ -361,14 +368,12 @@ impl<'c> Search<'c> {
         })
     }
 
-    /// Bounds how much nearer a pair may be than the engine finds it, in the part of a segment that an open pair stands for.
-    pub(super) fn allowance(&self, open: &OpenPair) -> f64 {
-        let period = if self.periods.is_empty() {
-            None
-        } else {
-            self.searched_period(open.from, &open.pair)
-        };
-        2.0 * self.placement.rounding + drift(period)
+    /// Bounds how much the distances of an open pair differ from those at the same phase of other periods, for which it stands.
+    pub(super) fn drift(&self, open: &OpenPair) -> f64 {
+        if self.periods.is_empty() {
+            return 0.0;
+        }
+        drift(self.searched_period(open.from, &open.pair))
     }
 
     /// Returns the distances that decide about a pair, whose distances in other periods are less by at most the drift.

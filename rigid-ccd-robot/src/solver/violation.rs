@@ -63,7 +63,7 @@ impl Search<'_> {
         let a = self.placement.body(self.cell, a)?;
         let b = self.placement.body(self.cell, b)?;
         self.solver.set_settings(Settings {
-            budget: self.stop_condition.work_left(),
+            budget: self.stop_condition.budget_of_query(),
             deadline: self.stop_condition.remaining(),
             ..self.settings.clone()
         });
