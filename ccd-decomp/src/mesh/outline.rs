@@ -4,10 +4,72 @@ use crate::exact::predicates::has_zero_area;
 use ccd_core::glam::DVec3;
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, HierarchyHintGenerator, Point2, Triangulation};
+use std::cmp::Ordering;
+use std::collections::VecDeque;
 use std::panic::catch_unwind;
 
 type OutlineTriangulation =
     ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
+
+/// Triangulates a polygon of `n` corners, which may repeat the corner before or turn back on its own line, into `n − 2`
+/// triangles. Triangles are given by corner numbers.
+///
+/// Returns `None` if the polygon without its flat corners cannot be [triangulated](triangulate_outline).
+///
+/// # Guarantee
+/// The triangles cover every point of the outline. Those of flat corners have no area; the others are as
+/// [`triangulate_outline`] makes them.
+pub(super) fn fill_outline(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
+    let (outline, mut triangles) = cut_flat_corners(points);
+    if outline.len() == 3 {
+        triangles.push([outline[0], outline[1], outline[2]]);
+        return Some(triangles);
+    }
+    let rest: Vec<DVec3> = outline.iter().map(|&k| points[k]).collect();
+    let filled = triangulate_outline(&rest)?;
+    triangles.extend(filled.iter().map(|triangle| triangle.map(|k| outline[k])));
+    Some(triangles)
+}
+
+/// Cuts off flat corners until there are none, or three corners are left. A corner is flat if it is at the same point as one
+/// beside it, or if the outline turns back there on its own line. Returns the corners that are left, and each flat corner
+/// between those beside it: a triangle without area.
+fn cut_flat_corners(points: &[DVec3]) -> (Vec<usize>, Vec<[usize; 3]>) {
+    let is_flat = |corners: [usize; 3]| {
+        let [a, b, c] = corners.map(|k| points[k]);
+        let turns_back = (b - a).dot(c - b).partial_cmp(&0.0) != Some(Ordering::Greater);
+        turns_back && has_zero_area([a, b, c])
+    };
+    let mut count = points.len();
+    let (mut kept, mut flat) = (Vec::new(), Vec::new());
+    for corner in 0..points.len() {
+        // A cut changes the angle at the corner before it.
+        while let [.., a, b] = kept[..]
+            && count > 3
+            && is_flat([a, b, corner])
+        {
+            kept.pop();
+            flat.push([a, b, corner]);
+            count -= 1;
+        }
+        kept.push(corner);
+    }
+    let mut ring = VecDeque::from(kept);
+    // Each step cuts the last corner or the first.
+    while ring.len() > 3 {
+        let ends = [ring[ring.len() - 2], ring[ring.len() - 1], ring[0], ring[1]];
+        if is_flat([ends[0], ends[1], ends[2]]) {
+            flat.push([ends[0], ends[1], ends[2]]);
+            ring.pop_back();
+        } else if is_flat([ends[1], ends[2], ends[3]]) {
+            flat.push([ends[1], ends[2], ends[3]]);
+            ring.pop_front();
+        } else {
+            break;
+        }
+    }
+    (ring.into(), flat)
+}
 
 /// Triangulates a polygon of `n` corners into `n − 2` triangles, oriented like the polygon. Triangles are given by
 /// corner numbers.
@@ -22,7 +84,7 @@ type OutlineTriangulation =
 /// # Complexity
 /// Expected `n log n` for `n` corners: corners and edges are inserted in a pseudorandom order. A sweep takes `n²` for
 /// corners on or near a line.
-pub(super) fn triangulate_outline(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
+fn triangulate_outline(points: &[DVec3]) -> Option<Vec<[usize; 3]>> {
     let places = project_to_coordinate_plane(points)?;
     // A fault of the library may panic; the fan is used then.
     let order = corner_insertion_order(&places)?;

@@ -82,7 +82,7 @@ impl Polygons {
     }
 
     /// Triangulates every polygon as the fan about its first corner. A polygon whose fan has a degenerate triangle,
-    /// or one outside the polygon, is triangulated otherwise.
+    /// or one outside the polygon, is triangulated otherwise. Corners that repeat the one before, and spikes, bound no area.
     ///
     /// The signed areas of the fan add up to the polygon's, so that the fan covers a planar polygon, convex or not. For
     /// a non-convex polygon it covers more; that is reported if the polygon intersects itself and cannot be
@@ -106,7 +106,7 @@ impl Polygons {
                 }
                 let points: Vec<DVec3> =
                     corners.iter().map(|&v| self.vertices[v as usize]).collect();
-                match outline::triangulate_outline(&points) {
+                match outline::fill_outline(&points) {
                     Some(filled) => {
                         for (face, triangle) in fan.iter_mut().zip(filled) {
                             *face = triangle.map(|k| corners[k] as u32);

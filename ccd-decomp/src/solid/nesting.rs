@@ -108,7 +108,8 @@ impl<'m> Shells<'m> {
             let outermost = outermost.min_by_key(|&k| around[k].shells.len());
             let as_around = outermost.map(|k| sides[k] * orientations[k] * orientations[shell]);
             sides[shell] = if windings == 1 && !crossed { -1 } else { 1 };
-            if is_unknown[shell] || crossed && windings > 0 && as_around != Some(1) {
+            let is_unclear = is_unknown[shell] || crossed && windings > 0 && as_around != Some(1);
+            if is_unclear && !self.bounds_nothing(shell) {
                 let face = self.representative_face(shell);
                 nesting.unclear_shells.add(face);
             }
@@ -139,6 +140,12 @@ impl<'m> Shells<'m> {
             Some(false) => -1,
             None => 0,
         }
+    }
+
+    /// Returns whether a shell has no area, and so bounds neither a solid nor a cavity: a spike, for example.
+    fn bounds_nothing(&self, shell: usize) -> bool {
+        let mut faces = self.faces_of_shell[shell].iter();
+        faces.all(|&face| is_degenerate(self.mesh.triangle(face)))
     }
 
     /// Returns the shells that surround a shell; `None` if they cannot be determined.

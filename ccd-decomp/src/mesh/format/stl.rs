@@ -7,6 +7,7 @@ use super::text;
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
 use ccd_core::glam::Vec3;
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 const HEADER_BYTES: usize = 80;
@@ -87,13 +88,15 @@ const FACET_KEYWORDS: [&[&str]; 7] = [
     &["endfacet"],
 ];
 
-/// Reads the facets of a text STL, which may hold several solids. The text is in lower case.
+/// Reads the facets of a text STL, which may hold several solids. The text is in lower case. `end solid`, `end facet` and
+/// `end loop` are read as one word.
 fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
     let mut facets = Facets::default();
     // The number of statements of the current facet that were read.
     let mut done = 0;
     let mut is_closed = false;
     for (number, line) in (1..).zip(text.lines()) {
+        let line = joined_end(line);
         let mut words = line.split_whitespace();
         let Some(first) = words.clone().next() else {
             continue;
@@ -136,6 +139,14 @@ fn parse_text(text: &str) -> Result<Polygons, MeshFault> {
         _ => format!("facet {}", facets.polygons.face_line_numbers.len() - 1),
     };
     Err(MeshFault::truncated_file(missing))
+}
+
+/// Returns a line that begins with `end` and another word with both as one word.
+fn joined_end(line: &str) -> Cow<'_, str> {
+    match line.trim_start().strip_prefix("end") {
+        Some(rest) if rest.starts_with([' ', '\t']) => format!("end{}", rest.trim_start()).into(),
+        _ => line.into(),
+    }
 }
 
 /// The facets read so far, as triangles over welded vertices. Corners at exactly the same point become one vertex.

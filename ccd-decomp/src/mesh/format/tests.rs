@@ -4,6 +4,7 @@ use ccd_core::glam::DVec3;
 use proptest::prelude::*;
 
 mod faults;
+mod flat_corners;
 mod fuzz;
 mod unread;
 
@@ -182,6 +183,29 @@ fn stl_welds_corners_in_order_of_appearance() {
     let mesh = read(Format::Stl, &binary_stl()).unwrap();
     assert_eq!(mesh.faces()[0], [0, 1, 2]);
     assert_eq!(mesh.vertices()[1], DVec3::Y);
+}
+
+/// Tests that the keywords at the end of an element may be two words, as some programs write them.
+#[test]
+fn stl_reads_ends_of_two_words() {
+    let apart = ["solid", "loop", "facet"]
+        .iter()
+        .fold(TETRAHEDRON_STL.to_owned(), |text, word| {
+            text.replace(&format!("end{word}"), &format!("end {word}"))
+        });
+    assert_eq!(apart.matches("end solid").count(), 2);
+    for text in [
+        apart.clone(),
+        apart.replace("end solid\n\n", "  End\tSolid a tetrahedron\n"),
+    ] {
+        let mesh = read(Format::Stl, text.as_bytes()).unwrap();
+        assert_eq!(
+            corners(&mesh),
+            corners(&read(Format::Stl, TETRAHEDRON_STL.as_bytes()).unwrap())
+        );
+    }
+    let fault = read(Format::Stl, b"solid\nend\n").unwrap_err();
+    assert!(fault.to_string().contains("\"end\" instead of"), "{fault}");
 }
 
 #[test]

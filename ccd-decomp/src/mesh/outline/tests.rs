@@ -159,3 +159,58 @@ fn outlines_of_many_corners_take_no_longer_than_others() {
         .collect();
     assert_eq!(triangulate_outline(&again), None);
 }
+
+/// Tests that outlines with random repeats and spikes cover what they cover without those, wherever the outline begins.
+#[test]
+fn flat_corners_change_no_area() {
+    let plain = [
+        (0, 0),
+        (6, 0),
+        (6, 6),
+        (4, 6),
+        (4, 2),
+        (2, 2),
+        (2, 6),
+        (0, 6),
+    ];
+    let plain = plain.map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), f64::from(x + 2 * y)));
+    let area = |points: &[DVec3], triangles: &[[usize; 3]]| -> f64 {
+        let corners = triangles.iter().map(|t| t.map(|k| points[k]));
+        corners.map(|[a, b, c]| (b - a).cross(c - a).length()).sum()
+    };
+    let whole = area(&plain, &fill_outline(&plain).unwrap());
+    let given = (
+        prop::collection::vec((0..32_usize, 0..3_u8), 1..8),
+        0..32_usize,
+    );
+    let mut runner = TestRunner::deterministic();
+    for _ in 0..400 {
+        let (changes, turned) = given.new_tree(&mut runner).unwrap().current();
+        let mut points = plain.to_vec();
+        for (at, kind) in changes {
+            let (count, at) = (points.len(), at % points.len());
+            let (here, before) = (points[at], points[(at + count - 1) % count]);
+            let beyond = match kind {
+                0 => vec![here],
+                // Back to the corner before, and half of the way.
+                1 => vec![before, here],
+                _ => vec![(here + before) / 2.0, here],
+            };
+            points.splice(at + 1..at + 1, beyond);
+        }
+        let count = points.len();
+        points.rotate_left(turned % count);
+        let filled = fill_outline(&points).unwrap_or_else(|| panic!("{points:?}"));
+        assert_eq!(filled.len(), count - 2);
+        let found = area(&points, &filled);
+        assert!(
+            (found - whole).abs() < 1e-9,
+            "{found} instead of {whole}: {points:?}"
+        );
+        assert!((0..count).all(|k| {
+            filled
+                .iter()
+                .any(|t| t.map(|t| points[t]).contains(&points[k]))
+        }));
+    }
+}
