@@ -192,11 +192,11 @@ typedef uint32_t rccd_contact_normals;
 typedef struct rccd_body rccd_body;
 
 // A robot among obstacles that rest in the frame of its base. Obstacles and bodies that the robot holds have names, which no
-// link has. Solvers keep the cell as it was when they were made.
+// link has. A change of the cell ends its solvers: their questions are errors from then on, and a new solver takes some 30 µs.
 typedef struct rccd_cell rccd_cell;
 
-// A solver for paths in a cell as it was when the solver was made. It keeps memory from one question to the next. Each thread
-// needs its own.
+// A solver for paths in a cell, until the cell is changed: from then on its questions are errors. It keeps memory from one
+// question to the next. Each thread needs its own.
 typedef struct rccd_cell_solver rccd_cell_solver;
 
 // A path of a robot whose joints follow polynomials of the time. Many questions and threads may share it.
@@ -240,7 +240,7 @@ typedef struct rccd_settings {
     // a question about a path takes at most 8 budgets for each segment, all pairs together, and the closest approach up to half
     // as much again.
     uint64_t budget;
-    // The time in seconds after which a query ends as unresolved; infinity for none.
+    // The time in seconds after which a query ends as unresolved, from 0 to 1e19; infinity for none.
     double deadline;
     // One of `rccd_start_policy`.
     uint32_t start_policy;
@@ -479,7 +479,18 @@ rccd_status rccd_cell_load(const char *robot,
                            const char *package_folder,
                            struct rccd_cell **out);
 
-// Frees a cell; null is nothing. Its solvers stay as they are.
+// Makes a cell of the text of a URDF or MJCF, such as ROS's parameter `robot_description`. `folder` is where meshes with relative
+// names are; null stands for the working folder. The other arguments are those of `rccd_cell_load`.
+//
+// # Safety
+// Each text is null or ends with a zero; `out` is null or points to a place for a handle.
+rccd_status rccd_cell_from_text(const char *robot,
+                                const char *folder,
+                                const char *srdf,
+                                const char *package_folder,
+                                struct rccd_cell **out);
+
+// Frees a cell; null is nothing. Its solvers go on to answer.
 //
 // # Safety
 // The handle is null, or comes from this library, is not in use, and has not been freed.

@@ -101,6 +101,19 @@ Result<Object> hold(Give &&give) {
     return after(status, [&] { return Object(handle); });
 }
 
+// Returns the error of numbers of which there are too many or too few.
+inline Error wrong_count(const std::string &what, std::size_t needed, std::size_t given) {
+    return {RCCD_STATUS_INVALID_ARGUMENT, what + ": " + std::to_string(needed) + " numbers are needed, not " + std::to_string(given)};
+}
+
+// Whether a container has its values one after the other, in an order that is no question. Types of Eigen say so: a matrix is in
+// memory column by column or row by row, and a row of one has gaps.
+template <typename Container, typename = void>
+struct InOneRow : std::true_type {};
+template <typename Container>
+struct InOneRow<Container, std::void_t<decltype(Container::InnerStrideAtCompileTime)>>
+    : std::bool_constant<bool(Container::IsVectorAtCompileTime) && Container::InnerStrideAtCompileTime == 1> {};
+
 } // namespace detail
 
 // An array that belongs to somebody else, as std::span of C++20.
@@ -113,8 +126,10 @@ public:
     View(std::initializer_list<T> values) : data_(values.begin()), size_(values.size()) {}
     template <std::size_t SIZE>
     View(const T (&values)[SIZE]) : data_(values), size_(SIZE) {}
-    // Anything with data() and size(): std::vector, std::array, std::span.
-    template <typename Container, typename = decltype(std::declval<const Container &>().data())>
+    // Anything with data() and size(): std::vector, std::array, std::span, vectors of Eigen without gaps. Of a matrix pass data()
+    // and size(), if its columns or rows are in memory one after the other as you mean them.
+    template <typename Container, typename Data = decltype(std::declval<const Container &>().data()),
+              typename = std::enable_if_t<std::is_convertible_v<Data, const T *> && detail::InOneRow<Container>::value>>
     View(const Container &values) : data_(values.data()), size_(values.size()) {}
     const T *data() const noexcept { return data_; }
     std::size_t size() const noexcept { return size_; }

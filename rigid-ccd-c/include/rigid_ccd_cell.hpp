@@ -13,13 +13,24 @@
 
 namespace rigid_ccd {
 
+namespace detail {
+
+// Returns the error of numbers that are no configurations of so many joints, or no edges of twice as many.
+inline Error wrong_configurations(std::size_t length, std::size_t given) {
+    return {RCCD_STATUS_INVALID_ARGUMENT, "configurations: a multiple of " + std::to_string(length) + " numbers is needed, not " +
+                                              std::to_string(given)};
+}
+
+} // namespace detail
+
 // A free joint. Limits that it does not have are infinite.
 struct Joint {
     std::string name;
     double lower, upper;
 };
 
-// A robot among obstacles that rest in the frame of its base. Solvers keep the cell as it was when they were made.
+// A robot among obstacles that rest in the frame of its base. A change of the cell ends its solvers: their questions fail from
+// then on, and a new solver takes some 30 µs.
 class Cell {
 public:
     // Loads the robot of a URDF or MJCF file, with its meshes. The SRDF file and the folder that is searched first for
@@ -28,6 +39,14 @@ public:
                              const std::string &package_folder = "") {
         return detail::hold<Cell, rccd_cell>([&](rccd_cell **out) {
             return rccd_cell_load(robot.c_str(), or_null(srdf), or_null(package_folder), out);
+        });
+    }
+    // Makes a cell of the text of a URDF or MJCF. `folder` is where meshes with relative names are; the working folder if it is
+    // empty.
+    static Result<Cell> from_text(const std::string &robot, const std::string &folder = "", const std::string &srdf = "",
+                                  const std::string &package_folder = "") {
+        return detail::hold<Cell, rccd_cell>([&](rccd_cell **out) {
+            return rccd_cell_from_text(robot.c_str(), or_null(folder), or_null(srdf), or_null(package_folder), out);
         });
     }
     // Takes a handle.
@@ -90,10 +109,13 @@ public:
                                       View<double> accelerations = {}) {
         const std::size_t joints = times.size() ? positions.size() / times.size() : 0;
         const std::size_t total = joints * times.size();
-        if (positions.size() != total || velocities.size() != total ||
-            (accelerations.data() != nullptr && accelerations.size() != total))
-            return detail::fail<JointCurve>(
-                {RCCD_STATUS_INVALID_ARGUMENT, "a curve is a position of each joint at each time, and as many velocities"});
+        if (positions.size() != total)
+            return detail::fail<JointCurve>(detail::wrong_count(
+                "positions of each joint at " + std::to_string(times.size()) + " times", total, positions.size()));
+        if (velocities.size() != total)
+            return detail::fail<JointCurve>(detail::wrong_count("velocities", total, velocities.size()));
+        if (accelerations.data() != nullptr && accelerations.size() != total)
+            return detail::fail<JointCurve>(detail::wrong_count("accelerations", total, accelerations.size()));
         return detail::hold<JointCurve, rccd_joint_curve>([&](rccd_joint_curve **out) {
             return rccd_joint_curve_through(times.data(), positions.data(), velocities.data(), accelerations.data(),
                                             times.size(), joints, out);
@@ -166,8 +188,12 @@ public:
     Result<PathAnswer> closest_approach(const JointCurve &curve) { return ask(rccd_cell_closest_approach, curve); }
     // Returns how much of the edge between two configurations is certainly free.
     Result<EdgeMeasure> measure_edge(View<double> start, View<double> end) {
-        if (start.size() != joint_count_ || end.size() != joint_count_ || edge_.size() != 2 * joint_count_)
-            return detail::fail<EdgeMeasure>(wrong_size());
+        if (start.size() != joint_count_)
+            return detail::fail<EdgeMeasure>(detail::wrong_count("start", joint_count_, start.size()));
+        if (end.size() != joint_count_)
+            return detail::fail<EdgeMeasure>(detail::wrong_count("end", joint_count_, end.size()));
+        // A solver that was moved away has none.
+        edge_.resize(2 * joint_count_);
         std::copy(start.data(), start.data() + joint_count_, edge_.begin());
         std::copy(end.data(), end.data() + joint_count_, edge_.begin() + static_cast<std::ptrdiff_t>(joint_count_));
         PathAnswer answer;
@@ -177,14 +203,12 @@ public:
     }
 
 private:
-    static Error wrong_size() {
-        return {RCCD_STATUS_INVALID_ARGUMENT, "a configuration is a position of each free joint of the robot"};
-    }
     template <typename Question>
     Result<PathAnswer> ask(Question question, View<double> configurations) {
-        if (joint_count_ == 0 || configurations.size() % joint_count_ != 0)
-            return detail::fail<PathAnswer>(wrong_size());
-        return ask(question, rccd_path{configurations.data(), configurations.size() / joint_count_, nullptr});
+        const std::size_t count = joint_count_ ? configurations.size() / joint_count_ : 0;
+        if (configurations.size() != count * joint_count_)
+            return detail::fail<PathAnswer>(detail::wrong_configurations(joint_count_, configurations.size()));
+        return ask(question, rccd_path{configurations.data(), count, nullptr});
     }
     template <typename Question>
     Result<PathAnswer> ask(Question question, const JointCurve &curve) {
@@ -204,10 +228,10 @@ private:
 // Writes a record of an answer to `first_contact` to a file, which `ccd replay` asks again.
 inline Result<Done> write_evidence(const Cell &cell, const Settings &settings, View<double> configurations,
                                    const PathAnswer &answer, const std::string &file) {
-    const std::size_t joints = cell.joint_count();
-    if (joints == 0 || configurations.size() % joints != 0)
-        return detail::fail<Done>({RCCD_STATUS_INVALID_ARGUMENT, "a configuration is a position of each free joint"});
-    const rccd_path path = {configurations.data(), configurations.size() / joints, nullptr};
+    const std::size_t joints = cell.joint_count(), count = joints ? configurations.size() / joints : 0;
+    if (configurations.size() != count * joints)
+        return detail::fail<Done>(detail::wrong_configurations(joints, configurations.size()));
+    const rccd_path path = {configurations.data(), count, nullptr};
     return detail::done(rccd_evidence_write(cell.get(), &settings, &path, &answer, file.c_str()));
 }
 inline Result<Done> write_evidence(const Cell &cell, const Settings &settings, const JointCurve &curve,
@@ -233,8 +257,7 @@ public:
     // Measures edges on several threads: for each edge the configurations of its start and of its end, one after the other.
     std::vector<EdgeMeasure> measure_edges(View<double> edges, unsigned thread_count) {
         const std::size_t joints = cell_.joint_count(), count = joints ? edges.size() / (2 * joints) : 0;
-        if (edges.size() != 2 * joints * count)
-            throw Error(RCCD_STATUS_INVALID_ARGUMENT, "an edge is two positions of each free joint of the robot");
+        if (edges.size() != 2 * joints * count) throw detail::wrong_configurations(2 * joints, edges.size());
         std::vector<EdgeMeasure> measured(count, EdgeMeasure(0));
         std::atomic<std::size_t> next{0};
         std::mutex failure_mutex;

@@ -41,7 +41,10 @@ pub(crate) unsafe fn array<'a, T>(
     check_aligned(name, pointer)?;
     let bytes = count.checked_mul(size_of::<T>());
     if bytes.is_none_or(|bytes| bytes > isize::MAX as usize) {
-        return Err(Failure::argument(format!("{name} is too long")));
+        let length = size_of::<T>();
+        return Err(Failure::argument(format!(
+            "{name} is too long: {count} elements of {length} bytes"
+        )));
     }
     // SAFETY: the caller's contract; the array is aligned and not longer than memory.
     Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
@@ -59,6 +62,21 @@ pub(crate) unsafe fn text<'a>(name: &str, pointer: *const c_char) -> Result<&'a 
     let text = unsafe { CStr::from_ptr(pointer) };
     text.to_str()
         .map_err(|_| Failure::argument(format!("{name} is not UTF-8")))
+}
+
+/// Returns a text in UTF-8, or `None` for null.
+///
+/// # Safety
+/// That of [`text`].
+pub(crate) unsafe fn text_or_none<'a>(
+    name: &str,
+    pointer: *const c_char,
+) -> Result<Option<&'a str>, Failure> {
+    if pointer.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: the contract of this function.
+    unsafe { text(name, pointer) }.map(Some)
 }
 
 /// Moves a value to the heap, and stores the handle where `out` points to.

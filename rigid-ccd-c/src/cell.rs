@@ -1,19 +1,24 @@
 //! Cells: a robot among obstacles, from URDF or MJCF files.
 
-use crate::arguments::{array, check_place, exclusive, free, give, reference, store, text};
+use crate::arguments::{
+    array, check_place, exclusive, free, give, reference, store, text, text_or_none,
+};
 use crate::body::RccdBody;
 use crate::motion::RccdPose;
 use crate::status::{Failure, RccdStatus, status_of};
 use rigid_ccd::Pose;
-use rigid_ccd_robot::{Cell, RobotFile};
+use rigid_ccd_robot::{Cell, RobotError, RobotFile};
 use std::ffi::c_char;
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A robot among obstacles that rest in the frame of its base. Obstacles and bodies that the robot holds have names, which no
-/// link has. Solvers keep the cell as it was when they were made.
+/// link has. A change of the cell ends its solvers: their questions are errors from then on, and a new solver takes some 30 µs.
 pub struct RccdCell {
     pub(crate) cell: Arc<Cell>,
+    /// The number of changes, which solvers share.
+    pub(crate) changes: Arc<AtomicU64>,
     /// The names that callers are given. Those of `cell` live no longer than the solvers that share it, once it is changed.
     joint_names: Vec<String>,
 }
@@ -71,29 +76,35 @@ pub unsafe extern "C" fn rccd_cell_load(
 ) -> RccdStatus {
     status_of(|| {
         // SAFETY: the contract of this function.
-        let mut file = RobotFile::from_path(unsafe { text("robot", robot) }?);
-        if !package_folder.is_null() {
-            // SAFETY: the contract of this function.
-            file = file.with_package_folder(unsafe { text("package_folder", package_folder) }?);
-        }
-        let srdf = if srdf.is_null() {
-            None
-        } else {
-            // SAFETY: the contract of this function.
-            Some(Path::new(unsafe { text("srdf", srdf) }?))
-        };
-        let robot = file.read().map_err(Failure::body)?;
-        let pairs = file.link_pairs(&robot, srdf).map_err(Failure::body)?;
-        let cell = RccdCell {
-            joint_names: robot.free_joint_names().map(str::to_owned).collect(),
-            cell: Arc::new(Cell::new(robot, pairs)),
-        };
+        let robot = RobotFile::from_path(unsafe { text("robot", robot) }?);
         // SAFETY: the contract of this function.
-        unsafe { give(out, cell) }
+        unsafe { give_cell(robot, srdf, package_folder, out) }
     })
 }
 
-/// Frees a cell; null is nothing. Its solvers stay as they are.
+/// Makes a cell of the text of a URDF or MJCF, such as ROS's parameter `robot_description`. `folder` is where meshes with relative
+/// names are; null stands for the working folder. The other arguments are those of `rccd_cell_load`.
+///
+/// # Safety
+/// Each text is null or ends with a zero; `out` is null or points to a place for a handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_from_text(
+    robot: *const c_char,
+    folder: *const c_char,
+    srdf: *const c_char,
+    package_folder: *const c_char,
+    out: *mut *mut RccdCell,
+) -> RccdStatus {
+    status_of(|| {
+        // SAFETY: the contract of this function.
+        let (robot, folder) = unsafe { (text("robot", robot)?, text_or_none("folder", folder)?) };
+        let path = Path::new(folder.unwrap_or_default()).join("robot");
+        // SAFETY: the contract of this function.
+        unsafe { give_cell(RobotFile::from_text(robot, path), srdf, package_folder, out) }
+    })
+}
+
+/// Frees a cell; null is nothing. Its solvers go on to answer.
 ///
 /// # Safety
 /// The handle is null, or comes from this library, is not in use, and has not been freed.
@@ -135,7 +146,9 @@ pub unsafe extern "C" fn rccd_cell_joint(
 ) -> RccdStatus {
     status_of(|| {
         // SAFETY: the contract of this function.
-        let RccdCell { cell, joint_names } = unsafe { reference("cell", cell) }?;
+        let RccdCell {
+            cell, joint_names, ..
+        } = unsafe { reference("cell", cell) }?;
         let joint = joint_names.iter().zip(cell.robot().limits()).nth(number);
         let Some((joint, [least, greatest])) = joint else {
             return Err(Failure::argument(format!(
@@ -176,9 +189,11 @@ pub unsafe extern "C" fn rccd_cell_add_obstacle(
             )
         };
         // SAFETY: the contract of this function.
-        let cell = unsafe { change(cell) }?;
-        cell.add_obstacle(name, Arc::clone(&body.0), pose)
-            .map_err(Failure::input)
+        unsafe {
+            change(cell, |cell| {
+                cell.add_obstacle(name, Arc::clone(&body.0), pose)
+            })
+        }
     })
 }
 
@@ -197,9 +212,7 @@ pub unsafe extern "C" fn rccd_cell_move_obstacle(
         // SAFETY: the contract of this function.
         let (name, pose) = unsafe { (text("name", name)?, read_pose(pose)?) };
         // SAFETY: the contract of this function.
-        unsafe { change(cell) }?
-            .move_obstacle(name, pose)
-            .map_err(Failure::input)
+        unsafe { change(cell, |cell| cell.move_obstacle(name, pose)) }
     })
 }
 
@@ -216,9 +229,7 @@ pub unsafe extern "C" fn rccd_cell_remove_obstacle(
         // SAFETY: the contract of this function.
         let name = unsafe { text("name", name) }?;
         // SAFETY: the contract of this function.
-        unsafe { change(cell) }?
-            .remove_obstacle(name)
-            .map_err(Failure::input)
+        unsafe { change(cell, |cell| cell.remove_obstacle(name)) }
     })
 }
 
@@ -253,10 +264,9 @@ pub unsafe extern "C" fn rccd_cell_attach(
         // SAFETY: the contract of this function.
         let links = links.map(|&link| unsafe { text("a link of may_touch", link) });
         let links = links.collect::<Result<Vec<_>, _>>()?;
+        let attach = |cell: &mut Cell| cell.attach(name, Arc::clone(&body.0), (link, pose), &links);
         // SAFETY: the contract of this function.
-        let cell = unsafe { change(cell) }?;
-        cell.attach(name, Arc::clone(&body.0), (link, pose), &links)
-            .map_err(Failure::input)
+        unsafe { change(cell, attach) }
     })
 }
 
@@ -270,9 +280,7 @@ pub unsafe extern "C" fn rccd_cell_detach(cell: *mut RccdCell, name: *const c_ch
         // SAFETY: the contract of this function.
         let name = unsafe { text("name", name) }?;
         // SAFETY: the contract of this function.
-        unsafe { change(cell) }?
-            .detach(name)
-            .map_err(Failure::input)
+        unsafe { change(cell, |cell| cell.detach(name)) }
     })
 }
 
@@ -290,9 +298,7 @@ pub unsafe extern "C" fn rccd_cell_set_padding(
         // SAFETY: the contract of this function.
         let link = unsafe { text("link", link) }?;
         // SAFETY: the contract of this function.
-        unsafe { change(cell) }?
-            .set_padding(link, distance)
-            .map_err(Failure::input)
+        unsafe { change(cell, |cell| cell.set_padding(link, distance)) }
     })
 }
 
@@ -311,13 +317,12 @@ pub unsafe extern "C" fn rccd_cell_set_clearance(
     status_of(|| {
         // SAFETY: the contract of this function.
         let (a, b) = unsafe { (text("a", a)?, text("b", b)?) };
+        let set = |cell: &mut Cell| {
+            let pair = [cell.item_named(a)?, cell.item_named(b)?];
+            cell.set_clearance(pair, distance)
+        };
         // SAFETY: the contract of this function.
-        let cell = unsafe { change(cell) }?;
-        let pair = cell
-            .item_named(a)
-            .and_then(|a| Ok([a, cell.item_named(b)?]));
-        pair.and_then(|pair| cell.set_clearance(pair, distance))
-            .map_err(Failure::input)
+        unsafe { change(cell, set) }
     })
 }
 
@@ -325,13 +330,51 @@ pub(crate) fn joint_count(cell: &Cell) -> usize {
     cell.robot().free_joint_names().len()
 }
 
-/// Returns the cell to change: a copy if a solver has it.
+/// Reads a robot and the pairs of its links, and gives a cell of it.
+///
+/// # Safety
+/// Each text is null or ends with a zero; `out` is null or points to a place for a handle.
+unsafe fn give_cell(
+    mut robot: RobotFile,
+    srdf: *const c_char,
+    package_folder: *const c_char,
+    out: *mut *mut RccdCell,
+) -> Result<(), Failure> {
+    // SAFETY: the contract of this function.
+    let (srdf, folder) = unsafe {
+        (
+            text_or_none("srdf", srdf)?,
+            text_or_none("package_folder", package_folder)?,
+        )
+    };
+    if let Some(folder) = folder {
+        robot = robot.with_package_folder(folder);
+    }
+    let read = robot.read().map_err(Failure::body)?;
+    let pairs = robot.link_pairs(&read, srdf.map(Path::new));
+    let pairs = pairs.map_err(Failure::body)?;
+    let cell = RccdCell {
+        joint_names: read.free_joint_names().map(str::to_owned).collect(),
+        cell: Arc::new(Cell::new(read, pairs)),
+        changes: Arc::default(),
+    };
+    // SAFETY: the contract of this function.
+    unsafe { give(out, cell) }
+}
+
+/// Changes a cell, or a copy of it if a solver has it. Nothing is changed by an error.
 ///
 /// # Safety
 /// The pointer is null, or a handle that no other call uses.
-unsafe fn change<'a>(cell: *mut RccdCell) -> Result<&'a mut Cell, Failure> {
+unsafe fn change(
+    cell: *mut RccdCell,
+    change: impl FnOnce(&mut Cell) -> Result<(), RobotError>,
+) -> Result<(), Failure> {
     // SAFETY: the contract of this function.
-    Ok(Arc::make_mut(&mut unsafe { exclusive("cell", cell) }?.cell))
+    let RccdCell { cell, changes, .. } = unsafe { exclusive("cell", cell) }?;
+    change(Arc::make_mut(cell)).map_err(Failure::input)?;
+    changes.fetch_add(1, Ordering::Release);
+    Ok(())
 }
 
 /// # Safety

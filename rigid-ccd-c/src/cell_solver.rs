@@ -10,13 +10,17 @@ use crate::solver::read_settings;
 use crate::status::{Failure, RccdStatus, status_of};
 use rigid_ccd_robot::{Cell, CellSolver, Path};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A solver for paths in a cell as it was when the solver was made. It keeps memory from one question to the next. Each thread
-/// needs its own.
+/// A solver for paths in a cell, until the cell is changed: from then on its questions are errors. It keeps memory from one
+/// question to the next. Each thread needs its own.
 pub struct RccdCellSolver {
     /// It borrows `cell`, and is dropped before.
     solver: CellSolver<'static>,
     cell: Arc<Cell>,
+    /// The number of changes of the cell, and what it was when the solver was made.
+    changes: Arc<AtomicU64>,
+    made_at: u64,
     path: PathMemory,
 }
 
@@ -35,7 +39,8 @@ pub unsafe extern "C" fn rccd_cell_solver_new(
 ) -> RccdStatus {
     status_of(|| {
         // SAFETY: the contract of this function.
-        let cell = Arc::clone(&unsafe { reference("cell", cell) }?.cell);
+        let RccdCell { cell, changes, .. } = unsafe { reference("cell", cell) }?;
+        let (cell, changes) = (Arc::clone(cell), Arc::clone(changes));
         // SAFETY: the contract of this function.
         let settings = unsafe { read_settings(settings) }?;
         if !cell.checks_any_pair() {
@@ -51,6 +56,8 @@ pub unsafe extern "C" fn rccd_cell_solver_new(
         let solver = RccdCellSolver {
             solver,
             cell,
+            made_at: changes.load(Ordering::Acquire),
+            changes,
             path: PathMemory::default(),
         };
         // SAFETY: the contract of this function.
@@ -165,8 +172,15 @@ unsafe fn ask(
         let RccdCellSolver {
             solver,
             cell,
+            changes,
+            made_at,
             path: memory,
         } = unsafe { exclusive("solver", solver) }?;
+        if changes.load(Ordering::Acquire) != *made_at {
+            return Err(Failure::input(
+                "the cell was changed after the solver was made: make a new solver",
+            ));
+        }
         // SAFETY: the contract of this function.
         let size = unsafe { growing::size_of_place("the answer", out) }?;
         let call = |path: &dyn Path| {

@@ -26,8 +26,10 @@ pub(crate) unsafe fn read<T: Growing>(
     // SAFETY: the caller's contract; the pointer is neither null nor misaligned.
     let size = unsafe { pointer.cast::<usize>().read() };
     if !(T::FIRST_SIZE..=size_of::<T>()).contains(&size) {
-        let text = format!("size of {name} is not set, or from a header of a later version");
-        return Err(Failure::argument(text));
+        let (first, now) = (T::FIRST_SIZE, size_of::<T>());
+        return Err(Failure::argument(format!(
+            "size of {name} is {size}, not from {first} to {now}: it is not set, or from a header of a later version"
+        )));
     }
     let mut value = default;
     // SAFETY: the struct has `size` bytes, and the copy at least as many.
@@ -47,7 +49,10 @@ pub(crate) unsafe fn size_of_place<T: Growing>(name: &str, out: *mut T) -> Resul
     // SAFETY: the caller's contract; the place is neither null nor misaligned.
     let size = unsafe { out.cast::<usize>().read() };
     if size < T::FIRST_SIZE {
-        return Err(Failure::argument(format!("size of {name} is not set")));
+        let least = T::FIRST_SIZE;
+        return Err(Failure::argument(format!(
+            "size of {name} is {size}, and at least {least} are needed: it is not set"
+        )));
     }
     Ok(size)
 }

@@ -70,7 +70,11 @@ pub unsafe extern "C" fn rccd_joint_curve_from_polynomials(
         // SAFETY: the contract of this function.
         let times = unsafe { array("times", times, time_count) }?;
         let row_count = segment_count.checked_mul(joint_count);
-        let row_count = row_count.ok_or_else(|| Failure::argument("coefficients is too long"))?;
+        let row_count = row_count.ok_or_else(|| {
+            Failure::argument(format!(
+                "coefficients is too long: {segment_count} segments of {joint_count} joints"
+            ))
+        })?;
         // SAFETY: the contract of this function.
         let joints = unsafe { rows("coefficients", coefficients, [row_count, coefficient_count]) }?;
         let segments = joints.chunks(joint_count.max(1));
@@ -103,7 +107,11 @@ unsafe fn rows<'a>(
     [row_count, row_length]: [usize; 2],
 ) -> Result<Vec<&'a [f64]>, Failure> {
     let total = row_count.checked_mul(row_length);
-    let total = total.ok_or_else(|| Failure::argument(format!("{name} is too long")))?;
+    let total = total.ok_or_else(|| {
+        Failure::argument(format!(
+            "{name} is too long: {row_count} rows of {row_length} numbers"
+        ))
+    })?;
     // SAFETY: the contract of this function.
     let numbers = unsafe { array(name, numbers, total) }?;
     Ok(numbers.chunks_exact(row_length.max(1)).collect())

@@ -69,11 +69,17 @@ impl RccdPath {
         }
         if joint_count == 0 && path.configuration_count > MAX_EMPTY_CONFIGURATIONS {
             return Err(Failure::argument(format!(
-                "configurations is too long: at most {MAX_EMPTY_CONFIGURATIONS} for a robot without free joints"
+                "configurations is too long: {}, and at most {MAX_EMPTY_CONFIGURATIONS} for a robot without free joints",
+                path.configuration_count
             )));
         }
         let total = path.configuration_count.checked_mul(joint_count);
-        let total = total.ok_or_else(|| Failure::argument("configurations is too long"))?;
+        let total = total.ok_or_else(|| {
+            Failure::argument(format!(
+                "configurations is too long: {} of {joint_count} positions",
+                path.configuration_count
+            ))
+        })?;
         // SAFETY: the contract of this function.
         let positions = unsafe { array("configurations", path.configurations, total) }?;
         Ok(Pointed::Configurations(positions, path.configuration_count))

@@ -45,7 +45,7 @@ pub struct RccdSettings {
     /// a question about a path takes at most 8 budgets for each segment, all pairs together, and the closest approach up to half
     /// as much again.
     pub budget: u64,
-    /// The time in seconds after which a query ends as unresolved; infinity for none.
+    /// The time in seconds after which a query ends as unresolved, from 0 to 1e19; infinity for none.
     pub deadline: f64,
     /// One of `rccd_start_policy`.
     pub start_policy: u32,

@@ -1,4 +1,4 @@
-//! Tests of cells: what is in them, what solvers keep of them, and what is refused.
+//! Tests of cells: what is in them, when their solvers end, and what is refused.
 
 use crate::support::{Handle, default_settings, last_error, ok};
 use crate::support_cells::*;
@@ -6,19 +6,123 @@ use rigid_ccd_c::*;
 use std::ptr::{null, null_mut};
 
 #[test]
-fn cells_keep_what_solvers_saw_and_refuse_what_is_wrong() {
+fn a_solver_of_a_cell_that_was_changed_does_not_answer() {
     let (cell, _) = cells();
-    let solver = cell_solver(&cell, &default_settings());
     let reach = [[0.0, 0.0], [1.2, 0.0]];
-    assert_eq!(first_contact(&solver, &reach).outcome, RccdOutcome::Contact);
+    let path = through(&reach);
+    let ball = crate::support::sphere(0.1);
+    let pose = RccdPose {
+        position: [9.0, 0.0, 0.0],
+        orientation: [0.0, 0.0, 0.0, 1.0],
+    };
+    let pointer = cell.pointer();
+    let (cup, lower) = (c"cup".as_ptr(), c"lower".as_ptr());
+    // SAFETY: pointers are null or to values that live here.
+    let changes: [(&str, &dyn Fn() -> RccdStatus); 7] = unsafe {
+        [
+            ("add", &|| {
+                rccd_cell_add_obstacle(pointer, c"far".as_ptr(), ball.pointer(), &pose)
+            }),
+            ("move", &|| {
+                rccd_cell_move_obstacle(pointer, c"far".as_ptr(), &pose)
+            }),
+            ("attach", &|| {
+                rccd_cell_attach(pointer, cup, ball.pointer(), lower, &pose, null(), 0)
+            }),
+            ("detach", &|| rccd_cell_detach(pointer, cup)),
+            ("padding", &|| rccd_cell_set_padding(pointer, lower, 0.01)),
+            ("clearance", &|| {
+                rccd_cell_set_clearance(pointer, lower, c"ball".as_ptr(), 0.01)
+            }),
+            ("remove", &|| {
+                rccd_cell_remove_obstacle(pointer, c"ball".as_ptr())
+            }),
+        ]
+    };
+    for (what, change) in changes {
+        let solver = cell_solver(&cell, &default_settings());
+        let before = first_contact(&solver, &reach);
+        assert_eq!(before.outcome, RccdOutcome::Contact, "{what}");
+        // A change that fails changes nothing.
+        // SAFETY: pointers are to values that live here.
+        let failed = unsafe { rccd_cell_detach(pointer, c"nobody".as_ptr()) };
+        assert_eq!(failed, RccdStatus::InvalidInput);
+        assert_eq!(
+            first_contact(&solver, &reach).outcome,
+            RccdOutcome::Contact,
+            "{what}"
+        );
+        ok(change());
+        for question in [
+            rccd_cell_first_contact as Question,
+            rccd_cell_any_contact,
+            rccd_cell_closest_approach,
+        ] {
+            let mut answer = before;
+            // SAFETY: the path and the answer live here.
+            let status = unsafe { question(solver.pointer(), &path, &mut answer) };
+            assert_eq!(status, RccdStatus::InvalidInput, "{what}");
+            assert!(
+                last_error().contains("make a new solver"),
+                "{what}: {}",
+                last_error()
+            );
+            // Of two bytes of NaN none is equal to the other.
+            assert_eq!(format!("{answer:?}"), format!("{before:?}"), "{what}");
+        }
+    }
+    let of_now = cell_solver(&cell, &default_settings());
+    assert_eq!(first_contact(&of_now, &reach).outcome, RccdOutcome::Free);
+    // A cell that is freed is as it was.
+    drop(cell);
+    assert_eq!(first_contact(&of_now, &reach).outcome, RccdOutcome::Free);
+}
+
+#[test]
+fn a_cell_of_a_text_is_that_of_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(
+        folder.path().join("post.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    )
+    .unwrap();
+    let robot = ARM.replace(
+        r#"<sphere radius="0.15"/>"#,
+        r#"<mesh filename="post.obj"/>"#,
+    );
+    let texts = [robot.as_str(), folder.path().to_str().unwrap(), "<robot"];
+    let [text, folder, broken] = texts.map(|text| std::ffi::CString::new(text).unwrap());
+    let [text, folder, broken] = [&text, &folder, &broken].map(|text| text.as_ptr());
+    // SAFETY: texts end with a zero.
+    unsafe {
+        let cell = Handle::new(rccd_cell_free, |out| {
+            rccd_cell_from_text(text, folder, null(), null(), out)
+        });
+        let mut count = 0;
+        ok(rccd_cell_joint_count(cell.pointer(), &mut count));
+        assert_eq!(count, 2);
+        let mut out = null_mut();
+        for (robot, folder, named) in [
+            (text, null(), "post.obj"),
+            (broken, null(), "robot"),
+            (null(), null(), "robot is null"),
+        ] {
+            let status = rccd_cell_from_text(robot, folder, null(), null(), &mut out);
+            assert_ne!(status, RccdStatus::Ok);
+            assert!(last_error().contains(named), "{}", last_error());
+            assert!(out.is_null());
+        }
+    }
+}
+
+#[test]
+fn cells_refuse_what_is_wrong() {
+    let (cell, _) = cells();
     // SAFETY: pointers are null or to values that live here.
     unsafe {
         let pointer = cell.pointer();
         ok(rccd_cell_remove_obstacle(pointer, c"ball".as_ptr()));
-        assert_eq!(first_contact(&solver, &reach).outcome, RccdOutcome::Contact);
-        let of_now = cell_solver(&cell, &default_settings());
-        assert_eq!(first_contact(&of_now, &reach).outcome, RccdOutcome::Free);
-
+        let solver = cell_solver(&cell, &default_settings());
         let gone = rccd_cell_remove_obstacle(pointer, c"ball".as_ptr());
         assert_eq!(gone, RccdStatus::InvalidInput);
         assert!(last_error().contains("ball"), "{}", last_error());

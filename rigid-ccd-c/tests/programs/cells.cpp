@@ -15,6 +15,18 @@ void expect(bool holds) {
     std::exit(1);
 }
 
+// As Eigen has it: a vector, a row of a matrix that has gaps, and a matrix.
+template <int IS_VECTOR, int STRIDE>
+struct OfEigen {
+    enum { IsVectorAtCompileTime = IS_VECTOR, InnerStrideAtCompileTime = STRIDE };
+    const double *data() const;
+    std::ptrdiff_t size() const;
+};
+template <typename Container>
+constexpr bool is_view = std::is_constructible_v<rigid_ccd::View<double>, const Container &>;
+static_assert(is_view<std::vector<double>> && is_view<OfEigen<1, 1>>);
+static_assert(!is_view<OfEigen<1, 3>> && !is_view<OfEigen<1, -1>> && !is_view<OfEigen<0, 1>> && !is_view<std::vector<float>>);
+
 } // namespace
 
 int main(int, char **argv) {
@@ -26,6 +38,13 @@ int main(int, char **argv) {
     expect(std::string(cell.joint(0).name).size() > 0 && cell.joint(0).lower < cell.joint(0).upper);
 
     cell.add_obstacle("everywhere", rigid_ccd::Body::sphere(10), rigid_ccd::pose_at({0, 0, 0}));
+    bool is_of_before = false;
+    try {
+        before.measure_edge(start, end);
+    } catch (const rigid_ccd::Error &error) {
+        is_of_before = std::string(error.what()).find("make a new solver") != std::string::npos;
+    }
+    expect(is_of_before);
     rigid_ccd::CellSolver inside(cell);
     expect(!inside.measure_edge(start, end).partially_free());
     expect(inside.first_contact(start).hit() && inside.any_contact(start).name_b() == "everywhere");
@@ -57,23 +76,35 @@ int main(int, char **argv) {
     }
     expect(thrown);
 
+    rigid_ccd::CellSolver now(cell);
+    const auto refusal = [&](const std::vector<double> &path) -> std::string {
+        try {
+            now.first_contact(path);
+        } catch (const rigid_ccd::Error &error) {
+            return error.what();
+        }
+        return "";
+    };
+    expect(refusal(std::vector<double>(joints + 1)) == "configurations: a multiple of " + std::to_string(joints) +
+                                                            " numbers is needed, not " + std::to_string(joints + 1));
+
     const std::vector<double> times = {0, 1}, velocities(2 * joints, 0.0);
     std::vector<double> positions = start;
     positions.insert(positions.end(), end.begin(), end.end());
     const auto curve = rigid_ccd::JointCurve::through(times, positions, velocities);
-    expect(before.first_contact(curve).free() && before.any_contact(curve).free());
-    rigid_ccd::CellSolver moved = std::move(inside);
+    expect(now.first_contact(curve).free() && now.any_contact(curve).free());
+    rigid_ccd::CellSolver moved = std::move(now);
     bool is_error = false;
     try {
-        inside.measure_edge(start, end);
+        now.measure_edge(start, end);
     } catch (const rigid_ccd::Error &) {
         is_error = true;
     }
-    expect(is_error && !moved.measure_edge(start, end).partially_free());
+    expect(is_error && moved.measure_edge(start, end).completely_free());
     expect(!rigid_ccd::PathAnswer().free() && !rigid_ccd::Answer().free());
     bool refused = false;
     try {
-        const rigid_ccd::PathAnswer answer = before.first_contact(start);
+        const rigid_ccd::PathAnswer answer = moved.first_contact(start);
         rigid_ccd::write_evidence(cell, {}, start, answer, "/no such folder/stop.json");
     } catch (const rigid_ccd::Error &error) {
         refused = std::string(error.what()).find("no such folder") != std::string::npos;

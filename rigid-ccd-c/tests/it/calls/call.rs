@@ -311,6 +311,11 @@ impl<'w, 'f> Call<'w, 'f> {
         self.text_of("robot", &files.robots)
     }
 
+    pub(super) fn robot_text(&mut self) -> *const c_char {
+        let files = self.files();
+        self.text_of("text", &files.robot_texts)
+    }
+
     pub(super) fn srdf_file(&mut self) -> *const c_char {
         if !self.once_in(10) {
             return null();

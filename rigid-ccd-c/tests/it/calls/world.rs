@@ -172,6 +172,8 @@ pub(super) struct Kinds {
     /// A mesh, and files that calls store.
     pub(super) bodies: Vec<CString>,
     pub(super) robots: Vec<CString>,
+    /// The texts of robots.
+    pub(super) robot_texts: Vec<CString>,
     pub(super) srdfs: Vec<CString>,
 }
 
@@ -184,7 +186,11 @@ impl Files {
             at(name)
         };
         let arm = crate::support_cells::ARM.as_bytes();
+        let chain = chain(7);
         let right = Kinds {
+            robot_texts: [crate::support_cells::ARM, POST, &chain, MJCF]
+                .map(content)
+                .into(),
             bodies: vec![
                 write(("square.obj", SQUARE.as_bytes())),
                 at("stored.ccd"),
@@ -193,7 +199,7 @@ impl Files {
             robots: [
                 ("arm.urdf", arm),
                 ("post.urdf", POST.as_bytes()),
-                ("chain.urdf", chain(7).as_bytes()),
+                ("chain.urdf", chain.as_bytes()),
                 ("arm.xml", MJCF.as_bytes()),
             ]
             .map(write)
@@ -201,6 +207,7 @@ impl Files {
             srdfs: vec![write(("arm.srdf", SRDF.as_bytes()))],
         };
         let broken = Kinds {
+            robot_texts: ["<robot name='", "no robot"].map(content).into(),
             bodies: [
                 ("broken.obj", b"v 0 0\nf 1 2 9\n".as_slice()),
                 ("empty.stl", b""),
@@ -231,6 +238,10 @@ impl Files {
 }
 
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0.5\nv 1 1 1\nf 1 2 3\nf 2 3 4\n";
+
+fn content(text: &str) -> CString {
+    CString::new(text).unwrap()
+}
 
 fn text(path: &Path) -> CString {
     CString::new(path.to_str().unwrap()).unwrap()
