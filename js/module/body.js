@@ -1,10 +1,18 @@
 // Bodies from shapes, arrays and files.
 
-import { checkNames, finiteNumber, vectorNumbers } from "./numbers.js";
-import { Owned, described } from "./owned.js";
+import { bytesOf, finiteNumber, lengthOf, listOfNumbers, nameOf, optionsOf, trueOrFalse, typedArrayName } from "./numbers.js";
+import { innerOf, Owned } from "./owned.js";
+import { vectorNumbers } from "./places.js";
 import { classes } from "./wasm.js";
+import { described } from "./words.js";
+
+const MESH_OPTIONS = { pieces: [nameOf, "auto"], surface: [trueOrFalse, false] };
 
 export class Body extends Owned {
+  get [Symbol.toStringTag]() {
+    return "Body";
+  }
+
   /** @hideconstructor Bodies are made by `Body.sphere` and its like. */
   constructor(inner) {
     if (!(inner instanceof classes().Body)) throw new TypeError("a Body is made by Body.fromMesh, Body.sphere or the like");
@@ -12,22 +20,15 @@ export class Body extends Owned {
   }
 
   static fromMesh(positions, indices, options) {
-    checkNames(options, "options of Body.fromMesh", ["pieces", "surface"]);
-    if (!(positions instanceof Float64Array || positions instanceof Float32Array || Array.isArray(positions))) {
-      throw new TypeError(`positions: a Float32Array, a Float64Array or an array of numbers is needed, not ${described(positions)}`);
-    }
-    if (positions.length % 3 !== 0) throw new TypeError(`positions: ${positions.length} numbers are no whole number of vertices`);
-    const vertices = positions instanceof Float64Array ? positions : Float64Array.from(positions);
+    const { pieces, surface } = optionsOf(options, "Body.fromMesh", MESH_OPTIONS);
+    const vertices = coordinatesOf(positions);
     const corners = indices === undefined || indices === null ? everyVertex(vertices.length / 3) : triangleCorners(indices);
-    return new Body(classes().Body.from_mesh(vertices, corners, options?.pieces ?? "auto", options?.surface ?? false));
+    return new Body(classes().Body.from_mesh(vertices, corners, pieces, surface));
   }
 
   static fromFile(name, bytes, options) {
-    checkNames(options, "options of Body.fromFile", ["scale", "pieces", "surface"]);
-    const content = contentOf(name, bytes);
-    const scale = finiteNumber(options?.scale ?? 1, "scale");
-    if (scale <= 0) throw new RangeError(`scale: ${scale} is not positive`);
-    return new Body(classes().Body.from_file(String(name), content, scale, options?.pieces ?? "auto", options?.surface ?? false));
+    const { scale, pieces, surface } = optionsOf(options, "Body.fromFile", { scale: [positiveNumber, 1], ...MESH_OPTIONS });
+    return new Body(classes().Body.from_file(nameOf(name, "name"), bytesOf(bytes, name), scale, pieces, surface));
   }
 
   static box(halfExtents) {
@@ -70,21 +71,34 @@ export class Body extends Owned {
 
 /** Reads the triangles of a mesh file, to be drawn or changed before they become a body. */
 export function readMesh(name, bytes) {
-  const mesh = classes().Mesh.read(String(name), contentOf(name, bytes));
+  const mesh = classes().Mesh.read(nameOf(name, "name"), bytesOf(bytes, name));
   const arrays = { positions: mesh.positions(), indices: mesh.indices() };
   mesh.free();
   return arrays;
 }
 
-function contentOf(name, bytes) {
-  const content = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
-  if (content instanceof Uint8Array) return content;
-  throw new TypeError(`${name}: bytes in a Uint8Array or an ArrayBuffer are needed, not ${described(bytes)}`);
+/** Reads an argument that has to be a body, for the WebAssembly. */
+export function bodyOf(value, what) {
+  return innerOf(value, Body, what);
+}
+
+function positiveNumber(value, what) {
+  if (finiteNumber(value, what) <= 0) throw new RangeError(`${what}: ${value} is not positive`);
+  return value;
 }
 
 function solidOfRevolution(name, radius, halfHeight, excess) {
   const allowed = excess === undefined ? undefined : finiteNumber(excess, "excess");
   return new Body(classes().Body[name](finiteNumber(radius, "radius"), finiteNumber(halfHeight, "halfHeight"), allowed));
+}
+
+function coordinatesOf(positions) {
+  if (!Array.isArray(positions) && !["Float32Array", "Float64Array"].includes(typedArrayName(positions))) {
+    throw new TypeError(`positions: a Float32Array, a Float64Array or an array of numbers is needed, not ${described(positions)}`);
+  }
+  const numbers = listOfNumbers(positions, "positions");
+  if (numbers.length % 3 !== 0) throw new TypeError(`positions: ${numbers.length} numbers are no whole number of vertices`);
+  return numbers;
 }
 
 /** The corners of the triangles of a mesh without indices. */
@@ -94,11 +108,14 @@ function everyVertex(count) {
 }
 
 function triangleCorners(indices) {
-  if (typeof indices.length !== "number" || typeof indices === "string") throw new TypeError(`indices: a list of numbers is needed, not ${described(indices)}`);
-  if (indices.length % 3 !== 0) throw new TypeError(`indices: ${indices.length} numbers are no whole number of triangles`);
+  const length = lengthOf(indices, "indices", "a list of numbers");
+  if (length % 3 !== 0) throw new TypeError(`indices: ${length} numbers are no whole number of triangles`);
   if (indices instanceof Uint32Array) return indices;
-  return Uint32Array.from(indices, (index, k) => {
+  const corners = [];
+  for (let k = 0; k < length; k += 1) {
+    const index = indices[k];
     if (!Number.isInteger(index) || index < 0 || index > 0xffffffff) throw new TypeError(`indices[${k}]: ${described(index)} is no number of a vertex`);
-    return index;
-  });
+    corners.push(index);
+  }
+  return Uint32Array.from(corners);
 }

@@ -1,10 +1,11 @@
 // A robot among obstacles, and questions about its paths.
 
 import { featureOf, limitOf, vectorAt } from "./answer.js";
-import { Body } from "./body.js";
-import { checkNames, finiteNumber, listOfNumbers, nameOf, poseNumbers, settingNumber } from "./numbers.js";
+import { bodyOf } from "./body.js";
+import { finiteNumber, joined, listOf, nameOf, optionsOf, settingNumber } from "./numbers.js";
 import { innerOf, Owned } from "./owned.js";
-import { pairsOf, Robot } from "./robot.js";
+import { NO_OFFSET, poseNumbers } from "./places.js";
+import { configurationOf, pairsOf, Robot } from "./robot.js";
 import { settingsOf, UnresolvedError } from "./solver.js";
 import { classes } from "./wasm.js";
 
@@ -13,18 +14,27 @@ const TOLERANCE = 3;
 const PAIR = 4;
 const CONTACT_SETTINGS = ["tolerance", "margin", "budget"];
 const DISTANCE_SETTINGS = ["tolerance", "budget"];
+const RANGE_SETTINGS = {
+  ...Object.fromEntries(CONTACT_SETTINGS.map((name) => [name, [settingNumber, undefined]])),
+  resolution: [settingNumber, 1 / 4096],
+  maxPoseError: [settingNumber, 0],
+};
 const VERDICTS = ["kept", "violated", "unverified"];
 
 export class Cell extends Owned {
   #joints;
+
+  get [Symbol.toStringTag]() {
+    return "Cell";
+  }
 
   constructor(robot) {
     super(new (classes().Cell)(innerOf(robot, Robot, "robot")));
     this.#joints = robot.jointNames;
   }
 
-  add(name, body, pose) {
-    Owned.inner(this).add(nameOf(name, "name"), innerOf(body, Body, "body"), poseNumbers(pose, "pose"));
+  add(name, body, pose = {}) {
+    Owned.inner(this).add(nameOf(name, "name"), bodyOf(body, "body"), poseNumbers(pose, "pose"));
   }
 
   moveTo(name, pose) {
@@ -36,10 +46,8 @@ export class Cell extends Owned {
   }
 
   attach(name, body, link, options) {
-    checkNames(options, "options of Cell.attach", ["pose", "mayTouch"]);
-    const pose = poseNumbers(options?.pose, "pose");
-    const mayTouch = Array.from(options?.mayTouch ?? [], (one, k) => nameOf(one, `mayTouch[${k}]`));
-    Owned.inner(this).attach(nameOf(name, "name"), innerOf(body, Body, "body"), nameOf(link, "link"), pose, mayTouch);
+    const { pose, mayTouch } = optionsOf(options, "Cell.attach", { pose: [poseNumbers, NO_OFFSET], mayTouch: [namesOf, []] });
+    Owned.inner(this).attach(nameOf(name, "name"), bodyOf(body, "body"), nameOf(link, "link"), pose, mayTouch);
   }
 
   detach(name) {
@@ -79,10 +87,8 @@ export class Cell extends Owned {
   }
 
   clearanceRanges(path, options) {
-    const settings = settingsOf(options, [...CONTACT_SETTINGS, "resolution", "maxPoseError"]);
-    const resolution = settingNumber(options?.resolution ?? 1 / 4096, "resolution");
-    const error = settingNumber(options?.maxPoseError ?? 0, "maxPoseError");
-    const numbers = Owned.inner(this).clearance_ranges(this.#numbersOf(path), settings, resolution, error);
+    const { resolution, maxPoseError, ...rest } = optionsOf(options, "Cell.clearanceRanges", RANGE_SETTINGS);
+    const numbers = Owned.inner(this).clearance_ranges(this.#numbersOf(path), path.length, settingsOf(rest, CONTACT_SETTINGS), resolution, maxPoseError);
     return Array.from({ length: numbers.length / 3 }, (_, k) => {
       const [start, end, verdict] = numbers.subarray(3 * k, 3 * k + 3);
       return { start, end, clearance: VERDICTS[verdict] };
@@ -90,7 +96,7 @@ export class Cell extends Owned {
   }
 
   #ask(question, path, options, known) {
-    const answer = Owned.inner(this).ask(question, this.#numbersOf(path), settingsOf(options, known));
+    const answer = Owned.inner(this).ask(question, this.#numbersOf(path), path.length, settingsOf(options, known));
     const parts = { kind: answer.kind, numbers: answer.numbers(), names: answer.names() };
     answer.free();
     return parts;
@@ -98,16 +104,12 @@ export class Cell extends Owned {
 
   /** Returns the configurations of a path one after another. */
   #numbersOf(path) {
-    if (typeof path?.length !== "number" || typeof path === "string") throw new TypeError("path: a list of configurations is needed");
-    const count = this.#joints.length;
-    const numbers = new Float64Array(count * path.length);
-    for (let k = 0; k < path.length; k += 1) {
-      const configuration = listOfNumbers(path[k], `path[${k}]`);
-      if (configuration.length !== count) throw new Error(`path[${k}]: ${configuration.length} positions, but ${count} joints: ${this.#joints.join(", ")}`);
-      numbers.set(configuration, count * k);
-    }
-    return numbers;
+    return joined(listOf(path, "path", (value, what) => configurationOf(value, what, this.#joints)));
   }
+}
+
+function namesOf(value, what) {
+  return listOf(value, what, nameOf);
 }
 
 function contactAnswer(kind, numbers, names) {

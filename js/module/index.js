@@ -5,7 +5,7 @@ import { Cell } from "./cell.js";
 import { LinkMotion, Motion, Movement, Path, Throw } from "./movement.js";
 import { Robot } from "./robot.js";
 import { anyContact, closestApproach, contactInterval, distance, firstContact, isFree, keepsClearance, UnresolvedError } from "./solver.js";
-import { init, memoryUsage } from "./wasm.js";
+import { EngineError, init, memoryUsage } from "./wasm.js";
 
 export {
   anyContact,
@@ -14,6 +14,7 @@ export {
   closestApproach,
   contactInterval,
   distance,
+  EngineError,
   firstContact,
   init,
   isFree,

@@ -1,7 +1,8 @@
 // What moves a body.
 
-import { checkNames, finiteNumber, listOfNumbers, motionNumbers, POSE_LENGTH, poseNumbers, poseOfNumbers, settingNumber, vectorNumbers } from "./numbers.js";
+import { finiteNumber, joined, listOf, listOfNumbers, optionsOf, settingNumber } from "./numbers.js";
 import { Owned } from "./owned.js";
+import { MOTION_LENGTH, motionNumbers, ORIGIN, poseNumbers, poseOfNumbers, throwNumbers, vectorNumbers } from "./places.js";
 import { classes } from "./wasm.js";
 
 /** What moves a body: a `Motion`, a `Throw`, a `Path` or a `LinkMotion`. */
@@ -24,45 +25,55 @@ export class Movement extends Owned {
 }
 
 export class Motion extends Movement {
-  constructor(motion) {
+  get [Symbol.toStringTag]() {
+    return "Motion";
+  }
+
+  constructor(motion = {}) {
     super(motion instanceof classes().Movement ? motion : classes().Movement.from_velocities(motionNumbers(motion, "motion")));
   }
 
   static between(start, end, options) {
-    checkNames(options, "options of Motion.between", ["duration", "center"]);
-    const duration = settingNumber(options?.duration ?? 1, "duration");
-    const center = vectorNumbers(options?.center, "center");
+    const { duration, center } = optionsOf(options, "Motion.between", { duration: [settingNumber, 1], center: [vectorNumbers, ORIGIN] });
     return new Motion(classes().Movement.between(poseNumbers(start, "start"), poseNumbers(end, "end"), center, duration));
   }
 }
 
 export class Throw extends Movement {
-  constructor({ acceleration, ...motion }) {
-    super(classes().Movement.thrown(motionNumbers(motion, "motion"), vectorNumbers(acceleration, "acceleration")));
+  get [Symbol.toStringTag]() {
+    return "Throw";
+  }
+
+  constructor(motion) {
+    const numbers = throwNumbers(motion, "motion");
+    super(classes().Movement.thrown(numbers.subarray(0, MOTION_LENGTH), numbers.subarray(MOTION_LENGTH)));
   }
 }
 
 export class Path extends Movement {
+  get [Symbol.toStringTag]() {
+    return "Path";
+  }
+
   constructor(times, poses, options) {
-    checkNames(options, "options of Path", ["center", "spins"]);
-    const at = listOfNumbers(times, "times");
-    if (at.length !== poses.length) throw new TypeError(`poses: there are ${poses.length}, but ${at.length} times`);
-    const numbers = new Float64Array(POSE_LENGTH * poses.length);
-    poses.forEach((pose, k) => numbers.set(poseNumbers(pose, `pose ${k}`), POSE_LENGTH * k));
-    super(classes().Movement.through_poses(at, numbers, vectorNumbers(options?.center, "center"), spinNumbers(options?.spins)));
+    const { center, spins } = optionsOf(options, "Path", { center: [vectorNumbers, ORIGIN], spins: [vectorsOf, undefined] });
+    const [at, through] = [listOfNumbers(times, "times"), listOf(poses, "poses", poseNumbers)];
+    if (at.length !== through.length) throw new TypeError(`poses: there are ${through.length}, but ${at.length} times`);
+    super(classes().Movement.through_poses(at, joined(through), center, spins));
   }
 }
 
 export class LinkMotion extends Movement {
+  get [Symbol.toStringTag]() {
+    return "LinkMotion";
+  }
+
   constructor(inner) {
     if (!(inner instanceof classes().Movement)) throw new TypeError("a LinkMotion is made by Robot.motion");
     super(inner);
   }
 }
 
-function spinNumbers(spins) {
-  if (spins === undefined) return undefined;
-  const numbers = new Float64Array(3 * spins.length);
-  spins.forEach((spin, k) => numbers.set(vectorNumbers(spin, `spins[${k}]`), 3 * k));
-  return numbers;
+function vectorsOf(value, what) {
+  return joined(listOf(value, what, vectorNumbers));
 }

@@ -1,6 +1,127 @@
-// Reads numbers, vectors, poses and settings that a caller passes.
+// Reads what a caller passes: exactly as it is, or an error that names the argument.
+//
+// A reader takes a value, and what it is in messages. The classes list their arguments as fields: for each name a reader, and what
+// stands for the field if it is left out. A field without that is required.
 
-import { described, quoted } from "./owned.js";
+import { described, quoted } from "./words.js";
+
+// --- Objects with fields, and lists
+
+/** Reads the fields of an object, each by its reader. */
+export function fieldsOf(value, what, fields, prefix = "") {
+  checkNames(value, what, Object.keys(fields));
+  const read = {};
+  for (const [name, [reader, ...otherwise]] of Object.entries(fields)) {
+    const given = value[name];
+    read[name] = given === undefined && otherwise.length > 0 ? otherwise[0] : reader(given, prefix + name);
+  }
+  return read;
+}
+
+/** Reads options, which may be left out altogether. */
+export function optionsOf(options, owner, fields) {
+  return fieldsOf(options === undefined ? {} : options, `options of ${owner}`, fields);
+}
+
+/** Refuses what is no object with fields, and fields that are not known, which are typing errors. */
+export function checkNames(value, what, known) {
+  if (typeof value !== "object" || value === null) throw new TypeError(`${what}: an object is needed, not ${described(value)}`);
+  for (const name in value) {
+    if (!known.includes(name)) throw unknownName(what, name, known.join(", "));
+  }
+  // Methods of a class are not listed. An object of another class that has none of the names is something else, such as a list.
+  if (!isPlain(value) && !known.some((name) => name in value)) {
+    throw new TypeError(`${what}: an object with ${known.join(", ")} is needed, not ${described(value)}`);
+  }
+}
+
+/** What Rust and Python have, and this package has not. */
+const NO_SETTINGS = { deadline: "a budget ends a question" };
+
+function unknownName(what, name, known) {
+  return new TypeError(`${what}: there is no ${quoted(name)}; ${NO_SETTINGS[name] ?? `there are ${known}`}`);
+}
+
+/** Returns whether a value is an object of no class, in any window. */
+export function isPlain(value) {
+  if (typeof value !== "object" || value === null) return false;
+  const parent = Object.getPrototypeOf(value);
+  return parent === null || Object.getPrototypeOf(parent) === null;
+}
+
+/** Reads a list, each element by a reader. */
+export function listOf(value, what, reader) {
+  const length = lengthOf(value, what, "a list");
+  const read = [];
+  for (let k = 0; k < length; k += 1) read.push(reader(value[k], `${what}[${k}]`));
+  return read;
+}
+
+/** Reads a list of so many elements. */
+export function tupleOf(value, what, count, reader) {
+  const read = listOf(value, what, reader);
+  if (read.length !== count) throw new TypeError(`${what}: ${count} elements are needed, not ${read.length}`);
+  return read;
+}
+
+/** Reads numbers, which may be infinite, into a Float64Array. */
+export function listOfNumbers(value, what) {
+  const length = lengthOf(value, what, "a list of numbers");
+  const numbers = typedArrayName(value) === undefined ? [] : value;
+  for (let k = 0; k < length; k += 1) {
+    const one = value[k];
+    if (typeof one !== "number" || Number.isNaN(one)) numberOrInfinity(one, `${what}[${k}]`);
+    if (numbers !== value) numbers.push(one);
+  }
+  return numbers instanceof Float64Array ? numbers : Float64Array.from(numbers);
+}
+
+/** Returns lists of numbers as one. */
+export function joined(lists) {
+  return Float64Array.from(lists.flatMap((numbers) => [...numbers]));
+}
+
+/** Returns the length of a list: an array, a typed array, or an object like one. */
+export function lengthOf(value, what, needed) {
+  const length = typeof value === "object" && value !== null ? value.length : undefined;
+  if (!Number.isInteger(length) || length < 0) throw new TypeError(`${what}: ${needed} is needed, not ${described(value)}`);
+  if (typedArrayName(value) !== undefined) checkMemory(value, what);
+  return length;
+}
+
+const typedArray = Object.getPrototypeOf(Uint8Array.prototype);
+const nameOfTypedArray = Object.getOwnPropertyDescriptor(typedArray, Symbol.toStringTag).get;
+
+/** Returns the name of the class of a typed array, of any window; undefined for other values. */
+export function typedArrayName(value) {
+  return nameOfTypedArray.call(value);
+}
+
+/** Refuses an array whose memory was passed on or has shrunk: it has the length 0, as if it were empty. */
+function checkMemory(value, what) {
+  try {
+    typedArray.values.call(value);
+  } catch (cause) {
+    throw new TypeError(`${what}: the memory of the array is detached, or ends before it`, { cause });
+  }
+}
+
+/** Reads bytes: a Uint8Array or an ArrayBuffer. */
+export function bytesOf(value, what) {
+  const isBuffer = Object.prototype.toString.call(value) === "[object ArrayBuffer]";
+  if (!isBuffer && typedArrayName(value) !== "Uint8Array") throw new TypeError(`${what}: bytes in a Uint8Array or an ArrayBuffer are needed, not ${described(value)}`);
+  if (!isBuffer) {
+    checkMemory(value, what);
+    return value;
+  }
+  try {
+    return new Uint8Array(value);
+  } catch (cause) {
+    throw new TypeError(`${what}: the memory of the bytes is detached`, { cause });
+  }
+}
+
+// --- Numbers, names and settings
 
 export function finiteNumber(value, what) {
   if (!Number.isFinite(number(value, what))) throw new RangeError(`${what}: a finite number is needed, not ${value}`);
@@ -10,6 +131,24 @@ export function finiteNumber(value, what) {
 /** A limit may be infinite. */
 export function numberOrInfinity(value, what) {
   if (Number.isNaN(number(value, what))) throw new RangeError(`${what}: a number is needed, not NaN`);
+  return value;
+}
+
+function number(value, what) {
+  if (typeof value !== "number") throw new TypeError(`${what}: a number is needed, not ${described(value)}`);
+  return value;
+}
+
+export function trueOrFalse(value, what) {
+  if (typeof value !== "boolean") throw new TypeError(`${what}: true or false is needed, not ${described(value)}`);
+  return value;
+}
+
+/** Reads a name, which has to be a string. */
+export function nameOf(value, what) {
+  if (typeof value !== "string") throw new TypeError(`${what}: a string is needed, not ${described(value)}`);
+  // Half of a character would become another one in the WebAssembly.
+  if (/\p{Surrogate}/u.test(value)) throw new TypeError(`${what}: ${quoted(value)} has half of a character`);
   return value;
 }
 
@@ -34,116 +173,4 @@ export function settingNumber(value, name) {
   }
   if (name === "budget" && !Number.isInteger(value) && value !== Infinity) throw new RangeError(`budget: ${value} is no whole number`);
   return value;
-}
-
-/** Returns a name, which has to be a string. */
-export function nameOf(value, what) {
-  if (typeof value !== "string") throw new TypeError(`${what}: a string is needed, not ${described(value)}`);
-  return value;
-}
-
-function number(value, what) {
-  if (typeof value !== "number") throw new TypeError(`${what}: a number is needed, not ${described(value)}`);
-  return value;
-}
-
-/** Writes a vector, `[x, y, z]` or `{ x, y, z }`, into numbers from a place on. `part` is what it is of `what`. */
-export function writeVector(value, numbers, at, what, part = "") {
-  writeCoordinates(value, 3, numbers, at) || refuse(value, "[x, y, z] or { x, y, z } of finite numbers", what, part);
-}
-
-/** Writes a quaternion, `[x, y, z, w]` or `{ x, y, z, w }`. */
-export function writeQuaternion(value, numbers, at, what, part = "") {
-  writeCoordinates(value, 4, numbers, at) || refuse(value, "[x, y, z, w] or { x, y, z, w } of finite numbers", what, part);
-}
-
-/** Returns whether all coordinates are finite numbers. */
-function writeCoordinates(value, count, numbers, at) {
-  if (typeof value !== "object" || value === null) return false;
-  const isList = typeof value.length === "number";
-  if (isList && value.length !== count) return false;
-  let areNumbers = true;
-  for (let k = 0; k < count; k += 1) {
-    const coordinate = isList ? value[k] : value[COORDINATES[k]];
-    areNumbers &&= typeof coordinate === "number" && Number.isFinite(coordinate);
-    numbers[at + k] = coordinate;
-  }
-  return areNumbers;
-}
-
-function refuse(value, needed, what, part) {
-  const given = typeof value?.length === "number" ? `[${Array.from(value).slice(0, 5)}]` : described(value);
-  throw new TypeError(`${what}${part}: ${needed} is needed, not ${given}`);
-}
-
-const COORDINATES = ["x", "y", "z", "w"];
-
-/** The number of numbers of a pose: a position and a quaternion. */
-export const POSE_LENGTH = 7;
-/** Those of a motion: a pose, a velocity, a spin and a center. */
-export const MOTION_LENGTH = POSE_LENGTH + 9;
-
-/** Writes a motion at constant velocities; what is left out is 0, and no rotation. */
-export function writeMotion(motion, what, numbers, at) {
-  numbers.fill(0, at, at + MOTION_LENGTH);
-  numbers[at + 6] = 1;
-  if (motion === undefined || motion === null) return;
-  if (typeof motion !== "object") throw new TypeError(`${what}: a motion is needed, not ${described(motion)}`);
-  for (const name in motion) {
-    const value = motion[name];
-    if (value === undefined) continue;
-    if (name === "position") writeVector(value, numbers, at, what, ".position");
-    else if (name === "rotation") writeQuaternion(value, numbers, at + 3, what, ".rotation");
-    else if (name === "velocity") writeVector(value, numbers, at + 7, what, ".velocity");
-    else if (name === "spin") writeVector(value, numbers, at + 10, what, ".spin");
-    else if (name === "center") writeVector(value, numbers, at + 13, what, ".center");
-    else throw unknownName(what, name, "position, rotation, velocity, spin, center");
-  }
-}
-
-export function motionNumbers(motion, what) {
-  const numbers = new Float64Array(MOTION_LENGTH);
-  writeMotion(motion, what, numbers, 0);
-  return numbers;
-}
-
-/** Returns the numbers of a pose, `{ position, rotation }`; without one they are those of no offset. */
-export function poseNumbers(pose, what) {
-  const numbers = motionNumbers(pose, what);
-  if (pose?.velocity !== undefined || pose?.spin !== undefined || pose?.center !== undefined) throw new TypeError(`${what}: a pose has a position and a rotation`);
-  return numbers.subarray(0, POSE_LENGTH);
-}
-
-export function poseOfNumbers(numbers) {
-  const [px, py, pz, x, y, z, w] = numbers;
-  return { position: [px, py, pz], rotation: [x, y, z, w] };
-}
-
-export function vectorNumbers(value, what) {
-  const numbers = new Float64Array(3);
-  if (value !== undefined) writeVector(value, numbers, 0, what);
-  return numbers;
-}
-
-/** Returns a list of numbers as a Float64Array. */
-export function listOfNumbers(value, what) {
-  if (value instanceof Float64Array) return value;
-  if (typeof value?.length !== "number" || typeof value === "string") throw new TypeError(`${what}: a list of numbers is needed, not ${described(value)}`);
-  return Float64Array.from(value, (one, k) => numberOrInfinity(one, `${what}[${k}]`));
-}
-
-/** Refuses options that are not known, which are typing errors. */
-export function checkNames(options, what, known) {
-  if (options === undefined) return;
-  if (typeof options !== "object" || options === null) throw new TypeError(`${what}: an object is needed, not ${described(options)}`);
-  for (const name in options) {
-    if (!known.includes(name)) throw unknownName(what, name, known.join(", "));
-  }
-}
-
-/** What Rust and Python have, and this package has not. */
-const NO_SETTINGS = { deadline: "a budget ends a question" };
-
-export function unknownName(what, name, known) {
-  return new TypeError(`${what}: there is no ${quoted(name)}; ${NO_SETTINGS[name] ?? `there are ${known}`}`);
 }

@@ -1,11 +1,16 @@
 // An object whose memory is in the WebAssembly.
 
+import { engine } from "./wasm.js";
+import { described, nameOfClass } from "./words.js";
+
 /**
  * Holds an object of the WebAssembly until `free`, or until the garbage collector finds that nothing refers to it: wasm-bindgen
  * registers its objects for that.
  */
 export class Owned {
   #inner;
+  /** The engine whose memory holds the object. */
+  #home = engine();
 
   constructor(inner) {
     this.#inner = inner;
@@ -13,12 +18,13 @@ export class Owned {
 
   /** Returns the object of the WebAssembly. */
   static inner(owned) {
-    if (owned.#inner === null) throw new Error(`this ${owned.constructor.name} was freed`);
+    if (owned.#inner === null) throw new Error(`this ${nameOfClass(owned)} was freed`);
+    if (owned.#home.ended !== null) throw owned.#home.ended;
     return owned.#inner;
   }
 
   free() {
-    this.#inner?.free();
+    if (this.#home.ended === null) this.#inner?.free();
     this.#inner = null;
   }
 }
@@ -28,18 +34,8 @@ if (Symbol.dispose) Object.defineProperty(Owned.prototype, Symbol.dispose, { val
 
 /** Returns the inner object of an argument that has to be of a class. */
 export function innerOf(value, type, what) {
-  if (!(value instanceof type)) throw new TypeError(`${what}: a ${type.name} is needed, not ${described(value)}`);
-  return Owned.inner(value);
-}
-
-/** Writes a string in messages as JavaScript does, so that it is told from all around it. */
-export function quoted(text) {
-  return JSON.stringify(text);
-}
-
-/** Describes a value in messages. */
-export function described(value) {
-  if (typeof value === "string") return quoted(value);
-  if (value === null || typeof value !== "object") return String(value);
-  return `an object of ${value.constructor?.name ?? "no class"}`;
+  if (value instanceof type) return Owned.inner(value);
+  const name = nameOfClass(type.prototype);
+  const copy = nameOfClass(value) === name ? " of another copy of this module" : "";
+  throw new TypeError(`${what}: a ${name} is needed, not ${described(value)}${copy}`);
 }

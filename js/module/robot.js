@@ -1,14 +1,23 @@
 // Robots and mechanisms: links, joints, and the bodies that are fixed to links.
 
-import { Body } from "./body.js";
+import { Body, bodyOf } from "./body.js";
 import { LinkMotion } from "./movement.js";
-import { checkNames, finiteNumber, listOfNumbers, nameOf, numberOrInfinity, poseNumbers, poseOfNumbers, settingNumber, vectorNumbers } from "./numbers.js";
-import { described, innerOf, Owned, quoted } from "./owned.js";
+import { fieldsOf, finiteNumber, isPlain, listOf, listOfNumbers, nameOf, numberOrInfinity, optionsOf, settingNumber, tupleOf } from "./numbers.js";
+import { Owned } from "./owned.js";
+import { NO_OFFSET, poseNumbers, poseOfNumbers, vectorNumbers } from "./places.js";
 import { classes } from "./wasm.js";
+import { described, quoted } from "./words.js";
 
-const JOINT_NAMES = ["type", "name", "parent", "child", "origin", "axis", "limits", "mimic"];
+/** What every joint has. */
+const FIXED = { type: [nameOf], name: [nameOf], parent: [nameOf], child: [nameOf], origin: [poseNumbers, NO_OFFSET] };
+/** What a joint with a position has, too. */
+const MOVING = { ...FIXED, axis: [vectorNumbers, [0, 0, 1]], limits: [limitsOf, [-Infinity, Infinity]], mimic: [mimicOf, undefined] };
 
 export class Robot extends Owned {
+  get [Symbol.toStringTag]() {
+    return "Robot";
+  }
+
   constructor(parts) {
     super(build(parts));
   }
@@ -30,51 +39,65 @@ export class Robot extends Owned {
   }
 
   pose(link, configuration) {
-    return poseOfNumbers(Owned.inner(this).pose(nameOf(link, "link"), listOfNumbers(configuration, "configuration")));
+    return poseOfNumbers(Owned.inner(this).pose(nameOf(link, "link"), configurationOf(configuration, "configuration", this.jointNames)));
   }
 
   motion(link, start, end, options) {
-    checkNames(options, "options of Robot.motion", ["duration", "seenFrom"]);
-    const duration = settingNumber(options?.duration ?? 1, "duration");
-    const seenFrom = options?.seenFrom === undefined ? undefined : nameOf(options.seenFrom, "seenFrom");
-    const [from, to] = [listOfNumbers(start, "start"), listOfNumbers(end, "end")];
+    const { duration, seenFrom } = optionsOf(options, "Robot.motion", { duration: [settingNumber, 1], seenFrom: [nameOf, undefined] });
+    const names = this.jointNames;
+    const [from, to] = [configurationOf(start, "start", names), configurationOf(end, "end", names)];
     return new LinkMotion(Owned.inner(this).motion(nameOf(link, "link"), seenFrom, from, to, duration));
   }
 }
 
+/** Reads a position for each of the joints with these names. */
+export function configurationOf(value, what, names) {
+  const configuration = listOfNumbers(value, what);
+  if (configuration.length !== names.length) throw new TypeError(`${what}: ${configuration.length} positions, but ${names.length} joints: ${names.join(", ")}`);
+  return configuration;
+}
+
 function build(parts) {
-  checkNames(parts, "a robot", ["joints", "bodies", "mayTouch"]);
+  const { joints, bodies, mayTouch } = fieldsOf(parts, "a robot", { joints: [jointsOf, []], bodies: [bodiesOf, []], mayTouch: [pairsOfNames, []] });
   const builder = new (classes().RobotBuilder)();
-  for (const joint of parts?.joints ?? []) addJoint(builder, joint);
-  for (const [link, held] of Object.entries(parts?.bodies ?? {})) {
-    for (const { body, pose } of Array.isArray(held) ? held : [{ body: held }]) {
-      const what = `bodies[${quoted(link)}]`;
-      builder.add_body(link, innerOf(body, Body, what), poseNumbers(pose, `pose of ${what}`));
-    }
-  }
-  for (const [one, other] of parts?.mayTouch ?? []) builder.may_touch(nameOf(one, "mayTouch"), nameOf(other, "mayTouch"));
+  for (const joint of joints) addJoint(builder, joint);
+  for (const { link, body, pose } of bodies) builder.add_body(link, body, pose);
+  for (const [one, other] of mayTouch) builder.may_touch(one, other);
   return builder.build();
 }
 
-function addJoint(builder, joint) {
-  const what = `joint ${described(joint?.name)}`;
-  checkNames(joint, what, JOINT_NAMES);
-  for (const name of ["type", "name", "parent", "child"]) {
-    nameOf(joint[name], `${what}: ${name}`);
-  }
-  const [low, high] = joint.limits ?? [-Infinity, Infinity];
-  const numbers = new Float64Array([
-    ...poseNumbers(joint.origin, `origin of ${what}`),
-    ...vectorNumbers(joint.axis ?? [0, 0, 1], `axis of ${what}`),
-    numberOrInfinity(low, `limits of ${what}`),
-    numberOrInfinity(high, `limits of ${what}`),
-  ]);
-  builder.add_joint(joint.type, joint.name, joint.parent, joint.child, numbers);
-  if (joint.mimic !== undefined) {
-    checkNames(joint.mimic, `mimic of ${what}`, ["joint", "multiplier", "offset"]);
-    const { joint: followed, multiplier = 1, offset = 0 } = joint.mimic;
-    builder.follow(nameOf(followed, `mimic of ${what}: joint`), finiteNumber(multiplier, `multiplier of ${what}`), finiteNumber(offset, `offset of ${what}`));
-  }
+function addJoint(builder, { type, name, parent, child, origin, axis = [0, 0, 1], limits = [-Infinity, Infinity], mimic }) {
+  builder.add_joint(type, name, parent, child, new Float64Array([...origin, ...axis, ...limits]));
+  if (mimic !== undefined) builder.follow(mimic.joint, mimic.multiplier, mimic.offset);
+}
+
+function jointsOf(value, what) {
+  return listOf(value, what, (joint, place) => {
+    const name = typeof joint === "object" && typeof joint?.name === "string" ? `joint ${quoted(joint.name)}` : place;
+    return fieldsOf(joint, name, joint?.type === "fixed" ? FIXED : MOVING, `${name}: `);
+  });
+}
+
+function limitsOf(value, what) {
+  return tupleOf(value, what, 2, numberOrInfinity);
+}
+
+function mimicOf(value, what) {
+  return fieldsOf(value, what, { joint: [nameOf], multiplier: [finiteNumber, 1], offset: [finiteNumber, 0] }, `${what}.`);
+}
+
+/** Reads the bodies of all links: for each link one, or a list of them at poses. */
+function bodiesOf(value, what) {
+  if (!isPlain(value)) throw new TypeError(`${what}: an object with a body for each link is needed, not ${described(value)}`);
+  return Object.entries(value).flatMap(([link, held]) => {
+    const place = `${what}[${quoted(nameOf(link, what))}]`;
+    if (held instanceof Body || typeof held?.length !== "number") return [{ link, body: bodyOf(held, place), pose: NO_OFFSET }];
+    return listOf(held, place, (one, at) => ({ link, ...fieldsOf(one, at, { body: [bodyOf], pose: [poseNumbers, NO_OFFSET] }, `${at}.`) }));
+  });
+}
+
+function pairsOfNames(value, what) {
+  return listOf(value, what, (pair, place) => tupleOf(pair, place, 2, nameOf));
 }
 
 export function pairsOf(list) {

@@ -1,11 +1,12 @@
 // Questions about two bodies.
 
 import { answerOf } from "./answer.js";
-import { Body } from "./body.js";
+import { bodyOf } from "./body.js";
 import { Movement } from "./movement.js";
-import { checkNames, MOTION_LENGTH, settingNumber, writeMotion } from "./numbers.js";
-import { innerOf, Owned } from "./owned.js";
-import { classes, numbersAt } from "./wasm.js";
+import { checkNames, settingNumber } from "./numbers.js";
+import { Owned } from "./owned.js";
+import { MOTION_LENGTH, writeMotion, writeRest } from "./places.js";
+import { classes, engine, numbersAt } from "./wasm.js";
 
 /** Places in the memory of the solver; `js/src/wasm/solver.rs` has the same. */
 const TOLERANCE = 0;
@@ -23,6 +24,8 @@ const AT_REST = OF_DISTANCES.filter((name) => name !== "duration");
 
 const PLACES = { tolerance: TOLERANCE, margin: MARGIN, budget: BUDGET, duration: DURATION };
 
+/** The engine that has the solver. */
+let home = null;
 let solver = null;
 let numbers = null;
 let defaults = null;
@@ -64,8 +67,7 @@ export function distance(a, b, options) {
 }
 
 export function keepsClearance(a, b, clearance, options) {
-  solverNumbers()[CLEARANCE] = settingNumber(clearance, "clearance");
-  const answer = ask(classes().Question.KeptClearance, a, b, options, OF_DISTANCES);
+  const answer = ask(classes().Question.KeptClearance, a, b, options, OF_DISTANCES, settingNumber(clearance, "clearance"));
   const [lower, upper] = [numbers[ANSWER + 1], numbers[ANSWER + 2]];
   if (lower >= clearance && lower > 0) return true;
   if (upper < clearance || upper <= 0) return false;
@@ -76,10 +78,10 @@ export function keepsClearance(a, b, clearance, options) {
 
 /** Returns the settings of a question about a path: tolerance, margin, 0 and budget. Others than those are for the caller. */
 export function settingsOf(options, known) {
-  checkNames(options, "options", known);
+  if (options !== undefined) checkNames(options, "options", known);
   const settings = Float64Array.from(defaultSettings());
   for (const name of ["tolerance", "margin", "budget"]) {
-    if (options?.[name] !== undefined) settings[PLACES[name]] = settingNumber(options[name], name);
+    if (known.includes(name) && options?.[name] !== undefined) settings[PLACES[name]] = settingNumber(options[name], name);
   }
   return settings;
 }
@@ -88,38 +90,42 @@ function unresolvedContact({ limit, advice, safeUntil }) {
   return new UnresolvedError({ limit, advice, safeUntil });
 }
 
-function ask(question, a, b, options, known) {
-  const [bodyA, bodyB] = [innerOf(a, Body, "a"), innerOf(b, Body, "b")];
-  writeOptions(options, known);
+function ask(question, a, b, options, known, clearance = 0) {
+  for (const [body, what] of [[a, "a"], [b, "b"]]) bodyOf(body, what);
+  const { given, moveA, moveB } = readOptions(options, known);
+  given[CLEARANCE] = clearance;
+  // What a getter of the caller's asks or frees is done with here.
+  solverNumbers().set(given);
+  const moves = [moveA, moveB].map((move) => move && Owned.inner(move));
+  const [bodyA, bodyB] = [bodyOf(a, "a"), bodyOf(b, "b")];
+  moves.forEach((move, k) => move && solver.move_by(k, move));
   const kind = solver.ask(question, bodyA, bodyB);
   return answerOf(kind, solverNumbers(), ANSWER);
 }
 
-function writeOptions(options, known) {
-  const to = solverNumbers();
-  const usual = defaultSettings();
-  for (const place of [TOLERANCE, MARGIN, BUDGET]) to[place] = usual[place];
-  to[DURATION] = NaN;
-  checkNames(options, "options", known);
-  for (const name in options) {
+/** Reads the options of a question about two bodies: what the solver has before its answer, and the movements of the bodies. */
+function readOptions(options, known) {
+  const given = new Float64Array(ANSWER);
+  given.set(defaultSettings());
+  given[DURATION] = NaN;
+  if (options !== undefined) checkNames(options, "options", known);
+  for (const name of known) {
     const place = PLACES[name];
-    if (place !== undefined && options[name] !== undefined) to[place] = settingNumber(options[name], name);
+    const value = place === undefined ? undefined : options?.[name];
+    if (value !== undefined) given[place] = settingNumber(value, name);
   }
-  const moveA = movementOf(options?.motionA, 0);
-  const moveB = movementOf(options?.motionB, 1);
-  if (known === AT_REST) to[DURATION] = 0;
-  else if (Number.isNaN(to[DURATION])) to[DURATION] = endOf(moveA, moveB);
-  // Last, because an error before would leave a movement to the next question.
-  const innerA = moveA && Owned.inner(moveA);
-  const innerB = moveB && Owned.inner(moveB);
-  if (innerA) solver.move_by(0, innerA);
-  if (innerB) solver.move_by(1, innerB);
+  const moveA = movementOf(options?.motionA, "motionA", given, MOTIONS);
+  const moveB = movementOf(options?.motionB, "motionB", given, MOTIONS + MOTION_LENGTH);
+  if (known === AT_REST) given[DURATION] = 0;
+  else if (Number.isNaN(given[DURATION])) given[DURATION] = endOf(moveA, moveB);
+  return { given, moveA, moveB };
 }
 
-/** Returns the movement of body 0 or 1; null if it has a motion, whose numbers are written. */
-function movementOf(moved, body) {
+/** Returns the movement of a body; null if it has a motion, whose numbers are written. */
+function movementOf(moved, what, given, at) {
   if (moved instanceof Movement) return moved;
-  writeMotion(moved, body === 0 ? "motionA" : "motionB", numbers, MOTIONS + body * MOTION_LENGTH);
+  if (moved === undefined) writeRest(given, at);
+  else writeMotion(moved, what, given, at);
   return null;
 }
 
@@ -133,7 +139,10 @@ function endOf(moveA, moveB) {
 
 /** Returns the numbers of the solver. They are taken anew after the memory has grown, which empties them. */
 function solverNumbers() {
-  solver ??= new (classes().Solver)();
+  if (home !== engine()) {
+    solver = new (classes().Solver)();
+    [home, numbers] = [engine(), null];
+  }
   if (numbers === null || numbers.length === 0) numbers = numbersAt(solver.numbers_address(), solver.number_count());
   return numbers;
 }

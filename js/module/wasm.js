@@ -3,8 +3,7 @@
 /* global wasm_bindgen, CODE */
 
 import { inflated } from "./inflate.js";
-import { checkNames } from "./numbers.js";
-import { described } from "./owned.js";
+import { optionsOf, trueOrFalse } from "./numbers.js";
 
 /** The instructions `i8x16.splat` and `i8x16.popcnt`: a module that is valid only with SIMD. */
 const VECTOR_MODULE = new Uint8Array([
@@ -12,12 +11,20 @@ const VECTOR_MODULE = new Uint8Array([
 ]);
 
 let loading = null;
+/** The engine: its classes, its memory, whether it has vector instructions, and the error at which it ended. */
 let loaded = null;
 
+/** The engine has ended, and with it all objects in its memory. Another `init` loads a fresh one. */
+export class EngineError extends Error {
+  constructor(reason, what, cause) {
+    super(`${what}: all bodies, movements, robots and cells are lost; \`await init()\` loads the engine anew`, { cause });
+    this.name = "EngineError";
+    this.reason = reason;
+  }
+}
+
 export async function init(options) {
-  checkNames(options, "options of init", ["simd"]);
-  const wanted = options?.simd;
-  if (wanted !== undefined && typeof wanted !== "boolean") throw new TypeError(`simd: true or false is needed, not ${described(wanted)}`);
+  const { simd: wanted } = optionsOf(options, "init", { simd: [trueOrFalse, undefined] });
   loading ??= load(wanted ?? WebAssembly.validate(VECTOR_MODULE)).catch((error) => {
     loading = null;
     throw error;
@@ -41,8 +48,9 @@ export function numbersAt(address, count) {
   return new Float64Array(engine().memory.buffer, address, count);
 }
 
-function engine() {
+export function engine() {
   if (loaded === null) throw new Error("rigid-ccd is not loaded: `await init()` comes first");
+  if (loaded.ended !== null) throw loaded.ended;
   return loaded;
 }
 
@@ -50,9 +58,54 @@ async function load(simd) {
   if (simd && !WebAssembly.validate(VECTOR_MODULE)) throw new Error("simd: this engine has no WebAssembly with 128-bit vectors");
   const built = simd ? { code: CODE, bindgen: wasm_bindgen } : await fallback();
   const module = await WebAssembly.compile(await unpacked(bytesOfBase64(built.code)));
-  const { memory } = await built.bindgen({ module_or_path: module });
-  loaded = { classes: built.bindgen, memory, simd };
+  const fresh = { classes: null, memory: null, simd, fault: null, ended: null };
+  fresh.classes = built.bindgen(guard(fresh), { remark, fault: (text) => (fresh.fault = text) });
+  ({ memory: fresh.memory } = await fresh.classes({ module_or_path: module }));
+  loaded = fresh;
   return loaded;
+}
+
+/** Returns what instantiates the WebAssembly so that an engine that fails ends, whichever call it is. */
+function guard(fresh) {
+  const guarded = (call) => (...values) => {
+    // Garbage of an engine that has ended needs no memory.
+    if (fresh.ended !== null) return undefined;
+    try {
+      return call(...values);
+    } catch (error) {
+      throw failed(fresh, error);
+    }
+  };
+  return {
+    Instance: WebAssembly.Instance,
+    async instantiate(module, imports) {
+      const { exports } = await WebAssembly.instantiate(module, imports);
+      const entries = Object.entries(exports).map(([name, one]) => [name, typeof one === "function" ? guarded(one) : one]);
+      return { instance: { exports: Object.fromEntries(entries) }, module };
+    },
+  };
+}
+
+/** Ends an engine if it cannot go on after an error. Returns what is to be thrown. */
+function failed(fresh, error) {
+  // Too deep a stack is an error of the JavaScript engine: a RangeError, or an InternalError.
+  if (!(error instanceof WebAssembly.RuntimeError || error instanceof RangeError || error.name === "InternalError")) return error;
+  const { fault, memory } = fresh;
+  // Without a fault it is the end of the memory that makes the code unreachable.
+  const isMemory = fault === null ? /unreachable/i.test(error.message) : /capacity overflow/.test(fault);
+  const what = isMemory ? `the memory of the WebAssembly is at its end, ${memory.buffer.byteLength} bytes` : `a fault of rigid-ccd: ${fault ?? error.message}`;
+  fresh.ended = new EngineError(isMemory ? "memory" : "fault", what, error);
+  if (loaded === fresh) loading = null;
+  return fresh.ended;
+}
+
+const remarked = new Set();
+
+/** Writes a remark on what is probably a mistake to the console, one of each kind. */
+function remark(kind, text) {
+  if (remarked.has(kind)) return;
+  remarked.add(kind);
+  console.warn(`rigid-ccd: ${text}`);
 }
 
 /** Fetches the module without vector instructions, which lies beside this one. */

@@ -15,11 +15,13 @@ use wasm_bindgen_cli_support::Bindgen;
 const WASM_TARGET: &str = "wasm32-unknown-unknown";
 
 /// The parts of the module, each after those that it imports.
-const PARTS: [&str; 11] = [
-    include_str!("../module/owned.js"),
+const PARTS: [&str; 13] = [
+    include_str!("../module/words.js"),
     include_str!("../module/numbers.js"),
+    include_str!("../module/places.js"),
     include_str!("../module/inflate.js"),
     include_str!("../module/wasm.js"),
+    include_str!("../module/owned.js"),
     include_str!("../module/answer.js"),
     include_str!("../module/body.js"),
     include_str!("../module/movement.js"),
@@ -73,7 +75,10 @@ fn fallback() -> Result<String> {
     Ok([engine("")?, exports].concat())
 }
 
-/// Returns the constants `wasm_bindgen` and `CODE`: what loads the WebAssembly, and the WebAssembly, packed.
+/// Returns the constants `wasm_bindgen` and `CODE`: a function that makes what loads the WebAssembly, and the WebAssembly, packed.
+///
+/// The function takes what instantiates in place of the global `WebAssembly`, and what `wasm/host.rs` calls. Each call has classes of its own, because those of an
+/// engine that has ended free what was in its memory.
 fn engine(flags: &str) -> Result<String> {
     let mut bindgen = Bindgen::new();
     bindgen
@@ -86,7 +91,17 @@ fn engine(flags: &str) -> Result<String> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(&module.wasm_mut().emit_wasm())?;
     let code = BASE64_STANDARD.encode(encoder.finish()?);
-    Ok(format!("{}const CODE = \"{code}\";\n", module.js()))
+    let (once, each) = (
+        "let wasm_bindgen = (function(exports) {",
+        "const wasm_bindgen = (WebAssembly, host) => (function(exports) {",
+    );
+    let loader = module.js();
+    ensure!(
+        loader.matches(once).count() == 1,
+        "this version of wasm-bindgen begins otherwise than with {once:?}"
+    );
+    let loader = loader.replace(once, each);
+    Ok(format!("{loader}const CODE = \"{code}\";\n"))
 }
 
 /// Returns a part as it is in one file with those that it imports: without imports, and only the last list of exports.

@@ -10,10 +10,12 @@
 //! | `solver`, `answer` | questions about two bodies, and their answers as numbers |
 //! | `robot`, `cell`, `path_answer` | robots and mechanisms, and questions about their paths |
 //! | `limits` | reasons why a question is not answered |
+//! | `host` | what JavaScript is told beside answers: remarks, and the text of a fault |
 
 mod answer;
 mod body;
 mod cell;
+mod host;
 mod limits;
 mod movement;
 mod path_answer;
@@ -24,6 +26,7 @@ mod solver;
 pub use answer::AnswerKind;
 pub use body::{Body, Mesh};
 pub use cell::Cell;
+pub use host::start;
 pub use limits::{limit_advice, limit_name};
 pub use movement::Movement;
 pub use path_answer::PathAnswer;

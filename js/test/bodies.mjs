@@ -19,6 +19,25 @@ function cubeOfThree() {
 
 const TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
+/** A tetrahedron in glTF, whose data is in a buffer of its own by default. */
+function gltf(buffer) {
+  const positions = new Uint8Array(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]).buffer);
+  const indices = new Uint8Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]);
+  const data = btoa(String.fromCharCode(...positions, ...indices));
+  const scene = {
+    asset: { version: "2.0" },
+    buffers: [{ byteLength: 60, uri: `data:application/octet-stream;base64,${data}`, ...buffer }],
+    bufferViews: [{ buffer: 0, byteLength: 48 }, { buffer: 0, byteOffset: 48, byteLength: 12 }],
+    accessors: [
+      { bufferView: 0, componentType: 5126, count: 4, type: "VEC3", min: [0, 0, 0], max: [1, 1, 1] },
+      { bufferView: 1, componentType: 5121, count: 12, type: "SCALAR" },
+    ],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }],
+    nodes: [{ mesh: 0 }],
+  };
+  return new TextEncoder().encode(JSON.stringify(scene));
+}
+
 export default (ccd, { equal, ok, between, throws }) => ({
   "the index of three.js makes a solid of one piece"() {
     const { positions, indices } = cubeOfThree();
@@ -56,7 +75,8 @@ export default (ccd, { equal, ok, between, throws }) => ({
     const corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]];
     const facet = (face) => `facet normal 0 0 0\nouter loop\n${face.map((k) => `vertex ${corners[k].join(" ")}\n`).join("")}endloop\nendfacet\n`;
     const stl = `solid s\n${[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map(facet).join("")}endsolid s\n`;
-    const files = { "a.obj": TETRAHEDRON, "a.off": `OFF\n4 4 0\n${vertices}${faces}`, "a.ply": ply, "a.stl": stl };
+    const dae = `<COLLADA version="1.5.0"><library_geometries><geometry><mesh><source id="s"><float_array id="a">${vertices}</float_array><technique_common><accessor source="#a" count="4" stride="3"/></technique_common></source><vertices id="v"><input semantic="POSITION" source="#s"/></vertices><triangles count="4"><input semantic="VERTEX" source="#v"/><p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries></COLLADA>`;
+    const files = { "a.obj": TETRAHEDRON, "a.off": `OFF\n4 4 0\n${vertices}${faces}`, "a.ply": ply, "a.stl": stl, "a.gltf": new TextDecoder().decode(gltf()), "a.dae": dae };
     for (const [name, text] of Object.entries(files)) {
       const body = ccd.Body.fromFile(name, bytes(text), { scale: 2 });
       const { lower, upper } = ccd.distance(body, ccd.Body.sphere(1), { motionB: { position: [0, 0, 5] } });
@@ -74,15 +94,16 @@ export default (ccd, { equal, ok, between, throws }) => ({
   "errors name the element"() {
     const { positions, indices } = cubeOfThree();
     throws(() => ccd.Body.fromMesh(positions, [0, 1, 99]), /99/);
-    throws(() => ccd.Body.fromMesh([0, 0, 0, 1, 0, NaN, 0, 1, 0], [0, 1, 2]), /vertex 1/);
+    throws(() => ccd.Body.fromMesh([0, 0, 0, 1, 0, NaN, 0, 1, 0], [0, 1, 2]), /positions\[5\]/);
+    throws(() => ccd.Body.fromMesh([0, 0, 0, 1, 0, 1e13, 0, 1, 0], [0, 1, 2]), /vertex 1/);
     throws(() => ccd.Body.fromMesh(positions, [0, 1]), /indices: 2 numbers/);
     throws(() => ccd.Body.fromMesh(positions, [0, 1, -2]), /indices\[2\]/);
     throws(() => ccd.Body.fromMesh(positions, indices, { peices: "hull" }), /no "peices"/);
     throws(() => ccd.Body.fromMesh(positions, indices, { pieces: "cubes" }), /pieces: "cubes"/);
     throws(() => ccd.Body.fromFile("a.obj", new TextEncoder().encode("v 1 2\n")), /a\.obj.*line 1/);
-    throws(() => ccd.Body.fromFile("a.txt", new Uint8Array()), /txt.*; use \.obj, \.stl, \.ply or \.off$/);
-    throws(() => ccd.Body.fromFile("a.fbx", new Uint8Array()), /export it as \.obj$/);
-    throws(() => ccd.Body.fromFile("a.glb", new Uint8Array()), /glTF, which is not read here; pass its triangles to Body\.fromMesh/);
+    throws(() => ccd.Body.fromFile("a.txt", new Uint8Array()), /txt.*; use \.gltf, \.glb, \.dae, \.obj, \.stl, \.ply or \.off$/);
+    throws(() => ccd.Body.fromFile("a.fbx", new Uint8Array()), /export it as \.glb$/);
+    throws(() => ccd.Body.fromFile("a.gltf", gltf({ uri: "a.bin" })), /a\.bin/);
     throws(() => ccd.Body.sphere(-1), /radius/);
     throws(() => ccd.Body.box([1, 2]), /halfExtents/);
     throws(() => new ccd.Body(), /Body\.fromMesh/);

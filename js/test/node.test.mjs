@@ -5,6 +5,7 @@ import test from "node:test";
 import { setTimeout } from "node:timers/promises";
 import { setFlagsFromString } from "node:v8";
 import { runInNewContext } from "node:vm";
+import arguments_ from "./arguments.mjs";
 import bodies from "./bodies.mjs";
 import * as check from "./check.mjs";
 import mechanisms from "./mechanisms.mjs";
@@ -23,7 +24,7 @@ const ccd = await import(MODULE);
 const scalar = await import(`${MODULE}?scalar`);
 check.equal([await ccd.init(), await scalar.init({ simd: false })], [{ simd: true }, { simd: false }]);
 for (const [module, suffix] of [[ccd, ""], [scalar, ", without vectors"]]) {
-  for (const cases of [bodies, questions, mechanisms]) {
+  for (const cases of [arguments_, bodies, questions, mechanisms]) {
     for (const [name, run] of Object.entries(cases(module, check))) test(name + suffix, run);
   }
 }
@@ -48,6 +49,89 @@ test("what is collected as garbage is freed", async () => {
   const before = ccd.memoryUsage();
   for (let k = 0; k < 9; k += 1) await round();
   check.equal(ccd.memoryUsage(), before);
+});
+
+/** Returns the error of a call, which has to have one. */
+function errorOf(call) {
+  try {
+    call();
+  } catch (error) {
+    return error;
+  }
+  throw new Error(`nothing is thrown by ${call}`);
+}
+
+/** Loads a copy of the module, and returns it with the memory of its engine and the exports of it that are called. */
+async function withMemory(copy, exportsOf = (exports) => exports) {
+  const { instantiate } = WebAssembly;
+  let memory = null;
+  WebAssembly.instantiate = async (...values) => {
+    const { exports } = await instantiate(...values);
+    ({ memory } = exports);
+    return { exports: exportsOf(exports) };
+  };
+  const module = await import(`${MODULE}?${copy}`);
+  await module.init();
+  WebAssembly.instantiate = instantiate;
+  return { module, memory };
+}
+
+test("at the end of its memory the engine ends with a typed error, and another one begins", async () => {
+  const { module, memory } = await withMemory("memory");
+  const [ball, motion] = [module.Body.sphere(1), new module.Motion({ velocity: [1, 0, 0] })];
+  // What is left is taken without being used.
+  memory.grow(65536 - memory.buffer.byteLength / 65536);
+  const mesh = Float64Array.from({ length: 900000 }, (_, k) => ((k * 7919) % 1000) / 1000 + k);
+  const error = errorOf(() => module.Body.fromMesh(mesh));
+  check.ok(error instanceof module.EngineError && error.reason === "memory", String(error));
+  check.ok(/memory of the WebAssembly is at its end, 4294967296 bytes/.test(error.message), error.message);
+  for (const call of [() => module.firstContact(ball, ball), () => ball.report, () => motion.pose(1), () => module.Body.sphere(1), () => module.memoryUsage()]) {
+    check.ok(errorOf(call) === error, `${call}`);
+  }
+  check.equal(await module.init(), { simd: true });
+  for (const old of [() => module.firstContact(ball, ball), () => motion.pose(1), () => ball.report]) check.ok(errorOf(old) === error, `${old}`);
+  ball.free();
+  const fresh = module.Body.sphere(1);
+  check.equal(module.firstContact(fresh, fresh, { motionA: { position: [5, 0, 0] } }).kind, "free");
+  check.ok(module.memoryUsage() < 2 ** 26, "the memory is a new one");
+});
+
+test("a fault of the engine says so", async () => {
+  const { module } = await withMemory("fault", (exports) => {
+    const fails = () => {
+      throw new WebAssembly.RuntimeError("memory access out of bounds");
+    };
+    return Object.fromEntries(Object.entries(exports).map(([name, one]) => [name, name === "body_capsule" ? fails : one]));
+  });
+  const error = errorOf(() => module.Body.capsule(1, 1));
+  check.equal([error.name, error.reason], ["EngineError", "fault"]);
+  check.ok(errorOf(() => module.Body.sphere(1)) === error, "nothing is asked of it any more");
+});
+
+test("what is probably a mistake is said once in the console", async () => {
+  const { warn } = console;
+  const said = [];
+  console.warn = (text) => said.push(text);
+  const module = await import(`${MODULE}?remarks`);
+  await module.init();
+  const { Body, firstContact, Motion, Robot } = module;
+  const [grain, ball] = [Body.sphere(1e-4), Body.sphere(1)];
+  const far = { position: [9, 0, 0] };
+  const hinge = { type: "revolute", name: "hinge", parent: "frame", child: "leaf" };
+  const robot = new Robot({ joints: [hinge], bodies: { leaf: ball } });
+  for (let k = 0; k < 2; k += 1) {
+    firstContact(ball, ball, { motionA: { ...far, rotation: [0, 0, 0, 1], spin: [0, 0, 6.28] } });
+    check.equal(said.length, 4 * k);
+    firstContact(grain, ball, { motionA: far });
+    firstContact(ball, ball, { motionA: { ...far, spin: [0, 0, 90] } });
+    firstContact(ball, ball, { motionA: new Motion({ ...far, rotation: [0, 0, 0, 2] }) });
+    robot.motion("leaf", [0], [90]);
+  }
+  console.warn = warn;
+  check.equal(said.length, 4);
+  for (const [k, pattern] of [/tolerance is large/, /angular velocity is a round number of degrees/, /is it x, y, z, w\?: \(0, 0, 0, 2\)/, /joint's position/].entries()) {
+    check.ok(said[k].startsWith("rigid-ccd: ") && pattern.test(said[k]), said[k]);
+  }
 });
 
 /** Returns the error of an init, which has to have one. */

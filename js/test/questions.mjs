@@ -71,6 +71,30 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
       ok(error instanceof ccd.UnresolvedError && error.safeUntil >= 0, String(error));
       ok(/isFree with a margin/.test(error.advice) && !/_/.test(error.message), error.message);
     },
+    "a getter of the options may ask and free as it likes"() {
+      const options = () => ({ motionA: { position: [-3, 0, 0], velocity: [6, 0, 0] }, tolerance: 1e-6 });
+      const plain = ccd.firstContact(ball, ball, options());
+      const asks = options();
+      Object.defineProperty(asks, "motionB", {
+        enumerable: true,
+        get() {
+          equal(ccd.keepsClearance(ball, ball, 3, { motionA: { position: [9, 9, 9] }, tolerance: 0.1, duration: 7 }), true);
+          return {};
+        },
+      });
+      equal(ccd.firstContact(ball, ball, asks), plain);
+      const [gone, path] = [ccd.Body.sphere(1), new ccd.Path([0, 1], [{}, {}])];
+      const frees = (what) => ({
+        motionA: path,
+        get motionB() {
+          what.free();
+          return {};
+        },
+      });
+      throws(() => ccd.firstContact(gone, ball, frees(gone)), /this Body was freed/);
+      throws(() => ccd.firstContact(ball, ball, frees(path)), /this Path was freed/);
+      equal(ccd.firstContact(ball, ball, options()), plain);
+    },
     "settings and motions that are wrong are errors"() {
       throws(() => ccd.firstContact(ball, ball, { tolerence: 1 }), /no "tolerence"/);
       throws(() => ccd.firstContact(ball, ball, { tolerance: -1 }), /tolerance/);

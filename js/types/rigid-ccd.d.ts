@@ -12,6 +12,15 @@
  */
 export function init(options?: { simd?: boolean }): Promise<{ simd: boolean }>;
 
+/**
+ * The engine has ended: its memory is at its end, of 4 GB at most, or it has a fault. All bodies, movements, robots and cells are lost,
+ * and each use of one throws this error. Another `init` loads the engine anew.
+ */
+export class EngineError extends Error {
+  private constructor();
+  reason: "memory" | "fault";
+}
+
 /** Returns how many bytes of memory the WebAssembly has. It grows, and never shrinks. */
 export function memoryUsage(): number;
 
@@ -34,6 +43,13 @@ export interface Pose {
 export interface GivenPose {
   position?: GivenVector;
   rotation?: GivenQuaternion;
+}
+
+declare global {
+  /** Of ES2026, as TypeScript's `esnext.disposable` and the types of Node declare it: older libraries have none. */
+  interface SymbolConstructor {
+    readonly dispose: unique symbol;
+  }
 }
 
 /** Something in the memory of the WebAssembly. It ends with `free`, with a block that has it by `using`, or when it is collected as garbage. */
@@ -64,7 +80,10 @@ export class Body extends Owned {
    * that is not valid.
    */
   static fromMesh(positions: Float32Array | Float64Array | readonly number[], indices?: ArrayLike<number> | null, options?: BodyOptions): Body;
-  /** Reads an STL, OBJ, PLY or OFF; the end of the name tells which. Coordinates are multiplied by `scale`. */
+  /**
+   * Reads an STL, OBJ, PLY, OFF, COLLADA or glTF; the end of the name tells which. Coordinates are multiplied by `scale`. A glTF is a `.glb`, or a
+   * `.gltf` that holds its data: other files cannot be fetched.
+   */
   static fromFile(name: string, bytes: Uint8Array | ArrayBuffer, options?: BodyOptions & { scale?: number }): Body;
   /** Makes a box about its origin. */
   static box(halfExtents: GivenVector): Body;

@@ -1,11 +1,10 @@
 //! Bodies from shapes, arrays and files.
 
-use rigid_ccd::InputError;
-use rigid_ccd::Pose;
 use rigid_ccd::body::{SolidOfRevolution, Solidity};
 use rigid_ccd::mesh::{
     AffineMap, Detail, Format, MeshFault, MeshFile, TriangleMesh, body_from_mesh,
 };
+use rigid_ccd::{InputError, Pose, Remark};
 use std::sync::Arc;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
@@ -14,6 +13,8 @@ use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 #[derive(Clone, Debug)]
 pub struct Body {
     pub(crate) body: Arc<rigid_ccd::Body>,
+    /// The largest side of its bounding box.
+    pub(crate) size: f64,
     report: String,
 }
 
@@ -29,7 +30,7 @@ impl Mesh {
     /// # Errors
     /// What is wrong with the file, with its line or element.
     pub fn read(name: &str, bytes: &[u8]) -> Result<Self, JsError> {
-        let in_file = |fault| JsError::new(&format!("{name}: {}", described(&fault)));
+        let in_file = |fault: MeshFault| JsError::new(&format!("{name}: {fault}"));
         let format = Format::from_path(name).map_err(in_file)?;
         let mesh = MeshFile::from_reader(format, bytes);
         let mesh = mesh.and_then(MeshFile::into_mesh);
@@ -156,18 +157,23 @@ impl Body {
 impl Body {
     fn from_triangles(mesh: &TriangleMesh, detail: Detail) -> Result<Self, JsError> {
         let prepared = body_from_mesh(mesh, detail)?;
-        Ok(Body {
-            report: prepared.report.to_string(),
-            body: Arc::new(prepared.body),
-        })
+        let report = prepared.report.to_string();
+        Ok(Body::new(prepared.body, report))
     }
 
     fn from_shape(
         body: Result<rigid_ccd::Body, InputError>,
         report: String,
     ) -> Result<Self, JsError> {
-        let body = Arc::new(body?);
-        Ok(Body { body, report })
+        Ok(Body::new(body?, report))
+    }
+
+    fn new(body: rigid_ccd::Body, report: String) -> Self {
+        Body {
+            size: Remark::body_size(&body),
+            body: Arc::new(body),
+            report,
+        }
     }
 
     fn solid_of_revolution(
@@ -184,27 +190,6 @@ impl Body {
         Body::from_shape(polytope.body(), report)
     }
 }
-
-/// Describes a fault of a file, with advice for a package that reads no scenes.
-fn described(fault: &MeshFault) -> String {
-    match fault {
-        MeshFault::MissingFeature { format, .. } => {
-            format!(
-                "is {format}, which is not read here; pass its triangles to Body.fromMesh, or {READ_FORMATS}"
-            )
-        }
-        MeshFault::UnknownExtension { .. } => fault
-            .to_string()
-            .replace(
-                "use .gltf, .glb, .dae, .obj, .stl, .ply or .off",
-                READ_FORMATS,
-            )
-            .replace(".glb", ".obj"),
-        _ => fault.to_string(),
-    }
-}
-
-const READ_FORMATS: &str = "use .obj, .stl, .ply or .off";
 
 fn detail(pieces: &str, is_surface: bool) -> Result<Detail, JsError> {
     match pieces {

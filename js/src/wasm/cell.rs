@@ -119,7 +119,7 @@ impl Cell {
         Ok(names_of_pairs(cell.robot(), cell.link_pairs()))
     }
 
-    /// Answers a question about a path of configurations, one after another in `path`.
+    /// Answers a question about a path of so many configurations, one after another in `path`.
     ///
     /// # Errors
     /// A configuration or a setting that is not valid.
@@ -127,9 +127,10 @@ impl Cell {
         &mut self,
         question: Question,
         path: &[f64],
+        count: usize,
         settings: &[f64],
     ) -> Result<PathAnswer, JsError> {
-        self.with_solver_for(path, settings, |solver, path| {
+        self.with_solver_for((path, count), settings, |solver, path| {
             let answer = match question {
                 Question::AnyContact => {
                     PathAnswer::from_any_contact(solver.any_contact(path), segments(path))?
@@ -153,6 +154,7 @@ impl Cell {
     pub fn clearance_ranges(
         &mut self,
         path: &[f64],
+        count: usize,
         settings: &[f64],
         resolution: f64,
         max_pose_error: f64,
@@ -161,7 +163,7 @@ impl Cell {
             resolution,
             max_pose_error,
         };
-        let ranges = self.with_solver_for(path, settings, |solver, path| {
+        let ranges = self.with_solver_for((path, count), settings, |solver, path| {
             solver.clearance_ranges(path, how)
         })?;
         let numbers = ranges.iter().flat_map(|range| {
@@ -194,15 +196,14 @@ impl Cell {
     /// Calls a function with the solver, and with the configurations of a path.
     fn with_solver_for<T>(
         &mut self,
-        path: &[f64],
+        (path, count): (&[f64], usize),
         settings: &[f64],
         then: impl FnOnce(&mut CellSolver<'_>, &[&[f64]]) -> Result<T, PathError>,
     ) -> Result<T, JsError> {
         let mut cell = self.taken()?;
         let joints = cell.borrow_owner().robot().limits().len();
-        // A robot without joints has one configuration, of no numbers.
         let configurations: Vec<&[f64]> = match joints {
-            0 => vec![&[]],
+            0 => vec![&[]; count],
             _ => path.chunks(joints).collect(),
         };
         let answer = cell.with_dependent_mut(|_, solver| {

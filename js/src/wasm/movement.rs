@@ -1,6 +1,7 @@
 //! What moves a body: constant velocities, poses at times, a throw, the link of a robot.
 
 use super::poses::{POSE_LENGTH, pose_from_numbers, pose_to_numbers};
+use rigid_ccd::glam::DVec3;
 use rigid_ccd::trajectory::{Ballistic, LinkTrajectory, MovingBody, Poses, Trajectory};
 use rigid_ccd::{Body, InputError, Motion};
 use rigid_ccd_robot::ChainBetween;
@@ -135,6 +136,14 @@ impl Movement {
         match &*self.0 {
             MovementKind::Link(link) => link.duration,
             _ => f64::INFINITY,
+        }
+    }
+
+    /// Returns the angular velocity of a motion at constant velocities.
+    pub(crate) fn constant_spin(&self) -> Option<DVec3> {
+        match &*self.0 {
+            MovementKind::Motion(motion) => Some(motion.spin()),
+            MovementKind::Throw(_) | MovementKind::Poses(_) | MovementKind::Link(_) => None,
         }
     }
 

@@ -1,9 +1,11 @@
 //! Robots and mechanisms of links and joints.
 
 use super::body::Body;
+use super::host::tell;
 use super::movement::{LinkMotion, Movement};
 use super::poses::{pose_from_numbers, pose_to_numbers};
-use rigid_ccd::trajectory;
+use rigid_ccd::Remark;
+use rigid_ccd::trajectory::{self, JointKind};
 use rigid_ccd_robot::{Joint, Link, LinkBody, LinkPairs, PositionRule, SkipReason};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
@@ -178,6 +180,11 @@ impl Robot {
             positions.map_err(|error| JsError::new(&format!("{what}: {error}")))
         };
         let ends = [positions("start", start)?, positions("end", end)?];
+        let turning = chain.chain().joints().iter().enumerate();
+        let angles = turning
+            .filter(|(_, joint)| matches!(joint.kind(), JointKind::Revolute(_)))
+            .flat_map(|(k, _)| [ends[0][k], ends[1][k]]);
+        tell(angles.filter_map(Remark::remark_on_joint));
         Ok(Movement::from_link(LinkMotion {
             chain,
             ends,

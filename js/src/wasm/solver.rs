@@ -2,9 +2,10 @@
 
 use super::answer::{self, ANSWER_LENGTH, AnswerKind};
 use super::body::Body;
+use super::host::tell;
 use super::movement::{MOTION_LENGTH, Movement, motion_from_numbers};
 use rigid_ccd::trajectory::MovingBody;
-use rigid_ccd::{Answer, InputError, Motion, Settings};
+use rigid_ccd::{Answer, InputError, Motion, Remark, Settings};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 /// The places of numbers in the memory of a solver; `js/module/solver.js` has the same.
@@ -84,6 +85,10 @@ impl Solver {
     /// A number that is out of range.
     pub fn ask(&mut self, question: Question, a: &Body, b: &Body) -> Result<AnswerKind, JsError> {
         let answer = self.answer(question, a, b)?;
+        tell(Remark::remark_on_tolerance(
+            self.numbers[SETTINGS],
+            [a.size, b.size],
+        ));
         let duration = self.numbers[DURATION];
         let numbers = &mut self.numbers[ANSWER..];
         Ok(answer::write(&answer, duration, numbers))
@@ -112,6 +117,12 @@ impl Solver {
             .set_settings(settings(question, &self.numbers[SETTINGS..DURATION]));
         let motion = |k: usize| motion_from_numbers(&self.numbers[MOTIONS[k]..][..MOTION_LENGTH]);
         let (solver, motion_a, motion_b) = (&mut self.solver, motion(0), motion(1));
+        let by_numbers = [(&move_a, &motion_a), (&move_b, &motion_b)].into_iter();
+        let spins = by_numbers.filter_map(|(movement, motion)| match movement {
+            Some(movement) => movement.constant_spin(),
+            None => motion.as_ref().ok().map(Motion::spin),
+        });
+        tell(spins.filter_map(|spin| Remark::remark_on_spin(spin, duration)));
         Ok(with_moving(move_a, motion_a, a, |a| {
             with_moving(move_b, motion_b, b, |b| {
                 ask(solver, question, a, b, duration)

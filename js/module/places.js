@@ -1,0 +1,122 @@
+// Reads vectors, poses and motions that a caller passes.
+
+import { checkNames } from "./numbers.js";
+import { described } from "./words.js";
+
+/** Reads a vector, `[x, y, z]` or `{ x, y, z }`. */
+export function vectorNumbers(value, what) {
+  const numbers = new Float64Array(3);
+  writeVector(value, numbers, 0, what);
+  return numbers;
+}
+
+/** Writes a vector into numbers from a place on. `part` is what it is of `what`. */
+function writeVector(value, numbers, at, what, part = "") {
+  writeCoordinates(value, 3, numbers, at) || refuse(value, "[x, y, z] or { x, y, z } of finite numbers", what, part);
+}
+
+/** Writes a quaternion, `[x, y, z, w]` or `{ x, y, z, w }`. */
+function writeQuaternion(value, numbers, at, what, part = "") {
+  writeCoordinates(value, 4, numbers, at) || refuse(value, "[x, y, z, w] or { x, y, z, w } of finite numbers", what, part);
+}
+
+const COORDINATES = ["x", "y", "z", "w"];
+
+/** Returns whether a value has so many coordinates, and all are finite numbers. */
+function writeCoordinates(value, count, numbers, at) {
+  if (typeof value !== "object" || value === null) return false;
+  const isList = typeof value.length === "number";
+  if (isList ? value.length !== count : hasMore(value, count)) return false;
+  for (let k = 0; k < count; k += 1) {
+    const coordinate = isList ? value[k] : value[COORDINATES[k]];
+    if (typeof coordinate !== "number" || !Number.isFinite(coordinate)) return false;
+    numbers[at + k] = coordinate;
+  }
+  return true;
+}
+
+/** Returns whether an object has more than so many coordinates. Those of classes, such as in three.js, may have other properties. */
+function hasMore(value, count) {
+  if (Object.getPrototypeOf(value) !== Object.prototype) return count < 4 && value.w !== undefined;
+  for (const name in value) {
+    const place = COORDINATES.indexOf(name);
+    if (place < 0 || place >= count) return true;
+  }
+  return false;
+}
+
+function refuse(value, needed, what, part) {
+  const isList = typeof value === "object" && typeof value?.length === "number";
+  const given = isList ? `[${Array.from({ length: Math.min(value.length, 5) }, (_, k) => described(value[k]))}]` : described(value);
+  throw new TypeError(`${what}${part}: ${needed} is needed, not ${given}`);
+}
+
+/** The number of numbers of a pose: a position and a quaternion. */
+export const POSE_LENGTH = 7;
+/** Those of a motion: a pose, a velocity, a spin and a center. */
+export const MOTION_LENGTH = POSE_LENGTH + 9;
+
+/** The parts of a motion and of a throw: what writes each, and where. */
+const PARTS = {
+  position: [writeVector, 0],
+  rotation: [writeQuaternion, 3],
+  velocity: [writeVector, 7],
+  spin: [writeVector, 10],
+  center: [writeVector, 13],
+  acceleration: [writeVector, MOTION_LENGTH],
+};
+const THROW = Object.keys(PARTS);
+const MOTION = THROW.slice(0, 5);
+const POSE = THROW.slice(0, 2);
+
+/** Writes a motion at constant velocities; what is left out is 0, and no rotation. */
+export function writeMotion(motion, what, numbers, at) {
+  writeParts(motion, what, MOTION, numbers, at);
+}
+
+/** Writes that a body rests at the origin. */
+export function writeRest(numbers, at) {
+  numbers.fill(0, at, at + MOTION_LENGTH);
+  numbers[at + 6] = 1;
+}
+
+function writeParts(value, what, known, numbers, at) {
+  writeRest(numbers, at);
+  checkNames(value, what, known);
+  for (const name of known) {
+    const part = value[name];
+    if (part === undefined) continue;
+    const [write, place] = PARTS[name];
+    write(part, numbers, at + place, what, `.${name}`);
+  }
+}
+
+export function motionNumbers(motion, what) {
+  const numbers = new Float64Array(MOTION_LENGTH);
+  writeMotion(motion, what, numbers, 0);
+  return numbers;
+}
+
+/** Returns the numbers of a motion, and an acceleration behind them. */
+export function throwNumbers(motion, what) {
+  const numbers = new Float64Array(MOTION_LENGTH + 3);
+  writeParts(motion, what, THROW, numbers, 0);
+  if (motion.acceleration === undefined) refuse(undefined, "[x, y, z] or { x, y, z } of finite numbers", what, ".acceleration");
+  return numbers;
+}
+
+/** Returns the numbers of a pose, `{ position, rotation }`. */
+export function poseNumbers(pose, what) {
+  const numbers = new Float64Array(MOTION_LENGTH);
+  writeParts(pose, what, POSE, numbers, 0);
+  return numbers.subarray(0, POSE_LENGTH);
+}
+
+export const ORIGIN = new Float64Array(3);
+/** The numbers of a pose without offset. */
+export const NO_OFFSET = poseNumbers({}, "");
+
+export function poseOfNumbers(numbers) {
+  const [px, py, pz, x, y, z, w] = numbers;
+  return { position: [px, py, pz], rotation: [x, y, z, w] };
+}

@@ -1,0 +1,38 @@
+//! What JavaScript is told beside answers: remarks on what is probably a mistake, and the text of a fault that ends the engine.
+
+use rigid_ccd::Remark;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+// `js/module/wasm.js` has this object.
+#[wasm_bindgen(js_namespace = host)]
+extern "C" {
+    fn remark(kind: &str, text: &str);
+    fn fault(text: &str);
+}
+
+/// Tells JavaScript the text of a fault, after which nothing in the memory can be relied on.
+#[wasm_bindgen(start)]
+pub fn start() {
+    std::panic::set_hook(Box::new(|info| fault(&info.to_string())));
+}
+
+/// Tells JavaScript remarks, each with its text without numbers, which names its kind.
+pub(crate) fn tell(remarks: impl IntoIterator<Item = Remark>) {
+    for told in remarks {
+        let kind = told.general_text();
+        match told {
+            // A quaternion has w last here.
+            Remark::NonUnitQuaternion {
+                quaternion_components: [w, x, y, z],
+                quaternion_norm: length,
+            } => {
+                let kind = kind.replace("w, x, y, z", "x, y, z, w");
+                remark(
+                    &kind,
+                    &format!("{kind}: ({x}, {y}, {z}, {w}) has the length {length:.3}"),
+                );
+            }
+            _ => remark(kind, &told.to_string()),
+        }
+    }
+}
