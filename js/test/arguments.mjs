@@ -245,7 +245,8 @@ function entries(ccd) {
       if (!Array.isArray(list) && !/^Float/.test(list[Symbol.toStringTag])) throw new TypeError("positions: see the types");
       const [x, y, z] = copied(list);
       const more = list.length === 3 && typeof x === "number" ? [x + 1, y, z, x, y + 1, z] : [];
-      const corner = Body.fromMesh(Array.isArray(list) ? [...list, ...more] : list.constructor.from([...list, ...more]), [0, 1, 2]);
+      const completed = () => (Array.isArray(list) ? [...list, ...more] : list.constructor.from([...list, ...more]));
+      const corner = Body.fromMesh(more.length > 0 ? completed() : list, [0, 1, 2]);
       const from = (axis) => ccd.distance(corner, Body.sphere(0.25), { motionB: { position: axis.map((one, k) => list[k] - one) }, tolerance: 1e-6 });
       const holds = axes.map(from).every(({ lower, upper }) => lower <= 0.75 && 0.75 <= upper && upper - lower < 1e-5);
       return holds ? [x, y, z] : [];

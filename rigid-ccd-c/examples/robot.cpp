@@ -30,7 +30,7 @@ int main() {
         std::printf("a limit was reached; free until %.3f of segment %zu\n", hit.share, hit.segment);
 
     // A cell that was changed needs a new solver.
-    cell.move_obstacle("post", rigid_ccd::pose_at({1.5, 0, 0.5}));
+    cell.move_obstacle("post", rigid_ccd::pose_at({2, 0, 0.5}));
     cell.attach("can", rigid_ccd::Body::cylinder(0.05, 0.1), "hand", rigid_ccd::pose_at({0, 0, 0.6}));
     rigid_ccd::CellSolver carrying(cell);
     const rigid_ccd::PathAnswer near = carrying.closest_approach(path);

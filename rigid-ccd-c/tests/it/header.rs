@@ -65,6 +65,16 @@ fn the_gate_stops_before_the_table() {
 }
 
 #[test]
+fn the_robot_of_the_documentation_prints_what_is_shown() {
+    let printed = build_and_run("c++", &["-std=c++17"], "examples/robot.cpp", &[]);
+    let page = include_str!("../../../docs/c.md");
+    assert!(
+        page.contains(&format!("```text\n{printed}```")),
+        "{printed}"
+    );
+}
+
+#[test]
 fn threads_in_cpp_share() {
     let arm = folder().join("../rigid-ccd-robot/examples/edges/arm.urdf");
     let arguments = [arm.to_str().unwrap()];
