@@ -10,7 +10,7 @@ import { settingsOf, UnresolvedError } from "./solver.js";
 import { classes } from "./wasm.js";
 
 /** The places of the tolerance and of the pair in the numbers of an answer, as `js/src/wasm/path_answer.rs` writes them. */
-const TOLERANCE = 3;
+const MET_TOLERANCE = 3;
 const PAIR = 4;
 const CONTACT_SETTINGS = ["tolerance", "margin", "budget"];
 const DISTANCE_SETTINGS = ["tolerance", "budget"];
@@ -80,7 +80,7 @@ export class Cell extends Owned {
 
   closestApproach(path, options) {
     const { kind, numbers, names } = this.#ask(classes().Question.ClosestApproach, path, options, DISTANCE_SETTINGS);
-    const bounds = { lower: numbers[0], upper: numbers[1], tolerance: numbers[TOLERANCE] };
+    const bounds = { lower: numbers[0], upper: numbers[1], tolerance: numbers[MET_TOLERANCE] };
     const nearest = names.length === 0 ? null : pairOf(numbers, names);
     if (kind === classes().AnswerKind.LeastDistance) return { kind: "leastDistance", ...bounds, nearest };
     return { kind: "unresolved", ...limitOf(numbers[2]), ...bounds, nearest };
@@ -115,7 +115,7 @@ function namesOf(value, what) {
 function contactAnswer(kind, numbers, names) {
   const { Free, Contact } = classes().AnswerKind;
   if (kind === Free) return { kind: "free", safeUntil: numbers[0] + numbers[1] };
-  if (kind === Contact) return { kind: "contact", ...pairOf(numbers, names), tolerance: numbers[TOLERANCE] };
+  if (kind === Contact) return { kind: "contact", ...pairOf(numbers, names), tolerance: numbers[MET_TOLERANCE] };
   const [segment, share, limit] = numbers;
   return { kind: "unresolved", ...limitOf(limit), safeUntil: segment + share };
 }
