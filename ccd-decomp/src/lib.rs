@@ -101,7 +101,7 @@ pub use mesh::mesh_file::{MeshFile, NamedMesh};
 pub use mesh::remark::{Remark, Remarks};
 pub use mesh::repair::Repairs;
 pub use mesh::unit::{Unit, UnknownUnit};
-pub use messages::FileError;
+pub use messages::{FileError, HTML_ADVICE, is_html};
 pub use pieces::patches::{Decomposition, Patch, PatchOrder, decompose};
 pub use prepare::error::PrepareError;
 pub use prepare::model::{PreparedBody, StoredBodyContent};

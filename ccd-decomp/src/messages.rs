@@ -30,6 +30,19 @@ fn path_prefix(file: Option<&PathBuf>) -> String {
     file.map_or_else(String::new, |file| format!("{}: ", file.display()))
 }
 
+/// The error message for a file that is a page of HTML instead of its content.
+pub const HTML_ADVICE: &str = "is a page of HTML, whatever its name says; a server sends one for a file that it does not have";
+
+/// Returns whether bytes begin like a page of HTML.
+pub fn is_html(bytes: &[u8]) -> bool {
+    let text = bytes.trim_ascii_start();
+    let begins_with = |tag: &[u8]| {
+        text.get(..tag.len())
+            .is_some_and(|own| own.eq_ignore_ascii_case(tag))
+    };
+    begins_with(b"<!doctype html") || begins_with(b"<html")
+}
+
 /// The first bytes of a Git LFS pointer.
 const LFS_POINTER_PREFIX: &[u8] = b"version https://git-lfs";
 

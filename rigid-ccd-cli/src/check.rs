@@ -28,6 +28,7 @@ use subject::{Subject, WantedPair};
     mut_arg("cell", |cell| cell.requires("urdf")),
     mut_arg("joint", |joint| joint.requires("edges")),
     mut_arg("rest", |rest| rest.requires("edges")),
+    mut_arg("degrees", |degrees| degrees.requires("edges")),
     after_help = AFTER_HELP
 )]
 pub(crate) struct CheckArgs {

@@ -49,9 +49,9 @@ use completions::CompletionsArgs;
 use decompose::DecomposeArgs;
 use man::ManArgs;
 use query::QueryArgs;
-use rigid_ccd::Remark;
 use robots::{AcmArgs, ClearanceArgs, EdgesArgs, ReplayArgs};
 use scene::SceneCommandArgs;
+use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -174,7 +174,7 @@ pub(crate) fn print_escaped_to_stderr(line: &str) {
 }
 
 /// Prints remarks about the input, one line for each.
-fn print_remarks(remarks: impl IntoIterator<Item = Remark>) {
+fn print_remarks(remarks: impl IntoIterator<Item: Display>) {
     for remark in remarks {
         print_error(&remark.to_string());
     }

@@ -34,7 +34,7 @@ pub(super) fn warn_of_different_units(a: &Body, b: &Body) {
 }
 
 /// Displays a number rounded to four digits.
-struct RoundedToFourDigits(f64);
+pub(super) struct RoundedToFourDigits(pub(super) f64);
 
 impl fmt::Display for RoundedToFourDigits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -11,7 +11,7 @@ use super::html::write_page;
 use super::output::Output;
 use super::pair::BodiesArgs;
 use super::scene_table;
-use super::{RunOutcome, print_error};
+use super::{RunOutcome, print_error, print_remarks};
 use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
 use crate::robots::{CellArgs, FoundPaths, RobotPainter, RobotPaths};
 use crate::solver_kind::SolverKind;
@@ -192,6 +192,9 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
     }
     let out = Output::claim(&args.out)?;
     let cell = robot.load(args.quiet)?;
+    if !args.quiet {
+        print_remarks(cell.remarks(args.tolerance()));
+    }
     let mut solver = cell.solver().with_settings(Settings {
         margin: args.clearance,
         ..settings(args)

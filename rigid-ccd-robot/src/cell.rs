@@ -112,7 +112,7 @@ impl Cell {
     /// Adds an obstacle at a pose in the frame of the robot's base.
     ///
     /// # Errors
-    /// [`RobotError::NameTaken`].
+    /// [`RobotError::NameTaken`], [`RobotError::TooFar`].
     pub fn add_obstacle(
         &mut self,
         name: impl Into<String>,
@@ -121,6 +121,7 @@ impl Cell {
     ) -> Result<(), RobotError> {
         let name = name.into();
         self.check_new_name(&name)?;
+        RobotError::check_pose("obstacle", &name, &pose)?;
         self.obstacle_names.push(name);
         let placed = PlacedBody::new(body.into(), pose, 0, MAX_OBSTACLE_PARTS);
         self.insert(self.bodies.len(), placed);
@@ -130,9 +131,10 @@ impl Cell {
     /// Moves an obstacle to a pose in the frame of the robot's base.
     ///
     /// # Errors
-    /// [`RobotError::NoSuchObstacle`].
+    /// [`RobotError::NoSuchObstacle`], [`RobotError::TooFar`].
     pub fn move_obstacle(&mut self, name: &str, pose: Pose) -> Result<(), RobotError> {
         let number = self.robot_body_placements.len() + self.obstacle_number(name)?;
+        RobotError::check_pose("obstacle", name, &pose)?;
         self.bodies[number].pose = pose;
         let moved = self.bodies[number].parts(number);
         let first = self.parts.partition_point(|part| part.owner < number);
@@ -155,7 +157,7 @@ impl Cell {
     /// link. It may touch that link, links that no joint moves against it, and those that are named.
     ///
     /// # Errors
-    /// [`RobotError::NameTaken`], [`RobotError::NoSuchLink`].
+    /// [`RobotError::NameTaken`], [`RobotError::NoSuchLink`], [`RobotError::TooFar`].
     pub fn attach(
         &mut self,
         name: impl Into<String>,
@@ -168,6 +170,7 @@ impl Cell {
         let may_touch = may_touch.collect::<Result<_, _>>()?;
         let name = name.into();
         self.check_new_name(&name)?;
+        RobotError::check_pose("attached body", &name, &pose)?;
         let attachment = Some(Attachment { name, may_touch });
         let held = RobotBodyPlacement {
             link,

@@ -1,7 +1,8 @@
 //! Errors of robots: links and joints that form no tree, and positions that do not fit a robot.
 
 use crate::path_point::PathPoint;
-use rigid_ccd::InputError;
+use ccd_core::limits::MAX_COORDINATE;
+use rigid_ccd::{InputError, Pose};
 
 /// The reason why links and joints form no robot, or why a configuration does not fit a robot.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -130,9 +131,39 @@ pub enum RobotError {
         /// The reason why the position is refused.
         error: InputError,
     },
+    /// A joint, a body of a link, an attached body or an obstacle is too far from the frame that it is in.
+    #[error(
+        "{what} `{name}` has a coordinate of {coordinate}; coordinates are within {MAX_COORDINATE:e} of 0"
+    )]
+    TooFar {
+        /// What it is.
+        what: &'static str,
+        /// The name of the joint, the link, the body or the obstacle.
+        name: String,
+        /// The coordinate.
+        coordinate: f64,
+    },
     /// A pose or a motion is not valid.
     #[error(transparent)]
     Input(#[from] InputError),
+}
+
+impl RobotError {
+    /// Refuses a pose that is too far from the origin of its frame.
+    pub(crate) fn check_pose(what: &'static str, name: &str, pose: &Pose) -> Result<(), Self> {
+        let coordinates = pose.translation().to_array();
+        match coordinates
+            .into_iter()
+            .find(|own| !(own.abs() <= MAX_COORDINATE))
+        {
+            None => Ok(()),
+            Some(coordinate) => Err(RobotError::TooFar {
+                what,
+                name: name.to_owned(),
+                coordinate,
+            }),
+        }
+    }
 }
 
 /// The error of a question about a path.

@@ -29,6 +29,7 @@
 //! | `path`, `joint_curve`, `polynomial`, `path_point` | what a question is about: a [`Path`] through configurations, or a [`JointCurve`] of polynomials |
 //! | `link_contacts` | whether two links can ever touch, by branch and bound over their joints: [`Robot::classify_link_contacts`] |
 //! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
+//! | `remark` | what is valid in a robot or a cell, but probably a mistake: [`CellRemark`] |
 //! | `robot_file` | a robot from a URDF or MJCF file with its meshes: [`RobotFile`] |
 //! | `srdf` | pairs that are not checked, from an SRDF file |
 //! | `path_rows` | answers as rows of tables, for the command and the Python package |
@@ -52,6 +53,7 @@ mod polynomial;
 #[allow(dead_code)]
 #[path = "../../ccd-core/src/tests/rational.rs"]
 mod rational;
+mod remark;
 mod robot;
 mod robot_file;
 mod solver;
@@ -72,12 +74,16 @@ pub use link_contacts::LinkContactClass;
 pub use pairs::{LinkPairs, SkipReason};
 pub use path::Path;
 pub use path_point::PathPoint;
+pub use remark::CellRemark;
 pub use robot::{ChainBetween, CompoundKind, Joint, Link, LinkBody, PositionRule, Robot};
-pub use robot_file::{BodyElements, MeshConversion, MjcfError, RobotFile, RobotFileError};
+pub use robot_file::{
+    BodyElements, MeshConversion, MjcfError, RobotFile, RobotFileError, UrdfError,
+};
 pub use solver::{
     CellSolver, ClearanceRange, ClosestApproach, DistanceRange, PathContact, PathOutcome,
     RangeSettings,
 };
+pub use srdf::SrdfError;
 
 /// The example in the README, run as a doctest.
 #[cfg(doctest)]

@@ -1,5 +1,6 @@
 //! The pairs of links that are checked for collision, and the reasons why other pairs are not.
 
+use crate::remark::CellRemark;
 use crate::robot::Robot;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -15,6 +16,8 @@ pub struct LinkPairs {
     skip_reasons: BTreeMap<[usize; 2], SkipReason>,
     /// The numbers of the links that have bodies.
     links_with_bodies: Vec<usize>,
+    /// The remarks on the file that the pairs are from.
+    remarks: Vec<CellRemark>,
 }
 
 /// The reason why a pair of links is not checked.
@@ -48,6 +51,7 @@ impl LinkPairs {
         let mut pairs = LinkPairs {
             skip_reasons: BTreeMap::new(),
             links_with_bodies: links,
+            remarks: Vec::new(),
         };
         for [one, other] in pairs.all_pairs().collect::<Vec<_>>() {
             let reason = if robot.are_neighbours(one, other) {
@@ -61,6 +65,15 @@ impl LinkPairs {
                 .extend(reason.map(|reason| ([one, other], reason)));
         }
         pairs
+    }
+
+    /// Returns the remarks on the file that the pairs are from.
+    pub fn remarks(&self) -> &[CellRemark] {
+        &self.remarks
+    }
+
+    pub(crate) fn add_remarks(&mut self, remarks: impl IntoIterator<Item = CellRemark>) {
+        self.remarks.extend(remarks);
     }
 
     /// Excludes a pair from the check for a reason. A pair that is excluded already keeps its reason.

@@ -8,7 +8,9 @@ pub use chain_between::ChainBetween;
 pub use compound_joint::CompoundKind;
 
 use crate::error::RobotError;
+use crate::remark::CellRemark;
 use ccd_core::double_double::DoubleDouble;
+use ccd_core::limits::MAX_COORDINATE;
 use rigid_ccd::trajectory::{self, Chain};
 use rigid_ccd::{Body, InputError, Pose};
 use std::sync::Arc;
@@ -30,6 +32,8 @@ pub struct Robot {
     free_joints: Vec<usize>,
     /// For each link, the link nearest to the base from which only fixed joints lead to it.
     rigid_roots: Vec<usize>,
+    /// The remarks on the file that the robot is from.
+    remarks: Vec<CellRemark>,
 }
 
 /// A link of a robot: a frame, with the bodies that are fixed in it.
@@ -179,6 +183,7 @@ impl Robot {
                 let joint = joint.name.clone();
                 return Err(RobotError::ReversedJoint { joint });
             }
+            RobotError::check_pose("joint", &joint.name, joint.axis_and_limits.origin())?;
             let limits = joint.axis_and_limits.limits();
             let (low, high) = (*limits.start(), *limits.end());
             // Written so that NaN is refused.
@@ -191,6 +196,11 @@ impl Robot {
                     .axis_and_limits
                     .clone()
                     .with_limits(f64::NEG_INFINITY..=f64::INFINITY);
+            }
+        }
+        for link in &links {
+            for held in &link.bodies {
+                RobotError::check_pose("a body of link", &link.name, &held.pose)?;
             }
         }
         let tree = Tree::new(&links, &joints)?;
@@ -208,7 +218,19 @@ impl Robot {
             tree,
             position_sources: sources,
             free_joints,
+            remarks: Vec::new(),
         })
+    }
+
+    /// Adds remarks on the file that the robot is from.
+    pub(crate) fn with_remarks(mut self, remarks: impl IntoIterator<Item = CellRemark>) -> Self {
+        self.remarks.extend(remarks);
+        self
+    }
+
+    /// Returns the remarks on the file that the robot is from.
+    pub fn remarks(&self) -> &[CellRemark] {
+        &self.remarks
     }
 
     /// Returns the links, in the order in which they were given.
@@ -319,8 +341,15 @@ impl Robot {
                 axis_and_limits: joint,
                 ..
             } = &self.joints[joint];
+            let is_near = position.abs() <= MAX_COORDINATE;
+            let too_far = InputError::OutOfRange {
+                quantity: "position",
+                value: position,
+                allowed: "within 1e12 of 0",
+            };
             joint
                 .check(position)
+                .and(is_near.then_some(()).ok_or(too_far))
                 .map_err(|error| RobotError::InvalidPosition {
                     joint: name.clone(),
                     error,

@@ -2,26 +2,27 @@
 
 mod body_elements;
 mod error;
-mod materials;
 mod meshes;
 mod mjcf;
 mod mjcf_error;
 mod packages;
 mod urdf;
+mod urdf_error;
 
 pub use body_elements::BodyElements;
 pub use error::RobotFileError;
 pub use meshes::MeshConversion;
 pub use mjcf_error::MjcfError;
+pub use urdf_error::UrdfError;
 
-use crate::pairs::{LinkPairs, SkipReason};
+use crate::pairs::LinkPairs;
 use crate::robot::Robot;
-use crate::srdf::disabled_and_enabled_pairs;
+use crate::srdf::Srdf;
+use ccd_decomp::{HTML_ADVICE, is_html};
 use meshes::MeshBodies;
 use mjcf::MjcfModel;
 use packages::SearchFolders;
-use quick_xml::Reader;
-use quick_xml::events::Event;
+use roxmltree::Document;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use urdf::UrdfReader;
@@ -122,21 +123,23 @@ impl RobotFile {
     /// a `mocap` body as well. A plane, a height field, an ellipsoid, a shape that is fitted to a mesh, and an element that is not
     /// known are errors.
     ///
+    /// Elements and attributes that are not known are errors, too, unless they are known to say nothing of shapes, joints and
+    /// pairs. [`Robot::remarks`] names what may be a mistake.
+    ///
     /// # Errors
     /// [`RobotFileError`] with the link or the joint, and with the file of a mesh.
     pub fn read(&self) -> Result<Robot, RobotFileError> {
         let text = self.text()?;
+        self.search_folders.check_given_folders()?;
         let meshes = MeshBodies::new(self.mesh_conversion);
         match self.mjcf(&text)? {
             Some(model) => model.robot(self.body_elements, &meshes),
             None => {
-                let reader = UrdfReader {
-                    elements: self.body_elements,
-                    meshes: &meshes,
-                    folders: &self.search_folders,
-                };
-                let urdf = urdf::parse(&text).map_err(|error| self.syntax_error(error))?;
-                reader.robot(&urdf)
+                let folders = &self.search_folders;
+                let reader = UrdfReader::new(self.body_elements, &meshes, folders);
+                reader
+                    .read(&text)
+                    .map_err(|error| self.syntax_error(error))?
             }
         }
     }
@@ -147,39 +150,44 @@ impl RobotFile {
     /// Of an MJCF, the pairs are those that MuJoCo checks: neighbours of the world are, and its elements `exclude` and `pair` and
     /// the attributes `contype` and `conaffinity` count.
     ///
+    /// An SRDF may name links that the robot does not have, with a remark. `disable_default_collisions` disables all pairs of
+    /// a link and other links, but no pair of a link and an obstacle.
+    ///
     /// # Errors
-    /// [`RobotFileError`] if a file cannot be read, or names a link that the robot does not have.
+    /// [`RobotFileError`] if a file cannot be read, or if the robot has none of the links that an SRDF names.
     pub fn link_pairs(
         &self,
         robot: &Robot,
         srdf: Option<&Path>,
     ) -> Result<LinkPairs, RobotFileError> {
-        let mut pairs = match self.mjcf(&self.text()?)? {
+        let text = self.text()?;
+        let mut pairs = match self.mjcf(&text)? {
             Some(model) => model.link_pairs(robot, self.body_elements)?,
             None => LinkPairs::from_robot(robot),
         };
         if let Some(file) = srdf {
-            let pairs_of_file = disabled_and_enabled_pairs(&read(file)?);
-            let [disabled, enabled] = pairs_of_file.map_err(|error| RobotFileError::Syntax {
+            let srdf = Srdf::from_text(&read(file)?).map_err(|error| RobotFileError::Srdf {
                 file: file.to_owned(),
-                error: error.to_string(),
+                error,
             })?;
-            for pair in disabled {
-                let [one, other] = [&pair.link1, &pair.link2].map(|link| robot.link_number(link));
-                pairs.skip(one?, other?, SkipReason::Disabled(pair.reason));
-            }
-            for pair in enabled {
-                let [one, other] = [&pair.link1, &pair.link2].map(|link| robot.link_number(link));
-                pairs.include(one?, other?);
-            }
+            let name = robot_name(&text);
+            srdf.apply(robot, &name, &mut pairs)
+                .map_err(|error| RobotFileError::Srdf {
+                    file: file.to_owned(),
+                    error,
+                })?;
         }
         Ok(pairs)
     }
 
     fn text(&self) -> Result<Cow<'_, str>, RobotFileError> {
-        match &self.text {
-            Some(text) => Ok(Cow::Borrowed(text)),
-            None => read(&self.path).map(Cow::Owned),
+        let text = match &self.text {
+            Some(text) => Cow::Borrowed(&**text),
+            None => Cow::Owned(read(&self.path)?),
+        };
+        match is_html(text.as_bytes()) {
+            true => Err(self.syntax_error(HTML_ADVICE.to_owned())),
+            false => Ok(text),
         }
     }
 
@@ -207,16 +215,18 @@ impl RobotFile {
 
 /// Returns the name of the first element of an XML text; `None` if there is none.
 fn root_element(text: &str) -> Option<String> {
-    let mut reader = Reader::from_str(text);
-    loop {
-        match reader.read_event().ok()? {
-            Event::Start(element) | Event::Empty(element) => {
-                return Some(String::from_utf8_lossy(element.name().as_ref()).into_owned());
-            }
-            Event::Eof => return None,
-            _ => {}
-        }
-    }
+    let document = Document::parse(text).ok()?;
+    Some(document.root_element().tag_name().name().to_owned())
+}
+
+/// Returns the name of the robot in a URDF or an MJCF; empty if it has none.
+fn robot_name(text: &str) -> String {
+    let name = Document::parse(text).ok().and_then(|document| {
+        let root = document.root_element();
+        let name = root.attribute("name").or(root.attribute("model"))?;
+        Some(name.to_owned())
+    });
+    name.unwrap_or_default()
 }
 
 fn read(file: &Path) -> Result<String, RobotFileError> {

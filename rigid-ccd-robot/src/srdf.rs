@@ -1,39 +1,216 @@
 //! Which pairs of links are not checked: reads them from an SRDF file, and writes one with proofs.
 
 use crate::link_contacts::LinkContactClass;
+use crate::pairs::{LinkPairs, SkipReason};
+use crate::remark::CellRemark;
 use crate::robot::Robot;
-use quick_xml::de::from_str;
-use quick_xml::escape::escape;
-use serde::Deserialize;
+use roxmltree::{Document, Node};
 use std::fmt::Write;
 
-/// The pairs that an SRDF file disables, and those that it enables again. Groups, states and other elements are ignored.
-#[derive(Debug, Deserialize)]
-struct Document {
-    #[serde(rename = "disable_collisions", default)]
+/// The pairs that an SRDF file disables, and those that it enables again.
+#[derive(Debug, Default, PartialEq)]
+pub(crate) struct Srdf {
+    /// The name of the robot; empty if the file has none.
+    robot_name: String,
     disabled: Vec<SrdfPair>,
-    #[serde(rename = "enable_collisions", default)]
     enabled: Vec<SrdfPair>,
+    /// The links whose pairs with other links are disabled unless they are enabled one by one.
+    disabled_links: Vec<String>,
 }
 
 /// A pair of links by their names.
-#[derive(Debug, Deserialize, PartialEq)]
-pub(crate) struct SrdfPair {
-    #[serde(rename = "@link1")]
-    pub(crate) link1: String,
-    #[serde(rename = "@link2")]
-    pub(crate) link2: String,
+#[derive(Debug, PartialEq)]
+struct SrdfPair {
+    links: [String; 2],
     /// MoveIt's reason, such as `Never` or `Adjacent`; empty if the file has none.
-    #[serde(rename = "@reason", default)]
-    pub(crate) reason: String,
+    reason: String,
 }
 
-/// Reads the pairs that are not checked, and those that are checked nevertheless, from the text of an SRDF file.
-pub(crate) fn disabled_and_enabled_pairs(
-    text: &str,
-) -> Result<[Vec<SrdfPair>; 2], quick_xml::DeError> {
-    let Document { disabled, enabled } = from_str(text)?;
-    Ok([disabled, enabled])
+/// The reason why an SRDF file cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SrdfError {
+    /// The file is no XML.
+    #[error("{error}")]
+    Syntax {
+        /// The parser's message.
+        error: String,
+    },
+    /// An element is not known.
+    #[error("an element `{element}` is not known in an SRDF")]
+    UnknownElement {
+        /// The name of the element.
+        element: String,
+    },
+    /// An element does not have an attribute of this name.
+    #[error("an element `{element}` has no attribute `{attribute}`")]
+    UnknownAttribute {
+        /// The name of the element.
+        element: String,
+        /// The name of the attribute.
+        attribute: String,
+    },
+    /// An attribute that has to be there is not.
+    #[error("an element `{element}` needs an attribute `{attribute}`")]
+    MissingAttribute {
+        /// The name of the element.
+        element: String,
+        /// The name of the attribute.
+        attribute: String,
+    },
+    /// The robot has none of the links of the file.
+    #[error("is of another robot: there is no link {}", links.join(", "))]
+    OtherRobot {
+        /// The names of the links.
+        links: Vec<String>,
+    },
+}
+
+/// The elements of an SRDF that say nothing of pairs of links.
+const HARMLESS_ELEMENTS: [&str; 7] = [
+    "end_effector",
+    "group",
+    "group_state",
+    "joint_property",
+    "link_sphere_approximation",
+    "passive_joint",
+    "virtual_joint",
+];
+
+impl Srdf {
+    /// Reads the text of an SRDF file.
+    pub(crate) fn from_text(text: &str) -> Result<Self, SrdfError> {
+        let document = Document::parse(text);
+        let document = document.map_err(|error| SrdfError::Syntax {
+            error: error.to_string(),
+        })?;
+        let root = document.root_element();
+        if root.tag_name().name() != "robot" {
+            return Err(unknown_element(root));
+        }
+        let mut srdf = Srdf {
+            robot_name: root.attribute("name").unwrap_or_default().trim().to_owned(),
+            ..Srdf::default()
+        };
+        for element in root.children().filter(Node::is_element) {
+            match element.tag_name().name() {
+                // What has a prefix belongs to a program, such as xacro, that makes an SRDF of it.
+                _ if element.tag_name().namespace().is_some() => {
+                    return Err(unknown_element(element));
+                }
+                "disable_collisions" => srdf.disabled.push(SrdfPair::read(element)?),
+                "enable_collisions" => srdf.enabled.push(SrdfPair::read(element)?),
+                "disable_default_collisions" => {
+                    check_attributes(element, &["link"])?;
+                    srdf.disabled_links.push(attribute(element, "link")?);
+                }
+                name if HARMLESS_ELEMENTS.contains(&name) => {}
+                _ => return Err(unknown_element(element)),
+            }
+        }
+        Ok(srdf)
+    }
+
+    /// Excludes and includes pairs of a robot's links. Adds a remark with the links that the robot does not have, and one if
+    /// its name is another.
+    pub(crate) fn apply(
+        &self,
+        robot: &Robot,
+        robot_name: &str,
+        pairs: &mut LinkPairs,
+    ) -> Result<(), SrdfError> {
+        let number = |link: &String| robot.link_number(link).ok();
+        let unknown = self.unknown_links(robot)?;
+        for link in self.disabled_links.iter().filter_map(number) {
+            for other in (0..robot.links().len()).filter(|&other| other != link) {
+                let reason = "disable_default_collisions".to_owned();
+                pairs.skip(link, other, SkipReason::Disabled(reason));
+            }
+        }
+        for SrdfPair { links, reason } in &self.disabled {
+            if let [Some(one), Some(other)] = links.each_ref().map(number) {
+                pairs.skip(one, other, SkipReason::Disabled(reason.clone()));
+            }
+        }
+        for SrdfPair { links, .. } in &self.enabled {
+            if let [Some(one), Some(other)] = links.each_ref().map(number) {
+                pairs.include(one, other);
+            }
+        }
+        if !unknown.is_empty() {
+            pairs.add_remarks([CellRemark::UnknownLinks { links: unknown }]);
+        }
+        if !robot_name.is_empty() && !self.robot_name.is_empty() && robot_name != self.robot_name {
+            pairs.add_remarks([CellRemark::OtherRobotName {
+                robot: robot_name.to_owned(),
+                of_srdf: self.robot_name.clone(),
+            }]);
+        }
+        Ok(())
+    }
+
+    /// Returns the links that a robot does not have.
+    ///
+    /// # Errors
+    /// If it has none of them.
+    fn unknown_links(&self, robot: &Robot) -> Result<Vec<String>, SrdfError> {
+        let pairs = self.disabled.iter().chain(&self.enabled);
+        let mut links: Vec<&String> = pairs.flat_map(|pair| &pair.links).collect();
+        links.extend(&self.disabled_links);
+        links.sort();
+        links.dedup();
+        let is_unknown = |link: &&&String| robot.link_number(link).is_err();
+        let unknown: Vec<String> = links
+            .iter()
+            .filter(is_unknown)
+            .map(|&own| own.clone())
+            .collect();
+        if !links.is_empty() && unknown.len() == links.len() {
+            return Err(SrdfError::OtherRobot { links: unknown });
+        }
+        Ok(unknown)
+    }
+}
+
+impl SrdfPair {
+    fn read(element: Node<'_, '_>) -> Result<Self, SrdfError> {
+        check_attributes(element, &["link1", "link2", "reason"])?;
+        Ok(SrdfPair {
+            links: [attribute(element, "link1")?, attribute(element, "link2")?],
+            reason: element.attribute("reason").unwrap_or_default().to_owned(),
+        })
+    }
+}
+
+fn attribute(element: Node<'_, '_>, name: &str) -> Result<String, SrdfError> {
+    let value = element.attribute(name).map(|value| value.trim().to_owned());
+    value.ok_or_else(|| SrdfError::MissingAttribute {
+        element: element.tag_name().name().to_owned(),
+        attribute: name.to_owned(),
+    })
+}
+
+fn check_attributes(element: Node<'_, '_>, known: &[&str]) -> Result<(), SrdfError> {
+    let is_unknown = |own: &roxmltree::Attribute<'_, '_>| !known.contains(&own.name());
+    match element.attributes().find(is_unknown) {
+        None => Ok(()),
+        Some(unknown) => Err(SrdfError::UnknownAttribute {
+            element: element.tag_name().name().to_owned(),
+            attribute: unknown.name().to_owned(),
+        }),
+    }
+}
+
+fn unknown_element(element: Node<'_, '_>) -> SrdfError {
+    SrdfError::UnknownElement {
+        element: element.tag_name().name().to_owned(),
+    }
+}
+
+/// Returns a text as it stands in an attribute of XML.
+fn escape(text: &str) -> String {
+    let text = text.replace('&', "&amp;").replace('<', "&lt;");
+    text.replace('>', "&gt;").replace('"', "&quot;")
 }
 
 impl Robot {
@@ -59,7 +236,7 @@ impl Robot {
                 _ if self.are_neighbours(*one, *other) => "Adjacent",
                 LinkContactClass::Sometimes { .. } | LinkContactClass::Undecided { .. } => continue,
             };
-            let [one, other] = [one, other].map(|&link| escape(&*self.links()[link].name));
+            let [one, other] = [one, other].map(|&link| escape(&self.links()[link].name));
             writeln!(
                 text,
                 "  <disable_collisions link1=\"{one}\" link2=\"{other}\" reason=\"{reason}\"/>"

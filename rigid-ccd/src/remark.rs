@@ -44,6 +44,11 @@ pub enum Remark {
         /// The position of the joint, in radians.
         joint_position: f64,
     },
+    /// Roll, pitch or yaw is more than a turn, and seems to be in degrees.
+    RollPitchYawInDegrees {
+        /// Roll, pitch and yaw, in radians.
+        angles: [f64; 3],
+    },
     /// A quaternion is far from unit length.
     NonUnitQuaternion {
         /// The components w, x, y, z as given.
@@ -60,6 +65,9 @@ const COARSE_TOLERANCE_SHARE: f64 = 0.1;
 /// The rotation in radians above which an angle may be meant in degrees. Four turns in radians are 25; as degrees, that
 /// is a small angle. Robots' joints and parts that are thrown or assembled turn less.
 const MIN_SUSPICIOUS_ROTATION: f64 = 4.0 * TAU;
+
+/// The largest angle in radians of something at rest: a turn, rounded up.
+const MAX_FIXED_ANGLE: f64 = 1.001 * TAU;
 
 /// The largest angle, in degrees, that a mistaken input is assumed to mean: two turns. More is a shaft that spins.
 const MAX_MISTAKEN_DEGREES: f64 = 720.0;
@@ -120,6 +128,12 @@ impl Remark {
         })
     }
 
+    /// Returns a remark if one of three angles, such as roll, pitch and yaw, is more than a turn.
+    pub fn remark_on_roll_pitch_yaw(angles: [f64; 3]) -> Option<Self> {
+        let is_odd = angles.iter().any(|angle| angle.abs() > MAX_FIXED_ANGLE);
+        is_odd.then_some(Remark::RollPitchYawInDegrees { angles })
+    }
+
     /// Returns a remark if a quaternion w, x, y, z is far from unit length.
     pub fn remark_on_quaternion(parts: [f64; 4]) -> Option<Self> {
         let [w, x, y, z] = parts;
@@ -143,6 +157,9 @@ impl Remark {
             }
             Remark::JointInDegrees { .. } => {
                 "a joint's position is a round number of degrees and many turns; positions are in radians"
+            }
+            Remark::RollPitchYawInDegrees { .. } => {
+                "roll, pitch or yaw is more than a turn; these angles are in radians"
             }
             Remark::NonUnitQuaternion { .. } => {
                 "a quaternion is far from unit length, and was taken as one of length 1; is it w, x, y, z?"
@@ -204,6 +221,9 @@ impl fmt::Display for Remark {
             } => {
                 write!(f, "{position} is {:.1} turns", position.abs() / TAU)
             }
+            Remark::RollPitchYawInDegrees {
+                angles: [roll, pitch, yaw],
+            } => write!(f, "({roll}, {pitch}, {yaw})"),
             Remark::NonUnitQuaternion {
                 quaternion_components: [w, x, y, z],
                 quaternion_norm: length,

@@ -1,6 +1,6 @@
 //! Errors of reading a mesh file, due to its content, its size or its format.
 
-use crate::messages::{FileError, LFS_ADVICE};
+use crate::messages::{FileError, HTML_ADVICE, LFS_ADVICE};
 use ccd_core::limits::MAX_COORDINATE;
 use std::io;
 
@@ -35,6 +35,9 @@ pub enum MeshFault {
     /// The file is a STEP file, but has the extension of a mesh format.
     #[error("is a STEP file, whatever its name says: {}", cad_advice("step"))]
     StepFile,
+    /// The file is a page of HTML, but has the extension of a mesh format.
+    #[error("{HTML_ADVICE}")]
+    Html,
     /// The format is known, but this build has no reader for it.
     #[error(
         "is {format}, which this build cannot read; build it with the feature {cargo_feature:?}"

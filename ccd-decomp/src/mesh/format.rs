@@ -12,7 +12,7 @@ mod text;
 
 use super::content::Content;
 use super::error::MeshFault;
-use crate::messages::is_lfs_pointer;
+use crate::messages::{is_html, is_lfs_pointer};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -45,14 +45,15 @@ pub enum Format {
     /// floats, quantized integers or sparse accessors. Materials and animations are skipped; points, lines, skins and
     /// morph targets are skipped with a remark, so that meshes are in their rest pose. A node scaled to zero along all
     /// axes is hidden with its descendants, as specified. Instances make about ten million triangles at most.
-    /// Compression by Draco or meshopt, and required extensions that change the shape, are errors.
+    /// Compression by Draco or meshopt, required extensions that change the shape, and keys that glTF does not have, are errors.
     Gltf,
     /// COLLADA 1.4 and 1.5 (`.dae`), in f64; it is read only with the Cargo feature `collada`.
     ///
     /// Coordinates are in the document's unit, and stay as they are: the direction that counts as up is passed over, as rviz and
     /// MoveIt do. Parts are the geometries that the nodes of the scene place, with the name of their node. Triangles, strips,
     /// fans and polygons are read. Lines are skipped with a remark, and geometries with a skin or morphs are taken at rest, with
-    /// a remark. Polygons with holes, `lookat`, `skew`, and units of single elements are errors.
+    /// a remark. Polygons with holes, `lookat`, `skew`, units of single elements, and elements that nodes do not have are
+    /// errors.
     Collada,
 }
 
@@ -92,7 +93,9 @@ impl Format {
         match (self, bytes) {
             #[cfg(feature = "gltf")]
             (Format::Gltf, bytes)
-                if !is_lfs_pointer(bytes) && !is_step_file(&text::to_utf8(bytes)) =>
+                if !is_lfs_pointer(bytes)
+                    && !is_step_file(&text::to_utf8(bytes))
+                    && !is_html(bytes) =>
             {
                 gltf::file_references(bytes)
             }
@@ -101,7 +104,7 @@ impl Format {
     }
 
     /// Parses a file's content in this format; Git LFS pointers and STEP files are recognised by their content and
-    /// refused. `linked` holds the contents of the files that it refers to.
+    /// refused, and pages of HTML. `linked` holds the contents of the files that it refers to.
     pub(crate) fn parse(self, bytes: &[u8], linked: &LinkedFiles) -> Result<Content, MeshFault> {
         let unmarked = text::to_utf8(bytes);
         if is_lfs_pointer(&unmarked) {
@@ -109,6 +112,9 @@ impl Format {
         }
         if is_step_file(&unmarked) {
             return Err(MeshFault::StepFile);
+        }
+        if is_html(&unmarked) {
+            return Err(MeshFault::Html);
         }
         match self {
             Format::Obj => obj::parse(&text::to_utf8_with_lf(bytes)),

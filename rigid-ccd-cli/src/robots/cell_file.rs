@@ -4,8 +4,10 @@
 use anyhow::{Context, Result, anyhow, bail};
 use ccd_decomp::{BodySource, Detail, Unit};
 use rigid_ccd::glam::{DQuat, EulerRot};
-use rigid_ccd::{Body, Pose, load_parts};
-use rigid_ccd_robot::{Cell, CompoundKind, Link, LinkPairs, PlacedRobot, Robot, RobotFile};
+use rigid_ccd::{Body, Pose, Remark, load_parts};
+use rigid_ccd_robot::{
+    Cell, CellRemark, CompoundKind, Link, LinkPairs, PlacedRobot, Robot, RobotFile,
+};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -36,10 +38,9 @@ pub(super) struct CellFile {
 struct Obstacle {
     name: String,
     body: String,
-    #[serde(default)]
-    position: [f64; 3],
-    rpy: Option<[f64; 3]>,
-    quaternion: Option<[f64; 4]>,
+    position: Option<Vec<f64>>,
+    rpy: Option<Vec<f64>>,
+    quaternion: Option<Vec<f64>>,
     /// How it moves; `None` if it rests.
     moves: Option<BaseMotion>,
 }
@@ -53,10 +54,9 @@ struct OtherRobot {
     srdf: Option<String>,
     /// The link that carries its base; `None` for the world.
     on: Option<String>,
-    #[serde(default)]
-    position: [f64; 3],
-    rpy: Option<[f64; 3]>,
-    quaternion: Option<[f64; 4]>,
+    position: Option<Vec<f64>>,
+    rpy: Option<Vec<f64>>,
+    quaternion: Option<Vec<f64>>,
     /// How its base moves; `None` if it rests.
     base: Option<BaseMotion>,
 }
@@ -86,10 +86,9 @@ struct AttachedBody {
     name: String,
     body: String,
     link: String,
-    #[serde(default)]
-    position: [f64; 3],
-    rpy: Option<[f64; 3]>,
-    quaternion: Option<[f64; 4]>,
+    position: Option<Vec<f64>>,
+    rpy: Option<Vec<f64>>,
+    quaternion: Option<Vec<f64>>,
     #[serde(default)]
     may_touch: Vec<String>,
 }
@@ -97,7 +96,7 @@ struct AttachedBody {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Clearance {
-    between: [String; 2],
+    between: Vec<String>,
     distance: f64,
 }
 
@@ -120,13 +119,20 @@ impl<'p> CellSource<'p> {
         let text = ccd_file::read_to_string(path)?;
         let file = toml::from_str(&text).map_err(|error| {
             let start = error.span().map_or(0, |span| span.start);
-            let line = 1 + text[..start].matches('\n').count();
-            anyhow!("line {line}: {}", error.message())
+            anyhow!("{}: {}", place_in(&text, start), error.message())
         })?;
         Ok(CellSource::Toml(
             file,
             path.parent().unwrap_or(Path::new("")),
         ))
+    }
+
+    /// Returns the remarks on the numbers of the file.
+    pub(super) fn remarks(&self) -> Vec<CellRemark> {
+        match self {
+            CellSource::Toml(file, _) => file.remarks(),
+            CellSource::Gltf(_) => Vec::new(),
+        }
     }
 
     /// Combines a robot with the others of the file, and with its obstacles that move. Its links and joints keep their names,
@@ -210,11 +216,51 @@ impl<'p> CellSource<'p> {
             cell.set_padding(link, *distance)?;
         }
         for Clearance { between, distance } in &file.clearance {
-            let [a, b] = between;
-            let pair = [cell.item_named(a)?, cell.item_named(b)?];
-            cell.set_clearance(pair, *distance)?;
+            let set = |cell: &mut Cell| -> Result<()> {
+                let [a, b]: &[String; 2] = values("between", between)?;
+                let pair = [cell.item_named(a)?, cell.item_named(b)?];
+                Ok(cell.set_clearance(pair, *distance)?)
+            };
+            set(cell).with_context(|| format!("clearance between {}", between.join(", ")))?;
         }
         Ok(())
+    }
+}
+
+/// Returns the line of a byte in a TOML text, with what stands there and the header of its table.
+fn place_in(text: &str, byte: usize) -> String {
+    let number = 1 + text[..byte].matches('\n').count();
+    let lines = || text.lines().take(number).map(str::trim);
+    let line = lines().last().unwrap_or_default();
+    let header = lines()
+        .filter(|own| own.starts_with('[') && *own != line)
+        .last();
+    match header {
+        Some(header) => format!("line {number}, `{line}` of {header}"),
+        None => format!("line {number}, `{line}`"),
+    }
+}
+
+impl CellFile {
+    /// Returns the remarks on the rotations of the file.
+    fn remarks(&self) -> Vec<CellRemark> {
+        let of = |kind: &str, name: &str, rpy: &Option<Vec<f64>>, quaternion: &Option<Vec<f64>>| {
+            let rpy = rpy.as_deref().and_then(|rpy| rpy.try_into().ok());
+            let quaternion = quaternion.as_deref().and_then(|own| own.try_into().ok());
+            let remark = rpy
+                .and_then(Remark::remark_on_roll_pitch_yaw)
+                .or(quaternion.and_then(Remark::remark_on_quaternion))?;
+            Some(CellRemark::on(format!("{kind} {name}"), remark))
+        };
+        let obstacles = self.obstacle.iter();
+        let obstacles =
+            obstacles.filter_map(|own| of("obstacle", &own.name, &own.rpy, &own.quaternion));
+        let robots = self.robot.iter();
+        let robots = robots.filter_map(|own| of("robot", &own.name, &own.rpy, &own.quaternion));
+        let attached = self.attached.iter();
+        let attached =
+            attached.filter_map(|own| of("attached body", &own.name, &own.rpy, &own.quaternion));
+        obstacles.chain(robots).chain(attached).collect()
     }
 }
 
@@ -251,7 +297,7 @@ impl OtherRobot {
             name: self.name.clone(),
             robot,
             carrier: self.on.clone(),
-            pose: pose(self.position, self.rpy, self.quaternion)?,
+            pose: pose(&self.position, &self.rpy, &self.quaternion)?,
             base_motion: self.base.map(CompoundKind::from),
         })
     }
@@ -268,7 +314,7 @@ impl Obstacle {
             pairs: LinkPairs::from_robot(&robot),
             robot,
             carrier: None,
-            pose: pose(self.position, self.rpy, self.quaternion)?,
+            pose: pose(&self.position, &self.rpy, &self.quaternion)?,
             base_motion: Some(moves.into()),
         })
     }
@@ -276,13 +322,13 @@ impl Obstacle {
 
 fn add_obstacle(cell: &mut Cell, folder: &Path, given: &Obstacle) -> Result<()> {
     let body = body_beside(folder, &given.body)?;
-    let pose = pose(given.position, given.rpy, given.quaternion)?;
+    let pose = pose(&given.position, &given.rpy, &given.quaternion)?;
     Ok(cell.add_obstacle(&given.name, body, pose)?)
 }
 
 fn attach(cell: &mut Cell, folder: &Path, given: &AttachedBody) -> Result<()> {
     let body = body_beside(folder, &given.body)?;
-    let pose = pose(given.position, given.rpy, given.quaternion)?;
+    let pose = pose(&given.position, &given.rpy, &given.quaternion)?;
     let may_touch: Vec<&str> = given.may_touch.iter().map(String::as_str).collect();
     Ok(cell.attach(&given.name, body, (&given.link, pose), &may_touch)?)
 }
@@ -299,14 +345,36 @@ fn body_beside(folder: &Path, text: &str) -> Result<Body> {
 }
 
 /// Returns a pose whose rotation is roll, pitch and yaw as in a URDF, a quaternion (w, x, y, z), or none.
-fn pose(position: [f64; 3], rpy: Option<[f64; 3]>, quaternion: Option<[f64; 4]>) -> Result<Pose> {
+fn pose(
+    position: &Option<Vec<f64>>,
+    rpy: &Option<Vec<f64>>,
+    quaternion: &Option<Vec<f64>>,
+) -> Result<Pose> {
+    let position = match position {
+        Some(position) => *values("position", position)?,
+        None => [0.0; 3],
+    };
     let rotation = match (rpy, quaternion) {
         (Some(_), Some(_)) => bail!("give either rpy or quaternion"),
-        (Some([roll, pitch, yaw]), None) => DQuat::from_euler(EulerRot::ZYX, yaw, pitch, roll),
-        (None, Some([w, x, y, z])) => DQuat::from_xyzw(x, y, z, w),
+        (Some(rpy), None) => {
+            let &[roll, pitch, yaw] = values("rpy", rpy)?;
+            DQuat::from_euler(EulerRot::ZYX, yaw, pitch, roll)
+        }
+        (None, Some(quaternion)) => {
+            let &[w, x, y, z] = values("quaternion", quaternion)?;
+            DQuat::from_xyzw(x, y, z, w)
+        }
         (None, None) => DQuat::IDENTITY,
     };
     Ok(Pose::new(position, rotation)?)
+}
+
+/// Returns the values of a key that has a fixed number of them.
+fn values<'v, T, const COUNT: usize>(key: &str, given: &'v [T]) -> Result<&'v [T; COUNT]> {
+    let count = given.len();
+    given
+        .try_into()
+        .map_err(|_| anyhow!("{key} has {count} values, not {COUNT}"))
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use super::robot_paths::{FoundPaths, RobotPaths};
 use crate::files::{input_name, refuse_overwriting_input};
 use crate::html::write_page;
 use crate::output::{Output, OutputError, is_standard_output};
-use crate::{RunOutcome, print_error};
+use crate::{RunOutcome, print_error, print_remarks};
 use anyhow::{Result, bail};
 use clap::Args;
 use report::Report;
@@ -23,7 +23,11 @@ use std::path::PathBuf;
 
 /// Prove where a mechanism keeps a clearance, over a joint or along a path
 #[derive(Clone, Debug, Args)]
-#[command(mut_arg("urdf", |urdf| urdf.required(true)), after_help = AFTER_HELP)]
+#[command(
+    mut_arg("urdf", |urdf| urdf.required(true)),
+    mut_arg("degrees", |degrees| degrees.requires("path")),
+    after_help = AFTER_HELP
+)]
 pub(crate) struct ClearanceArgs {
     #[command(flatten)]
     cell: CellArgs,
@@ -87,6 +91,7 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     }
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let cell = args.cell.load(args.quiet)?;
+    print_remarks(cell.remarks(args.tolerance));
     let path = args.read_path(&cell)?;
     let mut solver = cell.solver().with_settings(args.settings(0.0));
     let closest = solver.closest_approach(&path.configurations)?;

@@ -17,7 +17,7 @@ use crate::resumable::{
     answer_in_batches, option_values, options_text,
 };
 use crate::time_histogram::TimeHistogram;
-use crate::{RunOutcome, print_error};
+use crate::{RunOutcome, print_error, print_remarks};
 use anyhow::{Context, Result, bail};
 use args::UNRECORDED_OPTIONS;
 use clap::ArgMatches;
@@ -52,6 +52,7 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     };
     let claimed = ClaimedFiles::claim(&files)?;
     let cell = args.cell.load(args.quiet)?;
+    print_remarks(cell.remarks(args.tolerance));
     let (mut table, length) =
         PathTable::open("--edges", &args.edges, cell.robot(), args.joints.given())
             .with_context(|| input_name(&args.edges))?;

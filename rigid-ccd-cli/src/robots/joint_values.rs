@@ -19,6 +19,9 @@ pub(crate) struct JointsArgs {
     /// an error
     #[arg(long)]
     rest: bool,
+    /// Take the positions of joints that turn in the table as degrees; without this option only those of columns that end in _deg
+    #[arg(long)]
+    degrees: bool,
 }
 
 /// Where joints are that a table has no columns for.
@@ -27,6 +30,14 @@ pub(crate) struct GivenJoints<'a> {
     /// The positions and ranges of the joints that are named.
     pub(super) named: &'a [JointRange],
     pub(super) others: OtherJoints,
+    pub(super) unit: AngleUnit,
+}
+
+/// The unit of the positions of joints that turn, in columns that say none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum AngleUnit {
+    Radian,
+    Degree,
 }
 
 /// What joints do that have neither columns nor a position.
@@ -45,9 +56,15 @@ impl JointsArgs {
         } else {
             OtherJoints::Refused
         };
+        let unit = if self.degrees {
+            AngleUnit::Degree
+        } else {
+            AngleUnit::Radian
+        };
         GivenJoints {
             named: &self.joint,
             others,
+            unit,
         }
     }
 }

@@ -3,11 +3,13 @@
 use super::cell_file::CellSource;
 use crate::files::refuse_overwriting_input;
 use crate::print_escaped_to_stderr;
+use crate::print_remarks;
 use crate::progress::Progress;
+use crate::size::RoundedToFourDigits;
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use rigid_ccd_robot::{
-    BodyElements, Cell, LinkPairs, MeshConversion, Robot, RobotFile, SkipReason,
+    BodyElements, Cell, Item, LinkPairs, MeshConversion, Robot, RobotFile, SkipReason,
 };
 use std::path::{Path, PathBuf};
 
@@ -152,6 +154,9 @@ impl CellArgs {
         if let (Some(pairs), false) = (skipped, quiet) {
             print_escaped_to_stderr(&pairs);
         }
+        if !quiet {
+            print_escaped_to_stderr(&sizes(&cell));
+        }
         Ok(cell)
     }
 
@@ -162,6 +167,7 @@ impl CellArgs {
         let (robot, pairs) = source.combine(own, |file| self.robot.with_options(file))?;
         let mut cell = Cell::new(robot, pairs);
         source.add_to(&mut cell)?;
+        print_remarks(source.remarks());
         if !quiet {
             let obstacles: Vec<&str> = cell.obstacle_names().collect();
             let others: Vec<&str> = cell.robot().free_joint_names().collect();
@@ -204,6 +210,20 @@ pub(crate) fn refuse_overwriting_any<'a>(
         }
     }
     Ok(())
+}
+
+/// Says how large the robot, the bodies that it holds, and the obstacles are.
+fn sizes(cell: &Cell) -> String {
+    let of_others = cell.item_sizes().into_iter().filter_map(|(item, size)| {
+        let is_own = matches!(item, Item::Link(_));
+        (!is_own).then(|| format!(", {} {}", item.name(), RoundedToFourDigits(size)))
+    });
+    let robot = cell.robot_size().unwrap_or(0.0);
+    let of_others: String = of_others.collect();
+    format!(
+        "sizes in metres: robot {}{of_others}",
+        RoundedToFourDigits(robot)
+    )
 }
 
 /// Says which pairs of links with bodies are not checked although they move against each other, and how to check them; `None`

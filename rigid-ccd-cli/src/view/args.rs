@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 #[command(
     mut_arg("joint", |joint| joint.requires("urdf")),
     mut_arg("rest", |rest| rest.requires("urdf")),
+    mut_arg("degrees", |degrees| degrees.requires("path")),
     after_help = AFTER_HELP,
     arg_required_else_help = true
 )]

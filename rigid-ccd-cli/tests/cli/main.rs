@@ -11,6 +11,7 @@ mod outputs;
 #[cfg(feature = "parquet")]
 mod parquet_tables;
 mod questions;
+mod readers;
 mod refusals;
 mod replay;
 mod resume;

@@ -166,3 +166,56 @@ fn a_clearance_includes_a_pair_of_neighbours() {
     assert!(!cell.solver().is_free(&[[0.0], [3.1]]).unwrap());
     assert!(cell.solver().is_free(&[[0.0], [1.5]]).unwrap());
 }
+
+/// Tests that a coordinate which is too large is an error with the name of what has it, not one about another number.
+#[test]
+fn coordinates_that_are_too_large_are_named() {
+    let far = Pose::at([0.0, 1e30, 0.0]).unwrap();
+    let ball = || Body::sphere(0.1).unwrap();
+    let slide = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
+    let robot = |at: Pose, joint: trajectory::Joint| {
+        let links = vec![
+            Link::named("rail"),
+            Link::named("cart").with_body(ball(), at),
+        ];
+        let joint = Joint {
+            name: "drive".into(),
+            parent: "rail".into(),
+            child: "cart".into(),
+            axis_and_limits: joint,
+            position_rule: PositionRule::Independent,
+        };
+        Robot::new(links, vec![joint])
+    };
+    let message = |error: &dyn std::fmt::Display| error.to_string();
+    let error = message(&robot(far, slide.clone()).unwrap_err());
+    assert!(
+        error.starts_with("a body of link `cart` has a coordinate of 1"),
+        "{error}"
+    );
+    let error = message(&robot(Pose::IDENTITY, trajectory::Joint::fixed(far)).unwrap_err());
+    assert!(
+        error.starts_with("joint `drive` has a coordinate of 1"),
+        "{error}"
+    );
+    let robot = robot(Pose::IDENTITY, slide).unwrap();
+    let pairs = LinkPairs::from_robot(&robot);
+    let mut cell = Cell::new(robot, pairs);
+    let error = message(&cell.add_obstacle("post", ball(), far).unwrap_err());
+    assert!(
+        error.starts_with("obstacle `post` has a coordinate of 1"),
+        "{error}"
+    );
+    cell.add_obstacle("post", ball(), Pose::IDENTITY).unwrap();
+    assert!(cell.move_obstacle("post", far).is_err());
+    let error = message(&cell.attach("tool", ball(), ("cart", far), &[]).unwrap_err());
+    assert!(
+        error.starts_with("attached body `tool` has a coordinate of 1"),
+        "{error}"
+    );
+    let error = message(&cell.solver().is_free(&[[0.0], [1e30]]).unwrap_err());
+    assert!(
+        error.contains("joint `drive`: ") && error.contains("position"),
+        "{error}"
+    );
+}

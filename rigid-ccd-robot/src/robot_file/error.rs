@@ -1,7 +1,9 @@
 //! Errors of URDF, MJCF and SRDF files.
 
 use super::mjcf_error::MjcfError;
+use super::urdf_error::UrdfError;
 use crate::error::RobotError;
+use crate::srdf::SrdfError;
 use ccd_decomp::{MeshError, PrepareError};
 use rigid_ccd::InputError;
 use std::path::PathBuf;
@@ -18,7 +20,7 @@ pub enum RobotFileError {
         /// The operating system's message.
         error: String,
     },
-    /// A file is not a valid URDF, MJCF or SRDF.
+    /// A file is no XML.
     #[error("{}: {error}", file.display())]
     Syntax {
         /// The file in which the parser found an error.
@@ -53,6 +55,23 @@ pub enum RobotFileError {
     /// An element of an MJCF cannot be read.
     #[error(transparent)]
     Mjcf(#[from] MjcfError),
+    /// An element of a URDF cannot be read.
+    #[error(transparent)]
+    Urdf(#[from] UrdfError),
+    /// An SRDF cannot be read, or is of another robot.
+    #[error("{}: {error}", file.display())]
+    Srdf {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong.
+        error: SrdfError,
+    },
+    /// A folder of packages is none.
+    #[error("{}: is no folder of packages", folder.display())]
+    NoFolder {
+        /// The path that is given.
+        folder: PathBuf,
+    },
     /// A floating, planar or spherical joint follows another one.
     #[error("only a joint with one degree of freedom can mimic another one")]
     CompoundMimic,

@@ -12,6 +12,7 @@ mod joints;
 mod model;
 mod orientation;
 mod pairs;
+mod schema;
 mod settings;
 
 pub(super) use model::MjcfModel;
@@ -19,9 +20,13 @@ pub(super) use model::MjcfModel;
 use super::body_elements::BodyElements;
 use super::error::RobotFileError;
 use super::meshes::MeshBodies;
+use super::mjcf_error::MjcfError;
+use crate::remark::CellRemark;
 use crate::robot::{Link, Robot};
+use bodies::MjcfJointKind;
 use geoms::GeomReader;
 use joints::JointReader;
+use rigid_ccd::Remark;
 
 /// The first element of an MJCF file.
 pub(super) const ROOT_ELEMENT: &str = "mujoco";
@@ -50,7 +55,28 @@ impl MjcfModel {
             links.extend(between);
             joints.extend(own);
         }
-        Ok(Robot::new(links, joints)?)
+        Ok(Robot::new(links, joints)?.with_remarks(self.remarks()?))
+    }
+
+    /// Lists the constraints that leave joints independent, and limits that seem to be in degrees.
+    fn remarks(&self) -> Result<Vec<CellRemark>, MjcfError> {
+        let mut remarks = Vec::new();
+        for kind in ["connect", "weld"] {
+            for constraint in self.constraints_named(kind) {
+                if constraint.truth_or("active", true)? {
+                    let element = format!("{} in equality", constraint.label());
+                    remarks.push(CellRemark::LeftOut { element });
+                }
+            }
+        }
+        let joints = self.bodies.iter().flat_map(|body| &body.joints);
+        for joint in joints.filter(|joint| joint.kind == MjcfJointKind::Hinge) {
+            let mut limits = joint.limits.into_iter().flatten();
+            let remark = limits.find_map(Remark::remark_on_joint);
+            let named = |remark| CellRemark::on(format!("joint {}", joint.name), remark);
+            remarks.extend(remark.map(named));
+        }
+        Ok(remarks)
     }
 }
 

@@ -21,10 +21,18 @@ pub enum MjcfError {
         /// The name of the element around it.
         parent: String,
     },
+    /// An element does not have an attribute of this name.
+    #[error("an element `{element}` has no attribute `{attribute}`")]
+    UnknownAttribute {
+        /// The kind of the element, and its name.
+        element: String,
+        /// The name of the attribute.
+        attribute: String,
+    },
     /// An attribute does not have a value of its kind.
     #[error("{attribute}=\"{value}\" of an element `{element}` is not valid")]
     InvalidAttribute {
-        /// The name of the element.
+        /// The kind of the element, and its name.
         element: String,
         /// The name of the attribute.
         attribute: String,

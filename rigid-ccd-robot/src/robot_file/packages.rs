@@ -11,6 +11,8 @@ pub(super) struct SearchFolders {
     urdf_folder: PathBuf,
     /// Folders that are packages, or hold packages, in the order in which they are searched.
     package_folders: Vec<PathBuf>,
+    /// The number of the first package folders that the caller has given.
+    given_count: usize,
 }
 
 impl SearchFolders {
@@ -27,16 +29,32 @@ impl SearchFolders {
         SearchFolders {
             urdf_folder: beside,
             package_folders: folders,
+            given_count: 0,
         }
     }
 
     pub(super) fn prepend_folder(&mut self, folder: PathBuf) {
         self.package_folders.insert(0, folder);
+        self.given_count += 1;
+    }
+
+    /// Refuses a folder that the caller has given and that does not exist, probably because its name is misspelt.
+    pub(super) fn check_given_folders(&self) -> Result<(), RobotFileError> {
+        let given = &self.package_folders[..self.given_count];
+        match given.iter().find(|folder| !folder.is_dir()) {
+            None => Ok(()),
+            Some(folder) => Err(RobotFileError::NoFolder {
+                folder: folder.clone(),
+            }),
+        }
     }
 
     /// Returns the path of an existing file, given the name that the URDF has for it.
     pub(super) fn find_file(&self, uri: &str) -> Result<PathBuf, RobotFileError> {
-        let tried = self.possible_paths(uri);
+        let mut tried = self.possible_paths(uri);
+        if let Some(decoded) = percent_decoded(uri) {
+            tried.extend(self.possible_paths(&decoded));
+        }
         match tried.iter().find(|path| path.is_file()) {
             Some(path) => Ok(path.clone()),
             None => Err(RobotFileError::MeshNotFound {
@@ -65,6 +83,20 @@ impl SearchFolders {
         };
         self.package_folders.iter().flat_map(in_folder).collect()
     }
+}
+
+/// Returns a URI with bytes in place of escapes such as `%20`; `None` without escapes, and if the bytes are no text.
+fn percent_decoded(uri: &str) -> Option<String> {
+    let mut parts = uri.split('%');
+    let mut bytes = parts.next()?.as_bytes().to_vec();
+    let mut has_escape = false;
+    for part in parts {
+        let digits = part.get(..2)?;
+        bytes.push(u8::from_str_radix(digits, 16).ok()?);
+        bytes.extend(part[2..].bytes());
+        has_escape = true;
+    }
+    String::from_utf8(bytes).ok().filter(|_| has_escape)
 }
 
 /// Returns the folders that a variable of the environment lists; none if it is not set, as on targets that have no such variables and

@@ -1,127 +1,273 @@
 //! Converts the links and joints of a URDF file.
+//!
+//! What is not known is an error, unless a list says that it is harmless.
+
+mod element;
+mod vocabulary;
 
 use super::body_elements::BodyElements;
 use super::error::RobotFileError;
-use super::materials::without_materials;
 use super::meshes::MeshBodies;
 use super::packages::SearchFolders;
+use super::urdf_error::UrdfError;
+use crate::remark::CellRemark;
 use crate::robot::{CompoundKind, Joint, Link, LinkBody, PositionRule, Robot};
+use element::{Element, only, parse, required, with_declared_prefixes};
 use rigid_ccd::glam::{DAffine3, DQuat, DVec3, EulerRot};
-use rigid_ccd::{Body, InputError, Pose, trajectory};
+use rigid_ccd::{Body, Pose, Remark, trajectory};
 use std::sync::Arc;
-use urdf_rs::{Geometry, JointType};
-
-/// Parses the text of a URDF file.
-pub(super) fn parse(text: &str) -> Result<urdf_rs::Robot, String> {
-    let urdf = urdf_rs::read_from_string(&without_materials(text)?);
-    urdf.map_err(|error| error.to_string())
-}
 
 /// Makes a robot of a URDF.
 pub(super) struct UrdfReader<'r> {
-    pub(super) elements: BodyElements,
-    pub(super) meshes: &'r MeshBodies,
-    pub(super) folders: &'r SearchFolders,
+    elements: BodyElements,
+    meshes: &'r MeshBodies,
+    folders: &'r SearchFolders,
+    version: Version,
+    remarks: Vec<CellRemark>,
 }
 
-impl UrdfReader<'_> {
-    pub(super) fn robot(&self, urdf: &urdf_rs::Robot) -> Result<Robot, RobotFileError> {
-        let links = urdf.links.iter().map(|link| self.link(link));
-        let mut links: Vec<Link> = links.collect::<Result<_, _>>()?;
-        let mut joints = Vec::new();
-        for joint in &urdf.joints {
-            let converted = convert_joint(joint);
-            let (between, own) = converted.map_err(|error| error.with_joint_name(&joint.name))?;
-            links.extend(between);
-            joints.extend(own);
+/// A version of URDF.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Version {
+    V1_0,
+    /// Adds `quat_xyzw`.
+    V1_1,
+    /// Asks for both limits.
+    V1_2,
+}
+
+impl<'r> UrdfReader<'r> {
+    pub(super) fn new(
+        elements: BodyElements,
+        meshes: &'r MeshBodies,
+        folders: &'r SearchFolders,
+    ) -> Self {
+        UrdfReader {
+            elements,
+            meshes,
+            folders,
+            version: Version::V1_0,
+            remarks: Vec::new(),
         }
-        Ok(Robot::new(links, joints)?)
     }
 
-    fn link(&self, link: &urdf_rs::Link) -> Result<Link, RobotFileError> {
-        let elements: Vec<(&urdf_rs::Pose, &Geometry)> = match self.elements {
-            BodyElements::Collision => link
-                .collision
-                .iter()
-                .map(|c| (&c.origin, &c.geometry))
-                .collect(),
-            BodyElements::Visual => link
-                .visual
-                .iter()
-                .map(|v| (&v.origin, &v.geometry))
-                .collect(),
+    /// Reads the text of a URDF. The outer error is that of the parser.
+    pub(super) fn read(mut self, text: &str) -> Result<Result<Robot, RobotFileError>, String> {
+        let text = with_declared_prefixes(text)?;
+        let document = parse(&text)?;
+        Ok(Element::root(&document)
+            .map_err(RobotFileError::from)
+            .and_then(|root| self.robot(&root)))
+    }
+
+    fn robot(&mut self, root: &Element<'_>) -> Result<Robot, RobotFileError> {
+        self.version = Version::of(root)?;
+        let (mut links, mut joints) = (Vec::new(), Vec::new());
+        for element in root.children(&mut self.remarks)? {
+            let name = element.required("name")?;
+            if element.name() == "link" {
+                let link = self.link(&element, name);
+                links.push(link.map_err(|error| error.with_link_name(name))?);
+            } else {
+                let joint = self.joint(&element, name);
+                joints.push(joint.map_err(|error| error.with_joint_name(name))?);
+            }
+        }
+        let mut all_joints = Vec::new();
+        for (between, own) in joints {
+            links.extend(between);
+            all_joints.extend(own);
+        }
+        Ok(Robot::new(links, all_joints)?.with_remarks(std::mem::take(&mut self.remarks)))
+    }
+
+    fn link(&mut self, element: &Element<'_>, name: &str) -> Result<Link, RobotFileError> {
+        let wanted = match self.elements {
+            BodyElements::Collision => "collision",
+            BodyElements::Visual => "visual",
         };
-        let body = |(origin, geometry)| {
-            let (body, pose) = (self.body(geometry)?, convert_pose(origin)?);
-            Ok(LinkBody { body, pose })
-        };
-        let bodies: Result<_, RobotFileError> = elements.into_iter().map(body).collect();
-        Ok(Link {
-            name: link.name.clone(),
-            bodies: bodies.map_err(|error| error.with_link_name(&link.name))?,
-        })
+        let mut bodies = Vec::new();
+        for shape in element.children(&mut self.remarks)? {
+            if shape.name() != wanted {
+                continue;
+            }
+            let parts = shape.children(&mut self.remarks)?;
+            let pose = self.pose(&parts, &format!("link {name}"))?;
+            let geometry = required(&parts, "geometry")?;
+            let body = self.body(geometry)?;
+            bodies.push(LinkBody { body, pose });
+        }
+        let name = name.to_owned();
+        Ok(Link { name, bodies })
     }
 
     /// Makes the body of a box, sphere, capsule, cylinder or mesh. A URDF gives full side lengths and full heights, not
     /// halves.
-    fn body(&self, geometry: &Geometry) -> Result<Arc<Body>, RobotFileError> {
-        let body = match geometry {
-            Geometry::Box { size } => Body::cuboid(DVec3::from_array(size.0) / 2.0)?,
-            Geometry::Sphere { radius } => Body::sphere(*radius)?,
-            Geometry::Capsule { radius, length } => Body::capsule(*radius, length / 2.0)?,
-            Geometry::Cylinder { radius, length } => Body::cylinder(*radius, length / 2.0)?,
-            Geometry::Mesh { filename, scale } => {
-                let scale = scale.map_or(DVec3::ONE, |scale| DVec3::from_array(scale.0));
-                let file = self.folders.find_file(filename)?;
+    fn body(&mut self, geometry: &Element<'_>) -> Result<Arc<Body>, RobotFileError> {
+        let shapes = geometry.children(&mut self.remarks)?;
+        let [shape] = &shapes[..] else {
+            return Err(match shapes.get(1) {
+                Some(second) => UrdfError::RepeatedElement {
+                    element: format!("{} in geometry", second.name()),
+                },
+                None => UrdfError::MissingElement {
+                    element: "box, capsule, cylinder, mesh or sphere in geometry".to_owned(),
+                },
+            }
+            .into());
+        };
+        let body = match shape.name() {
+            "box" => {
+                shape.required("size")?;
+                let size = shape.numbers("size")?.unwrap_or([f64::NAN; 3]);
+                Body::cuboid(DVec3::from_array(size) / 2.0)?
+            }
+            "sphere" => Body::sphere(shape.number("radius")?)?,
+            "capsule" => Body::capsule(shape.number("radius")?, shape.number("length")? / 2.0)?,
+            "cylinder" => Body::cylinder(shape.number("radius")?, shape.number("length")? / 2.0)?,
+            _ => {
+                let scale = shape
+                    .numbers("scale")?
+                    .map_or(DVec3::ONE, DVec3::from_array);
+                let file = self.folders.find_file(shape.required("filename")?)?;
                 return self.meshes.body(file, DAffine3::from_scale(scale));
             }
         };
         Ok(Arc::new(body))
     }
-}
 
-/// Converts a joint; one with several degrees of freedom becomes several joints with links between them.
-fn convert_joint(joint: &urdf_rs::Joint) -> Result<(Vec<Link>, Vec<Joint>), RobotFileError> {
-    let origin = convert_pose(&joint.origin)?;
-    let axis = joint.axis.xyz.0;
-    let limits = joint.limit.lower..=joint.limit.upper;
-    let [parent, child] = [&joint.parent.link, &joint.child.link];
-    let compound = |kind: CompoundKind| {
-        if joint.mimic.is_some() {
-            return Err(RobotFileError::CompoundMimic);
+    /// Converts a joint; one with several degrees of freedom becomes several joints with links between them.
+    fn joint(
+        &mut self,
+        element: &Element<'_>,
+        name: &str,
+    ) -> Result<(Vec<Link>, Vec<Joint>), RobotFileError> {
+        let parts = element.children(&mut self.remarks)?;
+        let origin = self.pose(&parts, &format!("joint {name}"))?;
+        let [parent, child] =
+            ["parent", "child"].map(|end| required(&parts, end)?.required("link"));
+        let (parent, child) = (parent?, child?);
+        let mimic = only(&parts, "mimic")?;
+        let compound = |kind: CompoundKind| {
+            if mimic.is_some() {
+                return Err(RobotFileError::CompoundMimic);
+            }
+            Ok(kind.links_and_joints(name, [parent, child], origin)?)
+        };
+        let axis = || -> Result<[f64; 3], UrdfError> {
+            let Some(axis) = only(&parts, "axis")? else {
+                return Ok([1.0, 0.0, 0.0]);
+            };
+            axis.required("xyz")?;
+            Ok(axis.numbers("xyz")?.unwrap_or([f64::NAN; 3]))
+        };
+        let moved = match element.required("type")? {
+            "floating" => return compound(CompoundKind::Floating),
+            "spherical" => return compound(CompoundKind::Spherical),
+            "planar" => return compound(CompoundKind::Planar { normal: axis()? }),
+            "fixed" => trajectory::Joint::fixed(origin),
+            "continuous" => trajectory::Joint::revolute(origin, axis()?)?,
+            "revolute" => {
+                let [low, high] = self.limits(&parts)?;
+                let remark = [low, high].into_iter().find_map(Remark::remark_on_joint);
+                self.remarks
+                    .extend(remark.map(|own| CellRemark::on(format!("joint {name}"), own)));
+                trajectory::Joint::revolute(origin, axis()?)?.with_limits(low..=high)
+            }
+            "prismatic" => {
+                let [low, high] = self.limits(&parts)?;
+                trajectory::Joint::prismatic(origin, axis()?)?.with_limits(low..=high)
+            }
+            _ => {
+                let wanted =
+                    "revolute, continuous, prismatic, fixed, floating, planar or spherical";
+                return Err(element.invalid("type", wanted).into());
+            }
+        };
+        let joint = Joint {
+            name: name.to_owned(),
+            parent: parent.to_owned(),
+            child: child.to_owned(),
+            axis_and_limits: moved,
+            position_rule: position_rule(mimic)?,
+        };
+        Ok((Vec::new(), vec![joint]))
+    }
+
+    /// Reads the limits of a joint; those of a joint that follows another one do not count.
+    fn limits(&self, parts: &[Element<'_>]) -> Result<[f64; 2], UrdfError> {
+        let limit = match only(parts, "limit")? {
+            Some(limit) => limit,
+            None if only(parts, "mimic")?.is_some() => return Ok([0.0; 2]),
+            None => required(parts, "limit")?,
+        };
+        if self.version >= Version::V1_2 {
+            limit.required("lower")?;
+            limit.required("upper")?;
         }
-        Ok(kind.links_and_joints(&joint.name, [parent, child], origin)?)
-    };
-    let moved = match joint.joint_type {
-        JointType::Floating => return compound(CompoundKind::Floating),
-        JointType::Spherical => return compound(CompoundKind::Spherical),
-        JointType::Planar => return compound(CompoundKind::Planar { normal: axis }),
-        JointType::Revolute => trajectory::Joint::revolute(origin, axis)?.with_limits(limits),
-        JointType::Prismatic => trajectory::Joint::prismatic(origin, axis)?.with_limits(limits),
-        JointType::Continuous => trajectory::Joint::revolute(origin, axis)?,
-        JointType::Fixed => trajectory::Joint::fixed(origin),
-    };
-    let position = match &joint.mimic {
-        None => PositionRule::Independent,
-        Some(mimic) => PositionRule::Follows {
-            joint: mimic.joint.clone(),
-            multiplier: mimic.multiplier.unwrap_or(1.0),
-            offset: mimic.offset.unwrap_or(0.0),
-        },
-    };
-    let converted = Joint {
-        name: joint.name.clone(),
-        parent: parent.clone(),
-        child: child.clone(),
-        axis_and_limits: moved,
-        position_rule: position,
-    };
-    Ok((Vec::new(), vec![converted]))
+        let [low] = limit.numbers("lower")?.unwrap_or([0.0]);
+        let [high] = limit.numbers("upper")?.unwrap_or([0.0]);
+        Ok([low, high])
+    }
+
+    /// Reads the pose of a shape or a joint, whose roll, pitch and yaw are rotations about fixed axes: first x, then y, then z.
+    fn pose(&mut self, parts: &[Element<'_>], of: &str) -> Result<Pose, RobotFileError> {
+        let Some(origin) = only(parts, "origin")? else {
+            return Ok(Pose::IDENTITY);
+        };
+        let position = origin.numbers("xyz")?.unwrap_or([0.0; 3]);
+        let angles = origin.numbers("rpy")?;
+        let rotation = match (angles, origin.numbers("quat_xyzw")?) {
+            (None, None) => DQuat::IDENTITY,
+            (Some([roll, pitch, yaw]), None) => {
+                let remark = Remark::remark_on_roll_pitch_yaw([roll, pitch, yaw]);
+                self.remarks
+                    .extend(remark.map(|own| CellRemark::on(of, own)));
+                DQuat::from_euler(EulerRot::ZYX, yaw, pitch, roll)
+            }
+            (_, Some(_)) if self.version < Version::V1_1 => {
+                return Err(UrdfError::LaterVersion {
+                    element: "origin".to_owned(),
+                    attribute: "quat_xyzw".to_owned(),
+                    version: "1.1",
+                }
+                .into());
+            }
+            (None, Some([x, y, z, w])) if [x, y, z, w] != [0.0; 4] => DQuat::from_xyzw(x, y, z, w),
+            (None, Some(_)) => return Err(origin.invalid("quat_xyzw", "a rotation").into()),
+            (Some(_), Some(_)) => {
+                return Err(origin.invalid("quat_xyzw", "allowed beside rpy").into());
+            }
+        };
+        Ok(Pose::new(position, rotation)?)
+    }
 }
 
-/// Converts a pose of a URDF, whose roll, pitch and yaw are rotations about fixed axes: first x, then y, then z.
-fn convert_pose(origin: &urdf_rs::Pose) -> Result<Pose, InputError> {
-    let [roll, pitch, yaw] = origin.rpy.0;
-    let turned = DQuat::from_euler(EulerRot::ZYX, yaw, pitch, roll);
-    Pose::new(origin.xyz.0, turned)
+fn position_rule(mimic: Option<&Element<'_>>) -> Result<PositionRule, UrdfError> {
+    let Some(mimic) = mimic else {
+        return Ok(PositionRule::Independent);
+    };
+    let [multiplier] = mimic.numbers("multiplier")?.unwrap_or([1.0]);
+    let [offset] = mimic.numbers("offset")?.unwrap_or([0.0]);
+    Ok(PositionRule::Follows {
+        joint: mimic.required("joint")?.to_owned(),
+        multiplier,
+        offset,
+    })
 }
+
+impl Version {
+    fn of(root: &Element<'_>) -> Result<Self, UrdfError> {
+        match root.get("version") {
+            None | Some("1.0") => Ok(Version::V1_0),
+            Some("1.1") => Ok(Version::V1_1),
+            Some("1.2") => Ok(Version::V1_2),
+            Some(version) => Err(UrdfError::UnknownVersion {
+                version: version.to_owned(),
+            }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -15,23 +15,106 @@ const SRDF: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
     <enable_collisions link1="base" link2="hand"/>
 </robot>"#;
 
-#[test]
-fn disabled_pairs_are_read_among_other_elements() {
-    let [pairs, enabled] = disabled_and_enabled_pairs(SRDF).unwrap();
-    let named = |pair: &SrdfPair| (pair.link1.clone(), pair.link2.clone(), pair.reason.clone());
-    let expected = [("base", "upper", "Adjacent"), ("upper", "hand", "")];
-    let expected = expected.map(|(one, other, why)| (one.into(), other.into(), why.into()));
-    assert_eq!(pairs.iter().map(named).collect::<Vec<_>>(), expected);
-    let enabled: Vec<_> = enabled.iter().map(named).collect();
-    assert_eq!(enabled, [("base".into(), "hand".into(), String::new())]);
+fn names(pairs: &[SrdfPair]) -> Vec<[&str; 3]> {
+    pairs
+        .iter()
+        .map(|pair| [&*pair.links[0], &*pair.links[1], &*pair.reason])
+        .collect()
 }
 
 #[test]
-fn a_pair_without_a_link_is_an_error() {
-    let error = disabled_and_enabled_pairs(r#"<robot><disable_collisions link1="a"/></robot>"#)
-        .unwrap_err();
-    assert!(error.to_string().contains("link2"), "{error}");
-    assert!(disabled_and_enabled_pairs("<robot><disable_collisions").is_err());
+fn disabled_pairs_are_read_among_other_elements() {
+    let srdf = Srdf::from_text(SRDF).unwrap();
+    let expected = [["base", "upper", "Adjacent"], ["upper", "hand", ""]];
+    assert_eq!(names(&srdf.disabled), expected);
+    assert_eq!(names(&srdf.enabled), [["base", "hand", ""]]);
+}
+
+/// Tests that nothing is passed over that may disable or enable a pair.
+#[test]
+fn what_is_not_known_is_refused() {
+    for (content, expected) in [
+        (
+            r#"<disable_collisions link1="a"/>"#,
+            "an element `disable_collisions` needs an attribute `link2`",
+        ),
+        (
+            r#"<disable_collisions link1="a" link2="b" link3="c"/>"#,
+            "an element `disable_collisions` has no attribute `link3`",
+        ),
+        (
+            r#"<disable_default_collisions/>"#,
+            "an element `disable_default_collisions` needs an attribute `link`",
+        ),
+        (
+            r#"<disable_colisions link1="a" link2="b"/>"#,
+            "an element `disable_colisions` is not known in an SRDF",
+        ),
+        (
+            r#"<xacro:arm xmlns:xacro="x"/>"#,
+            "an element `arm` is not known in an SRDF",
+        ),
+        ("<disable_collisions", ""),
+    ] {
+        let error = Srdf::from_text(&format!("<robot>{content}</robot>")).unwrap_err();
+        assert!(error.to_string().starts_with(expected), "{error}");
+    }
+    let error = Srdf::from_text("<semantics/>").unwrap_err();
+    assert!(error.to_string().contains("`semantics`"), "{error}");
+}
+
+/// Tests that the pairs are those of MoveIt: a link can be disabled as a whole, and single pairs of it enabled again.
+#[test]
+fn links_are_disabled_as_a_whole() {
+    let links = ["a", "b", "c"].map(|name| {
+        let ball = rigid_ccd::Body::sphere(0.1).unwrap();
+        Link::named(name).with_body(ball, rigid_ccd::Pose::IDENTITY)
+    });
+    let slide = |parent: &str, child: &str| Joint {
+        name: child.into(),
+        parent: parent.into(),
+        child: child.into(),
+        axis_and_limits: trajectory::Joint::prismatic(rigid_ccd::Pose::IDENTITY, [1.0, 0.0, 0.0])
+            .unwrap(),
+        position_rule: PositionRule::Independent,
+    };
+    let robot = Robot::new(links.to_vec(), vec![slide("a", "b"), slide("b", "c")]).unwrap();
+    let applied = |content: &str| {
+        let mut pairs = LinkPairs::from_robot(&robot);
+        let srdf = Srdf::from_text(&format!("<robot>{content}</robot>")).unwrap();
+        srdf.apply(&robot, "twin", &mut pairs).map(|()| pairs)
+    };
+    let checked = |content: &str| {
+        let pairs = applied(content).unwrap();
+        (
+            pairs.checked_pairs().collect::<Vec<_>>(),
+            pairs.remarks().len(),
+        )
+    };
+    let whole = r#"<disable_default_collisions link=" c "/>"#;
+    assert_eq!(checked(""), (vec![[0, 2]], 0));
+    assert_eq!(checked(whole), (vec![], 0));
+    let enabled = format!(r#"<enable_collisions link1="a" link2="c"/>{whole}"#);
+    assert_eq!(checked(&enabled), (vec![[0, 2]], 0));
+    // Links of another variant of the robot are left out, with one remark.
+    let variant = r#"<disable_collisions link1="c" link2="tool"/><disable_collisions link1="a" link2="tail"/>"#;
+    assert_eq!(checked(variant), (vec![[0, 2]], 1));
+    let remark = applied(variant).unwrap().remarks()[0].to_string();
+    assert!(remark.ends_with(": tail, tool"), "{remark}");
+    let mut pairs = LinkPairs::from_robot(&robot);
+    let twin = Srdf::from_text(r#"<robot name="other twin"/>"#).unwrap();
+    twin.apply(&robot, "twin", &mut pairs).unwrap();
+    let remark = pairs.remarks()[0].to_string();
+    assert!(
+        remark.ends_with(": `other twin`, and the robot is `twin`"),
+        "{remark}"
+    );
+    let other = r#"<disable_collisions link1="tool" link2="tail"/>"#;
+    let error = applied(other).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "is of another robot: there is no link tail, tool"
+    );
 }
 
 /// Tests that what is written is read again, with names that XML has to escape.
@@ -63,16 +146,12 @@ fn proven_pairs_are_written_and_read() {
     ];
     let robot = Robot::new(links, joints).unwrap();
     let meetings = robot.classify_link_contacts(1000).unwrap();
-    let [read, _] = disabled_and_enabled_pairs(&robot.to_srdf("<box>", &meetings)).unwrap();
-    let pairs: Vec<[&str; 3]> = read
-        .iter()
-        .map(|pair| [&*pair.link1, &*pair.link2, &*pair.reason])
-        .collect();
+    let read = Srdf::from_text(&robot.to_srdf("<box>", &meetings)).unwrap();
     let expected = [
         ["a & b", "c", "Always (proven)"],
         ["a & b", "d", "Never (proven)"],
         ["c", "d", "Never (proven)"],
         ["d", "e", "Never (proven)"],
     ];
-    assert_eq!(pairs, expected);
+    assert_eq!(names(&read.disabled), expected);
 }

@@ -109,3 +109,14 @@ fn quaternions_of_another_length_are_remarked_upon() {
         assert_eq!(Remark::remark_on_quaternion(parts), None, "{parts:?}");
     }
 }
+
+#[test]
+fn fixed_angles_of_more_than_a_turn_are_remarked_upon() {
+    for angles in [[0.0, 0.0, 90.0], [-45.0, 0.0, 0.0], [0.0, 180.0, 0.0]] {
+        let remark = Remark::remark_on_roll_pitch_yaw(angles).unwrap();
+        assert!(remark.to_string().contains("in radians: ("), "{remark}");
+    }
+    for angles in [[0.0; 3], [PI, -PI, TAU], [0.0, 6.2832, -1.5708]] {
+        assert_eq!(Remark::remark_on_roll_pitch_yaw(angles), None, "{angles:?}");
+    }
+}

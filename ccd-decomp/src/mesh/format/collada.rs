@@ -32,6 +32,17 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Content, MeshFault> {
     if root.tag_name().name() != "COLLADA" {
         return Err(MeshFault::malformed_content("is no COLLADA document"));
     }
+    let version = root.attribute("version").unwrap_or("1.4");
+    if !["1.4", "1.5"]
+        .iter()
+        .any(|known| version.starts_with(known))
+    {
+        let content = format!("COLLADA of version {version:?}");
+        return Err(MeshFault::unsupported_content(
+            content,
+            "COLLADA 1.4 or 1.5",
+        ));
+    }
     let mut traversal = SceneTraversal {
         elements_by_id: elements_by_id(root),
         shape_index_by_geometry: HashMap::new(),

@@ -95,6 +95,7 @@ impl ObjReader {
                 point /= weight;
             }
             (Some(_), 1) => return Err(problem("has two numbers after a position")),
+            (Some(_), 4..) => return Err(problem("has more numbers than a position and a colour")),
             _ => {}
         }
         self.polygons.vertices.push(point);

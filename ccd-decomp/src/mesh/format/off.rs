@@ -23,6 +23,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Polygons, MeshFault> {
         let what = "the three coordinates of a vertex";
         let mut coordinate = || line.next_number::<f64>(what);
         let point = DVec3::new(coordinate()?, coordinate()?, coordinate()?);
+        // A colour or a normal has three numbers at least, and a texture coordinate two.
+        if line.words.clone().count() == 1 {
+            return Err(line.problem("has one number after a position"));
+        }
         polygons.vertices.push(point);
         polygons.vertex_line_numbers.push(line.line_number);
     }
@@ -73,7 +77,14 @@ fn read_counts<'a>(
         }
     }
     let what = "the numbers of vertices and faces";
-    Ok((line.next_number(what)?, line.next_number(what)?))
+    let counts = (line.next_number(what)?, line.next_number(what)?);
+    // The number of edges may be left out.
+    match line.words.clone().nth(1) {
+        None => Ok(counts),
+        Some(word) => Err(line.problem(&format!(
+            "{word:?} after the numbers of vertices, faces and edges"
+        ))),
+    }
 }
 
 fn next_line<'a>(

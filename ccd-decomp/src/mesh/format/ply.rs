@@ -105,6 +105,12 @@ fn check_unique_names(bytes: &[u8]) -> Result<(), MeshFault> {
                 ("element", words.next(), &mut elements)
             }
             Some("property") => ("property", words.next_back(), &mut properties),
+            Some("format") if words.clone().nth(1) != Some("1.0") => {
+                return Err(MeshFault::unsupported_content(
+                    format!("{line:?}"),
+                    "PLY 1.0",
+                ));
+            }
             _ => continue,
         };
         if let Some(name) = name

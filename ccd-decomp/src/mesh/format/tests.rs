@@ -228,6 +228,20 @@ fn a_pointer_of_git_lfs_is_recognised() {
     }
 }
 
+/// Tests that the page which some servers send for any path is not taken for an empty or a damaged mesh.
+#[test]
+fn a_page_of_html_is_recognised() {
+    for page in [
+        "<!DOCTYPE html>\n<html></html>",
+        "\u{feff} <html lang='en'>",
+    ] {
+        for (format, _) in valid_files() {
+            let fault = read(format, page.as_bytes()).unwrap_err();
+            assert!(matches!(fault, MeshFault::Html), "{format:?}: {fault}");
+        }
+    }
+}
+
 /// Tests that the error for a format that is not compiled in names the Cargo feature to enable.
 #[test]
 fn a_format_that_is_not_built_is_named() {

@@ -101,6 +101,73 @@ fn errors_name_what_is_wrong() {
     }
 }
 
+/// Tests that no value is passed over: each array has as many as its key needs, and of one type.
+#[test]
+fn surplus_and_missing_values_are_refused() {
+    let ball = "[[obstacle]]\nname = 'ball'\nbody = 'sphere:1'\nposition = [3, 0, 0]\n";
+    for (text, expected) in [
+        (
+            "position = [0, 0, 0, 1]",
+            "obstacle wall: position has 4 values, not 3",
+        ),
+        (
+            "position = [0, 0]",
+            "obstacle wall: position has 2 values, not 3",
+        ),
+        (
+            "position = []",
+            "obstacle wall: position has 0 values, not 3",
+        ),
+        (
+            "position = [0, 0, 0, 'm']",
+            "line 9, `position = [0, 0, 0, 'm']` of [[obstacle]]: invalid type",
+        ),
+        (
+            "position = 1",
+            "line 9, `position = 1` of [[obstacle]]: invalid type",
+        ),
+        (
+            "rpy = [0, 0, 0, 1]",
+            "obstacle wall: rpy has 4 values, not 3",
+        ),
+        (
+            "quaternion = [1, 0, 0, 0, 0]",
+            "obstacle wall: quaternion has 5 values, not 4",
+        ),
+        (
+            "moves = 'planar'\nrpy = [0]",
+            "obstacle wall: rpy has 1 values, not 3",
+        ),
+        ("orientation = [1, 0, 0, 0]", "unknown field `orientation`"),
+        (
+            "[[clearance]]\nbetween = ['ball', 'arm', 'wall']\ndistance = 0.1",
+            "clearance between ball, arm, wall: between has 3 values, not 2",
+        ),
+        (
+            "[[clearance]]\nbetween = ['ball']\ndistance = 0.1",
+            "clearance between ball: between has 1 values, not 2",
+        ),
+        (
+            "[[clearance]]\nbetween = ['ball', 'arm']",
+            "missing field `distance`",
+        ),
+        (
+            "[[attached]]\nname = 'tool'\nbody = 'sphere:1'\nlink = 'arm'\nposition = [1]",
+            "attached body tool: position",
+        ),
+        (
+            "[[robot]]\nname = 'r'\nurdf = 'cart.urdf'\nquaternion = [1]",
+            "robot r: quaternion",
+        ),
+        ("[padding]\narm = [0.1, 0.2]", "of [padding]: invalid type"),
+    ] {
+        let text = format!("{ball}\n[[obstacle]]\nname = 'wall'\nbody = 'sphere:1'\n{text}");
+        let error = read(&text).map(|_| ()).unwrap_err();
+        let message = crate::causes::message_with_causes(&error);
+        assert!(message.contains(expected), "{text}: {message}");
+    }
+}
+
 #[test]
 fn other_robots_and_moving_obstacles_have_positions_of_their_own() {
     let text = "

@@ -32,6 +32,7 @@ fn open(text: &str, at_rest: &[&str]) -> Result<PathTable> {
     let at_rest = GivenJoints {
         named: &named,
         others: OtherJoints::Refused,
+        unit: AngleUnit::Radian,
     };
     Ok(PathTable::open("--edges", &path, &robot(), at_rest)?.0)
 }
@@ -137,4 +138,58 @@ fn skipped_paths_count_in_the_checksum() {
     assert_eq!(skipping.skip_rows(9).unwrap(), 1);
     assert_eq!(skipping.checksum(), all.checksum());
     assert_eq!(all.consumed_bytes(), text.len() as u64);
+}
+
+/// Tests that columns of angles may be in degrees, by their names or by the option, and that no column has two meanings.
+#[test]
+fn angles_are_in_degrees_where_the_table_or_the_option_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("edges.csv");
+    let open_for = |robot: &Robot, text: &str, unit: AngleUnit| {
+        fs::write(&path, text).unwrap();
+        let joints = GivenJoints {
+            named: &[],
+            others: OtherJoints::Refused,
+            unit,
+        };
+        let table = PathTable::open("--edges", &path, robot, joints)?.0;
+        let path = table.map(|path| path.unwrap().unwrap()).next().unwrap();
+        Ok::<_, anyhow::Error>(path.configurations)
+    };
+    let read = |text: &str, unit: AngleUnit| open_for(&robot(), text, unit);
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let path = "hip_deg,rail\n90,90\n";
+    for unit in [AngleUnit::Radian, AngleUnit::Degree] {
+        assert_eq!(read(path, unit).unwrap(), [[quarter, 90.0]]);
+    }
+    let edges = "from_hip_deg,to_hip_deg,from_rail,to_rail\n0,-180,1,2\n";
+    let ends = read(edges, AngleUnit::Radian).unwrap();
+    assert_eq!(ends, [[0.0, 1.0], [-2.0 * quarter, 2.0]]);
+    let plain = "hip,rail\n90,90\n";
+    assert_eq!(read(plain, AngleUnit::Degree).unwrap(), [[quarter, 90.0]]);
+    assert_eq!(read(plain, AngleUnit::Radian).unwrap(), [[90.0, 90.0]]);
+    for (text, expected) in [
+        ("hip,hip_deg,rail\n0,0,0\n", "two columns for the joint hip"),
+        ("hip,rail_deg\n0,0\n", "the joint rail slides"),
+        ("hip_degree,rail\n0,0\n", "no column hip"),
+        (
+            "from_hip_deg,to_hip,to_rail,from_rail,hip\n0,0,0,0,0\n",
+            "unknown column `hip`",
+        ),
+    ] {
+        let error = read(text, AngleUnit::Radian).unwrap_err().to_string();
+        assert!(error.contains(expected), "{text}: {error}");
+    }
+    let mut joints = robot().joints().to_vec();
+    joints[1].name = "hip_deg".into();
+    let twin = Robot::new(robot().links().to_vec(), joints).unwrap();
+    assert_eq!(
+        open_for(&twin, "hip,hip_deg\n1,2\n", AngleUnit::Radian).unwrap(),
+        [[1.0, 2.0]]
+    );
+    let error = open_for(&twin, "hip_deg\n1\n", AngleUnit::Radian).unwrap_err();
+    assert!(
+        error.to_string().contains("may be the joint hip_deg"),
+        "{error}"
+    );
 }

@@ -41,8 +41,11 @@ pub(super) fn read_mesh_assets(
         let scale = own.array("scale")?.map_or(DVec3::ONE, DVec3::from_array);
         let at = own.array("refpos")?.map_or(DVec3::ZERO, DVec3::from_array);
         let [w, x, y, z] = own.array("refquat")?.unwrap_or([1.0, 0.0, 0.0, 0.0]);
+        if [w, x, y, z] == [0.0; 4] {
+            return Err(own.invalid("refquat"));
+        }
         let reference = Pose::new(at, DQuat::from_xyzw(x, y, z, w));
-        let back = reference.map_err(|_| own.invalid("refquat"))?.inverse();
+        let back = reference.map_err(|_| own.invalid("refpos"))?.inverse();
         let back = DAffine3::from_rotation_translation(back.rotation(), back.translation());
         let asset = MeshAsset {
             file: file.map(str::to_owned),

@@ -111,10 +111,31 @@ impl Attributes {
         }
     }
 
+    /// Iterates over the names of the attributes.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.values.keys().map(String::as_str)
+    }
+
+    /// Returns the kind of the element, and its name if it has one.
+    pub(super) fn label(&self) -> String {
+        match self.get("name") {
+            Some(name) if !name.is_empty() => format!("{} {name}", self.element),
+            _ => self.element.clone(),
+        }
+    }
+
+    /// Returns the error that there is no attribute with a name.
+    pub(super) fn unknown(&self, name: &str) -> MjcfError {
+        MjcfError::UnknownAttribute {
+            element: self.label(),
+            attribute: name.to_owned(),
+        }
+    }
+
     /// Returns the error of an attribute.
     pub(super) fn invalid(&self, name: &str) -> MjcfError {
         MjcfError::InvalidAttribute {
-            element: self.element.clone(),
+            element: self.label(),
             attribute: name.to_owned(),
             value: self.values.get(name).cloned().unwrap_or_default(),
         }

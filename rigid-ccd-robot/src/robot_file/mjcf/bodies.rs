@@ -208,7 +208,13 @@ impl Reader<'_> {
             kind,
             anchor: frame.transform_point(anchor),
             axis: frame.rotation() * axis,
-            limits: self.limits(own)?.map(|limits| limits.map(scale)),
+            limits: match kind {
+                // Positions of a free joint have no limits, and those of a ball joint are left out.
+                MjcfJointKind::Free | MjcfJointKind::Ball => None,
+                MjcfJointKind::Hinge | MjcfJointKind::Slide => {
+                    self.limits(own)?.map(|limits| limits.map(scale))
+                }
+            },
             reference: scale(reference),
         })
     }

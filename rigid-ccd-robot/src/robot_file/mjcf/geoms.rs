@@ -127,7 +127,7 @@ fn pose_and_sizes(geom: &MjcfGeom, kind: &str) -> Result<(Pose, Vec<f64>), Robot
         _ => 3,
     };
     let is_positive = sizes.iter().take(used).all(|&size| size > 0.0);
-    if is_shape && !(is_positive && sizes.len() >= used) {
+    if sizes.len() > 3 || is_shape && !(is_positive && sizes.len() >= used) {
         return Err(own.invalid("size").into());
     }
     Ok((pose, sizes))

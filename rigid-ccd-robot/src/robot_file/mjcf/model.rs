@@ -5,6 +5,7 @@ use super::attributes::Attributes;
 use super::bodies::{MjcfBody, read_bodies};
 use super::classes::Classes;
 use super::document::parse;
+use super::schema;
 use super::settings::Settings;
 use crate::robot_file::error::RobotFileError;
 use crate::robot_file::mjcf_error::MjcfError;
@@ -44,6 +45,7 @@ impl MjcfModel {
         folder: &Path,
     ) -> Result<Self, RobotFileError> {
         let root = parse(text, folder)?;
+        schema::check(&root)?;
         let settings = Settings::read(&root, folder)?;
         let classes = Classes::read(&root)?;
         let mut constraints = Vec::new();

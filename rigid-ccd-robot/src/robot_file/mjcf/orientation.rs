@@ -25,7 +25,7 @@ fn read_rotation(own: &Attributes, settings: &Settings) -> Result<DQuat, MjcfErr
     let direction = |v: [f64; 3]| unit(DVec3::from_array(v)).ok_or_else(invalid);
     let numbers = own.numbers(name)?.unwrap_or_default();
     match (*name, &numbers[..]) {
-        ("quat", &[w, x, y, z]) => Ok(DQuat::from_xyzw(x, y, z, w)),
+        ("quat", &[w, x, y, z]) if numbers != [0.0; 4] => Ok(DQuat::from_xyzw(x, y, z, w)),
         ("axisangle", &[x, y, z, angle]) => {
             let axis = direction([x, y, z])?;
             Ok(DQuat::from_axis_angle(axis, settings.radians(angle)))

@@ -282,6 +282,8 @@ fn nothing_is_passed_over() {
     let free_child = format!("<body>{ball}<body><freejoint/>{ball}</body></body>");
     assert!(error(&free_child, "").contains("`freejoint`"));
     assert!(error("<joint/>", "").contains("`joint`"));
+    let closed = error(r#"<body><joint><geom size="1"/></joint></body>"#, "");
+    assert_eq!(closed, "element `geom` in `joint` is not supported");
     let limited = format!(r#"<body><joint limited="true"/>{ball}</body>"#);
     assert!(error(&limited, "").contains("range=\"\""));
     let class = r#"<body><geom class="none" size="1"/></body>"#;
@@ -451,4 +453,58 @@ fn settings_are_those_that_mujoco_takes() {
         "<body>".repeat(60_000) + &"</body>".repeat(60_000)
     );
     assert!(file_of(&deep).read().is_err());
+}
+
+/// Tests that attributes are those of MuJoCo's schema, also in classes and settings, and that messages name the element.
+#[test]
+fn attributes_that_mjcf_does_not_have_are_refused() {
+    let error = |text: &str| file_of(text).read().unwrap_err().to_string();
+    let world = |content: &str| format!("<mujoco><worldbody>{content}</worldbody></mujoco>");
+    let ball = r#"<geom name="ball" size="1" eulr="0 0 1"/>"#;
+    let unknown = |element: &str, attribute: &str| {
+        format!("an element `{element}` has no attribute `{attribute}`")
+    };
+    assert_eq!(error(&world(ball)), unknown("geom ball", "eulr"));
+    let frame = world(r#"<frame foo="1"/>"#);
+    assert_eq!(error(&frame), unknown("frame", "foo"));
+    let class = r#"<mujoco><default><joint axes="1 0 0"/></default></mujoco>"#;
+    assert_eq!(error(class), unknown("joint", "axes"));
+    let setting = r#"<mujoco><compiler anlge="radian"/></mujoco>"#;
+    assert_eq!(error(setting), unknown("compiler", "anlge"));
+    let zero = world(r#"<geom name="ball" size="1" quat="0 0 0 0"/>"#);
+    let expected = "quat=\"0 0 0 0\" of an element `geom ball` is not valid";
+    assert!(error(&zero).ends_with(expected), "{}", error(&zero));
+    // What says nothing of shapes, joints and pairs may have any.
+    let harmless = world(r#"<light shine="1"/><body><inertial heavy="1"/><geom size="1"/></body>"#);
+    assert!(file_of(&harmless).read().is_ok());
+}
+
+/// Tests that a class may limit all joints, also those that have no range.
+#[test]
+fn limits_of_free_and_ball_joints_do_not_count() {
+    let text = |joint: &str| {
+        format!(
+            r#"<mujoco><default><joint limited="true"/></default><worldbody><body>{joint}<geom size="1"/></body></worldbody>
+            </mujoco>"#
+        )
+    };
+    for joint in [
+        r#"<joint type="ball"/>"#,
+        r#"<joint type="free"/>"#,
+        "<freejoint/>",
+    ] {
+        assert!(file_of(&text(joint)).read().is_ok(), "{joint}");
+    }
+    assert!(file_of(&text("<joint/>")).read().is_err());
+}
+
+#[test]
+fn remarks_name_constraints_and_limits_in_degrees() {
+    let text = r#"<mujoco><compiler angle="radian"/><worldbody><body name="a"><joint name="j" range="-90 90"/><geom size="1"/></body>
+        </worldbody><equality><weld name="w" body1="a"/><connect body1="a" active="false"/></equality></mujoco>"#;
+    let robot = file_of(text).read().unwrap();
+    let remarks: Vec<String> = robot.remarks().iter().map(ToString::to_string).collect();
+    assert_eq!(remarks.len(), 2, "{remarks:?}");
+    assert!(remarks[0].ends_with("weld w in equality"), "{remarks:?}");
+    assert!(remarks[1].starts_with("joint j: "), "{remarks:?}");
 }

@@ -72,6 +72,10 @@ fn read_positions(
     };
     let array = referred_element(elements, accessor, "source", &["float_array", "int_array"])?;
     let all: Vec<f64> = numbers(array)?;
+    if count_attribute(array, "count")?.is_some_and(|count| count != all.len()) {
+        let problem = format!("has {} numbers, and says another count", all.len());
+        return Err(fault_at(array, problem));
+    }
     let stride = count_attribute(accessor, "stride")?.unwrap_or(1);
     let offset = count_attribute(accessor, "offset")?.unwrap_or(0);
     let count = count_attribute(accessor, "count")?.unwrap_or(0);

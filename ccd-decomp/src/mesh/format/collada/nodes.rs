@@ -12,6 +12,20 @@ use std::collections::HashMap;
 /// The greatest number of nodes, one below or in place of another. A node that is below itself has more.
 const MAX_DEPTH: usize = 256;
 
+/// The elements of nodes that place no shape, or that are transforms, which are read for themselves.
+const HARMLESS_IN_NODES: [&str; 10] = [
+    "asset",
+    "extra",
+    "instance_camera",
+    "instance_light",
+    "lookat",
+    "matrix",
+    "rotate",
+    "scale",
+    "skew",
+    "translate",
+];
+
 /// The state of a traversal of the scene's nodes. Each geometry is read at its first use.
 pub(super) struct SceneTraversal<'a, 'd> {
     pub(super) elements_by_id: ElementsById<'a, 'd>,
@@ -72,7 +86,8 @@ impl<'a, 'd> SceneTraversal<'a, 'd> {
                         let what = "skins and morphs taken at rest";
                         self.assembly.remarks.add(what, 1, None);
                     }
-                    _ => {}
+                    name if HARMLESS_IN_NODES.contains(&name) => {}
+                    _ => return Err(fault_at(child, "is no element of a node")),
                 }
             }
             waiting.extend(below.into_iter().rev());

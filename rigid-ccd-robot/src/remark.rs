@@ -1,0 +1,235 @@
+//! Remarks on robots and cells that are valid, but probably a mistake.
+
+use crate::cell::{Cell, Item};
+use crate::robot::Robot;
+use ccd_core::order::{greater, lesser};
+use rigid_ccd::glam::DVec3;
+use rigid_ccd::{Pose, Remark};
+use std::fmt;
+
+/// A remark on a robot or a cell that is valid, but probably a mistake. It changes no answer.
+///
+/// [`Cell::remarks`] lists those on a cell. The command prints them, and the Python package warns of them.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum CellRemark {
+    /// Something in a robot's file is left out, which another program may take into account.
+    LeftOut {
+        /// The element, with the name of what it belongs to.
+        element: String,
+    },
+    /// An SRDF disables or enables pairs of links that the robot does not have, and these pairs are left out.
+    UnknownLinks {
+        /// The names of the links.
+        links: Vec<String>,
+    },
+    /// An SRDF is of a robot with another name.
+    OtherRobotName {
+        /// The name of the robot.
+        robot: String,
+        /// The name in the SRDF.
+        of_srdf: String,
+    },
+    /// A link is a hundred times as large as the robot's reach, or something else a hundred times as large as the robot or
+    /// a thousandth of it.
+    UnlikelySize {
+        /// The name of the link, the attached body or the obstacle.
+        item: String,
+        /// The largest side of its largest body's bounding box.
+        size: f64,
+        /// The size of the robot, see [`Cell::robot_size`]; for a link, that of its joints.
+        robot_size: f64,
+    },
+    /// A number or the tolerance is probably in another unit.
+    Input {
+        /// The name of what the remark is on.
+        item: String,
+        /// The remark.
+        remark: Remark,
+    },
+}
+
+/// The ratio of sizes above which a remark is made; millimetres and metres differ by 1000.
+const MAX_USUAL_SIZE_RATIO: f64 = 100.0;
+
+/// The ratio of sizes below which a remark is made. Screws are a few hundredths of a robot.
+const MIN_USUAL_SIZE_RATIO: f64 = 0.001;
+
+impl Cell {
+    /// Lists the remarks on the robot's files, on sizes that differ as millimetres and metres do, and on a tolerance that is
+    /// large against what it is used for.
+    ///
+    /// # Complexity
+    /// Linear in the points of all bodies.
+    pub fn remarks(&self, tolerance: f64) -> Vec<CellRemark> {
+        let of_files = self.robot().remarks().iter();
+        let of_pairs = self.link_pairs().remarks().iter();
+        let mut remarks: Vec<CellRemark> = of_files.chain(of_pairs).cloned().collect();
+        let sizes = self.item_sizes();
+        remarks.extend(self.remarks_on_sizes(&sizes));
+        remarks.extend(sizes.iter().filter_map(|&(item, size)| {
+            let remark = Remark::remark_on_tolerance(tolerance, [size; 2])?;
+            let item = item.name().to_owned();
+            Some(CellRemark::Input { item, remark })
+        }));
+        remarks
+    }
+
+    /// Returns the largest side of a box around the robot's bodies, while its joints are as near to 0 as their limits allow;
+    /// `None` without bodies.
+    ///
+    /// It may be too large by a small factor, because a ball stands for each body.
+    pub fn robot_size(&self) -> Option<f64> {
+        let placed = self
+            .placed_at_rest()
+            .filter(|(item, _)| matches!(item, Item::Link(_)));
+        largest_side(placed.flat_map(|(_, corners)| corners))
+    }
+
+    /// Returns the size of each link with bodies, attached body and obstacle: the largest side of its largest body's bounding
+    /// box.
+    pub fn item_sizes(&self) -> Vec<(Item<'_>, f64)> {
+        let mut sizes: Vec<(Item<'_>, f64)> = Vec::new();
+        for carried in self.carried_bodies() {
+            let size = Remark::body_size(carried.body);
+            match sizes.iter_mut().find(|(item, _)| *item == carried.item) {
+                Some((_, largest)) => *largest = greater(*largest, size),
+                None => sizes.push((carried.item, size)),
+            }
+        }
+        sizes
+    }
+
+    fn remarks_on_sizes(&self, sizes: &[(Item<'_>, f64)]) -> Vec<CellRemark> {
+        let reach = largest_side(self.robot().frames_at_rest());
+        let robot_size = self.robot_size();
+        let unlikely = |&(item, size): &(Item<'_>, f64)| {
+            let (robot_size, is_unlikely) = match item {
+                Item::Link(_) => {
+                    let reach = reach.filter(|&reach| reach > 0.0)?;
+                    (reach, size > MAX_USUAL_SIZE_RATIO * reach)
+                }
+                Item::Attached(_) | Item::Obstacle(_) => {
+                    let robot = robot_size.filter(|&robot| robot > 0.0)?;
+                    let is_large = size > MAX_USUAL_SIZE_RATIO * robot;
+                    let is_small = size > 0.0 && size < MIN_USUAL_SIZE_RATIO * robot;
+                    (robot, is_large || is_small)
+                }
+            };
+            is_unlikely.then(|| CellRemark::UnlikelySize {
+                item: item.name().to_owned(),
+                size,
+                robot_size,
+            })
+        };
+        sizes.iter().filter_map(unlikely).collect()
+    }
+
+    /// Returns two opposite corners of a box around each body, while joints are as near to 0 as their limits allow.
+    fn placed_at_rest(&self) -> impl Iterator<Item = (Item<'_>, [DVec3; 2])> {
+        let placed = self.placed_bodies(&self.robot().configuration_nearest_zero());
+        let corners = |(item, body, pose): (_, &rigid_ccd::Body, Pose)| {
+            let radius = DVec3::splat(body.bounding_radius());
+            let centre = pose.translation();
+            (item, [centre - radius, centre + radius])
+        };
+        placed.unwrap_or_default().into_iter().map(corners)
+    }
+}
+
+impl Robot {
+    /// Returns the origins of all links, while joints are as near to 0 as their limits allow.
+    fn frames_at_rest(&self) -> impl Iterator<Item = DVec3> {
+        let at = self.configuration_nearest_zero();
+        let links = self.links().iter();
+        links.filter_map(move |link| Some(self.pose(&link.name, &at).ok()?.translation()))
+    }
+}
+
+impl CellRemark {
+    /// Makes a remark on something with a name.
+    pub fn on(item: impl Into<String>, remark: Remark) -> Self {
+        let item = item.into();
+        CellRemark::Input { item, remark }
+    }
+
+    /// Returns the remark's text without names and numbers, the same for remarks of one kind.
+    pub fn general_text(&self) -> &'static str {
+        match self {
+            CellRemark::LeftOut { .. } => {
+                "something in the robot's file is left out, which other programs may take into account"
+            }
+            CellRemark::UnknownLinks { .. } => {
+                "the SRDF names links that the robot does not have; their pairs are left out"
+            }
+            CellRemark::OtherRobotName { .. } => {
+                "the SRDF is of a robot with another name; are its pairs those of this one?"
+            }
+            CellRemark::UnlikelySize { .. } => {
+                "something has a size that is unlikely beside the robot; is it in the robot's unit of length?"
+            }
+            CellRemark::Input { remark, .. } => remark.general_text(),
+        }
+    }
+
+    /// Returns this remark with a robot's name before the names in it.
+    pub(crate) fn with_robot_name(&self, prefixed: impl Fn(&str) -> String) -> Self {
+        let mut remark = self.clone();
+        match &mut remark {
+            CellRemark::LeftOut { element: name } => *name = prefixed(name),
+            CellRemark::UnlikelySize { item, .. } | CellRemark::Input { item, .. } => {
+                *item = prefixed(item);
+            }
+            CellRemark::OtherRobotName { .. } => {}
+            CellRemark::UnknownLinks { links } => {
+                for link in links {
+                    *link = prefixed(link);
+                }
+            }
+        }
+        remark
+    }
+}
+
+impl fmt::Display for CellRemark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            CellRemark::LeftOut { element } => write!(f, "{}: {element}", self.general_text()),
+            CellRemark::UnknownLinks { links } => {
+                write!(f, "{}: {}", self.general_text(), links.join(", "))
+            }
+            CellRemark::OtherRobotName { robot, of_srdf } => write!(
+                f,
+                "{}: `{of_srdf}`, and the robot is `{robot}`",
+                self.general_text()
+            ),
+            CellRemark::UnlikelySize {
+                item,
+                size,
+                robot_size,
+            } => write!(
+                f,
+                "{}: {item} is {size:.4} long, and the robot {robot_size:.4}",
+                self.general_text()
+            ),
+            CellRemark::Input { item, remark } => write!(f, "{item}: {remark}"),
+        }
+    }
+}
+
+/// Returns the largest side of a box around points; `None` if there are none.
+fn largest_side(points: impl IntoIterator<Item = DVec3>) -> Option<f64> {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for point in points {
+        for axis in 0..3 {
+            low[axis] = lesser(low[axis], point[axis]);
+            high[axis] = greater(high[axis], point[axis]);
+        }
+    }
+    let sides = (high - low).to_array();
+    let side = sides.into_iter().fold(f64::NEG_INFINITY, greater);
+    (side >= 0.0).then_some(side)
+}
+
+#[cfg(test)]
+mod tests;

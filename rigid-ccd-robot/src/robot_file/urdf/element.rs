@@ -1,0 +1,206 @@
+//! Elements of a URDF, whose attributes and children have to be known.
+
+use super::vocabulary::{Vocabulary, vocabulary_of};
+use crate::remark::CellRemark;
+use crate::robot_file::urdf_error::UrdfError;
+use roxmltree::{Document, Error, Node, ParsingOptions};
+
+/// The prefix of elements that a program, xacro, replaces before a file is a URDF.
+const XACRO: &str = "xacro";
+
+/// The largest number of prefixes that a file may use without a declaration, as some programs' own elements do.
+const MAX_UNDECLARED_PREFIXES: usize = 16;
+
+/// An element whose name, attributes and children are known.
+#[derive(Clone, Copy)]
+pub(super) struct Element<'t> {
+    node: Node<'t, 't>,
+    vocabulary: &'static Vocabulary,
+}
+
+/// Returns the text with a declaration of each prefix that it uses without one. Other parsers of URDF know no prefixes.
+pub(super) fn with_declared_prefixes(text: &str) -> Result<String, String> {
+    let mut text = text.to_owned();
+    for _ in 0..MAX_UNDECLARED_PREFIXES {
+        let prefix = match Document::parse(&text) {
+            Ok(_) => return Ok(text),
+            Err(Error::UnknownNamespace(prefix, _)) => prefix,
+            Err(error) => return Err(error.to_string()),
+        };
+        text = text.replacen("<robot", &format!("<robot xmlns:{prefix}=\"{prefix}\""), 1);
+    }
+    parse(&text).map(|_| String::new())
+}
+
+/// Parses a text.
+pub(super) fn parse(text: &str) -> Result<Document<'_>, String> {
+    Document::parse_with_options(text, ParsingOptions::default()).map_err(|error| error.to_string())
+}
+
+impl<'t> Element<'t> {
+    /// Takes the first element of a document.
+    pub(super) fn root(document: &'t Document<'t>) -> Result<Self, UrdfError> {
+        let root = document.root_element();
+        if let Some(own) = root.descendants().find(|own| prefix(*own) == Some(XACRO)) {
+            let element = format!("{XACRO}:{}", own.tag_name().name());
+            return Err(UrdfError::Xacro { found: element });
+        }
+        let name = root.tag_name().name();
+        if name != "robot" {
+            let element = name.to_owned();
+            return Err(UrdfError::NotARobot { element });
+        }
+        Element::new(root, "")
+    }
+
+    /// Takes an element, and refuses an attribute that is not known.
+    fn new(node: Node<'t, 't>, parent: &str) -> Result<Self, UrdfError> {
+        let name = node.tag_name().name();
+        let Some(vocabulary) = vocabulary_of(parent, name) else {
+            return Err(UrdfError::UnknownElement {
+                element: qualified_name(node),
+                parent: parent.to_owned(),
+            });
+        };
+        let element = Element { node, vocabulary };
+        for attribute in node.attributes() {
+            let value = attribute.value();
+            if value.contains("${") || value.contains("$(") {
+                return Err(UrdfError::Xacro {
+                    found: value.to_owned(),
+                });
+            }
+            // What has a prefix belongs to another program.
+            let is_known = attribute.namespace().is_some()
+                || vocabulary.attributes.contains(&attribute.name());
+            if !is_known {
+                return Err(UrdfError::UnknownAttribute {
+                    element: name.to_owned(),
+                    attribute: attribute.name().to_owned(),
+                });
+            }
+        }
+        Ok(element)
+    }
+
+    pub(super) fn name(&self) -> &'t str {
+        self.node.tag_name().name()
+    }
+
+    /// Returns all children that are read, in order. Refuses one that is not known, and adds a remark for each that is left
+    /// out although it may matter to other programs.
+    pub(super) fn children(
+        &self,
+        remarks: &mut Vec<CellRemark>,
+    ) -> Result<Vec<Element<'t>>, UrdfError> {
+        let mut read = Vec::new();
+        for child in self.node.children().filter(Node::is_element) {
+            let name = child.tag_name().name();
+            if prefix(child).is_some() || self.vocabulary.left_out.contains(&name) {
+                remarks.push(CellRemark::LeftOut {
+                    element: format!("{} in {}", qualified_name(child), self.label()),
+                });
+            } else if !self.vocabulary.harmless.contains(&name) {
+                read.push(Element::new(child, self.name())?);
+            }
+        }
+        Ok(read)
+    }
+
+    /// Returns the attribute with a name.
+    pub(super) fn get(&self, attribute: &str) -> Option<&'t str> {
+        self.node.attribute(attribute)
+    }
+
+    /// Returns the attribute with a name, which has to be there.
+    pub(super) fn required(&self, attribute: &str) -> Result<&'t str, UrdfError> {
+        self.get(attribute)
+            .ok_or_else(|| UrdfError::MissingAttribute {
+                element: self.name().to_owned(),
+                attribute: attribute.to_owned(),
+            })
+    }
+
+    /// Returns the numbers of an attribute; `None` if it is not there.
+    pub(super) fn numbers<const COUNT: usize>(
+        &self,
+        attribute: &str,
+    ) -> Result<Option<[f64; COUNT]>, UrdfError> {
+        let Some(text) = self.get(attribute) else {
+            return Ok(None);
+        };
+        let numbers = text.split_whitespace().map(|number| number.parse().ok());
+        let numbers: Option<Vec<f64>> = numbers.collect();
+        let numbers = numbers.and_then(|numbers| <[f64; COUNT]>::try_from(numbers).ok());
+        let wanted = match COUNT {
+            1 => "a number".to_owned(),
+            count => format!("{count} numbers"),
+        };
+        numbers
+            .map(Some)
+            .ok_or_else(|| self.invalid(attribute, &wanted))
+    }
+
+    /// Returns the number of an attribute that has to be there.
+    pub(super) fn number(&self, attribute: &str) -> Result<f64, UrdfError> {
+        self.required(attribute)?;
+        let [number] = self.numbers(attribute)?.unwrap_or([f64::NAN]);
+        Ok(number)
+    }
+
+    /// Returns the error that an attribute is not what it has to be.
+    pub(super) fn invalid(&self, attribute: &str, wanted: &str) -> UrdfError {
+        UrdfError::InvalidAttribute {
+            element: self.name().to_owned(),
+            attribute: attribute.to_owned(),
+            value: self.get(attribute).unwrap_or_default().to_owned(),
+            wanted: wanted.to_owned(),
+        }
+    }
+
+    /// Returns the element's kind, and its name if it has one.
+    fn label(&self) -> String {
+        match self.get("name") {
+            Some(name) => format!("{} {name}", self.name()),
+            None => self.name().to_owned(),
+        }
+    }
+}
+
+/// Returns the only one of some elements that has a name; `None` if none has.
+pub(super) fn only<'e, 't>(
+    elements: &'e [Element<'t>],
+    name: &str,
+) -> Result<Option<&'e Element<'t>>, UrdfError> {
+    let mut named = elements.iter().filter(|element| element.name() == name);
+    let first = named.next();
+    match named.next() {
+        None => Ok(first),
+        Some(_) => Err(UrdfError::RepeatedElement {
+            element: name.to_owned(),
+        }),
+    }
+}
+
+/// Returns the only one of some elements that has a name, which has to be there.
+pub(super) fn required<'e, 't>(
+    elements: &'e [Element<'t>],
+    name: &str,
+) -> Result<&'e Element<'t>, UrdfError> {
+    only(elements, name)?.ok_or_else(|| UrdfError::MissingElement {
+        element: name.to_owned(),
+    })
+}
+
+fn prefix<'t>(node: Node<'t, 't>) -> Option<&'t str> {
+    let namespace = node.tag_name().namespace()?;
+    Some(node.lookup_prefix(namespace).unwrap_or(""))
+}
+
+fn qualified_name(node: Node<'_, '_>) -> String {
+    let name = node.tag_name().name();
+    match prefix(node) {
+        Some(prefix) if !prefix.is_empty() => format!("{prefix}:{name}"),
+        _ => name.to_owned(),
+    }
+}
