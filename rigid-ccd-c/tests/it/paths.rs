@@ -53,8 +53,31 @@ fn paths_have_the_bits_of_rust() {
         let approach = rust_solver.closest_approach(&path).unwrap();
         assert_eq!(near.outcome, RccdOutcome::LeastDistance);
         assert_eq!([near.lower, near.upper], [approach.lower, approach.upper]);
+        assert_eq!(near.tolerance, Settings::DEFAULT.tolerance);
     }
     assert!(free > 50 && hits > 50, "{free} {hits}");
+}
+
+/// Tests that an answer tells the tolerance that it meets, if rounding allows only a larger one than was asked for.
+#[test]
+fn a_raised_tolerance_is_told() {
+    let (cell, rust) = cells();
+    let tolerance = 1e-14;
+    let settings = RccdSettings {
+        tolerance,
+        ..default_settings()
+    };
+    let solver = cell_solver(&cell, &settings);
+    let mut rust_solver = rust.solver().with_settings(Settings {
+        tolerance,
+        ..Settings::DEFAULT
+    });
+    let mut random = Random::new(9);
+    let path = [(); 2].map(|()| configuration(&mut random));
+    let near = ask(rccd_cell_closest_approach, &solver, &through(&path));
+    rust_solver.closest_approach(&path).unwrap();
+    assert!(near.tolerance > tolerance && near.tolerance < 1e-10);
+    assert_eq!(near.tolerance, rust_solver.met_tolerance());
 }
 
 #[test]

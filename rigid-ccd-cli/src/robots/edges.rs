@@ -286,7 +286,9 @@ fn print_summary(end: Checkpoint, times: &TimeHistogram, raised_tolerances: &Rai
         );
     }
     text += &raised_tolerances.to_string();
-    crate::print_escaped_to_stderr(&text);
+    for line in text.lines() {
+        crate::print_escaped_to_stderr(line);
+    }
 }
 
 /// Returns how a run ended. No row is no proof: with `--check` it is bad input.
