@@ -55,12 +55,14 @@
 //! | `solid` | whether a mesh bounds a solid: edges, shells, intersecting faces, [`DecomposeError`] |
 //! | `mesh` | triangle meshes: file formats, repairs, [`MeshError`] |
 //! | `search` | trees of oriented boxes over triangles |
+//! | `ellipsoid` | convex polytopes about ellipsoids |
 //! | `hull` | convex hulls of points, exact, [`HullError`] |
 //! | `exact` | exact predicates |
 //! | `tolerance`, `work`, `tally`, `bounds`, `half_edges`, `disjoint_sets`, `messages` | constants, budgets, counts, boxes, edges, sets, error messages |
 
 mod bounds;
 mod disjoint_sets;
+mod ellipsoid;
 mod exact;
 mod file;
 mod half_edges;
@@ -88,6 +90,7 @@ mod work;
 #[path = "../../ccd-core/src/tests/worst.rs"]
 mod worst;
 
+pub use ellipsoid::ellipsoid;
 pub use file::STORED_BODY_EXTENSION;
 pub use file::error::{StoreError, StoreFault};
 pub use file::obj::{write_obj, write_obj_pieces};

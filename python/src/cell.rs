@@ -76,7 +76,18 @@ impl PyCell {
         let body = given.get().body.clone();
         let place = pose.pose("pose")?;
         self.change(|cell| cell.add_obstacle(name, body, place))?;
-        self.contents().add(name, given, pose);
+        self.contents().add(name, Some(given), pose);
+        Ok(())
+    }
+
+    /// Adds an obstacle that is a half-space: all points below the plane z = 0 of the frame at a pose, without an end. A path on which
+    /// joints slide so far that this is not certain raises an InputError.
+    #[pyo3(signature = (name, pose = None))]
+    fn add_plane(&self, name: &str, pose: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let pose = given_pose_or_identity(pose)?;
+        let place = pose.pose("pose")?;
+        self.change(|cell| cell.add_plane(name, place))?;
+        self.contents().add(name, None, pose);
         Ok(())
     }
 
@@ -361,7 +372,10 @@ impl PyCell {
     fn __setstate__(&self, state: UnpickledContents<'_>) -> PyResult<()> {
         let (obstacles, attached, paddings, clearances) = state;
         for (name, body, pose) in &obstacles {
-            self.add(name, body, Some(pose))?;
+            match body {
+                Some(body) => self.add(name, body, Some(pose))?,
+                None => self.add_plane(name, Some(pose))?,
+            }
         }
         for (name, body, link, pose, may_touch) in attached {
             self.attach(&name, &body, &link, Some(&pose), may_touch)?;

@@ -7,7 +7,8 @@ use pyo3::prelude::*;
 /// The arguments of the calls that make a cell as it is now.
 #[derive(Default)]
 pub(crate) struct CellContents {
-    obstacles: Vec<(String, Py<PyBody>, GivenPose)>,
+    /// A plane has no body.
+    obstacles: Vec<(String, Option<Py<PyBody>>, GivenPose)>,
     attached: Vec<AttachedBody>,
     paddings: Vec<(String, f64)>,
     clearances: Vec<(String, String, f64)>,
@@ -18,7 +19,7 @@ pub(crate) type AttachedBody = (String, Py<PyBody>, String, GivenPose, Vec<Strin
 
 /// What pickle stores of the contents.
 pub(crate) type PickledContents = (
-    Vec<(String, Py<PyBody>, GivenPose)>,
+    Vec<(String, Option<Py<PyBody>>, GivenPose)>,
     Vec<AttachedBody>,
     Vec<(String, f64)>,
     Vec<(String, String, f64)>,
@@ -26,7 +27,7 @@ pub(crate) type PickledContents = (
 
 /// The contents of a cell as pickle returns them.
 pub(crate) type UnpickledContents<'py> = (
-    Vec<(String, Bound<'py, PyAny>, Bound<'py, PyAny>)>,
+    Vec<(String, Option<Bound<'py, PyAny>>, Bound<'py, PyAny>)>,
     Vec<(
         String,
         Bound<'py, PyAny>,
@@ -39,7 +40,7 @@ pub(crate) type UnpickledContents<'py> = (
 );
 
 impl CellContents {
-    pub(crate) fn add(&mut self, name: &str, body: Py<PyBody>, pose: GivenPose) {
+    pub(crate) fn add(&mut self, name: &str, body: Option<Py<PyBody>>, pose: GivenPose) {
         self.obstacles.push((name.to_owned(), body, pose));
     }
 
@@ -79,7 +80,10 @@ impl CellContents {
         let attached = self.attached.iter();
         (
             obstacles
-                .map(|(name, body, pose)| (name.clone(), body.clone_ref(py), *pose))
+                .map(|(name, body, pose)| {
+                    let body = body.as_ref().map(|body| body.clone_ref(py));
+                    (name.clone(), body, *pose)
+                })
                 .collect(),
             attached
                 .map(|(name, body, link, pose, may_touch)| {

@@ -367,3 +367,18 @@ def test_contacts_have_witnesses_while_threads_compete(robot: Robot) -> None:
 
     with ThreadPoolExecutor(16) as threads:
         assert sum(threads.map(lost, range(16))) == 0
+
+
+def test_a_plane_has_no_end(robot: Robot) -> None:
+    cell = Cell(robot)
+    cell.add_plane("slope", ([2, 0, 0], [np.sqrt(0.5), 0, -np.sqrt(0.5), 0]))
+    # The ball is at 1.5 from the shoulder, in the half-space beyond x = 2 - 0.2 nowhere.
+    assert cell.is_free([[0, 0], [3, 0]])
+    cell.move_to("slope", ([1.5, 1e6, 0], [np.sqrt(0.5), 0, -np.sqrt(0.5), 0]))
+    for own in (cell, pickle.loads(pickle.dumps(cell))):
+        contact = own.first_contact([[2, 0], [0, 0]], tolerance=1e-6)
+        assert isinstance(contact, PathContact)
+        assert (contact.a, contact.b) == ("fore", "slope")
+        assert 2 - 2 * contact.share == pytest.approx(np.arccos(1.3 / 1.5), abs=1e-5)
+    cell.remove("slope")
+    assert cell.is_free([[0, 0], [3, 0]])

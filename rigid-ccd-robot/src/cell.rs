@@ -3,6 +3,7 @@
 mod clusters;
 mod margins;
 pub(crate) mod part;
+mod planes;
 
 use crate::error::RobotError;
 use crate::pairs::LinkPairs;
@@ -106,6 +107,11 @@ impl Cell {
                 );
             }
         }
+        for link in 0..cell.robot.links().len() {
+            for plane in cell.robot.links()[link].planes.clone() {
+                cell.add_link_plane(RobotBodyPlacement::for_link_body(link, plane));
+            }
+        }
         cell
     }
 
@@ -135,10 +141,8 @@ impl Cell {
     pub fn move_obstacle(&mut self, name: &str, pose: Pose) -> Result<(), RobotError> {
         let number = self.robot_body_placements.len() + self.obstacle_number(name)?;
         RobotError::check_pose("obstacle", name, &pose)?;
-        self.bodies[number].pose = pose;
-        let moved = self.bodies[number].parts(number);
-        let first = self.parts.partition_point(|part| part.owner < number);
-        self.parts.splice(first..first + moved.len(), moved);
+        let moved = self.bodies[number].moved_to(pose);
+        self.replace(number, moved);
         Ok(())
     }
 
@@ -391,6 +395,7 @@ impl Cell {
         let number = self.robot_body_placements.len();
         self.robot_body_placements.push(held);
         self.robot_part_count += self.insert(number, placed);
+        self.fit_planes();
     }
 
     /// Inserts a body with its parts, and returns the number of the parts.
@@ -405,6 +410,14 @@ impl Cell {
         self.parts.splice(first..first, parts);
         self.bodies.insert(number, placed);
         count
+    }
+
+    /// Replaces a body by one with as many parts.
+    fn replace(&mut self, number: usize, placed: PlacedBody) {
+        let parts = placed.parts(number);
+        let first = self.parts.partition_point(|part| part.owner < number);
+        self.parts.splice(first..first + parts.len(), parts);
+        self.bodies[number] = placed;
     }
 
     fn remove(&mut self, number: usize) {

@@ -82,6 +82,7 @@ impl Robot {
             links.extend(placed.robot.links().iter().map(|link| Link {
                 name: placed.prefixed(&link.name),
                 bodies: link.bodies.clone(),
+                planes: link.planes.clone(),
             }));
             joints.extend(
                 placed

@@ -99,6 +99,12 @@ pub enum RobotError {
         /// The name of the joint.
         joint: String,
     },
+    /// A joint moves a link with a plane. Such a half-space would be everywhere at once.
+    #[error("link `{link}` has a plane, and a joint moves it; only a link at rest has planes")]
+    MovingPlane {
+        /// The name of the link with the plane.
+        link: String,
+    },
     /// Joints form a loop.
     #[error("link `{link}` is in a loop of joints; loops are no tree")]
     Loop {
@@ -188,6 +194,16 @@ pub enum PathError {
         at: PathPoint,
         /// What is wrong there.
         error: RobotError,
+    },
+    /// Joints slide so far that a body may leave the place in which a plane is certain to have no end.
+    #[error(
+        "a body may get {distance} from the base, and planes end {reach} from it; give the joints that slide limits"
+    )]
+    BeyondPlane {
+        /// A bound of how far any body gets from the base on the path.
+        distance: f64,
+        /// How far from the base planes are certain to have no end.
+        reach: f64,
     },
     /// A joint that follows another one by a large factor jumps.
     #[error(transparent)]

@@ -46,7 +46,7 @@ impl fmt::Display for SkipReason {
 impl LinkPairs {
     /// Creates the pairs of a robot; adjacent links, and links that never move relative to each other, are not checked.
     pub fn from_robot(robot: &Robot) -> Self {
-        let has_bodies = |&link: &usize| !robot.links()[link].bodies.is_empty();
+        let has_bodies = |&link: &usize| robot.links()[link].has_shapes();
         let links: Vec<usize> = (0..robot.links().len()).filter(has_bodies).collect();
         let mut pairs = LinkPairs {
             skip_reasons: BTreeMap::new(),

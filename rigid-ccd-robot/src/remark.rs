@@ -87,10 +87,11 @@ impl Cell {
     }
 
     /// Returns the size of each link with bodies, attached body and obstacle: the largest side of its largest body's bounding
-    /// box.
+    /// box. Planes have none.
     pub fn item_sizes(&self) -> Vec<(Item<'_>, f64)> {
         let mut sizes: Vec<(Item<'_>, f64)> = Vec::new();
-        for carried in self.carried_bodies() {
+        let bodies = self.carried_bodies().enumerate();
+        for (_, carried) in bodies.filter(|&(number, _)| !self.is_plane(number)) {
             let size = Remark::body_size(carried.body);
             match sizes.iter_mut().find(|(item, _)| *item == carried.item) {
                 Some((_, largest)) => *largest = greater(*largest, size),
@@ -133,7 +134,9 @@ impl Cell {
             let centre = pose.translation();
             (item, [centre - radius, centre + radius])
         };
-        placed.unwrap_or_default().into_iter().map(corners)
+        let bodies = placed.unwrap_or_default().into_iter().enumerate();
+        let bodies = bodies.filter(|&(number, _)| !self.is_plane(number));
+        bodies.map(move |(_, body)| corners(body))
     }
 }
 

@@ -43,6 +43,8 @@ pub struct Link {
     pub name: String,
     /// The bodies that are fixed in the link's frame.
     pub bodies: Vec<LinkBody>,
+    /// Half-spaces of a link that no joint moves: of each the pose in the link's frame of a frame in which it is below `z = 0`.
+    pub planes: Vec<Pose>,
 }
 
 /// A body that is fixed in the frame of a link.
@@ -159,6 +161,7 @@ impl Link {
         Link {
             name: name.into(),
             bodies: Vec::new(),
+            planes: Vec::new(),
         }
     }
 
@@ -169,14 +172,27 @@ impl Link {
         self.bodies.push(LinkBody { body, pose });
         self
     }
+
+    /// Adds the half-space below the plane `z = 0` of a frame at a pose in the link's frame. Only a link that no joint moves has
+    /// planes.
+    #[must_use]
+    pub fn with_plane(mut self, pose: Pose) -> Self {
+        self.planes.push(pose);
+        self
+    }
+
+    /// Returns whether the link has bodies or planes.
+    pub(crate) fn has_shapes(&self) -> bool {
+        !self.bodies.is_empty() || !self.planes.is_empty()
+    }
 }
 
 impl Robot {
     /// Creates a robot from its links and joints, in any order.
     ///
     /// # Errors
-    /// [`RobotError`] with the link or the joint, if names are not unique or unknown, the joints form no tree, or a
-    /// joint is reversed.
+    /// [`RobotError`] with the link or the joint, if names are not unique or unknown, the joints form no tree, a
+    /// joint is reversed, or a joint moves a link with planes.
     pub fn new(links: Vec<Link>, mut joints: Vec<Joint>) -> Result<Self, RobotError> {
         for joint in &mut joints {
             if joint.axis_and_limits.is_reversed() {
@@ -202,6 +218,9 @@ impl Robot {
             for held in &link.bodies {
                 RobotError::check_pose("a body of link", &link.name, &held.pose)?;
             }
+            for plane in &link.planes {
+                RobotError::check_pose("a plane of link", &link.name, plane)?;
+            }
         }
         let tree = Tree::new(&links, &joints)?;
         let (sources, free_joints) = position_sources_and_free_joints(&joints)?;
@@ -210,6 +229,12 @@ impl Robot {
             if sources[joint].is_none() {
                 rigid_roots[link] = rigid_roots[parent];
             }
+        }
+        let moves = |link: &usize| rigid_roots[*link] != tree.base();
+        let mut with_planes = (0..links.len()).filter(|&link| !links[link].planes.is_empty());
+        if let Some(moving) = with_planes.find(moves) {
+            let link = links[moving].name.clone();
+            return Err(RobotError::MovingPlane { link });
         }
         Ok(Robot {
             rigid_roots,

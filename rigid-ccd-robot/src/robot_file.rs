@@ -120,8 +120,8 @@ impl RobotFile {
     /// Of an MJCF, a joint whose position is a linear function of another joint's, by an element `equality`, follows that one.
     /// Other constraints, such as those that close loops of bodies, leave joints independent: a path has to keep them. Ranges
     /// of ball joints and margins of geoms are left out. The positions of a free joint are those of its body in the world, and of
-    /// a `mocap` body as well. A plane, a height field, an ellipsoid, a shape that is fitted to a mesh, and an element that is not
-    /// known are errors.
+    /// a `mocap` body as well. An ellipsoid becomes a polytope that encloses it. A shape that is fitted to a mesh, a height field in
+    /// a picture, a mesh that MuJoCo makes, a plane on a body that moves, and an element that is not known are errors.
     ///
     /// Elements and attributes that are not known are errors, too, unless they are known to say nothing of shapes, joints and
     /// pairs. [`Robot::remarks`] names what may be a mistake.

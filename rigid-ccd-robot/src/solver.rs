@@ -16,7 +16,7 @@ pub(crate) mod pair_chain;
 pub(crate) mod part_pairs;
 mod periods;
 pub(crate) mod placement;
-mod rounding;
+pub(crate) mod rounding;
 mod search;
 mod stretch;
 pub(crate) mod violation;

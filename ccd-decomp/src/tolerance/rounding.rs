@@ -56,3 +56,10 @@ pub(crate) const MAX_NEEDLE_RATIO: f64 = 1e-4;
 /// The minimum sine of the angle between two sides of a facet for the facet's plane to be used. The error of the
 /// facet's normal is then at most `4 UNIT_ROUNDOFF_F64 / 1e-6`, less than [`DISTANCE_ERROR_BOUND_PER_HALF_DIAGONAL`].
 pub(crate) const MIN_CORNER_SINE: f64 = 1e-6;
+
+/// The factor by which a polytope about an ellipsoid is larger than its least facet asks for.
+///
+/// With `u` half a unit in the last place: corners of length 1 are off by `8u`, and so are heights of facets, whose corners are
+/// 0.05 apart, by less than `1e4 u`. Mapping them rounds each coordinate by `3u` of itself, which is `3u` as the ball sees it.
+/// 1e-11 is `9e4 u`.
+pub(crate) const ELLIPSOID_ENLARGEMENT: f64 = 1.0 + 1e-11;

@@ -19,6 +19,9 @@ pub(super) struct CellFile {
     /// Bodies in the frame of the robot's base.
     #[serde(default)]
     obstacle: Vec<Obstacle>,
+    /// Half-spaces in the frame of the robot's base.
+    #[serde(default)]
+    plane: Vec<Plane>,
     /// Other robots.
     #[serde(default)]
     robot: Vec<OtherRobot>,
@@ -43,6 +46,17 @@ struct Obstacle {
     quaternion: Option<Vec<f64>>,
     /// How it moves; `None` if it rests.
     moves: Option<BaseMotion>,
+}
+
+/// The half-space below the plane z = 0 of a frame.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Plane {
+    name: String,
+    #[serde(default)]
+    position: [f64; 3],
+    rpy: Option<[f64; 3]>,
+    quaternion: Option<[f64; 4]>,
 }
 
 /// A robot beside that of the command.
@@ -197,6 +211,15 @@ impl<'p> CellSource<'p> {
                 add_obstacle(cell, folder, obstacle)
                     .with_context(|| format!("obstacle {}", obstacle.name))?;
             }
+        }
+        for plane in &file.plane {
+            let add = || {
+                anyhow::Ok(cell.add_plane(
+                    &plane.name,
+                    pose(plane.position, plane.rpy, plane.quaternion)?,
+                )?)
+            };
+            add().with_context(|| format!("plane {}", plane.name))?;
         }
         for attached in &file.attached {
             attach(cell, folder, attached)

@@ -3,6 +3,7 @@
 use super::path_table::TablePath;
 use crate::picture::{AnimationGroup, Page, drawn_mesh};
 use anyhow::{Result, bail};
+use ccd_core::order::greater;
 use ccd_view::{
     Animation, GapCurve, GapSample, Keyframe, Meshes, ShownBody, ShownContact, ShownMotion,
 };
@@ -24,8 +25,15 @@ const OBSTACLE_COLOR: &str = "#b8b8b8";
 pub(crate) struct RobotPainter<'c> {
     cell: &'c Cell,
     meshes: Meshes,
-    /// The numbers of the meshes of the cell's bodies.
-    mesh_numbers: Vec<usize>,
+    drawn: Vec<Drawn>,
+}
+
+/// What is drawn of a body.
+struct Drawn {
+    /// The number of the mesh.
+    mesh: usize,
+    /// The pose of the mesh in the body's frame.
+    pose: Pose,
 }
 
 impl<'c> RobotPainter<'c> {
@@ -34,14 +42,27 @@ impl<'c> RobotPainter<'c> {
         let mut known: HashMap<*const Body, usize> = HashMap::new();
         let at_rest = cell.robot().configuration_nearest_zero();
         let bodies = cell.placed_bodies(&at_rest)?;
-        let numbers = bodies.into_iter().map(|(_, body, _)| {
-            *known
-                .entry(body)
-                .or_insert_with(|| meshes.add(&drawn_mesh(body)))
-        });
+        let size = size_without_planes(cell, &bodies);
+        let mut drawn = Vec::new();
+        for (number, (_, body, pose)) in bodies.into_iter().enumerate() {
+            drawn.push(if cell.is_plane(number) {
+                let base = pose.inverse().transform_point(DVec3::ZERO);
+                Drawn {
+                    mesh: meshes.add(&drawn_mesh(&Body::cuboid([size, size, 0.0])?)),
+                    pose: Pose::at(base.with_z(0.0))?,
+                }
+            } else {
+                Drawn {
+                    mesh: *known
+                        .entry(body)
+                        .or_insert_with(|| meshes.add(&drawn_mesh(body))),
+                    pose: Pose::IDENTITY,
+                }
+            });
+        }
         Ok(RobotPainter {
             cell,
-            mesh_numbers: numbers.collect(),
+            drawn,
             meshes,
         })
     }
@@ -119,21 +140,20 @@ impl<'c> RobotPainter<'c> {
 
     /// Returns the bodies of the cell with their motions along a path.
     fn shown_bodies(&self, path: &TablePath, halvings: u32) -> Result<Vec<ShownBody>> {
-        let mut poses: Vec<Vec<(f64, Pose)>> = vec![Vec::new(); self.mesh_numbers.len()];
+        let mut poses: Vec<Vec<(f64, Pose)>> = vec![Vec::new(); self.drawn.len()];
         let start = path.table_time_rounded_down(0.0);
         for (time, configuration) in samples(&path.configurations, halvings) {
             let seconds = path.table_time_rounded_down(time) - start;
-            for (keys, (_, _, pose)) in poses
-                .iter_mut()
-                .zip(self.cell.placed_bodies(&configuration)?)
-            {
-                keys.push((seconds, pose));
+            let placed = self.cell.placed_bodies(&configuration)?;
+            let drawn = self.drawn.iter().zip(placed);
+            for (keys, (drawn, (_, _, pose))) in poses.iter_mut().zip(drawn) {
+                keys.push((seconds, pose.compose(&drawn.pose)));
             }
         }
         let items = self.cell.placed_bodies(&path.configurations[0])?;
         let mut known: Vec<Item<'_>> = Vec::new();
-        let shown = items.iter().zip(&self.mesh_numbers).zip(poses);
-        let shown = shown.map(|(((item, ..), mesh), keys)| {
+        let shown = items.iter().zip(&self.drawn).zip(poses);
+        let shown = shown.map(|(((item, ..), drawn), keys)| {
             // All bodies of a link have its colour.
             let number = known.iter().position(|other| other == item);
             let number = number.unwrap_or_else(|| {
@@ -147,10 +167,19 @@ impl<'c> RobotPainter<'c> {
                     (150.0 + HUE_STEP * number as f64) % 360.0
                 ),
             };
-            ShownBody::new(item.name(), *mesh, &color, shown_motion(&keys))
+            ShownBody::new(item.name(), drawn.mesh, &color, shown_motion(&keys))
         });
         Ok(shown.collect())
     }
+}
+
+/// Returns how far the bodies of a cell, except planes, are from the base at most: a plane is drawn as a square of that size.
+fn size_without_planes(cell: &Cell, bodies: &[(Item<'_>, &Body, Pose)]) -> f64 {
+    let others = bodies.iter().enumerate();
+    let others = others.filter(|&(number, _)| !cell.is_plane(number));
+    let sizes =
+        others.map(|(_, (_, body, pose))| pose.translation().length() + body.bounding_radius());
+    sizes.fold(0.0, greater)
 }
 
 /// Returns the number of halvings of each segment of a path for the curve of its distances.

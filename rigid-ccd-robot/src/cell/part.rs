@@ -1,6 +1,7 @@
 //! A convex hull around a body, in the frame in which the body rests.
 
 use super::clusters::connected_clusters;
+use super::planes::Plane;
 use ccd_core::fan_triangles;
 use ccd_core::order::greater;
 use ccd_core::{Body, Facet, FacetOrigin, Facets, Piece, Pieces, Polytope, Solidity, SupportMap};
@@ -17,6 +18,8 @@ pub(crate) struct PlacedBody {
     pub(crate) pose: Pose,
     /// The number of the frame.
     pub(crate) frame: usize,
+    /// How far from the base the body is a half-space; `None` for a body that is no plane.
+    pub(super) plane_reach: Option<f64>,
     /// Convex hulls that enclose the body together, in its own coordinates.
     hulls: Vec<Arc<Hull>>,
 }
@@ -46,6 +49,8 @@ pub(crate) struct HullPart {
     pub(crate) radius: f64,
     /// Whether the grown hull is the body itself.
     pub(crate) is_convex: bool,
+    /// The plane below which everything is in the body, as far as it matters; `None` for a body that is no half-space.
+    pub(crate) plane: Option<Plane>,
     /// By how much the body exceeds the shape that it encloses.
     pub(crate) excess_over_shape: f64,
     /// The centre and the half extents of the box along the frame's axes around the grown hull.
@@ -77,7 +82,19 @@ impl PlacedBody {
             body,
             pose,
             frame,
+            plane_reach: None,
             hulls,
+        }
+    }
+
+    /// Returns the body at another pose in its frame.
+    pub(super) fn moved_to(&self, pose: Pose) -> Self {
+        match self.plane_reach {
+            Some(reach) => PlacedBody::of_plane(pose, reach),
+            None => PlacedBody {
+                pose,
+                ..self.clone()
+            },
         }
     }
 
@@ -159,6 +176,7 @@ impl HullPart {
             rotation: DMat3::from_quat(placed.pose.rotation()),
             radius,
             is_convex: placed.body.pieces().len() == 1,
+            plane: placed.plane_reach.map(|_| Plane::below(&placed.pose)),
             excess_over_shape: placed.body.excess(),
             centre,
             half_extents: 0.5 * (max - min) + DVec3::splat(radius),

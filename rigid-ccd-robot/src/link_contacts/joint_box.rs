@@ -2,6 +2,7 @@
 
 use crate::cell::Cell;
 use crate::robot::PositionSource;
+use ccd_core::order::greater;
 use rigid_ccd::trajectory::JointKind;
 use std::f64::consts::PI;
 
@@ -15,7 +16,7 @@ pub(crate) struct JointBox {
 
 impl JointBox {
     /// Returns the box of all positions of the joints that move two links against each other; `None` if a joint without
-    /// limits does not come back to where it was after a turn.
+    /// limits does not come back to where it was after a turn, or if one slides beyond the reach of planes.
     pub(crate) fn of_joints_between(cell: &Cell, links: [usize; 2]) -> Option<Self> {
         let robot = cell.robot();
         let limits: Vec<[f64; 2]> = robot.limits().collect();
@@ -39,6 +40,12 @@ impl JointBox {
                 comes_back.then_some([-PI, PI])?
             };
         }
+        let ends = ranges.iter();
+        let farthest: Vec<f64> = ends
+            .map(|[low, high]| greater(low.abs(), high.abs()))
+            .collect();
+        cell.check_plane_reach(cell.kinematics().magnitudes(&farthest))
+            .ok()?;
         Some(JointBox {
             ranges,
             volume_share: 1.0,

@@ -1,7 +1,7 @@
 //! Makes bodies of the mesh files that a robot's file names.
 
 use super::error::RobotFileError;
-use ccd_decomp::{Detail, MeshFile, Unit, body_from_mesh};
+use ccd_decomp::{Detail, MeshFile, TriangleMesh, Unit, body_from_mesh};
 use rigid_ccd::Body;
 use rigid_ccd::glam::DAffine3;
 use std::cell::RefCell;
@@ -47,16 +47,26 @@ impl MeshBodies {
         let mesh = MeshFile::read(&file)?
             .converted_to_unit(Unit::Metre)
             .into_mesh()?;
+        let body = self.body_of_mesh(&mesh, map, file)?;
+        self.bodies_by_mesh
+            .borrow_mut()
+            .insert(key, Arc::clone(&body));
+        Ok(body)
+    }
+
+    /// Makes the body of a mesh, whose vertices are mapped. Errors name its file, or itself if it has none.
+    pub(super) fn body_of_mesh(
+        &self,
+        mesh: &TriangleMesh,
+        map: DAffine3,
+        file: PathBuf,
+    ) -> Result<Arc<Body>, RobotFileError> {
         let detail = match self.conversion {
             MeshConversion::Exact => Detail::Auto,
             MeshConversion::OuterHull => Detail::OuterHull,
         };
         let prepared = body_from_mesh(&mesh.transformed(map)?, detail)
             .map_err(|error| RobotFileError::Prepare { file, error })?;
-        let body = Arc::new(prepared.body);
-        self.bodies_by_mesh
-            .borrow_mut()
-            .insert(key, Arc::clone(&body));
-        Ok(body)
+        Ok(Arc::new(prepared.body))
     }
 }

@@ -8,6 +8,7 @@ mod bodies;
 mod classes;
 mod document;
 mod geoms;
+mod height_fields;
 mod joints;
 mod model;
 mod orientation;
@@ -46,11 +47,10 @@ impl MjcfModel {
         let joints_of_bodies = JointReader::new(self)?;
         let (mut links, mut joints) = (Vec::new(), Vec::new());
         for body in &self.bodies {
-            let own = geoms.bodies(body);
-            links.push(Link {
-                name: body.name.clone(),
-                bodies: own.map_err(|error| error.with_link_name(&body.name))?,
-            });
+            let mut link = Link::named(&body.name);
+            let added = geoms.add_to(&mut link, body);
+            added.map_err(|error| error.with_link_name(&body.name))?;
+            links.push(link);
             let (between, own) = joints_of_bodies.joints(body)?;
             links.extend(between);
             joints.extend(own);

@@ -97,8 +97,10 @@ impl<'r> UrdfReader<'r> {
             let body = self.body(geometry)?;
             bodies.push(LinkBody { body, pose });
         }
-        let name = name.to_owned();
-        Ok(Link { name, bodies })
+        Ok(Link {
+            bodies,
+            ..Link::named(name)
+        })
     }
 
     /// Makes the body of a box, sphere, capsule, cylinder or mesh. A URDF gives full side lengths and full heights, not

@@ -1,5 +1,6 @@
 //! The frames of all moving links at one configuration.
 
+use super::rounding::Magnitude;
 use crate::robot::{PositionSource, Robot};
 use rigid_ccd::Pose;
 use rigid_ccd::glam::{DMat3, DVec3};
@@ -78,6 +79,17 @@ impl Kinematics {
 
     pub(crate) fn joints(&self) -> &[MovingJoint] {
         &self.joints
+    }
+
+    /// Returns bounds of the positions of all joints in a configuration, for all configurations whose positions are no larger.
+    pub(crate) fn magnitudes(&self, configuration: &[f64]) -> impl Iterator<Item = Magnitude> {
+        self.joints.iter().map(|joint| {
+            let rounding = joint.source.magnitude(configuration);
+            Magnitude {
+                position: rounding,
+                rounding,
+            }
+        })
     }
 
     /// Returns the frame in which a link rests, and its pose there.

@@ -43,12 +43,11 @@ pub(crate) fn measure(
     let frames = [a, b].map(|part| placement.frames[part.frame]);
     let displacement = pair.displacement(placement);
     let rounding = 2.0 * placement.rounding;
-    let is_obstacle = pair.b as usize >= cell.robot_part_count();
     let centres = [
         frames[0].transform_point(a.centre),
         frames[1].transform_point(b.centre),
     ];
-    let gap = volume_gap_at_centres([a, b], &frames[0], centres, is_obstacle);
+    let gap = volume_gap_at_centres([a, b], &frames[0], centres);
     let required = displacement + thresholds.free_distance_threshold + rounding;
     if gap > required {
         return DistanceVerdict::Free;
@@ -57,22 +56,24 @@ pub(crate) fn measure(
         pair.distance_to_proof_ratio = 1.0;
         return DistanceVerdict::Undecided(f64::INFINITY);
     }
-    let first_axis = if pair.axis != DVec3::ZERO {
-        pair.axis
-    } else {
-        initial_direction(b, centres, is_obstacle)
-    };
     let radii = a.radius + b.radius;
     let until = TerminationBounds {
         sufficient_lower_bound: required + radii,
         sufficient_upper_bound: thresholds.near_distance - rounding + radii,
     };
-    let bounds = bound_distance(
-        #[inline(always)]
-        |direction: DVec3| minkowski_support_vertex([a, b], &frames, direction),
-        first_axis,
-        until,
-    );
+    let bounds = match &b.plane {
+        Some(plane) => plane.distance_bounds(a, &frames[0]),
+        None => bound_distance(
+            #[inline(always)]
+            |direction: DVec3| minkowski_support_vertex([a, b], &frames, direction),
+            if pair.axis != DVec3::ZERO {
+                pair.axis
+            } else {
+                initial_direction(b, centres)
+            },
+            until,
+        ),
+    };
     if bounds.lower > until.sufficient_lower_bound {
         return DistanceVerdict::Free;
     }
@@ -91,26 +92,18 @@ pub(crate) fn measure(
 pub(crate) fn bounding_volume_gap(cell: &Cell, placement: &Placement, pair: &PartPair) -> f64 {
     let parts = [pair.a, pair.b].map(|part| &cell.parts()[part as usize]);
     let centres = parts.map(|part| placement.frames[part.frame].transform_point(part.centre));
-    let is_obstacle = pair.b as usize >= cell.robot_part_count();
-    volume_gap_at_centres(
-        parts,
-        &placement.frames[parts[0].frame],
-        centres,
-        is_obstacle,
-    )
+    volume_gap_at_centres(parts, &placement.frames[parts[0].frame], centres)
 }
 
-/// Returns a lower bound of the distance by bounding volumes: boxes for a part and an obstacle, balls for two parts of the
-/// robot.
+/// Returns a lower bound of the distance by bounding volumes: boxes if the second part rests, the first one's box over a
+/// plane, balls if both move.
 #[inline(always)]
-fn volume_gap_at_centres(
-    [a, b]: [&HullPart; 2],
-    frame_a: &Frame,
-    centres: [DVec3; 2],
-    is_obstacle: bool,
-) -> f64 {
+fn volume_gap_at_centres([a, b]: [&HullPart; 2], frame_a: &Frame, centres: [DVec3; 2]) -> f64 {
+    if let Some(plane) = &b.plane {
+        return plane.height_of(a, frame_a, centres[0]);
+    }
     let offset = centres[1] - centres[0];
-    if is_obstacle {
+    if b.frame == 0 {
         let extents = a.box_half_extents(frame_a) + b.half_extents;
         (offset.abs() - extents).max_element()
     } else {
@@ -118,14 +111,11 @@ fn volume_gap_at_centres(
     }
 }
 
-/// Returns the first direction in which a pair is measured: to the nearest point of an obstacle's box, or between centres.
+/// Returns the first direction in which a pair is measured: to the nearest point of the box of a part that rests, or between
+/// centres.
 #[inline(always)]
-pub(super) fn initial_direction(
-    b: &HullPart,
-    [centre_a, centre_b]: [DVec3; 2],
-    is_obstacle: bool,
-) -> DVec3 {
-    if is_obstacle {
+pub(super) fn initial_direction(b: &HullPart, [centre_a, centre_b]: [DVec3; 2]) -> DVec3 {
+    if b.frame == 0 {
         let nearest = centre_a.clamp(centre_b - b.half_extents, centre_b + b.half_extents);
         let axis = nearest - centre_a;
         if axis.length_squared() > MIN_SQUARED_OFFSET {

@@ -45,6 +45,10 @@ impl PartPair {
         parts: [usize; 2],
     ) -> Self {
         let kinematics = cell.kinematics();
+        // As with an obstacle, the part that rests comes second.
+        let [a, b] = parts;
+        let rests = |part: usize| cell.parts()[part].frame == 0;
+        let parts = if rests(a) { [b, a] } else { [a, b] };
         let frame = kinematics.common_frame(parts.map(|part| cell.parts()[part].frame));
         let slots = parts.map(|part| displacements.slot(kinematics, part, frame));
         PartPair::new(parts, slots, 0.0)

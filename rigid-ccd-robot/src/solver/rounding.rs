@@ -60,11 +60,17 @@ pub(crate) fn point_error_bound(
     }
     let turn = ROTATION_ERROR_PER_JOINT * (kinematics.total_joint_count + 2) as f64
         + POSITION_ERROR_ULPS * angles;
-    U * (turn + POSITION_ERROR_ULPS) * largest_arm(kinematics, parts, magnitudes)
-        + U * POSITION_ERROR_ULPS * slides
+    let moving = (turn + POSITION_ERROR_ULPS) * largest_arm(kinematics, parts, magnitudes);
+    // No joint turns what rests.
+    let resting = parts.iter().filter(|part| part.frame == 0);
+    let resting = resting.map(|part| part.coordinate_bound);
+    let resting =
+        (2.0 * ROTATION_ERROR_PER_JOINT + POSITION_ERROR_ULPS) * resting.fold(0.0, greater);
+    U * greater(moving, resting) + U * POSITION_ERROR_ULPS * slides
 }
 
-/// Returns a bound of the distance of any point of a part from any joint's axis.
+/// Returns a bound of the distance of any point of a part that moves from the base, and from any joint's axis. Without magnitudes,
+/// joints that slide are at 0.
 pub(crate) fn largest_arm(
     kinematics: &Kinematics,
     parts: &[HullPart],
@@ -75,9 +81,6 @@ pub(crate) fn largest_arm(
     let arms = slides.fold(kinematics.arm_length_sum, |arms, (_, magnitude)| {
         arms + magnitude.position
     });
-    let reach = parts
-        .iter()
-        .map(|part| part.coordinate_bound)
-        .fold(0.0, greater);
-    arms + reach
+    let moving = parts.iter().filter(|part| part.frame > 0);
+    arms + moving.map(|part| part.coordinate_bound).fold(0.0, greater)
 }

@@ -200,6 +200,7 @@ impl<'c> Search<'c> {
     pub(crate) fn begin<P: Path + ?Sized>(&mut self, path: &P) -> Result<(), PathError> {
         self.stop_condition = StopCondition::starting_now(&self.settings);
         path.write_to(self.cell, &mut self.path)?;
+        self.cell.check_plane_reach(self.path.magnitudes())?;
         self.placement.begin(self.cell, &self.path);
         // A margin is raised by half of that, and distances may be off by as much.
         let rounding = 4.0 * self.placement.rounding;

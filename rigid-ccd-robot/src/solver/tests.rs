@@ -74,7 +74,7 @@ pub(crate) fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
     least
 }
 
-pub(super) fn configuration_between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
+pub(crate) fn configuration_between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
     let ends = from.iter().zip(to);
     ends.map(|(from, to)| from + share * (to - from)).collect()
 }

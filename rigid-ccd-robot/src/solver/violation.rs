@@ -91,8 +91,10 @@ pub(crate) fn are_convex_parts_nearer(
         frames[0].transform_point(a.centre),
         frames[1].transform_point(b.centre),
     ];
-    let is_obstacle = pair.b as usize >= cell.robot_part_count();
-    let axis = initial_direction(b, centres, is_obstacle);
+    if let Some(plane) = &b.plane {
+        return plane.lowest_corner_height(a, &frames[0]) < distance;
+    }
+    let axis = initial_direction(b, centres);
     let vertex = |direction: DVec3| minkowski_support_vertex(parts, &frames, direction);
     if distance > 0.0 {
         let until = TerminationBounds {

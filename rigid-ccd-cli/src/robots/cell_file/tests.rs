@@ -74,6 +74,23 @@ fn a_cell_has_what_its_file_says() {
     assert_eq!(contact.items.map(|item| item.name()), ["arm", "table"]);
 }
 
+/// Tests that a plane is a half-space without an end, at the pose that the file gives.
+#[test]
+fn a_plane_has_no_end() {
+    let cell = |z: f64| {
+        let text = format!("[[plane]]\nname = 'floor'\nposition = [500, 0, {z}]\nrpy = [0, 0, 1]");
+        read(&text).unwrap()
+    };
+    let touches = |z: f64| {
+        let cell = cell(z);
+        let contact = cell.solver().any_contact(&[[1.5]]).unwrap();
+        contact.map(|contact| contact.items.map(|item| item.name().to_owned()))
+    };
+    assert_eq!(touches(-0.101), None);
+    assert_eq!(touches(-0.099), Some(["arm", "floor"].map(str::to_owned)));
+    assert!(touches(99.0).is_some());
+}
+
 #[test]
 fn errors_name_what_is_wrong() {
     for (text, expected) in [
@@ -85,6 +102,8 @@ fn errors_name_what_is_wrong() {
             "rpy",
         ),
         ("[[obstacles]]\nname = 'a'\nbody = 'sphere:1'", "obstacles"),
+        ("[[plane]]\nname = 'arm'", "plane arm"),
+        ("[[plane]]\nname = 'a'\nbody = 'sphere:1'", "body"),
         ("[padding]\nleg = 0.1", "leg"),
         (
             "[[clearance]]\nbetween = ['arm', 'wall']\ndistance = 0.1",

@@ -117,6 +117,9 @@ Cell (--cell), TOML. Bodies are those of `ccd query --a`; files are looked for n
   position = [0, 0, -0.05]        # in the frame of the robot's base [default: 0]
   rpy = [0, 0, 1.57]              # or quaternion = [w, x, y, z] [default: none]
   moves = \"floating\"              # or planar: it has joints of its own, table/base/x and so on [default: it rests]
+  [[plane]]                       # a half-space without an end, below z = 0 of its frame
+  name = \"floor\"
+  position = [0, 0, -0.1]         # and rpy or quaternion, as an obstacle
   [[robot]]                       # another one, placed as an obstacle; its joints are right/shoulder and so on
   name = \"right\"
   urdf = \"arm.urdf\"               # and srdf

@@ -1,5 +1,6 @@
-//! The meshes that an MJCF file names.
+//! The meshes and the height fields that an MJCF file names.
 
+use super::attributes::Attributes;
 use super::classes::Classes;
 use super::document::{Element, children_of_sections};
 use crate::robot_file::mjcf_error::MjcfError;
@@ -8,25 +9,43 @@ use rigid_ccd::glam::{DAffine3, DQuat, DVec3};
 use std::collections::HashMap;
 use std::path::Path;
 
+/// The shapes that geoms name.
+pub(super) struct Assets {
+    pub(super) meshes: HashMap<String, MeshAsset>,
+    /// The elements `hfield`.
+    pub(super) height_fields: HashMap<String, Attributes>,
+}
+
 /// A mesh that geoms name.
 pub(super) struct MeshAsset {
-    /// The file; `None` for a mesh that the model holds itself.
-    pub(super) file: Option<String>,
+    pub(super) source: MeshSource,
     /// MuJoCo moves the vertices from the reference pose to the origin, and then scales them.
     pub(super) map: DAffine3,
 }
 
-/// Reads the meshes of a model by their names. One without a name has that of its file.
-pub(super) fn read_mesh_assets(
-    root: &Element,
-    classes: &Classes,
-) -> Result<HashMap<String, MeshAsset>, MjcfError> {
-    let mut assets = HashMap::new();
+/// Where the triangles of a mesh come from.
+pub(super) enum MeshSource {
+    File(String),
+    /// The vertices and the triangles stand in the model. Without triangles the mesh is the hull of the vertices.
+    Given {
+        vertices: Vec<DVec3>,
+        faces: Vec<[u32; 3]>,
+    },
+    /// MuJoCo makes the mesh.
+    Builtin,
+}
+
+/// Reads the shapes of a model by their names. One without a name has that of its file.
+pub(super) fn read_assets(root: &Element, classes: &Classes) -> Result<Assets, MjcfError> {
+    let mut assets = Assets {
+        meshes: HashMap::new(),
+        height_fields: HashMap::new(),
+    };
     for element in children_of_sections(root, "asset") {
         match element.name.as_str() {
-            "mesh" => {}
-            // Pictures; a geom that is a height field or a skin is refused by itself.
-            "hfield" | "material" | "skin" | "texture" => continue,
+            "mesh" | "hfield" => {}
+            // Pictures, and what is drawn over bodies.
+            "material" | "skin" | "texture" => continue,
             // A model that may be attached, which is refused where it is.
             "model" => continue,
             _ => return Err(element.unknown_in("asset")),
@@ -38,6 +57,10 @@ pub(super) fn read_mesh_assets(
         let Some(name) = own.get("name").or(stem) else {
             return Err(own.invalid("name"));
         };
+        if element.name == "hfield" {
+            assets.height_fields.insert(name.to_owned(), own);
+            continue;
+        }
         let scale = own.array("scale")?.map_or(DVec3::ONE, DVec3::from_array);
         let at = own.array("refpos")?.map_or(DVec3::ZERO, DVec3::from_array);
         let [w, x, y, z] = own.array("refquat")?.unwrap_or([1.0, 0.0, 0.0, 0.0]);
@@ -48,10 +71,41 @@ pub(super) fn read_mesh_assets(
         let back = reference.map_err(|_| own.invalid("refpos"))?.inverse();
         let back = DAffine3::from_rotation_translation(back.rotation(), back.translation());
         let asset = MeshAsset {
-            file: file.map(str::to_owned),
+            source: mesh_source(&own)?,
             map: DAffine3::from_scale(scale) * back,
         };
-        assets.insert(name.to_owned(), asset);
+        assets.meshes.insert(name.to_owned(), asset);
     }
     Ok(assets)
+}
+
+fn mesh_source(own: &Attributes) -> Result<MeshSource, MjcfError> {
+    let vertices = own.numbers("vertex")?;
+    Ok(match (own.get("file"), vertices) {
+        (Some(file), None) => MeshSource::File(file.to_owned()),
+        (None, Some(coordinates)) => {
+            let (points, rest) = coordinates.as_chunks::<3>();
+            if !rest.is_empty() {
+                return Err(own.invalid("vertex"));
+            }
+            MeshSource::Given {
+                vertices: points.iter().copied().map(DVec3::from_array).collect(),
+                faces: faces(own)?,
+            }
+        }
+        (None, None) if own.get("builtin").is_some() => MeshSource::Builtin,
+        (None, None) => return Err(own.invalid("file")),
+        (Some(_), Some(_)) => return Err(own.invalid("vertex")),
+    })
+}
+
+fn faces(own: &Attributes) -> Result<Vec<[u32; 3]>, MjcfError> {
+    let text = own.get("face").unwrap_or("");
+    let corners = text.split_whitespace().map(|corner| corner.parse().ok());
+    let corners: Option<Vec<u32>> = corners.collect();
+    let corners = corners.ok_or_else(|| own.invalid("face"))?;
+    match corners.as_chunks::<3>() {
+        (faces, []) => Ok(faces.to_vec()),
+        _ => Err(own.invalid("face")),
+    }
 }

@@ -57,6 +57,13 @@ impl Attributes {
         })
     }
 
+    /// Adds a text to the name, if there is one.
+    pub(super) fn add_to_name(&mut self, suffix: &str) {
+        if let Some(name) = self.values.get_mut("name") {
+            name.push_str(suffix);
+        }
+    }
+
     /// Returns the text of an attribute; an empty one counts as none.
     pub(super) fn get(&self, name: &str) -> Option<&str> {
         let value = self.values.get(name).map(String::as_str);

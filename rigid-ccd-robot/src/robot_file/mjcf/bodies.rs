@@ -2,8 +2,8 @@
 
 use super::attributes::Attributes;
 use super::classes::Classes;
-use super::document::Element;
-use super::orientation::read_pose;
+use super::document::{Element, MAX_ELEMENTS};
+use super::orientation::{euler_rotation, read_pose};
 use super::settings::Settings;
 use crate::robot_file::mjcf_error::MjcfError;
 use rigid_ccd::Pose;
@@ -72,6 +72,7 @@ pub(super) fn read_bodies(
     let mut reader = Reader {
         settings,
         classes,
+        added_count: 0,
         bodies: vec![MjcfBody {
             number: WORLD,
             parent: None,
@@ -82,7 +83,7 @@ pub(super) fn read_bodies(
         }],
     };
     for world in root.children.iter().filter(|own| own.name == "worldbody") {
-        reader.add_children(world, WORLD, Pose::IDENTITY, None)?;
+        reader.add_children(world, &Place::in_body(WORLD))?;
     }
     Ok(reader.bodies)
 }
@@ -91,34 +92,62 @@ struct Reader<'r> {
     settings: &'r Settings,
     classes: &'r Classes,
     bodies: Vec<MjcfBody>,
+    /// The number of elements that were added; one that is replicated counts each time.
+    added_count: usize,
+}
+
+/// Where elements are added.
+#[derive(Clone, Copy)]
+struct Place<'r> {
+    /// The number of the body.
+    body: usize,
+    /// The pose of the elements' frame in the body's.
+    frame: Pose,
+    /// The class of elements that have none.
+    class: Option<&'r str>,
+    /// What is added to all names.
+    suffix: &'r str,
+}
+
+impl Place<'_> {
+    fn in_body(body: usize) -> Self {
+        Place {
+            body,
+            frame: Pose::IDENTITY,
+            class: None,
+            suffix: "",
+        }
+    }
 }
 
 impl Reader<'_> {
-    /// Adds what is in an element to the body with a number. `frame` is the pose of the element's frame in the body's, and
-    /// `class` the class of elements in it that have none.
-    fn add_children(
-        &mut self,
-        element: &Element,
-        number: usize,
-        frame: Pose,
-        class: Option<&str>,
-    ) -> Result<(), MjcfError> {
+    /// Adds what is in an element to a body.
+    fn add_children(&mut self, element: &Element, place: &Place<'_>) -> Result<(), MjcfError> {
         for child in &element.children {
-            let own = self.classes.merged(child, class)?;
-            let class = own.get("childclass").or(class);
+            self.added_count += 1;
+            if self.added_count > MAX_ELEMENTS {
+                return Err(MjcfError::TooManyElements);
+            }
+            let mut own = self.classes.merged(child, place.class)?;
+            own.add_to_name(place.suffix);
+            let inner = Place {
+                class: own.get("childclass").or(place.class),
+                ..*place
+            };
             match child.name.as_str() {
-                "body" => self.add_body(child, &own, number, frame, class)?,
+                "body" => self.add_body(child, &own, &inner)?,
                 "frame" => {
-                    let inner = frame.compose(&read_pose(&own, self.settings)?);
-                    self.add_children(child, number, inner, class)?;
+                    let frame = place.frame.compose(&read_pose(&own, self.settings)?);
+                    self.add_children(child, &Place { frame, ..inner })?;
                 }
+                "replicate" => self.replicate(child, &own, &inner)?,
                 "geom" => {
-                    let geom = self.geom(own, frame)?;
-                    self.bodies[number].geoms.push(geom);
+                    let geom = self.geom(own, place.frame)?;
+                    self.bodies[place.body].geoms.push(geom);
                 }
                 "joint" | "freejoint" => {
-                    let joint = self.joint(&own, number, frame)?;
-                    self.bodies[number].joints.push(joint);
+                    let joint = self.joint(&own, place.body, place.frame)?;
+                    self.bodies[place.body].joints.push(joint);
                 }
                 // No shapes and no joints.
                 "camera" | "inertial" | "light" | "plugin" | "site" => {}
@@ -128,19 +157,49 @@ impl Reader<'_> {
         Ok(())
     }
 
+    /// Adds what is in an element as often as it says, each time moved further, and with a number after all names.
+    fn replicate(
+        &mut self,
+        element: &Element,
+        own: &Attributes,
+        place: &Place<'_>,
+    ) -> Result<(), MjcfError> {
+        let count = own.integer_or("count", 0)?;
+        if count < 1 {
+            return Err(own.invalid("count"));
+        }
+        let offset = own.array("offset")?.map_or(DVec3::ZERO, DVec3::from_array);
+        let angles: [f64; 3] = own.array("euler")?.unwrap_or_default();
+        let turn = |times: f64| euler_rotation(angles.map(|angle| times * angle), self.settings);
+        let digits = (count - 1).to_string().len();
+        let mut at = DVec3::ZERO;
+        for k in 0..count {
+            let rotation = turn(k as f64);
+            let moved = Pose::new(at, rotation).map_err(|_| own.invalid("offset"))?;
+            at += rotation * offset;
+            let separator = own.get("sep").unwrap_or("");
+            let suffix = format!("{separator}{k:0digits$}{}", place.suffix);
+            let inner = Place {
+                frame: place.frame.compose(&moved),
+                suffix: &suffix,
+                ..*place
+            };
+            self.add_children(element, &inner)?;
+        }
+        Ok(())
+    }
+
     fn add_body(
         &mut self,
         element: &Element,
         own: &Attributes,
-        parent: usize,
-        frame: Pose,
-        class: Option<&str>,
+        place: &Place<'_>,
     ) -> Result<(), MjcfError> {
         let number = self.bodies.len();
         let name = own
             .get("name")
             .map_or_else(|| format!("body{number}"), str::to_owned);
-        let pose = frame.compose(&read_pose(own, self.settings)?);
+        let pose = place.frame.compose(&read_pose(own, self.settings)?);
         let mut joints = Vec::new();
         // Whoever steers the simulation moves it freely.
         if own.truth_or("mocap", false)? {
@@ -155,13 +214,18 @@ impl Reader<'_> {
         }
         self.bodies.push(MjcfBody {
             number,
-            parent: Some(parent),
+            parent: Some(place.body),
             name,
             pose,
             joints,
             geoms: Vec::new(),
         });
-        self.add_children(element, number, Pose::IDENTITY, class)
+        let inner = Place {
+            body: number,
+            frame: Pose::IDENTITY,
+            ..*place
+        };
+        self.add_children(element, &inner)
     }
 
     fn geom(&self, attributes: Attributes, frame: Pose) -> Result<MjcfGeom, MjcfError> {

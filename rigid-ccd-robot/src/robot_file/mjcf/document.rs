@@ -10,7 +10,7 @@ use std::path::Path;
 const MAX_DEPTH: usize = 200;
 
 /// The largest number of elements, so that files that include each other several times end.
-const MAX_ELEMENTS: usize = 1 << 20;
+pub(super) const MAX_ELEMENTS: usize = 1 << 20;
 
 /// An element of an MJCF file.
 pub(super) struct Element {

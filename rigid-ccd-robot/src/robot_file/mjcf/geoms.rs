@@ -1,22 +1,27 @@
-//! Makes bodies of the geoms of an MJCF.
+//! Makes bodies and planes of the geoms of an MJCF.
 
+use super::assets::MeshSource;
 use super::bodies::{MjcfBody, MjcfGeom};
+use super::height_fields::HeightField;
 use super::model::MjcfModel;
 use super::orientation::rotation_of_z_to;
-use crate::robot::LinkBody;
+use crate::robot::{Link, LinkBody};
 use crate::robot_file::body_elements::BodyElements;
 use crate::robot_file::error::RobotFileError;
 use crate::robot_file::meshes::MeshBodies;
 use crate::robot_file::mjcf_error::MjcfError;
+use ccd_core::fan_triangles;
 use ccd_core::vector::unit;
-use rigid_ccd::glam::DVec3;
+use ccd_decomp::TriangleMesh;
+use rigid_ccd::glam::{DAffine3, DVec3};
 use rigid_ccd::{Body, Pose};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The first group of geoms that MuJoCo does not draw.
 const FIRST_HIDDEN_GROUP: i64 = 3;
 
-/// Makes bodies of the geoms of a model.
+/// Makes bodies and planes of the geoms of a model.
 pub(super) struct GeomReader<'r> {
     pub(super) mjcf: &'r MjcfModel,
     pub(super) elements: BodyElements,
@@ -24,23 +29,21 @@ pub(super) struct GeomReader<'r> {
 }
 
 impl GeomReader<'_> {
-    /// Makes the bodies of the geoms of a body.
-    pub(super) fn bodies(&self, body: &MjcfBody) -> Result<Vec<LinkBody>, RobotFileError> {
-        let mut bodies = Vec::new();
+    /// Adds the geoms of a body to its link.
+    pub(super) fn add_to(&self, link: &mut Link, body: &MjcfBody) -> Result<(), RobotFileError> {
         for (number, geom) in body.geoms.iter().enumerate() {
-            let own = self.body(geom);
-            bodies.extend(own.map_err(|error| {
+            self.add_geom(link, geom).map_err(|error| {
                 let name = geom
                     .name()
                     .map_or_else(|| number.to_string(), str::to_owned);
                 error.with_geom_name(&name)
-            })?);
+            })?;
         }
-        Ok(bodies)
+        Ok(())
     }
 
-    /// Makes the body of a geom; `None` if it is not one of the elements that become bodies.
-    fn body(&self, geom: &MjcfGeom) -> Result<Option<LinkBody>, RobotFileError> {
+    /// Adds a geom to its link, if it is one of the elements that become bodies.
+    fn add_geom(&self, link: &mut Link, geom: &MjcfGeom) -> Result<(), RobotFileError> {
         let own = &geom.attributes;
         let is_body = match self.elements {
             BodyElements::Collision => {
@@ -49,61 +52,104 @@ impl GeomReader<'_> {
             BodyElements::Visual => own.integer_or("group", 0)? < FIRST_HIDDEN_GROUP,
         };
         if !is_body {
-            return Ok(None);
+            return Ok(());
         }
         let kind = own.get("type").unwrap_or("sphere");
-        if kind == "mesh" {
-            let body = self.mesh(own.required("mesh")?)?;
-            let pose = geom.pose;
-            return Ok(Some(LinkBody { body, pose }));
-        }
-        if own.get("mesh").is_some() {
-            return Err(unsupported("a shape that is fitted to a mesh"));
-        }
-        let (pose, sizes) = pose_and_sizes(geom, kind)?;
-        let body = match (kind, &sizes[..]) {
-            ("sphere", &[radius, ..]) => Body::sphere(radius)?,
-            ("capsule", &[radius, half_height, ..]) => Body::capsule(radius, half_height)?,
-            ("cylinder", &[radius, half_height, ..]) => Body::cylinder(radius, half_height)?,
-            ("box", &[x, y, z]) => Body::cuboid([x, y, z])?,
-            ("plane", _) => return Err(unsupported("a plane")),
-            ("hfield", _) => return Err(unsupported("a height field")),
-            ("ellipsoid", _) => return Err(unsupported("an ellipsoid")),
-            ("sdf", _) => return Err(unsupported("a signed distance field")),
-            ("sphere" | "capsule" | "cylinder" | "box", _) => {
-                return Err(own.invalid("size").into());
+        let body = match kind {
+            "plane" => {
+                link.planes.push(geom.pose);
+                return Ok(());
             }
-            _ => return Err(own.invalid("type").into()),
+            "mesh" => self.mesh(own.required("mesh")?)?,
+            "hfield" => self.height_field(own.required("hfield")?)?,
+            _ if own.get("mesh").is_some() => {
+                return Err(unsupported("a shape that is fitted to a mesh"));
+            }
+            _ => {
+                let (body, pose) = primitive(geom, kind)?;
+                let body = Arc::new(body);
+                link.bodies.push(LinkBody { body, pose });
+                return Ok(());
+            }
         };
-        Ok(Some(LinkBody {
-            body: Arc::new(body),
-            pose,
-        }))
+        let pose = geom.pose;
+        link.bodies.push(LinkBody { body, pose });
+        Ok(())
     }
 
     fn mesh(&self, name: &str) -> Result<Arc<Body>, RobotFileError> {
-        let Some(asset) = self.mjcf.meshes.get(name) else {
+        let Some(asset) = self.mjcf.assets.meshes.get(name) else {
             return Err(MjcfError::unknown_name("mesh", name).into());
         };
-        let Some(uri) = &asset.file else {
-            return Err(unsupported("a mesh without a file"));
-        };
-        let file = self.mjcf.settings.mesh_file(uri);
-        if !file.is_file() {
-            return Err(RobotFileError::MeshNotFound {
-                uri: uri.clone(),
-                searched_paths: vec![file],
-            });
+        match &asset.source {
+            MeshSource::File(uri) => self.meshes.body(self.file(uri)?, asset.map),
+            MeshSource::Builtin => Err(unsupported("a mesh that MuJoCo makes")),
+            MeshSource::Given { vertices, faces } => {
+                let mesh = match &faces[..] {
+                    [] => {
+                        hull_mesh(vertices).ok_or_else(|| unsupported("a mesh without a hull"))?
+                    }
+                    faces => TriangleMesh::new(vertices.clone(), faces)?,
+                };
+                self.meshes.body_of_mesh(&mesh, asset.map, name.into())
+            }
         }
-        self.meshes.body(file, asset.map)
     }
+
+    fn height_field(&self, name: &str) -> Result<Arc<Body>, RobotFileError> {
+        let Some(own) = self.mjcf.assets.height_fields.get(name) else {
+            return Err(MjcfError::unknown_name("hfield", name).into());
+        };
+        let file = own.get("file").map(|uri| self.file(uri)).transpose()?;
+        let mesh = HeightField::read(own, file.as_deref())?.mesh()?;
+        self.meshes
+            .body_of_mesh(&mesh, DAffine3::IDENTITY, name.into())
+    }
+
+    /// Returns the path of a file that a model names.
+    fn file(&self, uri: &str) -> Result<PathBuf, RobotFileError> {
+        let file = self.mjcf.settings.mesh_file(uri);
+        if file.is_file() {
+            return Ok(file);
+        }
+        Err(RobotFileError::MeshNotFound {
+            uri: uri.to_owned(),
+            searched_paths: vec![file],
+        })
+    }
+}
+
+/// Returns the hull of points; `None` for points that have none.
+fn hull_mesh(points: &[DVec3]) -> Option<TriangleMesh> {
+    let hull = ccd_decomp::convex_hull(points).ok()?;
+    let faces: Vec<[u32; 3]> = hull.facets.iter().flat_map(fan_triangles).collect();
+    TriangleMesh::new(hull.points, &faces).ok()
+}
+
+/// Makes the body of a geom that its sizes describe, and returns it with its pose.
+fn primitive(geom: &MjcfGeom, kind: &str) -> Result<(Body, Pose), RobotFileError> {
+    let own = &geom.attributes;
+    let (pose, sizes) = pose_and_sizes(geom, kind)?;
+    let body = match (kind, &sizes[..]) {
+        ("sphere", &[radius, ..]) => Body::sphere(radius)?,
+        ("capsule", &[radius, half_height, ..]) => Body::capsule(radius, half_height)?,
+        ("cylinder", &[radius, half_height, ..]) => Body::cylinder(radius, half_height)?,
+        ("box", &[x, y, z]) => Body::cuboid([x, y, z])?,
+        ("ellipsoid", &[x, y, z]) => ccd_decomp::ellipsoid([x, y, z])?,
+        ("sdf", _) => return Err(unsupported("a signed distance field")),
+        ("sphere" | "capsule" | "cylinder" | "box" | "ellipsoid", _) => {
+            return Err(own.invalid("size").into());
+        }
+        _ => return Err(own.invalid("type").into()),
+    };
+    Ok((body, pose))
 }
 
 /// Returns the pose of a geom and its sizes, which are halves of lengths. A geom may be given by the points between which it is.
 fn pose_and_sizes(geom: &MjcfGeom, kind: &str) -> Result<(Pose, Vec<f64>), RobotFileError> {
     let own = &geom.attributes;
     let sizes = own.numbers("size")?.unwrap_or_default();
-    let is_shape = ["sphere", "capsule", "cylinder", "box"].contains(&kind);
+    let is_shape = ["sphere", "capsule", "cylinder", "box", "ellipsoid"].contains(&kind);
     let points = if is_shape { own.array("fromto")? } else { None };
     let (pose, sizes) = match points {
         None => (geom.pose, sizes),
@@ -115,7 +161,7 @@ fn pose_and_sizes(geom: &MjcfGeom, kind: &str) -> Result<(Pose, Vec<f64>), Robot
             let width = sizes.first().copied().unwrap_or(0.0);
             let sizes = match kind {
                 "capsule" | "cylinder" => vec![width, half],
-                "box" => vec![width, width, half],
+                "box" | "ellipsoid" => vec![width, width, half],
                 _ => return Err(own.invalid("fromto").into()),
             };
             (geom.frame.compose(&pose), sizes)
@@ -136,3 +182,6 @@ fn pose_and_sizes(geom: &MjcfGeom, kind: &str) -> Result<(Pose, Vec<f64>), Robot
 fn unsupported(shape: &'static str) -> RobotFileError {
     MjcfError::UnsupportedShape { shape }.into()
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,6 @@
 //! What an MJCF file says of a robot.
 
-use super::assets::{MeshAsset, read_mesh_assets};
+use super::assets::{Assets, read_assets};
 use super::attributes::Attributes;
 use super::bodies::{MjcfBody, read_bodies};
 use super::classes::Classes;
@@ -9,7 +9,6 @@ use super::schema;
 use super::settings::Settings;
 use crate::robot_file::error::RobotFileError;
 use crate::robot_file::mjcf_error::MjcfError;
-use std::collections::HashMap;
 use std::path::Path;
 
 /// What an MJCF file says of a robot.
@@ -17,7 +16,7 @@ pub(in crate::robot_file) struct MjcfModel {
     pub(super) settings: Settings,
     /// The bodies; the world is first, and others follow their parents.
     pub(super) bodies: Vec<MjcfBody>,
-    pub(super) meshes: HashMap<String, MeshAsset>,
+    pub(super) assets: Assets,
     /// The elements of `contact` and `equality`, with the attributes of their classes.
     constraints: Vec<Attributes>,
 }
@@ -70,7 +69,7 @@ impl MjcfModel {
         }
         Ok(MjcfModel {
             bodies: read_bodies(&root, &settings, &classes)?,
-            meshes: read_mesh_assets(&root, &classes)?,
+            assets: read_assets(&root, &classes)?,
             constraints,
             settings,
         })

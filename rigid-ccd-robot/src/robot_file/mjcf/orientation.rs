@@ -37,25 +37,28 @@ fn read_rotation(own: &Attributes, settings: &Settings) -> Result<DQuat, MjcfErr
             Ok(DQuat::from_mat3(&DMat3::from_cols(x, y, x.cross(y))))
         }
         ("zaxis", &[x, y, z]) => Ok(rotation_of_z_to(direction([x, y, z])?)),
-        ("euler", &[a, b, c]) => {
-            let mut rotation = DQuat::IDENTITY;
-            for (axis, angle) in settings.euler_axes.into_iter().zip([a, b, c]) {
-                let along = match axis.to_ascii_lowercase() {
-                    'x' => DVec3::X,
-                    'y' => DVec3::Y,
-                    _ => DVec3::Z,
-                };
-                let turn = DQuat::from_axis_angle(along, settings.radians(angle));
-                rotation = if axis.is_ascii_lowercase() {
-                    rotation * turn
-                } else {
-                    turn * rotation
-                };
-            }
-            Ok(rotation)
-        }
+        ("euler", &[a, b, c]) => Ok(euler_rotation([a, b, c], settings)),
         _ => Err(invalid()),
     }
+}
+
+/// Returns the rotation by three angles about the axes of the settings, one after the other.
+pub(super) fn euler_rotation(angles: [f64; 3], settings: &Settings) -> DQuat {
+    let mut rotation = DQuat::IDENTITY;
+    for (axis, angle) in settings.euler_axes.into_iter().zip(angles) {
+        let along = match axis.to_ascii_lowercase() {
+            'x' => DVec3::X,
+            'y' => DVec3::Y,
+            _ => DVec3::Z,
+        };
+        let turn = DQuat::from_axis_angle(along, settings.radians(angle));
+        rotation = if axis.is_ascii_lowercase() {
+            rotation * turn
+        } else {
+            turn * rotation
+        };
+    }
+    rotation
 }
 
 /// Returns the rotation by the least angle that turns the z axis to a unit vector. It has the direction of the vector however

@@ -87,7 +87,7 @@ impl Settings {
         }
     }
 
-    /// Returns the path of a mesh file.
+    /// Returns the path of the file of a mesh or a height field.
     pub(super) fn mesh_file(&self, file: &str) -> PathBuf {
         let path = Path::new(file);
         match path.file_name().filter(|_| self.strips_paths) {

@@ -240,10 +240,15 @@ fn what_has_no_body_is_an_error_that_names_it() {
             format!(r#"<mujoco><worldbody><body name="a">{geom}</body></worldbody></mujoco>"#);
         file_of(&text).read().unwrap_err().to_string()
     };
-    let plane = error(r#"<geom name="floor" type="plane" size="0 0 1"/>"#);
+    let field = error(r#"<geom name="blob" type="sdf" size="0 0 1"/>"#);
     let advice = "is not supported; leave it out of the file, and model it as an obstacle";
-    assert_eq!(plane, format!("link `a`: geom `floor`: a plane {advice}"));
-    assert!(error(r#"<geom type="ellipsoid" size="1 2 3"/>"#).contains("an ellipsoid"));
+    let expected = format!("link `a`: geom `blob`: a signed distance field {advice}");
+    assert_eq!(field, expected);
+    let moving = error(r#"<joint/><geom type="plane" size="0 0 1"/>"#);
+    let advice = "has a plane, and a joint moves it; only a link at rest has planes";
+    assert_eq!(moving, format!("link `a` {advice}"));
+    assert!(error(r#"<geom type="ellipsoid" size="1 2 0"/>"#).contains("size"));
+    assert!(error(r#"<geom type="hfield" hfield="h"/>"#).contains("there is no hfield `h`"));
     let missing = error(r#"<geom type="mesh" mesh="none"/>"#);
     assert_eq!(missing, "link `a`: geom `0`: there is no mesh `none`");
     // A sphere needs one number, a box three; none is 0.
@@ -267,13 +272,16 @@ fn nothing_is_passed_over() {
         read.unwrap_err().to_string()
     };
     let ball = r#"<geom size="1"/>"#;
-    for element in ["replicate", "composite", "flexcomp", "attach"] {
+    for element in ["composite", "flexcomp", "attach"] {
         let known = format!("element `{element}` in `body` is not supported");
         assert_eq!(
             error(&format!("<body><{element}>{ball}</{element}></body>"), ""),
             known
         );
     }
+    assert!(error("<replicate count='0'/>", "").contains("count=\"0\""));
+    let many = "<replicate count='9999999'><geom size='1'/></replicate>";
+    assert!(error(many, "").contains("too many"));
     let deformable = error(ball, "<deformable/>");
     assert_eq!(
         deformable,

@@ -1,0 +1,220 @@
+//! Planes: half-spaces, of each of which a cell has a box that no moving body leaves.
+//!
+//! A body above a plane is as far from the half-space below it as from a box in the half-space whose top is right below the body. So
+//! a box that is wide and deep enough is the half-space, as long as the bodies that move stay within its reach.
+
+use super::part::{HullPart, PlacedBody};
+use super::{Cell, RobotBodyPlacement};
+use crate::error::{PathError, RobotError};
+use crate::solver::rounding::{Magnitude, largest_arm};
+use ccd_core::limits::MAX_COORDINATE;
+use ccd_core::order::{greater, lesser};
+use ccd_core::{Body, Facet, FacetOrigin, Polytope};
+use ccd_distance_gjk::DistanceBounds;
+use rigid_ccd::Pose;
+use rigid_ccd::glam::DVec3;
+use rigid_ccd::oracle::Frame;
+use std::sync::Arc;
+
+/// How many times farther from the base than all arms are long, and than 1, planes reach if joints slide without limits.
+const FREE_TRAVEL: f64 = 1024.0;
+
+/// A plane in the frame of the base, with the half-space below it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plane {
+    /// The unit vector away from the half-space.
+    normal: DVec3,
+    /// The height of the plane along the normal.
+    height: f64,
+}
+
+impl Plane {
+    /// Returns the plane `z = 0` of a pose's frame.
+    pub(super) fn below(pose: &Pose) -> Self {
+        let normal = pose.rotation() * DVec3::Z;
+        Plane {
+            normal,
+            height: normal.dot(pose.translation()),
+        }
+    }
+
+    /// Returns the height of the lowest corner of a part over the plane, when the part's frame is at `frame`.
+    #[inline(always)]
+    pub(crate) fn lowest_corner_height(&self, part: &HullPart, frame: &Frame) -> f64 {
+        let (_, corner) = part.extremal_corner(frame.inverse_transform_vector(-self.normal));
+        self.normal.dot(frame.transform_point(corner)) - self.height
+    }
+
+    /// Returns the distance of the corners of a part from the half-space, when the part's frame is at `frame`.
+    #[inline(always)]
+    pub(crate) fn distance_bounds(&self, part: &HullPart, frame: &Frame) -> DistanceBounds {
+        let height = self.lowest_corner_height(part, frame);
+        DistanceBounds {
+            lower: height,
+            upper: greater(height, 0.0),
+            axis: -self.normal,
+        }
+    }
+
+    /// Returns a lower bound of the height of a part over the plane, when the part's frame is at `frame` and its centre at
+    /// `centre`.
+    #[inline(always)]
+    pub(crate) fn height_of(&self, part: &HullPart, frame: &Frame, centre: DVec3) -> f64 {
+        let across = frame.inverse_transform_vector(self.normal).abs();
+        self.normal.dot(centre) - self.height - across.dot(part.half_extents)
+    }
+}
+
+impl Cell {
+    /// Adds an obstacle that is a half-space: all points below the plane `z = 0` of the frame at a pose in the frame of the robot's
+    /// base.
+    ///
+    /// Answers are as if the half-space had no end. A path on which a body that moves may leave the place in which that is certain
+    /// is refused: [`PathError::BeyondPlane`]. Joints within limits never leave it. If a joint slides without limits, it reaches at
+    /// least 1024 lengths of the arm, and at least 1024.
+    ///
+    /// # Errors
+    /// [`RobotError::NameTaken`], [`RobotError::TooFar`].
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Pose, trajectory};
+    /// use rigid_ccd_robot::{Cell, CompoundKind, Link, LinkPairs, PlacedRobot, Robot};
+    ///
+    /// let ball = Robot::new(vec![Link::named("ball").with_body(Body::sphere(0.1)?, Pose::IDENTITY)], vec![])?;
+    /// let (flying, pairs) = Robot::combine(&[PlacedRobot {
+    ///     name: "",
+    ///     robot: &ball,
+    ///     pairs: &LinkPairs::from_robot(&ball),
+    ///     carrier: None,
+    ///     pose: Pose::IDENTITY,
+    ///     base_motion: Some(CompoundKind::Floating),
+    /// }])?;
+    /// let mut cell = Cell::new(flying, pairs);
+    /// cell.add_plane("floor", Pose::IDENTITY)?;
+    /// let high_above = [300.0, -200.0, 0.11, 0.0, 0.0, 0.0];
+    /// assert!(cell.solver().is_free(&[high_above])?);
+    /// let deep_below = [300.0, -200.0, -99.0, 0.0, 0.0, 0.0];
+    /// assert!(!cell.solver().is_free(&[deep_below])?);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn add_plane(&mut self, name: impl Into<String>, pose: Pose) -> Result<(), RobotError> {
+        let name = name.into();
+        self.check_new_name(&name)?;
+        RobotError::check_pose("plane", &name, &pose)?;
+        self.obstacle_names.push(name);
+        let placed = PlacedBody::of_plane(pose, self.plane_reach());
+        self.insert(self.bodies.len(), placed);
+        Ok(())
+    }
+
+    /// Adds a plane of a link that no joint moves.
+    pub(super) fn add_link_plane(&mut self, held: RobotBodyPlacement) {
+        let (_, link_pose) = self.kinematics.link_frame_and_pose(held.link);
+        let pose = link_pose.compose(&held.pose_in_link);
+        let placed = PlacedBody::of_plane(pose, self.plane_reach());
+        let number = self.robot_body_placements.len();
+        self.robot_body_placements.push(held);
+        self.robot_part_count += self.insert(number, placed);
+    }
+
+    /// Returns whether a body, by its number in [`Cell::carried_bodies`], is the box of a plane. It ends where no body gets.
+    pub fn is_plane(&self, body: usize) -> bool {
+        self.bodies[body].plane_reach.is_some()
+    }
+
+    /// Makes the planes as large as the robot needs them, with what it holds.
+    pub(super) fn fit_planes(&mut self) {
+        let reach = self.plane_reach();
+        for number in 0..self.bodies.len() {
+            let placed = &self.bodies[number];
+            if placed.plane_reach.is_some() {
+                let placed = PlacedBody::of_plane(placed.pose, reach);
+                self.replace(number, placed);
+            }
+        }
+    }
+
+    /// Refuses joints that may take a body farther from the base than planes reach.
+    pub(crate) fn check_plane_reach(
+        &self,
+        magnitudes: impl Iterator<Item = Magnitude>,
+    ) -> Result<(), PathError> {
+        let planes = self.bodies.iter().filter_map(|placed| placed.plane_reach);
+        let Some(reach) = planes.reduce(lesser) else {
+            return Ok(());
+        };
+        let distance = self.motion_reach(magnitudes);
+        // Written so that NaN is refused.
+        if distance <= reach {
+            Ok(())
+        } else {
+            Err(PathError::BeyondPlane { distance, reach })
+        }
+    }
+
+    /// Returns how far from the base planes are to reach: twice as far as any body gets.
+    fn plane_reach(&self) -> f64 {
+        let limits = self.robot.limits();
+        let farthest = limits.map(|[low, high]| greater(low.abs(), high.abs()));
+        let farthest: Vec<f64> = farthest.collect();
+        let most = FREE_TRAVEL * greater(1.0, self.motion_reach(std::iter::empty()));
+        let within_limits = self.motion_reach(self.kinematics.magnitudes(&farthest));
+        lesser(2.0 * within_limits, most)
+    }
+
+    /// Returns a bound of how far any point of a body that moves is from the base.
+    fn motion_reach(&self, magnitudes: impl Iterator<Item = Magnitude>) -> f64 {
+        largest_arm(&self.kinematics, &self.parts, magnitudes)
+    }
+}
+
+impl PlacedBody {
+    /// Creates the box that stands for the half-space below the plane `z = 0` of a pose's frame, as far from the base as it is to
+    /// reach.
+    pub(super) fn of_plane(pose: Pose, reach: f64) -> Self {
+        let base = pose.inverse().transform_point(DVec3::ZERO);
+        let most = 0.125 * MAX_COORDINATE;
+        // A plane that is too far away has a box that does not reach the base, and all paths are refused.
+        let middle = base.clamp(DVec3::splat(-4.0 * most), DVec3::splat(4.0 * most));
+        let reach = lesser(reach, most);
+        // Rounding is no matter in a box that is twice as large.
+        let half_width = 2.0 * reach;
+        let depth = half_width + greater(0.0, -middle.z);
+        let mut placed =
+            PlacedBody::new(Arc::new(box_below(middle, half_width, depth)), pose, 0, 1);
+        placed.plane_reach = Some(reach - middle.distance(base));
+        placed
+    }
+}
+
+/// Returns a box below `z = 0`, whose top is a square below or above a point.
+fn box_below(middle: DVec3, half_width: f64, depth: f64) -> Body {
+    // Corner `k` has the greater x, y, z if bit 0, 1, 2 of `k` is set.
+    let corner = |k: u32| {
+        let sign = |bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        let z = if k >> 2 & 1 == 1 { 0.0 } else { -depth };
+        let across = half_width * DVec3::new(sign(0), sign(1), 0.0);
+        (middle + across).with_z(z)
+    };
+    let faces: [[u32; 4]; 6] = [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ];
+    let facets = faces.iter().enumerate().map(|(id, corners)| Facet {
+        origin: FacetOrigin::Face(id as u32),
+        corners: corners.to_vec(),
+    });
+    let polytope = Polytope {
+        points: (0..8).map(corner).collect(),
+        facets: facets.collect(),
+        ..Polytope::default()
+    };
+    Body::polytope(polytope).expect("the corners of a box are in range")
+}
+
+#[cfg(test)]
+mod tests;
