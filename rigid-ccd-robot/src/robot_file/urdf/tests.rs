@@ -173,9 +173,9 @@ fn what_is_not_known_is_refused() {
             "an element `robot` has no attribute `units`",
         ),
         (
-            "<gazebo reference",
-            "<gazeboo reference",
-            "an element `gazeboo` in `robot` is not known",
+            "<sensor name=\"s\"/>",
+            "<sensr/>",
+            "an element `sensr` in `robot` is not known",
         ),
         (
             "<link name=\"hand\">",
