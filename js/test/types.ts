@@ -1,6 +1,6 @@
 // What TypeScript has to accept, and what it has to refuse.
 
-import { Body, Cell, closestApproach, contactInterval, firstContact, init, Motion, Path, Robot, Throw, UnresolvedError } from "rigid-ccd";
+import { Body, Cell, closestApproach, contactInterval, EngineError, firstContact, init, Motion, Path, Robot, Throw, UnresolvedError } from "rigid-ccd";
 import type { Feature, Joint, Vector } from "rigid-ccd";
 
 export async function answers(): Promise<string> {
@@ -43,6 +43,10 @@ export function mechanisms(mesh: { position: Float32Array; index: Uint16Array })
 
 export function undecided(error: unknown): number | undefined {
   return error instanceof UnresolvedError && error.limit === "budget" ? error.safeUntil : undefined;
+}
+
+export function hasEnded(error: unknown): boolean {
+  return error instanceof EngineError && error.reason === "memory";
 }
 
 export function refused(ball: Body): void {
