@@ -1,7 +1,7 @@
 //! The bodies of a robot's cell as proofs take them, and the scene of an edge.
 
 use crate::body::Body;
-use crate::error::{NoMesh, NotProven, PathNotProven};
+use crate::error::{CellNotProvable, NotProven, PathNotProven};
 use crate::placed::moving;
 use crate::positions::{ImpossiblePosition, check_positions};
 use crate::resting::{Resting, resting_bodies};
@@ -31,8 +31,9 @@ impl<'c> ProvenCell<'c> {
     /// Prepares the bodies of a cell.
     ///
     /// # Errors
-    /// [`NoMesh`], with the name of an obstacle, a held body or a link.
-    pub fn new(cell: &'c Cell) -> Result<Self, NoMesh> {
+    /// [`CellNotProvable`], with the name of an obstacle, a held body or a link, or if no pair is compared.
+    pub fn new(cell: &'c Cell) -> Result<Self, CellNotProvable> {
+        cell.check_any_compared()?;
         let bodies = resting_bodies(cell)?;
         let mut links = cell.robot().joints_parents_first();
         let mut carries = vec![false; cell.robot().links().len()];

@@ -1,6 +1,6 @@
 //! Why a certificate is not written.
 
-use rigid_ccd_robot::RobotError;
+use rigid_ccd_robot::{NothingCompared, RobotError};
 
 /// No proof can be about a body: a piece of it has no triangles of a mesh.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -8,6 +8,18 @@ use rigid_ccd_robot::RobotError;
 pub struct NoMesh {
     /// The name of the body.
     pub body: String,
+}
+
+/// The reason why the bodies of a cell are not prepared for proofs.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CellNotProvable {
+    /// A body has pieces without triangles.
+    #[error(transparent)]
+    NoMesh(#[from] NoMesh),
+    /// No pair of bodies is compared: a proof would be about nothing.
+    #[error(transparent)]
+    NothingCompared(#[from] NothingCompared),
 }
 
 /// The reason why no certificate is written.

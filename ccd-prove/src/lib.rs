@@ -25,7 +25,7 @@ mod write;
 
 pub use body::Body;
 pub use cell::ProvenCell;
-pub use error::{NoMesh, NotProven, PathNotProven};
+pub use error::{CellNotProvable, NoMesh, NotProven, PathNotProven};
 pub use pair::ProvenPair;
 pub use positions::ImpossiblePosition;
 pub use scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};

@@ -134,6 +134,7 @@ fn place(ball: DVec4, pose: &Pose) -> DVec4 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::CellNotProvable;
     use crate::{ProvenCell, prove};
     use dashu_ratio::RBig;
     use rigid_ccd::trajectory;
@@ -264,6 +265,10 @@ mod tests {
         let pair = [Item::Link("arm"), Item::Obstacle("obstacle 3")];
         cell.set_clearance(pair, 0.05).unwrap();
         check(&cell, &[&[0], &[1], &[2, 3, 4], &[5]]);
+        // So it is with a contact that is allowed, which no proof is about.
+        cell.allow_contact([Item::Link("tool"), Item::Obstacle("obstacle 2")])
+            .unwrap();
+        check(&cell, &[&[0], &[1], &[2, 3], &[4], &[5]]);
     }
 
     #[test]
@@ -272,6 +277,12 @@ mod tests {
         for number in 0..4 {
             cell.remove_obstacle(&format!("obstacle {number}")).unwrap();
         }
-        check(&cell, &[]);
+        assert!(resting_bodies(&cell).unwrap().is_empty());
+        // A proof about nothing would hold whatever the path.
+        let error = ProvenCell::new(&cell).unwrap_err();
+        assert!(
+            matches!(error, CellNotProvable::NothingCompared(_)),
+            "{error}"
+        );
     }
 }

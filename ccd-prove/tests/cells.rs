@@ -1,7 +1,7 @@
 //! Proofs of paths of a small robot: each that is written holds, also at the limits.
 
 use ccd_prove::{NotProven, PathNotProven, Proof, ProvenCell, StatedLink, Statement};
-use rigid_ccd::{Body, Pose, Settings, trajectory};
+use rigid_ccd::{Body, Pose, Settings, StartPolicy, trajectory};
 use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, PositionRule, Robot};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -41,7 +41,14 @@ fn block(half: f64) -> Body {
 
 /// Asks when the cell first touches on a path, and proves the answer; all proofs have to hold.
 fn prove_and_check(cell: &Cell, path: &[[f64; 2]]) -> Result<Vec<Proof>, PathNotProven> {
-    let settings = Settings::DEFAULT;
+    prove_with(cell, path, Settings::DEFAULT)
+}
+
+fn prove_with(
+    cell: &Cell,
+    path: &[[f64; 2]],
+    settings: Settings,
+) -> Result<Vec<Proof>, PathNotProven> {
     let mut solver = cell.solver().with_settings(settings.clone());
     let outcome = solver.first_contact(path).unwrap();
     let proven = ProvenCell::new(cell).unwrap();
@@ -85,6 +92,23 @@ fn a_proof_ends_when_it_is_stopped() {
     let (segment, reason) = (0, NotProven::Stopped { at: 0.0 });
     let stopped = PathNotProven::Segment { segment, reason };
     assert_eq!(prove(true).unwrap_err(), stopped);
+}
+
+/// A pair that is let go with a gap has a proof; one that touches has none, and that is said.
+#[test]
+fn a_pair_that_is_let_go_is_proven_if_it_has_a_gap() {
+    let path = [[0.0, 0.0], [-0.5, 0.0]];
+    let leave = || Settings {
+        start_policy: StartPolicy::Leave,
+        ..Settings::DEFAULT
+    };
+    for (gap, proof_count) in [(4e-4, Some(1)), (0.0, None)] {
+        let cell = cell(block(1.0), (block(1.0), 2.0 + gap), None);
+        let mut solver = cell.solver().with_settings(leave());
+        assert!(solver.is_free(&path).unwrap());
+        let proofs = prove_with(&cell, &path, leave());
+        assert_eq!(proofs.map(|proofs| proofs.len()).ok(), proof_count);
+    }
 }
 
 /// The gap is the tolerance but for rounding: at a start, or where one segment ends and the next one begins.

@@ -5,17 +5,18 @@ import { bodyOf } from "./body.js";
 import { finiteNumber, joined, listOf, nameOf, optionsOf, settingNumber } from "./numbers.js";
 import { innerOf, Owned } from "./owned.js";
 import { NO_OFFSET, poseNumbers } from "./places.js";
-import { configurationOf, pairsOf, Robot } from "./robot.js";
+import { configurationOf, pairsOf, remarksOf, Robot } from "./robot.js";
 import { settingsOf, UnresolvedError } from "./solver.js";
 import { classes } from "./wasm.js";
 
 /** The places of the tolerance and of the pair in the numbers of an answer, as `js/src/wasm/path_answer.rs` writes them. */
 const MET_TOLERANCE = 3;
 const PAIR = 4;
-const CONTACT_SETTINGS = ["tolerance", "margin", "budget"];
+const RANGE_CONTACT_SETTINGS = ["tolerance", "margin", "budget"];
+const CONTACT_SETTINGS = [...RANGE_CONTACT_SETTINGS, "start"];
 const DISTANCE_SETTINGS = ["tolerance", "budget"];
 const RANGE_SETTINGS = {
-  ...Object.fromEntries(CONTACT_SETTINGS.map((name) => [name, [settingNumber, undefined]])),
+  ...Object.fromEntries(RANGE_CONTACT_SETTINGS.map((name) => [name, [settingNumber, undefined]])),
   resolution: [settingNumber, 1 / 4096],
   maxPoseError: [settingNumber, 0],
 };
@@ -54,6 +55,18 @@ export class Cell extends Owned {
     Owned.inner(this).detach(nameOf(name, "name"));
   }
 
+  allowContact(a, b) {
+    Owned.inner(this).allow_contact(nameOf(a, "a"), nameOf(b, "b"));
+  }
+
+  forbidContact(a, b) {
+    Owned.inner(this).forbid_contact(nameOf(a, "a"), nameOf(b, "b"));
+  }
+
+  get remarks() {
+    return remarksOf(Owned.inner(this).remarks());
+  }
+
   setPadding(link, distance) {
     Owned.inner(this).set_padding(nameOf(link, "link"), finiteNumber(distance, "distance"));
   }
@@ -88,7 +101,7 @@ export class Cell extends Owned {
 
   clearanceRanges(path, options) {
     const { resolution, maxPoseError, ...rest } = optionsOf(options, "Cell.clearanceRanges", RANGE_SETTINGS);
-    const numbers = Owned.inner(this).clearance_ranges(this.#numbersOf(path), path.length, settingsOf(rest, CONTACT_SETTINGS), resolution, maxPoseError);
+    const numbers = Owned.inner(this).clearance_ranges(this.#numbersOf(path), path.length, settingsOf(rest, RANGE_CONTACT_SETTINGS), resolution, maxPoseError);
     return Array.from({ length: numbers.length / 3 }, (_, k) => {
       const [start, end, verdict] = numbers.subarray(3 * k, 3 * k + 3);
       return { start, end, clearance: VERDICTS[verdict] };

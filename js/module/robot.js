@@ -38,6 +38,10 @@ export class Robot extends Owned {
     return pairsOf(Owned.inner(this).checked_pairs());
   }
 
+  get remarks() {
+    return remarksOf(Owned.inner(this).remarks());
+  }
+
   pose(link, configuration) {
     return poseOfNumbers(Owned.inner(this).pose(nameOf(link, "link"), configurationOf(configuration, "configuration", this.jointNames)));
   }
@@ -102,4 +106,9 @@ function pairsOfNames(value, what) {
 
 export function pairsOf(list) {
   return Array.from({ length: list.length / 2 }, (_, k) => [list[2 * k], list[2 * k + 1]]);
+}
+
+/** Returns remarks from their kinds and texts, one after another. */
+export function remarksOf(list) {
+  return pairsOf(list).map(([kind, text]) => ({ kind, text }));
 }

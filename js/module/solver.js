@@ -4,7 +4,7 @@ import { answerOf } from "./answer.js";
 import { bodyOf } from "./body.js";
 import { Movement } from "./movement.js";
 import { checkNames, settingNumber } from "./numbers.js";
-import { Owned } from "./owned.js";
+import { described, Owned } from "./owned.js";
 import { MOTION_LENGTH, writeMotion, writeRest } from "./places.js";
 import { classes, engine, numbersAt } from "./wasm.js";
 
@@ -76,13 +76,16 @@ export function keepsClearance(a, b, clearance, options) {
   throw new UnresolvedError({ limit: "excess", advice, lower, upper });
 }
 
-/** Returns the settings of a question about a path: tolerance, margin, 0 and budget. Others than those are for the caller. */
+/** Returns the settings of a question about a path: tolerance, margin, 1 to leave contacts at the start or 0, and budget. Others are for the caller. */
 export function settingsOf(options, known) {
   if (options !== undefined) checkNames(options, "options", known);
   const settings = Float64Array.from(defaultSettings());
   for (const name of ["tolerance", "margin", "budget"]) {
     if (known.includes(name) && options?.[name] !== undefined) settings[PLACES[name]] = settingNumber(options[name], name);
   }
+  const start = options?.start ?? "report";
+  if (start !== "report" && start !== "leave") throw new TypeError(`start: "report" or "leave" is needed, not ${described(start)}`);
+  settings[CLEARANCE] = start === "leave" ? 1 : 0;
   return settings;
 }
 

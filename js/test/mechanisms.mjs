@@ -40,8 +40,49 @@ export default (ccd, { equal, justBefore, between, throws }) => {
       cell.attach("stick", ccd.Body.capsule(0.1, 2), "carriage", { pose: { position: [3, 0, 0] } });
       equal(cell.firstContact([[0], [6]]).a, "stick");
       cell.detach("stick");
+      equal(cell.isFree([new Float64Array([0]), new Float64Array([6])]), true);
+    },
+    "a cell of which nothing is compared answers nothing"() {
+      const { cell } = beforeWall();
       cell.remove("wall");
-      equal(cell.isFree([new Float64Array([0]), new Float64Array([9])]), true);
+      throws(() => cell.isFree([[0], [9]]), /nothing is compared in this cell: 2 links, 1 without bodies.*0 obstacles/);
+      throws(() => cell.closestApproach([[0], [9]]), /nothing is compared/);
+      throws(() => cell.clearanceRanges([[0], [9]]), /nothing is compared/);
+    },
+    "what is not checked is remarked upon"() {
+      const { robot, cell } = beforeWall();
+      equal(robot.remarks, [{ kind: "remark", text: "1 link without bodies, compared with nothing: rail" }]);
+      cell.allowContact("carriage", "wall");
+      equal(cell.remarks[1], { kind: "remark", text: "1 contact allowed: carriage and wall" });
+      const joints = ["a", "b", "c"].map((name, k) => ({ type: "revolute", name: `to ${name}`, parent: k === 0 ? "base" : "_abc"[k], child: name, origin: { position: [1, 0, 0] } }));
+      const bare = new ccd.Robot({ joints, bodies: { c: ccd.Body.sphere(0.1) } });
+      equal(bare.remarks[0].kind, "warning");
+      equal(bare.remarks[0].text.includes("2 of 3 moving links have no bodies: a, b"), true);
+    },
+    "a can is lifted from a table"() {
+      const lift = { ...slider, axis: [0, 0, 1] };
+      const cell = new ccd.Cell(new ccd.Robot({ joints: [lift], bodies: {} }));
+      cell.add("table", ccd.Body.box([1, 1, 0.1]), { position: [0, 0, -0.1] });
+      cell.add("shelf", ccd.Body.box([1, 1, 0.01]), { position: [0, 0, 0.923] });
+      const can = () => cell.attach("can", ccd.Body.box([0.03, 0.03, 0.06]), "carriage", { pose: { position: [0, 0, 0.06] } });
+      can();
+      const path = [[0], [1]];
+      equal(cell.firstContact(path).time, 0);
+      const hit = cell.firstContact(path, { start: "leave", tolerance: 1e-6 });
+      equal([hit.kind, hit.a, hit.b], ["contact", "can", "shelf"]);
+      justBefore(hit.share, 0.793, 1e-6);
+      equal([cell.isFree([[0], [0.7]], { start: "leave" }), cell.isFree([[0], [-0.1]], { start: "leave" })], [true, false]);
+      throws(() => cell.closestApproach(path, { start: "leave" }), /no "start"/);
+      throws(() => cell.isFree(path, { start: "go" }), /start: "report" or "leave" is needed/);
+      cell.allowContact("can", "table");
+      justBefore(cell.firstContact(path, { tolerance: 1e-6 }).share, 0.793, 1e-6);
+      cell.forbidContact("can", "table");
+      equal(cell.firstContact(path).time, 0);
+      cell.detach("can");
+      cell.attach("can", ccd.Body.box([0.03, 0.03, 0.06]), "carriage", { pose: { position: [0, 0, 0.06] }, mayTouch: ["table"] });
+      justBefore(cell.firstContact(path, { tolerance: 1e-6 }).share, 0.793, 1e-6);
+      throws(() => cell.setClearance("can", "table", -0.01), /start policy/);
+      throws(() => cell.allowContact("table", "shelf"), /never compared/);
     },
     "the closest approach, and where a clearance is kept"() {
       const { cell } = beforeWall();

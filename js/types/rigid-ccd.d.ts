@@ -332,6 +332,12 @@ export interface RobotParts {
   mayTouch?: readonly (readonly [string, string])[];
 }
 
+/** What is not checked. It changes no answer. */
+export interface Remark {
+  kind: "remark" | "warning";
+  text: string;
+}
+
 /** One position for each of `jointNames`, in that order. */
 export type Configuration = ArrayLike<number>;
 
@@ -344,6 +350,8 @@ export class Robot extends Owned {
   readonly limits: [low: number, high: number][];
   /** The pairs of links that are checked. A cell has a list of its own, to which `Cell.setClearance` may add. */
   readonly checkedPairs: [string, string][];
+  /** What is not checked: links without bodies, and pairs of links by reason. A warning says that most of the robot is not. */
+  readonly remarks: Remark[];
   /** Returns the pose of a link in the frame of the base. */
   pose(link: string, configuration: Configuration): Pose;
   /** Returns the motion of a link in the frame of the base, or of the link `seenFrom`. The duration is 1 by default. */
@@ -385,6 +393,11 @@ export interface PathRange {
   clearance: "kept" | "violated" | "unverified";
 }
 
+export interface PathSettings extends ContactSettings {
+  /** With "leave", pairs in contact at the start may part or slide, but not come nearer; "report" by default. */
+  start?: "report" | "leave";
+}
+
 /** A robot among obstacles that rest in the frame of its base. A path is a list of configurations, between which joints move at constant rates. */
 export class Cell extends Owned {
   constructor(robot: Robot);
@@ -392,19 +405,25 @@ export class Cell extends Owned {
   add(name: string, body: Body, pose?: GivenPose): void;
   moveTo(name: string, pose: GivenPose): void;
   remove(name: string): void;
-  /** Attaches a body to a link, at a pose in its frame. It may touch that link, and those that are named. */
+  /** Attaches a body to a link, at a pose in its frame. It may touch that link, and the links, attached bodies and obstacles that are named. */
   attach(name: string, body: Body, link: string, options?: { pose?: GivenPose; mayTouch?: readonly string[] }): void;
   detach(name: string): void;
+  /** Allows two items to touch: two links, or a link, an attached body and an obstacle. What is removed takes this away. */
+  allowContact(a: string, b: string): void;
+  /** Compares two items again that were allowed to touch, or two links that were not checked. */
+  forbidContact(a: string, b: string): void;
+  /** What is not checked, and which contacts are allowed. */
+  readonly remarks: Remark[];
   /** Sets the distance that obstacles have to keep from a link, in addition to the margin. */
   setPadding(link: string, distance: number): void;
   /** The pairs of links that are checked: those of the robot, and those that `setClearance` has added. */
   readonly checkedPairs: [string, string][];
   /** Sets the distance at which a pair counts as touching. A pair of links that was not checked is checked from then on. */
   setClearance(a: string, b: string, distance: number): void;
-  /** What touches first on a path? Nothing touches before. */
-  firstContact(path: ArrayLike<Configuration>, options?: ContactSettings): PathContact;
+  /** What touches first on a path? Nothing touches before. A cell of which nothing is compared is an error for all questions. */
+  firstContact(path: ArrayLike<Configuration>, options?: PathSettings): PathContact;
   /** Does nothing touch on a path? Throws an `UnresolvedError` if a limit is reached. */
-  isFree(path: ArrayLike<Configuration>, options?: ContactSettings): boolean;
+  isFree(path: ArrayLike<Configuration>, options?: PathSettings): boolean;
   /** How near does anything come on a path? It has no margin. */
   closestApproach(path: ArrayLike<Configuration>, options?: Settings): PathDistance;
   /**

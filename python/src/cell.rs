@@ -1,8 +1,9 @@
 //! The Python class `Cell`.
 
 use crate::body::{PyBody, extract_body};
-use crate::cell_contents::{CellContents, PickledContents, UnpickledContents};
+use crate::cell_contents::{CellContents, Contact, PickledContents, UnpickledContents};
 use crate::cell_solver::CellWithCachedSolvers;
+use crate::check_remarks::{remark_texts, warn_of_unchecked, warning_text};
 use crate::errors::{Unresolved, input_error, input_error_from, with_attribute};
 use crate::interruptible::run_interruptibly;
 use crate::motion::{GivenPose, read_given_pose};
@@ -13,7 +14,8 @@ use crate::path_array::{GivenPath, GivenPaths};
 use crate::proofs::prove_path;
 use crate::robot::PyRobot;
 use crate::settings::{
-    CONTACT_SETTING_NAMES, DISTANCE_QUERY_SETTING_NAMES, read, read_thread_count,
+    CONTACT_SETTING_NAMES, DISTANCE_QUERY_SETTING_NAMES, PATH_CONTACT_SETTING_NAMES, read,
+    read_thread_count,
 };
 use crate::table::{PyTable, path_batch};
 use pyo3::prelude::*;
@@ -44,18 +46,19 @@ pub(crate) struct PyCell {
 #[pymethods]
 impl PyCell {
     #[new]
-    fn new(robot: &Bound<'_, PyRobot>) -> Self {
+    fn new(robot: &Bound<'_, PyRobot>) -> PyResult<Self> {
         let PyRobot {
             robot: links,
             pairs,
             ..
         } = robot.get();
         let cell = Cell::new((**links).clone(), pairs.clone());
-        PyCell {
+        warn_of_unchecked(robot.py(), &cell.check_summary())?;
+        Ok(PyCell {
             robot: robot.clone().unbind(),
             cell_with_solvers: CellWithCachedSolvers::new(cell),
             contents: Mutex::default(),
-        }
+        })
     }
 
     /// The robot, as it was given.
@@ -107,7 +110,8 @@ impl PyCell {
         Ok(())
     }
 
-    /// Attaches a body to a link, at a pose in the link's frame. It may touch that link, and those in `may_touch`.
+    /// Attaches a body to a link, at a pose in the link's frame. It may touch that link, and the links, attached bodies and
+    /// obstacles in `may_touch`.
     #[pyo3(signature = (name, body, link, pose = None, may_touch = Vec::new()))]
     fn attach(
         &self,
@@ -134,6 +138,26 @@ impl PyCell {
         Ok(())
     }
 
+    /// Allows two items to touch: two links, or a link, an attached body and an obstacle. What is removed takes this away.
+    fn allow_contact(&self, a: &str, b: &str) -> PyResult<()> {
+        self.change(|cell| cell.allow_contact([cell.item_named(a)?, cell.item_named(b)?]))?;
+        self.contents().set_contact(a, b, Contact::Allowed);
+        Ok(())
+    }
+
+    /// Compares two items again that were allowed to touch, or two links that were not checked.
+    fn forbid_contact(&self, a: &str, b: &str) -> PyResult<()> {
+        self.change(|cell| cell.forbid_contact([cell.item_named(a)?, cell.item_named(b)?]))?;
+        self.contents().set_contact(a, b, Contact::Forbidden);
+        Ok(())
+    }
+
+    /// What is not checked, as texts: links without bodies, pairs of links by reason, allowed contacts; warnings come first.
+    #[getter]
+    fn remarks(&self) -> Vec<String> {
+        remark_texts(&self.cell_with_solvers.cell().check_summary())
+    }
+
     /// Sets the distance that obstacles have to keep from a link, in addition to the margin.
     fn set_padding(&self, link: &str, distance: f64) -> PyResult<()> {
         self.change(|cell| cell.set_padding(link, distance))?;
@@ -153,7 +177,11 @@ impl PyCell {
 
     /// Returns whether nothing touches on a path. That is proven for all configurations on it.
     ///
+    /// With the setting `start="leave"` pairs in contact at the start may part or slide, but not come nearer: a held can is lifted
+    /// from a table.
+    ///
     /// Raises:
+    ///     InputError: the path does not fit the robot, or no pair of the cell is compared.
     ///     Unresolved: a limit was reached first.
     #[pyo3(signature = (path, **settings))]
     fn is_free(
@@ -162,12 +190,12 @@ impl PyCell {
         path: &Bound<'_, PyAny>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
-        let settings = read(settings, CONTACT_SETTING_NAMES)?;
+        let settings = read(settings, PATH_CONTACT_SETTING_NAMES)?;
         let answer = self.ask(py, PathQuestion::IsFree, path, settings)?;
         Ok(answer.row.status == Status::Free)
     }
 
-    /// Returns the first contact on a path, or None. Nothing touches before it.
+    /// Returns the first contact on a path, or None. Nothing touches before it. `start="leave"` is as of `is_free`.
     ///
     /// Raises:
     ///     Unresolved: a limit was reached first; `safe_until` is the last free point, in segments of the path, or the time on a curve.
@@ -178,7 +206,7 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let settings = read(settings, CONTACT_SETTING_NAMES)?;
+        let settings = read(settings, PATH_CONTACT_SETTING_NAMES)?;
         let answer = self.ask(py, PathQuestion::FirstContact, path, settings)?;
         match answer.limit {
             Some(limit) => {
@@ -327,9 +355,11 @@ impl PyCell {
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyTable> {
         let ask = question_named(ask)?;
-        let settings = read(settings, allowed_setting_names(ask))?;
+        let mut settings = read(settings, allowed_setting_names(ask))?;
         settings.check().map_err(input_error)?;
-        let clearance = settings.clearance;
+        let clearance = settings.clearance.take();
+        let cell = self.cell_with_solvers.cell();
+        cell.check_any_compared().map_err(input_error)?;
         let threads = read_thread_count(threads)?;
         let paths = GivenPaths::read(paths, self.robot.get())?;
         let work = |stop: &Arc<_>| {
@@ -370,7 +400,7 @@ impl PyCell {
     }
 
     fn __setstate__(&self, state: UnpickledContents<'_>) -> PyResult<()> {
-        let (obstacles, attached, paddings, clearances) = state;
+        let (obstacles, attached, paddings, clearances, contacts) = state;
         for (name, body, pose) in &obstacles {
             match body {
                 Some(body) => self.add(name, body, Some(pose))?,
@@ -386,16 +416,23 @@ impl PyCell {
         for (a, b, distance) in &clearances {
             self.set_clearance(a, b, *distance)?;
         }
+        for (a, b, is_allowed) in &contacts {
+            match is_allowed {
+                true => self.allow_contact(a, b)?,
+                false => self.forbid_contact(a, b)?,
+            }
+        }
         Ok(())
     }
 
     fn __repr__(&self) -> String {
         let cell = self.cell_with_solvers.cell();
         let obstacles: Vec<&str> = cell.obstacle_names().collect();
+        let summary = cell.check_summary();
         format!(
-            "Cell({} obstacles: {})",
-            obstacles.len(),
-            obstacles.join(", ")
+            "Cell({summary}: {}{})",
+            obstacles.join(", "),
+            warning_text(&summary)
         )
     }
 }

@@ -12,6 +12,15 @@ pub(crate) struct CellContents {
     attached: Vec<AttachedBody>,
     paddings: Vec<(String, f64)>,
     clearances: Vec<(String, String, f64)>,
+    /// The last call about the contact of each pair: whether it is allowed.
+    contacts: Vec<(String, String, bool)>,
+}
+
+/// Whether a contact is allowed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Contact {
+    Allowed,
+    Forbidden,
 }
 
 /// The arguments of `Cell.attach`.
@@ -23,6 +32,7 @@ pub(crate) type PickledContents = (
     Vec<AttachedBody>,
     Vec<(String, f64)>,
     Vec<(String, String, f64)>,
+    Vec<(String, String, bool)>,
 );
 
 /// The contents of a cell as pickle returns them.
@@ -37,6 +47,7 @@ pub(crate) type UnpickledContents<'py> = (
     )>,
     Vec<(String, f64)>,
     Vec<(String, String, f64)>,
+    Vec<(String, String, bool)>,
 );
 
 impl CellContents {
@@ -60,6 +71,10 @@ impl CellContents {
         self.obstacles.retain(|(other, ..)| other != name);
         self.attached.retain(|(other, ..)| other != name);
         self.clearances.retain(|(a, b, _)| a != name && b != name);
+        self.contacts.retain(|(a, b, _)| a != name && b != name);
+        for (.., may_touch) in &mut self.attached {
+            may_touch.retain(|other| other != name);
+        }
     }
 
     pub(crate) fn set_padding(&mut self, link: &str, distance: f64) {
@@ -68,10 +83,18 @@ impl CellContents {
     }
 
     pub(crate) fn set_clearance(&mut self, a: &str, b: &str, distance: f64) {
-        let is_same = |one: &str, other: &str| [(one, other), (other, one)].contains(&(a, b));
         self.clearances
-            .retain(|(one, other, _)| !is_same(one, other));
+            .retain(|(one, other, _)| !is_same([one, other], [a, b]));
         self.clearances.push((a.to_owned(), b.to_owned(), distance));
+        // A clearance forbids the contact.
+        self.set_contact(a, b, Contact::Forbidden);
+    }
+
+    pub(crate) fn set_contact(&mut self, a: &str, b: &str, contact: Contact) {
+        self.contacts
+            .retain(|(one, other, _)| !is_same([one, other], [a, b]));
+        let is_allowed = contact == Contact::Allowed;
+        self.contacts.push((a.to_owned(), b.to_owned(), is_allowed));
     }
 
     /// Returns the contents for pickle.
@@ -98,6 +121,12 @@ impl CellContents {
                 .collect(),
             self.paddings.clone(),
             self.clearances.clone(),
+            self.contacts.clone(),
         )
     }
+}
+
+/// Returns whether two pairs of names are the same.
+fn is_same([one, other]: [&str; 2], [a, b]: [&str; 2]) -> bool {
+    [(one, other), (other, one)].contains(&(a, b))
 }

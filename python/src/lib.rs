@@ -6,6 +6,7 @@ mod body;
 mod cell;
 mod cell_contents;
 mod cell_solver;
+mod check_remarks;
 mod errors;
 mod interruptible;
 mod joint;

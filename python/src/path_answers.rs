@@ -1,7 +1,7 @@
 //! Questions about paths by their names, and their answers as objects of Python.
 
 use crate::errors::{Unresolved, input_error, with_attribute};
-use crate::settings::{APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES};
+use crate::settings::{APPROACH_SETTING_NAMES, PATH_CONTACT_SETTING_NAMES};
 use pyo3::prelude::*;
 use rigid_ccd::Error;
 use rigid_ccd::answer::Limit;
@@ -23,7 +23,7 @@ pub(crate) fn question_named(name: &str) -> PyResult<PathQuestion> {
 /// Returns the names of the settings of a question about many paths.
 pub(crate) fn allowed_setting_names(question: PathQuestion) -> &'static [&'static str] {
     match question {
-        PathQuestion::IsFree | PathQuestion::FirstContact => CONTACT_SETTING_NAMES,
+        PathQuestion::IsFree | PathQuestion::FirstContact => PATH_CONTACT_SETTING_NAMES,
         PathQuestion::ClosestApproach => APPROACH_SETTING_NAMES,
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::arrays::flat_numbers;
 use crate::body::{PyBody, extract_body};
+use crate::check_remarks::{remark_texts, warning_text};
 use crate::errors::{file_error, input_error};
 use crate::joint::PyJoint;
 use crate::link_contact_table::link_contact_table;
@@ -300,6 +301,12 @@ impl PyRobot {
         pairs.map(|[a, b]| (name(a), name(b))).collect()
     }
 
+    /// What is not checked, as texts: links without bodies, and pairs of links by reason; warnings come first.
+    #[getter]
+    fn remarks(&self) -> Vec<String> {
+        remark_texts(&self.pairs.check_summary(&self.robot))
+    }
+
     /// Returns the pose of a link in the frame of the base, as a matrix of shape (4, 4).
     fn pose<'py>(
         &self,
@@ -379,10 +386,11 @@ impl PyRobot {
     }
 
     fn __repr__(&self) -> String {
+        let summary = self.pairs.check_summary(&self.robot);
         format!(
-            "Robot({} links, joints {})",
-            self.robot.links().len(),
-            self.joint_names().join(", ")
+            "Robot({summary}; joints {}{})",
+            self.joint_names().join(", "),
+            warning_text(&summary)
         )
     }
 }

@@ -4,11 +4,15 @@ use crate::errors::{input_error, input_error_from};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rigid_ccd::Settings;
+use rigid_ccd::{Settings, StartPolicy};
 use std::time::Duration;
 
 /// The names of the settings of a query about contacts.
 pub(crate) const CONTACT_SETTING_NAMES: &[&str] = &["tolerance", "margin", "budget", "deadline"];
+
+/// The names of the settings of a query about the contacts on a path.
+pub(crate) const PATH_CONTACT_SETTING_NAMES: &[&str] =
+    &["tolerance", "margin", "budget", "deadline", "start"];
 
 /// The names of the settings of a query about the distance of bodies at rest.
 pub(crate) const DISTANCE_QUERY_SETTING_NAMES: &[&str] = &["tolerance", "budget", "deadline"];
@@ -42,6 +46,9 @@ pub(crate) fn read(
                 settings.budget =
                     extract_setting::<Option<u64>>(&name, &value)?.unwrap_or(settings.budget);
             }
+            "start" => {
+                settings.start_policy = start_policy(&extract_setting::<String>(&name, &value)?)?
+            }
             "deadline" => settings.deadline = deadline(extract_setting(&name, &value)?)?,
             _ => return Err(unknown_setting_error(&name, known)),
         }
@@ -72,6 +79,17 @@ where
             input_error_from(py, name, error)
         }
     })
+}
+
+/// Reads what happens to pairs in contact at the start.
+fn start_policy(name: &str) -> PyResult<StartPolicy> {
+    match name {
+        "report" => Ok(StartPolicy::Report),
+        "leave" => Ok(StartPolicy::Leave),
+        _ => Err(input_error(format!(
+            "start: '{name}' is not report or leave"
+        ))),
+    }
 }
 
 /// Reads a time limit in seconds; infinity gives `None`, which is no limit.

@@ -1,6 +1,7 @@
 """Robots and cells: answers against closed forms, poses and distances of one pair after another."""
 
 import pickle
+import runpy
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -8,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rigid_ccd import Body, Cell, EdgesQuery, InputError, PathContact, Robot, Unresolved, distance
+from rigid_ccd import Body, Cell, EdgesQuery, InputError, Joint, PathContact, Robot, Unresolved, distance
 
 URDF = """<robot name="arm">
   <link name="base"/>
@@ -107,7 +108,11 @@ def test_distances_are_those_of_bodies(robot: Robot) -> None:
 def test_cells_change(robot: Robot) -> None:
     cell = Cell(robot)
     path = [[0, 0], [3, 0]]
-    assert cell.is_free(path)
+    for question in (cell.is_free, cell.first_contact, cell.closest_approach, cell.clearance_ranges, cell.prove):
+        with pytest.raises(InputError, match="nothing is compared in this cell: 3 links, 1 without bodies"):
+            question(path)
+    with pytest.raises(InputError, match="nothing is compared"):
+        cell.edges(path[:1], path[1:])
     cell.add("post", Body.sphere(0.1), ([0, 1.5, 0], [1, 0, 0, 0]))
     assert not cell.is_free(path)
     cell.move_to("post", ([0, 3.5, 0], [1, 0, 0, 0]))
@@ -191,6 +196,9 @@ def test_a_cell_is_pickled_as_it_is(robot: Robot) -> None:
     cell.set_padding("fore", 0.01)
     cell.set_clearance("tool", "box2", 0.3)
     cell.set_clearance("box2", "tool", 0.2)
+    cell.allow_contact("fore", "box3")
+    cell.allow_contact("box2", "upper")
+    cell.forbid_contact("upper", "box2")
     again = pickle.loads(pickle.dumps(cell))
     assert repr(again) == repr(cell)
     start, end = rng.uniform(-3, 3, (2, 300, 2))
@@ -381,4 +389,76 @@ def test_a_plane_has_no_end(robot: Robot) -> None:
         assert (contact.a, contact.b) == ("fore", "slope")
         assert 2 - 2 * contact.share == pytest.approx(np.arccos(1.3 / 1.5), abs=1e-5)
     cell.remove("slope")
-    assert cell.is_free([[0, 0], [3, 0]])
+    with pytest.raises(InputError, match="nothing is compared"):
+        cell.is_free([[0, 0], [3, 0]])
+
+
+def test_what_is_not_checked_is_said(robot: Robot, tmp_path: Path) -> None:
+    assert "3 links, 1 without bodies; 2 bodies; 0 pairs of links checked, 1 not (adjacent)" in repr(robot)
+    assert robot.remarks[0] == "1 link without bodies, compared with nothing: base"
+    cell = Cell(robot)
+    cell.add("post", Body.sphere(0.1), ([0, 3, 0], [1, 0, 0, 0]))
+    cell.allow_contact("fore", "post")
+    assert "1 obstacle, 1 contact allowed: post" in repr(cell)
+    assert cell.remarks[-1] == "1 contact allowed: fore and post"
+    # Most links have no body.
+    axis = ([1, 0, 0], [1, 0, 0, 0])
+    joints = [Joint.revolute(f"to {b}", a, b, axis) for a, b in ("wa", "ab", "bc")]
+    bare = Robot(joints, {"c": Body.sphere(0.1)})
+    assert "most of the robot is not checked: 2 of 3 moving links have no bodies: a, b" in repr(bare)
+    with pytest.warns(UserWarning, match="most of the robot is not checked"):
+        Cell(bare)
+
+
+def lifted() -> Cell:
+    """Returns a fork that holds a can on a table, below a shelf that the can meets at 0.793."""
+    cell = Cell(Robot([Joint.prismatic("lift", "rail", "fork")]))
+    cell.add("table", Body.box(1, 1, 0.1), ([0, 0, -0.1], [1, 0, 0, 0]))
+    cell.add("shelf", Body.box(1, 1, 0.01), ([0, 0, 0.923], [1, 0, 0, 0]))
+    return cell
+
+
+def test_a_can_is_lifted_from_a_table() -> None:
+    cell, can, at = lifted(), Body.cylinder(0.033, 0.06), ([0, 0, 0.06], [1, 0, 0, 0])
+    up = [[0], [1]]
+    cell.attach("can", can, "fork", at)
+    stands = cell.first_contact(up)
+    assert stands is not None and (stands.b, stands.share) == ("table", 0)
+    contact = cell.first_contact(up, start="leave", tolerance=1e-5)
+    assert contact is not None and (contact.a, contact.b) == ("can", "shelf")
+    assert 0.793 - 1e-5 < contact.share <= 0.793
+    assert cell.is_free([[0], [0.7]], start="leave") and not cell.is_free([[0], [-0.01]], start="leave")
+    table = cell.edges([[0], [0]], [[0.7], [1]], "first-contact", start="leave")
+    assert table["status"].tolist() == ["free", "contact"]
+    wrong: Any = {"start": "leave"}
+    for question in (cell.closest_approach, cell.clearance_ranges, cell.prove):
+        with pytest.raises(TypeError, match="'start'"):
+            question(up, **wrong)
+    other: Any = "go"
+    with pytest.raises(InputError, match="'go' is not report or leave"):
+        cell.is_free(up, start=other)
+    # The table may be touched in other ways, too.
+    cell.allow_contact("table", "can")
+    for change in ("allowed", "may touch"):
+        contact = cell.first_contact(up, tolerance=1e-5)
+        assert contact is not None and contact.b == "shelf", change
+        cell.detach("can")
+        cell.attach("can", can, "fork", at, may_touch=["table"])
+    with pytest.raises(InputError, match="start policy `leave`"):
+        cell.set_clearance("can", "table", -0.01)
+    cell.forbid_contact("can", "table")
+    assert not cell.is_free(up[:1])
+
+
+def test_the_example_picks_and_places(capsys: pytest.CaptureFixture[str]) -> None:
+    runpy.run_path(str(Path(__file__).parents[1] / "examples/pick_and_place.py"))
+    printed = capsys.readouterr().out
+    for line in (
+        "the way over the shelf is free",
+        "onto the shelf: can touches shelf at 0.666",
+        "into the shelf: can touches shelf at 1.",
+        "into the other arm: ",
+        "into the table: can touches table at 0.0000",
+        "the can is on the shelf, and the arm is back",
+    ):
+        assert line in printed, printed

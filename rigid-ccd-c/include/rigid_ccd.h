@@ -539,7 +539,7 @@ rccd_status rccd_cell_move_obstacle(struct rccd_cell *cell,
 rccd_status rccd_cell_remove_obstacle(struct rccd_cell *cell, const char *name);
 
 // Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. It may touch that link,
-// links that no joint moves against it, and those that are named.
+// links that no joint moves against it, and the links, held bodies and obstacles that are named.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `name` and `link` are null or texts that end with a zero; `body` is null
@@ -558,6 +558,26 @@ rccd_status rccd_cell_attach(struct rccd_cell *cell,
 // `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero.
 rccd_status rccd_cell_detach(struct rccd_cell *cell, const char *name);
 
+// Allows two items to touch: two links, or a link, a held body and an obstacle. What is removed takes this away.
+//
+// # Safety
+// `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
+rccd_status rccd_cell_allow_contact(struct rccd_cell *cell, const char *a, const char *b);
+
+// Compares two items again that were allowed to touch, or two links that were not checked.
+//
+// # Safety
+// That of `rccd_cell_allow_contact`.
+rccd_status rccd_cell_forbid_contact(struct rccd_cell *cell, const char *a, const char *b);
+
+// Stores what of the cell is checked, as lines of text: counts, then what is not checked and why. A line that begins with
+// `warning: ` says that most of the robot is not checked. The text is valid until the next such call for the cell, or until the
+// cell is freed.
+//
+// # Safety
+// `cell` is null or a handle that no other call uses; `out` is null or points to a place for a text.
+rccd_status rccd_cell_check_summary(struct rccd_cell *cell, struct rccd_text *out);
+
 // Sets how much farther than the margin obstacles have to stay from a link; 0 takes it back.
 //
 // # Safety
@@ -565,7 +585,7 @@ rccd_status rccd_cell_detach(struct rccd_cell *cell, const char *name);
 rccd_status rccd_cell_set_padding(struct rccd_cell *cell, const char *link, double distance);
 
 // Sets the distance at which two links, held bodies or obstacles count as touching, instead of margin and paddings. Two links
-// that were not checked are checked from now on.
+// that were not checked are checked from now on, and so are two items that were allowed to touch.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
@@ -575,8 +595,11 @@ rccd_status rccd_cell_set_clearance(struct rccd_cell *cell,
                                     double distance);
 
 // Makes a solver for a cell with these settings; null stands for the default ones. The margin is the distance at which bodies
-// count as touching, and a deadline is for a whole question. A cell of which no pair is checked is an error: links that a joint
-// connects are not, unless `rccd_cell_set_clearance` names them. Contacts at the start are always reported.
+// count as touching, and a deadline is for a whole question. A cell of which no pair is compared is an error: links that a joint
+// connects are not, unless `rccd_cell_set_clearance` names them. Normals of contacts play no role.
+//
+// With the start policy `RCCD_START_POLICY_LEAVE` pairs in contact at the start may part or slide, but not come nearer, in questions
+// about the first or any contact; that about the closest approach is an error.
 //
 // # Safety
 // `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points

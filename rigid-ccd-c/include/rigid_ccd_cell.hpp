@@ -76,7 +76,8 @@ public:
     Result<Done> remove_obstacle(const std::string &name) {
         return detail::done(rccd_cell_remove_obstacle(handle_.get(), name.c_str()));
     }
-    // Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame.
+    // Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. It may touch that link,
+    // links that no joint moves against it, and the links, held bodies and obstacles that are named.
     Result<Done> attach(const std::string &name, const Body &body, const std::string &link, const Pose &pose,
                         const std::vector<std::string> &may_touch = {}) {
         std::vector<const char *> links;
@@ -85,6 +86,20 @@ public:
                                              links.data(), links.size()));
     }
     Result<Done> detach(const std::string &name) { return detail::done(rccd_cell_detach(handle_.get(), name.c_str())); }
+    // Allows two items to touch: two links, or a link, a held body and an obstacle. What is removed takes this away.
+    Result<Done> allow_contact(const std::string &a, const std::string &b) {
+        return detail::done(rccd_cell_allow_contact(handle_.get(), a.c_str(), b.c_str()));
+    }
+    // Compares two items again that were allowed to touch, or two links that were not checked.
+    Result<Done> forbid_contact(const std::string &a, const std::string &b) {
+        return detail::done(rccd_cell_forbid_contact(handle_.get(), a.c_str(), b.c_str()));
+    }
+    // Returns what is checked, as lines: counts, then what is not checked and why; the warnings begin with `warning: `.
+    Result<std::string> check_summary() {
+        rccd_text text{};
+        const rccd_status status = rccd_cell_check_summary(handle_.get(), &text);
+        return detail::after(status, [&] { return std::string(text.data, text.length); });
+    }
     // Sets how much farther than the margin obstacles have to stay from a link.
     Result<Done> set_padding(const std::string &link, double distance) {
         return detail::done(rccd_cell_set_padding(handle_.get(), link.c_str(), distance));

@@ -7,7 +7,7 @@ use crate::body::RccdBody;
 use crate::motion::RccdPose;
 use crate::status::{Failure, RccdStatus, status_of};
 use rigid_ccd::Pose;
-use rigid_ccd_robot::{Cell, RobotError, RobotFile};
+use rigid_ccd_robot::{Cell, Item, RobotError, RobotFile};
 use std::ffi::c_char;
 use std::path::Path;
 use std::sync::Arc;
@@ -21,6 +21,8 @@ pub struct RccdCell {
     pub(crate) changes: Arc<AtomicU64>,
     /// The names that callers are given. Those of `cell` live no longer than the solvers that share it, once it is changed.
     joint_names: Vec<String>,
+    /// What is checked, as it was last asked for.
+    check_summary: String,
 }
 
 /// A text in UTF-8 that belongs to a cell or to a solver, and that does not end with a zero.
@@ -234,7 +236,7 @@ pub unsafe extern "C" fn rccd_cell_remove_obstacle(
 }
 
 /// Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. It may touch that link,
-/// links that no joint moves against it, and those that are named.
+/// links that no joint moves against it, and the links, held bodies and obstacles that are named.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `name` and `link` are null or texts that end with a zero; `body` is null
@@ -262,7 +264,7 @@ pub unsafe extern "C" fn rccd_cell_attach(
         // SAFETY: the contract of this function.
         let links = unsafe { array("may_touch", may_touch, may_touch_count) }?.iter();
         // SAFETY: the contract of this function.
-        let links = links.map(|&link| unsafe { text("a link of may_touch", link) });
+        let links = links.map(|&link| unsafe { text("a name of may_touch", link) });
         let links = links.collect::<Result<Vec<_>, _>>()?;
         let attach = |cell: &mut Cell| cell.attach(name, Arc::clone(&body.0), (link, pose), &links);
         // SAFETY: the contract of this function.
@@ -281,6 +283,64 @@ pub unsafe extern "C" fn rccd_cell_detach(cell: *mut RccdCell, name: *const c_ch
         let name = unsafe { text("name", name) }?;
         // SAFETY: the contract of this function.
         unsafe { change(cell, |cell| cell.detach(name)) }
+    })
+}
+
+/// Allows two items to touch: two links, or a link, a held body and an obstacle. What is removed takes this away.
+///
+/// # Safety
+/// `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_allow_contact(
+    cell: *mut RccdCell,
+    a: *const c_char,
+    b: *const c_char,
+) -> RccdStatus {
+    // SAFETY: the contract of this function.
+    unsafe { change_pair(cell, a, b, Cell::allow_contact) }
+}
+
+/// Compares two items again that were allowed to touch, or two links that were not checked.
+///
+/// # Safety
+/// That of `rccd_cell_allow_contact`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_forbid_contact(
+    cell: *mut RccdCell,
+    a: *const c_char,
+    b: *const c_char,
+) -> RccdStatus {
+    // SAFETY: the contract of this function.
+    unsafe { change_pair(cell, a, b, Cell::forbid_contact) }
+}
+
+/// Stores what of the cell is checked, as lines of text: counts, then what is not checked and why. A line that begins with
+/// `warning: ` says that most of the robot is not checked. The text is valid until the next such call for the cell, or until the
+/// cell is freed.
+///
+/// # Safety
+/// `cell` is null or a handle that no other call uses; `out` is null or points to a place for a text.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn rccd_cell_check_summary(
+    cell: *mut RccdCell,
+    out: *mut RccdText,
+) -> RccdStatus {
+    status_of(|| {
+        check_place("the place for the text", out)?;
+        // SAFETY: the contract of this function.
+        let RccdCell {
+            cell,
+            check_summary,
+            ..
+        } = unsafe { exclusive("cell", cell) }?;
+        let summary = cell.check_summary();
+        *check_summary = summary.to_string();
+        for remark in summary.remarks() {
+            let kind = if remark.is_warning() { "warning: " } else { "" };
+            check_summary.push_str(&format!("\n{kind}{remark}"));
+        }
+        // SAFETY: the contract of this function.
+        unsafe { store("the place for the text", out, check_summary.as_str().into()) }
     })
 }
 
@@ -303,7 +363,7 @@ pub unsafe extern "C" fn rccd_cell_set_padding(
 }
 
 /// Sets the distance at which two links, held bodies or obstacles count as touching, instead of margin and paddings. Two links
-/// that were not checked are checked from now on.
+/// that were not checked are checked from now on, and so are two items that were allowed to touch.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
@@ -314,12 +374,26 @@ pub unsafe extern "C" fn rccd_cell_set_clearance(
     b: *const c_char,
     distance: f64,
 ) -> RccdStatus {
+    // SAFETY: the contract of this function.
+    unsafe { change_pair(cell, a, b, |cell, pair| cell.set_clearance(pair, distance)) }
+}
+
+/// Changes what holds for a pair of items.
+///
+/// # Safety
+/// That of [`rccd_cell_allow_contact`].
+unsafe fn change_pair(
+    cell: *mut RccdCell,
+    a: *const c_char,
+    b: *const c_char,
+    change_cell: impl FnOnce(&mut Cell, [Item<'_>; 2]) -> Result<(), RobotError>,
+) -> RccdStatus {
     status_of(|| {
         // SAFETY: the contract of this function.
         let (a, b) = unsafe { (text("a", a)?, text("b", b)?) };
         let set = |cell: &mut Cell| {
             let pair = [cell.item_named(a)?, cell.item_named(b)?];
-            cell.set_clearance(pair, distance)
+            change_cell(cell, pair)
         };
         // SAFETY: the contract of this function.
         unsafe { change(cell, set) }
@@ -355,6 +429,7 @@ unsafe fn give_cell(
     let pairs = pairs.map_err(Failure::body)?;
     let cell = RccdCell {
         joint_names: read.free_joint_names().map(str::to_owned).collect(),
+        check_summary: String::new(),
         cell: Arc::new(Cell::new(read, pairs)),
         changes: Arc::default(),
     };

@@ -25,8 +25,11 @@ pub struct RccdCellSolver {
 }
 
 /// Makes a solver for a cell with these settings; null stands for the default ones. The margin is the distance at which bodies
-/// count as touching, and a deadline is for a whole question. A cell of which no pair is checked is an error: links that a joint
-/// connects are not, unless `rccd_cell_set_clearance` names them. Contacts at the start are always reported.
+/// count as touching, and a deadline is for a whole question. A cell of which no pair is compared is an error: links that a joint
+/// connects are not, unless `rccd_cell_set_clearance` names them. Normals of contacts play no role.
+///
+/// With the start policy `RCCD_START_POLICY_LEAVE` pairs in contact at the start may part or slide, but not come nearer, in questions
+/// about the first or any contact; that about the closest approach is an error.
 ///
 /// # Safety
 /// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points
@@ -43,11 +46,7 @@ pub unsafe extern "C" fn rccd_cell_solver_new(
         let (cell, changes) = (Arc::clone(cell), Arc::clone(changes));
         // SAFETY: the contract of this function.
         let settings = unsafe { read_settings(settings) }?;
-        if !cell.checks_any_pair() {
-            let text = "no pair of the cell is checked: there is no obstacle, and links that a joint connects are not checked \
-                        unless a clearance names them";
-            return Err(Failure::input(text));
-        }
+        cell.check_any_compared().map_err(Failure::input)?;
         // SAFETY: the cell does not move while this struct holds it, nobody changes a shared cell, and the solver, which is the
         // first field, is dropped before it.
         let borrowed: &'static Cell = unsafe { &*Arc::as_ptr(&cell) };

@@ -79,7 +79,7 @@ const fn named_question(number: usize) -> (&'static str, Question, &'static str)
 }
 
 /// The treatments of bodies in contact at the start, for `--start`.
-pub(super) const START_POLICIES: &Named<StartPolicy> = &[
+pub(crate) const START_POLICIES: &Named<StartPolicy> = &[
     (
         "report",
         StartPolicy::Report,

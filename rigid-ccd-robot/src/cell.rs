@@ -1,6 +1,7 @@
 //! A robot among obstacles.
 
 mod clusters;
+mod compared;
 mod margins;
 pub(crate) mod part;
 mod planes;
@@ -10,9 +11,11 @@ use crate::pairs::LinkPairs;
 use crate::robot::Robot;
 use crate::solver::kinematics::Kinematics;
 use crate::tuning::{MAX_LINK_PARTS, MAX_OBSTACLE_PARTS};
+use compared::AllowedPairs;
 use margins::Margins;
 use part::{HullPart, PlacedBody};
 use rigid_ccd::{Body, Pose};
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// A robot among obstacles that rest in the frame of its base.
@@ -32,6 +35,7 @@ pub struct Cell {
     robot_body_placements: Vec<RobotBodyPlacement>,
     obstacle_names: Vec<String>,
     margins: Margins,
+    allowed: AllowedPairs,
 }
 
 /// Where a robot holds a body.
@@ -41,15 +45,8 @@ struct RobotBodyPlacement {
     link: usize,
     /// The pose of the body in the link's frame.
     pose_in_link: Pose,
-    /// How the body is attached; `None` for a body of the link itself.
-    attachment: Option<Attachment>,
-}
-
-#[derive(Clone, Debug)]
-struct Attachment {
-    name: String,
-    /// The numbers of the links that the body may touch.
-    may_touch: Vec<usize>,
+    /// The name of an attached body; `None` for a body of the link itself.
+    attached_name: Option<String>,
 }
 
 /// A link of the robot, a body attached to a link, or an obstacle, by its name.
@@ -90,6 +87,7 @@ impl Cell {
         let kinematics = Kinematics::of_robot(&robot);
         let mut cell = Cell {
             margins: Margins::default(),
+            allowed: AllowedPairs::default(),
             robot,
             pairs,
             kinematics,
@@ -146,7 +144,7 @@ impl Cell {
         Ok(())
     }
 
-    /// Removes an obstacle, together with the clearances that it had.
+    /// Removes an obstacle, together with the clearances and the allowed contacts that it had.
     ///
     /// # Errors
     /// [`RobotError::NoSuchObstacle`].
@@ -158,10 +156,12 @@ impl Cell {
     }
 
     /// Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. It moves with the
-    /// link. It may touch that link, links that no joint moves against it, and those that are named.
+    /// link. It may touch that link, links that no joint moves against it, and the links, attached bodies and obstacles that are
+    /// named; [`Cell::allow_contact`] allows more of them later.
     ///
     /// # Errors
-    /// [`RobotError::NameTaken`], [`RobotError::NoSuchLink`], [`RobotError::TooFar`].
+    /// [`RobotError::NameTaken`], [`RobotError::NoSuchLink`], [`RobotError::TooFar`], and [`RobotError::NoSuchItem`] for what it may
+    /// touch.
     pub fn attach(
         &mut self,
         name: impl Into<String>,
@@ -170,22 +170,23 @@ impl Cell {
         may_touch: &[&str],
     ) -> Result<(), RobotError> {
         let link = self.robot.link_number(link)?;
-        let may_touch = may_touch.iter().map(|link| self.robot.link_number(link));
-        let may_touch = may_touch.collect::<Result<_, _>>()?;
+        let may_touch = may_touch.iter().map(|item| self.item_named(item));
+        let may_touch: Vec<Item<'_>> = may_touch.collect::<Result<_, _>>()?;
         let name = name.into();
         self.check_new_name(&name)?;
         RobotError::check_pose("attached body", &name, &pose)?;
-        let attachment = Some(Attachment { name, may_touch });
         let held = RobotBodyPlacement {
             link,
             pose_in_link: pose,
-            attachment,
+            attached_name: Some(name),
         };
+        let number = self.robot_body_placements.len();
         self.add_robot_body(body.into(), held);
+        self.allow_contacts_of_attached(number, &may_touch);
         Ok(())
     }
 
-    /// Removes a body that is attached to a link, together with the clearances that it had.
+    /// Removes a body that is attached to a link, together with the clearances and the allowed contacts that it had.
     ///
     /// # Errors
     /// [`RobotError::NoSuchAttachedBody`].
@@ -196,19 +197,6 @@ impl Cell {
         self.robot_part_count -= parts.count();
         self.remove(number);
         Ok(())
-    }
-
-    /// Returns whether any pair of bodies is checked. Where none is, every path is free.
-    pub fn checks_any_pair(&self) -> bool {
-        let moves = |part: &HullPart| {
-            self.kinematics
-                .link_frame_and_pose(self.link_of(part.owner))
-                .0
-                > 0
-        };
-        let meets_obstacles = self.parts.len() > self.robot_part_count
-            && self.parts[..self.robot_part_count].iter().any(moves);
-        meets_obstacles || self.checked_robot_part_pairs().next().is_some()
     }
 
     /// Returns the robot.
@@ -228,11 +216,8 @@ impl Cell {
 
     /// Returns the names of the bodies that are attached to links, in the order in which they were attached.
     pub fn attached_names(&self) -> impl Iterator<Item = &str> {
-        let attachments = self
-            .robot_body_placements
-            .iter()
-            .filter_map(|held| held.attachment.as_ref());
-        attachments.map(|attachment| attachment.name.as_str())
+        let held = self.robot_body_placements.iter();
+        held.filter_map(|held| held.attached_name.as_deref())
     }
 
     /// Returns the link, the attached body or the obstacle that has a name.
@@ -330,61 +315,11 @@ impl Cell {
         match self.robot_body_placements.get(body) {
             None => Item::Obstacle(&self.obstacle_names[body - self.robot_body_placements.len()]),
             Some(RobotBodyPlacement {
-                attachment: Some(attachment),
+                attached_name: Some(name),
                 ..
-            }) => Item::Attached(&attachment.name),
+            }) => Item::Attached(name),
             Some(held) => Item::Link(&self.robot.links()[held.link].name),
         }
-    }
-
-    /// Iterates over the pairs of the robot's own parts that are checked.
-    pub(crate) fn checked_robot_part_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
-        let parts = || self.parts[..self.robot_part_count].iter().enumerate();
-        parts().flat_map(move |(a, part_a)| {
-            let earlier = parts().take(a);
-            let checked =
-                earlier.filter(move |(_, part_b)| self.is_checked(part_a.owner, part_b.owner));
-            checked.map(move |(b, _)| [a, b])
-        })
-    }
-
-    /// Returns whether two bodies are compared with each other: two of the robot's that are checked, or one that moves and an
-    /// obstacle.
-    fn is_compared(&self, a: usize, b: usize) -> bool {
-        let count = self.robot_body_count();
-        let moves = |body: usize| self.kinematics.link_frame_and_pose(self.link_of(body)).0 > 0;
-        match (a < count, b < count) {
-            (true, true) => self.is_checked(a, b),
-            (true, false) => moves(a),
-            (false, true) => moves(b),
-            (false, false) => false,
-        }
-    }
-
-    /// Returns the pairs of bodies that are compared, by their numbers in [`Cell::carried_bodies`], each with the distance at
-    /// which it counts as touching for a margin.
-    pub fn compared_pairs(&self, margin: f64) -> impl Iterator<Item = ([usize; 2], f64)> {
-        let pairs = (0..self.bodies.len()).flat_map(|a| (0..a).map(move |b| [b, a]));
-        let compared = pairs.filter(|&[a, b]| self.is_compared(a, b));
-        compared.map(move |pair| (pair, self.margin(pair, margin)))
-    }
-
-    /// Returns whether two of the robot's bodies are checked against each other.
-    fn is_checked(&self, a: usize, b: usize) -> bool {
-        let [a, b] = [
-            &self.robot_body_placements[a],
-            &self.robot_body_placements[b],
-        ];
-        if a.attachment.is_none() && b.attachment.is_none() {
-            return self.pairs.is_checked(a.link, b.link);
-        }
-        let may_touch = |held: &RobotBodyPlacement, link: usize| {
-            let attachment = held.attachment.as_ref();
-            attachment.is_some_and(|attachment| attachment.may_touch.contains(&link))
-        };
-        !self.robot.are_rigidly_connected(a.link, b.link)
-            && !may_touch(a, b.link)
-            && !may_touch(b, a.link)
     }
 
     /// Adds a body that the robot holds.
@@ -405,6 +340,8 @@ impl Cell {
             part.owner += 1;
         }
         self.margins.insert_body(number);
+        self.allowed
+            .renumber(|body| Some(if body < number { body } else { body + 1 }));
         let parts = placed.parts(number);
         let count = parts.len();
         self.parts.splice(first..first, parts);
@@ -422,7 +359,13 @@ impl Cell {
 
     fn remove(&mut self, number: usize) {
         self.bodies.remove(number);
-        self.margins.remove_body(number);
+        let after_removal = |body: usize| match body.cmp(&number) {
+            Ordering::Less => Some(body),
+            Ordering::Equal => None,
+            Ordering::Greater => Some(body - 1),
+        };
+        self.margins.remove_body(number, after_removal);
+        self.allowed.renumber(after_removal);
         self.parts.retain(|part| part.owner != number);
         for part in &mut self.parts {
             if part.owner > number {
@@ -444,10 +387,7 @@ impl Cell {
     }
 
     fn attached_body_number(&self, name: &str) -> Result<usize, RobotError> {
-        let has_name = |held: &RobotBodyPlacement| {
-            let attachment = held.attachment.as_ref();
-            attachment.is_some_and(|attachment| attachment.name == name)
-        };
+        let has_name = |held: &RobotBodyPlacement| held.attached_name.as_deref() == Some(name);
         let number = self.robot_body_placements.iter().position(has_name);
         number.ok_or_else(|| RobotError::NoSuchAttachedBody { name: name.into() })
     }
@@ -458,7 +398,7 @@ impl RobotBodyPlacement {
         RobotBodyPlacement {
             link,
             pose_in_link: pose,
-            attachment: None,
+            attached_name: None,
         }
     }
 }

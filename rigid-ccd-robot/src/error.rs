@@ -172,6 +172,17 @@ impl RobotError {
     }
 }
 
+/// The error of a question about a cell of which no pair is compared: whatever its answer, it would be about nothing.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "nothing is compared in this cell: {checked}; an obstacle is compared with links that have bodies and move, and a clearance \
+     between two links checks them"
+)]
+pub struct NothingCompared {
+    /// What is checked and what is left out, by [`CheckSummary`](crate::CheckSummary).
+    pub checked: String,
+}
+
 /// The error of a question about a path.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -217,6 +228,15 @@ pub enum PathError {
         value: f64,
         /// The values that are allowed.
         allowed: &'static str,
+    },
+    /// No pair of the cell is compared.
+    #[error(transparent)]
+    NothingCompared(#[from] NothingCompared),
+    /// A question does not take a setting.
+    #[error("this question does not take {setting}")]
+    UnsupportedSetting {
+        /// The setting, and which questions take it.
+        setting: &'static str,
     },
     /// A query is invalid, or reached a limit.
     #[error(transparent)]

@@ -24,12 +24,13 @@
 //! |---|---|
 //! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another |
 //! | `combine` | several robots as one, on bases that may move: [`Robot::combine`] |
-//! | `cell` | a robot among obstacles: [`Cell`] |
-//! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/clearance_ranges` where a distance is kept, `solver/distance_curve` the distance over a path |
+//! | `cell` | a robot among obstacles: [`Cell`]; `cell/compared` which bodies are compared, `cell/margins` at which distances |
+//! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/start` contacts at the start that may part, `solver/clearance_ranges` where a distance is kept, `solver/distance_curve` the distance over a path |
 //! | `path`, `joint_curve`, `polynomial`, `path_point` | what a question is about: a [`Path`] through configurations, or a [`JointCurve`] of polynomials |
 //! | `link_contacts` | whether two links can ever touch, by branch and bound over their joints: [`Robot::classify_link_contacts`] |
 //! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
 //! | `remark` | what is valid in a robot or a cell, but probably a mistake: [`CellRemark`] |
+//! | `check_summary` | what of a robot is checked, in numbers, and remarks about what is not: [`CheckSummary`] |
 //! | `robot_file` | a robot from a URDF or MJCF file with its meshes: [`RobotFile`] |
 //! | `srdf` | pairs that are not checked, from an SRDF file |
 //! | `path_rows` | answers as rows of tables, for the command and the Python package |
@@ -37,6 +38,7 @@
 //! | `tuning` | numbers that only cost time |
 
 mod cell;
+mod check_summary;
 mod combine;
 mod error;
 pub mod evidence;
@@ -67,8 +69,9 @@ mod tuning;
 mod worst;
 
 pub use cell::{CarriedBody, Cell, Item};
+pub use check_summary::{CheckRemark, CheckSummary, LeftOutPairs, Surroundings};
 pub use combine::PlacedRobot;
-pub use error::{CurveError, PathError, RobotError};
+pub use error::{CurveError, NothingCompared, PathError, RobotError};
 pub use joint_curve::JointCurve;
 pub use link_contacts::LinkContactClass;
 pub use pairs::{LinkPairs, SkipReason};

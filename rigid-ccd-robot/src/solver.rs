@@ -2,6 +2,7 @@
 
 mod boxes;
 mod clearance_ranges;
+mod constant_step;
 mod curved_link;
 mod displacement;
 mod distance_curve;
@@ -18,6 +19,7 @@ mod periods;
 pub(crate) mod placement;
 pub(crate) mod rounding;
 mod search;
+mod start;
 mod stretch;
 pub(crate) mod violation;
 
@@ -31,7 +33,7 @@ use crate::path_point::PathPoint;
 use part_pairs::PartPair;
 use rigid_ccd::answer::{ClearanceVerdict, Feature, HitKind, Limit, Unresolved};
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::{ContactNormals, Error, Hit, Outcome, Settings, Solver};
+use rigid_ccd::{ContactNormals, Error, Hit, Outcome, Settings, Solver, StartPolicy};
 use search::Search;
 
 /// Answers questions about paths in a cell, one after another.
@@ -39,7 +41,8 @@ use search::Search;
 /// A [`Path`] is a slice of configurations, between two of which all joints move at constant rates, or a
 /// [`JointCurve`](crate::JointCurve).
 ///
-/// The margin of the settings is the distance at which bodies count as touching. Contacts at the start are always reported.
+/// The margin of the settings is the distance at which bodies count as touching. Normals of contacts play no role, and a clearance in
+/// the settings is refused.
 ///
 /// A deadline is for a whole question. A [budget](rigid_ccd::Settings::budget) is for each query of two bodies that a path leaves to
 /// the engine. A whole question takes at most 8 budgets for each segment of its path, all pairs together: what one segment does
@@ -47,6 +50,12 @@ use search::Search;
 /// approach takes up to half as much again. Each range of a [distance curve](Self::distance_curve) counts as a question, and so
 /// does each stretch that is examined for [clearance ranges](Self::clearance_ranges). A budget may end a search at a contact that
 /// is later, within the tolerance of what is asked for, than the one that a larger budget finds.
+///
+/// Under the start policy [`Leave`](StartPolicy::Leave), questions about the first or any contact let go of pairs in contact at the
+/// start, as two bodies do: such a pair may part or slide, but not come nearer nor sink. One with a gap keeps half of it from then on;
+/// one without may sink by what rounding hides and by a millionth of the tolerance, and touches again when it comes back. A pair that
+/// begins nearer than its margin keeps the distance that it began with. One that overlaps is a contact, and so is one
+/// without a gap that slides along other ways than straight ones: [`Cell::allow_contact`] allows that.
 pub struct CellSolver<'c> {
     cell: &'c Cell,
     search: Search<'c>,
@@ -259,15 +268,39 @@ impl<'c> CellSolver<'c> {
     }
 
     fn answer<P: Path + ?Sized>(&mut self, question: Question, path: &P) -> Result<(), PathError> {
-        self.set_path(path)?;
+        if question != Question::ClosestApproach && self.leaves_start() {
+            self.set_path(path)?;
+            return Ok(self.search.answer_leaving_start(question)?);
+        }
+        self.set_path_reporting_start(path)?;
         let whole = self.search.whole_path_stretch();
         Ok(self.search.answer_question(question, whole)?)
     }
 
+    /// Takes a path for questions that do not let contacts at the start go.
+    fn set_path_reporting_start<P: Path + ?Sized>(&mut self, path: &P) -> Result<(), PathError> {
+        if self.leaves_start() {
+            return Err(PathError::UnsupportedSetting {
+                setting: "the start policy `leave`: questions about the first or any contact do",
+            });
+        }
+        self.set_path(path)
+    }
+
     /// Takes a path for the questions that follow, if it fits the robot and the settings are valid.
     fn set_path<P: Path + ?Sized>(&mut self, path: &P) -> Result<(), PathError> {
-        self.search.settings().check().map_err(Error::from)?;
+        let settings = self.search.settings();
+        settings.check().map_err(Error::from)?;
+        if settings.clearance.is_some() {
+            return Err(PathError::UnsupportedSetting {
+                setting: "a clearance in its settings: the verdict of a closest approach takes one, and a cell those of pairs",
+            });
+        }
         self.search.begin(path)
+    }
+
+    fn leaves_start(&self) -> bool {
+        self.search.settings().start_policy == StartPolicy::Leave
     }
 
     /// Measures a pair at a point of the path.

@@ -54,3 +54,6 @@ pub(crate) const MAX_DRIFT_SHARE: f64 = 0.25;
 
 /// The largest number of turns, of the joint that turns least, in a period of two links.
 pub(crate) const MAX_TURNS_IN_PERIOD: u32 = 128;
+
+/// The largest number of stretches of a segment over which a pair in contact at the start is followed until it has a gap.
+pub(crate) const MAX_START_STRETCHES: u32 = 256;

@@ -3,10 +3,10 @@
 use super::body::Body;
 use super::path_answer::PathAnswer;
 use super::poses::pose_from_numbers;
-use super::robot::{Robot, names_of_pairs};
+use super::robot::{Robot, names_of_pairs, remark_texts};
 use super::solver::Question;
-use rigid_ccd::Settings;
 use rigid_ccd::answer::ClearanceVerdict;
+use rigid_ccd::{Settings, StartPolicy};
 use rigid_ccd_robot::{CellSolver, PathError, RangeSettings, RobotError};
 use self_cell::self_cell;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
@@ -91,6 +91,31 @@ impl Cell {
         self.change(|cell| cell.detach(name))
     }
 
+    /// Allows two items to touch.
+    ///
+    /// # Errors
+    /// An unknown name, or a pair that is never compared.
+    pub fn allow_contact(&mut self, a: &str, b: &str) -> Result<(), JsError> {
+        self.change(|cell| cell.allow_contact([cell.item_named(a)?, cell.item_named(b)?]))
+    }
+
+    /// Compares two items again.
+    ///
+    /// # Errors
+    /// An unknown name, or a pair that is never compared.
+    pub fn forbid_contact(&mut self, a: &str, b: &str) -> Result<(), JsError> {
+        self.change(|cell| cell.forbid_contact([cell.item_named(a)?, cell.item_named(b)?]))
+    }
+
+    /// Returns what is not checked: two texts for each remark, of which the first is "warning" or "remark".
+    ///
+    /// # Errors
+    /// A cell that was lost.
+    pub fn remarks(&self) -> Result<Vec<String>, JsError> {
+        let cell = self.cell.as_ref().ok_or_else(lost)?.borrow_owner();
+        Ok(remark_texts(&cell.check_summary()))
+    }
+
     /// Sets the distance that obstacles have to keep from a link.
     ///
     /// # Errors
@@ -119,7 +144,8 @@ impl Cell {
         Ok(names_of_pairs(cell.robot(), cell.link_pairs()))
     }
 
-    /// Answers a question about a path of so many configurations, one after another in `path`.
+    /// Answers a question about a path of so many configurations, one after another in `path`. Settings are the tolerance, the
+    /// margin, 0 or 1 for contacts at the start that are let go, and the budget.
     ///
     /// # Errors
     /// A configuration or a setting that is not valid.
@@ -211,6 +237,10 @@ impl Cell {
                 tolerance: settings[0],
                 margin: settings[1],
                 budget: settings[3] as u64,
+                start_policy: match settings[2] {
+                    0.0 => StartPolicy::Report,
+                    _ => StartPolicy::Leave,
+                },
                 ..Settings::DEFAULT
             });
             then(solver, &configurations)

@@ -1,7 +1,7 @@
 """The keyword arguments of queries, with their types."""
 
 from collections.abc import Callable
-from typing import Any, Protocol, TypeAlias, TypedDict
+from typing import Any, Literal, Protocol, TypeAlias, TypedDict
 
 
 class _Bar(Protocol):
@@ -28,14 +28,20 @@ class OfContacts(OfDistances, total=False):
     margin: float
 
 
+class OfPathContacts(OfContacts, total=False):
+    """Settings of a query that looks for contacts on a path: with "leave" pairs in contact at its start may part."""
+
+    start: Literal["report", "leave"]
+
+
 class OfApproaches(OfDistances, total=False):
     """Settings of a query for the least distance."""
 
     clearance: float | None
 
 
-class OfPaths(OfContacts, total=False):
-    """Of `Cell.edges` and `Cell.paths`: `clearance` is for closest approaches, `margin` for the other questions."""
+class OfPaths(OfPathContacts, total=False):
+    """Of `Cell.edges` and `Cell.paths`: `clearance` is for closest approaches, `margin` and `start` for the other questions."""
 
     clearance: float | None
 

@@ -334,10 +334,106 @@ fn a_cell_of_which_no_pair_is_checked_has_no_solver() {
         let mut solver = std::ptr::null_mut();
         let refused = rccd_cell_solver_new(cell.pointer(), null(), &mut solver);
         assert_eq!(refused, RccdStatus::InvalidInput);
-        assert!(last_error().contains("no pair of the cell is checked"));
+        let error = last_error();
+        assert!(
+            error.contains("nothing is compared in this cell: 2 links; 2 bodies"),
+            "{error}"
+        );
         let (rail, carriage) = (c"rail".as_ptr(), c"carriage".as_ptr());
         ok(rccd_cell_set_clearance(cell.pointer(), rail, carriage, 0.0));
         ok(rccd_cell_solver_new(cell.pointer(), null(), &mut solver));
         rccd_cell_solver_free(solver);
+    }
+}
+
+/// Tests that a held body is lifted from what it stands on, by the start policy and by an allowed contact.
+#[test]
+fn held_bodies_are_lifted_from_what_they_stand_on() {
+    let lift = r#"<robot name="lift"><link name="rail"/><link name="fork"/>
+      <joint name="lift" type="prismatic"><parent link="rail"/><child link="fork"/><axis xyz="0 0 1"/>
+        <limit lower="-2" upper="2" effort="1" velocity="1"/></joint></robot>"#;
+    let file = tempfile::Builder::new().suffix(".urdf").tempfile().unwrap();
+    std::fs::write(file.path(), lift).unwrap();
+    let path = std::ffi::CString::new(file.path().to_str().unwrap()).unwrap();
+    // SAFETY: pointers are null or to values that live here.
+    unsafe {
+        let cell = Handle::new(rccd_cell_free, |out| {
+            rccd_cell_load(path.as_ptr(), null(), null(), out)
+        });
+        let (pointer, can, table) = (cell.pointer(), c"can".as_ptr(), c"table".as_ptr());
+        let at = |z: f64| RccdPose {
+            position: [0.0, 0.0, z],
+            orientation: [0.0, 0.0, 0.0, 1.0],
+        };
+        let ball = crate::support::sphere(0.1);
+        let (above, below) = (at(0.3), at(0.1));
+        ok(rccd_cell_add_obstacle(
+            pointer,
+            table,
+            ball.pointer(),
+            &below,
+        ));
+        let fork = c"fork".as_ptr();
+        ok(rccd_cell_attach(
+            pointer,
+            can,
+            ball.pointer(),
+            fork,
+            &above,
+            null(),
+            0,
+        ));
+        let configurations = [0.0, 1.0];
+        let path = RccdPath {
+            configurations: configurations.as_ptr(),
+            configuration_count: 2,
+            curve: null(),
+        };
+        let lifted = |settings: &RccdSettings| {
+            ask(
+                rccd_cell_first_contact,
+                &cell_solver(&cell, settings),
+                &path,
+            )
+            .outcome
+        };
+        let report = default_settings();
+        let leave = RccdSettings {
+            start_policy: RccdStartPolicy::Leave as u32,
+            ..report
+        };
+        assert_eq!(lifted(&report), RccdOutcome::Contact);
+        assert_eq!(lifted(&leave), RccdOutcome::Free);
+        let solver = cell_solver(&cell, &leave);
+        let refused = rccd_cell_closest_approach(solver.pointer(), &path, &mut empty_answer());
+        assert_eq!(refused, RccdStatus::InvalidInput);
+        assert!(last_error().contains("start policy"), "{}", last_error());
+
+        ok(rccd_cell_allow_contact(pointer, can, table));
+        let mut summary = empty_answer().item_a;
+        ok(rccd_cell_check_summary(pointer, &mut summary));
+        let lines = text(summary);
+        assert!(
+            lines.contains("1 obstacle, 1 attached, 1 contact allowed"),
+            "{lines}"
+        );
+        assert!(
+            lines.ends_with("\n1 contact allowed: can and table"),
+            "{lines}"
+        );
+        // Nothing else is compared.
+        let mut solver = std::ptr::null_mut();
+        let refused = rccd_cell_solver_new(pointer, null(), &mut solver);
+        assert_eq!(refused, RccdStatus::InvalidInput);
+        let far = at(3.0);
+        ok(rccd_cell_add_obstacle(
+            pointer,
+            c"far".as_ptr(),
+            ball.pointer(),
+            &far,
+        ));
+        assert_eq!(lifted(&report), RccdOutcome::Free);
+        ok(rccd_cell_forbid_contact(pointer, table, can));
+        assert_eq!(lifted(&report), RccdOutcome::Contact);
     }
 }

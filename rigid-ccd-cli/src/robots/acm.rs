@@ -68,6 +68,7 @@ pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
         .map(Output::claim_table)
         .transpose()?;
     let robot = args.robot.load(args.quiet)?;
+    args.robot.print_checked(&robot, args.quiet)?;
     let progress = Progress::start_single_step("examining pairs of links", args.quiet);
     let classes = robot.classify_link_contacts(args.boxes as usize)?;
     drop(progress);

@@ -34,6 +34,9 @@ pub(super) struct CellFile {
     /// The distances that single pairs have to keep, instead of that of all pairs and the padding.
     #[serde(default)]
     clearance: Vec<Clearance>,
+    /// The pairs that may touch.
+    #[serde(default)]
+    allowed: Vec<AllowedContact>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -112,6 +115,12 @@ struct AttachedBody {
 struct Clearance {
     between: Vec<String>,
     distance: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct AllowedContact {
+    between: [String; 2],
 }
 
 /// What is around a robot, with the file that says so.
@@ -245,6 +254,10 @@ impl<'p> CellSource<'p> {
                 Ok(cell.set_clearance(pair, *distance)?)
             };
             set(cell).with_context(|| format!("clearance between {}", between.join(", ")))?;
+        }
+        for AllowedContact { between } in &file.allowed {
+            let [a, b] = between;
+            cell.allow_contact([cell.item_named(a)?, cell.item_named(b)?])?;
         }
         Ok(())
     }

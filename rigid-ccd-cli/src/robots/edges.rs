@@ -20,6 +20,7 @@ use crate::time_histogram::TimeHistogram;
 use crate::{RunOutcome, print_error, print_remarks};
 use anyhow::{Context, Result, bail};
 use args::UNRECORDED_OPTIONS;
+use ccd_core::StartPolicy;
 use clap::ArgMatches;
 use rigid_ccd::batch::{BatchSize, parallel_solver};
 use rigid_ccd::table::motions::RowError;
@@ -38,6 +39,9 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
         bail!(
             "--check needs --clearance with --ask closest-approach: a distance alone is neither good nor bad"
         );
+    }
+    if args.ask == PathQuestion::ClosestApproach && args.start == StartPolicy::Leave {
+        bail!("--start leave is for --ask is-free and first-contact");
     }
     let columns = args.columns();
     let files = RunFiles {
@@ -315,6 +319,7 @@ impl EdgesArgs {
             tolerance: self.tolerance,
             margin,
             deadline: self.deadline,
+            start_policy: self.start,
             ..Settings::DEFAULT
         }
     }

@@ -9,7 +9,8 @@ use crate::size::RoundedToFourDigits;
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use rigid_ccd_robot::{
-    BodyElements, Cell, Item, LinkPairs, MeshConversion, Robot, RobotFile, SkipReason,
+    BodyElements, Cell, CheckSummary, Item, LeftOutPairs, LinkPairs, MeshConversion, Robot,
+    RobotFile, SkipReason,
 };
 use std::path::{Path, PathBuf};
 
@@ -129,6 +130,16 @@ impl RobotArgs {
         }
         Ok(robot)
     }
+
+    /// Prints what of the robot is checked, and what is not, without any other file.
+    ///
+    /// # Errors
+    /// If the file cannot be read again.
+    pub(crate) fn print_checked(&self, robot: &Robot, quiet: bool) -> Result<()> {
+        let pairs = self.file().link_pairs(robot, None)?;
+        print_checked(&pairs.check_summary(robot), quiet);
+        Ok(())
+    }
 }
 
 impl CellArgs {
@@ -143,17 +154,16 @@ impl CellArgs {
                 .with_context(|| file.display().to_string())?,
             None => Cell::new(robot, pairs),
         };
-        let skipped = pairs_not_checked(&cell);
-        if !cell.checks_any_pair() {
+        let summary = cell.check_summary();
+        if let Err(nothing) = cell.check_any_compared() {
+            let remarks = summary.remarks().into_iter();
+            let remarks: Vec<String> = remarks.map(|remark| format!("; {remark}")).collect();
             bail!(
-                "no pair is checked: there is no obstacle, and no two links are checked; --geometry visual takes the other \
-                 shapes of the robot{}",
-                skipped.map_or(String::new(), |pairs| format!("; {pairs}"))
+                "{nothing}; --geometry visual takes the other shapes of the robot{}",
+                remarks.concat()
             );
         }
-        if let (Some(pairs), false) = (skipped, quiet) {
-            print_escaped_to_stderr(&pairs);
-        }
+        print_checked(&summary, quiet);
         if !quiet {
             print_escaped_to_stderr(&sizes(&cell));
         }
@@ -226,19 +236,22 @@ fn sizes(cell: &Cell) -> String {
     )
 }
 
-/// Says which pairs of links with bodies are not checked although they move against each other, and how to check them; `None`
-/// if all are.
-fn pairs_not_checked(cell: &Cell) -> Option<String> {
-    let name = |link: usize| &cell.robot().links()[link].name;
-    let skipped = cell.link_pairs().skipped_pairs();
-    let moving = skipped.filter(|(_, reason)| **reason != SkipReason::NoMotion);
-    let pairs: Vec<String> = moving
-        .map(|([one, other], reason)| format!("{} and {} ({reason})", name(one), name(other)))
-        .collect();
-    (!pairs.is_empty()).then(|| {
-        format!(
-            "not checked: {}; a [[clearance]] between two links in the --cell, or enable_collisions in the --srdf, checks them",
-            pairs.join(", ")
-        )
-    })
+/// Prints what is compared, and what is not; if `quiet`, only that most of a robot is not.
+fn print_checked(summary: &CheckSummary, quiet: bool) {
+    if !quiet {
+        print_escaped_to_stderr(&summary.to_string());
+    }
+    for remark in summary.remarks() {
+        if remark.is_warning() {
+            print_escaped_to_stderr(&format!("warning: {remark} (--geometry visual)"));
+        } else if !quiet {
+            print_escaped_to_stderr(&remark.to_string());
+        }
+    }
+    let moves = |group: &LeftOutPairs| group.reason != SkipReason::NoMotion;
+    if !quiet && summary.left_out_pairs.iter().any(moves) {
+        print_escaped_to_stderr(
+            "a [[clearance]] between two links in the --cell, or enable_collisions in the --srdf, checks a pair",
+        );
+    }
 }

@@ -350,8 +350,8 @@ fn a_mechanism_without_pairs_is_no_proof() {
     scene.file("hinge.urdf", &hinge);
     let args = ["clearance", "hinge.urdf", "--require", "0.3mm"];
     let message = call(&scene, &args).run_for_messages(2);
-    assert_contains(&message, "no pair is checked");
-    assert_contains(&message, "frame and lever (adjacent)");
+    assert_contains(&message, "nothing is compared in this cell: 2 links");
+    assert_contains(&message, "(adjacent): frame and lever");
     // Neighbours are checked if a file says so; here they overlap, over the whole range of the only joint.
     let srdf = "<robot name='hinge'><enable_collisions link1='frame' link2='lever'/></robot>";
     scene.file("hinge.srdf", srdf);
@@ -644,4 +644,162 @@ fn endless_files_are_refused_at_once() {
             assert!(is_refused, "{args:?}: {message}");
         }
     }
+}
+
+/// A can is picked from a table and carried onto a shelf beside another arm: free, and each other way ends at what is in it.
+#[test]
+fn a_can_is_lifted_carried_and_placed() {
+    let scene = Scene::new("carry");
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    for name in ["scara.urdf", "carry.toml", "carry.csv"] {
+        fs::copy(examples.join(name), scene.directory.join(name)).unwrap();
+    }
+    let args = [
+        "edges",
+        "scara.urdf",
+        "--cell",
+        "carry.toml",
+        "--edges",
+        "carry.csv",
+        "--no-micros",
+        "--joint",
+        "finger=0.033",
+        "--joint",
+        "other/elbow=0",
+        "--joint",
+        "other/finger=0",
+    ];
+    let run = |more: &[&str]| call(&scene, &args).args(more).run_for_rows();
+    let found = run(&["--start", "leave", "--ask", "first-contact"]);
+    let row = |name: &str| found.iter().find(|row| row.text("id") == name).unwrap();
+    let over = row("over the shelf");
+    assert_eq!((over.text("status"), over.number("time")), ("free", 3.0));
+    for (name, [a, b], times) in [
+        ("onto the shelf", ["can", "shelf"], 0.665..0.667),
+        ("into the shelf", ["can", "shelf"], 1.1..2.0),
+        ("into the other arm", ["can", "other/hand"], 1.1..2.0),
+        ("into the table", ["can", "table"], 0.0..0.001),
+    ] {
+        let row = row(name);
+        let texts = ["status", "a", "b"].map(|column| row.text(column));
+        assert_eq!(texts, ["contact", a, b], "{name}");
+        assert!(
+            times.contains(&row.number("time")),
+            "{name} {}",
+            row.number("time")
+        );
+    }
+    // Without it the can touches the table, unless that is allowed.
+    let statuses = || {
+        run(&[])
+            .iter()
+            .map(|row| row.text("status").to_owned())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(statuses()[0], "contact");
+    let cell = fs::read_to_string(examples.join("carry.toml")).unwrap();
+    let allowed = format!("{cell}\n[[allowed]]\nbetween = [\"can\", \"table\"]\n");
+    let named = cell.replace(
+        "\"right finger\"]",
+        "\"right finger\", \"table\", \"base\"]",
+    );
+    for text in [allowed, named] {
+        scene.file("carry.toml", &text);
+        assert_eq!(
+            statuses(),
+            ["free", "contact", "contact", "contact", "contact"]
+        );
+    }
+    let message = call(&scene, &args)
+        .args(&["--start", "leave", "--ask", "closest-approach"])
+        .run_for_messages(2);
+    assert_contains(&message, "--start leave is for");
+    scene.file(
+        "carry.toml",
+        &cell.replace("\"left finger\",", "\"thumb\","),
+    );
+    let message = call(&scene, &args).run_for_messages(2);
+    assert_contains(&message, "no link, attached body or obstacle `thumb`");
+}
+
+/// What is not checked is said, and a warning if that is most of a robot.
+#[test]
+fn what_is_not_checked_is_printed() {
+    let scene = Scene::new("unchecked");
+    let geom = |attributes: &str| format!("<geom type='box' size='0.1 0.1 0.1' {attributes}/>");
+    let body = |name: &str, rest: &str| {
+        format!(
+            "<body name='{name}' pos='0 0 1'><joint name='to {name}' axis='0 1 0'/>{rest}</body>"
+        )
+    };
+    // Masks as of robosuite's arms: geoms meet obstacles, and not each other.
+    let own = geom("contype='0'");
+    let inner = body("c", &own);
+    let links = body(
+        "a",
+        &format!("{own}{}", body("b", &format!("{own}{inner}"))),
+    );
+    scene.file(
+        "masked.xml",
+        &format!("<mujoco><worldbody>{links}</worldbody></mujoco>"),
+    );
+    let bare = body("a", &body("b", &body("c", &geom(""))));
+    scene.file(
+        "bare.xml",
+        &format!("<mujoco><worldbody>{bare}</worldbody></mujoco>"),
+    );
+    scene.file(
+        "far.toml",
+        "[[obstacle]]\nname = \"far\"\nbody = \"sphere:0.1\"\nposition = [90, 0, 0]\n",
+    );
+    scene.file(
+        "moves.csv",
+        "from_to a,from_to b,from_to c,to_to a,to_to b,to_to c\n0,0,0,1,1,1\n",
+    );
+    let edges = ["--edges", "moves.csv", "--out", "out.csv"];
+    let masked = call(&scene, &["edges", "masked.xml"])
+        .args(&edges)
+        .run_for_messages(2);
+    assert_contains(
+        &masked,
+        "nothing is compared in this cell: 4 links, 1 without bodies",
+    );
+    assert_contains(&masked, "contype and conaffinity");
+    let warned = call(
+        &scene,
+        &["edges", "masked.xml", "--cell", "far.toml", "--quiet"],
+    )
+    .args(&edges)
+    .run_for_messages(0);
+    assert_contains(
+        &warned,
+        "warning: most of the robot is not checked against itself: 3 of 3 moving links",
+    );
+    let bare = call(&scene, &["edges", "bare.xml", "--cell", "far.toml"])
+        .args(&edges)
+        .run_for_messages(0);
+    assert_contains(
+        &bare,
+        "warning: most of the robot is not checked: 2 of 3 moving links have no bodies: a, b",
+    );
+    assert_contains(
+        &bare,
+        "3 links without bodies, compared with nothing: world, a, b",
+    );
+    let acm = call(&scene, &["acm", "masked.xml", "--out", "out.srdf"]).run_for_messages(0);
+    assert_contains(
+        &acm,
+        "warning: most of the robot is not checked against itself",
+    );
+    let ranges = [
+        "clearance",
+        "bare.xml",
+        "--cell",
+        "far.toml",
+        "--joint",
+        "to a=0:1",
+        "--rest",
+    ];
+    let clearance = call(&scene, &ranges).run_for_messages(0);
+    assert_contains(&clearance, "2 of 3 moving links have no bodies");
 }

@@ -1,5 +1,6 @@
 //! The distances at which pairs of bodies count as touching.
 
+use super::compared::ordered_pair;
 use super::{Cell, Item};
 use crate::error::RobotError;
 use ccd_core::order::greater;
@@ -31,44 +32,23 @@ impl Cell {
     }
 
     /// Sets the distance at which a pair counts as touching, instead of the margin and the padding. A pair of links that is not
-    /// checked, such as neighbours, is checked from then on.
+    /// checked, such as neighbours, is checked from then on, and so is a pair that was allowed to touch.
     ///
     /// # Errors
     /// [`RobotError::NoSuchLink`], [`RobotError::NoSuchAttachedBody`] or [`RobotError::NoSuchObstacle`], [`RobotError::NeverCompared`], and
     /// [`RobotError::Input`] for a distance that is not from 0 to 1e12.
     pub fn set_clearance(&mut self, pair: [Item<'_>; 2], distance: f64) -> Result<(), RobotError> {
         for item in pair {
-            match item {
-                Item::Link(name) => self.robot.link_number(name)?,
-                Item::Attached(name) => self.attached_body_number(name)?,
-                Item::Obstacle(name) => self.obstacle_number(name)?,
-            };
+            self.check_item(item)?;
         }
         check_distance("clearance", distance)?;
-        let [a, b] = pair;
-        if a == b || matches!(pair, [Item::Obstacle(_), Item::Obstacle(_)]) {
-            let [a, b] = [a, b].map(|item| item.name().to_owned());
-            return Err(RobotError::NeverCompared { a, b });
-        }
-        if let [Item::Link(a), Item::Link(b)] = pair {
-            let [a, b] = [self.robot.link_number(a)?, self.robot.link_number(b)?];
-            if self.robot.are_rigidly_connected(a, b) {
-                let [a, b] = [a, b].map(|link| self.robot.links()[link].name.clone());
-                return Err(RobotError::NeverCompared { a, b });
-            }
-            self.pairs.include(a, b);
-        }
+        self.forbid_contact(pair)?;
         let [one, other] = pair.map(|item| self.bodies_of(item));
-        let is_compared = |&a: &usize| other.iter().any(|&b| self.is_compared(a, b));
-        if !one.iter().any(is_compared) {
-            let [a, b] = pair.map(|item| item.name().to_owned());
-            return Err(RobotError::NeverCompared { a, b });
-        }
         for &a in &one {
             for &b in &other {
                 self.margins
                     .clearance_per_pair
-                    .insert(ordered_pair(a, b), distance);
+                    .insert(ordered_pair([a, b]), distance);
             }
         }
         Ok(())
@@ -82,7 +62,7 @@ impl Cell {
             clearance_per_pair: clearances,
         } = &self.margins;
         if !clearances.is_empty()
-            && let Some(&clearance) = clearances.get(&ordered_pair(a, b))
+            && let Some(&clearance) = clearances.get(&ordered_pair([a, b]))
         {
             return clearance;
         }
@@ -105,13 +85,6 @@ impl Cell {
         let clearances = self.margins.clearance_per_pair.values().copied();
         clearances.fold(margin + largest, greater)
     }
-
-    /// Returns the numbers of the bodies of a link, of an attached body, or of an obstacle.
-    fn bodies_of(&self, item: Item<'_>) -> Vec<usize> {
-        let all = 0..self.bodies.len();
-        all.filter(|&body| self.item_of_body(body) == item)
-            .collect()
-    }
 }
 
 impl Margins {
@@ -121,13 +94,10 @@ impl Margins {
         self.renumber(|body| Some(if body < number { body } else { body + 1 }));
     }
 
-    pub(super) fn remove_body(&mut self, number: usize) {
+    /// Removes a body, and gives the others the numbers that a function returns.
+    pub(super) fn remove_body(&mut self, number: usize, others: impl Fn(usize) -> Option<usize>) {
         self.padding_per_body.remove(number);
-        self.renumber(|body| match body.cmp(&number) {
-            std::cmp::Ordering::Less => Some(body),
-            std::cmp::Ordering::Equal => None,
-            std::cmp::Ordering::Greater => Some(body - 1),
-        });
+        self.renumber(others);
     }
 
     fn renumber(&mut self, number: impl Fn(usize) -> Option<usize>) {
@@ -138,18 +108,20 @@ impl Margins {
     }
 }
 
-fn ordered_pair(a: usize, b: usize) -> [usize; 2] {
-    if a < b { [a, b] } else { [b, a] }
-}
-
 /// Refuses a distance that no query takes as its margin.
 fn check_distance(quantity: &'static str, distance: f64) -> Result<(), InputError> {
     if (0.0..=1e12).contains(&distance) {
         return Ok(());
     }
+    let allowed = if distance < 0.0 {
+        "at least 0 and at most 1e12; a pair that may touch is allowed to, and one in contact at the start may part under the \
+         start policy `leave`"
+    } else {
+        "at least 0 and at most 1e12"
+    };
     Err(InputError::OutOfRange {
         quantity,
         value: distance,
-        allowed: "at least 0 and at most 1e12",
+        allowed,
     })
 }

@@ -1,6 +1,7 @@
 //! Tests of changes of a cell: obstacles, attached bodies, paddings and clearances.
 
 use super::*;
+use crate::error::PathError;
 use crate::robot::{Joint, Link, PositionRule};
 use crate::solver::PathOutcome;
 use rigid_ccd::trajectory;
@@ -158,11 +159,11 @@ fn a_clearance_includes_a_pair_of_neighbours() {
     let robot = Robot::new(links, vec![hinge]).unwrap();
     let pairs = LinkPairs::from_robot(&robot);
     let mut cell = Cell::new(robot, pairs);
-    assert!(!cell.checks_any_pair());
-    assert!(cell.solver().is_free(&[[0.0], [3.1]]).unwrap());
+    let error = cell.solver().is_free(&[[0.0], [3.1]]).unwrap_err();
+    assert!(matches!(error, PathError::NothingCompared(_)), "{error}");
     let pair = [Item::Link("frame"), Item::Link("lever")];
     cell.set_clearance(pair, 0.0).unwrap();
-    assert!(cell.checks_any_pair());
+    cell.check_any_compared().unwrap();
     assert!(!cell.solver().is_free(&[[0.0], [3.1]]).unwrap());
     assert!(cell.solver().is_free(&[[0.0], [1.5]]).unwrap());
 }

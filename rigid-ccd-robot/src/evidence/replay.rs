@@ -85,6 +85,7 @@ impl Evidence {
             tolerance: self.settings.tolerance,
             margin: self.settings.margin,
             budget: self.settings.budget,
+            start_policy: self.settings.start.into(),
             ..Settings::DEFAULT
         };
         let answer = RecordedAnswer::from(&self.ask(cell, &settings)?);

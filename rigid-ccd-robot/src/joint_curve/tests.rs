@@ -132,7 +132,10 @@ fn a_curve_stays_within_the_limits() {
     };
     let ball = Link::named("ball").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
     let robot = Robot::new(vec![Link::named("rail"), ball], vec![joint]).unwrap();
-    let cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
+    let mut cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
+    let far = Pose::at([0.0, 9.0, 0.0]).unwrap();
+    cell.add_obstacle("post", Body::sphere(0.1).unwrap(), far)
+        .unwrap();
     // 4 s (1 - s) h is h in the middle.
     let hump = |height: f64| {
         let segments = [vec![vec![0.0, 4.0 * height, -4.0 * height]]];

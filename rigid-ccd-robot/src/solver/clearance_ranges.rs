@@ -124,7 +124,7 @@ impl CellSolver<'_> {
         path: &P,
         resolution: f64,
     ) -> Result<Vec<ClearanceRange>, PathError> {
-        self.set_path(path)?;
+        self.set_path_reporting_start(path)?;
         let mut found = Vec::new();
         self.examine(self.search.whole_path_stretch(), resolution, &mut found)?;
         let segments = self.search.segment_count();

@@ -34,7 +34,7 @@ impl<'c> CellSolver<'c> {
         path: &P,
         halvings: u32,
     ) -> Result<Vec<DistanceRange<'c>>, PathError> {
-        self.set_path(path)?;
+        self.set_path_reporting_start(path)?;
         let segments = self.search.segment_count();
         let count = (segments as f64) * f64::from(halvings).exp2();
         if count > MAX_RANGE_COUNT {

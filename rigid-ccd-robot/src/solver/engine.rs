@@ -9,7 +9,7 @@ use super::stretch::{StepResult, Stretch};
 use crate::tuning::MAX_BUDGET_SPLITS;
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::answer::{ClearanceVerdict, Limit};
-use rigid_ccd::{Answer, ContactNormals, Error, Outcome, Settings};
+use rigid_ccd::{Answer, ContactNormals, Error, Outcome, Settings, StartPolicy};
 use std::ops::ControlFlow::{self, Break, Continue};
 
 impl Search<'_> {
@@ -222,6 +222,7 @@ impl Search<'_> {
             margin: open.pair.margin + allowance,
             clearance: clearance.map(|clearance| greater(clearance + allowance, 0.0)),
             budget: self.stop_condition.budget_of_query(),
+            start_policy: StartPolicy::Report,
             deadline: self.stop_condition.remaining(),
             contact_normals: ContactNormals::OfPieces,
             ..self.settings.clone()

@@ -4,7 +4,7 @@ use super::Question;
 use super::curved_link::{CurvedLink, PathSection};
 use super::pair_chain::{PairChain, pair_chain};
 use crate::cell::Cell;
-use rigid_ccd::trajectory::MovingBody;
+use rigid_ccd::trajectory::{MovingBody, Trajectory};
 use rigid_ccd::{Answer, Body, Error, Motion, Pose, Solver};
 use std::collections::HashMap;
 
@@ -42,23 +42,28 @@ impl<'c> PairChains<'c> {
         pair: [usize; 2],
         section: &PathSection<'_>,
     ) -> Result<Answer, Error> {
-        let cell = self.cell;
-        let [a, b] = pair;
-        let is_obstacle = b >= cell.robot_body_count();
-        let own = chain(&mut self.chains, cell, pair);
-        let bodies = cell.bodies();
-        let rests = Motion::still(if is_obstacle {
-            bodies[b].pose
-        } else {
-            Pose::IDENTITY
-        });
-        let (a, b) = (&*bodies[a].body, (&*bodies[b].body, rests));
+        self.with_link(solver, pair, section, |solver, link, a, b| {
+            ask_solver(solver, question, (a, link), b)
+        })
+    }
+
+    /// Calls a function with the first body of a pair and the trajectory by which it moves in a section of a path, and with the
+    /// second one at rest. The section takes one unit of time.
+    pub(crate) fn with_link<T>(
+        &mut self,
+        solver: &mut Solver,
+        pair: [usize; 2],
+        section: &PathSection<'_>,
+        then: impl FnOnce(&mut Solver, &dyn Trajectory, &Body, (&Body, Motion)) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let (a, b) = self.bodies(pair);
+        let own = chain(&mut self.chains, self.cell, pair);
         if !section.path.has_constant_rates() {
             let link = CurvedLink {
                 pair_chain: own,
                 section: *section,
             };
-            return ask_solver(solver, question, (a, &link), b);
+            return then(solver, &link, a, b);
         }
         for (at, in_chain) in section.ends().into_iter().zip(&mut self.ends) {
             let path = section.path;
@@ -69,7 +74,18 @@ impl<'c> PairChains<'c> {
         }
         let [from, to] = &self.ends;
         let link = own.chain.link(from.len(), from, to, 1.0)?;
-        ask_solver(solver, question, (a, &link), b)
+        then(solver, &link, a, b)
+    }
+
+    /// Returns the first body of a pair, and the second one as the first one's chain has it at rest.
+    pub(crate) fn bodies(&self, [a, b]: [usize; 2]) -> (&'c Body, (&'c Body, Motion)) {
+        let (cell, bodies) = (self.cell, self.cell.bodies());
+        let rests = Motion::still(if b >= cell.robot_body_count() {
+            bodies[b].pose
+        } else {
+            Pose::IDENTITY
+        });
+        (&bodies[a].body, (&bodies[b].body, rests))
     }
 }
 

@@ -157,12 +157,41 @@ impl<'c> PartPairs<'c> {
             self.obstacle_boxes
                 .for_each_meeting(centre - extents, centre + extents, |obstacle| {
                     let b = robot_parts + obstacle;
-                    let margin = cell.margin([part.owner, parts[b].owner], self.margin);
-                    let margin = margin + self.margin_increase;
+                    let bodies = [part.owner, parts[b].owner];
+                    if cell.is_allowed(bodies) {
+                        return;
+                    }
+                    let margin = cell.margin(bodies, self.margin) + self.margin_increase;
                     pairs.push(PartPair::new([a, b], [slot, None], margin));
                 });
         }
         pairs.extend_from_slice(&self.self_pairs);
+    }
+
+    /// Appends all pairs of parts of two bodies, with a margin of their own.
+    pub(crate) fn append_pairs_of_bodies(
+        &self,
+        placement: &Placement,
+        bodies: [usize; 2],
+        margin: f64,
+        pairs: &mut Vec<PartPair>,
+    ) {
+        let (cell, parts) = (self.cell, self.cell.parts());
+        let of_robot = self.self_pairs.iter();
+        let of_robot = of_robot.filter(|pair| pair.body_numbers(parts) == bodies);
+        pairs.extend(of_robot.map(|pair| PartPair { margin, ..*pair }));
+        if bodies[1] < cell.robot_body_count() {
+            return;
+        }
+        let parts_of = |body: usize| {
+            let first = parts.partition_point(|part| part.owner < body);
+            first..parts.partition_point(|part| part.owner <= body)
+        };
+        for a in parts_of(bodies[0]) {
+            let slot = placement.displacement_bounds.bound_index_seen_from_base(a);
+            let with_obstacle = parts_of(bodies[1]);
+            pairs.extend(with_obstacle.map(|b| PartPair::new([a, b], [slot, None], margin)));
+        }
     }
 }
 

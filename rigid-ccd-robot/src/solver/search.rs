@@ -14,9 +14,10 @@ use super::part_pairs::{PartPair, PartPairs, sort_by_proof_distance};
 use super::periods::{DriftLimit, Period, Periods};
 use super::placement::Placement;
 use super::rounding::{UNSTATED_TOLERANCE_SHARE, largest_arm};
+use super::start::StartContact;
 use super::stretch::{StepResult, Stretch};
 use crate::cell::Cell;
-use crate::error::PathError;
+use crate::error::{NothingCompared, PathError};
 use crate::path::Path;
 use crate::path_point::PathPoint;
 use crate::tuning::{
@@ -34,16 +35,20 @@ use std::ops::Range;
 /// Memory for searches along paths, which is kept from one to the next.
 pub(crate) struct Search<'c> {
     pub(super) cell: &'c Cell,
+    /// Whether any pair of the cell is compared; an error for a question if none is.
+    compares_any: Result<(), NothingCompared>,
     pub(super) pairs: PartPairs<'c>,
     pub(super) exact_chains: PairChains<'c>,
     pub(super) path: JointPath,
     pub(super) placement: Placement,
-    periods: Periods,
+    pub(super) periods: Periods,
     /// Pairs that may touch in the stretches from the whole path down to the current one.
     pub(super) candidates: Vec<PartPair>,
     /// Pairs of bodies that are not convex, whose hulls are near each other in the middle of the stretch, or nearer than
     /// what was found.
     pub(super) near_nonconvex_pairs: Vec<PartPair>,
+    /// Pairs in contact at the start of the path that are let go, of the current question.
+    pub(super) start_contacts: Vec<StartContact>,
     /// What the engine is to decide.
     pub(super) open_pairs: UndecidedPairs,
     pub(super) solver: Solver,
@@ -103,6 +108,7 @@ impl<'c> Search<'c> {
         let placement = Placement::new(cell);
         Search {
             cell,
+            compares_any: cell.check_any_compared(),
             pairs: PartPairs::new(cell, &placement.displacement_bounds),
             exact_chains: PairChains::new(cell),
             path: JointPath::default(),
@@ -110,6 +116,7 @@ impl<'c> Search<'c> {
             periods: Periods::default(),
             candidates: Vec::new(),
             near_nonconvex_pairs: Vec::new(),
+            start_contacts: Vec::new(),
             open_pairs: UndecidedPairs::default(),
             solver: Solver::new(),
             settings: Settings::DEFAULT,
@@ -200,6 +207,7 @@ impl<'c> Search<'c> {
     pub(crate) fn begin<P: Path + ?Sized>(&mut self, path: &P) -> Result<(), PathError> {
         self.stop_condition = StopCondition::starting_now(&self.settings);
         path.write_to(self.cell, &mut self.path)?;
+        self.compares_any.clone()?;
         self.cell.check_plane_reach(self.path.magnitudes())?;
         self.placement.begin(self.cell, &self.path);
         // A margin is raised by half of that, and distances may be off by as much.
@@ -221,16 +229,21 @@ impl<'c> Search<'c> {
         question: Question,
         stretch: Stretch,
     ) -> Result<(), Error> {
-        self.question = question;
-        self.search_start = stretch.from;
-        self.result = SearchResult::NOTHING_FOUND;
-        self.stop_condition.begin_search(&stretch);
-        self.candidates.clear();
-        self.open_pairs.clear();
+        self.begin_question(question, &stretch);
+        self.start_contacts.clear();
         match self.search(stretch, None)? {
             Break(()) => Ok(()),
             Continue(()) => self.decide_open_pairs(),
         }
+    }
+
+    pub(super) fn begin_question(&mut self, question: Question, stretch: &Stretch) {
+        self.question = question;
+        self.search_start = stretch.from;
+        self.stop_condition.begin_search(stretch);
+        self.result = SearchResult::NOTHING_FOUND;
+        self.candidates.clear();
+        self.open_pairs.clear();
     }
 
     /// Returns the whole path as a stretch.
@@ -246,7 +259,7 @@ impl<'c> Search<'c> {
 
     /// Searches a stretch of the path among the given candidate pairs, or among all pairs if there are none. Pairs that
     /// stay open are left to the engine.
-    fn search(&mut self, stretch: Stretch, among: Option<Range<usize>>) -> StepResult {
+    pub(super) fn search(&mut self, stretch: Stretch, among: Option<Range<usize>>) -> StepResult {
         if stretch.from >= self.result.end {
             return Ok(Continue(()));
         }
@@ -422,6 +435,17 @@ impl<'c> Search<'c> {
         let allowance = allowance + 2.0 * self.placement.rounding;
         self.pairs
             .append_candidates(&self.placement, allowance, &mut self.candidates);
+        if !self.start_contacts.is_empty() {
+            let mut kept = first;
+            for k in first..self.candidates.len() {
+                let pair = self.candidates[k];
+                if !self.is_let_go(&pair) {
+                    self.candidates[kept] = pair;
+                    kept += 1;
+                }
+            }
+            self.candidates.truncate(kept);
+        }
         if self.question == Question::ClosestApproach {
             // The nearest bodies first: others are then farther apart than these by their bounding volumes.
             for pair in &mut self.candidates[first..] {

@@ -6,7 +6,9 @@ mod features;
 mod history;
 mod inputs;
 mod questions;
+mod start;
 mod tolerances;
+mod twin;
 
 use super::*;
 use crate::pairs::LinkPairs;

@@ -225,6 +225,16 @@ impl Call<'_, '_> {
         self.value_place(|text, world, context| world.lend(context.owner, text))
     }
 
+    /// A text that lives until the next one is asked for.
+    pub(super) fn new_summary(&mut self) -> *mut RccdText {
+        self.value_place(|text: RccdText, _, _| {
+            require(
+                !text.data.is_null() && text.length > 0,
+                "a summary is empty",
+            )
+        })
+    }
+
     pub(super) fn new_limit(&mut self) -> *mut f64 {
         self.value_place(|limit: f64, _, _| require(!limit.is_nan(), "a limit is NaN"))
     }

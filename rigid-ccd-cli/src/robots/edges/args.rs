@@ -1,10 +1,11 @@
 //! The options of `ccd edges`.
 
-use crate::named::{Named, named_value_parser};
+use crate::named::{Named, START_POLICIES, named_value_parser};
 use crate::numbers::parse_seconds;
 use crate::resumable::RowRange;
 use crate::robots::joint_values::{JointsArgs, length, tolerance_length};
 use crate::robots::loading::CellArgs;
+use ccd_core::StartPolicy;
 use clap::Args;
 use rigid_ccd_robot::path_rows::PathQuestion;
 use std::path::PathBuf;
@@ -30,6 +31,9 @@ pub(crate) struct EdgesArgs {
     /// Report a contact at a distance of at most clearance + tolerance, in metres
     #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_PATH_TOLERANCE, value_parser = tolerance_length, allow_hyphen_values = true)]
     pub(super) tolerance: f64,
+    /// How to treat pairs in contact at the start of a row, such as an object that is lifted; not for closest-approach
+    #[arg(long, value_parser = named_value_parser(START_POLICIES), default_value = "report")]
+    pub(super) start: StartPolicy,
     /// Leave a row unresolved after this time, in seconds [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_hyphen_values = true)]
     pub(super) deadline: Option<Duration>,
@@ -126,12 +130,14 @@ Cell (--cell), TOML. Bodies are those of `ccd query --a`; files are looked for n
   base = \"planar\"                 # or floating [default: it rests]
   [[attached]]                    # an object that a link holds: as an obstacle, in the link's frame, with
   link = \"hand\"
-  may_touch = [\"finger\"]
+  may_touch = [\"finger\"]          # links, other objects and obstacles
   [padding]                       # distance that obstacles keep from a link, beside --clearance
   hand = 0.01
   [[clearance]]                   # distance that a pair keeps, instead of --clearance and padding
   between = [\"hand\", \"table\"]
   distance = 0.002
+  [[allowed]]                     # a pair that may touch
+  between = [\"finger\", \"table\"]
 A glTF is a cell, too: each of its parts is an obstacle.
 
 Table of results:

@@ -1,0 +1,230 @@
+//! Which bodies of a cell are compared with each other, and which contacts are allowed.
+
+use super::{Cell, Item};
+use crate::error::{NothingCompared, RobotError};
+use crate::pairs::SkipReason;
+use std::collections::BTreeSet;
+
+/// The pairs of bodies that may touch, besides pairs of links that are not checked. The lower number comes first.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct AllowedPairs(BTreeSet<[usize; 2]>);
+
+impl AllowedPairs {
+    pub(crate) fn contains(&self, pair: [usize; 2]) -> bool {
+        !self.0.is_empty() && self.0.contains(&ordered_pair(pair))
+    }
+
+    /// Gives each body the number that a function returns, and removes the pairs of bodies that get none.
+    pub(super) fn renumber(&mut self, number: impl Fn(usize) -> Option<usize>) {
+        let pairs = std::mem::take(&mut self.0).into_iter();
+        self.0 = pairs
+            .filter_map(|[a, b]| Some([number(a)?, number(b)?]))
+            .collect();
+    }
+}
+
+impl Cell {
+    /// Allows two items to touch: two links, or a link, a body that is attached to one, and an obstacle. They are not compared
+    /// until [`Cell::forbid_contact`] or [`Cell::set_clearance`] names them, or until one is removed.
+    ///
+    /// # Errors
+    /// [`RobotError::NoSuchLink`], [`RobotError::NoSuchAttachedBody`] or [`RobotError::NoSuchObstacle`], and
+    /// [`RobotError::NeverCompared`].
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Pose, trajectory};
+    /// use rigid_ccd_robot::{Cell, Item, Joint, Link, LinkPairs, PositionRule, Robot};
+    ///
+    /// let lift = Joint {
+    ///     name: "lift".into(),
+    ///     parent: "base".into(),
+    ///     child: "fork".into(),
+    ///     axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [0.0, 0.0, 1.0])?,
+    ///     position_rule: PositionRule::Independent,
+    /// };
+    /// let robot = Robot::new(vec![Link::named("base"), Link::named("fork")], vec![lift])?;
+    /// let pairs = LinkPairs::from_robot(&robot);
+    /// let mut cell = Cell::new(robot, pairs);
+    /// let at = |z| Pose::at([0.0, 0.0, z]);
+    /// cell.add_obstacle("table", Body::cuboid([1.0, 1.0, 0.1])?, at(-0.1)?)?;
+    /// cell.attach("crate", Body::cuboid([0.2, 0.2, 0.2])?, ("fork", at(0.2)?), &[])?;
+    /// let lifted = [[0.0], [0.5]];
+    /// assert!(!cell.solver().is_free(&lifted)?);
+    /// cell.add_obstacle("shelf", Body::cuboid([1.0, 1.0, 0.1])?, at(2.0)?)?;
+    /// cell.allow_contact([Item::Attached("crate"), Item::Obstacle("table")])?;
+    /// assert!(cell.solver().is_free(&lifted)?);
+    /// assert!(!cell.solver().is_free(&[[0.0], [1.6]])?);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn allow_contact(&mut self, pair: [Item<'_>; 2]) -> Result<(), RobotError> {
+        let bodies = self.bodies_of_pair(pair)?;
+        match self.checked_links_of(pair)? {
+            Some([a, b]) => {
+                self.pairs
+                    .skip(a, b, SkipReason::Disabled("contact allowed".to_owned()));
+            }
+            None => self.allowed.0.extend(bodies),
+        }
+        Ok(())
+    }
+
+    /// Compares two items again that were allowed to touch. A pair of links that was not checked for another reason, such as
+    /// neighbours, is checked from then on.
+    ///
+    /// # Errors
+    /// Those of [`Cell::allow_contact`].
+    pub fn forbid_contact(&mut self, pair: [Item<'_>; 2]) -> Result<(), RobotError> {
+        let bodies = self.bodies_of_pair(pair)?;
+        match self.checked_links_of(pair)? {
+            Some([a, b]) => self.pairs.include(a, b),
+            None => self.allowed.0.retain(|allowed| !bodies.contains(allowed)),
+        }
+        Ok(())
+    }
+
+    /// Returns the pairs of items that were allowed to touch, other than two links; those are skipped pairs of
+    /// [`Cell::link_pairs`].
+    pub fn allowed_contacts(&self) -> Vec<[Item<'_>; 2]> {
+        let pairs = self.allowed.0.iter();
+        let items = pairs.map(|pair| pair.map(|body| self.item_of_body(body)));
+        items.collect::<BTreeSet<_>>().into_iter().collect()
+    }
+
+    /// Allows a body that was attached as the last one to touch some items.
+    pub(super) fn allow_contacts_of_attached(&mut self, body: usize, may_touch: &[Item<'_>]) {
+        for &item in may_touch {
+            let others = self.bodies_of(item).into_iter();
+            let pairs = others.map(|other| ordered_pair([body, other]));
+            self.allowed.0.extend(pairs);
+        }
+    }
+
+    /// Refuses a cell of which no pair of bodies is compared: nothing could ever touch in it, whatever the path.
+    ///
+    /// # Errors
+    /// [`NothingCompared`], with what is left out.
+    pub fn check_any_compared(&self) -> Result<(), NothingCompared> {
+        match self.compared_pairs(0.0).next() {
+            Some(_) => Ok(()),
+            None => Err(NothingCompared {
+                checked: self.check_summary().to_string(),
+            }),
+        }
+    }
+
+    /// Returns the pairs of bodies that are compared, by their numbers in [`Cell::carried_bodies`], each with the distance at
+    /// which it counts as touching for a margin.
+    pub fn compared_pairs(&self, margin: f64) -> impl Iterator<Item = ([usize; 2], f64)> {
+        let pairs = (0..self.bodies.len()).flat_map(|a| (0..a).map(move |b| [b, a]));
+        let compared = pairs.filter(|&[a, b]| self.is_compared(a, b));
+        compared.map(move |pair| (pair, self.margin(pair, margin)))
+    }
+
+    /// Iterates over the pairs of the robot's own parts that are checked.
+    pub(crate) fn checked_robot_part_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
+        let parts = || self.parts[..self.robot_part_count].iter().enumerate();
+        parts().flat_map(move |(a, part_a)| {
+            let earlier = parts().take(a);
+            let checked =
+                earlier.filter(move |(_, part_b)| self.is_compared(part_a.owner, part_b.owner));
+            checked.map(move |(b, _)| [a, b])
+        })
+    }
+
+    /// Returns whether two bodies may touch although both could be compared, but for pairs of links.
+    #[inline(always)]
+    pub(crate) fn is_allowed(&self, pair: [usize; 2]) -> bool {
+        self.allowed.contains(pair)
+    }
+
+    /// Returns whether two bodies are compared with each other.
+    fn is_compared(&self, a: usize, b: usize) -> bool {
+        self.are_comparable(a, b) && !self.allowed.contains([a, b])
+    }
+
+    /// Returns whether two bodies are compared unless they are allowed to touch: two of the robot's that are checked, or one
+    /// that moves and an obstacle.
+    fn are_comparable(&self, a: usize, b: usize) -> bool {
+        let count = self.robot_body_count();
+        let moves = |body: usize| self.kinematics.link_frame_and_pose(self.link_of(body)).0 > 0;
+        match (a < count, b < count) {
+            (true, true) => self.is_checked(a, b),
+            (true, false) => moves(a),
+            (false, true) => moves(b),
+            (false, false) => false,
+        }
+    }
+
+    /// Returns whether two of the robot's bodies are checked against each other, unless they are allowed to touch.
+    fn is_checked(&self, a: usize, b: usize) -> bool {
+        let [a, b] = [
+            &self.robot_body_placements[a],
+            &self.robot_body_placements[b],
+        ];
+        if a.attached_name.is_none() && b.attached_name.is_none() {
+            self.pairs.is_checked(a.link, b.link)
+        } else {
+            !self.robot.are_rigidly_connected(a.link, b.link)
+        }
+    }
+
+    /// Returns the numbers of two links that joints move against each other; `None` if one of the items is no link.
+    fn checked_links_of(&self, pair: [Item<'_>; 2]) -> Result<Option<[usize; 2]>, RobotError> {
+        let [Item::Link(a), Item::Link(b)] = pair else {
+            return Ok(None);
+        };
+        Ok(Some([
+            self.robot.link_number(a)?,
+            self.robot.link_number(b)?,
+        ]))
+    }
+
+    /// Returns the pairs of bodies of two items. For two links these need not be checked.
+    ///
+    /// # Errors
+    /// If an item does not exist, or if no body of one could ever be compared with one of the other.
+    fn bodies_of_pair(&self, pair: [Item<'_>; 2]) -> Result<Vec<[usize; 2]>, RobotError> {
+        for item in pair {
+            self.check_item(item)?;
+        }
+        let never = || {
+            let [a, b] = pair.map(|item| item.name().to_owned());
+            RobotError::NeverCompared { a, b }
+        };
+        if pair[0] == pair[1] {
+            return Err(never());
+        }
+        let [one, other] = pair.map(|item| self.bodies_of(item));
+        let of_one = |&a: &usize| other.iter().map(move |&b| ordered_pair([a, b]));
+        let all: Vec<[usize; 2]> = one.iter().flat_map(of_one).collect();
+        let is_possible = match self.checked_links_of(pair)? {
+            Some([a, b]) => !all.is_empty() && !self.robot.are_rigidly_connected(a, b),
+            None => all.iter().any(|&[a, b]| self.are_comparable(a, b)),
+        };
+        if is_possible { Ok(all) } else { Err(never()) }
+    }
+
+    /// Refuses an item that the cell does not have.
+    pub(super) fn check_item(&self, item: Item<'_>) -> Result<(), RobotError> {
+        match item {
+            Item::Link(name) => self.robot.link_number(name)?,
+            Item::Attached(name) => self.attached_body_number(name)?,
+            Item::Obstacle(name) => self.obstacle_number(name)?,
+        };
+        Ok(())
+    }
+
+    /// Returns the numbers of the bodies of a link, of an attached body, or of an obstacle.
+    pub(super) fn bodies_of(&self, item: Item<'_>) -> Vec<usize> {
+        let all = 0..self.bodies.len();
+        all.filter(|&body| self.item_of_body(body) == item)
+            .collect()
+    }
+}
+
+pub(super) fn ordered_pair([a, b]: [usize; 2]) -> [usize; 2] {
+    if a < b { [a, b] } else { [b, a] }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,496 @@
+//! Tests of pairs in contact at the start that are let go, against the two-body engine and against heights of corners.
+
+use super::*;
+use rigid_ccd::glam::DQuat;
+use rigid_ccd::{Motion, Outcome, StartPolicy};
+use std::f64::consts::TAU;
+
+fn leave() -> Settings {
+    Settings {
+        start_policy: StartPolicy::Leave,
+        ..Settings::DEFAULT
+    }
+}
+
+fn at(position: [f64; 3]) -> Pose {
+    Pose::at(position).unwrap()
+}
+
+/// Returns a robot of one link without bodies, which joints move one after another.
+fn robot_of(joints: Vec<trajectory::Joint>) -> Robot {
+    let name = |k: usize| format!("link{k}");
+    let links = (0..=joints.len()).map(|k| Link::named(name(k))).collect();
+    let joints = joints.into_iter().enumerate().map(|(k, joint)| Joint {
+        name: format!("joint{k}"),
+        parent: name(k),
+        child: name(k + 1),
+        axis_and_limits: joint,
+        position_rule: PositionRule::Independent,
+    });
+    Robot::new(links, joints.collect()).unwrap()
+}
+
+/// Returns a cell in which the last link of a robot holds a can, beside obstacles.
+fn cell_with_can(
+    robot: Robot,
+    (can, pose): (Body, Pose),
+    obstacles: &[(&str, Body, Pose)],
+) -> Cell {
+    let pairs = LinkPairs::from_robot(&robot);
+    let last = format!("link{}", robot.joints().len());
+    let mut cell = Cell::new(robot, pairs);
+    for (name, body, pose) in obstacles {
+        cell.add_obstacle(*name, body.clone(), *pose).unwrap();
+    }
+    cell.attach("can", can, (&last, pose), &[]).unwrap();
+    cell
+}
+
+/// Returns a large slab, whose top is at height 0, as one polytope or as triangles.
+fn slab(as_mesh: bool) -> Body {
+    let [x, z] = [3.0, -0.2];
+    let corners: Vec<DVec3> = (0..8)
+        .map(|k| {
+            let side = |bit: usize| if k >> bit & 1 == 1 { x } else { -x };
+            DVec3::new(side(0), side(1), if k >> 2 & 1 == 1 { 0.0 } else { z })
+        })
+        .collect();
+    if !as_mesh {
+        return Body::polytope(rigid_ccd::body::Polytope {
+            points: corners,
+            ..Default::default()
+        })
+        .unwrap();
+    }
+    let quads = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let faces: Vec<[u32; 3]> = quads
+        .into_iter()
+        .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
+        .collect();
+    let ids: Vec<u32> = (0..12).collect();
+    let pieces = Pieces::from_triangles(&corners, &faces, &ids).unwrap();
+    Body::new(&pieces, Solidity::Solid).unwrap()
+}
+
+fn slide(axis: [f64; 3]) -> trajectory::Joint {
+    trajectory::Joint::prismatic(Pose::IDENTITY, axis).unwrap()
+}
+
+/// A can is lifted from a table into a shelf, which it touches at 0.793 of the path.
+#[test]
+fn a_can_that_is_lifted_from_a_table_meets_the_shelf_above() {
+    let can = Body::cylinder(0.033, 0.06).unwrap();
+    let shelf = Body::cuboid([0.5, 0.5, 0.01]).unwrap();
+    let shelf_bottom = 0.12 + 0.793;
+    let obstacles = [
+        ("table", slab(false), Pose::IDENTITY),
+        ("shelf", shelf, at([0.0, 0.0, shelf_bottom + 0.01])),
+    ];
+    let mut cell = cell_with_can(
+        robot_of(vec![slide([0.0, 0.0, 1.0])]),
+        (can, at([0.0, 0.0, 0.06])),
+        &obstacles,
+    );
+    let path = [[0.0], [1.0]];
+    let reported = cell.solver().first_contact(&path).unwrap();
+    assert!(matches!(reported, PathOutcome::Contact(at) if at.at.share == 0.0));
+    let settings = Settings {
+        tolerance: 1e-4,
+        ..leave()
+    };
+    let mut solver = cell.solver().with_settings(settings.clone());
+    let PathOutcome::Contact(contact) = solver.first_contact(&path).unwrap() else {
+        panic!("there is a shelf");
+    };
+    assert!((0.7928..=0.793).contains(&contact.at.share), "{contact:?}");
+    assert_eq!(contact.items.map(Item::name), ["can", "shelf"]);
+    assert!(!solver.is_free(&path).unwrap());
+    assert!(solver.is_free(&[[0.0], [0.79]]).unwrap());
+    assert!(solver.is_free(&[[0.0]]).unwrap());
+    // Up and down again it stands on the table, which is a contact once it has left it.
+    let PathOutcome::Contact(contact) = solver.first_contact(&[[0.0], [0.5], [0.0]]).unwrap()
+    else {
+        panic!("the can comes back");
+    };
+    assert_eq!(contact.items.map(Item::name), ["can", "table"]);
+    assert!(
+        contact.at.segment == 1 && contact.at.share > 0.999,
+        "{contact:?}"
+    );
+    // So it does into the table.
+    assert!(!solver.is_free(&[[0.0], [-0.01]]).unwrap());
+    assert!(!solver.is_free(&[[0.0], [0.0], [-0.01]]).unwrap());
+    // An overlap is no contact that parts.
+    cell.move_obstacle("table", at([0.0, 0.0, 0.01])).unwrap();
+    let found = cell
+        .solver()
+        .with_settings(settings.clone())
+        .first_contact(&path)
+        .unwrap();
+    assert!(matches!(found, PathOutcome::Contact(found) if found.at.share == 0.0));
+    // What is allowed is not compared.
+    let pair = [Item::Attached("can"), Item::Obstacle("table")];
+    cell.allow_contact(pair).unwrap();
+    let found = cell
+        .solver()
+        .with_settings(settings)
+        .first_contact(&path)
+        .unwrap();
+    assert!(
+        matches!(found, PathOutcome::Contact(found) if found.items[1] == Item::Obstacle("shelf"))
+    );
+}
+
+/// How a box that stands on a slab moves by one joint, as a joint and as a constant motion.
+struct Case {
+    joint: trajectory::Joint,
+    motion: Motion,
+    /// The position of the joint in the world.
+    origin: DVec3,
+    /// The position of the joint at the end.
+    end: f64,
+}
+
+/// Draws a joint by which a box with this centre parts, slides or sinks, and returns with it what its first move is: 1, 0 or -1.
+fn random_case(random: &mut Pcg64, centre: DVec3) -> (Case, i32) {
+    let kind = random.random_range(-1..=1);
+    if random.random_range(0..2) == 0 {
+        let side = random.random_range(0.0..TAU);
+        let rise = f64::from(kind) * random.random_range(0.05..1.0);
+        let axis = DVec3::new(side.cos(), side.sin(), rise).normalize();
+        let length = random.random_range(0.05..1.0);
+        let axis = axis.to_array();
+        let joint = slide(axis);
+        let motion = Motion::new(
+            Pose::at(centre).unwrap(),
+            DVec3::from(axis) * length,
+            [0.0; 3],
+        );
+        return (
+            Case {
+                joint,
+                motion: motion.unwrap(),
+                origin: DVec3::ZERO,
+                end: length,
+            },
+            kind,
+        );
+    }
+    let turn = random.random_range(0.05..1.2);
+    let (origin, axis) = if kind == 0 {
+        // About a vertical axis the box slides.
+        (
+            [
+                random.random_range(-1.0..1.0),
+                random.random_range(-1.0..1.0),
+                0.0,
+            ],
+            DVec3::Z,
+        )
+    } else {
+        // About a horizontal axis beside the whole box it rises or sinks.
+        let away = [-1.0f64, 1.0][random.random_range(0..2)] * random.random_range(0.4..1.0);
+        let axis = DVec3::Y * away.signum() * f64::from(kind);
+        ([centre.x + away, 0.0, random.random_range(-0.1..0.3)], axis)
+    };
+    let joint = trajectory::Joint::revolute(at(origin), axis.to_array()).unwrap();
+    let start = Pose::at(centre).unwrap();
+    let motion = Motion::about(start, [0.0; 3], axis * turn, DVec3::from(origin) - centre);
+    (
+        Case {
+            joint,
+            motion: motion.unwrap(),
+            origin: DVec3::from(origin),
+            end: turn,
+        },
+        kind,
+    )
+}
+
+/// Returns the least height of the corners of a box in a motion at a time, by arithmetic of its own.
+fn least_height(motion: &Motion, half: DVec3, time: f64) -> f64 {
+    let turned = DQuat::from_scaled_axis(motion.spin() * time);
+    let start = motion.start().translation();
+    let pivot = start + motion.centre() + motion.velocity() * time;
+    let corners = (0..8).map(|k| {
+        let side = |bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        half * DVec3::new(side(0), side(1), side(2)) - motion.centre()
+    });
+    corners
+        .map(|corner| (pivot + turned * corner).z)
+        .fold(f64::INFINITY, lesser)
+}
+
+/// Tests random boxes on a slab that part, slide or sink: the answer is that of the two-body engine, and no corner is lower than at
+/// the start before a contact.
+#[test]
+fn a_pair_that_is_let_go_answers_as_two_bodies_do() {
+    let mut random = Pcg64::seed_from_u64(75);
+    let (mut counts, mut later) = ([[0; 2]; 3], 0);
+    for round in 0..600 {
+        let half = DVec3::from_array([(); 3].map(|()| random.random_range(0.05..0.2)));
+        let gap = [0.0, 0.0, 3e-5, 4e-4][random.random_range(0..4)];
+        let centre = DVec3::new(0.0, random.random_range(-0.3..0.3), half.z + gap);
+        let (case, kind) = random_case(&mut random, centre);
+        let (ground, body) = (slab(round % 3 == 0), Body::cuboid(half).unwrap());
+        let robot = robot_of(vec![case.joint]);
+        let obstacles = [("slab", ground.clone(), Pose::IDENTITY)];
+        let cell = cell_with_can(
+            robot,
+            (body.clone(), Pose::at(centre - case.origin).unwrap()),
+            &obstacles,
+        );
+        let mut solver = cell.solver().with_settings(leave());
+        let path = [[0.0], [case.end]];
+        let found = solver.first_contact(&path).unwrap();
+        assert_eq!(
+            solver.is_free(&path).unwrap(),
+            found == PathOutcome::Free,
+            "{round}"
+        );
+        let resting = Motion::STILL;
+        let two_bodies = Solver::new()
+            .with_settings(leave())
+            .first_contact((&body, case.motion), (&ground, resting), 1.0)
+            .unwrap()
+            .outcome;
+        // The end of what is proven, and the greatest time of a contact of both.
+        let until = match (found, two_bodies) {
+            (PathOutcome::Free, Outcome::Free { .. }) => 1.0,
+            (PathOutcome::Contact(contact), Outcome::Contact { time, .. }) => {
+                let height = |time: f64| least_height(&case.motion, half, time);
+                let [own, other] = [contact.at.share, time].map(height);
+                assert!((own - other).abs() <= 1e-3, "{round}: {contact:?} {time}");
+                assert!(own <= gap + 1e-9, "{round}: {own} {contact:?}");
+                contact.at.share
+            }
+            // A hinge turns the box on an arc, which is no constant motion of its middle: without a gap it slides no farther than is
+            // proven.
+            (PathOutcome::Contact(contact), Outcome::Free { .. })
+                if kind == 0 && gap == 0.0 && case.motion.spin() != DVec3::ZERO =>
+            {
+                counts[1][0] += 1;
+                assert!(
+                    contact.at.share > 0.0 && contact.distance_bounds[1] < 1e-9,
+                    "{contact:?}"
+                );
+                continue;
+            }
+            other => panic!("{round}: {kind} {gap} {other:?}"),
+        };
+        for k in 0..=400 {
+            let time = f64::from(k) / 400.0;
+            let height = least_height(&case.motion, half, time);
+            assert!(
+                time >= until || height >= -2e-9,
+                "{round}: {height} at {time} of {until}"
+            );
+            // Half of a gap is kept.
+            assert!(
+                time >= until || gap == 0.0 || height > 0.2 * gap,
+                "{round}: {height}"
+            );
+        }
+        counts[(kind + 1) as usize][usize::from(found == PathOutcome::Free)] += 1;
+        later += usize::from(found != PathOutcome::Free && until > 1e-3);
+    }
+    let [sinks, slides, parts] = counts;
+    assert!(sinks[0] > 150 && sinks[1] == 0, "{counts:?}");
+    assert!(slides[1] > 100 && slides[0] > 30, "{counts:?}");
+    assert!(parts[1] > 100, "{counts:?}");
+    assert!(later > 5, "{counts:?} {later}");
+}
+
+/// Tests arms of three joints that lift a box from a slab, along edges and along curves that begin at rest.
+#[test]
+fn arms_lift_and_press_what_stands_on_a_slab() {
+    let mut random = Pcg64::seed_from_u64(76);
+    let mut counts = [[0; 2]; 2];
+    for round in 0..300 {
+        let half = DVec3::from_array([(); 3].map(|()| random.random_range(0.05..0.15)));
+        let turn = |origin: [f64; 3], axis: [f64; 3]| {
+            trajectory::Joint::revolute(at(origin), axis).unwrap()
+        };
+        let [shoulder, elbow] = [random.random_range(0.2..0.6), random.random_range(0.3..0.6)];
+        let joints = vec![
+            turn([0.0, 0.0, shoulder], [0.0, 0.0, 1.0]),
+            turn([0.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+            turn([elbow, 0.0, 0.3], [0.0, 1.0, 0.0]),
+        ];
+        let robot = robot_of(joints);
+        let start = [
+            random.random_range(-1.0..1.0),
+            random.random_range(-0.4..0.4),
+            random.random_range(-0.4..0.4),
+        ];
+        let link = robot.pose("link3", &start).unwrap();
+        let centre = DVec3::new(1.2, 0.1, half.z);
+        let held = link.inverse().compose(&Pose::at(centre).unwrap());
+        let obstacles = [("slab", slab(round % 2 == 0), Pose::IDENTITY)];
+        let cell = cell_with_can(robot, (Body::cuboid(half).unwrap(), held), &obstacles);
+        let lifts = random.random_range(0..2) == 1;
+        let rise = if lifts { -1.0f64 } else { 1.0 } * random.random_range(0.1..0.4);
+        // The elbow turns back as the shoulder turns, so that the box tilts a little.
+        let end = [
+            start[0] + random.random_range(-0.3..0.3),
+            start[1] + rise,
+            start[2] - 0.9 * rise,
+        ];
+        let mut solver = cell.solver().with_settings(leave());
+        let outcome = match round % 3 {
+            0 => {
+                let still = [[0.0; 3]; 2];
+                let curve = crate::JointCurve::cubic_hermite(&[0.0, 1.0], &[start, end], &still);
+                solver.first_contact(&curve.unwrap()).unwrap()
+            }
+            1 => {
+                let still = [[0.0; 3]; 2];
+                let curve =
+                    crate::JointCurve::quintic_hermite(&[0.0, 1.0], &[start, end], &still, &still);
+                solver.first_contact(&curve.unwrap()).unwrap()
+            }
+            _ => solver.first_contact(&[start, end]).unwrap(),
+        };
+        let until = match outcome {
+            PathOutcome::Free => 1.0,
+            PathOutcome::Contact(contact) => contact.at.share,
+            PathOutcome::Unresolved { .. } => panic!("{round}: {outcome:?}"),
+        };
+        for k in 0..=300 {
+            let share = f64::from(k) / 300.0;
+            let eased = match round % 3 {
+                0 => share * share * (3.0 - 2.0 * share),
+                1 => share.powi(3) * (10.0 - share * (15.0 - 6.0 * share)),
+                _ => share,
+            };
+            let placed = cell
+                .placed_bodies(&configuration_between(&start, &end, eased))
+                .unwrap();
+            let pose = placed
+                .iter()
+                .find(|(item, ..)| item.name() == "can")
+                .unwrap()
+                .2;
+            let corners = (0..8).map(|k| {
+                let side = |bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+                pose.transform_point(half * DVec3::new(side(0), side(1), side(2)))
+                    .z
+            });
+            let height = corners.fold(f64::INFINITY, lesser);
+            assert!(
+                share >= until || height >= -2e-9,
+                "{round}: {height} at {share} of {until}"
+            );
+        }
+        counts[usize::from(lifts)][usize::from(outcome == PathOutcome::Free)] += 1;
+    }
+    let [pressed, lifted] = counts;
+    assert!(pressed[0] > 100 && pressed[1] == 0, "{counts:?}");
+    assert!(lifted[1] > 100, "{counts:?}");
+}
+
+/// Tests that a pair which begins inside the margin keeps the distance that it began with.
+#[test]
+fn a_pair_that_begins_inside_the_margin_may_part() {
+    let body = Body::cuboid([0.1; 3]).unwrap();
+    for gap in [0.0, 0.004] {
+        let robot = robot_of(vec![slide([0.0, 0.0, 1.0])]);
+        let obstacles = [("slab", slab(false), Pose::IDENTITY)];
+        let cell = cell_with_can(robot, (body.clone(), at([0.0, 0.0, 0.1 + gap])), &obstacles);
+        let settings = Settings {
+            margin: 0.02,
+            ..leave()
+        };
+        let mut solver = cell.solver().with_settings(settings);
+        assert!(solver.is_free(&[[0.0], [0.3]]).unwrap(), "{gap}");
+        assert!(!solver.is_free(&[[0.0], [-0.002]]).unwrap(), "{gap}");
+        // Back to where it was is back at the distance that it had.
+        assert!(solver.is_free(&[[0.0], [0.3], [0.001]]).unwrap(), "{gap}");
+        assert!(!solver.is_free(&[[0.0], [0.3], [-0.001]]).unwrap(), "{gap}");
+    }
+}
+
+#[test]
+fn questions_that_cannot_let_go_refuse_it() {
+    let robot = robot_of(vec![slide([0.0, 0.0, 1.0])]);
+    let obstacles = [("slab", slab(false), Pose::IDENTITY)];
+    let cell = cell_with_can(
+        robot,
+        (Body::sphere(0.1).unwrap(), at([0.0, 0.0, 0.1])),
+        &obstacles,
+    );
+    let path = [[0.0], [0.3]];
+    let mut solver = cell.solver().with_settings(leave());
+    let is_refused = |error: PathError| matches!(error, PathError::UnsupportedSetting { .. });
+    assert!(is_refused(solver.closest_approach(&path).unwrap_err()));
+    assert!(is_refused(solver.distance_curve(&path, 2).unwrap_err()));
+    let ranges = crate::RangeSettings::DEFAULT;
+    assert!(is_refused(
+        solver.clearance_ranges(&path, ranges).unwrap_err()
+    ));
+    let settings = Settings {
+        clearance: Some(0.1),
+        ..Settings::DEFAULT
+    };
+    let mut solver = cell.solver().with_settings(settings);
+    assert!(is_refused(solver.closest_approach(&path).unwrap_err()));
+    assert!(is_refused(solver.is_free(&path).unwrap_err()));
+}
+
+/// Tests that limits are never passed over: what is free until then is free.
+#[test]
+fn limits_leave_a_start_that_is_free() {
+    let robot = robot_of(vec![slide([0.0, 0.0, 1.0])]);
+    let obstacles = [("slab", slab(true), Pose::IDENTITY)];
+    let cell = cell_with_can(
+        robot,
+        (Body::sphere(0.1).unwrap(), at([0.0, 0.0, 0.1])),
+        &obstacles,
+    );
+    let path = [[0.0], [0.3]];
+    let ended = [
+        Settings {
+            deadline: Some(std::time::Duration::ZERO),
+            ..leave()
+        },
+        Settings {
+            budget: 0,
+            ..leave()
+        },
+    ];
+    for settings in ended {
+        let mut solver = cell.solver().with_settings(settings);
+        let outcome = solver.first_contact(&path).unwrap();
+        let PathOutcome::Unresolved { free_until, .. } = outcome else {
+            panic!("{outcome:?}");
+        };
+        assert_eq!(free_until.time(), 0.0);
+        assert!(solver.is_free(&path).is_err());
+    }
+}
+
+/// Tests that letting go allocates nothing once a solver has answered the like.
+#[test]
+fn letting_go_keeps_its_memory() {
+    for as_mesh in [false, true] {
+        let robot = robot_of(vec![slide([0.0, 0.0, 1.0])]);
+        let obstacles = [("slab", slab(as_mesh), Pose::IDENTITY)];
+        let can = (Body::cuboid([0.1; 3]).unwrap(), at([0.0, 0.0, 0.1]));
+        let cell = cell_with_can(robot, can, &obstacles);
+        let mut solver = cell.solver().with_settings(leave());
+        let path = [[0.0], [0.3]];
+        assert!(solver.is_free(&path).unwrap());
+        let allocated = allocation_counter::measure(|| {
+            assert!(solver.is_free(&path).unwrap());
+            assert_eq!(solver.first_contact(&path).unwrap(), PathOutcome::Free);
+        });
+        assert_eq!(allocated.count_total, 0, "{allocated:?}");
+    }
+}
