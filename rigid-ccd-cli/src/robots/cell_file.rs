@@ -56,10 +56,9 @@ struct Obstacle {
 #[serde(deny_unknown_fields)]
 struct Plane {
     name: String,
-    #[serde(default)]
-    position: [f64; 3],
-    rpy: Option<[f64; 3]>,
-    quaternion: Option<[f64; 4]>,
+    position: Option<Vec<f64>>,
+    rpy: Option<Vec<f64>>,
+    quaternion: Option<Vec<f64>>,
 }
 
 /// A robot beside that of the command.
@@ -120,7 +119,7 @@ struct Clearance {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct AllowedContact {
-    between: [String; 2],
+    between: Vec<String>,
 }
 
 /// What is around a robot, with the file that says so.
@@ -225,7 +224,7 @@ impl<'p> CellSource<'p> {
             let add = || {
                 anyhow::Ok(cell.add_plane(
                     &plane.name,
-                    pose(plane.position, plane.rpy, plane.quaternion)?,
+                    pose(&plane.position, &plane.rpy, &plane.quaternion)?,
                 )?)
             };
             add().with_context(|| format!("plane {}", plane.name))?;
@@ -256,8 +255,12 @@ impl<'p> CellSource<'p> {
             set(cell).with_context(|| format!("clearance between {}", between.join(", ")))?;
         }
         for AllowedContact { between } in &file.allowed {
-            let [a, b] = between;
-            cell.allow_contact([cell.item_named(a)?, cell.item_named(b)?])?;
+            let allow = |cell: &mut Cell| -> Result<()> {
+                let [a, b]: &[String; 2] = values("between", between)?;
+                let pair = [cell.item_named(a)?, cell.item_named(b)?];
+                Ok(cell.allow_contact(pair)?)
+            };
+            allow(cell).with_context(|| format!("allowed {}", between.join(", ")))?;
         }
         Ok(())
     }
