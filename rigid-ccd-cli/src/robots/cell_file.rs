@@ -221,7 +221,7 @@ impl<'p> CellSource<'p> {
             }
         }
         for plane in &file.plane {
-            let add = || {
+            let mut add = || {
                 anyhow::Ok(cell.add_plane(
                     &plane.name,
                     pose(&plane.position, &plane.rpy, &plane.quaternion)?,
