@@ -161,10 +161,8 @@ impl PathArray {
         let array = float64_array(values, what)?;
         let array = array.cast::<PyArrayDyn<f64>>()?;
         let shape = array.shape().to_vec();
-        let positions = match array.try_readonly()?.as_slice() {
-            Ok(positions) => positions.to_vec(),
-            Err(_) => array.to_owned_array().iter().copied().collect(),
-        };
+        // In the order of the indices, whatever the order in memory.
+        let positions = array.to_owned_array().iter().copied().collect();
         // There may be no paths, but each has configurations.
         let is_too_short = |shape: &[usize]| shape[shape.len().saturating_sub(2)..].contains(&0);
         if shape.is_empty() || shape.len() > 3 || is_too_short(&shape) {

@@ -462,3 +462,24 @@ def test_the_example_picks_and_places(capsys: pytest.CaptureFixture[str]) -> Non
         "the can is on the shelf, and the arm is back",
     ):
         assert line in printed, printed
+
+
+def test_a_path_is_read_in_the_order_of_its_elements() -> None:
+    slides = [Joint.prismatic("x", "w", "a", axis=[1, 0, 0]), Joint.prismatic("y", "a", "b", axis=[0, 1, 0])]
+    cell = Cell(Robot(slides, {"b": Body.sphere(0.1)}))
+    cell.add("post", Body.box(0.1, 0.1, 5), ([2, 0, 0], [1, 0, 0, 0]))
+    path = np.array([[0, 4.0], [1, -1]]).T
+    assert not path.flags.c_contiguous
+    large = np.zeros((4, 6))
+    large[::-2, ::3] = path
+    pandas: Any = pytest.importorskip("pandas")
+    given: list[Any] = [path, path.copy(order="C"), path.tolist(), large[::-2, ::3], path.astype(">f4"), pandas.DataFrame(path)]
+    known = cell.first_contact(path.tolist(), tolerance=1e-6)
+    assert known is not None and 0.44 < known.share < 0.46
+    for each in given:
+        assert not cell.is_free(each)
+        assert cell.first_contact(each, tolerance=1e-6) == known
+        assert all(proof.check() == "holds" for proof in cell.prove(each, tolerance=1e-6))
+        assert repr(cell.clearance_ranges(each)) == repr(cell.clearance_ranges(path.tolist()))
+    rows = cell.paths(np.asfortranarray([path, path[::-1]]), "first-contact", tolerance=1e-6)
+    assert rows["time"][0] == known.share and set(rows["status"]) == {"contact"}
