@@ -4,6 +4,7 @@ mod bounds;
 mod budgets;
 mod features;
 mod history;
+mod hostile_edges;
 mod inputs;
 mod questions;
 mod start;

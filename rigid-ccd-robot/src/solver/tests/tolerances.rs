@@ -8,26 +8,26 @@ use rigid_ccd::glam::DQuat;
 use std::f64::consts::TAU;
 
 /// A robot of balls: each joint holds a link with one ball, whose centre is beside the joint's axis.
-struct BallArm {
-    cell: Cell,
-    joints: Vec<BallJoint>,
+pub(super) struct BallArm {
+    pub(super) cell: Cell,
+    pub(super) joints: Vec<BallJoint>,
     post: DVec3,
     radii: f64,
 }
 
 /// A joint along or about an axis of the base's frame, at an offset from the joint before it.
 #[derive(Clone, Copy)]
-struct BallJoint {
-    offset: DVec3,
-    axis: DVec3,
-    turns: bool,
+pub(super) struct BallJoint {
+    pub(super) offset: DVec3,
+    pub(super) axis: DVec3,
+    pub(super) turns: bool,
 }
 
 const RADIUS: f64 = 0.1;
 
 impl BallArm {
     /// Creates a robot of which only the last link has a ball, beside a post with the other one.
-    fn new(joints: Vec<BallJoint>, post: DVec3) -> Self {
+    pub(super) fn new(joints: Vec<BallJoint>, post: DVec3) -> Self {
         let name = |k: usize| format!("link{k}");
         let mut links: Vec<Link> = (0..=joints.len()).map(|k| Link::named(name(k))).collect();
         let last = links.pop().unwrap();
@@ -61,7 +61,7 @@ impl BallArm {
     }
 
     /// Returns the centre of the ball at positions of all joints, by rotations about axes.
-    fn ball(&self, positions: &[f64]) -> DVec3 {
+    pub(super) fn ball(&self, positions: &[f64]) -> DVec3 {
         let steps = self.joints.iter().zip(positions).rev();
         steps.fold(DVec3::ZERO, |at, (joint, &position)| {
             joint.offset
@@ -73,7 +73,7 @@ impl BallArm {
         })
     }
 
-    fn distance(&self, positions: &[f64]) -> f64 {
+    pub(super) fn distance(&self, positions: &[f64]) -> f64 {
         (self.ball(positions) - self.post).length() - self.radii
     }
 }
@@ -333,6 +333,6 @@ fn random_curves_keep_the_tolerance_that_they_state() {
     );
 }
 
-fn random_offset(random: &mut Pcg64) -> DVec3 {
+pub(super) fn random_offset(random: &mut Pcg64) -> DVec3 {
     DVec3::from_array([(); 3].map(|()| random.random_range(-1.0..1.0)))
 }
