@@ -5,6 +5,7 @@ mod compared;
 mod margins;
 pub(crate) mod part;
 mod planes;
+mod remarks;
 
 use crate::error::RobotError;
 use crate::pairs::LinkPairs;

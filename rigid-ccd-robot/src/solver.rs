@@ -11,6 +11,7 @@ mod exact;
 pub(crate) mod joint_path;
 pub(crate) mod kinematics;
 mod limits;
+pub(crate) mod magnitude;
 pub(crate) mod measure;
 mod open_pairs;
 pub(crate) mod pair_chain;
@@ -19,7 +20,6 @@ mod periods;
 pub(crate) mod placement;
 pub(crate) mod rounding;
 mod search;
-mod start;
 mod stretch;
 pub(crate) mod violation;
 

@@ -1,10 +1,12 @@
 //! A convex hull around a body, in the frame in which the body rests.
 
+mod plane;
+
 use super::clusters::connected_clusters;
-use super::planes::Plane;
 use ccd_core::fan_triangles;
 use ccd_core::order::greater;
 use ccd_core::{Body, Facet, FacetOrigin, Facets, Piece, Pieces, Polytope, Solidity, SupportMap};
+use plane::Plane;
 use rigid_ccd::Pose;
 use rigid_ccd::glam::{DMat3, DVec3};
 use rigid_ccd::oracle::Frame;

@@ -3,67 +3,20 @@
 //! A body above a plane is as far from the half-space below it as from a box in the half-space whose top is right below the body. So
 //! a box that is wide and deep enough is the half-space, as long as the bodies that move stay within its reach.
 
-use super::part::{HullPart, PlacedBody};
+use super::part::PlacedBody;
 use super::{Cell, RobotBodyPlacement};
 use crate::error::{PathError, RobotError};
-use crate::solver::rounding::{Magnitude, largest_arm};
+use crate::solver::magnitude::Magnitude;
+use crate::solver::rounding::largest_arm;
 use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Body, Facet, FacetOrigin, Polytope};
-use ccd_distance_gjk::DistanceBounds;
 use rigid_ccd::Pose;
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::oracle::Frame;
 use std::sync::Arc;
 
 /// How many times farther from the base than all arms are long, and than 1, planes reach if joints slide without limits.
 const FREE_TRAVEL: f64 = 1024.0;
-
-/// A plane in the frame of the base, with the half-space below it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Plane {
-    /// The unit vector away from the half-space.
-    normal: DVec3,
-    /// The height of the plane along the normal.
-    height: f64,
-}
-
-impl Plane {
-    /// Returns the plane `z = 0` of a pose's frame.
-    pub(super) fn below(pose: &Pose) -> Self {
-        let normal = pose.rotation() * DVec3::Z;
-        Plane {
-            normal,
-            height: normal.dot(pose.translation()),
-        }
-    }
-
-    /// Returns the height of the lowest corner of a part over the plane, when the part's frame is at `frame`.
-    #[inline(always)]
-    pub(crate) fn lowest_corner_height(&self, part: &HullPart, frame: &Frame) -> f64 {
-        let (_, corner) = part.extremal_corner(frame.inverse_transform_vector(-self.normal));
-        self.normal.dot(frame.transform_point(corner)) - self.height
-    }
-
-    /// Returns the distance of the corners of a part from the half-space, when the part's frame is at `frame`.
-    #[inline(always)]
-    pub(crate) fn distance_bounds(&self, part: &HullPart, frame: &Frame) -> DistanceBounds {
-        let height = self.lowest_corner_height(part, frame);
-        DistanceBounds {
-            lower: height,
-            upper: greater(height, 0.0),
-            axis: -self.normal,
-        }
-    }
-
-    /// Returns a lower bound of the height of a part over the plane, when the part's frame is at `frame` and its centre at
-    /// `centre`.
-    #[inline(always)]
-    pub(crate) fn height_of(&self, part: &HullPart, frame: &Frame, centre: DVec3) -> f64 {
-        let across = frame.inverse_transform_vector(self.normal).abs();
-        self.normal.dot(centre) - self.height - across.dot(part.half_extents)
-    }
-}
 
 impl Cell {
     /// Adds an obstacle that is a half-space: all points below the plane `z = 0` of the frame at a pose in the frame of the robot's

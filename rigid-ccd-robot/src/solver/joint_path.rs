@@ -4,7 +4,8 @@
 //! [`JointCurve`] has polynomials of a higher degree.
 
 use super::kinematics::{Kinematics, MovingJoint};
-use super::rounding::{Magnitude, U};
+use super::magnitude::Magnitude;
+use super::rounding::U;
 use super::stretch::Stretch;
 use crate::joint_curve::JointCurve;
 use crate::path_point::PathPoint;

@@ -1,6 +1,6 @@
 //! The frames of all moving links at one configuration.
 
-use super::rounding::Magnitude;
+use super::magnitude::Magnitude;
 use crate::robot::{PositionSource, Robot};
 use rigid_ccd::Pose;
 use rigid_ccd::glam::{DMat3, DVec3};

@@ -2,7 +2,8 @@
 
 use super::displacement::DisplacementBounds;
 use super::joint_path::JointPath;
-use super::rounding::{Magnitude, point_error_bound};
+use super::magnitude::Magnitude;
+use super::rounding::point_error_bound;
 use super::stretch::Stretch;
 use crate::cell::Cell;
 use crate::robot::PositionSource;

@@ -1,6 +1,7 @@
 //! The rounding of poses that are computed along an edge.
 
 use super::kinematics::Kinematics;
+use super::magnitude::Magnitude;
 use crate::cell::part::HullPart;
 use ccd_core::order::greater;
 
@@ -22,25 +23,6 @@ const POSITION_ERROR_ULPS: f64 = 16.0;
 /// The share of the tolerance by which an answer may exceed it without a word. Near the base, and with the usual tolerances,
 /// positions are rounded by less than a millionth of the tolerance.
 pub(crate) const UNSTATED_TOLERANCE_SHARE: f64 = 1e-3;
-
-/// The sizes of a joint's positions on a path, or in a range.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Magnitude {
-    /// The largest absolute value of the position.
-    pub(crate) position: f64,
-    /// The magnitude to which the rounding error of the position is proportional.
-    pub(crate) rounding: f64,
-}
-
-impl Magnitude {
-    /// Returns the larger of both values each.
-    pub(crate) fn or_larger(self, other: Magnitude) -> Self {
-        Magnitude {
-            position: greater(self.position, other.position),
-            rounding: greater(self.rounding, other.rounding),
-        }
-    }
-}
 
 /// Returns a bound of the distance between points of all parts, as computed with frames along a path, and the points
 /// themselves.

@@ -4,6 +4,8 @@
 //! within the stretch. A pair whose distance in the middle exceeds that is free over the whole stretch. For the others the
 //! stretch is halved. What is still open after a few halvings goes to the engine, pair by pair.
 
+mod start;
+
 use super::Question;
 use super::exact::PairChains;
 use super::joint_path::JointPath;
@@ -14,7 +16,6 @@ use super::part_pairs::{PartPair, PartPairs, sort_by_proof_distance};
 use super::periods::{DriftLimit, Period, Periods};
 use super::placement::Placement;
 use super::rounding::{UNSTATED_TOLERANCE_SHARE, largest_arm};
-use super::start::StartContact;
 use super::stretch::{StepResult, Stretch};
 use crate::cell::Cell;
 use crate::error::{NothingCompared, PathError};
@@ -29,6 +30,7 @@ use ccd_core::order::{greater, lesser};
 use ccd_core::vectorize;
 use rigid_ccd::answer::Limit;
 use rigid_ccd::{Error, Settings, Solver};
+use start::StartContact;
 use std::ops::ControlFlow::{self, Break, Continue};
 use std::ops::Range;
 

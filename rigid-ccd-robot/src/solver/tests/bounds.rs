@@ -3,7 +3,8 @@
 use super::*;
 use crate::solver::displacement::DisplacementBounds;
 use crate::solver::kinematics::Kinematics;
-use crate::solver::rounding::{Magnitude, point_error_bound};
+use crate::solver::magnitude::Magnitude;
+use crate::solver::rounding::point_error_bound;
 use rigid_ccd::oracle::Frame;
 
 /// Tests that frames are as near to the poses of links as the bound on rounding says, and that the bound is not a million

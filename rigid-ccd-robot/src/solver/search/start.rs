@@ -4,13 +4,13 @@
 //! the joints move it almost as a constant motion does, which the engine decides under [`StartPolicy::Leave`]. At the end of the
 //! stretch there is a gap, or the next stretch follows.
 
-use super::Question;
-use super::constant_step::ConstantStep;
-use super::curved_link::PathSection;
-use super::measure::{DistanceVerdict, Thresholds, measure};
-use super::part_pairs::PartPair;
-use super::search::Search;
-use super::stretch::{StepResult, Stretch};
+use super::Search;
+use crate::solver::Question;
+use crate::solver::constant_step::ConstantStep;
+use crate::solver::curved_link::PathSection;
+use crate::solver::measure::{DistanceVerdict, Thresholds, measure};
+use crate::solver::part_pairs::PartPair;
+use crate::solver::stretch::{StepResult, Stretch};
 use crate::tuning::MAX_START_STRETCHES;
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::answer::Limit;

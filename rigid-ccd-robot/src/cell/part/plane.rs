@@ -1,0 +1,54 @@
+//! A half-space, and how far hulls are from it.
+
+use super::HullPart;
+use ccd_core::order::greater;
+use ccd_distance_gjk::DistanceBounds;
+use rigid_ccd::Pose;
+use rigid_ccd::glam::DVec3;
+use rigid_ccd::oracle::Frame;
+
+/// A plane in the frame of the base, with the half-space below it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plane {
+    /// The unit vector away from the half-space.
+    normal: DVec3,
+    /// The height of the plane along the normal.
+    height: f64,
+}
+
+impl Plane {
+    /// Returns the plane `z = 0` of a pose's frame.
+    pub(super) fn below(pose: &Pose) -> Self {
+        let normal = pose.rotation() * DVec3::Z;
+        Plane {
+            normal,
+            height: normal.dot(pose.translation()),
+        }
+    }
+
+    /// Returns the height of the lowest corner of a part over the plane, when the part's frame is at `frame`.
+    #[inline(always)]
+    pub(crate) fn lowest_corner_height(&self, part: &HullPart, frame: &Frame) -> f64 {
+        let (_, corner) = part.extremal_corner(frame.inverse_transform_vector(-self.normal));
+        self.normal.dot(frame.transform_point(corner)) - self.height
+    }
+
+    /// Returns the distance of the corners of a part from the half-space, when the part's frame is at `frame`.
+    #[inline(always)]
+    pub(crate) fn distance_bounds(&self, part: &HullPart, frame: &Frame) -> DistanceBounds {
+        let height = self.lowest_corner_height(part, frame);
+        DistanceBounds {
+            lower: height,
+            upper: greater(height, 0.0),
+            axis: -self.normal,
+        }
+    }
+
+    /// Returns a lower bound of the height of a part over the plane, when the part's frame is at `frame` and its centre at
+    /// `centre`.
+    #[inline(always)]
+    pub(crate) fn height_of(&self, part: &HullPart, frame: &Frame, centre: DVec3) -> f64 {
+        let across = frame.inverse_transform_vector(self.normal).abs();
+        self.normal.dot(centre) - self.height - across.dot(part.half_extents)
+    }
+}
