@@ -163,31 +163,56 @@ impl<'c> ProvenCell<'c> {
         outcome: &PathOutcome<'_>,
         settings: &Settings,
     ) -> Result<Vec<Proof>, PathNotProven> {
-        let (end, contact) = match outcome {
-            PathOutcome::Free => (None, None),
-            PathOutcome::Contact(contact) => (Some(contact.at), Some(contact)),
-            PathOutcome::Unresolved { free_until, .. } => (Some(*free_until), None),
+        self.path_proofs(path, outcome, settings).collect()
+    }
+
+    /// Proves what is known of a path as [`prove_path`](Self::prove_path) does, one segment after another: each proof is made when
+    /// it is asked for. The first error is the last item.
+    pub fn path_proofs<'p, C: AsRef<[f64]>>(
+        &'p self,
+        path: &'p [C],
+        outcome: &'p PathOutcome<'_>,
+        settings: &'p Settings,
+    ) -> impl Iterator<Item = Result<Proof, PathNotProven>> + 'p {
+        let end = match outcome {
+            PathOutcome::Free => None,
+            PathOutcome::Contact(contact) => Some(contact.at),
+            PathOutcome::Unresolved { free_until, .. } => Some(*free_until),
         };
-        let mut proofs = Vec::new();
-        for (segment, ends) in path.windows(2).enumerate() {
-            let share = match end {
-                Some(end) if segment > end.segment => break,
-                Some(end) if segment == end.segment => end.share,
-                _ => 1.0,
-            };
-            let scene = self.edge(ends[0].as_ref(), ends[1].as_ref(), settings.margin)?;
-            let contact = contact.filter(|contact| contact.at.segment == segment);
-            let witness =
-                contact.and_then(|contact| self.witness(&scene, contact, settings.tolerance));
-            match prove_unless_stopped(&scene, share, witness, settings.stop.as_deref()) {
-                Ok(proof) => proofs.push(proof),
-                Err(NotProven::Touching { .. } | NotProven::NoContact { .. }) if share == 0.0 => {
-                    break;
-                }
-                Err(reason) => return Err(PathNotProven::Segment { segment, reason }),
-            }
+        let last = end.map_or(usize::MAX, |end| end.segment);
+        let segments = path.windows(2).enumerate();
+        let proofs = segments
+            .take_while(move |(segment, _)| *segment <= last)
+            .map_while(move |(segment, ends)| {
+                let ends = [ends[0].as_ref(), ends[1].as_ref()];
+                let share = end.filter(|end| end.segment == segment);
+                let share = share.map_or(1.0, |end| end.share);
+                self.prove_segment((segment, ends), share, outcome, settings)
+                    .transpose()
+            });
+        let mut has_failed = false;
+        proofs.take_while(move |proof| !std::mem::replace(&mut has_failed, proof.is_err()))
+    }
+
+    /// Proves what is known of a segment up to a share of it; `None` if bodies touch at its start.
+    fn prove_segment(
+        &self,
+        (segment, [from, to]): (usize, [&[f64]; 2]),
+        share: f64,
+        outcome: &PathOutcome<'_>,
+        settings: &Settings,
+    ) -> Result<Option<Proof>, PathNotProven> {
+        let scene = self.edge(from, to, settings.margin)?;
+        let contact = match outcome {
+            PathOutcome::Contact(contact) if contact.at.segment == segment => Some(contact),
+            _ => None,
+        };
+        let witness = contact.and_then(|contact| self.witness(&scene, contact, settings.tolerance));
+        match prove_unless_stopped(&scene, share, witness, settings.stop.as_deref()) {
+            Ok(proof) => Ok(Some(proof)),
+            Err(NotProven::Touching { .. } | NotProven::NoContact { .. }) if share == 0.0 => Ok(None),
+            Err(reason) => Err(PathNotProven::Segment { segment, reason }),
         }
-        Ok(proofs)
     }
 
     /// Returns a contact of an edge as a witness in its scene: of the pairs of bodies that the contact may be of, the one whose

@@ -1,38 +1,91 @@
-//! Reads and makes NumPy arrays, with NumPy's conversion rules.
+//! Reads NumPy arrays, and what NumPy makes arrays of, with its conversion rules.
 
 use crate::errors::{input_error, input_error_from};
-use numpy::{PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{Element, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyBytes, PyFloat, PyInt, PyList, PyString, PyTuple};
 
-/// Reads rows of `N` numbers from anything that NumPy can convert to an array.
+/// The elements of an array, the last index fastest, whatever their order in memory.
+pub(crate) struct Elements<T> {
+    pub(crate) values: Vec<T>,
+    pub(crate) shape: Vec<usize>,
+}
+
+impl Elements<f64> {
+    /// Reads numbers from anything that NumPy can convert to an array of them.
+    pub(crate) fn read(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Self> {
+        let given = numpy_array(values, what)?;
+        match kind(&given)? {
+            'f' | 'i' | 'u' => {}
+            // Arrays of objects contain other kinds of numbers, such as fractions.
+            'O' => check_objects(&given, what)?,
+            _ => {
+                let dtype = given.getattr("dtype")?;
+                let text = format!("{what}: numbers are needed, not {dtype}");
+                return Err(input_error(text));
+            }
+        }
+        elements(&given, "float64", what)
+    }
+}
+
+impl Elements<i64> {
+    /// Reads whole numbers from anything that NumPy can convert to an array of them.
+    pub(crate) fn read(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Self> {
+        let given = numpy_array(values, what)?;
+        let is_empty = given.getattr("size")?.extract::<usize>()? == 0;
+        if !is_empty && !matches!(kind(&given)?, 'i' | 'u') {
+            let dtype = given.getattr("dtype")?;
+            return Err(input_error(format!(
+                "{what}: indices are integers, not {dtype}"
+            )));
+        }
+        elements(&given, "int64", what)
+    }
+}
+
+impl<T> Elements<T> {
+    /// Returns the rows of an array of shape (n, `N`).
+    fn rows<const N: usize>(&self, what: &str) -> PyResult<&[[T; N]]> {
+        match self.shape[..] {
+            [_, columns] if columns == N => Ok(self.values.as_chunks().0),
+            ref shape => Err(input_error(format!(
+                "{what}: an array of shape (n, {N}) is needed, not {shape:?}"
+            ))),
+        }
+    }
+}
+
+/// Copies the elements of an array that NumPy has made.
+fn elements<T: Element + Copy>(
+    array: &Bound<'_, PyAny>,
+    dtype: &str,
+    what: &str,
+) -> PyResult<Elements<T>> {
+    let py = array.py();
+    // Elements of the machine's byte order, at addresses from which it can read them.
+    let plain = (py.import("numpy")?)
+        .call_method1("require", (array, dtype, ["C", "A"]))
+        .map_err(|error| input_error_from(py, what, error))?;
+    let plain = plain.cast::<PyArrayDyn<T>>()?;
+    Ok(Elements {
+        values: plain.try_readonly()?.as_array().iter().copied().collect(),
+        shape: plain.shape().to_vec(),
+    })
+}
+
+/// Reads rows of `N` numbers.
 pub(crate) fn rows<const N: usize>(
     values: &Bound<'_, PyAny>,
     what: &str,
 ) -> PyResult<Vec<[f64; N]>> {
-    let array = float64_array(values, what)?;
-    let array: PyReadonlyArray2<'_, f64> = readonly_matrix(&array, N, what)?;
-    let rows = array.as_array();
-    Ok(rows
-        .rows()
-        .into_iter()
-        .map(|row| std::array::from_fn(|k| row[k]))
-        .collect())
+    Ok(Elements::<f64>::read(values, what)?.rows(what)?.to_vec())
 }
 
 /// Reads rows of three vertex indices.
 pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
-    let given = numpy_array(values, "faces")?;
-    let size: usize = given.getattr("size")?.extract()?;
-    if size > 0 && !matches!(kind(&given)?, 'i' | 'u') {
-        let dtype = given.getattr("dtype")?;
-        return Err(input_error(format!(
-            "faces: indices are integers, not {dtype}"
-        )));
-    }
-    let array = as_array(&given, "int64", "faces")?;
-    let array: PyReadonlyArray2<'_, i64> = readonly_matrix(&array, 3, "faces")?;
-    let rows = array.as_array();
-    let rows = rows.rows().into_iter().enumerate();
+    let given = Elements::<i64>::read(values, "faces")?;
+    let rows = given.rows::<3>("faces")?.iter().enumerate();
     rows.map(|(face, row)| {
         let corner = |index: i64| {
             let refused = |_| input_error(format!("faces: face {face} has the index {index}"));
@@ -70,22 +123,12 @@ pub(crate) fn numbers<const N: usize>(values: &Bound<'_, PyAny>, what: &str) -> 
 
 /// Reads all numbers of an array of any shape as one list.
 pub(crate) fn flat_numbers(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<f64>> {
-    flat_list(&float64_array(values, what)?)?.extract()
+    Ok(Elements::<f64>::read(values, what)?.values)
 }
 
 /// Reads all whole numbers of an array of any shape as one list.
-pub(crate) fn indices(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<i64>> {
-    let given = numpy_array(values, what)?;
-    let (kind, size) = (kind(&given)?, given.getattr("size")?.extract::<usize>()?);
-    if size > 0 && !matches!(kind, 'i' | 'u') {
-        return Err(input_error(format!("{what}: whole numbers are needed")));
-    }
-    flat_list(&as_array(&given, "int64", what)?)?.extract()
-}
-
-/// Returns the elements of an array of any shape as a list.
-fn flat_list<'py>(array: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-    array.call_method0("ravel")?.call_method0("tolist")
+fn indices(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<i64>> {
+    Ok(Elements::<i64>::read(values, what)?.values)
 }
 
 /// Reads row indices; a boolean array with one element per row stands for the indices of its true elements.
@@ -117,14 +160,15 @@ pub(crate) fn numpy_array<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let py = values.py();
     let numpy = py.import("numpy")?;
-    let masked = numpy.getattr("ma")?.call_method1("is_masked", (values,))?;
-    if masked.is_truthy()? {
+    let array = numpy.call_method1("asarray", (values,));
+    let array = array.map_err(|error| input_error_from(py, what, error))?;
+    let masked_array = numpy.getattr("ma")?.getattr("MaskedArray")?;
+    if has_masked_value(values, &masked_array, array.getattr("ndim")?.extract()?)? {
         return Err(input_error(format!(
             "{what}: some values are masked; fill them, or leave them out"
         )));
     }
-    let array = numpy.call_method1("asarray", (values,));
-    array.map_err(|error| input_error_from(py, what, error))
+    Ok(array)
 }
 
 /// Returns NumPy's one-letter code for the kind of an array's elements.
@@ -132,50 +176,42 @@ pub(crate) fn kind(array: &Bound<'_, PyAny>) -> PyResult<char> {
     array.getattr("dtype")?.getattr("kind")?.extract()
 }
 
-/// Makes an array of float64 elements.
-pub(crate) fn float64_array<'py>(
-    values: &Bound<'py, PyAny>,
-    what: &str,
-) -> PyResult<Bound<'py, PyAny>> {
-    let given = numpy_array(values, what)?;
-    match kind(&given)? {
-        // Arrays of objects contain other kinds of numbers, such as fractions.
-        'f' | 'i' | 'u' | 'O' => as_array(&given, "float64", what),
-        _ => {
-            let dtype = given.getattr("dtype")?;
-            Err(input_error(format!(
-                "{what}: numbers are needed, not {dtype}"
-            )))
+/// Returns whether an array, or one in lists of arrays, has masked values: NumPy takes what is under the masks. Lists are searched
+/// to the depth of the dimensions of the array that they make.
+fn has_masked_value(
+    values: &Bound<'_, PyAny>,
+    masked_array: &Bound<'_, PyAny>,
+    depth: usize,
+) -> PyResult<bool> {
+    if values.is_instance(masked_array)? {
+        let mask = values.getattr("mask")?;
+        return mask.call_method0("any")?.is_truthy();
+    }
+    let is_list = values.is_instance_of::<PyList>() || values.is_instance_of::<PyTuple>();
+    if depth == 0 || !is_list {
+        return Ok(false);
+    }
+    for value in values.try_iter()?.take(values.len()?) {
+        let value = value?;
+        let is_number = value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>();
+        if !is_number && has_masked_value(&value, masked_array, depth - 1)? {
+            return Ok(true);
         }
     }
+    Ok(false)
 }
 
-fn as_array<'py>(
-    values: &Bound<'py, PyAny>,
-    dtype: &str,
-    what: &str,
-) -> PyResult<Bound<'py, PyAny>> {
-    let py = values.py();
-    let array = py.import("numpy")?.call_method1("asarray", (values, dtype));
-    array.map_err(|error| input_error_from(py, what, error))
-}
-
-fn readonly_matrix<'py, T: numpy::Element>(
-    array: &Bound<'py, PyAny>,
-    columns: usize,
-    what: &str,
-) -> PyResult<PyReadonlyArray2<'py, T>> {
-    let wrong = |shape: &[usize]| {
-        input_error(format!(
-            "{what}: an array of shape (n, {columns}) is needed, not {shape:?}"
-        ))
-    };
-    let Ok(array) = array.cast::<numpy::PyArray2<T>>() else {
-        return Err(wrong(&shape(array, what)?));
-    };
-    if array.shape()[1] == columns {
-        Ok(array.readonly())
-    } else {
-        Err(wrong(array.shape()))
+/// Refuses objects that NumPy converts to numbers and that are none: text, truth values and None.
+fn check_objects(array: &Bound<'_, PyAny>, what: &str) -> PyResult<()> {
+    let truth = array.py().import("numpy")?.getattr("bool")?;
+    for value in array.getattr("flat")?.try_iter()? {
+        let value = value?;
+        let is_text = value.is_instance_of::<PyString>() || value.is_instance_of::<PyBytes>();
+        let is_truth = value.is_instance_of::<PyBool>() || value.is_instance(&truth)?;
+        if is_text || is_truth || value.is_none() {
+            let value = value.repr()?;
+            return Err(input_error(format!("{what}: {value} is no number")));
+        }
     }
+    Ok(())
 }

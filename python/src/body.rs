@@ -1,19 +1,19 @@
 //! The Python class `Body`: made from arrays, files, trimesh and simple shapes, saved and pickled.
 
 use crate::arrays::{finite_numbers, rows, triangles};
+use crate::body_file::{BodyFile, parse_unit, read_adjustments, read_part};
 use crate::errors::{InputError, file_error, input_error, warn, wrong_type_error};
+use crate::interruptible::run_or_leave;
+use crate::numbers::{read_number, read_optional_number};
 use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
 use rigid_ccd::body::{SolidOfRevolution, Solidity};
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::mesh::{
-    Adjustments, Axis, Detail, MeshSource, STORED_BODY_EXTENSION, SourceError, StoreFault,
-    StoredBodyContent, TriangleMesh, Unit, prepare,
-};
+use rigid_ccd::mesh::{Adjustments, Detail, StoreFault, StoredBodyContent, TriangleMesh, prepare};
 use rigid_ccd::{Body, Remark};
 use std::borrow::Cow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A rigid body: a mesh, a box, a ball, a capsule, a cylinder or a cone.
 ///
@@ -87,10 +87,10 @@ impl PyBody {
             .collect();
         let faces = triangles(faces)?;
         let detail = detail(pieces, surface)?;
-        py.detach(|| {
+        run_or_leave(py, move || {
             let mesh = TriangleMesh::new(points, &faces).map_err(input_error)?;
             PyBody::from_model(prepare(&mesh, detail).map_err(input_error)?)
-        })
+        })?
     }
 
     /// Reads a mesh file (.gltf, .glb, .dae, .obj, .stl, .ply, .off), or a prepared body (.ccd).
@@ -116,52 +116,27 @@ impl PyBody {
     fn from_file(
         class: &Bound<'_, PyType>,
         path: PathBuf,
-        part: Option<String>,
+        #[pyo3(from_py_with = read_part)] part: Option<String>,
         unit: Option<&str>,
         pieces: &str,
         file_unit: Option<&str>,
-        scale: Option<f64>,
+        #[pyo3(from_py_with = read_optional_number)] scale: Option<f64>,
         mirror: Option<&str>,
         surface: bool,
     ) -> PyResult<Self> {
-        let detail = detail(pieces, surface)?;
-        let mut adjustments = Adjustments::NONE;
-        if let Some(unit) = parse_unit("file_unit", file_unit)? {
-            adjustments = adjustments.with_stated_unit(unit);
-        }
-        if let Some(scale) = scale {
-            adjustments = adjustments.scaled(scale).map_err(input_error)?;
-        }
-        if let Some(axis) = mirror {
-            adjustments = adjustments.mirrored(parse_axis(axis)?);
-        }
-        let as_prepared = adjustments == Adjustments::NONE && !surface;
-        if let Some(unit) = parse_unit("unit", unit)? {
-            adjustments = adjustments.with_target_unit(unit);
-        }
-        class.py().detach(|| {
-            // An unreadable file is an OSError. A pipe would block, and is refused.
-            let there = std::fs::metadata(&path).map_err(|error| file_error(&error, &path))?;
-            if !there.is_file() {
-                return Err(input_error(format!("{}: is no file", path.display())));
-            }
-            std::fs::File::open(&path).map_err(|error| file_error(&error, &path))?;
-            let model = if !is_prepared_body_path(&path) || part.is_some() {
-                let source = MeshSource {
-                    file: path,
-                    part,
-                    adjustments,
-                };
-                let (mesh, _) = source.read().map_err(input_error)?;
-                prepare(&mesh, detail).map_err(|error| input_error(format!("{source}: {error}")))?
-            } else if as_prepared {
-                StoredBodyContent::load(&path).map_err(input_error)?
-            } else {
-                let error = SourceError::AdjustedStoredBody { file: path };
-                return Err(input_error(error));
-            };
-            PyBody::from_model(model)
-        })
+        let adjustments = read_adjustments(file_unit, scale, mirror)?;
+        let file = BodyFile {
+            may_be_prepared: adjustments == Adjustments::NONE && !surface,
+            adjustments: match parse_unit("unit", unit)? {
+                Some(unit) => adjustments.with_target_unit(unit),
+                None => adjustments,
+            },
+            path,
+            part,
+            detail: detail(pieces, surface)?,
+        };
+        let read = move || PyBody::from_model(file.read()?);
+        run_or_leave(class.py(), read)?
     }
 
     /// Makes a body of a trimesh mesh, or of any object with `vertices` and `faces`.
@@ -198,9 +173,9 @@ impl PyBody {
     #[pyo3(signature = (x = None, y = None, z = None, *, size = None))]
     fn r#box(
         class: &Bound<'_, PyType>,
-        x: Option<f64>,
-        y: Option<f64>,
-        z: Option<f64>,
+        #[pyo3(from_py_with = read_optional_number)] x: Option<f64>,
+        #[pyo3(from_py_with = read_optional_number)] y: Option<f64>,
+        #[pyo3(from_py_with = read_optional_number)] z: Option<f64>,
         size: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let [x, y, z] = match ([x, y, z], size) {
@@ -220,7 +195,10 @@ impl PyBody {
 
     /// Makes a ball about its origin.
     #[classmethod]
-    fn sphere(class: &Bound<'_, PyType>, radius: f64) -> PyResult<Self> {
+    fn sphere(
+        class: &Bound<'_, PyType>,
+        #[pyo3(from_py_with = read_number)] radius: f64,
+    ) -> PyResult<Self> {
         let report = format!("ball of radius {radius}");
         let recipe = ConstructorCall::new(class.py(), Some("sphere"), (radius,))?;
         PyBody::from_shape(Body::sphere(radius), recipe, report)
@@ -228,7 +206,11 @@ impl PyBody {
 
     /// Makes a capsule along z; `half_height` is the distance from its middle to the centre of either cap.
     #[classmethod]
-    fn capsule(class: &Bound<'_, PyType>, radius: f64, half_height: f64) -> PyResult<Self> {
+    fn capsule(
+        class: &Bound<'_, PyType>,
+        #[pyo3(from_py_with = read_number)] radius: f64,
+        #[pyo3(from_py_with = read_number)] half_height: f64,
+    ) -> PyResult<Self> {
         let report = format!("capsule of radius {radius} and half height {half_height}");
         let recipe = ConstructorCall::new(class.py(), Some("capsule"), (radius, half_height))?;
         PyBody::from_shape(Body::capsule(radius, half_height), recipe, report)
@@ -244,9 +226,9 @@ impl PyBody {
     #[pyo3(signature = (radius, half_height, excess = None))]
     fn cylinder(
         class: &Bound<'_, PyType>,
-        radius: f64,
-        half_height: f64,
-        excess: Option<f64>,
+        #[pyo3(from_py_with = read_number)] radius: f64,
+        #[pyo3(from_py_with = read_number)] half_height: f64,
+        #[pyo3(from_py_with = read_optional_number)] excess: Option<f64>,
     ) -> PyResult<Self> {
         let round = SolidOfRevolution::cylinder(radius, half_height).map_err(input_error)?;
         PyBody::solid_of_revolution(
@@ -268,9 +250,9 @@ impl PyBody {
     #[pyo3(signature = (radius, half_height, excess = None))]
     fn cone(
         class: &Bound<'_, PyType>,
-        radius: f64,
-        half_height: f64,
-        excess: Option<f64>,
+        #[pyo3(from_py_with = read_number)] radius: f64,
+        #[pyo3(from_py_with = read_number)] half_height: f64,
+        #[pyo3(from_py_with = read_optional_number)] excess: Option<f64>,
     ) -> PyResult<Self> {
         let round = SolidOfRevolution::cone(radius, half_height).map_err(input_error)?;
         PyBody::solid_of_revolution(class.py(), "cone", &round, [radius, half_height], excess)
@@ -324,10 +306,12 @@ impl PyBody {
 
     /// Makes a body from its pickled form.
     #[classmethod]
-    fn _from_bytes(class: &Bound<'_, PyType>, stored: &[u8]) -> PyResult<Self> {
-        class
-            .py()
-            .detach(|| PyBody::from_model(StoredBodyContent::read(stored).map_err(input_error)?))
+    fn _from_bytes(class: &Bound<'_, PyType>, stored: Vec<u8>) -> PyResult<Self> {
+        let read = move || {
+            let model = StoredBodyContent::read(stored.as_slice()).map_err(input_error)?;
+            PyBody::from_model(model)
+        };
+        run_or_leave(class.py(), read)?
     }
 
     fn __repr__(&self) -> String {
@@ -390,28 +374,6 @@ impl PyBody {
                 StoredBodyContent::from_body(&self.body).map_err(input_error)?,
             )),
         }
-    }
-}
-
-/// Returns whether a file is a prepared body, judged by its extension.
-fn is_prepared_body_path(path: &Path) -> bool {
-    let extension = path.extension().unwrap_or_default();
-    extension.eq_ignore_ascii_case(STORED_BODY_EXTENSION)
-}
-
-fn parse_unit(argument: &str, name: Option<&str>) -> PyResult<Option<Unit>> {
-    let unit = name.map(str::parse::<Unit>).transpose();
-    unit.map_err(|error| input_error(format!("{argument}: {error}")))
-}
-
-fn parse_axis(name: &str) -> PyResult<Axis> {
-    match name {
-        "x" => Ok(Axis::X),
-        "y" => Ok(Axis::Y),
-        "z" => Ok(Axis::Z),
-        _ => Err(InputError::new_err(format!(
-            "mirror: {name:?} is none of \"x\", \"y\", \"z\""
-        ))),
     }
 }
 

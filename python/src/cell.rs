@@ -4,35 +4,33 @@ use crate::body::{PyBody, extract_body};
 use crate::cell_contents::{CellContents, Contact, PickledContents, UnpickledContents};
 use crate::cell_solver::CellWithCachedSolvers;
 use crate::check_remarks::{remark_texts, warn_of_unchecked, warning_text};
-use crate::errors::{Unresolved, input_error, input_error_from, with_attribute};
-use crate::interruptible::run_interruptibly;
+use crate::errors::{Unresolved, input_error, with_attribute, wrong_type_error};
 use crate::motion::{GivenPose, read_given_pose};
-use crate::path_answers::{
-    allowed_setting_names, contact_object, ended_by_deadline, path_error, question_named,
-};
-use crate::path_array::{GivenPath, GivenPaths};
+use crate::numbers::read_number;
+use crate::path_answers::{approach_object, contact_object};
+use crate::path_array::GivenPaths;
+use crate::path_questions::{ask_path, path_ranges};
+use crate::path_tables::{GivenQuestion, answer_paths};
 use crate::proofs::prove_path;
 use crate::robot::PyRobot;
 use crate::settings::{
-    CONTACT_SETTING_NAMES, DISTANCE_QUERY_SETTING_NAMES, PATH_CONTACT_SETTING_NAMES, read,
-    read_thread_count,
+    APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES, PATH_CONTACT_SETTING_NAMES, read,
 };
-use crate::table::{PyTable, path_batch};
+use crate::table::PyTable;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
-use rigid_ccd::Settings;
-use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd::table::results::Status;
-use rigid_ccd_robot::path_rows::{PathAnswer, PathQuestion};
+use rigid_ccd_robot::path_rows::PathQuestion;
 use rigid_ccd_robot::{Cell, RangeSettings, RobotError};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A robot among obstacles that rest in the frame of its base.
 ///
 /// A path is an array of shape (n, joints): configurations, between two of which all joints move at constant rates. An array
-/// of shape (joints,) is a configuration alone. Or it is a curve: a `scipy.interpolate.PPoly` such as `CubicSpline`, or any
-/// object with its breakpoints `x` and its coefficients `c` of shape (degree + 1, segments, joints), up to degree 9.
+/// of shape (joints,) is a configuration alone. Or it is a curve of up to degree 9: a `scipy.interpolate.PPoly` such as
+/// `CubicSpline`, or any object with its breakpoints `x` and its coefficients `c` of shape (degree + 1, segments, joints); or a
+/// `BSpline` on its base interval, or any object that is called with a time and the order of a derivative as it is, with its knots
+/// `t`, its coefficients `c` and its degree `k`.
 ///
 /// Args:
 ///     robot: the robot.
@@ -119,7 +117,7 @@ impl PyCell {
         body: &Bound<'_, PyAny>,
         link: &str,
         pose: Option<&Bound<'_, PyAny>>,
-        may_touch: Vec<String>,
+        #[pyo3(from_py_with = read_names)] may_touch: Vec<String>,
     ) -> PyResult<()> {
         let (given, pose) = (read_body(body)?, given_pose_or_identity(pose)?);
         let body = given.get().body.clone();
@@ -159,14 +157,23 @@ impl PyCell {
     }
 
     /// Sets the distance that obstacles have to keep from a link, in addition to the margin.
-    fn set_padding(&self, link: &str, distance: f64) -> PyResult<()> {
+    fn set_padding(
+        &self,
+        link: &str,
+        #[pyo3(from_py_with = read_number)] distance: f64,
+    ) -> PyResult<()> {
         self.change(|cell| cell.set_padding(link, distance))?;
         self.contents().set_padding(link, distance);
         Ok(())
     }
 
     /// Sets the distance at which a pair counts as touching. `a` is a link or an attached body; so is `b`, or an obstacle.
-    fn set_clearance(&self, a: &str, b: &str, distance: f64) -> PyResult<()> {
+    fn set_clearance(
+        &self,
+        a: &str,
+        b: &str,
+        #[pyo3(from_py_with = read_number)] distance: f64,
+    ) -> PyResult<()> {
         self.change(|cell| {
             let pair = [cell.item_named(a)?, cell.item_named(b)?];
             cell.set_clearance(pair, distance)
@@ -191,7 +198,13 @@ impl PyCell {
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
         let settings = read(settings, PATH_CONTACT_SETTING_NAMES)?;
-        let answer = self.ask(py, PathQuestion::IsFree, path, settings)?;
+        let answer = ask_path(
+            py,
+            &self.cell_with_solvers,
+            PathQuestion::IsFree,
+            path,
+            settings,
+        )?;
         Ok(answer.row.status == Status::Free)
     }
 
@@ -207,7 +220,13 @@ impl PyCell {
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let settings = read(settings, PATH_CONTACT_SETTING_NAMES)?;
-        let answer = self.ask(py, PathQuestion::FirstContact, path, settings)?;
+        let answer = ask_path(
+            py,
+            &self.cell_with_solvers,
+            PathQuestion::FirstContact,
+            path,
+            settings,
+        )?;
         match answer.limit {
             Some(limit) => {
                 let until = answer.row.time.unwrap_or(0.0);
@@ -221,7 +240,11 @@ impl PyCell {
 
     /// Finds the first contact on a path of configurations, and proves the answer for each of its segments: that all pairs that
     /// the cell compares are farther apart than their margins. A proof is of the triangles: of a body inside another one it says
-    /// nothing.
+    /// nothing. A curve has no proofs.
+    ///
+    /// Args:
+    ///     path: configurations.
+    ///     progress: a function of the number of segments proven and of all segments; or a bar of tqdm; or True for one.
     ///
     /// Returns:
     ///     A list of `Proof`: one for each segment, the last one that of a contact or of where a limit was reached. A segment at
@@ -229,18 +252,20 @@ impl PyCell {
     ///
     /// Raises:
     ///     InputError: a body has no triangles, the path is a curve, or a segment cannot be proven.
-    #[pyo3(signature = (path, **settings))]
+    ///     Interrupted: Ctrl-C; its `results` has the proofs made by then.
+    #[pyo3(signature = (path, *, progress = None, **settings))]
     fn prove<'py>(
         &self,
         py: Python<'py>,
         path: &Bound<'py, PyAny>,
+        progress: Option<&Bound<'py, PyAny>>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let settings = read(settings, CONTACT_SETTING_NAMES)?;
-        prove_path(py, &self.cell_with_solvers.cell(), path, settings)
+        prove_path(py, &self.cell_with_solvers.cell(), path, progress, settings)
     }
 
-    /// Returns bounds of the least distance on a path, with the nearest pair.
+    /// Returns bounds of the least distance on a path, with the nearest pair. With a `clearance` it also says whether that is kept.
     #[pyo3(signature = (path, **settings))]
     fn closest_approach<'py>(
         &self,
@@ -248,14 +273,10 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let settings = read(settings, DISTANCE_QUERY_SETTING_NAMES)?;
-        let answer = self.ask(py, PathQuestion::ClosestApproach, path, settings)?;
-        let class = py.import("rigid_ccd")?.getattr("PathDistance")?;
-        let lower = answer.row.distance_lower.unwrap_or(0.0);
-        let upper = answer.row.distance_upper.unwrap_or(f64::INFINITY);
-        let limit = answer.limit.map(|limit| limit.to_string());
-        let nearest = contact_object(py, &answer)?;
-        class.call1((lower, upper, nearest, limit, answer.tolerance))
+        let settings = read(settings, APPROACH_SETTING_NAMES)?;
+        let (clearance, ask) = (settings.clearance, PathQuestion::ClosestApproach);
+        let answer = ask_path(py, &self.cell_with_solvers, ask, path, settings)?;
+        approach_object(py, &answer, clearance)
     }
 
     /// Divides a path into ranges in which all pairs keep their distance, ranges in which one certainly does not, and the rest.
@@ -269,49 +290,24 @@ impl PyCell {
     ///
     /// Returns:
     ///     A list of `PathRange`, in the order of the path.
+    ///
+    /// Raises:
+    ///     Interrupted: Ctrl-C; its `results` has the ranges found by then, and says "unverified" of the rest.
     #[pyo3(signature = (path, *, resolution = RangeSettings::DEFAULT.resolution, max_pose_error = 0.0, **settings))]
     fn clearance_ranges<'py>(
         &self,
         py: Python<'py>,
         path: &Bound<'py, PyAny>,
-        resolution: f64,
-        max_pose_error: f64,
+        #[pyo3(from_py_with = read_number)] resolution: f64,
+        #[pyo3(from_py_with = read_number)] max_pose_error: f64,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let settings = read(settings, CONTACT_SETTING_NAMES)?;
-        let path = GivenPath::read(path)?;
         let how = RangeSettings {
             resolution,
             max_pose_error,
         };
-        let work = |stop: &Arc<_>| {
-            let settings = Settings {
-                stop: Some(Arc::clone(stop)),
-                ..settings
-            };
-            self.cell_with_solvers.ask(&settings, |solver| match &path {
-                GivenPath::Configurations(array) => {
-                    solver.clearance_ranges(&array.configurations(), how)
-                }
-                GivenPath::Curve(curve) => solver.clearance_ranges(curve, how),
-            })
-        };
-        let (ranges, seen) = run_interruptibly(py, work, |_| Ok(()))?;
-        seen?;
-        let class = py.import("rigid_ccd")?.getattr("PathRange")?;
-        let ranges = ranges.map_err(|error| path_error(py, error, path.start_time()))?;
-        // What is proven does not reach beyond the times that are told.
-        let mut start = path.start_time();
-        let ranges = ranges.iter().map(|range| {
-            let (clearance, end) = match range.verdict {
-                ClearanceVerdict::Kept => ("kept", path.time(range.to)),
-                ClearanceVerdict::Violated => ("violated", path.time(range.to)),
-                ClearanceVerdict::Unverified => ("unverified", path.latest_time(range.to)),
-            };
-            let from = std::mem::replace(&mut start, end);
-            class.call1((from, end, clearance))
-        });
-        ranges.collect()
+        path_ranges(py, &self.cell_with_solvers, path, how, settings)
     }
 
     /// Answers a question about many edges, on all cores: `start` and `end` are arrays of shape (N, joints).
@@ -319,76 +315,60 @@ impl PyCell {
     /// Args:
     ///     ask: "is-free", "first-contact" or "closest-approach".
     ///     threads: how many threads; None for one on each core.
+    ///     progress: a function of the number of edges answered and of all edges, called up to fifty times a second; or a bar of
+    ///         tqdm; or True for one.
     ///
     /// Returns:
     ///     A table with a row for each edge, with the columns of ``ccd edges``: `status`, `reason`, and those that the question has
     ///     of `time` from 0 to 1, `a`, `b`, `distance_lower`, `distance_upper`, the witnesses `witness_a_x` to `witness_b_z`, and
     ///     `feature_a` and `feature_b`, the parts of meshes that these are on.
     ///     With the setting `clearance` a closest approach is "kept", "violated" or "unverified".
-    #[pyo3(signature = (start, end, ask = "is-free", *, threads = None, **settings))]
+    ///
+    /// Raises:
+    ///     Interrupted: Ctrl-C; its `results` has the rows answered by then, from the first on.
+    #[pyo3(signature = (start, end, ask = "is-free", *, threads = None, progress = None, **settings))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
     fn edges(
         &self,
         py: Python<'_>,
         start: &Bound<'_, PyAny>,
         end: &Bound<'_, PyAny>,
         ask: &str,
-        threads: Option<i64>,
+        threads: Option<&Bound<'_, PyAny>>,
+        progress: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyTable> {
-        let stacked = py
-            .import("numpy")?
-            .call_method1("stack", ((start, end), 1))
-            .map_err(|error| input_error_from(py, "start, end", error))?;
-        self.paths(py, &stacked, ask, threads, settings)
+        let given = GivenQuestion {
+            ask,
+            threads,
+            progress,
+            settings,
+        };
+        let edges = || GivenPaths::read_edges([start, end], &self.robot.get().robot);
+        answer_paths(py, &self.cell_with_solvers, given, edges)
     }
 
     /// Answers a question about many paths of equally many configurations, on all cores: an array of shape
-    /// (N, n, joints). The table is that of `edges`; times are in segments: 1.5 is the middle of the second one. A list of
-    /// curves has their own times.
-    #[pyo3(signature = (paths, ask = "is-free", *, threads = None, **settings))]
+    /// (N, n, joints). The table is that of `edges`, and so are the arguments; times are in segments: 1.5 is the middle of the
+    /// second one. A list of curves has their own times.
+    #[pyo3(signature = (paths, ask = "is-free", *, threads = None, progress = None, **settings))]
     fn paths(
         &self,
         py: Python<'_>,
         paths: &Bound<'_, PyAny>,
         ask: &str,
-        threads: Option<i64>,
+        threads: Option<&Bound<'_, PyAny>>,
+        progress: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyTable> {
-        let ask = question_named(ask)?;
-        let mut settings = read(settings, allowed_setting_names(ask))?;
-        settings.check().map_err(input_error)?;
-        let clearance = settings.clearance.take();
-        let cell = self.cell_with_solvers.cell();
-        cell.check_any_compared().map_err(input_error)?;
-        let threads = read_thread_count(threads)?;
-        let paths = GivenPaths::read(paths, self.robot.get())?;
-        let work = |stop: &Arc<_>| {
-            let settings = Settings {
-                stop: Some(Arc::clone(stop)),
-                ..settings
-            };
-            let solvers = &self.cell_with_solvers;
-            match &paths {
-                GivenPaths::Array(array) => {
-                    let paths = array.paths();
-                    let groups = paths.position_chunks();
-                    let rows =
-                        solvers.answer_tasks(&settings, threads, &groups, |solver, group| {
-                            paths.map_group(group, |path| ask.answer(solver, path, clearance))
-                        });
-                    rows.into_iter().flatten().collect()
-                }
-                GivenPaths::Curves(curves) => {
-                    solvers.answer_tasks(&settings, threads, curves, |solver, curve| {
-                        ask.answer(solver, curve, clearance)
-                    })
-                }
-            }
+        let given = GivenQuestion {
+            ask,
+            threads,
+            progress,
+            settings,
         };
-        let (rows, seen) = run_interruptibly(py, work, |_| Ok(()))?;
-        seen?;
-        let batch = py.detach(|| path_batch(ask, &rows)).map_err(input_error)?;
-        Ok(PyTable { batch })
+        let paths = || GivenPaths::read(paths, &self.robot.get().robot);
+        answer_paths(py, &self.cell_with_solvers, given, paths)
     }
 
     fn __reduce__<'py>(
@@ -437,49 +417,7 @@ impl PyCell {
     }
 }
 
-/// The time after which a question goes on, from its start, on a thread that Ctrl-C can end. To start one for each question
-/// would cost more than most questions do.
-const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(5);
-
 impl PyCell {
-    /// Answers a question about a path, after reading its configurations.
-    fn ask(
-        &self,
-        py: Python<'_>,
-        ask: PathQuestion,
-        path: &Bound<'_, PyAny>,
-        settings: Settings,
-    ) -> PyResult<PathAnswer> {
-        let path = GivenPath::read(path)?;
-        let question = |settings: Settings| {
-            let solvers = &self.cell_with_solvers;
-            solvers.ask(&settings, |solver| match &path {
-                GivenPath::Configurations(array) => ask.ask(solver, &array.configurations(), None),
-                GivenPath::Curve(curve) => ask.ask(solver, curve, None),
-            })
-        };
-        let limit = settings.deadline.unwrap_or(Duration::MAX);
-        let first_limit = limit.min(FIRST_ATTEMPT_TIME_LIMIT);
-        let first = Settings {
-            deadline: Some(first_limit),
-            ..settings.clone()
-        };
-        let mut found = py.detach(|| question(first));
-        if ended_by_deadline(&found) && limit > first_limit {
-            let work = |stop: &Arc<_>| {
-                question(Settings {
-                    deadline: settings.deadline.map(|_| limit - first_limit),
-                    stop: Some(Arc::clone(stop)),
-                    ..settings
-                })
-            };
-            let (again, seen) = run_interruptibly(py, work, |_| Ok(()))?;
-            seen?;
-            found = again;
-        }
-        found.map_err(|error| path_error(py, error, path.start_time()))
-    }
-
     fn contents(&self) -> MutexGuard<'_, CellContents> {
         self.contents.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -493,6 +431,12 @@ fn given_pose_or_identity(given: Option<&Bound<'_, PyAny>>) -> PyResult<GivenPos
     given.map_or(Ok(GivenPose::IDENTITY), |pose| {
         read_given_pose(pose, "pose")
     })
+}
+
+/// Reads a list of names, which one text is not.
+fn read_names(given: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
+    let names = given.extract::<Vec<String>>();
+    names.map_err(|_| wrong_type_error("may_touch", "a list of names", given))
 }
 
 fn read_body(given: &Bound<'_, PyAny>) -> PyResult<Py<PyBody>> {

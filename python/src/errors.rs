@@ -27,7 +27,7 @@ pyo3::create_exception!(
     rigid_ccd,
     Interrupted,
     PyKeyboardInterrupt,
-    "Ctrl-C ended a table. Attribute `results`: the rows answered by then, from the first on."
+    "Ctrl-C ended a call. Attribute `results`: what was answered by then, such as the rows of a table from the first on; of one question `safe_until`, or `lower` and `upper`, as of `Unresolved`. The others are None."
 );
 
 /// Adds the exceptions to the module, and gives their attributes the default value None.
@@ -40,7 +40,11 @@ pub(crate) fn add_exceptions(module: &Bound<'_, PyModule>) -> PyResult<()> {
             py.get_type::<Unresolved>(),
             &["safe_until", "lower", "upper"],
         ),
-        ("Interrupted", py.get_type::<Interrupted>(), &["results"]),
+        (
+            "Interrupted",
+            py.get_type::<Interrupted>(),
+            &["results", "safe_until", "lower", "upper"],
+        ),
     ];
     for (name, class, attributes) in classes {
         for attribute in attributes {
@@ -144,21 +148,45 @@ pub(crate) fn unresolved_distance_error(py: Python<'_>, known: &answer::Unresolv
     with_attribute(py, error, "upper", upper)
 }
 
-/// Turns the `KeyboardInterrupt` of a Ctrl-C into an `Interrupted`; an exception of a signal handler or a callback
-/// stays as it is. The attribute `results` of either has the rows answered by then.
+/// Makes the exception of work that Ctrl-C ended, or an exception of a signal handler or a callback: it has the results by then.
 pub(crate) fn interruption_error<'py>(
     py: Python<'py>,
     cause: PyErr,
     results: impl IntoPyObject<'py>,
 ) -> PyErr {
-    let error = if cause.get_type(py).is(py.get_type::<PyKeyboardInterrupt>()) {
-        let error = Interrupted::new_err("interrupted; `results` has the rows answered by then");
-        error.set_cause(py, Some(cause));
-        error
-    } else {
-        cause
-    };
-    with_attribute(py, error, "results", results)
+    let text = "interrupted; `results` has what was answered by then";
+    with_attribute(
+        py,
+        interruption(py, cause, text.to_owned()),
+        "results",
+        results,
+    )
+}
+
+/// Makes the exception of an interrupted question about contacts: nothing touches before a time, if one is known.
+pub(crate) fn time_interruption(py: Python<'_>, cause: PyErr, safe_until: Option<f64>) -> PyErr {
+    let known = safe_until.map_or_else(String::new, |time| {
+        format!("; no contact happens before {time}")
+    });
+    let error = interruption(py, cause, format!("interrupted{known}"));
+    with_attribute(py, error, "safe_until", safe_until)
+}
+
+/// Makes the exception of an interrupted question about a distance.
+pub(crate) fn bounds_interruption(py: Python<'_>, cause: PyErr, [lower, upper]: [f64; 2]) -> PyErr {
+    let text = format!("interrupted; the distance is from {lower} to {upper}");
+    let error = with_attribute(py, interruption(py, cause, text), "lower", lower);
+    with_attribute(py, error, "upper", upper)
+}
+
+/// Turns the `KeyboardInterrupt` of a Ctrl-C into an `Interrupted`; an exception of a signal handler or a callback stays as it is.
+fn interruption(py: Python<'_>, cause: PyErr, text: String) -> PyErr {
+    if !cause.get_type(py).is(py.get_type::<PyKeyboardInterrupt>()) {
+        return cause;
+    }
+    let error = Interrupted::new_err(text);
+    error.set_cause(py, Some(cause));
+    error
 }
 
 /// Warns the Python program of input that is valid, but probably a mistake. The warning is about the line of Python

@@ -12,6 +12,38 @@ use std::time::Duration;
 /// The interval between two checks for signals such as Ctrl-C.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
+/// Runs `work` that has no flag to stop it on a new thread, without the GIL, and returns its result.
+///
+/// Meanwhile this thread looks for signals. An exception of one comes back at once: the work goes on to its end, and its result is
+/// dropped. Without a thread to spare, or after a panic, there is an exception, too.
+pub(crate) fn run_or_leave<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> PyResult<T> {
+    py.detach(|| {
+        let (sender, receiver) = mpsc::channel();
+        // The receiver of a thread that is left is gone.
+        let worker = Builder::new().spawn(move || drop(sender.send(work())));
+        let worker = worker.map_err(no_thread_error)?;
+        loop {
+            match receiver.recv_timeout(POLL_INTERVAL) {
+                Ok(result) => return Ok(result),
+                Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals())?,
+                Err(RecvTimeoutError::Disconnected) => break,
+            }
+        }
+        let panic = worker.join().err();
+        Err(panic.map_or_else(
+            || PyRuntimeError::new_err("the work has no result"),
+            |panic| panic_error(panic.as_ref()),
+        ))
+    })
+}
+
+fn no_thread_error(error: std::io::Error) -> PyErr {
+    PyRuntimeError::new_err(format!("no thread can be started: {error}"))
+}
+
 /// Runs `work` on a new thread, without the GIL, and returns its result.
 ///
 /// Meanwhile this thread looks for signals, and calls `look`. An exception of either sets the flag, which ends the work
@@ -33,9 +65,7 @@ pub(crate) fn run_interruptibly<T: Send>(
                     work(stop)
                 }
             });
-            let worker = worker.map_err(|error| {
-                PyRuntimeError::new_err(format!("no thread can be started: {error}"))
-            })?;
+            let worker = worker.map_err(no_thread_error)?;
             let mut seen = Ok(());
             while let Err(RecvTimeoutError::Timeout) = receiver.recv_timeout(POLL_INTERVAL) {
                 if seen.is_ok() {

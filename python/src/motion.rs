@@ -2,6 +2,7 @@
 
 use crate::arrays::{finite_numbers, shape};
 use crate::errors::{input_error, warn};
+use crate::numbers::read_number;
 use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
@@ -70,7 +71,7 @@ impl PyMotion {
         class: &Bound<'_, PyType>,
         start: &Bound<'_, PyAny>,
         end: &Bound<'_, PyAny>,
-        duration: f64,
+        #[pyo3(from_py_with = read_number)] duration: f64,
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let (start, end) = (
@@ -87,8 +88,11 @@ impl PyMotion {
     }
 
     /// Returns the pose of the body at a time, as a matrix of shape (4, 4).
-    fn pose<'py>(&self, py: Python<'py>, time: f64) -> Bound<'py, numpy::PyArray2<f64>> {
-        pose_matrix(py, &self.motion.pose(time))
+    fn pose<'py>(&self, py: Python<'py>, time: f64) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
+        if !time.is_finite() {
+            return Err(input_error(format!("time: {time} is no time")));
+        }
+        Ok(pose_matrix(py, &self.motion.pose(time)))
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {

@@ -45,13 +45,16 @@ impl PyPath {
         spins: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let times = flat_numbers(times, "times")?;
-        let poses = poses.try_iter()?.enumerate();
+        // One pose too many is seen; an iterator may have no end.
+        let poses = poses.try_iter()?.take(times.len() + 1).enumerate();
         let given: Vec<GivenPose> = poses
             .map(|(k, pose)| read_given_pose(&pose?, &format!("pose {k}")))
             .collect::<PyResult<_>>()?;
         if given.len() != times.len() {
+            let is_more = given.len() > times.len();
             return Err(input_error(format!(
-                "poses: there are {}, but {} times",
+                "poses: there are {}{}, but {} times",
+                if is_more { "at least " } else { "" },
                 given.len(),
                 times.len()
             )));

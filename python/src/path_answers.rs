@@ -5,6 +5,7 @@ use crate::settings::{APPROACH_SETTING_NAMES, PATH_CONTACT_SETTING_NAMES};
 use pyo3::prelude::*;
 use rigid_ccd::Error;
 use rigid_ccd::answer::Limit;
+use rigid_ccd::table::results::Status;
 use rigid_ccd_robot::PathError;
 use rigid_ccd_robot::path_rows::{PathAnswer, PathQuestion};
 
@@ -58,6 +59,25 @@ pub(crate) fn contact_object<'py>(
         answer.tolerance,
     );
     class.call1(values).map(Some)
+}
+
+/// Returns the bounds of a least distance as an object of Python, with what they say of a clearance.
+pub(crate) fn approach_object<'py>(
+    py: Python<'py>,
+    answer: &PathAnswer,
+    clearance: Option<f64>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let row = &answer.row;
+    let verdict = clearance.map(|_| match row.status {
+        decided @ (Status::Kept | Status::Violated) => decided.name(),
+        _ => Status::Unverified.name(),
+    });
+    let lower = row.distance_lower.unwrap_or(0.0);
+    let upper = row.distance_upper.unwrap_or(f64::INFINITY);
+    let limit = answer.limit.map(|limit| limit.to_string());
+    let class = py.import("rigid_ccd")?.getattr("PathDistance")?;
+    let nearest = contact_object(py, answer)?;
+    class.call1((lower, upper, nearest, limit, answer.tolerance, verdict))
 }
 
 /// Returns whether a deadline ended a question, or the search for the witnesses of its contact.

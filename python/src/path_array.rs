@@ -1,13 +1,11 @@
-//! Reads paths from NumPy arrays, and curves from piecewise polynomials.
+//! Reads paths and edges from NumPy arrays.
 
-use crate::arrays::{flat_numbers, float64_array};
+use crate::arrays::Elements;
 use crate::cell_solver::Paths;
+use crate::curve::{read_curve, read_curves};
 use crate::errors::input_error;
-use crate::robot::PyRobot;
-use numpy::{PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyList, PyTuple};
-use rigid_ccd_robot::{JointCurve, PathPoint};
+use rigid_ccd_robot::{JointCurve, PathPoint, Robot};
 
 /// A path as Python gives it: configurations, or polynomials.
 pub(crate) enum GivenPath {
@@ -16,11 +14,19 @@ pub(crate) enum GivenPath {
 }
 
 impl GivenPath {
-    /// Reads an array, or an object with breakpoints `x` and coefficients `c` as `scipy.interpolate.PPoly` has them.
-    pub(crate) fn read(values: &Bound<'_, PyAny>) -> PyResult<Self> {
-        match read_curve(values)? {
-            Some(curve) => Ok(GivenPath::Curve(curve)),
-            None => PathArray::read(values, "path").map(GivenPath::Configurations),
+    /// Reads a curve, or an array of configurations; one of one dimension is one configuration.
+    pub(crate) fn read(values: &Bound<'_, PyAny>, robot: &Robot) -> PyResult<Self> {
+        if let Some(curve) = read_curve(values)? {
+            return Ok(GivenPath::Curve(curve));
+        }
+        check_joint_order(values, robot, "path")?;
+        let path = PathArray::read(values, "path")?;
+        match path.shape.len() {
+            1 | 2 => Ok(GivenPath::Configurations(path)),
+            _ => Err(input_error(format!(
+                "path: an array of shape (configurations, joints) is needed, not {:?}",
+                path.shape
+            ))),
         }
     }
 
@@ -58,95 +64,89 @@ pub(crate) enum GivenPaths {
 
 impl GivenPaths {
     /// Reads an array of shape (paths, configurations, joints), or a list of curves.
-    pub(crate) fn read(values: &Bound<'_, PyAny>, robot: &PyRobot) -> PyResult<Self> {
+    pub(crate) fn read(values: &Bound<'_, PyAny>, robot: &Robot) -> PyResult<Self> {
         if let Some(curves) = read_curves(values)? {
             return Ok(GivenPaths::Curves(curves));
         }
         let array = PathArray::read(values, "paths")?;
-        array.check_shape_of_paths(robot.robot.free_joint_names().len())?;
+        array.check_shape_of_paths(robot.free_joint_names().len())?;
         Ok(GivenPaths::Array(array))
     }
-}
 
-/// Reads a list of curves; `None` for anything else.
-fn read_curves(values: &Bound<'_, PyAny>) -> PyResult<Option<Vec<JointCurve>>> {
-    if !(values.is_instance_of::<PyList>() || values.is_instance_of::<PyTuple>()) {
-        return Ok(None);
-    }
-    let mut curves = Vec::new();
-    for value in values.try_iter()? {
-        match read_curve(&value?)? {
-            Some(curve) => curves.push(curve),
-            None => return Ok(None),
+    /// Returns the number of paths.
+    pub(crate) fn count(&self) -> usize {
+        match self {
+            GivenPaths::Array(array) => array.shape[0],
+            GivenPaths::Curves(curves) => curves.len(),
         }
     }
-    Ok(Some(curves).filter(|curves| !curves.is_empty()))
+
+    /// Reads edges from two arrays of shape (edges, joints).
+    pub(crate) fn read_edges(
+        [start, end]: [&Bound<'_, PyAny>; 2],
+        robot: &Robot,
+    ) -> PyResult<Self> {
+        let joints = robot.free_joint_names().len();
+        check_joint_order(start, robot, "start")?;
+        check_joint_order(end, robot, "end")?;
+        let start = Elements::<f64>::read(start, "start")?;
+        let end = Elements::<f64>::read(end, "end")?;
+        let count = match (&start.shape[..], &end.shape[..]) {
+            (&[count, columns], &[other, others])
+                if count == other && [columns, others] == [joints; 2] =>
+            {
+                count
+            }
+            (start, end) => {
+                return Err(input_error(format!(
+                    "start, end: two arrays of one shape (edges, {joints}) are needed, not {start:?} and {end:?}"
+                )));
+            }
+        };
+        let rows = |edge: usize| [&start, &end].map(|ends| &ends.values[edge * joints..][..joints]);
+        let positions = (0..count).flat_map(rows).flatten().copied().collect();
+        let shape = vec![count, 2, joints];
+        PathArray::new(positions, shape, "start, end").map(GivenPaths::Array)
+    }
 }
 
-/// Reads polynomials of the time with coefficients of shape (degree + 1, segments, joints), that of the highest power first;
-/// `None` for an object that is no such curve.
-fn read_curve(values: &Bound<'_, PyAny>) -> PyResult<Option<JointCurve>> {
-    let [times, coefficients] = ["x", "c"].map(|name| values.getattr_opt(name));
-    let (Some(times), Some(coefficients)) = (times?, coefficients?) else {
-        return Ok(None);
+/// Refuses a data frame, or a series of one, whose columns name joints of the robot in another order than its configurations.
+pub(crate) fn check_joint_order(
+    values: &Bound<'_, PyAny>,
+    robot: &Robot,
+    what: &str,
+) -> PyResult<()> {
+    let columns = match values.getattr_opt("column_names")? {
+        Some(names) => Some(names),
+        None => values.getattr_opt("columns")?,
     };
-    let times = flat_numbers(&times, "path.x")?;
-    let given = PathArray::read(&coefficients, "path.c")?;
-    let [powers, segments, joints] = given.shape[..] else {
-        return Err(input_error(format!(
-            "path.c: coefficients of shape (degree + 1, segments, joints) are needed, not {:?}",
-            given.shape
-        )));
+    let names = match columns {
+        Some(names) => Some(names),
+        // The index of a series; that of a list is a method.
+        None => values
+            .getattr_opt("index")?
+            .filter(|index| !index.is_callable()),
     };
-    let coefficient = |power: usize, segment: usize, joint: usize| {
-        given.positions[(power * segments + segment) * joints + joint]
+    let names: Option<Vec<String>> =
+        names
+            .and_then(|names| names.try_iter().ok())
+            .and_then(|names| {
+                let names = names.map(|name| name?.extract().map_err(PyErr::from));
+                names.collect::<PyResult<_>>().ok()
+            });
+    let Some(names) = names else {
+        return Ok(());
     };
-    let polynomial = |segment: usize, joint: usize| {
-        let lowest_first = (0..powers).rev();
-        lowest_first
-            .map(|power| coefficient(power, segment, joint))
-            .collect()
-    };
-    let of_segment = |segment| {
-        (0..joints)
-            .map(|joint| polynomial(segment, joint))
-            .collect()
-    };
-    let segments: Vec<Vec<Vec<f64>>> = (0..segments).map(of_segment).collect();
-    let curve = JointCurve::from_polynomials(&times, &segments);
-    let curve = curve.map_err(|error| input_error(format!("path: {error}")))?;
-    check_values(values, &curve)?;
-    Ok(Some(curve))
-}
-
-/// The largest difference of a value to that of the object which the curve is, relative to values above 1.
-const MAX_VALUE_DIFFERENCE: f64 = 1e-6;
-
-/// Refuses an object whose values are not those of its coefficients as powers, such as a `BPoly`: two values in each segment are
-/// compared. An object that cannot be called has no values.
-fn check_values(given: &Bound<'_, PyAny>, curve: &JointCurve) -> PyResult<()> {
-    if !given.is_callable() {
+    let joints: Vec<&str> = robot.free_joint_names().collect();
+    let names_a_joint = names.iter().any(|name| joints.contains(&name.as_str()));
+    if !names_a_joint || names == joints {
         return Ok(());
     }
-    let inside = |span: &[f64]| [0.375, 0.75].map(|share| span[0] + share * (span[1] - span[0]));
-    let times: Vec<f64> = curve.times().windows(2).flat_map(inside).collect();
-    let array = PyArray1::from_slice(given.py(), &times);
-    let values = flat_numbers(&given.call1((array,))?, "path(times)")?;
-    let joints = values.len() / times.len();
-    for (k, time) in times.iter().enumerate() {
-        let (values, own) = (&values[k * joints..][..joints], curve.positions(*time));
-        // Written so that NaN is refused.
-        let is_same = |(value, own): (&f64, &f64)| {
-            (value - own).abs() <= MAX_VALUE_DIFFERENCE * (1.0 + own.abs())
-        };
-        if values.len() != own.len() || !values.iter().zip(&own).all(is_same) {
-            return Err(input_error(format!(
-                "path: at {time} its values are {values:?}, and not {own:?} as its coefficients say; convert it to a \
-                 scipy.interpolate.PPoly, a BPoly by PPoly.from_bernstein_basis"
-            )));
-        }
-    }
-    Ok(())
+    Err(input_error(format!(
+        "{what}: the columns are {}, and the joints of a configuration {}: take the columns robot.joint_names",
+        names.join(", "),
+        joints.join(", ")
+    )))
 }
 
 /// Configurations from an array, one after another.
@@ -156,13 +156,13 @@ pub(crate) struct PathArray {
 }
 
 impl PathArray {
-    /// Reads an array of float64.
+    /// Reads an array of numbers.
     pub(crate) fn read(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Self> {
-        let array = float64_array(values, what)?;
-        let array = array.cast::<PyArrayDyn<f64>>()?;
-        let shape = array.shape().to_vec();
-        // In the order of the indices, whatever the order in memory.
-        let positions = array.to_owned_array().iter().copied().collect();
+        let given = Elements::<f64>::read(values, what)?;
+        PathArray::new(given.values, given.shape, what)
+    }
+
+    fn new(positions: Vec<f64>, shape: Vec<usize>, what: &str) -> PyResult<Self> {
         // There may be no paths, but each has configurations.
         let is_too_short = |shape: &[usize]| shape[shape.len().saturating_sub(2)..].contains(&0);
         if shape.is_empty() || shape.len() > 3 || is_too_short(&shape) {

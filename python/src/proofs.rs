@@ -1,34 +1,39 @@
 //! The Python functions that write and check machine-checkable proofs.
 
 use crate::body::extract_body;
-use crate::errors::{input_error, wrong_type_error};
-use crate::interruptible::run_interruptibly;
+use crate::errors::{input_error, interruption_error, wrong_type_error};
+use crate::interruptible::{run_interruptibly, run_or_leave};
 use crate::movement::GivenMovement;
+use crate::numbers::read_number;
 use crate::path_answers::path_error;
 use crate::path_array::GivenPath;
+use crate::progress::{GivenProgress, run_with_progress};
 use crate::queries::{GivenBodyAndMotion, ask};
 use crate::settings::{CONTACT_SETTING_NAMES, read};
-use ccd_prove::{Body, NoMesh, Proof, ProvenCell, ProvenPair, Statement};
+use ccd_prove::{Body, NoMesh, PathNotProven, Proof, ProvenCell, ProvenPair, Statement};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyType};
 use rigid_ccd::batch::Question;
 use rigid_ccd::{Motion, Settings};
-use rigid_ccd_robot::Cell;
+use rigid_ccd_robot::{Cell, PathError};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Makes a Python `Proof`.
-fn proof_object<'a, 'py>(
+/// Makes Python `Proof`s of the same meshes.
+fn proof_objects<'a, 'py>(
     py: Python<'py>,
-    proof: &Proof,
+    proofs: &[Proof],
     meshes: impl IntoIterator<Item = &'a Body>,
-) -> PyResult<Bound<'py, PyAny>> {
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
     static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     let bytes = |bytes: &[u8]| PyBytes::new(py, bytes);
     let pair = |body: &Body| (bytes(body.mesh()), bytes(body.certificate()));
+    // All share the bytes of the meshes.
     let meshes: Vec<_> = meshes.into_iter().map(pair).collect();
     let class = CLASS.import(py, "rigid_ccd._proofs", "Proof")?;
-    class.call1((bytes(&proof.bytes), meshes))
+    let object = |proof: &Proof| class.call1((bytes(&proof.bytes), meshes.clone()));
+    proofs.iter().map(object).collect()
 }
 
 /// Finds the first contact of two moving bodies, and proves the answer: that nothing touches before it, or at all.
@@ -52,7 +57,7 @@ pub(crate) fn prove<'py>(
     b: &Bound<'_, PyAny>,
     motion_a: Option<&Bound<'_, PyAny>>,
     motion_b: Option<&Bound<'_, PyAny>>,
-    duration: f64,
+    #[pyo3(from_py_with = read_number)] duration: f64,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
     let settings = read(settings, CONTACT_SETTING_NAMES)?;
@@ -82,8 +87,8 @@ pub(crate) fn prove<'py>(
     seen?;
     let (pair, proof) = proven.map_err(|error: NoMesh| input_error(error))?;
     let proof = proof.transpose().map_err(input_error)?;
-    let object = |proof| proof_object(py, &proof, pair.meshes());
-    proof.map(object).transpose()
+    let objects = proof_objects(py, proof.as_slice(), pair.meshes())?;
+    Ok(objects.into_iter().next())
 }
 
 /// Finds the first contact of a cell on a path of configurations, and proves the answer, a proof for each segment.
@@ -91,9 +96,10 @@ pub(crate) fn prove_path<'py>(
     py: Python<'py>,
     cell: &Cell,
     path: &Bound<'_, PyAny>,
+    progress: Option<&Bound<'_, PyAny>>,
     settings: Settings,
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-    let path = match GivenPath::read(path)? {
+    let path = match GivenPath::read(path, cell.robot())? {
         GivenPath::Configurations(path) => path,
         GivenPath::Curve(_) => {
             return Err(input_error(
@@ -102,23 +108,74 @@ pub(crate) fn prove_path<'py>(
         }
     };
     let path = path.configurations();
-    let proven = ProvenCell::new(cell).map_err(input_error)?;
-    let work = |stop: &Arc<_>| {
+    let progress = GivenProgress {
+        progress,
+        total: Some(path.len() - 1),
+    };
+    let work = |stop: &Arc<_>, done: &AtomicUsize| {
         let settings = Settings {
             stop: Some(Arc::clone(stop)),
             ..settings.clone()
         };
-        let mut solver = cell.solver();
-        solver.set_settings(settings.clone());
-        let outcome = solver.first_contact(&path)?;
-        Ok(proven.prove_path(&path, &outcome, &settings))
+        PathProofs::find(cell, &path, &settings, done)
     };
-    let (proofs, seen) = run_interruptibly(py, work, |_| Ok(()))?;
-    seen?;
-    let proofs = proofs.map_err(|error| path_error(py, error, 0.0))?;
-    let proofs = proofs.map_err(input_error)?;
-    let object = |proof| proof_object(py, proof, proven.meshes());
-    proofs.iter().map(object).collect()
+    let (found, seen) = run_with_progress(py, progress, work)?;
+    let PathProofs {
+        meshes,
+        proofs,
+        fault,
+    } = found.map_err(input_error)?;
+    let proofs = proof_objects(py, &proofs, &meshes)?;
+    match (seen, fault) {
+        (Err(cause), _) => Err(interruption_error(py, cause, proofs)),
+        (Ok(()), Some(Fault::Path(error))) => Err(path_error(py, error, 0.0)),
+        (Ok(()), Some(Fault::Proof(error))) => Err(input_error(error)),
+        (Ok(()), None) => Ok(proofs),
+    }
+}
+
+/// The proofs of the segments of a path, up to where one is missing.
+struct PathProofs {
+    meshes: Vec<Body>,
+    proofs: Vec<Proof>,
+    fault: Option<Fault>,
+}
+
+/// Why a proof is missing.
+enum Fault {
+    Path(PathError),
+    Proof(PathNotProven),
+}
+
+impl PathProofs {
+    /// Searches a path, and proves the answer; adds to `done` each segment that is proven.
+    fn find(
+        cell: &Cell,
+        path: &[&[f64]],
+        settings: &Settings,
+        done: &AtomicUsize,
+    ) -> Result<Self, NoMesh> {
+        let proven = ProvenCell::new(cell)?;
+        let mut found = PathProofs {
+            meshes: proven.meshes().cloned().collect(),
+            proofs: Vec::new(),
+            fault: None,
+        };
+        let mut solver = cell.solver().with_settings(settings.clone());
+        match solver.first_contact(path) {
+            Ok(outcome) => {
+                for proof in proven.path_proofs(path, &outcome, settings) {
+                    match proof {
+                        Ok(proof) => found.proofs.push(proof),
+                        Err(error) => found.fault = Some(Fault::Proof(error)),
+                    }
+                    done.fetch_add(1, Ordering::Relaxed);
+                }
+            }
+            Err(error) => found.fault = Some(Fault::Path(error)),
+        }
+        Ok(found)
+    }
 }
 
 /// Reads a motion at constant velocities, of which alone there are proofs.
@@ -139,13 +196,18 @@ fn constant_motion((_, motion): GivenBodyAndMotion<'_, '_>, what: &str) -> PyRes
 /// Returns:
 ///     "holds", or why it does not: "broken: …", or "unverifiable: …" for numbers beyond the range of the checker.
 #[pyfunction]
-pub(crate) fn check_proof(py: Python<'_>, proof: &[u8], meshes: Vec<(Vec<u8>, Vec<u8>)>) -> String {
-    let verdict = py.detach(|| {
-        let read = |(mesh, tree): &(Vec<u8>, Vec<u8>)| ccd_check::Body::new(mesh, tree, proof);
+pub(crate) fn check_proof(
+    py: Python<'_>,
+    proof: Vec<u8>,
+    meshes: Vec<(Vec<u8>, Vec<u8>)>,
+) -> PyResult<String> {
+    let check = move || {
+        let read = |(mesh, tree): &(Vec<u8>, Vec<u8>)| ccd_check::Body::new(mesh, tree, &proof);
         let bodies = meshes.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-        ccd_check::check(&bodies, proof)
-    });
-    verdict.map_or_else(|stop| stop.to_string(), |()| "holds".to_owned())
+        ccd_check::check(&bodies, &proof)
+    };
+    let verdict = run_or_leave(py, check)?;
+    Ok(verdict.map_or_else(|stop| stop.to_string(), |()| "holds".to_owned()))
 }
 
 /// Returns what a proof states, in words; an error if the bytes are no proof.

@@ -2,10 +2,14 @@
 
 use crate::answers;
 use crate::body::{extract_body, warn_of_large_tolerance};
-use crate::errors::{input_error, panic_error, unresolved_distance_error, unresolved_error, warn};
+use crate::errors::{
+    bounds_interruption, input_error, panic_error, time_interruption, unresolved_distance_error,
+    unresolved_error, warn,
+};
 use crate::interruptible::run_interruptibly;
 use crate::motion::read_pose;
 use crate::movement::{GivenMovement, Pair};
+use crate::numbers::read_optional_number;
 use crate::settings::{
     APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES, DISTANCE_QUERY_SETTING_NAMES, read,
 };
@@ -25,7 +29,7 @@ use std::time::{Duration, Instant};
 const FIRST_ATTEMPT_BUDGET: u64 = 100_000;
 
 /// The time limit of a first attempt, needed because a path has a work limit for each of its segments.
-const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(200);
+const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(100);
 
 thread_local! {
     /// The solver of this thread, whose memory is reused from query to query. A panic leaves a new one.
@@ -96,13 +100,36 @@ impl PairQuestion<'_> {
             self.answer(&mut Solver::new(), &settings)
         };
         let (found, seen) = run_interruptibly(py, work, |_| Ok(()))?;
-        seen?;
+        seen.map_err(|cause| self.interruption(py, cause, &found))?;
         let found = found.map_err(input_error)?;
         // If little time is left, the first answer may be better.
         Ok(match &found.outcome {
             Outcome::Unresolved(known) if until > self.proven_bound(known) => first,
             _ => found,
         })
+    }
+}
+
+impl PairQuestion<'_> {
+    /// Makes the exception of the interrupted question, which has what was known by then.
+    fn interruption(
+        &self,
+        py: Python<'_>,
+        cause: PyErr,
+        found: &Result<Answer, InputError>,
+    ) -> PyErr {
+        let outcome = found.as_ref().ok().map(|answer| &answer.outcome);
+        match outcome {
+            _ if !self.question.is_for_a_distance() => {
+                let known = outcome.and_then(|outcome| match outcome {
+                    Outcome::Unresolved(known) => Some(known.safe_until),
+                    _ => None,
+                });
+                time_interruption(py, cause, known)
+            }
+            Some(outcome) => bounds_interruption(py, cause, [outcome.lower(), outcome.upper()]),
+            None => bounds_interruption(py, cause, [0.0, f64::INFINITY]),
+        }
     }
 }
 
@@ -189,7 +216,7 @@ pub(crate) fn first_contact<'py>(
     b: &Bound<'_, PyAny>,
     motion_a: Option<&Bound<'_, PyAny>>,
     motion_b: Option<&Bound<'_, PyAny>>,
-    duration: Option<f64>,
+    #[pyo3(from_py_with = read_optional_number)] duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
     let settings = read(settings, CONTACT_SETTING_NAMES)?;
@@ -211,7 +238,7 @@ pub(crate) fn is_free(
     b: &Bound<'_, PyAny>,
     motion_a: Option<&Bound<'_, PyAny>>,
     motion_b: Option<&Bound<'_, PyAny>>,
-    duration: Option<f64>,
+    #[pyo3(from_py_with = read_optional_number)] duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<bool> {
     let settings = read(settings, CONTACT_SETTING_NAMES)?;
@@ -242,7 +269,7 @@ pub(crate) fn closest_approach<'py>(
     b: &Bound<'_, PyAny>,
     motion_a: Option<&Bound<'_, PyAny>>,
     motion_b: Option<&Bound<'_, PyAny>>,
-    duration: Option<f64>,
+    #[pyo3(from_py_with = read_optional_number)] duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let settings = read(settings, APPROACH_SETTING_NAMES)?;

@@ -1,16 +1,17 @@
 //! The Python class `Robot`.
 
 use crate::arrays::flat_numbers;
-use crate::body::{PyBody, extract_body};
 use crate::check_remarks::{remark_texts, warning_text};
 use crate::errors::{file_error, input_error};
 use crate::joint::PyJoint;
 use crate::link_contact_table::link_contact_table;
 use crate::link_motion::PyLinkMotion;
-use crate::motion::{GivenPose, pose_matrix, read_given_pose};
+use crate::motion::pose_matrix;
+use crate::numbers::{read_number, whole_number};
 use crate::pickle::{ConstructorCall, Reduced};
 use crate::robot_base::RobotBase;
-use crate::robot_file::{read_robot, with_options};
+use crate::robot_file::{read_folders, read_robot, with_options};
+use crate::robot_links::{find_or_add_link, read_link_bodies};
 use crate::table::PyTable;
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -106,7 +107,7 @@ impl PyRobot {
     /// Args:
     ///     path: the URDF file.
     ///     srdf: an SRDF file that names pairs of links which are not checked.
-    ///     packages: folders that are searched first for `package://` names, before ROS_PACKAGE_PATH, AMENT_PREFIX_PATH
+    ///     packages: a folder, or a list of them, that are searched first for `package://` names, before ROS_PACKAGE_PATH, AMENT_PREFIX_PATH
     ///         and the folders above the file.
     ///     geometry: "collision" or "visual", the elements of links that become bodies.
     ///     meshes: "exact", or "hull" for the convex hull of each mesh, which encloses it.
@@ -119,14 +120,14 @@ impl PyRobot {
         class: &Bound<'_, PyType>,
         path: PathBuf,
         srdf: Option<PathBuf>,
-        packages: Option<Vec<PathBuf>>,
+        #[pyo3(from_py_with = read_folders)] packages: Option<Vec<PathBuf>>,
         geometry: &str,
         meshes: &str,
     ) -> PyResult<Self> {
         let arguments = (&path, &srdf, &packages, geometry, meshes);
         let constructor_call = ConstructorCall::new(class.py(), Some("from_urdf"), arguments)?;
         let file = with_options(RobotFile::from_path(path), packages, geometry, meshes)?;
-        PyRobot::read(class.py(), &file, srdf, constructor_call)
+        PyRobot::read(class.py(), file, srdf, constructor_call)
     }
 
     /// Reads a robot from an MJCF file of MuJoCo and the mesh files that it names.
@@ -157,7 +158,7 @@ impl PyRobot {
         let arguments = (&path, &srdf, geometry, meshes);
         let constructor_call = ConstructorCall::new(class.py(), Some("from_mjcf"), arguments)?;
         let file = with_options(RobotFile::from_path(path), None, geometry, meshes)?;
-        PyRobot::read(class.py(), &file, srdf, constructor_call)
+        PyRobot::read(class.py(), file, srdf, constructor_call)
     }
 
     /// Reads a robot from the text of a URDF file, such as what xacro prints.
@@ -173,14 +174,14 @@ impl PyRobot {
         text: &str,
         path: PathBuf,
         srdf: Option<PathBuf>,
-        packages: Option<Vec<PathBuf>>,
+        #[pyo3(from_py_with = read_folders)] packages: Option<Vec<PathBuf>>,
         geometry: &str,
         meshes: &str,
     ) -> PyResult<Self> {
         let arguments = (text, &path, &srdf, &packages, geometry, meshes);
         let constructor_call = ConstructorCall::new(class.py(), Some("from_urdf_text"), arguments)?;
         let file = with_options(RobotFile::from_text(text, path), packages, geometry, meshes)?;
-        PyRobot::read(class.py(), &file, srdf, constructor_call)
+        PyRobot::read(class.py(), file, srdf, constructor_call)
     }
 
     /// Reads a robot that yourdfpy has loaded. Its meshes are found as yourdfpy finds them.
@@ -339,7 +340,7 @@ impl PyRobot {
         link: String,
         start: &Bound<'_, PyAny>,
         end: &Bound<'_, PyAny>,
-        duration: f64,
+        #[pyo3(from_py_with = read_number)] duration: f64,
         seen_from: Option<String>,
     ) -> PyResult<PyLinkMotion> {
         PyLinkMotion::new(
@@ -371,7 +372,7 @@ impl PyRobot {
     fn acm(
         &self,
         py: Python<'_>,
-        max_boxes: usize,
+        #[pyo3(from_py_with = read_max_boxes)] max_boxes: usize,
         srdf: Option<PathBuf>,
         name: &str,
     ) -> PyResult<PyTable> {
@@ -398,11 +399,11 @@ impl PyRobot {
 impl PyRobot {
     fn read(
         py: Python<'_>,
-        file: &RobotFile,
+        file: RobotFile,
         srdf: Option<PathBuf>,
         constructor_call: ConstructorCall,
     ) -> PyResult<Self> {
-        let (robot, pairs) = read_robot(py, file, srdf.as_deref())?;
+        let (robot, pairs) = read_robot(py, file, srdf)?;
         Ok(PyRobot {
             robot: Arc::new(robot),
             pairs,
@@ -411,28 +412,6 @@ impl PyRobot {
     }
 }
 
-/// Returns the link that has a name, which is new if there is none.
-fn find_or_add_link<'a>(links: &'a mut Vec<Link>, name: &str) -> &'a mut Link {
-    let number = links.iter().position(|link| link.name == name);
-    let number = number.unwrap_or_else(|| {
-        links.push(Link::named(name));
-        links.len() - 1
-    });
-    &mut links[number]
-}
-
-/// Reads what is fixed to a link: a body, or pairs of a body and its pose.
-fn read_link_bodies(held: &Bound<'_, PyAny>) -> PyResult<Vec<(Py<PyBody>, GivenPose)>> {
-    let body = |given: &Bound<'_, PyAny>| -> PyResult<Py<PyBody>> {
-        extract_body(given, "bodies")?;
-        Ok(given.clone().cast_into::<PyBody>()?.unbind())
-    };
-    if held.is_instance_of::<PyBody>() {
-        return Ok(vec![(body(held)?, GivenPose::IDENTITY)]);
-    }
-    let pairs = held.try_iter()?.map(|pair| {
-        let (given, pose): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair?.extract()?;
-        Ok((body(&given)?, read_given_pose(&pose, "bodies")?))
-    });
-    pairs.collect()
+fn read_max_boxes(given: &Bound<'_, PyAny>) -> PyResult<usize> {
+    whole_number(given, "max_boxes", 0..=usize::MAX)
 }

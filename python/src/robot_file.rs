@@ -1,9 +1,10 @@
 //! Reads robots from files, with options by their names in Python.
 
-use crate::errors::input_error;
+use crate::errors::{input_error, wrong_type_error};
+use crate::interruptible::run_or_leave;
 use pyo3::prelude::*;
 use rigid_ccd_robot::{BodyElements, LinkPairs, MeshConversion, Robot, RobotFile};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Sets the options of `Robot.from_urdf` and `Robot.from_mjcf`.
 pub(crate) fn with_options(
@@ -36,14 +37,36 @@ pub(crate) fn with_options(
 /// Reads a robot, and the pairs of its links that are checked.
 pub(crate) fn read_robot(
     py: Python<'_>,
-    file: &RobotFile,
-    srdf: Option<&Path>,
+    file: RobotFile,
+    srdf: Option<PathBuf>,
 ) -> PyResult<(Robot, LinkPairs)> {
-    py.detach(|| {
+    let read = move || {
         let robot = file.read().map_err(input_error)?;
-        let pairs = file.link_pairs(&robot, srdf).map_err(input_error)?;
-        Ok((robot, pairs))
-    })
+        let pairs = file.link_pairs(&robot, srdf.as_deref());
+        Ok((robot, pairs.map_err(input_error)?))
+    };
+    run_or_leave(py, read)?
+}
+
+/// Reads one folder, or a list of them.
+pub(crate) fn read_folders(given: &Bound<'_, PyAny>) -> PyResult<Option<Vec<PathBuf>>> {
+    if given.is_none() {
+        return Ok(None);
+    }
+    if let Ok(folder) = given.extract() {
+        return Ok(Some(vec![folder]));
+    }
+    let needed = "a folder, or a list of folders,";
+    let folders = given
+        .try_iter()
+        .map_err(|_| wrong_type_error("packages", needed, given))?;
+    let folder = |folder: PyResult<Bound<'_, PyAny>>| {
+        let folder = folder?;
+        folder
+            .extract()
+            .map_err(|_| wrong_type_error("packages", needed, &folder))
+    };
+    folders.map(folder).collect::<PyResult<_>>().map(Some)
 }
 
 fn unknown_name_error(what: &str, given: &str, known: &str) -> PyErr {

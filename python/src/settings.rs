@@ -1,6 +1,7 @@
 //! Reads the settings of queries from Python keyword arguments.
 
 use crate::errors::{input_error, input_error_from};
+use crate::numbers::{refuse_truth, whole_number};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -43,8 +44,9 @@ pub(crate) fn read(
             "margin" => settings.margin = extract_setting(&name, &value)?,
             "clearance" => settings.clearance = extract_setting(&name, &value)?,
             "budget" => {
-                settings.budget =
-                    extract_setting::<Option<u64>>(&name, &value)?.unwrap_or(settings.budget);
+                if !value.is_none() {
+                    settings.budget = whole_number(&value, "budget", 0..=u64::MAX)?;
+                }
             }
             "start" => {
                 settings.start_policy = start_policy(&extract_setting::<String>(&name, &value)?)?
@@ -57,13 +59,8 @@ pub(crate) fn read(
 }
 
 /// Reads the number of threads of a table query; `None` stands for one thread for each core.
-pub(crate) fn read_thread_count(given: Option<i64>) -> PyResult<Option<u16>> {
-    let in_range = |&threads: &u16| (1..=MAX_THREADS).contains(&threads);
-    let threads = |given: i64| {
-        let threads = u16::try_from(given).ok().filter(in_range);
-        threads
-            .ok_or_else(|| input_error(format!("threads: {given} is not from 1 to {MAX_THREADS}")))
-    };
+pub(crate) fn read_thread_count(given: Option<&Bound<'_, PyAny>>) -> PyResult<Option<u16>> {
+    let threads = |given| whole_number(given, "threads", 1..=MAX_THREADS);
     given.map(threads).transpose()
 }
 
@@ -72,6 +69,7 @@ where
     T: for<'a> FromPyObject<'a, 'py, Error = PyErr>,
 {
     let py = value.py();
+    refuse_truth(value, name)?;
     value.extract().map_err(|error: PyErr| {
         if error.is_instance_of::<PyTypeError>(py) {
             PyTypeError::new_err(format!("{name}: {}", error.value(py)))

@@ -3,9 +3,9 @@
 use crate::body::{extract_body, warn_of_large_tolerance};
 use crate::errors::{
     input_error as refuse, input_error_or_interrupt, interruption_error, warn, with_attribute,
-    wrong_type_error,
 };
-use crate::interruptible::run_interruptibly;
+use crate::numbers::read_optional_number;
+use crate::progress::{GivenProgress, run_with_progress};
 use crate::settings::{self, APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES, TABLE_SETTING_NAMES};
 use crate::table::answering::{TableAnswers, TableQuestion, answer};
 use crate::table::{PyTable, input};
@@ -15,7 +15,6 @@ use pyo3::types::PyDict;
 use rigid_ccd::Settings;
 use rigid_ccd::batch::{BodyPair, Question};
 use rigid_ccd::table::motions::TableError;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Answers a question about each row of a table of motions; called by `rigid_ccd.first_contacts` and its siblings.
 #[pyfunction]
@@ -27,9 +26,9 @@ pub(crate) fn answer_table(
     a: &Bound<'_, PyAny>,
     b: &Bound<'_, PyAny>,
     motions: &Bound<'_, PyAny>,
-    clearance: Option<f64>,
-    threads: Option<i64>,
-    progress: Option<Bound<'_, PyAny>>,
+    #[pyo3(from_py_with = read_optional_number)] clearance: Option<f64>,
+    threads: Option<&Bound<'_, PyAny>>,
+    progress: Option<&Bound<'_, PyAny>>,
     micros: bool,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<PyTable> {
@@ -50,27 +49,13 @@ pub(crate) fn answer_table(
     };
     // One query checks the settings, whose error each row would only repeat.
     check_table_settings(asked)?;
-    if let Some(progress) = progress.as_ref().filter(|progress| !progress.is_callable()) {
-        return Err(wrong_type_error("progress", "a function", progress));
-    }
-    let progress = progress.map(Bound::unbind);
     let reader = input::open(motions)?;
-    let (rows, done) = (
-        input::expected_answer_count(motions, &reader),
-        AtomicUsize::new(0),
-    );
-    let mut reported = None;
-    let mut report = |py: Python<'_>| {
-        let now = done.load(Ordering::Relaxed);
-        match &progress {
-            Some(progress) if reported.replace(now) != Some(now) => {
-                progress.call1(py, (now, rows)).map(drop)
-            }
-            _ => Ok(()),
-        }
+    let progress = GivenProgress {
+        progress,
+        total: input::expected_answer_count(motions, &reader),
     };
-    let work = |stop: &_| answer(asked, reader, stop, &done);
-    let (found, interruption) = run_interruptibly(py, work, &mut report)?;
+    let work = |stop: &_, done: &_| answer(asked, reader, stop, done);
+    let (found, seen) = run_with_progress(py, progress, work)?;
     let found = found.map_err(|error| table_error(&error))?;
     let TableAnswers {
         results,
@@ -78,7 +63,7 @@ pub(crate) fn answer_table(
         remarks,
     } = found;
     let table = PyTable { batch: results };
-    match (interruption.and_then(|()| report(py)), fault) {
+    match (seen, fault) {
         (Err(cause), _) => Err(interruption_error(py, cause, table)),
         (Ok(()), Some(fault)) => Err(match table_error(&fault) {
             error if error.is_instance_of::<PyKeyboardInterrupt>(py) => {

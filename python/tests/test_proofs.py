@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rigid_ccd import Body, Cell, InputError, Motion, Proof, Robot, check_proof, first_contact, prove
+from rigid_ccd import Body, Cell, InputError, Joint, Motion, Proof, Robot, check_proof, first_contact, prove
 from rigid_ccd import Path as PosePath
 
 WALL = Body.box(0.1, 5, 5)
@@ -84,3 +84,19 @@ def test_each_segment_of_a_path_has_a_proof(cell: Cell) -> None:
     assert cell.prove([[np.pi / 2], [3.0]]) == []
     with pytest.raises(InputError, match="positions"):
         cell.prove([[0.0, 1.0]])
+
+
+def test_a_proof_says_what_moves_in_the_numbers_that_were_given(cell: Cell) -> None:
+    falls = Motion([-3, 0, 0], velocity=[4, 0, 0.3], spin=[0, 0, 20])
+    for duration in (1.0, 10.0, 0.01, 3e-5):
+        proof = prove(Body.sphere(0.5), WALL, falls, duration=duration)
+        assert proof is not None
+        assert "velocity [4.0, 0.0, 0.3] axis [0.0, 0.0, 20.0]" in str(proof)
+        assert proof.check() == "holds"
+    turns, = cell.prove([[0.25], [-2.5]])
+    assert "axis [0.0, 0.0, 1.0] start 0.25 rate -2.75" in str(turns)
+    slider = Joint.prismatic("x", "rail", "cart", axis=[0, 0, 1])
+    rail = Cell(Robot([slider], {"cart": Body.sphere(0.5)}))
+    rail.add("wall", WALL, ([9, 0, 0], [1, 0, 0, 0]))
+    slides, = rail.prove([[40.5], [-700.0]])
+    assert "velocity [0.0, 0.0, 1.0] axis [0.0, 0.0, 0.0] start 40.5 rate -740.5" in str(slides)

@@ -103,6 +103,8 @@ class PathDistance:
         limit: the limit that ended the search; None if there was none.
         tolerance: the bounds differ by at most this, and by what the bodies exceed their shapes by, unless a limit was reached: the
             tolerance that was asked for, unless the rounding of positions allows only a larger one.
+        clearance: whether the required clearance is "kept", "violated", or "unverified" within the bounds; None where none
+            was required.
     """
 
     lower: float
@@ -110,6 +112,7 @@ class PathDistance:
     nearest: PathContact | None
     limit: str | None
     tolerance: float
+    clearance: Literal["kept", "violated", "unverified"] | None
 
 
 @dataclass(frozen=True)
@@ -124,4 +127,4 @@ class PathRange:
 
     start: float
     end: float
-    clearance: str
+    clearance: Literal["kept", "violated", "unverified"]

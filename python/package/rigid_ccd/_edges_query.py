@@ -42,7 +42,7 @@ class EdgesQuery:
     ) -> None:
         # A copy, which later changes of the cell do not reach.
         self._cell: Cell = copy.copy(cell)
-        self._ask, self._rest = ask, dict(rest or {})
+        self._ask, self._rest = ask, {joint: _position(joint, at) for joint, at in (rest or {}).items()}
         self._settings = {"threads": 1, **settings}
         unknown = set(self._rest) - set(cell.robot.joint_names)
         if unknown:
@@ -76,23 +76,19 @@ class EdgesQuery:
 
     def _configurations(self, table: Table) -> NDArray[np.float64]:
         joints = self._cell.robot.joint_names
-        missing = [
-            f"{end}_{joint}"
-            for joint in joints
-            if joint not in self._rest
-            for end in ("from", "to")
-            if f"{end}_{joint}" not in table
-        ]
-        if missing:
+        moving = [joint for joint in joints if joint not in self._rest]
+        needed = [f"{end}_{joint}" for joint in moving for end in ("from", "to")]
+        if missing := [name for name in needed if name not in table]:
             raise InputError(f"edges: no column {', '.join(missing)}; `rest` says where joints without columns rest")
         for joint in self._rest:
             if f"from_{joint}" in table or f"to_{joint}" in table:
                 raise InputError(f"edges: there are columns for {joint}, which rests")
+        if unknown := set(table) - {"id", *needed}:
+            raise InputError(f"edges: unknown column {', '.join(sorted(unknown))}")
         ends = np.empty((2, len(table["id"]), len(joints)))
         for k, joint in enumerate(joints):
             for end, name in enumerate(("from", "to")):
-                column = f"{name}_{joint}"
-                ends[end, :, k] = table[column] if column in table else self._rest[joint]
+                ends[end, :, k] = self._rest[joint] if joint in self._rest else _numbers(table, f"{name}_{joint}")
         return ends
 
     def _answer(self, ends: NDArray[np.float64]) -> Table:
@@ -101,3 +97,16 @@ class EdgesQuery:
     def __repr__(self) -> str:
         settings = "".join(f", {name}={value!r}" for name, value in self._settings.items())
         return f"EdgesQuery({self._cell!r}, ask={self._ask!r}, rest={self._rest!r}{settings})"
+
+
+def _position(joint: str, at: Any) -> float:
+    if isinstance(at, (str, bytes, bool, np.bool_)):
+        raise InputError(f"rest: {joint}: a number is needed, not {at!r}")
+    return float(at)
+
+
+def _numbers(table: Table, name: str) -> NDArray[Any]:
+    column = table[name]
+    if column.dtype.kind not in "fiu":
+        raise InputError(f"edges: column {name}: numbers are needed, not {column.dtype}")
+    return column

@@ -5,7 +5,7 @@ from hashlib import sha256
 from os import PathLike
 from pathlib import Path
 
-from ._rigid_ccd import check_proof, proof_statement
+from ._rigid_ccd import InputError, check_proof, proof_statement
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,8 @@ class Proof:
 
     def save(self, folder: str | PathLike[str], name: str) -> None:
         """Write NAME.proof to a folder, and each mesh with its tree as DIGEST.mesh and DIGEST.body."""
+        if not name or Path(name).name != name:
+            raise InputError(f"name: {name!r} is no name of a file")
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
         for mesh, tree in self.meshes:

@@ -12,6 +12,7 @@ from ._settings import OfContacts as _OfContacts
 from ._settings import OfDistances as _OfDistances
 from ._settings import OfPathContacts as _OfPathContacts
 from ._settings import OfPaths as _OfPaths
+from ._settings import Progress as _Progress
 
 __all__ = [
     "Body",
@@ -33,17 +34,25 @@ __all__ = [
     "is_free",
     "proof_statement",
     "prove",
-    "write_pages",
 ]
 
 class _ScipyRotation(Protocol):
     def as_matrix(self) -> Any: ...
 
-class _Curve(Protocol):
+class _Polynomials(Protocol):
     @property
     def x(self) -> Any: ...
     @property
     def c(self) -> Any: ...
+
+class _Spline(Protocol):
+    @property
+    def t(self) -> Any: ...
+    @property
+    def c(self) -> Any: ...
+    @property
+    def k(self) -> Any: ...
+    def __call__(self, x: Any, nu: int = 0) -> Any: ...
 
 class _Mesh(Protocol):
     @property
@@ -55,6 +64,7 @@ _Rotation: TypeAlias = ArrayLike | _ScipyRotation
 _Pose: TypeAlias = ArrayLike | tuple[ArrayLike, _Rotation]
 _Pieces: TypeAlias = Literal["auto", "triangles", "patches", "hull"]
 _Unit: TypeAlias = Literal["um", "mm", "cm", "m", "in", "ft"]
+_Curve: TypeAlias = _Polynomials | _Spline
 _Movement: TypeAlias = Motion | Path | LinkMotion
 
 class InputError(ValueError):
@@ -66,7 +76,10 @@ class Unresolved(RuntimeError):
     upper: float | None
 
 class Interrupted(KeyboardInterrupt):
-    results: Table | None
+    results: Any
+    safe_until: float | None
+    lower: float | None
+    upper: float | None
 
 @final
 class Body:
@@ -78,7 +91,7 @@ class Body:
         cls,
         path: str | PathLike[str],
         *,
-        part: str | None = None,
+        part: str | int | None = None,
         unit: _Unit | None = None,
         pieces: _Pieces = "auto",
         file_unit: _Unit | None = None,
@@ -193,7 +206,7 @@ class Robot:
         cls,
         path: str | PathLike[str],
         srdf: str | PathLike[str] | None = None,
-        packages: Sequence[str | PathLike[str]] | None = None,
+        packages: str | PathLike[str] | Iterable[str | PathLike[str]] | None = None,
         geometry: Literal["collision", "visual"] = "collision",
         meshes: Literal["exact", "hull"] = "exact",
     ) -> Robot: ...
@@ -211,7 +224,7 @@ class Robot:
         text: str,
         path: str | PathLike[str] = ...,
         srdf: str | PathLike[str] | None = None,
-        packages: Sequence[str | PathLike[str]] | None = None,
+        packages: str | PathLike[str] | Iterable[str | PathLike[str]] | None = None,
         geometry: Literal["collision", "visual"] = "collision",
         meshes: Literal["exact", "hull"] = "exact",
     ) -> Robot: ...
@@ -288,11 +301,13 @@ class Cell:
         path: ArrayLike | _Curve,
         **settings: Unpack[_OfPathContacts],
     ) -> PathContact | None: ...
-    def prove(self, path: ArrayLike, **settings: Unpack[_OfContacts]) -> list[Proof]: ...
+    def prove(
+        self, path: ArrayLike, *, progress: _Progress = None, **settings: Unpack[_OfContacts]
+    ) -> list[Proof]: ...
     def closest_approach(
         self,
         path: ArrayLike | _Curve,
-        **settings: Unpack[_OfDistances],
+        **settings: Unpack[_OfApproaches],
     ) -> PathDistance: ...
     def clearance_ranges(
         self,
@@ -309,6 +324,7 @@ class Cell:
         ask: Literal["is-free", "first-contact", "closest-approach"] = "is-free",
         *,
         threads: int | None = None,
+        progress: _Progress = None,
         **settings: Unpack[_OfPaths],
     ) -> Table: ...
     def paths(
@@ -317,6 +333,7 @@ class Cell:
         ask: Literal["is-free", "first-contact", "closest-approach"] = "is-free",
         *,
         threads: int | None = None,
+        progress: _Progress = None,
         **settings: Unpack[_OfPaths],
     ) -> Table: ...
     def __reduce__(self) -> tuple[type[Cell], tuple[Robot], tuple[Any, ...]]: ...
@@ -391,7 +408,7 @@ def answer_table(
     *,
     clearance: float | None = None,
     threads: int | None = None,
-    progress: Callable[[int, int | None], object] | None = None,
+    progress: _Progress = None,
     micros: bool = True,
     **settings: Unpack[_OfContacts],
 ) -> Table: ...

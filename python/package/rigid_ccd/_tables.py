@@ -1,6 +1,5 @@
 """Questions about each row of a table of motions."""
 
-from collections.abc import Callable
 from typing import Any, Literal, TypeAlias, Unpack
 
 from . import _rigid_ccd
@@ -115,40 +114,4 @@ def distances(a: Body, b: Body, motions: Motions, **settings: Unpack[DistancesOf
 
 def answer(ask: Question, a: Body, b: Body, motions: Motions, *, progress: Progress = None, **settings: Any) -> Table:
     """Answers a question about each row."""
-    report, close = _reporter(progress)
-    try:
-        return _rigid_ccd.answer_table(ask, a, b, motions, progress=report, **settings)
-    finally:
-        close()
-
-
-def _reporter(progress: Progress) -> tuple[Callable[[int, int | None], object] | None, Callable[[], object]]:
-    """Returns a progress function of the rows done and all rows, and a function that closes it."""
-    if progress is None or progress is False:
-        return None, lambda: None
-    if progress is True:
-        try:
-            from tqdm.auto import tqdm
-        except ModuleNotFoundError as error:
-            message = "progress=True needs tqdm: pip install tqdm, or pass a function"
-            raise ModuleNotFoundError(message, name="tqdm") from error
-
-        bar = tqdm(total=None, unit=" rows")
-        shown: Any = bar
-
-        def first(done: int, total: int | None) -> None:
-            shown.total = total
-            shown.update(done - shown.n)
-
-        return first, bar.close
-    update: Any = getattr(progress, "update", None)
-    if update is None:
-        return progress, lambda: None  # type: ignore[return-value]
-    reported = 0
-
-    def report(done: int, total: int | None) -> None:
-        nonlocal reported
-        update(done - reported)
-        reported = done
-
-    return report, lambda: None
+    return _rigid_ccd.answer_table(ask, a, b, motions, progress=progress, **settings)

@@ -1,0 +1,98 @@
+//! Reads bodies from files of meshes, and prepared ones.
+
+use crate::errors::{InputError, file_error, input_error};
+use crate::numbers::whole_number;
+use pyo3::prelude::*;
+use pyo3::types::PyString;
+use rigid_ccd::mesh::{
+    Adjustments, Axis, Detail, MeshSource, STORED_BODY_EXTENSION, SourceError, StoredBodyContent,
+    Unit, prepare,
+};
+use std::path::{Path, PathBuf};
+
+/// A file of a mesh or of a prepared body, and what is to be made of it.
+pub(crate) struct BodyFile {
+    pub(crate) path: PathBuf,
+    pub(crate) part: Option<String>,
+    pub(crate) adjustments: Adjustments,
+    pub(crate) detail: Detail,
+    /// Whether nothing is asked for that a prepared body cannot give.
+    pub(crate) may_be_prepared: bool,
+}
+
+impl BodyFile {
+    /// Reads the file.
+    pub(crate) fn read(self) -> PyResult<StoredBodyContent> {
+        let path = self.path;
+        // An unreadable file is an OSError. A pipe would block, and is refused.
+        let there = std::fs::metadata(&path).map_err(|error| file_error(&error, &path))?;
+        if !there.is_file() {
+            return Err(input_error(format!("{}: is no file", path.display())));
+        }
+        std::fs::File::open(&path).map_err(|error| file_error(&error, &path))?;
+        if is_prepared_body_path(&path) && self.part.is_none() {
+            if !self.may_be_prepared {
+                let error = SourceError::AdjustedStoredBody { file: path };
+                return Err(input_error(error));
+            }
+            return StoredBodyContent::load(&path).map_err(input_error);
+        }
+        let source = MeshSource {
+            file: path,
+            part: self.part,
+            adjustments: self.adjustments,
+        };
+        let (mesh, _) = source.read().map_err(input_error)?;
+        prepare(&mesh, self.detail).map_err(|error| input_error(format!("{source}: {error}")))
+    }
+}
+
+/// Reads the unit of a file's numbers, a factor on them, and an axis along which they are mirrored.
+pub(crate) fn read_adjustments(
+    file_unit: Option<&str>,
+    scale: Option<f64>,
+    mirror: Option<&str>,
+) -> PyResult<Adjustments> {
+    let mut adjustments = Adjustments::NONE;
+    if let Some(unit) = parse_unit("file_unit", file_unit)? {
+        adjustments = adjustments.with_stated_unit(unit);
+    }
+    if let Some(scale) = scale {
+        adjustments = adjustments.scaled(scale).map_err(input_error)?;
+    }
+    if let Some(axis) = mirror {
+        adjustments = adjustments.mirrored(parse_axis(axis)?);
+    }
+    Ok(adjustments)
+}
+
+/// Reads the name or the number of a part.
+pub(crate) fn read_part(given: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
+    if given.is_none() || given.is_instance_of::<PyString>() {
+        return given.extract();
+    }
+    Ok(Some(whole_number(given, "part", 0..=u64::MAX)?.to_string()))
+}
+
+/// Reads a unit of length; `argument` names it in errors.
+pub(crate) fn parse_unit(argument: &str, name: Option<&str>) -> PyResult<Option<Unit>> {
+    let unit = name.map(str::parse::<Unit>).transpose();
+    unit.map_err(|error| input_error(format!("{argument}: {error}")))
+}
+
+fn parse_axis(name: &str) -> PyResult<Axis> {
+    match name {
+        "x" => Ok(Axis::X),
+        "y" => Ok(Axis::Y),
+        "z" => Ok(Axis::Z),
+        _ => Err(InputError::new_err(format!(
+            "mirror: {name:?} is none of \"x\", \"y\", \"z\""
+        ))),
+    }
+}
+
+/// Returns whether a file is a prepared body, judged by its extension.
+fn is_prepared_body_path(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    extension.eq_ignore_ascii_case(STORED_BODY_EXTENSION)
+}

@@ -1,0 +1,71 @@
+//! Reads numbers from arguments of Python, to which a truth value is a number, too.
+
+use crate::errors::{input_error, wrong_type_error};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyFloat};
+use std::fmt::Display;
+use std::ops::RangeInclusive;
+
+/// Reads a whole number in a range; the error names the argument.
+pub(crate) fn whole_number<'py, T>(
+    given: &Bound<'py, PyAny>,
+    what: &str,
+    range: RangeInclusive<T>,
+) -> PyResult<T>
+where
+    T: for<'a> FromPyObject<'a, 'py, Error = PyErr> + PartialOrd + Display,
+{
+    let py = given.py();
+    refuse_truth(given, what)?;
+    let whole = py.import("operator")?.call_method1("index", (given,));
+    let whole = whole.map_err(|error| match error.is_instance_of::<PyTypeError>(py) {
+        true => wrong_type_error(what, "a whole number", given),
+        false => error,
+    })?;
+    let number = whole
+        .extract::<T>()
+        .ok()
+        .filter(|number| range.contains(number));
+    number.ok_or_else(|| {
+        let (least, most) = (range.start(), range.end());
+        // Python writes no numbers of thousands of digits.
+        let text = whole
+            .str()
+            .map_or_else(|_| "the number".to_owned(), |text| text.to_string());
+        input_error(format!("{what}: {text} is not from {least} to {most}"))
+    })
+}
+
+/// Refuses a truth value.
+pub(crate) fn refuse_truth(given: &Bound<'_, PyAny>, what: &str) -> PyResult<()> {
+    match is_truth(given)? {
+        true => Err(wrong_type_error(what, "a number", given)),
+        false => Ok(()),
+    }
+}
+
+/// Returns whether something is a truth value of Python or of NumPy.
+fn is_truth(given: &Bound<'_, PyAny>) -> PyResult<bool> {
+    if given.is_instance_of::<PyFloat>() {
+        return Ok(false);
+    }
+    let numpy = given.py().import("numpy")?;
+    Ok(given.is_instance_of::<PyBool>() || given.is_instance(&numpy.getattr("bool_")?)?)
+}
+
+/// Reads a number that is an argument, which an exception for a wrong type names.
+pub(crate) fn read_number(given: &Bound<'_, PyAny>) -> PyResult<f64> {
+    match is_truth(given)? {
+        true => Err(PyTypeError::new_err("must be a number, not bool")),
+        false => given.extract(),
+    }
+}
+
+/// Reads a number that is an argument, or None.
+pub(crate) fn read_optional_number(given: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
+    match given.is_none() {
+        true => Ok(None),
+        false => read_number(given).map(Some),
+    }
+}

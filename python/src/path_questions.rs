@@ -1,0 +1,126 @@
+//! Asks a cell a question about one path, and makes objects of Python of the answer.
+
+use crate::cell_solver::CellWithCachedSolvers;
+use crate::errors::{bounds_interruption, input_error, interruption_error, time_interruption};
+use crate::interruptible::run_interruptibly;
+use crate::path_answers::{ended_by_deadline, path_error};
+use crate::path_array::GivenPath;
+use pyo3::prelude::*;
+use rigid_ccd::Settings;
+use rigid_ccd::answer::ClearanceVerdict;
+use rigid_ccd_robot::path_rows::{PathAnswer, PathQuestion};
+use rigid_ccd_robot::{ClearanceRange, PathError, RangeSettings};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// The time after which a question goes on, from its start, on a thread that Ctrl-C can end. To start one for each question
+/// would cost more than most questions do.
+const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(5);
+
+/// Answers a question about a path, after reading its configurations.
+pub(crate) fn ask_path(
+    py: Python<'_>,
+    solvers: &CellWithCachedSolvers,
+    ask: PathQuestion,
+    path: &Bound<'_, PyAny>,
+    mut settings: Settings,
+) -> PyResult<PathAnswer> {
+    let path = GivenPath::read(path, solvers.cell().robot())?;
+    settings.check().map_err(input_error)?;
+    let clearance = settings.clearance.take();
+    let question = |settings: Settings| {
+        solvers.ask(&settings, |solver| match &path {
+            GivenPath::Configurations(array) => ask.ask(solver, &array.configurations(), clearance),
+            GivenPath::Curve(curve) => ask.ask(solver, curve, clearance),
+        })
+    };
+    let limit = settings.deadline.unwrap_or(Duration::MAX);
+    let first_limit = limit.min(FIRST_ATTEMPT_TIME_LIMIT);
+    let first = Settings {
+        deadline: Some(first_limit),
+        ..settings.clone()
+    };
+    let mut found = py.detach(|| question(first));
+    if ended_by_deadline(&found) && limit > first_limit {
+        let work = |stop: &Arc<_>| {
+            question(Settings {
+                deadline: settings.deadline.map(|_| limit - first_limit),
+                stop: Some(Arc::clone(stop)),
+                ..settings
+            })
+        };
+        let (again, seen) = run_interruptibly(py, work, |_| Ok(()))?;
+        seen.map_err(|cause| interruption(py, cause, ask, &again))?;
+        found = again;
+    }
+    found.map_err(|error| path_error(py, error, path.start_time()))
+}
+
+/// Makes the exception of an interrupted question, which has what was known by then.
+fn interruption(
+    py: Python<'_>,
+    cause: PyErr,
+    ask: PathQuestion,
+    found: &Result<PathAnswer, PathError>,
+) -> PyErr {
+    let row = found.as_ref().ok().map(|answer| &answer.row);
+    match ask {
+        PathQuestion::ClosestApproach => {
+            let lower = row.and_then(|row| row.distance_lower).unwrap_or(0.0);
+            let upper = row.and_then(|row| row.distance_upper);
+            bounds_interruption(py, cause, [lower, upper.unwrap_or(f64::INFINITY)])
+        }
+        PathQuestion::FirstContact => time_interruption(py, cause, row.and_then(|row| row.time)),
+        PathQuestion::IsFree => time_interruption(py, cause, None),
+    }
+}
+
+/// Divides a path into ranges, as objects of Python.
+pub(crate) fn path_ranges<'py>(
+    py: Python<'py>,
+    solvers: &CellWithCachedSolvers,
+    path: &Bound<'py, PyAny>,
+    how: RangeSettings,
+    settings: Settings,
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let path = GivenPath::read(path, solvers.cell().robot())?;
+    let work = |stop: &Arc<_>| {
+        let settings = Settings {
+            stop: Some(Arc::clone(stop)),
+            ..settings
+        };
+        solvers.ask(&settings, |solver| match &path {
+            GivenPath::Configurations(array) => {
+                solver.clearance_ranges(&array.configurations(), how)
+            }
+            GivenPath::Curve(curve) => solver.clearance_ranges(curve, how),
+        })
+    };
+    let (ranges, seen) = run_interruptibly(py, work, |_| Ok(()))?;
+    let ranges = ranges.map_err(|error| path_error(py, error, path.start_time()))?;
+    let ranges = range_objects(py, &path, &ranges)?;
+    match seen {
+        Ok(()) => Ok(ranges),
+        Err(cause) => Err(interruption_error(py, cause, ranges)),
+    }
+}
+
+fn range_objects<'py>(
+    py: Python<'py>,
+    path: &GivenPath,
+    ranges: &[ClearanceRange],
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let class = py.import("rigid_ccd")?.getattr("PathRange")?;
+    // What is proven does not reach beyond the times that are told.
+    let mut start = path.start_time();
+    let ranges = ranges.iter().map(|range| {
+        let (clearance, end) = match range.verdict {
+            ClearanceVerdict::Kept => ("kept", path.time(range.to)),
+            ClearanceVerdict::Violated => ("violated", path.time(range.to)),
+            ClearanceVerdict::Unverified => ("unverified", path.latest_time(range.to)),
+        };
+        let from = std::mem::replace(&mut start, end);
+        class.call1((from, end, clearance))
+    });
+    ranges.collect()
+}

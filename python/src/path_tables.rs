@@ -1,0 +1,129 @@
+//! Answers a question about each of many paths, as a table.
+
+use crate::cell_solver::CellWithCachedSolvers;
+use crate::errors::input_error;
+use crate::path_answers::{allowed_setting_names, question_named};
+use crate::path_array::GivenPaths;
+use crate::progress::{GivenProgress, results_or_interruption, run_with_progress};
+use crate::settings::{read, read_thread_count};
+use crate::table::{PyTable, path_batch};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rigid_ccd::Settings;
+use rigid_ccd::table::results::ResultRow;
+use rigid_ccd_robot::path_rows::PathQuestion;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// The arguments of a question about many paths, other than the paths.
+pub(crate) struct GivenQuestion<'a, 'py> {
+    pub(crate) ask: &'a str,
+    pub(crate) threads: Option<&'a Bound<'py, PyAny>>,
+    pub(crate) progress: Option<&'a Bound<'py, PyAny>>,
+    pub(crate) settings: Option<&'a Bound<'py, PyDict>>,
+}
+
+/// Answers a question about each path on all cores; Ctrl-C ends it with the rows answered by then.
+pub(crate) fn answer_paths(
+    py: Python<'_>,
+    solvers: &CellWithCachedSolvers,
+    given: GivenQuestion<'_, '_>,
+    read_paths: impl FnOnce() -> PyResult<GivenPaths>,
+) -> PyResult<PyTable> {
+    let question = question_named(given.ask)?;
+    let mut settings = read(given.settings, allowed_setting_names(question))?;
+    settings.check().map_err(input_error)?;
+    let clearance = settings.clearance.take();
+    (solvers.cell().check_any_compared()).map_err(input_error)?;
+    let threads = read_thread_count(given.threads)?;
+    let paths = read_paths()?;
+    let progress = GivenProgress {
+        progress: given.progress,
+        total: Some(paths.count()),
+    };
+    let work = |stop: &Arc<AtomicBool>, done: &AtomicUsize| {
+        let settings = Settings {
+            stop: Some(Arc::clone(stop)),
+            ..settings
+        };
+        let task = Task {
+            question,
+            settings: &settings,
+            clearance,
+            stop,
+            done,
+        };
+        task.answer(solvers, threads, &paths)
+    };
+    let (rows, seen) = run_with_progress(py, progress, work)?;
+    let batch = py.detach(|| path_batch(question, &rows));
+    let batch = batch.map_err(input_error)?;
+    results_or_interruption(py, PyTable { batch }, seen)
+}
+
+/// A question about many paths that may be stopped.
+struct Task<'a> {
+    question: PathQuestion,
+    settings: &'a Settings,
+    clearance: Option<f64>,
+    stop: &'a AtomicBool,
+    /// The number of paths answered so far.
+    done: &'a AtomicUsize,
+}
+
+impl Task<'_> {
+    /// Returns the rows of all paths, or of the first ones if the flag `stop` is set meanwhile.
+    fn answer(
+        &self,
+        solvers: &CellWithCachedSolvers,
+        threads: Option<u16>,
+        paths: &GivenPaths,
+    ) -> Vec<ResultRow> {
+        let clearance = self.clearance;
+        let groups = match paths {
+            GivenPaths::Array(array) => {
+                let paths = array.paths();
+                let chunks = paths.position_chunks();
+                solvers.answer_tasks(self.settings, threads, &chunks, |solver, chunk| {
+                    let answer = |path: &[&[f64]]| {
+                        self.unless_stopped(|| self.question.answer(solver, path, clearance))
+                    };
+                    Group::of(paths.map_group(chunk, answer))
+                })
+            }
+            GivenPaths::Curves(curves) => {
+                solvers.answer_tasks(self.settings, threads, curves, |solver, curve| {
+                    let answer = || self.question.answer(solver, curve, clearance);
+                    Group::of(vec![self.unless_stopped(answer)])
+                })
+            }
+        };
+        let stopped = groups.iter().position(|group| !group.is_whole);
+        let whole = stopped.map_or(groups.len(), |stopped| stopped + 1);
+        let groups = groups.into_iter().take(whole);
+        groups.flat_map(|group| group.rows).collect()
+    }
+
+    /// Returns a row, unless the flag is set before it is answered: a question that was stopped has no answer.
+    fn unless_stopped(&self, answer: impl FnOnce() -> ResultRow) -> Option<ResultRow> {
+        let is_stopped = || self.stop.load(Ordering::Relaxed);
+        let row = (!is_stopped()).then(answer).filter(|_| !is_stopped())?;
+        self.done.fetch_add(1, Ordering::Relaxed);
+        Some(row)
+    }
+}
+
+/// The rows of some paths in a row, up to the first one without an answer.
+struct Group {
+    rows: Vec<ResultRow>,
+    is_whole: bool,
+}
+
+impl Group {
+    fn of(rows: Vec<Option<ResultRow>>) -> Self {
+        let count = rows.len();
+        let rows: Vec<ResultRow> = rows.into_iter().map_while(|row| row).collect();
+        let is_whole = rows.len() == count;
+        Group { rows, is_whole }
+    }
+}

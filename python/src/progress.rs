@@ -1,0 +1,54 @@
+//! Runs long work that Ctrl-C can interrupt, and tells a Python program how far it is.
+
+use crate::errors::interruption_error;
+use crate::interruptible::run_interruptibly;
+use pyo3::prelude::*;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// The argument `progress` of a call, and how much there is to do, if that is known.
+#[derive(Clone, Copy)]
+pub(crate) struct GivenProgress<'a, 'py> {
+    pub(crate) progress: Option<&'a Bound<'py, PyAny>>,
+    pub(crate) total: Option<usize>,
+}
+
+/// Runs `work`, which adds to a counter what is done, as [`run_interruptibly`] does, and tells the progress meanwhile and at the end.
+pub(crate) fn run_with_progress<T: Send>(
+    py: Python<'_>,
+    GivenProgress { progress, total }: GivenProgress<'_, '_>,
+    work: impl FnOnce(&Arc<AtomicBool>, &AtomicUsize) -> T + Send,
+) -> PyResult<(T, PyResult<()>)> {
+    let done = AtomicUsize::new(0);
+    let Some(progress) = progress else {
+        return run_interruptibly(py, |stop| work(stop, &done), |_| Ok(()));
+    };
+    let make = py.import("rigid_ccd._progress")?.getattr("reporter")?;
+    let (report, close): (Option<Py<PyAny>>, Py<PyAny>) = make.call1((progress,))?.extract()?;
+    let mut told = None;
+    let mut tell = |py: Python<'_>| {
+        let now = done.load(Ordering::Relaxed);
+        match &report {
+            Some(report) if told.replace(now) != Some(now) => {
+                report.call1(py, (now, total)).map(drop)
+            }
+            _ => Ok(()),
+        }
+    };
+    let found = run_interruptibly(py, |stop| work(stop, &done), &mut tell);
+    let found = found.map(|(found, seen)| (found, seen.and_then(|()| tell(py))));
+    close.call0(py)?;
+    found
+}
+
+/// Returns the results of work, or an exception that has those of interrupted work.
+pub(crate) fn results_or_interruption<'py, T: IntoPyObject<'py>>(
+    py: Python<'py>,
+    results: T,
+    seen: PyResult<()>,
+) -> PyResult<T> {
+    match seen {
+        Ok(()) => Ok(results),
+        Err(cause) => Err(interruption_error(py, cause, results)),
+    }
+}
