@@ -41,7 +41,7 @@ def main() -> None:
     vertices, faces = knot(60_000)
     rows = 100_000
     table = {"id": np.arange(rows), "a_px": np.full(rows, 3.3), "a_wx": np.full(rows, 6e5), "a_wy": np.full(rows, 6e5)}
-    path = np.linspace(0, 100, 500_000)[:, None]
+    path = np.linspace(0, 0.1, 500_000)[:, None]
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "knot.obj"
         lines = [*(f"v {x} {y} {z}" for x, y, z in vertices), *(f"f {a} {b} {c}" for a, b, c in faces + 1)]

@@ -7,6 +7,8 @@ finds every other contact.
 """
 
 # %% An arm of a lift, two hinges and two fingers
+from typing import Any
+
 import numpy as np
 
 from rigid_ccd import Body, Cell, Joint, Robot
@@ -14,7 +16,7 @@ from rigid_ccd import Body, Cell, Joint, Robot
 UPRIGHT, TURNED = [1, 0, 0, 0], [0, 0, 0, 1]
 
 
-def box(size: tuple[float, float, float], x: float = 0, y: float = 0, z: float = 0) -> list:
+def box(size: tuple[float, float, float], x: float = 0, y: float = 0, z: float = 0) -> list[Any]:
     return [(Body.box(size=size), ([x, y, z], UPRIGHT))]
 
 
@@ -49,7 +51,7 @@ ASIDE, IN_THE_WAY = (0, 2), (0.1, 0)  # lift and shoulder of the other arm
 
 
 def at(lift: float, shoulder: float, elbow: float, finger: float, other: tuple[float, float] = ASIDE) -> list[float]:
-    return [lift, shoulder, elbow, finger, *other, 0, 0]
+    return [lift, shoulder, elbow, finger, *other, 0, OPEN]
 
 
 PICK, PLACE, OPEN, CLOSED = (0.7, -0.9), (-0.7, 0.9), 0.05, 0.033

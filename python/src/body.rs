@@ -87,7 +87,8 @@ impl PyBody {
             .collect();
         let faces = triangles(faces)?;
         let detail = detail(pieces, surface)?;
-        run_or_leave(py, move || {
+        let bytes = size_of_val(&*faces) as u64;
+        run_or_leave(py, bytes, move || {
             let mesh = TriangleMesh::new(points, &faces).map_err(input_error)?;
             PyBody::from_model(prepare(&mesh, detail).map_err(input_error)?)
         })?
@@ -135,8 +136,10 @@ impl PyBody {
             part,
             detail: detail(pieces, surface)?,
         };
+        // What cannot be read is an error of the reader.
+        let file_bytes = std::fs::metadata(&file.path).map_or(0, |file| file.len());
         let read = move || PyBody::from_model(file.read()?);
-        run_or_leave(class.py(), read)?
+        run_or_leave(class.py(), file_bytes, read)?
     }
 
     /// Makes a body of a trimesh mesh, or of any object with `vertices` and `faces`.
@@ -307,11 +310,12 @@ impl PyBody {
     /// Makes a body from its pickled form.
     #[classmethod]
     fn _from_bytes(class: &Bound<'_, PyType>, stored: Vec<u8>) -> PyResult<Self> {
+        let bytes = stored.len() as u64;
         let read = move || {
             let model = StoredBodyContent::read(stored.as_slice()).map_err(input_error)?;
             PyBody::from_model(model)
         };
-        run_or_leave(class.py(), read)?
+        run_or_leave(class.py(), bytes, read)?
     }
 
     fn __repr__(&self) -> String {

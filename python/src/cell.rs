@@ -310,7 +310,8 @@ impl PyCell {
         path_ranges(py, &self.cell_with_solvers, path, how, settings)
     }
 
-    /// Answers a question about many edges, on all cores: `start` and `end` are arrays of shape (N, joints).
+    /// Answers a question about many edges, on all cores: `start` and `end` are arrays of shape (N, joints). They have no names: `start="leave"` is a
+    /// setting, as of `is_free`.
     ///
     /// Args:
     ///     ask: "is-free", "first-contact" or "closest-approach".
@@ -326,7 +327,7 @@ impl PyCell {
     ///
     /// Raises:
     ///     Interrupted: Ctrl-C; its `results` has the rows answered by then, from the first on.
-    #[pyo3(signature = (start, end, ask = "is-free", *, threads = None, progress = None, **settings))]
+    #[pyo3(signature = (start, end, /, ask = "is-free", *, threads = None, progress = None, **settings))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
     fn edges(
         &self,

@@ -12,14 +12,23 @@ use std::time::Duration;
 /// The interval between two checks for signals such as Ctrl-C.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
+/// The number of bytes of a mesh up to which work on it takes some hundredths of a second.
+const FEW_BYTES: u64 = 1 << 18;
+
 /// Runs `work` that has no flag to stop it on a new thread, without the GIL, and returns its result.
 ///
 /// Meanwhile this thread looks for signals. An exception of one comes back at once: the work goes on to its end, and its result is
 /// dropped. Without a thread to spare, or after a panic, there is an exception, too.
+///
+/// Work on a few `bytes` is done on this thread: to start another one would cost more.
 pub(crate) fn run_or_leave<T: Send + 'static>(
     py: Python<'_>,
+    bytes: u64,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> PyResult<T> {
+    if bytes < FEW_BYTES {
+        return Ok(py.detach(work));
+    }
     py.detach(|| {
         let (sender, receiver) = mpsc::channel();
         // The receiver of a thread that is left is gone.

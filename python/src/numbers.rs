@@ -19,9 +19,12 @@ where
     let py = given.py();
     refuse_truth(given, what)?;
     let whole = py.import("operator")?.call_method1("index", (given,));
-    let whole = whole.map_err(|error| match error.is_instance_of::<PyTypeError>(py) {
-        true => wrong_type_error(what, "a whole number", given),
-        false => error,
+    let whole = whole.map_err(|error| {
+        if error.is_instance_of::<PyTypeError>(py) {
+            wrong_type_error(what, "a whole number", given)
+        } else {
+            error
+        }
     })?;
     let number = whole
         .extract::<T>()
@@ -39,9 +42,10 @@ where
 
 /// Refuses a truth value.
 pub(crate) fn refuse_truth(given: &Bound<'_, PyAny>, what: &str) -> PyResult<()> {
-    match is_truth(given)? {
-        true => Err(wrong_type_error(what, "a number", given)),
-        false => Ok(()),
+    if is_truth(given)? {
+        Err(wrong_type_error(what, "a number", given))
+    } else {
+        Ok(())
     }
 }
 
@@ -56,16 +60,18 @@ fn is_truth(given: &Bound<'_, PyAny>) -> PyResult<bool> {
 
 /// Reads a number that is an argument, which an exception for a wrong type names.
 pub(crate) fn read_number(given: &Bound<'_, PyAny>) -> PyResult<f64> {
-    match is_truth(given)? {
-        true => Err(PyTypeError::new_err("must be a number, not bool")),
-        false => given.extract(),
+    if is_truth(given)? {
+        Err(PyTypeError::new_err("must be a number, not bool"))
+    } else {
+        given.extract()
     }
 }
 
 /// Reads a number that is an argument, or None.
 pub(crate) fn read_optional_number(given: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
-    match given.is_none() {
-        true => Ok(None),
-        false => read_number(given).map(Some),
+    if given.is_none() {
+        Ok(None)
+    } else {
+        read_number(given).map(Some)
     }
 }

@@ -131,7 +131,7 @@ pub(crate) fn check_joint_order(
         names
             .and_then(|names| names.try_iter().ok())
             .and_then(|names| {
-                let names = names.map(|name| name?.extract().map_err(PyErr::from));
+                let names = names.map(|name| name?.extract());
                 names.collect::<PyResult<_>>().ok()
             });
     let Some(names) = names else {

@@ -10,7 +10,9 @@ use crate::path_array::GivenPath;
 use crate::progress::{GivenProgress, run_with_progress};
 use crate::queries::{GivenBodyAndMotion, ask};
 use crate::settings::{CONTACT_SETTING_NAMES, read};
-use ccd_prove::{Body, NoMesh, PathNotProven, Proof, ProvenCell, ProvenPair, Statement};
+use ccd_prove::{
+    Body, CellNotProvable, NoMesh, PathNotProven, Proof, ProvenCell, ProvenPair, Statement,
+};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyType};
@@ -154,7 +156,7 @@ impl PathProofs {
         path: &[&[f64]],
         settings: &Settings,
         done: &AtomicUsize,
-    ) -> Result<Self, NoMesh> {
+    ) -> Result<Self, CellNotProvable> {
         let proven = ProvenCell::new(cell)?;
         let mut found = PathProofs {
             meshes: proven.meshes().cloned().collect(),
@@ -201,12 +203,14 @@ pub(crate) fn check_proof(
     proof: Vec<u8>,
     meshes: Vec<(Vec<u8>, Vec<u8>)>,
 ) -> PyResult<String> {
+    let of_meshes = meshes.iter().map(|(mesh, tree)| mesh.len() + tree.len());
+    let bytes = proof.len() + of_meshes.sum::<usize>();
     let check = move || {
         let read = |(mesh, tree): &(Vec<u8>, Vec<u8>)| ccd_check::Body::new(mesh, tree, &proof);
         let bodies = meshes.iter().map(read).collect::<Result<Vec<_>, _>>()?;
         ccd_check::check(&bodies, &proof)
     };
-    let verdict = run_or_leave(py, check)?;
+    let verdict = run_or_leave(py, bytes as u64, check)?;
     Ok(verdict.map_or_else(|stop| stop.to_string(), |()| "holds".to_owned()))
 }
 

@@ -8,6 +8,7 @@ use crate::link_contact_table::link_contact_table;
 use crate::link_motion::PyLinkMotion;
 use crate::motion::pose_matrix;
 use crate::numbers::{read_number, whole_number};
+use crate::path_array::check_joint_order;
 use crate::pickle::{ConstructorCall, Reduced};
 use crate::robot_base::RobotBase;
 use crate::robot_file::{read_folders, read_robot, with_options};
@@ -227,7 +228,7 @@ impl PyRobot {
     /// ['red/base/x', 'red/base/y', 'red/base/yaw']
     /// >>> contact = Cell(both).first_contact([[0, 0, 0], [6, 0, 0]])
     /// >>> contact.a, contact.b, round(6 * contact.share, 2)
-    /// ('blue/body', 'red/body', 3.0)
+    /// ('red/body', 'blue/body', 3.0)
     #[classmethod]
     #[pyo3(signature = (robots, poses = None, bases = None, carriers = None))]
     fn combined(
@@ -315,6 +316,7 @@ impl PyRobot {
         configuration: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let py = configuration.py();
+        check_joint_order(configuration, &self.robot, "configuration")?;
         let positions = flat_numbers(configuration, "configuration")?;
         let pose = self.robot.pose(link, &positions).map_err(input_error)?;
         Ok(pose_matrix(py, &pose))

@@ -45,7 +45,8 @@ pub(crate) fn read_robot(
         let pairs = file.link_pairs(&robot, srdf.as_deref());
         Ok((robot, pairs.map_err(input_error)?))
     };
-    run_or_leave(py, read)?
+    // The files of its meshes are not known yet.
+    run_or_leave(py, u64::MAX, read)?
 }
 
 /// Reads one folder, or a list of them.

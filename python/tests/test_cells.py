@@ -427,8 +427,8 @@ def test_a_can_is_lifted_from_a_table() -> None:
     contact = cell.first_contact(up, start="leave", tolerance=1e-5)
     assert contact is not None and (contact.a, contact.b) == ("can", "shelf")
     assert 0.793 - 1e-5 < contact.share <= 0.793
-    assert cell.is_free([[0], [0.7]], start="leave") and not cell.is_free([[0], [-0.01]], start="leave")
-    table = cell.edges([[0], [0]], [[0.7], [1]], "first-contact", start="leave")
+    assert cell.is_free([[0.0], [0.7]], start="leave") and not cell.is_free([[0.0], [-0.01]], start="leave")
+    table = cell.edges([[0.0], [0.0]], [[0.7], [1.0]], "first-contact", start="leave")
     assert table["status"].tolist() == ["free", "contact"]
     wrong: Any = {"start": "leave"}
     for question in (cell.closest_approach, cell.clearance_ranges, cell.prove):

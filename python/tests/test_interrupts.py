@@ -145,12 +145,12 @@ def test_ranges_are_those_found_by_then() -> None:
 def test_proofs_are_those_made_by_then() -> None:
     told: list[tuple[int, int | None]] = []
     # Each of very many segments has a proof of its own.
-    path = np.linspace(0, 100, 500_000)[:, None]
-    error = interrupted(lambda: CELL.prove(path, progress=lambda *now: told.append(now)), 5)
+    path = np.linspace(0, 0.1, 500_000)[:, None]
+    error = interrupted(lambda: CELL.prove(path, progress=lambda *now: told.append(now)), 1)
     assert isinstance(error, Interrupted) and isinstance(error.results, list)
     proofs = [proof for proof in error.results if isinstance(proof, Proof)]
     assert len(proofs) < len(path) - 1 and all(proof.check() == "holds" for proof in proofs[:3])
-    assert told and told[-1][1] == len(path) - 1 and told[-1][0] >= len(proofs)
+    assert told and told[-1][1] == len(path) - 1 and told[-1][0] <= len(proofs) + 1
 
 
 def test_tables_keep_what_is_answered() -> None:

@@ -321,6 +321,7 @@ class Cell:
         self,
         start: ArrayLike,
         end: ArrayLike,
+        /,
         ask: Literal["is-free", "first-contact", "closest-approach"] = "is-free",
         *,
         threads: int | None = None,
