@@ -185,10 +185,10 @@ impl RobotFile {
             Some(text) => Cow::Borrowed(&**text),
             None => Cow::Owned(read(&self.path)?),
         };
-        match is_html(text.as_bytes()) {
-            true => Err(self.syntax_error(HTML_ADVICE.to_owned())),
-            false => Ok(text),
+        if is_html(text.as_bytes()) {
+            return Err(self.syntax_error(HTML_ADVICE.to_owned()));
         }
+        Ok(text)
     }
 
     /// Parses the text if it is an MJCF.
