@@ -210,7 +210,9 @@ impl<'c> ProvenCell<'c> {
         let witness = contact.and_then(|contact| self.witness(&scene, contact, settings.tolerance));
         match prove_unless_stopped(&scene, share, witness, settings.stop.as_deref()) {
             Ok(proof) => Ok(Some(proof)),
-            Err(NotProven::Touching { .. } | NotProven::NoContact { .. }) if share == 0.0 => Ok(None),
+            Err(NotProven::Touching { .. } | NotProven::NoContact { .. }) if share == 0.0 => {
+                Ok(None)
+            }
             Err(reason) => Err(PathNotProven::Segment { segment, reason }),
         }
     }

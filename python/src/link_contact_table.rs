@@ -19,17 +19,24 @@ pub(crate) fn link_contact_table(
         Some(match meeting {
             LinkContactClass::Never => "never",
             LinkContactClass::Always => "always",
+            LinkContactClass::AlwaysAsEnclosed => "always-as-enclosed",
             LinkContactClass::Sometimes { .. } => "sometimes",
             LinkContactClass::Undecided { .. } => "undecided",
         })
     });
-    let apart = meetings.iter().map(|(_, meeting)| match meeting {
-        LinkContactClass::Undecided {
-            proven_apart_share, ..
-        } => Some(*proven_apart_share),
-        _ => None,
-    });
-    let columns: [(&str, ArrayRef, bool); 4] = [
+    let numbers = |number: usize| -> ArrayRef {
+        let found = meetings.iter().map(|(_, meeting)| match meeting {
+            LinkContactClass::Undecided {
+                proven_apart_share,
+                undecided_share,
+                least_distance,
+                ..
+            } => Some([*proven_apart_share, *undecided_share, *least_distance][number]),
+            _ => None,
+        });
+        Arc::new(found.collect::<Float64Array>())
+    };
+    let columns: [(&str, ArrayRef, bool); 6] = [
         ("link_a", names(0), false),
         ("link_b", names(1), false),
         (
@@ -37,7 +44,9 @@ pub(crate) fn link_contact_table(
             Arc::new(evidence.collect::<StringArray>()),
             false,
         ),
-        ("apart", Arc::new(apart.collect::<Float64Array>()), true),
+        ("apart", numbers(0), true),
+        ("undecided", numbers(1), true),
+        ("least_distance", numbers(2), true),
     ];
     RecordBatch::try_from_iter_with_nullable(columns)
 }

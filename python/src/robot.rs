@@ -2,7 +2,8 @@
 
 use crate::arrays::flat_numbers;
 use crate::check_remarks::{remark_texts, warning_text};
-use crate::errors::{file_error, input_error};
+use crate::errors::{file_error, input_error, interruption_error, wrong_type_error};
+use crate::interruptible::run_interruptibly;
 use crate::joint::PyJoint;
 use crate::link_contact_table::link_contact_table;
 use crate::link_motion::PyLinkMotion;
@@ -18,10 +19,12 @@ use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyType};
 use rigid_ccd_robot::{
-    Joint, Link, LinkBody, LinkPairs, PlacedRobot, Robot, RobotFile, SkipReason,
+    Joint, Link, LinkBody, LinkContactSettings, LinkPairs, PlacedRobot, Robot, RobotFile,
+    SkipReason,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// A robot: a tree of links and joints, and the pairs of links that are checked.
 ///
@@ -363,23 +366,59 @@ impl PyRobot {
     /// joints. "never" and "always" are proofs, and of "sometimes" there are two configurations as witnesses.
     ///
     /// Args:
-    ///     max_boxes: the number of boxes of joint positions that are examined for a pair, each of about 10 microseconds.
+    ///     max_boxes: the number of boxes of joint positions that are examined for a pair in the mean, each of some microseconds.
     ///     srdf: an SRDF file to write, in which the pairs are disabled that need no check, each with the evidence.
     ///     name: the name of the robot in that file.
+    ///     progress: a function of the numbers of pairs that are decided, and of all pairs, called again and again.
+    ///
+    /// Ctrl-C raises `Interrupted`, whose `results` is the table with what is decided by then.
     ///
     /// Returns:
-    ///     A table with a row for each pair: `link_a`, `link_b`, `evidence` ("never", "always", "sometimes" or
-    ///     "undecided"), and `apart`, the share of the configurations for which an undecided pair is proven apart.
-    #[pyo3(signature = (max_boxes = 100_000, *, srdf = None, name = "robot"))]
+    ///     A table with a row for each pair: `link_a`, `link_b`, `evidence` ("never", "always",
+    ///     "always-as-enclosed" if the shapes that bodies enclose may not touch, "sometimes" or
+    ///     "undecided"); for an undecided pair `apart` and `undecided`, the shares of the configurations for which it is proven
+    ///     apart, and nothing is proven, and `least_distance`, the least one that was found.
+    #[pyo3(signature = (max_boxes = 100_000, *, srdf = None, name = "robot", progress = None))]
     fn acm(
         &self,
         py: Python<'_>,
         #[pyo3(from_py_with = read_max_boxes)] max_boxes: usize,
         srdf: Option<PathBuf>,
         name: &str,
+        progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<PyTable> {
-        let meetings = py.detach(|| self.robot.classify_link_contacts(max_boxes));
+        if let Some(progress) = progress.as_ref().filter(|progress| !progress.is_callable()) {
+            return Err(wrong_type_error("progress", "a function", progress));
+        }
+        let progress = progress.map(Bound::unbind);
+        let (decided, all) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let work = |stop: &Arc<AtomicBool>| {
+            let settings = LinkContactSettings {
+                max_boxes,
+                deadline: None,
+                stop: Some(Arc::clone(stop)),
+            };
+            self.robot.classify_link_contacts(&settings, |now, pairs| {
+                decided.fetch_max(now, Ordering::Relaxed);
+                all.store(pairs, Ordering::Relaxed);
+            })
+        };
+        let mut reported = None;
+        let mut report = |py: Python<'_>| {
+            let now = [&decided, &all].map(|count| count.load(Ordering::Relaxed));
+            match &progress {
+                Some(progress) if reported.replace(now) != Some(now) => {
+                    progress.call1(py, (now[0], now[1])).map(drop)
+                }
+                _ => Ok(()),
+            }
+        };
+        let (meetings, interruption) = run_interruptibly(py, work, &mut report)?;
         let meetings = meetings.map_err(input_error)?;
+        if let Err(cause) = interruption.and_then(|()| report(py)) {
+            let batch = link_contact_table(&self.robot, &meetings).map_err(input_error)?;
+            return Err(interruption_error(py, cause, PyTable { batch }));
+        }
         if let Some(path) = srdf {
             let text = self.robot.to_srdf(name, &meetings);
             std::fs::write(&path, text).map_err(|error| file_error(&error, &path))?;

@@ -73,7 +73,7 @@ pub use check_summary::{CheckRemark, CheckSummary, LeftOutPairs, Surroundings};
 pub use combine::PlacedRobot;
 pub use error::{CurveError, NothingCompared, PathError, RobotError};
 pub use joint_curve::JointCurve;
-pub use link_contacts::LinkContactClass;
+pub use link_contacts::{LinkContactClass, LinkContactSettings};
 pub use pairs::{LinkPairs, SkipReason};
 pub use path::Path;
 pub use path_point::PathPoint;

@@ -4,7 +4,7 @@ mod boxes;
 mod clearance_ranges;
 mod constant_step;
 mod curved_link;
-mod displacement;
+pub(crate) mod displacement;
 mod distance_curve;
 mod engine;
 mod exact;

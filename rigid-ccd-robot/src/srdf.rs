@@ -218,9 +218,10 @@ impl Robot {
     /// never or always. The reason of each says which.
     ///
     /// ```
-    /// use rigid_ccd_robot::{Link, Robot};
+    /// use rigid_ccd_robot::{Link, LinkContactSettings, Robot};
     /// let robot = Robot::new(vec![Link::named("base")], Vec::new())?;
-    /// let srdf = robot.to_srdf("stone", &robot.classify_link_contacts(100)?);
+    /// let classes = robot.classify_link_contacts(&LinkContactSettings::DEFAULT, |_, _| ())?;
+    /// let srdf = robot.to_srdf("stone", &classes);
     /// assert!(srdf.contains("<robot name=\"stone\">"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -234,7 +235,9 @@ impl Robot {
                 LinkContactClass::Never => "Never (proven)",
                 LinkContactClass::Always => "Always (proven)",
                 _ if self.are_neighbours(*one, *other) => "Adjacent",
-                LinkContactClass::Sometimes { .. } | LinkContactClass::Undecided { .. } => continue,
+                LinkContactClass::AlwaysAsEnclosed
+                | LinkContactClass::Sometimes { .. }
+                | LinkContactClass::Undecided { .. } => continue,
             };
             let [one, other] = [one, other].map(|&link| escape(&self.links()[link].name));
             writeln!(

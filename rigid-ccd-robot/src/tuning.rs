@@ -34,6 +34,9 @@ pub(crate) const MIN_PIECES_FOR_TWO_HULLS: usize = 16;
 /// The number of intervals between the points on a joint's axis at which two links are tried.
 pub(crate) const JOINT_AXIS_INTERVALS: u32 = 128;
 
+/// How often a third of the best interval is left out then.
+pub(crate) const JOINT_AXIS_REFINEMENTS: u32 = 48;
+
 /// The number of pairs that are measured between two readings of the clock, if there is a deadline. A pair takes about 150 ns, a
 /// reading 25 ns.
 pub(crate) const PAIRS_BETWEEN_CLOCK_READS: usize = 8;
@@ -57,3 +60,17 @@ pub(crate) const MAX_TURNS_IN_PERIOD: u32 = 128;
 
 /// The largest number of stretches of a segment over which a pair in contact at the start is followed until it has a gap.
 pub(crate) const MAX_START_STRETCHES: u32 = 256;
+
+/// The number of random positions of the joints between two links at which the links are looked at; the number of the nearest ones
+/// from which the search for a contact goes on, and the largest number of looks of each of these searches.
+pub(crate) const WITNESS_SAMPLES: usize = 256;
+pub(crate) const DESCENT_STARTS: usize = 6;
+pub(crate) const DESCENT_LOOKS: usize = 400;
+
+/// The first step of such a search, as a share of a joint's range, and how often it is halved.
+pub(crate) const FIRST_DESCENT_STEP: f64 = 0.125;
+pub(crate) const DESCENT_HALVINGS: i32 = 10;
+
+/// The number of boxes that are examined for each pair of links at first, and the factor from one round to the next.
+pub(crate) const FIRST_ROUND_BOXES: usize = 1000;
+pub(crate) const ROUND_FACTOR: usize = 4;

@@ -264,7 +264,12 @@ class Robot:
         seen_from: str | None = None,
     ) -> LinkMotion: ...
     def acm(
-        self, max_boxes: int = 100_000, *, srdf: str | PathLike[str] | None = None, name: str = "robot"
+        self,
+        max_boxes: int = 100_000,
+        *,
+        srdf: str | PathLike[str] | None = None,
+        name: str = "robot",
+        progress: Callable[[int, int], object] | None = None,
     ) -> Table: ...
 
 @final

@@ -2,14 +2,16 @@
 
 use super::loading::{RobotArgs, refuse_overwriting_any};
 use crate::files::refuse_overwriting_input;
+use crate::numbers::parse_seconds;
 use crate::output::{Output, is_standard_output};
 use crate::progress::Progress;
 use crate::table::TableWriter;
 use crate::{RunOutcome, print_escaped_to_stderr};
 use anyhow::{Result, bail};
 use clap::Args;
-use rigid_ccd_robot::{LinkContactClass, Robot};
+use rigid_ccd_robot::{LinkContactClass, LinkContactSettings, Robot};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Decide which pairs of a robot's links can touch, and write those that need no check as SRDF
 #[derive(Clone, Debug, Args)]
@@ -17,9 +19,12 @@ use std::path::PathBuf;
 pub(crate) struct AcmArgs {
     #[command(flatten)]
     robot: RobotArgs,
-    /// Examine at most N boxes of configurations for a pair; a larger number decides more pairs
+    /// Examine at most N boxes of configurations for a pair in the mean; a larger number decides more pairs
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1..))]
     boxes: u32,
+    /// Leave the pairs undecided that are not decided after this time, in seconds [default: none]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_hyphen_values = true)]
+    deadline: Option<Duration>,
     /// Write the pairs that need no check to this file, SRDF; - writes to standard output
     #[arg(long, value_name = "SRDF", default_value = "-")]
     out: PathBuf,
@@ -38,8 +43,12 @@ file samples configurations.
 
 Table of pairs (--report):
   link1, link2       the links
-  class              never, always, sometimes or undecided
+  class              never, always, always-as-enclosed, sometimes or undecided; as enclosed if the bodies always touch, but
+                     it is not proven of the shapes that they exceed: such a pair is not disabled
   apart_share        share of the configurations that are proven apart
+  undecided_share, least_distance
+                     share of the configurations for which nothing is proven, and the least distance that was found; both
+                     for undecided pairs alone
   touching_JOINT, apart_JOINT
                      a configuration that touches, and one that does not
 
@@ -69,9 +78,7 @@ pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
         .transpose()?;
     let robot = args.robot.load(args.quiet)?;
     args.robot.print_checked(&robot, args.quiet)?;
-    let progress = Progress::start_single_step("examining pairs of links", args.quiet);
-    let classes = robot.classify_link_contacts(args.boxes as usize)?;
-    drop(progress);
+    let classes = classify(&robot, args)?;
     let name = args.robot.path().file_stem().unwrap_or_default();
     let srdf = robot.to_srdf(&name.to_string_lossy(), &classes);
     out.write(|writer| writer.write_all(srdf.as_bytes()))?;
@@ -84,23 +91,48 @@ pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
     Ok(RunOutcome::AllAnswered)
 }
 
+/// Decides about all pairs, and shows how many are examined.
+fn classify(robot: &Robot, args: &AcmArgs) -> Result<Vec<([usize; 2], LinkContactClass)>> {
+    let settings = LinkContactSettings {
+        max_boxes: args.boxes as usize,
+        deadline: args.deadline,
+        stop: None,
+    };
+    let progress = Progress::start_single_step("examining pairs of links", args.quiet);
+    let show = |decided: usize, all: usize| {
+        progress.set_message(&format!("{decided} of {all} pairs of links are decided"));
+    };
+    Ok(robot.classify_link_contacts(&settings, show)?)
+}
+
 fn class_name(class: &LinkContactClass) -> &'static str {
     match class {
         LinkContactClass::Never => "never",
         LinkContactClass::Always => "always",
+        LinkContactClass::AlwaysAsEnclosed => "always-as-enclosed",
         LinkContactClass::Sometimes { .. } => "sometimes",
         LinkContactClass::Undecided { .. } => "undecided",
     }
 }
 
 fn summary(classes: &[([usize; 2], LinkContactClass)]) -> String {
-    let counts = ["never", "sometimes", "always", "undecided"].map(|name| {
+    let kinds = [
+        "never",
+        "sometimes",
+        "always",
+        "always-as-enclosed",
+        "undecided",
+    ];
+    let counts = kinds.map(|name| {
         let found = classes
             .iter()
             .filter(|(_, class)| class_name(class) == name);
-        match name {
-            "undecided" => format!("{} are undecided", found.count()),
-            _ => format!("{} {name} touch", found.count()),
+        match (name, found.count()) {
+            ("undecided", count) => format!("{count} are undecided"),
+            ("always-as-enclosed", count) => {
+                format!("{count} always touch as enclosures, their shapes perhaps not")
+            }
+            (_, count) => format!("{count} {name} touch"),
         }
     });
     format!("{} pairs of links: {}", classes.len(), counts.join(", "))
@@ -113,31 +145,46 @@ fn write_report(
     report: Output,
 ) -> Result<()> {
     let joints: Vec<&str> = robot.free_joint_names().collect();
-    let mut header = ["link1", "link2", "class", "apart_share"]
-        .map(str::to_owned)
-        .to_vec();
+    let mut header = [
+        "link1",
+        "link2",
+        "class",
+        "apart_share",
+        "undecided_share",
+        "least_distance",
+    ]
+    .map(str::to_owned)
+    .to_vec();
     for prefix in ["touching", "apart"] {
         header.extend(joints.iter().map(|joint| format!("{prefix}_{joint}")));
     }
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let mut table = TableWriter::start(report, &header)?;
     for (links, class) in classes {
-        let (share, configurations) = match class {
-            LinkContactClass::Never => (1.0, [None, None]),
-            LinkContactClass::Always => (0.0, [None, None]),
+        let (numbers, configurations) = match class {
+            LinkContactClass::Never => ([Some(1.0), None, None], [None, None]),
+            LinkContactClass::Always | LinkContactClass::AlwaysAsEnclosed => {
+                ([Some(0.0), None, None], [None, None])
+            }
             LinkContactClass::Sometimes {
                 touching_configuration,
                 apart_configuration,
             } => (
-                f64::NAN,
+                [None; 3],
                 [Some(touching_configuration), Some(apart_configuration)],
             ),
             LinkContactClass::Undecided {
                 proven_apart_share,
+                undecided_share,
+                least_distance,
                 touching_configuration,
                 apart_configuration,
             } => (
-                *proven_apart_share,
+                [
+                    Some(*proven_apart_share),
+                    Some(*undecided_share),
+                    Some(*least_distance),
+                ],
                 [
                     touching_configuration.as_ref(),
                     apart_configuration.as_ref(),
@@ -147,11 +194,8 @@ fn write_report(
         let names = links.map(|link| robot.links()[link].name.clone());
         let mut cells = names.to_vec();
         cells.push(class_name(class).to_owned());
-        cells.push(if share.is_nan() {
-            String::new()
-        } else {
-            share.to_string()
-        });
+        let text = |number: Option<f64>| number.map_or(String::new(), |number| number.to_string());
+        cells.extend(numbers.map(text));
         for configuration in configurations {
             cells.extend((0..joints.len()).map(|joint| {
                 configuration.map_or(String::new(), |positions| positions[joint].to_string())

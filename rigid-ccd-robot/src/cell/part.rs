@@ -188,7 +188,6 @@ impl HullPart {
     }
 
     /// Returns the corners of the hull.
-    #[cfg(test)]
     pub(crate) fn points(&self) -> &[DVec3] {
         &self.points
     }

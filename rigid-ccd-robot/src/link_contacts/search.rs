@@ -1,235 +1,248 @@
-//! The search for proofs about one pair of links after another.
+//! The search for proofs about pairs of links, one after another.
 
+use super::LinkContactClass;
 use super::joint_box::JointBox;
-use super::{AXIS_CONTACT_DISTANCE, LinkContactClass};
+use super::joints_between::JointsBetween;
+use super::measuring::{BoxClass, Contact, LinkPair, Measurer};
+use super::search_end::SearchEnd;
 use crate::cell::Cell;
-use crate::solver::measure::{DistanceVerdict, Thresholds, measure};
-use crate::solver::part_pairs::PartPair;
-use crate::solver::placement::Placement;
-use crate::solver::violation::are_convex_parts_nearer;
-use crate::tuning::JOINT_AXIS_INTERVALS;
 use ccd_core::order::greater;
-use rigid_ccd::{Body, Error, Outcome, Pose, Solver};
+use rigid_ccd::Error;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Memory for searches about pairs of links.
-pub(super) struct PairSearch<'c> {
-    cell: &'c Cell,
-    placement: Placement,
-    solver: Solver,
+/// What is known of a pair of links so far. Positions are those of the joints between them.
+#[derive(Clone, Debug)]
+pub(super) struct PairRecord {
+    pub(super) links: [usize; 2],
+    pub(super) verdict: Option<Verdict>,
+    pub(super) touching: Option<Vec<f64>>,
+    pub(super) apart: Option<Vec<f64>>,
+    /// The least distance that was found, with its positions.
+    pub(super) nearest: Option<(f64, Vec<f64>)>,
+    /// The shares of the volume of all positions for which the links are proven apart, and for which nothing is proven.
+    pub(super) apart_share: f64,
+    pub(super) open_share: f64,
+    /// The number of boxes that were examined in the last search.
+    pub(super) boxes: usize,
+    /// Whether witnesses were sought.
+    is_sampled: bool,
+    /// Whether more boxes cannot decide: positions have no bounds, or a box that is a point stays open.
+    pub(super) is_exhausted: bool,
 }
 
-/// What is known of a box after a look at its middle.
-struct BoxExamination {
-    /// Whether the links are apart over the whole box.
-    is_free: bool,
-    /// Whether they overlap over the whole box.
-    overlaps: bool,
-    /// Whether they touch in the middle; `None` if rounding hides it.
-    touches_in_middle: Option<bool>,
+/// What is proven of a pair of links.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Verdict {
+    Never,
+    Always,
+    /// The bodies always touch; that the shapes do that they enclose is not proven.
+    AlwaysAsEnclosed,
+}
+
+/// Memory for searches about pairs of links.
+pub(super) struct PairSearch<'c> {
+    pub(super) measurer: Measurer<'c>,
+    end: SearchEnd,
 }
 
 /// A box that waits to be examined; the largest comes first.
 struct WaitingBox(JointBox);
 
-impl<'c> PairSearch<'c> {
-    pub(super) fn new(cell: &'c Cell) -> Self {
-        PairSearch {
-            cell,
-            placement: Placement::new(cell),
-            solver: Solver::new(),
+impl PairRecord {
+    pub(super) fn new(links: [usize; 2]) -> Self {
+        PairRecord {
+            links,
+            verdict: None,
+            touching: None,
+            apart: None,
+            nearest: None,
+            apart_share: 0.0,
+            open_share: 1.0,
+            boxes: 0,
+            is_sampled: false,
+            is_exhausted: false,
         }
     }
 
-    /// Decides about a pair of links, with at most `max_boxes` looks.
-    pub(super) fn decide(
-        &mut self,
-        links: [usize; 2],
-        max_boxes: usize,
-    ) -> Result<LinkContactClass, Error> {
-        let (mut touching, mut apart, mut share) = (None, None, 0.0);
-        let undecided = |share, touching, apart| LinkContactClass::Undecided {
-            proven_apart_share: share,
-            touching_configuration: touching,
-            apart_configuration: apart,
+    /// Returns what is known of the links as an answer.
+    pub(super) fn class(self, cell: &Cell) -> LinkContactClass {
+        let configurations = |positions: [Option<Vec<f64>>; 2]| {
+            let joints = JointsBetween::new(cell, self.links);
+            positions.map(|positions| Some(joints.as_ref()?.configuration(&positions?)))
         };
-        let Some(all) = JointBox::of_joints_between(self.cell, links) else {
-            return Ok(undecided(0.0, None, None));
-        };
-        if self.meet_on_hinge(links, &all)? {
-            return Ok(LinkContactClass::Always);
+        let least_distance = self.nearest.map_or(f64::INFINITY, |(least, _)| least);
+        let [touching, apart] = configurations([self.touching, self.apart]);
+        match (self.verdict, touching, apart) {
+            (Some(Verdict::Never), ..) => LinkContactClass::Never,
+            (Some(Verdict::Always), ..) => LinkContactClass::Always,
+            (Some(Verdict::AlwaysAsEnclosed), ..) => LinkContactClass::AlwaysAsEnclosed,
+            (None, Some(touching_configuration), Some(apart_configuration)) => {
+                LinkContactClass::Sometimes {
+                    touching_configuration,
+                    apart_configuration,
+                }
+            }
+            (None, touching, apart) => LinkContactClass::Undecided {
+                proven_apart_share: self.apart_share,
+                undecided_share: self.open_share,
+                least_distance: if touching.is_some() {
+                    0.0
+                } else {
+                    least_distance
+                },
+                touching_configuration: touching,
+                apart_configuration: apart,
+            },
         }
-        let weights = self.weights();
-        let is_rigid = self.cell.robot().are_rigidly_connected(links[0], links[1]);
-        let mut waiting = BinaryHeap::from([WaitingBox(all)]);
-        let mut pairs = self.part_pairs(links);
-        for _ in 0..max_boxes {
+    }
+
+    /// Returns what is known of whether the links touch, if there is a witness for one of both alone.
+    fn known(&self) -> Contact {
+        match (&self.touching, &self.apart) {
+            (Some(_), None) => Contact::Touching,
+            (None, Some(_)) => Contact::Apart,
+            _ => Contact::Unknown,
+        }
+    }
+
+    /// Returns whether the question about the links is answered.
+    pub(super) fn is_decided(&self) -> bool {
+        self.verdict.is_some() || (self.touching.is_some() && self.apart.is_some())
+    }
+
+    /// Keeps positions at which the links touch, or are apart.
+    pub(super) fn keep_witness(&mut self, contact: Contact, positions: &[f64]) {
+        let witness = match contact {
+            Contact::Touching => &mut self.touching,
+            Contact::Apart => &mut self.apart,
+            Contact::Unknown => return,
+        };
+        witness.get_or_insert_with(|| positions.to_vec());
+    }
+
+    /// Keeps a distance if it is the least so far, and returns whether it is.
+    pub(super) fn keep_distance(&mut self, distance: f64, positions: &[f64]) -> bool {
+        let known = self
+            .nearest
+            .as_ref()
+            .map_or(f64::INFINITY, |&(least, _)| least);
+        let is_least = distance < known;
+        if is_least {
+            self.nearest = Some((distance, positions.to_vec()));
+        }
+        is_least
+    }
+}
+
+impl<'c> PairSearch<'c> {
+    pub(super) fn new(cell: &'c Cell, end: SearchEnd) -> Self {
+        PairSearch {
+            measurer: Measurer::new(cell, end.stop.clone()),
+            end,
+        }
+    }
+
+    /// Goes on with the search about a pair of links: at first for witnesses, then through at most `max_boxes` boxes, from the
+    /// box of all positions.
+    pub(super) fn search(
+        &mut self,
+        record: &mut PairRecord,
+        max_boxes: usize,
+    ) -> Result<(), Error> {
+        let cell = self.measurer.cell;
+        let Some(pair) = LinkPair::new(cell, &self.measurer.placement, record.links) else {
+            record.is_exhausted = true;
+            return Ok(());
+        };
+        if !record.is_sampled {
+            record.verdict = self.meet_on_hinge(record.links, &pair)?;
+            if record.verdict.is_some() {
+                return Ok(());
+            }
+            self.find_witnesses(&pair, record)?;
+            record.is_sampled = !self.is_over();
+            // What touches once, and never moves, always touches.
+            if pair.joints.joints.is_empty() && record.touching.is_some() {
+                self.examine_boxes(&pair, record, 1)?;
+                let fallback = if pair.encloses_shapes(cell) {
+                    Verdict::AlwaysAsEnclosed
+                } else {
+                    Verdict::Always
+                };
+                record.verdict.get_or_insert(fallback);
+            }
+        }
+        if !record.is_decided() {
+            self.examine_boxes(&pair, record, max_boxes)?;
+        }
+        Ok(())
+    }
+
+    pub(super) fn is_over(&self) -> bool {
+        self.end.is_reached()
+    }
+
+    /// Proves that the links never or always touch, if at most `max_boxes` boxes suffice, or finds witnesses for both.
+    fn examine_boxes(
+        &mut self,
+        pair: &LinkPair,
+        record: &mut PairRecord,
+        max_boxes: usize,
+    ) -> Result<(), Error> {
+        let mut waiting = BinaryHeap::from([WaitingBox(pair.joints.all_positions.clone())]);
+        let (mut apart_share, mut touching_share) = (0.0, 0.0);
+        let mut always = Verdict::Always;
+        record.boxes = 0;
+        while record.boxes < max_boxes && !self.is_over() {
             let Some(WaitingBox(joint_box)) = waiting.pop() else {
                 break;
             };
-            let look = self.examine_box(&joint_box, &mut pairs)?;
-            match look.touches_in_middle {
-                Some(true) if is_rigid => return Ok(LinkContactClass::Always),
-                Some(true) => touching = touching.or_else(|| Some(joint_box.middle())),
-                Some(false) => apart = apart.or_else(|| Some(joint_box.middle())),
-                None => {}
+            record.boxes += 1;
+            let look = self
+                .measurer
+                .look_over_box(pair, &joint_box, record.known())?;
+            let middle = joint_box.middle();
+            record.keep_witness(look.in_middle.contact, &middle);
+            let is_nearer = record.keep_distance(look.in_middle.distance, &middle);
+            if is_nearer && record.touching.is_none() {
+                self.descend(pair, record, middle, look.in_middle.distance)?;
             }
-            if let (Some(touching), Some(apart)) = (&touching, &apart) {
-                return Ok(LinkContactClass::Sometimes {
-                    touching_configuration: Vec::clone(touching),
-                    apart_configuration: Vec::clone(apart),
-                });
+            if record.is_decided() {
+                return Ok(());
             }
-            if look.is_free {
-                share += joint_box.volume_share;
-            } else if look.overlaps {
-                // Nothing is left to examine in the box.
-            } else if let Some(halves) = joint_box.halves(&weights) {
-                waiting.extend(halves.map(WaitingBox));
-            } else {
-                return Ok(undecided(share, touching, apart));
-            }
-        }
-        // Of boxes that are all decided, none is free if one overlaps: both would have witnesses.
-        Ok(match touching {
-            None if waiting.is_empty() => LinkContactClass::Never,
-            Some(_) if waiting.is_empty() => LinkContactClass::Always,
-            touching => undecided(share, touching, apart),
-        })
-    }
-
-    /// Returns whether one joint that turns is between two links, with a point on its axis that both links hold. That point
-    /// rests in both frames.
-    fn meet_on_hinge(&mut self, links: [usize; 2], all: &JointBox) -> Result<bool, Error> {
-        let (cell, kinematics) = (self.cell, self.cell.kinematics());
-        let between = cell.robot().chain_between(links[0], links[1]);
-        let joints = between.joint_numbers().iter();
-        let moving: Vec<usize> = joints
-            .filter_map(|&joint| kinematics.moving_joint_index(joint))
-            .collect();
-        let &[number] = &*moving else {
-            return Ok(false);
-        };
-        let joint = &kinematics.joints()[number];
-        if joint.is_prismatic {
-            return Ok(false);
-        }
-        self.placement.place_joint_box(cell, &all.middle(), |_| 0.0);
-        let point = Body::sphere(AXIS_CONTACT_DISTANCE)?;
-        let parts = cell.parts()[..cell.robot_part_count()].iter();
-        let own = parts.filter(|part| links.contains(&cell.link_of(part.owner)));
-        let reach = own
-            .map(|part| part.centre.length() + part.ball_radius)
-            .fold(0.0, greater);
-        for k in 0..=JOINT_AXIS_INTERVALS {
-            let along = reach * (2.0 * f64::from(k) / f64::from(JOINT_AXIS_INTERVALS) - 1.0);
-            let parent = self.placement.frames[joint.parent];
-            let at = Pose::at(parent.transform_point(joint.origin + along * joint.axis))?;
-            if self.link_touches(links[0], (&point, at))?
-                && self.link_touches(links[1], (&point, at))?
-            {
-                return Ok(true);
-            }
-        }
-        Ok(false)
-    }
-
-    /// Returns whether a body of a link touches another body.
-    fn link_touches(&mut self, link: usize, other: (&Body, Pose)) -> Result<bool, Error> {
-        for number in 0..self.cell.robot_body_count() {
-            if self.cell.link_of(number) == link {
-                let body = self.placed_body(number)?;
-                // A proof is about the shapes.
-                if self.solver.distance(body, other)?.outcome.upper() <= 0.0 {
-                    return Ok(true);
+            match look.class {
+                BoxClass::Apart => apart_share += joint_box.volume_share,
+                BoxClass::ShapesTouching => touching_share += joint_box.volume_share,
+                BoxClass::BodiesTouching => {
+                    touching_share += joint_box.volume_share;
+                    always = Verdict::AlwaysAsEnclosed;
+                }
+                BoxClass::Open => {
+                    let place = look.main_place;
+                    match place.and_then(|place| joint_box.halves(place)) {
+                        Some(halves) => waiting.extend(halves.map(WaitingBox)),
+                        // A box that is a point stays open.
+                        None => {
+                            record.is_exhausted = true;
+                            waiting.push(WaitingBox(joint_box));
+                            break;
+                        }
+                    }
                 }
             }
         }
-        Ok(false)
-    }
-
-    /// Measures both links in the middle of a box, against how far they move within it.
-    fn examine_box(
-        &mut self,
-        joint_box: &JointBox,
-        pairs: &mut [PartPair],
-    ) -> Result<BoxExamination, Error> {
-        let middle = joint_box.middle();
-        let deviation = |source| joint_box.max_deviation(source);
-        self.placement
-            .place_joint_box(self.cell, &middle, deviation);
-        let mut look = BoxExamination {
-            is_free: true,
-            overlaps: false,
-            touches_in_middle: Some(false),
-        };
-        for pair in pairs {
-            let thresholds = Thresholds {
-                free_distance_threshold: 0.0,
-                near_distance: 0.0,
-            };
-            let found = measure(self.cell, &self.placement, pair, thresholds, false);
-            if matches!(found, DistanceVerdict::Free) {
-                continue;
-            }
-            // The engine measures the bodies themselves; frames become poses with an error like their own.
-            let rounding = 4.0 * self.placement.rounding;
-            let [a, b] = pair.body_numbers(self.cell.parts());
-            let (a, b) = (self.placed_body(a)?, self.placed_body(b)?);
-            let outcome = self.solver.distance(a, b)?.outcome;
-            if touch_as_they_are(&outcome, [a.0, b.0]) {
-                look.touches_in_middle = Some(true);
-            } else if !(outcome.lower() > rounding) && look.touches_in_middle == Some(false) {
-                look.touches_in_middle = None;
-            }
-            // Written so that NaN is not free.
-            if !(outcome.lower() > pair.displacement(&self.placement) + rounding) {
-                look.is_free = false;
-            }
-            if look.touches_in_middle == Some(true) {
-                look.is_free = false;
-                let (cell, placement) = (self.cell, &self.placement);
-                let depth = pair.displacement(placement) + rounding;
-                look.overlaps = pair.is_convex(cell.parts())
-                    && are_convex_parts_nearer(cell, placement, pair, -depth);
-                break;
-            }
+        let open_share = greater(1.0 - apart_share - touching_share, 0.0);
+        // A search that is stopped may prove less than the one before.
+        if open_share <= record.open_share {
+            (record.apart_share, record.open_share) = (apart_share, open_share);
         }
-        Ok(look)
-    }
-
-    fn placed_body(&self, number: usize) -> Result<(&'c Body, Pose), Error> {
-        self.placement.body(self.cell, number)
-    }
-
-    /// Returns all pairs of parts of two links.
-    fn part_pairs(&self, [one, other]: [usize; 2]) -> Vec<PartPair> {
-        let (cell, parts) = (self.cell, self.cell.parts());
-        let parts_of = |link: usize| {
-            let all = (0..cell.robot_part_count())
-                .filter(move |&part| cell.link_of(parts[part].owner) == link);
-            all.collect::<Vec<usize>>()
-        };
-        let mut pairs = Vec::new();
-        for &a in &parts_of(one) {
-            for &b in &parts_of(other) {
-                let displacements = &self.placement.displacement_bounds;
-                pairs.push(PartPair::of_robot(cell, displacements, [a, b]));
-            }
+        if waiting.is_empty() {
+            // Boxes of both kinds would have witnesses.
+            let is_apart = record.touching.is_none() && touching_share == 0.0;
+            record.verdict = Some(if is_apart { Verdict::Never } else { always });
         }
-        pairs
-    }
-
-    /// Returns for each joint of a configuration about how far its unit of position moves things.
-    fn weights(&self) -> Vec<f64> {
-        let mut weights = vec![0.0; self.cell.robot().limits().len()];
-        for joint in self.cell.kinematics().joints() {
-            let effect = joint.source.factor().abs() * if joint.is_prismatic { 2.0 } else { 1.0 };
-            let number = joint.source.position_index();
-            weights[number] = greater(weights[number], effect);
-        }
-        weights
+        Ok(())
     }
 }
 
@@ -251,11 +264,4 @@ impl Ord for WaitingBox {
     fn cmp(&self, other: &Self) -> Ordering {
         self.0.volume_share.total_cmp(&other.0.volume_share)
     }
-}
-
-/// Returns whether two bodies touch, up to rounding. The upper bound of a distance is of the shapes that they enclose: it includes
-/// what they exceed these by.
-fn touch_as_they_are(outcome: &Outcome, bodies: [&Body; 2]) -> bool {
-    let excess: f64 = bodies.iter().map(|body| body.excess()).sum();
-    outcome.upper() <= excess * (1.0 + 4.0 * f64::EPSILON)
 }

@@ -3,8 +3,10 @@
 use super::*;
 use crate::robot::{Joint, Link, PositionRule};
 use crate::test_robots::{least_distance_of_links, random_robot, with_symmetric_limits};
+use ccd_core::{Facet, FacetOrigin, Pieces, Polytope, Solidity};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
+use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Pose, trajectory};
 
 /// Tests random robots: no configuration contradicts a proof, and the configurations that are named prove what they are
@@ -16,7 +18,7 @@ fn no_configuration_contradicts_a_proof() {
     for _ in 0..40 {
         let limit = [0.3, 1.2][random.random_range(0..2)];
         let robot = with_symmetric_limits(&random_robot(&mut random), limit);
-        for (links, meeting) in robot.classify_link_contacts(300).unwrap() {
+        for (links, meeting) in classify(&robot, 3) {
             let distance = |at: &[f64]| least_distance_of_links(&robot, links, at);
             let samples = (0..60).map(|_| {
                 let limits = robot.limits();
@@ -31,7 +33,7 @@ fn no_configuration_contradicts_a_proof() {
                     never += 1;
                     assert!(samples.iter().all(|&distance| distance > 0.0), "{links:?}");
                 }
-                LinkContactClass::Always => {
+                LinkContactClass::Always | LinkContactClass::AlwaysAsEnclosed => {
                     always += 1;
                     assert!(
                         samples.iter().all(|&distance| distance <= 3e-9),
@@ -49,10 +51,13 @@ fn no_configuration_contradicts_a_proof() {
                     );
                 }
                 LinkContactClass::Undecided {
-                    proven_apart_share, ..
+                    proven_apart_share,
+                    undecided_share,
+                    ..
                 } => {
                     undecided += 1;
                     assert!((0.0..1.0).contains(&proven_apart_share));
+                    assert!((0.0..=1.0 - proven_apart_share).contains(&undecided_share));
                 }
             }
         }
@@ -86,7 +91,7 @@ fn limits_decide_whether_a_hinge_meets_its_stop() {
             position_rule: PositionRule::Independent,
         }];
         let robot = Robot::new(links, joints).unwrap();
-        robot.classify_link_contacts(10_000).unwrap().remove(0).1
+        classify(&robot, 10_000).remove(0).1
     };
     let door = |limit: f64, joint_limit: f64| door_with(capsule(), limit, joint_limit);
     assert_eq!(door(meet - 1e-4, 0.0), LinkContactClass::Never);
@@ -130,9 +135,199 @@ fn links_that_hold_their_hinge_always_touch() {
             position_rule: PositionRule::Independent,
         }];
         let robot = Robot::new(links, joints).unwrap();
-        robot.classify_link_contacts(2_000).unwrap().remove(0).1
+        classify(&robot, 2_000).remove(0).1
     };
     assert_eq!(meeting(0.29), LinkContactClass::Always);
     // Half a turn brings the balls 0.62 apart at their centres.
     assert!(matches!(meeting(0.31), LinkContactClass::Sometimes { .. }));
+}
+
+/// Classifies all pairs of a robot's links, with so many boxes for a pair.
+pub(crate) fn classify(robot: &Robot, max_boxes: usize) -> Vec<([usize; 2], LinkContactClass)> {
+    let settings = LinkContactSettings {
+        max_boxes,
+        ..LinkContactSettings::DEFAULT
+    };
+    robot.classify_link_contacts(&settings, |_, _| ()).unwrap()
+}
+
+/// Tests that a set flag ends the search at once with all pairs undecided, and that progress counts those that are decided.
+#[test]
+fn a_search_can_be_stopped_and_watched() {
+    let robot = random_robot(&mut Pcg64::seed_from_u64(3));
+    let search = |stop: bool| {
+        let most = AtomicUsize::new(0);
+        let settings = LinkContactSettings {
+            max_boxes: 1_000,
+            stop: Some(Arc::new(AtomicBool::new(stop))),
+            ..LinkContactSettings::DEFAULT
+        };
+        let classes = robot.classify_link_contacts(&settings, |decided, all| {
+            assert!(decided <= all && all > 3);
+            most.fetch_max(decided, Ordering::Relaxed);
+        });
+        let classes = classes.unwrap();
+        let decided = classes.iter().filter(|(_, class)| class.is_decided());
+        assert_eq!(decided.count(), most.into_inner());
+        classes
+    };
+    let (found, stopped) = (search(false), search(true));
+    assert!(found.iter().any(|(_, class)| class.is_decided()));
+    assert!(!stopped.iter().any(|(_, class)| class.is_decided()));
+    let pairs = |classes: Vec<([usize; 2], LinkContactClass)>| {
+        classes
+            .into_iter()
+            .map(|(pair, _)| pair)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(pairs(found), pairs(stopped));
+}
+
+/// Tests random planar arms of two links, whose last one carries a ball: it touches the ball at the base where the elbow's
+/// angle is beyond a known one.
+#[test]
+fn planar_arms_touch_where_the_law_of_cosines_says() {
+    let mut random = Pcg64::seed_from_u64(8);
+    let (mut never, mut always, mut sometimes) = (0, 0, 0);
+    for _ in 0..60 {
+        let [upper, fore, reach] =
+            [0.5..1.0, 0.5..1.0, 0.3..0.8].map(|range| random.random_range(range));
+        // |upper + fore e^(iq)| = reach
+        let cosine = (reach * reach - upper * upper - fore * fore) / (2.0 * upper * fore);
+        if !(-0.95..0.95).contains(&cosine) {
+            continue;
+        }
+        let border = f64::acos(cosine);
+        let (ranges, gap) = (
+            [[0.0, border], [border, 3.1], [0.0, 3.1]],
+            [1e-3, 0.02, 0.2][random.random_range(0..3)],
+        );
+        for (kind, [low, high]) in ranges.into_iter().enumerate() {
+            let (low, high) = [(low, high - gap), (low + gap, high), (low, high)][kind];
+            let ball = |radius: f64, x: f64| {
+                (
+                    Body::sphere(radius).unwrap(),
+                    Pose::at([x, 0.0, 0.0]).unwrap(),
+                )
+            };
+            let ((hub, at_hub), (tip, at_tip)) = (ball(0.4 * reach, 0.0), ball(0.6 * reach, fore));
+            let links = vec![
+                Link::named("hub").with_body(hub, at_hub),
+                Link::named("upper"),
+                Link::named("fore").with_body(tip, at_tip),
+            ];
+            let turns = |x: f64| {
+                let origin = Pose::at([x, 0.0, 0.0]).unwrap();
+                trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap()
+            };
+            let joint = |name: &str, parent: &str, child: &str, axis_and_limits| Joint {
+                name: name.into(),
+                parent: parent.into(),
+                child: child.into(),
+                axis_and_limits,
+                position_rule: PositionRule::Independent,
+            };
+            let joints = vec![
+                joint(
+                    "shoulder",
+                    "hub",
+                    "upper",
+                    turns(0.0).with_limits(-3.0..=3.0),
+                ),
+                joint(
+                    "elbow",
+                    "upper",
+                    "fore",
+                    turns(upper).with_limits(low..=high),
+                ),
+            ];
+            let robot = Robot::new(links, joints).unwrap();
+            match (kind, &classify(&robot, 2_000)[0].1) {
+                (0, LinkContactClass::Never) => never += 1,
+                (1, LinkContactClass::Always) => always += 1,
+                (
+                    2,
+                    LinkContactClass::Sometimes {
+                        touching_configuration: touching,
+                        apart_configuration: apart,
+                    },
+                ) => {
+                    assert!(touching[1] >= border - 1e-9 && apart[1] <= border + 1e-9);
+                    sometimes += 1;
+                }
+                (_, class) => panic!("{kind} {gap} {class:?}"),
+            }
+        }
+    }
+    assert!(never > 30 && always > 30 && sometimes > 30);
+}
+
+/// Tests an arm of seven joints and of links with many corners: a small budget decides about all pairs, and the same in each run.
+#[test]
+fn a_small_budget_decides_about_an_arm() {
+    let robot = arm_of_prisms();
+    let classes = classify(&robot, 1_000);
+    assert_eq!(classes.len(), 28);
+    // One pair comes as near as 3 mm, and never touches.
+    let decided = classes.iter().filter(|(_, class)| class.is_decided());
+    assert!(decided.count() >= 27, "{classes:?}");
+    assert_eq!(classes, classify(&robot, 1_000));
+    for (links, class) in classes {
+        if let LinkContactClass::Sometimes {
+            touching_configuration: touching,
+            apart_configuration: apart,
+        } = class
+        {
+            assert!(least_distance_of_links(&robot, links, &touching) <= 0.0);
+            assert!(least_distance_of_links(&robot, links, &apart) > 0.0);
+        }
+    }
+}
+
+/// Returns an arm of eight prisms of twelve sides, with seven joints that turn about their lengths and across in turns.
+fn arm_of_prisms() -> Robot {
+    let prism = || {
+        let corners = (0..24).map(|k| {
+            let (sine, cosine) = (f64::from(k / 2) * std::f64::consts::TAU / 12.0).sin_cos();
+            DVec3::new(
+                0.06 * cosine,
+                0.06 * sine,
+                if k % 2 == 0 { 0.09 } else { -0.09 },
+            )
+        });
+        let hull = ccd_decomp::convex_hull(&corners.collect::<Vec<_>>()).unwrap();
+        let facets = hull.facets.iter().map(|corners| Facet {
+            origin: FacetOrigin::Virtual,
+            corners: corners.to_vec(),
+        });
+        let polytope = Polytope {
+            facets: facets.collect(),
+            points: hull.points,
+            ..Polytope::default()
+        };
+        let pieces = Pieces::from_polytopes(&[polytope]).unwrap();
+        Body::new(&pieces, Solidity::Solid).unwrap()
+    };
+    let name = |k: usize| format!("link{k}");
+    let links = (0..8).map(|k| {
+        let at = Pose::at([0.0, 0.0, 0.1]).unwrap();
+        Link::named(name(k)).with_body(prism(), at)
+    });
+    let joints = (0..7).map(|k| {
+        let at = Pose::at([0.0, 0.0, 0.2]).unwrap();
+        let (axis, limit) = if k % 2 == 0 {
+            ([0.0, 0.0, 1.0], 2.96)
+        } else {
+            ([0.0, 1.0, 0.0], 2.09)
+        };
+        let turns = trajectory::Joint::revolute(at, axis).unwrap();
+        Joint {
+            name: format!("joint{k}"),
+            parent: name(k),
+            child: name(k + 1),
+            axis_and_limits: turns.with_limits(-limit..=limit),
+            position_rule: PositionRule::Independent,
+        }
+    });
+    Robot::new(links.collect(), joints.collect()).unwrap()
 }

@@ -11,7 +11,7 @@ use rigid_ccd::oracle::Frame;
 
 /// The factor by which bounds are raised, to allow for rounding. A bound takes a few sums and products for each joint;
 /// the factor suffices for some thousands of joints.
-const ROUNDING_FACTOR: f64 = 1.0 + 1e-11;
+pub(crate) const ROUNDING_FACTOR: f64 = 1.0 + 1e-11;
 
 /// For each part and each joint that moves it, a bound of its displacement as the frame before that joint sees it.
 #[derive(Clone, Debug, Default)]
@@ -101,7 +101,7 @@ impl DisplacementBounds {
 
 /// Returns an upper bound of the chord of an angle on the unit circle: `2 sin(angle/2)`, and 2 beyond half a turn.
 #[inline(always)]
-fn chord_upper_bound(angle: f64) -> f64 {
+pub(crate) fn chord_upper_bound(angle: f64) -> f64 {
     // Written so that NaN stays.
     if angle >= 3.0 {
         return 2.0;

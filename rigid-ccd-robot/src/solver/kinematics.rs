@@ -141,6 +141,23 @@ impl Kinematics {
             frames.push(joint.place(&parent, position));
         }
     }
+
+    /// Computes the poses of the frames after some joints as the frame `seen_from` sees them. Each joint comes after those nearer to
+    /// the base. Other frames stay as they are.
+    pub(crate) fn place_joints(
+        &self,
+        (seen_from, joints): (usize, &[usize]),
+        configuration: &[f64],
+        frames: &mut Vec<Frame>,
+    ) {
+        frames.resize(self.joints.len() + 1, Frame::IDENTITY);
+        frames[seen_from] = Frame::IDENTITY;
+        for &number in joints {
+            let joint = &self.joints[number];
+            let parent = frames[joint.parent];
+            frames[number + 1] = joint.place(&parent, joint.source.position(configuration));
+        }
+    }
 }
 
 impl MovingJoint {

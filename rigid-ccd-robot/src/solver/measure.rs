@@ -114,7 +114,7 @@ fn volume_gap_at_centres([a, b]: [&HullPart; 2], frame_a: &Frame, centres: [DVec
 /// Returns the first direction in which a pair is measured: to the nearest point of the box of a part that rests, or between
 /// centres.
 #[inline(always)]
-pub(super) fn initial_direction(b: &HullPart, [centre_a, centre_b]: [DVec3; 2]) -> DVec3 {
+pub(crate) fn initial_direction(b: &HullPart, [centre_a, centre_b]: [DVec3; 2]) -> DVec3 {
     if b.frame == 0 {
         let nearest = centre_a.clamp(centre_b - b.half_extents, centre_b + b.half_extents);
         let axis = nearest - centre_a;
@@ -127,7 +127,7 @@ pub(super) fn initial_direction(b: &HullPart, [centre_a, centre_b]: [DVec3; 2]) 
 
 /// Returns the vertex of the Minkowski difference of two hulls with the least height along a direction.
 #[inline(always)]
-pub(super) fn minkowski_support_vertex(
+pub(crate) fn minkowski_support_vertex(
     [a, b]: [&HullPart; 2],
     frames: &[Frame; 2],
     direction: DVec3,

@@ -2,11 +2,9 @@
 
 use super::displacement::DisplacementBounds;
 use super::joint_path::JointPath;
-use super::magnitude::Magnitude;
 use super::rounding::point_error_bound;
 use super::stretch::Stretch;
 use crate::cell::Cell;
-use crate::robot::PositionSource;
 use rigid_ccd::glam::DQuat;
 use rigid_ccd::oracle::Frame;
 use rigid_ccd::{Body, Error, Pose};
@@ -57,33 +55,15 @@ impl Placement {
             .any(|&deviation| deviation != 0.0)
     }
 
-    /// Computes the frames at a configuration, and the bounds of displacements for other ones: the position of each moving
-    /// joint differs there by at most its `deviation`.
-    pub(crate) fn place_joint_box(
+    /// Computes the frames after some joints at a configuration, as the frame `seen_from` sees them. No displacements are computed.
+    pub(crate) fn place_joints(
         &mut self,
         cell: &Cell,
+        (seen_from, joints): (usize, &[usize]),
         configuration: &[f64],
-        deviation: impl Fn(PositionSource) -> f64,
     ) {
-        let joints = || cell.kinematics().joints().iter();
-        self.positions.clear();
-        self.max_deviation_by_joint.clear();
-        for joint in joints() {
-            self.positions.push(joint.source.position(configuration));
-            self.max_deviation_by_joint.push(deviation(joint.source));
-        }
-        let largest = joints().zip(&self.max_deviation_by_joint);
-        let largest = largest.map(|(joint, deviation)| {
-            let rounding = joint.source.magnitude(configuration) + deviation;
-            Magnitude {
-                position: rounding,
-                rounding,
-            }
-        });
-        self.rounding = point_error_bound(cell.kinematics(), cell.parts(), largest);
-        let positions = self.positions.iter().copied();
-        cell.kinematics().place(positions, &mut self.frames);
-        self.update_displacements(cell);
+        let kinematics = cell.kinematics();
+        kinematics.place_joints((seen_from, joints), configuration, &mut self.frames);
     }
 
     #[inline(always)]

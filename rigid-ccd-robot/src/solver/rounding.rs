@@ -24,6 +24,15 @@ const POSITION_ERROR_ULPS: f64 = 16.0;
 /// positions are rounded by less than a millionth of the tolerance.
 pub(crate) const UNSTATED_TOLERANCE_SHARE: f64 = 1e-3;
 
+/// Bounds of the errors of what is computed with frames.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PoseRounding {
+    /// The distance of a point of a part from the point itself, at most.
+    pub(crate) of_points: f64,
+    /// The distance of a unit vector from the vector itself, at most.
+    pub(crate) of_directions: f64,
+}
+
 /// Returns a bound of the distance between points of all parts, as computed with frames along a path, and the points
 /// themselves.
 pub(crate) fn point_error_bound(
@@ -31,6 +40,15 @@ pub(crate) fn point_error_bound(
     parts: &[HullPart],
     magnitudes: impl Iterator<Item = Magnitude> + Clone,
 ) -> f64 {
+    pose_rounding(kinematics, parts, magnitudes).of_points
+}
+
+/// Returns bounds of the errors of points and of directions.
+pub(crate) fn pose_rounding(
+    kinematics: &Kinematics,
+    parts: &[HullPart],
+    magnitudes: impl Iterator<Item = Magnitude> + Clone,
+) -> PoseRounding {
     let joints = kinematics.joints();
     let (mut angles, mut slides) = (0.0, 0.0);
     for (joint, magnitude) in joints.iter().zip(magnitudes.clone()) {
@@ -48,7 +66,10 @@ pub(crate) fn point_error_bound(
     let resting = resting.map(|part| part.coordinate_bound);
     let resting =
         (2.0 * ROTATION_ERROR_PER_JOINT + POSITION_ERROR_ULPS) * resting.fold(0.0, greater);
-    U * greater(moving, resting) + U * POSITION_ERROR_ULPS * slides
+    PoseRounding {
+        of_points: U * greater(moving, resting) + U * POSITION_ERROR_ULPS * slides,
+        of_directions: U * (turn + POSITION_ERROR_ULPS),
+    }
 }
 
 /// Returns a bound of the distance of any point of a part that moves from the base, and from any joint's axis. Without magnitudes,

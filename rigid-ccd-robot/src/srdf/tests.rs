@@ -1,4 +1,5 @@
 use super::*;
+use crate::link_contacts::tests::classify;
 use crate::robot::{Joint, Link, PositionRule};
 use rigid_ccd::trajectory;
 
@@ -145,7 +146,7 @@ fn proven_pairs_are_written_and_read() {
         joint("three", "d", "e", slide.with_limits(-1.0..=1.0)),
     ];
     let robot = Robot::new(links, joints).unwrap();
-    let meetings = robot.classify_link_contacts(1000).unwrap();
+    let meetings = classify(&robot, 1000);
     let read = Srdf::from_text(&robot.to_srdf("<box>", &meetings)).unwrap();
     let expected = [
         ["a & b", "c", "Always (proven)"],

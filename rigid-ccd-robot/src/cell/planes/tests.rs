@@ -2,6 +2,7 @@
 
 use super::super::{Cell, Item};
 use crate::error::{PathError, RobotError};
+use crate::link_contacts::tests::classify;
 use crate::pairs::LinkPairs;
 use crate::robot::{CompoundKind, Link, Robot};
 use crate::solver::tests::{configuration_between, random_configuration};
@@ -376,7 +377,7 @@ fn links_touch_a_floor_never_always_or_sometimes() {
     let robot = crate::RobotFile::from_text(text, "floor.xml")
         .read()
         .unwrap();
-    let classes = robot.classify_link_contacts(10_000).unwrap();
+    let classes = classify(&robot, 10_000);
     let of = |link: &str| {
         let link = robot.link_number(link).unwrap();
         let mut own = classes

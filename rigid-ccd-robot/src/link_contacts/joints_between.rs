@@ -1,0 +1,109 @@
+//! The joints that move two links against each other.
+
+use super::joint_box::JointBox;
+use crate::cell::Cell;
+use crate::solver::rounding::{PoseRounding, pose_rounding};
+use ccd_core::order::greater;
+use std::f64::consts::PI;
+
+/// The moving joints between two links, and the positions of a configuration that move them.
+#[derive(Debug)]
+pub(super) struct JointsBetween {
+    /// The moving joints, from the first link to the second.
+    pub(super) joints: Vec<JointBetween>,
+    /// The numbers of the same joints, each after those nearer to the base.
+    pub(super) parents_first: Vec<usize>,
+    /// The nearest frame from which both links move.
+    pub(super) common_frame: usize,
+    /// All positions of the joints.
+    pub(super) all_positions: JointBox,
+    /// The rounding of the frames at any of them.
+    pub(super) rounding: PoseRounding,
+    /// For each position of a box, its index in a configuration.
+    position_indices: Vec<usize>,
+    /// A configuration at which joints rest that do not count: at 0, or at the limit nearest to 0.
+    rest: Vec<f64>,
+}
+
+/// A moving joint between two links.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct JointBetween {
+    /// The number of the joint among those that move.
+    pub(super) number: usize,
+    /// The place of its position in a box.
+    pub(super) place: usize,
+    /// By how much it moves for a unit of that position, without the sign.
+    pub(super) factor: f64,
+}
+
+impl JointsBetween {
+    /// Returns `None` if a joint without limits does not come back to where it was after a turn, or if one slides beyond the
+    /// reach of planes.
+    pub(super) fn new(cell: &Cell, links: [usize; 2]) -> Option<Self> {
+        let (robot, kinematics) = (cell.robot(), cell.kinematics());
+        let between = robot.chain_between(links[0], links[1]);
+        let mut position_indices = Vec::new();
+        let numbers = between.joint_numbers().iter();
+        let numbers = numbers.filter_map(|&joint| kinematics.moving_joint_index(joint));
+        let joints = numbers.map(|number| {
+            let source = kinematics.joints()[number].source;
+            let index = source.position_index();
+            let known = position_indices.iter().position(|&other| other == index);
+            let place = known.unwrap_or_else(|| {
+                position_indices.push(index);
+                position_indices.len() - 1
+            });
+            JointBetween {
+                number,
+                place,
+                factor: source.factor().abs(),
+            }
+        });
+        let joints: Vec<JointBetween> = joints.collect();
+        let all_positions = all_positions(cell, &joints, &position_indices)?;
+        let mut farthest = robot.configuration_nearest_zero();
+        for (&index, &[low, high]) in position_indices.iter().zip(all_positions.ranges()) {
+            farthest[index] = greater(low.abs(), high.abs());
+        }
+        cell.check_plane_reach(kinematics.magnitudes(&farthest))
+            .ok()?;
+        let mut parents_first: Vec<usize> = joints.iter().map(|joint| joint.number).collect();
+        parents_first.sort_unstable();
+        let magnitudes: Vec<_> = kinematics.magnitudes(&farthest).collect();
+        let magnitudes = magnitudes.iter().copied();
+        Some(JointsBetween {
+            rounding: pose_rounding(kinematics, cell.parts(), magnitudes),
+            common_frame: kinematics
+                .common_frame(links.map(|link| kinematics.link_frame_and_pose(link).0)),
+            rest: robot.configuration_nearest_zero(),
+            joints,
+            parents_first,
+            all_positions,
+            position_indices,
+        })
+    }
+
+    /// Returns the configuration with given positions of the joints in between.
+    pub(super) fn configuration(&self, positions: &[f64]) -> Vec<f64> {
+        let mut configuration = self.rest.clone();
+        for (&index, &position) in self.position_indices.iter().zip(positions) {
+            configuration[index] = position;
+        }
+        configuration
+    }
+}
+
+/// Returns the box of all positions of the joints between two links.
+fn all_positions(cell: &Cell, joints: &[JointBetween], indices: &[usize]) -> Option<JointBox> {
+    let limits: Vec<[f64; 2]> = cell.robot().limits().collect();
+    let mut ranges: Vec<[f64; 2]> = indices.iter().map(|&index| limits[index]).collect();
+    for joint in joints {
+        let moving = &cell.kinematics().joints()[joint.number];
+        let [low, high] = limits[indices[joint.place]];
+        if !(low.is_finite() && high.is_finite()) {
+            let comes_back = !moving.is_prismatic && moving.source.has_integer_multiplier();
+            ranges[joint.place] = comes_back.then_some([-PI, PI])?;
+        }
+    }
+    Some(JointBox::new(ranges))
+}

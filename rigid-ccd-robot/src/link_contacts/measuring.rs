@@ -1,0 +1,410 @@
+//! Measures two links at configurations, and over boxes of positions.
+
+use super::box_motion::{BoxMotion, Displacement};
+use super::joint_box::JointBox;
+use super::joints_between::JointsBetween;
+use crate::cell::Cell;
+use crate::cell::part::HullPart;
+use crate::solver::measure::{initial_direction, minkowski_support_vertex};
+use crate::solver::part_pairs::PartPair;
+use crate::solver::placement::Placement;
+use crate::solver::violation::are_convex_parts_nearer;
+use ccd_core::order::{greater, lesser};
+use ccd_distance_gjk::{TerminationBounds, bound_distance};
+use rigid_ccd::glam::DVec3;
+use rigid_ccd::oracle::Frame;
+use rigid_ccd::{Body, Error, Outcome, Pose, Settings, Solver};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Two links, and what moves them against each other.
+pub(super) struct LinkPair {
+    pub(super) joints: JointsBetween,
+    part_pairs: Vec<PairOfParts>,
+}
+
+/// A part of either link.
+struct PairOfParts {
+    /// The numbers of the parts, in the order of the links.
+    parts: [usize; 2],
+    /// The same parts, the one that rests last.
+    pair: PartPair,
+}
+
+/// Measures pairs of links, one after another.
+pub(super) struct Measurer<'c> {
+    pub(super) cell: &'c Cell,
+    pub(super) placement: Placement,
+    motion: BoxMotion,
+    solver: Solver,
+}
+
+/// Whether two links touch in a configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Contact {
+    Touching,
+    Apart,
+    /// Rounding hides it.
+    Unknown,
+}
+
+/// What is known of two links in a configuration.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    pub(super) contact: Contact,
+    /// About how far apart they are, if that is less than what was asked for.
+    pub(super) distance: f64,
+}
+
+/// What is known of two links over a box of positions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BoxLook {
+    pub(super) class: BoxClass,
+    pub(super) in_middle: Look,
+    /// The place of the position that moves the links most.
+    pub(super) main_place: Option<usize>,
+}
+
+/// Whether two links touch in all configurations of a box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum BoxClass {
+    Apart,
+    /// The shapes touch that the bodies enclose.
+    ShapesTouching,
+    /// The bodies touch.
+    BodiesTouching,
+    Open,
+}
+
+/// Two parts at their places in the middle of a box.
+struct PlacedParts<'a> {
+    parts: [&'a HullPart; 2],
+    frames: [Frame; 2],
+    centres: [DVec3; 2],
+}
+
+/// What is asked about two parts over a box.
+struct Asked<'a> {
+    part_pair: &'a PairOfParts,
+    displacement: Displacement,
+    /// The error of a point.
+    rounding: f64,
+    /// What is known of the links at other positions.
+    known: Contact,
+}
+
+/// What a box of positions proves about two parts.
+enum Proof {
+    Apart,
+    ShapesTouching,
+    BodiesTouching,
+    /// Nothing; their distance is that much too small.
+    Open(f64),
+}
+
+impl LinkPair {
+    /// Returns `None` if a joint without limits does not come back to where it was after a turn.
+    pub(super) fn new(cell: &Cell, placement: &Placement, links: [usize; 2]) -> Option<Self> {
+        let parts_of = |link: usize| {
+            (0..cell.robot_part_count())
+                .filter(move |&part| cell.link_of(cell.parts()[part].owner) == link)
+        };
+        let displacements = &placement.displacement_bounds;
+        let part_pairs = parts_of(links[0]).flat_map(|a| {
+            parts_of(links[1]).map(move |b| PairOfParts {
+                parts: [a, b],
+                pair: PartPair::of_robot(cell, displacements, [a, b]),
+            })
+        });
+        Some(LinkPair {
+            joints: JointsBetween::new(cell, links)?,
+            part_pairs: part_pairs.collect(),
+        })
+    }
+
+    /// Returns whether a body of a link exceeds the shape that it encloses.
+    pub(super) fn encloses_shapes(&self, cell: &Cell) -> bool {
+        let parts = self.part_pairs.iter().flat_map(|pair| pair.parts);
+        let mut excess = parts.map(|part| cell.parts()[part].excess_over_shape);
+        excess.any(|excess| excess > 0.0)
+    }
+}
+
+impl<'c> Measurer<'c> {
+    pub(super) fn new(cell: &'c Cell, stop: Option<Arc<AtomicBool>>) -> Self {
+        Measurer {
+            cell,
+            placement: Placement::new(cell),
+            motion: BoxMotion::default(),
+            solver: Solver::new().with_settings(Settings {
+                stop,
+                ..Settings::DEFAULT
+            }),
+        }
+    }
+
+    /// Looks at two links at some positions of the joints between them. Their distance matters if it is less than `limit`.
+    pub(super) fn look(
+        &mut self,
+        pair: &LinkPair,
+        positions: &[f64],
+        limit: f64,
+    ) -> Result<Look, Error> {
+        let rounding = pair.joints.rounding.of_points;
+        self.place(&pair.joints, positions);
+        let mut look = Look {
+            contact: Contact::Apart,
+            distance: limit,
+        };
+        for part_pair in &pair.part_pairs {
+            let placed = self.placed_parts(part_pair);
+            let gap = placed.ball_gap();
+            if gap > 2.0 * rounding && gap >= look.distance {
+                continue;
+            }
+            let [lower, upper] = placed.hull_distance([look.distance, -rounding]).0;
+            let is_convex = part_pair.pair.is_convex(self.cell.parts());
+            if lower > 2.0 * rounding && (is_convex || lower >= look.distance) {
+                look.distance = lesser(look.distance, upper);
+                continue;
+            }
+            self.look_at_bodies(part_pair, rounding, &mut look)?;
+            if look.contact == Contact::Touching {
+                break;
+            }
+        }
+        Ok(look)
+    }
+
+    /// Looks at two links over a box of positions. What is `known` of them at other positions need not be found again in
+    /// the middle of the box.
+    pub(super) fn look_over_box(
+        &mut self,
+        pair: &LinkPair,
+        joint_box: &JointBox,
+        known: Contact,
+    ) -> Result<BoxLook, Error> {
+        let rounding = pair.joints.rounding;
+        self.place_box(&pair.joints, joint_box);
+        let mut look = BoxLook {
+            class: BoxClass::Apart,
+            in_middle: Look {
+                contact: Contact::Apart,
+                distance: f64::INFINITY,
+            },
+            main_place: None,
+        };
+        let mut worst = f64::NEG_INFINITY;
+        for part_pair in &pair.part_pairs {
+            let placed = self.placed_parts(part_pair);
+            let displacement = self.motion.displacement(placed.parts, placed.centres);
+            if placed.ball_gap() > displacement.bound + 2.0 * rounding.of_points {
+                continue;
+            }
+            let asked = Asked {
+                part_pair,
+                displacement,
+                rounding: rounding.of_points,
+                known,
+            };
+            match self.prove(&placed, &asked, &mut look.in_middle)? {
+                Proof::Apart => {}
+                Proof::ShapesTouching => {
+                    look.class = BoxClass::ShapesTouching;
+                    return Ok(look);
+                }
+                Proof::BodiesTouching => {
+                    look.class = BoxClass::BodiesTouching;
+                    return Ok(look);
+                }
+                Proof::Open(missing) => {
+                    look.class = BoxClass::Open;
+                    // Written so that a distance that is not known comes first.
+                    if !(missing <= worst) {
+                        worst = missing;
+                        let joint = self.motion.main_joint(displacement);
+                        look.main_place = joint.map(|joint| pair.joints.joints[joint].place);
+                    }
+                }
+            }
+        }
+        Ok(look)
+    }
+
+    /// Proves what it can about two parts over the box that is placed.
+    fn prove(
+        &mut self,
+        placed: &PlacedParts<'_>,
+        asked: &Asked<'_>,
+        in_middle: &mut Look,
+    ) -> Result<Proof, Error> {
+        let rounding = asked.rounding;
+        let required = asked.displacement.bound + 2.0 * rounding;
+        let ([gap, upper], axis) = placed.hull_distance([required, -rounding]);
+        if gap > required {
+            return Ok(Proof::Apart);
+        }
+        let is_convex = asked.part_pair.pair.is_convex(self.cell.parts());
+        let are_hulls_apart = gap > 2.0 * rounding;
+        if are_hulls_apart {
+            in_middle.distance = lesser(in_middle.distance, upper);
+            let frames = [&placed.frames[0], &placed.frames[1]];
+            let direction = axis / axis.length();
+            let lower = self
+                .motion
+                .gap_lower_bound(direction, placed.parts, frames, gap);
+            if lower > 0.0 {
+                return Ok(Proof::Apart);
+            }
+        }
+        let open = Proof::Open(required - gap);
+        if is_convex && are_hulls_apart {
+            return Ok(open);
+        }
+        // Bodies can't be farther apart than their hulls by more than their sizes.
+        let [size_a, size_b] = placed.parts.map(|part| 2.0 * part.ball_radius);
+        let may_be_free = !is_convex && required < greater(gap, 0.0) + lesser(size_a, size_b);
+        let mut touching = asked.known == Contact::Touching;
+        if may_be_free || (!are_hulls_apart && !(is_convex && touching)) {
+            let lower = self.look_at_bodies(asked.part_pair, rounding, in_middle)?;
+            // Written so that NaN is not free.
+            if lower > asked.displacement.bound + 4.0 * rounding {
+                return Ok(Proof::Apart);
+            }
+            touching |= in_middle.contact == Contact::Touching;
+        } else if in_middle.contact == Contact::Apart && !are_hulls_apart {
+            in_middle.contact = Contact::Unknown;
+        }
+        let depth = asked.displacement.bound + 4.0 * rounding;
+        if !(is_convex && touching && asked.known != Contact::Apart) {
+            return Ok(open);
+        }
+        // The distance that is asked for is one of the shapes.
+        let excess: f64 = placed.parts.iter().map(|part| part.excess_over_shape).sum();
+        let nearer = |distance| {
+            are_convex_parts_nearer(self.cell, &self.placement, &asked.part_pair.pair, distance)
+        };
+        Ok(if nearer(-depth) {
+            Proof::ShapesTouching
+        } else if excess > 0.0 && nearer(excess - depth) {
+            Proof::BodiesTouching
+        } else {
+            open
+        })
+    }
+
+    /// Measures the bodies of two parts, and returns a lower bound of their distance.
+    fn look_at_bodies(
+        &mut self,
+        part_pair: &PairOfParts,
+        rounding: f64,
+        look: &mut Look,
+    ) -> Result<f64, Error> {
+        let [a, b] = part_pair.pair.body_numbers(self.cell.parts());
+        let a = self.placement.body(self.cell, a)?;
+        let b = self.placement.body(self.cell, b)?;
+        let outcome = self.solver.distance(a, b)?.outcome;
+        if touch_as_they_are(&outcome, [a.0, b.0]) {
+            *look = Look {
+                contact: Contact::Touching,
+                distance: 0.0,
+            };
+        } else {
+            // The engine measures the bodies themselves; frames become poses with an error like their own.
+            if !(outcome.lower() > 4.0 * rounding) && look.contact == Contact::Apart {
+                look.contact = Contact::Unknown;
+            }
+            look.distance = lesser(look.distance, outcome.upper());
+        }
+        Ok(outcome.lower())
+    }
+
+    /// Computes the frames between two links at some positions of their joints.
+    pub(super) fn place(&mut self, joints: &JointsBetween, positions: &[f64]) {
+        let configuration = joints.configuration(positions);
+        let chain = (joints.common_frame, &*joints.parents_first);
+        self.placement
+            .place_joints(self.cell, chain, &configuration);
+    }
+
+    /// Computes the frames in the middle of a box, and takes the deviations from there.
+    fn place_box(&mut self, joints: &JointsBetween, joint_box: &JointBox) {
+        self.place(joints, &joint_box.middle());
+        let deviations = joints.joints.iter().map(|joint| {
+            let deviation = joint.factor * joint_box.max_deviation(joint.place);
+            (joint.number, deviation)
+        });
+        let frames = &self.placement.frames;
+        self.motion
+            .place(self.cell.kinematics(), frames, joints.rounding, deviations);
+    }
+
+    /// Returns upper bounds of the distances of a point from the bodies of a link as they are, and from the shapes that they
+    /// enclose.
+    pub(super) fn distances_to_link(
+        &mut self,
+        link: usize,
+        point: (&Body, Pose),
+    ) -> Result<[f64; 2], Error> {
+        let mut least = [f64::INFINITY; 2];
+        for number in 0..self.cell.robot_body_count() {
+            if self.cell.link_of(number) == link {
+                let body = self.placement.body(self.cell, number)?;
+                let outcome = self.solver.distance(body, point)?.outcome;
+                let to_body = if touch_as_they_are(&outcome, [body.0, point.0]) {
+                    0.0
+                } else {
+                    outcome.upper() - body.0.excess()
+                };
+                least = [lesser(least[0], to_body), lesser(least[1], outcome.upper())];
+            }
+        }
+        Ok(least)
+    }
+
+    fn placed_parts(&self, part_pair: &PairOfParts) -> PlacedParts<'c> {
+        let parts = part_pair.parts.map(|part| &self.cell.parts()[part]);
+        let frames = parts.map(|part| self.placement.frames[part.frame]);
+        let centres = [
+            frames[0].transform_point(parts[0].centre),
+            frames[1].transform_point(parts[1].centre),
+        ];
+        PlacedParts {
+            parts,
+            frames,
+            centres,
+        }
+    }
+}
+
+impl PlacedParts<'_> {
+    /// Returns a lower bound of the distance of both parts by their balls.
+    fn ball_gap(&self) -> f64 {
+        let [a, b] = self.parts.map(|part| part.ball_radius);
+        self.centres[0].distance(self.centres[1]) - a - b
+    }
+
+    /// Returns bounds of the distance of both hulls, with the axis of the lower one. They need not be better than a lower bound
+    /// beyond the first distance, and an upper bound up to the second one.
+    fn hull_distance(&self, [beyond, up_to]: [f64; 2]) -> ([f64; 2], DVec3) {
+        let radii: f64 = self.parts.iter().map(|part| part.radius).sum();
+        let until = TerminationBounds {
+            sufficient_lower_bound: beyond + radii,
+            sufficient_upper_bound: up_to + radii,
+        };
+        let first = initial_direction(self.parts[1], self.centres);
+        let vertex = |direction| minkowski_support_vertex(self.parts, &self.frames, direction);
+        let bounds = bound_distance(vertex, first, until);
+        ([bounds.lower - radii, bounds.upper - radii], bounds.axis)
+    }
+}
+
+/// Returns whether two bodies touch, up to rounding. The upper bound of a distance is of the shapes that they enclose: it includes
+/// what they exceed these by.
+fn touch_as_they_are(outcome: &Outcome, bodies: [&Body; 2]) -> bool {
+    let excess: f64 = bodies.iter().map(|body| body.excess()).sum();
+    outcome.upper() <= excess * (1.0 + 4.0 * f64::EPSILON)
+}
+
+#[cfg(test)]
+mod tests;

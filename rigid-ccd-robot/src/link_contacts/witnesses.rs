@@ -1,0 +1,120 @@
+//! The search for configurations in which two links touch, and in which they are apart.
+//!
+//! Positions are drawn at random, limits among them. From those at which the links are nearest, a pattern search goes on to lesser
+//! distances: it tries a step along each position in turn, and halves the steps where none leads nearer.
+
+use super::measuring::{Contact, LinkPair};
+use super::search::{PairRecord, PairSearch};
+use crate::tuning::{
+    DESCENT_HALVINGS, DESCENT_LOOKS, DESCENT_STARTS, FIRST_DESCENT_STEP, WITNESS_SAMPLES,
+};
+use rigid_ccd::Error;
+
+impl PairSearch<'_> {
+    /// Searches for positions at which two links touch, and at which they are apart.
+    pub(super) fn find_witnesses(
+        &mut self,
+        pair: &LinkPair,
+        record: &mut PairRecord,
+    ) -> Result<(), Error> {
+        let ranges = pair.joints.all_positions.ranges();
+        let mut random = Random(0);
+        // The nearest positions so far, with their distances, in order.
+        let mut starts: Vec<(f64, Vec<f64>)> = Vec::new();
+        for _ in 0..WITNESS_SAMPLES {
+            if self.is_over() || record.is_decided() {
+                return Ok(());
+            }
+            let positions: Vec<f64> = ranges.iter().map(|&range| random.position(range)).collect();
+            let limit = match starts.get(DESCENT_STARTS - 1) {
+                Some(&(distance, _)) => distance,
+                None => f64::INFINITY,
+            };
+            let look = self.measurer.look(pair, &positions, limit)?;
+            record.keep_witness(look.contact, &positions);
+            if look.distance < limit {
+                let place = starts.partition_point(|&(distance, _)| distance < look.distance);
+                starts.insert(place, (look.distance, positions));
+                starts.truncate(DESCENT_STARTS);
+            }
+            if ranges.is_empty() {
+                break;
+            }
+        }
+        for (distance, positions) in starts {
+            if record.touching.is_some() {
+                break;
+            }
+            record.keep_distance(distance, &positions);
+            self.descend(pair, record, positions, distance)?;
+        }
+        Ok(())
+    }
+
+    /// Searches from given positions, where two links are apart by a distance, for nearer ones, until the links touch.
+    pub(super) fn descend(
+        &mut self,
+        pair: &LinkPair,
+        record: &mut PairRecord,
+        mut positions: Vec<f64>,
+        mut distance: f64,
+    ) -> Result<(), Error> {
+        let ranges = pair.joints.all_positions.ranges();
+        let (mut step, mut looks) = (FIRST_DESCENT_STEP, 0);
+        for _ in 0..DESCENT_LOOKS {
+            let start = distance;
+            for (place, &[low, high]) in ranges.iter().enumerate() {
+                for step in [step, -step] {
+                    let mut trial = positions.clone();
+                    trial[place] = (positions[place] + step * (high - low)).clamp(low, high);
+                    if trial == positions {
+                        continue;
+                    }
+                    if looks >= DESCENT_LOOKS || self.is_over() {
+                        return Ok(());
+                    }
+                    looks += 1;
+                    let look = self.measurer.look(pair, &trial, distance)?;
+                    if look.contact == Contact::Touching {
+                        record.keep_witness(look.contact, &trial);
+                        record.keep_distance(0.0, &trial);
+                        return Ok(());
+                    }
+                    if look.distance < distance {
+                        (positions, distance) = (trial, look.distance);
+                        record.keep_distance(distance, &positions);
+                        break;
+                    }
+                }
+            }
+            if !(distance < start) {
+                step *= 0.5;
+                if step < FIRST_DESCENT_STEP * 0.5f64.powi(DESCENT_HALVINGS) {
+                    break;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The generator SplitMix64: the same numbers in each search.
+struct Random(u64);
+
+impl Random {
+    /// Returns a number from 0 to 1, 1 excluded.
+    fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut bits = self.0;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        bits ^= bits >> 31;
+        (bits >> 11) as f64 * (0.5 * f64::EPSILON)
+    }
+
+    /// Returns a position in a range; one of eight is at either limit.
+    fn position(&mut self, [low, high]: [f64; 2]) -> f64 {
+        let share = (1.125 * self.number() - 0.0625).clamp(0.0, 1.0);
+        (low + share * (high - low)).clamp(low, high)
+    }
+}
