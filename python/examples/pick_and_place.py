@@ -51,7 +51,7 @@ ASIDE, IN_THE_WAY = (0, 2), (0.1, 0)  # lift and shoulder of the other arm
 
 
 def at(lift: float, shoulder: float, elbow: float, finger: float, other: tuple[float, float] = ASIDE) -> list[float]:
-    return [lift, shoulder, elbow, finger, *other, 0, OPEN]
+    return [lift, shoulder, elbow, finger, *other, 0, 0.02]
 
 
 PICK, PLACE, OPEN, CLOSED = (0.7, -0.9), (-0.7, 0.9), 0.05, 0.033

@@ -456,8 +456,8 @@ def test_the_example_picks_and_places(capsys: pytest.CaptureFixture[str]) -> Non
     for line in (
         "the way over the shelf is free",
         "onto the shelf: can touches shelf at 0.666",
-        "into the shelf: can touches shelf at 1.",
-        "into the other arm: ",
+        "into the shelf: right finger touches shelf at 1.744",
+        "into the other arm: other/fore touches right finger at 1.28",
         "into the table: can touches table at 0.0000",
         "the can is on the shelf, and the arm is back",
     ):

@@ -275,6 +275,11 @@ impl<'w, 'f> Call<'w, 'f> {
         self.text_of("link", &["upper", "lower", "base"].map(c_text))
     }
 
+    /// Draws a link that a joint moves.
+    pub(super) fn moving_link(&mut self) -> *const c_char {
+        self.text_of("link", &["upper", "lower"].map(c_text))
+    }
+
     /// Draws a link, a held body or an obstacle.
     pub(super) fn item(&mut self) -> *const c_char {
         self.text_of(

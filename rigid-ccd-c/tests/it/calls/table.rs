@@ -74,7 +74,7 @@ pub(super) const FUNCTIONS: &[Function] = functions! {
     rccd_cell_attach 16 status (handle, held, handle, link, pose, links, count);
     rccd_cell_detach 12 status (handle, held);
     rccd_cell_allow_contact 8 status (handle, item, item);
-    rccd_cell_forbid_contact 8 status (handle, item, item);
+    rccd_cell_forbid_contact 8 status (handle, moving_link, obstacle);
     rccd_cell_check_summary 4 status (handle, new_summary);
     rccd_cell_set_padding 12 status (handle, link, distance);
     rccd_cell_set_clearance 12 status (handle, item, item, distance);
