@@ -10,7 +10,9 @@ named on the standard error. Needs the Python packages rigid_ccd, mujoco, pin an
 import re
 import sys
 from collections import Counter
+from itertools import combinations
 from pathlib import Path
+from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
@@ -142,6 +144,17 @@ class PinocchioModel:
     def __init__(self, path):
         self.model = pinocchio.buildModelFromUrdf(str(path))
         self.data = self.model.createData()
+        self.links = [frame.name for frame in self.model.frames if frame.type == pinocchio.FrameType.BODY]
+        root = ElementTree.parse(path).getroot()
+        self.solid = [link.get("name") for link in root.iter("link") if link.find("collision/geometry") is not None]
+
+    def pairs(self):
+        """The pairs of links with shapes of which one moves against the other, except those that a joint connects."""
+        frames = {link: self.model.frames[self.model.getFrameId(link, pinocchio.FrameType.BODY)] for link in self.links}
+        above = {link: self.model.frames[self.model.frames[frame.parentFrame].parentFrame].name for link, frame in frames.items()}
+        pairs = combinations([link for link in self.solid if link in frames], 2)
+        moves = ((a, b) for a, b in pairs if frames[a].parentJoint != frames[b].parentJoint)
+        return {frozenset(pair) for pair in moves if above[pair[0]] != pair[1] and above[pair[1]] != pair[0]}
 
     def place(self, positions):
         m = self.model
@@ -182,7 +195,7 @@ def hold(path, is_mjcf, reference, robot, counts):
     """Holds a robot against a reference, and counts what differs."""
     random = np.random.default_rng(1)
     pairs = {frozenset(pair) for pair in robot.checked_pairs}
-    if is_mjcf and pairs != reference.pairs():
+    if pairs != reference.pairs():
         counts["other pairs"] += 1
         print(f"{path}: pairs {len(pairs)} of {len(reference.pairs())}", file=sys.stderr)
     counts["pairs"] += len(pairs)
@@ -194,14 +207,15 @@ def hold(path, is_mjcf, reference, robot, counts):
             for name, other, multiplier, offset in 3 * list(mimics(path)):
                 positions[name] = multiplier * positions.get(other, 0.0) + offset
         reference.place(positions)
-        known = reference.links if is_mjcf else [f.name for f in reference.model.frames if f.type == pinocchio.FrameType.BODY]
-        difference = max(abs(robot.pose(link, q) - reference.frame(link)).max() for link in known if link in robot.link_names)
+        frames = [(robot.pose(link, q), reference.frame(link)) for link in reference.links if link in robot.link_names]
+        difference = max(abs(own - other).max() for own, other in frames)
         if difference > 1e-9:
             print(f"{path}: frames differ by {difference}", file=sys.stderr)
         counts["frames differ by"] = max(counts["frames differ by"], float(difference))
         if is_mjcf and pairs:
-            counts["distances"] += 1
             own, other = cell.closest_approach([q]), reference.least_distance(pairs)
+            counts["distances"] += 1
+            counts["of which not 0"] += int(other > 0)
             if not own.lower - MESH_ERROR <= min(other, 10.0) <= own.upper + MESH_ERROR and own.lower < 10:
                 counts["distances not within bounds"] += 1
                 print(f"{path}: {own.lower} to {own.upper}, but {other}: {own.nearest}", file=sys.stderr)
