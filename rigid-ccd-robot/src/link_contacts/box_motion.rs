@@ -171,8 +171,8 @@ impl BoxMotion {
 
     /// Bounds what the first order leaves out of the motion of both parts along a direction.
     fn remainder(&self, direction: DVec3, split: usize) -> f64 {
-        let to_b = self.side_remainder(direction, 1, split..self.axes.len());
-        let to_a = self.side_remainder(direction, 0, (0..split).rev());
+        let to_b = self.side_remainder(direction, 1, &(split..self.axes.len()));
+        let to_a = self.side_remainder(direction, 0, &(0..split).rev());
         (to_a + to_b) * ROUNDING_FACTOR
     }
 
@@ -182,7 +182,7 @@ impl BoxMotion {
         &self,
         direction: DVec3,
         side: usize,
-        joints: impl Iterator<Item = usize> + Clone,
+        joints: &(impl Iterator<Item = usize> + Clone),
     ) -> f64 {
         let (mut inner, mut total) = (0.0, 0.0);
         for (number, joint) in joints.clone().enumerate() {

@@ -1,5 +1,7 @@
 //! Boxes of joint positions.
 
+use ccd_core::order::greater;
+
 /// A range for each position of the joints between two links.
 #[derive(Clone, Debug)]
 pub(super) struct JointBox {
@@ -28,12 +30,7 @@ impl JointBox {
     /// Returns how far the position at a place is at most from that in the middle.
     pub(super) fn max_deviation(&self, place: usize) -> f64 {
         let ([low, high], middle) = (self.ranges[place], middle(&self.ranges[place]));
-        let half = if high - middle > middle - low {
-            high - middle
-        } else {
-            middle - low
-        };
-        half
+        greater(high - middle, middle - low)
     }
 
     /// Returns both halves along the position at a place; `None` if its range cannot be halved.

@@ -265,7 +265,7 @@ impl<'c> Measurer<'c> {
         let [size_a, size_b] = placed.parts.map(|part| 2.0 * part.ball_radius);
         let may_be_free = !is_convex && required < greater(gap, 0.0) + lesser(size_a, size_b);
         let mut touching = asked.known == Contact::Touching;
-        if may_be_free || (!are_hulls_apart && !(is_convex && touching)) {
+        if may_be_free || !(are_hulls_apart || is_convex && touching) {
             let lower = self.look_at_bodies(asked.part_pair, rounding, in_middle)?;
             // Written so that NaN is not free.
             if lower > asked.displacement.bound + 4.0 * rounding {
