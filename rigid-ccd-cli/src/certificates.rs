@@ -42,7 +42,7 @@ impl CertificateFolder {
             match ccd_file::read(&path) {
                 Ok(there) if there == bytes => {}
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                    self.write(&path, bytes)?
+                    self.write(&path, bytes)?;
                 }
                 Ok(_) => bail!(
                     "--certificates: {} is of other bodies, whose proofs need it; give another folder",

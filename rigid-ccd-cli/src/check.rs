@@ -112,7 +112,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
         Some(cell) => Subject::Cell(ProvenCell::new(cell)?, args.clearance),
         None => {
             let wanted = WantedPair::load([&args.a, &args.b], &args.meshes)?;
-            Subject::Pair(wanted, args.margin)
+            Subject::Pair(Box::new(wanted), args.margin)
         }
     };
     // The checker reads the meshes in the unit of each proof, of which there are few.

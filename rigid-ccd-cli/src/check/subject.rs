@@ -9,7 +9,7 @@ use ccd_prove::{Body, ProvenCell, ProvenPair, Statement};
 /// What proofs have to be about.
 pub(super) enum Subject<'c> {
     /// One pair, whose bodies have these digests, as far as they are given; if none is, anything. The pair keeps a margin.
-    Pair(WantedPair, f64),
+    Pair(Box<WantedPair>, f64),
     /// All pairs of a cell, with a distance that they keep.
     Cell(ProvenCell<'c>, f64),
 }

@@ -191,7 +191,7 @@ impl PathColumns {
         let is_of_edges = header.iter().any(|column| {
             let name = column.strip_prefix("from_");
             let joint = name.map(|name| name.strip_suffix(DEGREES_SUFFIX).unwrap_or(name));
-            let is_joint = |own: &str| joints.iter().any(|joint| *joint == own);
+            let is_joint = |own: &str| joints.contains(&own);
             name.is_some_and(is_joint) || joint.is_some_and(is_joint)
         });
         let prefixes: &[&str] = if is_of_edges {
