@@ -398,9 +398,10 @@ impl PyCell {
             self.set_clearance(a, b, *distance)?;
         }
         for (a, b, is_allowed) in &contacts {
-            match is_allowed {
-                true => self.allow_contact(a, b)?,
-                false => self.forbid_contact(a, b)?,
+            if *is_allowed {
+                self.allow_contact(a, b)?;
+            } else {
+                self.forbid_contact(a, b)?;
             }
         }
         Ok(())

@@ -6,9 +6,12 @@ use rigid_ccd::{Body, Pose, trajectory};
 
 /// Returns an arm of links in a row, 1 apart, of which those that are named have a body.
 fn arm(links: &[&str], with_bodies: &[&str]) -> Robot {
-    let link = |name: &&str| match with_bodies.contains(name) {
-        true => Link::named(*name).with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY),
-        false => Link::named(*name),
+    let link = |name: &&str| {
+        if with_bodies.contains(name) {
+            Link::named(*name).with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY)
+        } else {
+            Link::named(*name)
+        }
     };
     let joints = links.windows(2).map(|pair| Joint {
         name: format!("to {}", pair[1]),

@@ -14,7 +14,7 @@ fn gear(radius: f64, teeth: usize, phase: f64) -> Body {
     let tooth = 0.1;
     let corner = |k: usize, z: f64| {
         let angle = phase + TAU * k as f64 / (2 * teeth) as f64;
-        let at = if k % 2 == 0 {
+        let at = if k.is_multiple_of(2) {
             radius + tooth
         } else {
             radius - tooth

@@ -64,7 +64,7 @@ fn hostile_edges_keep_the_tolerance_that_they_state() {
         let tolerance = settings.tolerance;
         let mut solver = arm.cell.solver().with_settings(settings);
         // The referee's own rounding: angles, and lengths of all joints.
-        let size = 1.0 + count as f64 * scale.max(1.0);
+        let size = 1.0 + count as f64 * ccd_core::order::greater(scale, 1.0);
         let rounding = 4096.0 * f64::EPSILON * size;
         let outcome = solver.first_contact(&path).unwrap();
         let met = solver.met_tolerance();

@@ -130,14 +130,14 @@ impl Twin {
         };
         let mut solver = Solver::new().with_settings(settings);
         let outcome = solver.first_contact((body, &link), (other, Pose::IDENTITY), 1.0);
-        Known::Answer(outcome.unwrap().outcome, is_let_go)
+        Known::Answer(Box::new(outcome.unwrap().outcome), is_let_go)
     }
 }
 
 /// What a twin knows of a pair on an edge.
 enum Known {
     /// The first contact, and whether the pair is let go.
-    Answer(Outcome, bool),
+    Answer(Box<Outcome>, bool),
     /// Times with distances.
     Distances(Vec<(f64, f64)>),
 }
@@ -220,9 +220,10 @@ impl Both {
                 let [a, b] = [(); 2].map(|()| self.some_name(random));
                 let pair = [&a, &b].map(|name| self.cell.item_named(name).unwrap());
                 let is_allowed = kind == 7;
-                let changed = match is_allowed {
-                    true => self.cell.allow_contact(pair),
-                    false => self.cell.forbid_contact(pair),
+                let changed = if is_allowed {
+                    self.cell.allow_contact(pair)
+                } else {
+                    self.cell.forbid_contact(pair)
                 };
                 if changed.is_ok() {
                     self.twin.set_allowed(&a, &b, is_allowed);
