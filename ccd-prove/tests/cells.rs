@@ -41,18 +41,18 @@ fn block(half: f64) -> Body {
 
 /// Asks when the cell first touches on a path, and proves the answer; all proofs have to hold.
 fn prove_and_check(cell: &Cell, path: &[[f64; 2]]) -> Result<Vec<Proof>, PathNotProven> {
-    prove_with(cell, path, Settings::DEFAULT)
+    prove_with(cell, path, &Settings::DEFAULT)
 }
 
 fn prove_with(
     cell: &Cell,
     path: &[[f64; 2]],
-    settings: Settings,
+    settings: &Settings,
 ) -> Result<Vec<Proof>, PathNotProven> {
     let mut solver = cell.solver().with_settings(settings.clone());
     let outcome = solver.first_contact(path).unwrap();
     let proven = ProvenCell::new(cell).unwrap();
-    let proofs = proven.prove_path(path, &outcome, &settings)?;
+    let proofs = proven.prove_path(path, &outcome, settings)?;
     for proof in &proofs {
         let read = |body: &ccd_prove::Body| {
             ccd_check::Body::new(body.mesh(), body.certificate(), &proof.bytes).unwrap()
@@ -106,7 +106,7 @@ fn a_pair_that_is_let_go_is_proven_if_it_has_a_gap() {
         let cell = cell(block(1.0), (block(1.0), 2.0 + gap), None);
         let mut solver = cell.solver().with_settings(leave());
         assert!(solver.is_free(&path).unwrap());
-        let proofs = prove_with(&cell, &path, leave());
+        let proofs = prove_with(&cell, &path, &leave());
         assert_eq!(proofs.map(|proofs| proofs.len()).ok(), proof_count);
     }
 }

@@ -508,7 +508,7 @@ fn a_curve_has_a_bounded_number_of_ranges() {
     }
     let least = |name: &str| {
         let bounds = curve.iter().map(|range| range[name].as_f64().unwrap());
-        bounds.fold(f64::INFINITY, f64::min)
+        bounds.fold(f64::INFINITY, ccd_core::order::lesser)
     };
     let closest = &report["closest"];
     let [lower, upper] =

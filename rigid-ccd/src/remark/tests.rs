@@ -111,6 +111,8 @@ fn quaternions_of_another_length_are_remarked_upon() {
 }
 
 #[test]
+// Files have rounded angles.
+#[allow(clippy::approx_constant)]
 fn fixed_angles_of_more_than_a_turn_are_remarked_upon() {
     for angles in [[0.0, 0.0, 90.0], [-45.0, 0.0, 0.0], [0.0, 180.0, 0.0]] {
         let remark = Remark::remark_on_roll_pitch_yaw(angles).unwrap();
