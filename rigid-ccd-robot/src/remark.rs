@@ -5,7 +5,7 @@ use std::fmt;
 
 /// A remark on a robot or a cell that is valid, but probably a mistake. It changes no answer.
 ///
-/// [`Cell::remarks`] lists those on a cell. The command prints them, and the Python package warns of them.
+/// [`Cell::remarks`](crate::Cell::remarks) lists those on a cell. The command prints them, and the Python package warns of them.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CellRemark {
@@ -33,7 +33,7 @@ pub enum CellRemark {
         item: String,
         /// The largest side of its largest body's bounding box.
         size: f64,
-        /// The size of the robot, see [`Cell::robot_size`]; for a link, that of its joints.
+        /// The size of the robot, see [`Cell::robot_size`](crate::Cell::robot_size); for a link, that of its joints.
         robot_size: f64,
     },
     /// A number or the tolerance is probably in another unit.
