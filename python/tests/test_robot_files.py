@@ -30,9 +30,13 @@ def test_a_model_of_mujoco_is_a_robot(tmp_path: Path) -> None:
     np.testing.assert_allclose(robot.pose("finger", [0.7])[:3, 3], turned, atol=1e-15)
     again = pickle.loads(pickle.dumps(robot))
     assert again.joint_names == robot.joint_names
-    (tmp_path / "plane.xml").write_text("<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/></worldbody></mujoco>")
-    with pytest.raises(InputError, match="geom `floor`: a plane is not supported"):
-        Robot.from_mjcf(tmp_path / "plane.xml")
+    text = "<mujoco><worldbody><geom name='floor' type='{}'/><body name='ball'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>"
+    (tmp_path / "floor.xml").write_text(text.format("sdf"))
+    with pytest.raises(InputError, match="geom `floor`: a signed distance field is not supported"):
+        Robot.from_mjcf(tmp_path / "floor.xml")
+    (tmp_path / "floor.xml").write_text(text.format("plane").replace("type=", "size='1 1 1' type="))
+    above_floor = Cell(Robot.from_mjcf(tmp_path / "floor.xml"))
+    assert above_floor.is_free([9, 9, 0.11, 0, 0, 0]) and not above_floor.is_free([9, 9, 0.09, 0, 0, 0])
 
 
 def test_a_link_carries_a_robot(tmp_path: Path) -> None:
