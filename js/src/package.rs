@@ -1,6 +1,6 @@
 //! Builds the WebAssembly, and writes the package.
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, anyhow, ensure};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use flate2::Compression;
@@ -10,6 +10,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::thread;
 use wasm_bindgen_cli_support::Bindgen;
 
 const WASM_TARGET: &str = "wasm32-unknown-unknown";
@@ -45,7 +46,13 @@ const FILES: [(&str, &str); 5] = [
 /// # Errors
 /// A build that fails, or a file that cannot be written.
 pub fn write(folder: &Path) -> Result<()> {
-    let (module, fallback) = (module()?, fallback()?);
+    // Most of a build is the optimisation of one unit, on one core.
+    let (module, fallback) = thread::scope(|scope| {
+        let fallback = scope.spawn(fallback);
+        (module(), fallback.join())
+    });
+    let fallback = fallback.map_err(|_| anyhow!("the build of the fallback has panicked"))??;
+    let module = module?;
     let modules = [
         ("rigid-ccd.js", module.as_str()),
         ("fallback.js", fallback.as_str()),
@@ -66,23 +73,25 @@ pub fn write(folder: &Path) -> Result<()> {
 pub fn module() -> Result<String> {
     let parts = PARTS.map(without_links);
     // All browsers with WebAssembly have had 128-bit vectors since 2023.
-    Ok([engine("-Ctarget-feature=+simd128")?, parts.concat()].concat())
+    let engine = engine(Path::new(""), "-Ctarget-feature=+simd128")?;
+    Ok([engine, parts.concat()].concat())
 }
 
 /// Returns the text of the module that the other one loads where WebAssembly has no vector instructions.
 fn fallback() -> Result<String> {
     let exports = "export { CODE as code, wasm_bindgen as bindgen };\n".to_owned();
-    Ok([engine("")?, exports].concat())
+    // Two builds in one folder wait for each other.
+    Ok([engine(Path::new("without-vectors"), "")?, exports].concat())
 }
 
 /// Returns the constants `wasm_bindgen` and `CODE`: a function that makes what loads the WebAssembly, and the WebAssembly, packed.
 ///
 /// The function takes what instantiates in place of the global `WebAssembly`, and what `wasm/host.rs` calls. Each call has classes of its own, because those of an
 /// engine that has ended free what was in its memory.
-fn engine(flags: &str) -> Result<String> {
+fn engine(subfolder: &Path, flags: &str) -> Result<String> {
     let mut bindgen = Bindgen::new();
     bindgen
-        .input_path(build_wasm(flags)?)
+        .input_path(build_wasm(subfolder, flags)?)
         .no_modules(true)?
         .typescript(false)
         .remove_name_section(true)
@@ -117,19 +126,21 @@ fn without_links(part: &str) -> String {
     lines.map(|line| line + "\n").collect()
 }
 
-/// Compiles this crate to WebAssembly with flags of the compiler, and returns the path of the file.
-fn build_wasm(flags: &str) -> Result<PathBuf> {
+/// Compiles this crate to WebAssembly in a subfolder of the target folder, with flags of the compiler, and returns the path of
+/// the file.
+fn build_wasm(subfolder: &Path, flags: &str) -> Result<PathBuf> {
     // The command that runs is at TARGET_DIR/PROFILE/NAME.
     let command = env::current_exe()?;
     let folder = command
         .ancestors()
         .nth(2)
-        .context("this command has no target folder")?;
+        .context("this command has no target folder")?
+        .join(subfolder);
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let built = Command::new(cargo)
         .args("build --locked --profile wasm --lib --package rigid-ccd-js --target".split(' '))
         .args([WASM_TARGET, "--target-dir"])
-        .arg(folder)
+        .arg(&folder)
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .env("CARGO_ENCODED_RUSTFLAGS", flags)
         .status()

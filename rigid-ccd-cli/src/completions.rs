@@ -2,10 +2,11 @@
 
 use super::{Cli, RunOutcome};
 use crate::output::OutputError;
+use crate::standard_output;
 use anyhow::Result;
 use clap::{Args, CommandFactory};
 use clap_complete::{Shell, generate};
-use std::io::{self, Write};
+use std::io::Write;
 
 /// Print a completion script for a shell
 #[derive(Debug, Args)]
@@ -25,7 +26,7 @@ Examples:
 pub(super) fn run(args: &CompletionsArgs) -> Result<RunOutcome> {
     let mut script = Vec::new();
     generate(args.shell, &mut Cli::command(), "ccd", &mut script);
-    let written = io::stdout().write_all(&script);
+    let written = standard_output::lock().and_then(|mut stream| stream.write_all(&script));
     written.map_err(OutputError::standard_output_error)?;
     Ok(RunOutcome::AllAnswered)
 }

@@ -7,6 +7,7 @@ use super::files::refuse_overwriting_input;
 use super::meshes::MeshArgs;
 use super::named::{PATCH_ORDERS, named_value_parser};
 use super::output::{Output, OutputError};
+use super::standard_output;
 use crate::progress::Progress;
 use anyhow::{Context, Result, bail};
 use ccd_core::Body;
@@ -17,7 +18,7 @@ use ccd_decomp::{
 use clap::{Args, ValueEnum};
 use statistics::Statistics;
 use std::ffi::OsString;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -126,13 +127,10 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<RunOutcome> {
         form.write(&model, out)?;
     }
     let statistics = Statistics::new((name, unit), &model, &body, build_ms);
-    let printed = match args.format {
-        StatisticsFormatArg::Text => writeln!(io::stdout(), "{statistics}"),
-        StatisticsFormatArg::Json => {
-            writeln!(io::stdout(), "{}", serde_json::to_string(&statistics)?)
-        }
-    };
-    printed.map_err(OutputError::standard_output_error)?;
+    match args.format {
+        StatisticsFormatArg::Text => standard_output::print(&statistics)?,
+        StatisticsFormatArg::Json => standard_output::print(serde_json::to_string(&statistics)?)?,
+    }
     Ok(RunOutcome::AllAnswered)
 }
 

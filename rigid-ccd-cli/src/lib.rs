@@ -29,6 +29,7 @@ mod scene;
 mod scene_table;
 mod size;
 mod solver_kind;
+mod standard_output;
 mod table;
 mod time_histogram;
 mod timed;

@@ -1,6 +1,7 @@
 //! Outputs of a run: streams, and files that this process reserves and first writes under a temporary name.
 
 use crate::printable::PrintableText;
+use crate::standard_output;
 use ccd_file::{Claim, Destination};
 use std::fs::File;
 use std::io::{self, Write};
@@ -90,7 +91,7 @@ impl Output {
     pub(super) fn open(&mut self) -> io::Result<Box<dyn Write>> {
         Ok(match &mut self.reserved_file {
             Some(claim) => Box::new(claim.file().try_clone()?),
-            None if is_standard_output(&self.path) => Box::new(io::stdout().lock()),
+            None if is_standard_output(&self.path) => Box::new(standard_output::lock()?),
             None => Box::new(File::options().append(true).open(&self.path)?),
         })
     }
@@ -102,7 +103,9 @@ impl Output {
     ) -> Result<(), OutputError> {
         let written = match self.reserved_file {
             Some(claim) => claim.write(fill),
-            None if is_standard_output(&self.path) => fill(&mut io::stdout().lock()),
+            None if is_standard_output(&self.path) => {
+                standard_output::lock().and_then(|mut stream| fill(&mut stream))
+            }
             None => ccd_file::write(&self.path, fill),
         };
         written.map_err(|source| OutputError::error_for_path(&self.path, source))
@@ -111,7 +114,7 @@ impl Output {
 
 /// Writes a line to standard output, with control characters escaped.
 pub(super) fn print_line(line: &str) -> Result<(), OutputError> {
-    writeln!(io::stdout(), "{}", PrintableText(line)).map_err(OutputError::standard_output_error)
+    standard_output::print(PrintableText(line))
 }
 
 /// Returns whether a path is `-` or `/dev/stdout`, which stand for standard output. A file to which standard output is

@@ -30,6 +30,7 @@ use crate::cell::{Cell, Item};
 use crate::error::PathError;
 use crate::path::Path;
 use crate::path_point::PathPoint;
+use ccd_core::order::greater;
 use part_pairs::PartPair;
 use rigid_ccd::answer::{ClearanceVerdict, Feature, HitKind, Limit, Unresolved};
 use rigid_ccd::glam::DVec3;
@@ -75,7 +76,7 @@ pub struct PathContact<'c> {
     /// The vertex, edge or face of each mesh that its witness is on, numbered as in the body. `None` for a convex body, whose
     /// mesh may be its hull, and if one body is inside the other.
     pub features: [Option<Feature>; 2],
-    /// Bounds of the distance of the pair there; 0 if both overlap.
+    /// Bounds of the distance of the pair there, the rounding of computed poses included; 0 if both overlap.
     pub distance_bounds: [f64; 2],
 }
 
@@ -308,6 +309,7 @@ impl<'c> CellSolver<'c> {
         self.search.add_rounding_of_contact_point((at, pair));
         let bodies = pair.body_numbers(self.cell.parts());
         let placement = self.search.place_frames(at);
+        let rounding = 2.0 * placement.rounding;
         let (a, b) = (
             placement.body(self.cell, bodies[0])?,
             placement.body(self.cell, bodies[1])?,
@@ -330,7 +332,10 @@ impl<'c> CellSolver<'c> {
             features: [0, 1].map(|k| features.filter(|_| is_mesh[k]).map(|features| features[k])),
             distance_bounds: match outcome {
                 Outcome::Overlapping { .. } => [0.0; 2],
-                _ => [outcome.lower(), outcome.upper()],
+                _ => [
+                    greater(outcome.lower() - rounding, 0.0),
+                    outcome.upper() + rounding,
+                ],
             },
         })
     }

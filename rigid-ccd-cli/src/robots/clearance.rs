@@ -10,15 +10,14 @@ use super::path_table::TablePath;
 use super::robot_paths::{FoundPaths, RobotPaths};
 use crate::files::{input_name, refuse_overwriting_input};
 use crate::html::write_page;
-use crate::output::{Output, OutputError, is_standard_output};
-use crate::{RunOutcome, print_error, print_remarks};
+use crate::output::{Output, is_standard_output};
+use crate::{RunOutcome, print_error, print_remarks, standard_output};
 use anyhow::{Result, bail};
 use clap::Args;
 use report::Report;
 use rigid_ccd::Settings;
 use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd_robot::{Cell, RangeSettings};
-use std::io::{self, Write};
 use std::path::PathBuf;
 
 /// Prove where a mechanism keeps a clearance, over a joint or along a path
@@ -120,14 +119,13 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
         tolerance,
         ranges,
     };
-    let printed = if args.json {
+    if args.json {
         let halvings = halvings(path.configurations.len() - 1);
         let curve = solver.distance_curve(&path.configurations, halvings)?;
-        writeln!(io::stdout(), "{}", report.to_json(&curve))
+        standard_output::print(report.to_json(&curve))?;
     } else {
-        writeln!(io::stdout(), "{report}")
-    };
-    printed.map_err(OutputError::standard_output_error)?;
+        standard_output::print(&report)?;
+    }
     if let Some(html) = html {
         // A violation is no contact: the page shows where the least distance is.
         solver.set_settings(args.settings(0.0));

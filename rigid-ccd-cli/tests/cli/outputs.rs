@@ -368,4 +368,33 @@ mod full {
         assert_eq!(output.status.code(), Some(1));
         assert!(Path::new("/dev/full").exists());
     }
+
+    #[test]
+    fn a_table_for_a_closed_standard_output_is_not_lost_without_a_word() {
+        let scene = Scene::new("closed-output");
+        write_inputs(&scene);
+        let query = "query --a box:.5,.5,.5 --b box:9,9,1 --motions motions.csv --quiet";
+        let run_with = |redirection: &str, arguments: &str| {
+            Command::new("sh")
+                .current_dir(&scene.directory)
+                .args(["-c", &format!("exec \"$@\" {redirection}"), "sh"])
+                .arg(crate::PROGRAM_PATH)
+                .args(arguments.split(' '))
+                .output()
+                .unwrap()
+        };
+        for arguments in [query, "completions bash"] {
+            let output = run_with(">&-", arguments);
+            assert_eq!(output.status.code(), Some(1), "{arguments}");
+            let message = String::from_utf8(output.stderr).unwrap();
+            assert!(
+                message.contains("cannot write standard output"),
+                "{message}"
+            );
+            let discarded = run_with(">/dev/null", arguments);
+            assert_eq!(discarded.status.code(), Some(0), "{arguments}");
+        }
+        let to_a_file = run_with(">&-", &format!("{query} --out table.csv"));
+        assert_eq!(to_a_file.status.code(), Some(0));
+    }
 }

@@ -1,0 +1,47 @@
+//! Standard output, which fails if it was closed when the program started.
+
+use crate::output::OutputError;
+use std::fmt::Display;
+use std::io::{self, StdoutLock, Write};
+
+/// Returns standard output.
+///
+/// # Errors
+/// It was closed when the program started. Rust's runtime then opens the null device in its place, where a table would be lost.
+pub(super) fn lock() -> io::Result<StdoutLock<'static>> {
+    if start::was_closed() {
+        return Err(io::Error::other("it is closed"));
+    }
+    Ok(io::stdout().lock())
+}
+
+/// Writes a text and an end of line.
+pub(super) fn print(text: impl Display) -> Result<(), OutputError> {
+    let printed = lock().and_then(|mut stream| writeln!(stream, "{text}"));
+    printed.map_err(OutputError::standard_output_error)
+}
+
+#[cfg(unix)]
+mod start {
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    static WAS_CLOSED: AtomicBool = AtomicBool::new(false);
+
+    /// Runs before Rust's runtime opens anything.
+    #[ctor::ctor(unsafe)]
+    fn look() {
+        let is_closed = rustix::io::fcntl_getfd(rustix::stdio::stdout()).is_err();
+        WAS_CLOSED.store(is_closed, Ordering::Relaxed);
+    }
+
+    pub(super) fn was_closed() -> bool {
+        WAS_CLOSED.load(Ordering::Relaxed)
+    }
+}
+
+#[cfg(not(unix))]
+mod start {
+    pub(super) fn was_closed() -> bool {
+        false
+    }
+}
