@@ -1,10 +1,14 @@
 // A gate before an arm: a chunk of waypoints passes if it is certainly free, within half a millisecond.
-//   gate ROBOT.urdf
+//   gate ROBOT.urdf     (of two joints)
 #include "rigid_ccd_cell.hpp"
 
 #include <cstdio>
 
-int main(int, char **argv) {
+int main(int count, char **argv) {
+    if (count != 2) {
+        std::fprintf(stderr, "usage: gate ROBOT.urdf\n");
+        return 2;
+    }
     auto cell = rigid_ccd::Cell::load(argv[1]);
     cell.add_obstacle("table", rigid_ccd::Body::box({1, 1, 0.02}), rigid_ccd::pose_at({0, 0, -0.12}));
     rigid_ccd::Settings settings;

@@ -106,6 +106,9 @@ inline Error wrong_count(const std::string &what, std::size_t needed, std::size_
     return {RCCD_STATUS_INVALID_ARGUMENT, what + ": " + std::to_string(needed) + " numbers are needed, not " + std::to_string(given)};
 }
 
+// Returns a text for a call; null, which is an error there, if a zero would end it too early.
+inline const char *c_text(const std::string &text) { return text.find('\0') == std::string::npos ? text.c_str() : nullptr; }
+
 // Whether a container has its values one after the other, in an order that is no question. Types of Eigen say so: a matrix is in
 // memory column by column or row by row, and a row of one has gaps.
 template <typename Container, typename = void>
@@ -122,8 +125,15 @@ class View {
 public:
     View() = default;
     View(const T *data, std::size_t size) : data_(data), size_(size) {}
-    // Values in braces live as long as the call to which they are passed.
+    // Values in braces live as long as the call to which they are passed, which GCC does not know.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Winit-list-lifetime"
+#endif
     View(std::initializer_list<T> values) : data_(values.begin()), size_(values.size()) {}
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
     template <std::size_t SIZE>
     View(const T (&values)[SIZE]) : data_(values), size_(SIZE) {}
     // Anything with data() and size(): std::vector, std::array, std::span, vectors of Eigen without gaps. Of a matrix pass data()
@@ -166,11 +176,16 @@ inline Result<Motion> between(const Pose &start, const Pose &end, double duratio
 }
 
 #ifdef RIGID_CCD_HAS_EIGEN
-// Converts a pose of Eigen.
-inline Pose to_pose(const Eigen::Isometry3d &pose) {
-    const Eigen::Quaterniond turned(pose.linear());
+// Converts a pose of Eigen. One that scales or mirrors is an error: each number of a rotation is right to a millionth.
+inline Result<Pose> to_pose(const Eigen::Isometry3d &pose) {
+    const Eigen::Matrix3d linear = pose.linear();
+    const Eigen::Matrix3d skew = linear.transpose() * linear - Eigen::Matrix3d::Identity();
+    // Written so that NaN is an error.
+    if (!(skew.cwiseAbs().maxCoeff() <= 2e-6 && linear.determinant() > 0))
+        return detail::fail<Pose>({RCCD_STATUS_INVALID_ARGUMENT, "the linear part of a pose is no rotation"});
+    const Eigen::Quaterniond turned(linear);
     const auto &at = pose.translation();
-    return {{at.x(), at.y(), at.z()}, {turned.x(), turned.y(), turned.z(), turned.w()}};
+    return Pose{{at.x(), at.y(), at.z()}, {turned.x(), turned.y(), turned.z(), turned.w()}};
 }
 #endif
 
@@ -204,11 +219,11 @@ public:
     static Result<Done> prepare(View<Vector> vertices, View<Triangle> triangles, const std::string &path,
                                 std::uint32_t detail = static_cast<std::uint32_t>(RCCD_DETAIL_AUTO)) {
         return detail::done(rccd_body_prepare(numbers(vertices), vertices.size(), numbers(triangles),
-                                              triangles.size(), detail, path.c_str()));
+                                              triangles.size(), detail, detail::c_text(path)));
     }
     // Loads a body from a file.
     static Result<Body> load(const std::string &path) {
-        return make([&](rccd_body **out) { return rccd_body_load(path.c_str(), out); });
+        return make([&](rccd_body **out) { return rccd_body_load(detail::c_text(path), out); });
     }
     Result<std::size_t> piece_count() const {
         std::size_t count = 0;

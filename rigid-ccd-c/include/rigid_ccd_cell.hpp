@@ -38,7 +38,7 @@ public:
     static Result<Cell> load(const std::string &robot, const std::string &srdf = "",
                              const std::string &package_folder = "") {
         return detail::hold<Cell, rccd_cell>([&](rccd_cell **out) {
-            return rccd_cell_load(robot.c_str(), or_null(srdf), or_null(package_folder), out);
+            return rccd_cell_load(detail::c_text(robot), or_null(srdf), or_null(package_folder), out);
         });
     }
     // Makes a cell of the text of a URDF or MJCF. `folder` is where meshes with relative names are; the working folder if it is
@@ -46,7 +46,7 @@ public:
     static Result<Cell> from_text(const std::string &robot, const std::string &folder = "", const std::string &srdf = "",
                                   const std::string &package_folder = "") {
         return detail::hold<Cell, rccd_cell>([&](rccd_cell **out) {
-            return rccd_cell_from_text(robot.c_str(), or_null(folder), or_null(srdf), or_null(package_folder), out);
+            return rccd_cell_from_text(detail::c_text(robot), or_null(folder), or_null(srdf), or_null(package_folder), out);
         });
     }
     // Takes a handle.
@@ -68,31 +68,31 @@ public:
         });
     }
     Result<Done> add_obstacle(const std::string &name, const Body &body, const Pose &pose) {
-        return detail::done(rccd_cell_add_obstacle(handle_.get(), name.c_str(), body.get(), &pose));
+        return detail::done(rccd_cell_add_obstacle(handle_.get(), detail::c_text(name), body.get(), &pose));
     }
     Result<Done> move_obstacle(const std::string &name, const Pose &pose) {
-        return detail::done(rccd_cell_move_obstacle(handle_.get(), name.c_str(), &pose));
+        return detail::done(rccd_cell_move_obstacle(handle_.get(), detail::c_text(name), &pose));
     }
     Result<Done> remove_obstacle(const std::string &name) {
-        return detail::done(rccd_cell_remove_obstacle(handle_.get(), name.c_str()));
+        return detail::done(rccd_cell_remove_obstacle(handle_.get(), detail::c_text(name)));
     }
     // Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. It may touch that link,
     // links that no joint moves against it, and the links, held bodies and obstacles that are named.
     Result<Done> attach(const std::string &name, const Body &body, const std::string &link, const Pose &pose,
                         const std::vector<std::string> &may_touch = {}) {
         std::vector<const char *> links;
-        for (const std::string &touched : may_touch) links.push_back(touched.c_str());
-        return detail::done(rccd_cell_attach(handle_.get(), name.c_str(), body.get(), link.c_str(), &pose,
+        for (const std::string &touched : may_touch) links.push_back(detail::c_text(touched));
+        return detail::done(rccd_cell_attach(handle_.get(), detail::c_text(name), body.get(), detail::c_text(link), &pose,
                                              links.data(), links.size()));
     }
-    Result<Done> detach(const std::string &name) { return detail::done(rccd_cell_detach(handle_.get(), name.c_str())); }
+    Result<Done> detach(const std::string &name) { return detail::done(rccd_cell_detach(handle_.get(), detail::c_text(name))); }
     // Allows two items to touch: two links, or a link, a held body and an obstacle. What is removed takes this away.
     Result<Done> allow_contact(const std::string &a, const std::string &b) {
-        return detail::done(rccd_cell_allow_contact(handle_.get(), a.c_str(), b.c_str()));
+        return detail::done(rccd_cell_allow_contact(handle_.get(), detail::c_text(a), detail::c_text(b)));
     }
     // Compares two items again that were allowed to touch, or two links that were not checked.
     Result<Done> forbid_contact(const std::string &a, const std::string &b) {
-        return detail::done(rccd_cell_forbid_contact(handle_.get(), a.c_str(), b.c_str()));
+        return detail::done(rccd_cell_forbid_contact(handle_.get(), detail::c_text(a), detail::c_text(b)));
     }
     // Returns what is checked, as lines: counts, then what is not checked and why; the warnings begin with `warning: `.
     Result<std::string> check_summary() {
@@ -102,11 +102,11 @@ public:
     }
     // Sets how much farther than the margin obstacles have to stay from a link.
     Result<Done> set_padding(const std::string &link, double distance) {
-        return detail::done(rccd_cell_set_padding(handle_.get(), link.c_str(), distance));
+        return detail::done(rccd_cell_set_padding(handle_.get(), detail::c_text(link), distance));
     }
     // Sets the distance at which a pair counts as touching, instead of margin and paddings.
     Result<Done> set_clearance(const std::string &a, const std::string &b, double distance) {
-        return detail::done(rccd_cell_set_clearance(handle_.get(), a.c_str(), b.c_str(), distance));
+        return detail::done(rccd_cell_set_clearance(handle_.get(), detail::c_text(a), detail::c_text(b), distance));
     }
     const rccd_cell *get() const noexcept { return handle_.get(); }
 
@@ -129,11 +129,12 @@ public:
                 "positions of each joint at " + std::to_string(times.size()) + " times", total, positions.size()));
         if (velocities.size() != total)
             return detail::fail<JointCurve>(detail::wrong_count("velocities", total, velocities.size()));
-        if (accelerations.data() != nullptr && accelerations.size() != total)
+        if (accelerations.size() != 0 && accelerations.size() != total)
             return detail::fail<JointCurve>(detail::wrong_count("accelerations", total, accelerations.size()));
         return detail::hold<JointCurve, rccd_joint_curve>([&](rccd_joint_curve **out) {
-            return rccd_joint_curve_through(times.data(), positions.data(), velocities.data(), accelerations.data(),
-                                            times.size(), joints, out);
+            const double *const given = accelerations.size() ? accelerations.data() : nullptr;
+            return rccd_joint_curve_through(times.data(), positions.data(), velocities.data(), given, times.size(),
+                                            joints, out);
         });
     }
     // Takes a handle.
@@ -247,12 +248,12 @@ inline Result<Done> write_evidence(const Cell &cell, const Settings &settings, V
     if (configurations.size() != count * joints)
         return detail::fail<Done>(detail::wrong_configurations(joints, configurations.size()));
     const rccd_path path = {configurations.data(), count, nullptr};
-    return detail::done(rccd_evidence_write(cell.get(), &settings, &path, &answer, file.c_str()));
+    return detail::done(rccd_evidence_write(cell.get(), &settings, &path, &answer, detail::c_text(file)));
 }
 inline Result<Done> write_evidence(const Cell &cell, const Settings &settings, const JointCurve &curve,
                                    const PathAnswer &answer, const std::string &file) {
     const rccd_path path = {nullptr, 0, curve.get()};
-    return detail::done(rccd_evidence_write(cell.get(), &settings, &path, &answer, file.c_str()));
+    return detail::done(rccd_evidence_write(cell.get(), &settings, &path, &answer, detail::c_text(file)));
 }
 
 #ifndef RIGID_CCD_EXPECTED
@@ -261,6 +262,8 @@ inline Result<Done> write_evidence(const Cell &cell, const Settings &settings, c
 class SolverPool {
 public:
     explicit SolverPool(const Cell &cell, const Settings &settings = {}) : cell_(cell), settings_(settings) {}
+    // The cell has to live as long as the pool.
+    explicit SolverPool(Cell &&cell, const Settings &settings = {}) = delete;
 
     // Calls a function with a solver of its own.
     template <typename Call>

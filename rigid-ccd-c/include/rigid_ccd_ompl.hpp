@@ -23,6 +23,7 @@ class OmplMotionValidator : public ompl::base::MotionValidator {
 public:
     OmplMotionValidator(const ompl::base::SpaceInformationPtr &space, const Cell &cell, const Settings &settings = {})
         : ompl::base::MotionValidator(space), pool_(cell, settings) {}
+    OmplMotionValidator(const ompl::base::SpaceInformationPtr &, Cell &&, const Settings & = {}) = delete;
 
     bool checkMotion(const ompl::base::State *from, const ompl::base::State *to) const override {
         return count(free_share(from, to) >= 1.0);
@@ -57,6 +58,7 @@ class OmplStateValidityChecker : public ompl::base::StateValidityChecker {
 public:
     OmplStateValidityChecker(const ompl::base::SpaceInformationPtr &space, const Cell &cell, const Settings &settings = {})
         : ompl::base::StateValidityChecker(space), pool_(cell, settings) {}
+    OmplStateValidityChecker(const ompl::base::SpaceInformationPtr &, Cell &&, const Settings & = {}) = delete;
 
     bool isValid(const ompl::base::State *state) const override {
         std::vector<double> positions;

@@ -25,6 +25,9 @@ struct OfEigen {
 template <typename Container>
 constexpr bool is_view = std::is_constructible_v<rigid_ccd::View<double>, const Container &>;
 static_assert(is_view<std::vector<double>> && is_view<OfEigen<1, 1>>);
+// A pool refers to its cell, which has to live as long.
+static_assert(std::is_constructible_v<rigid_ccd::SolverPool, rigid_ccd::Cell &>);
+static_assert(!std::is_constructible_v<rigid_ccd::SolverPool, rigid_ccd::Cell>);
 static_assert(!is_view<OfEigen<1, 3>> && !is_view<OfEigen<1, -1>> && !is_view<OfEigen<0, 1>> && !is_view<std::vector<float>>);
 
 } // namespace
@@ -53,6 +56,18 @@ int main(int, char **argv) {
     cell.set_clearance("everywhere", argv[2], 1000);
     expect(rigid_ccd::CellSolver(cell).first_contact(start).hit());
     cell.remove_obstacle("everywhere");
+
+    bool is_cut = true;
+    try {
+        cell.add_obstacle(std::string("po\0st", 5), rigid_ccd::Body::sphere(1), rigid_ccd::pose_at({0, 0, 0}));
+    } catch (const rigid_ccd::Error &) {
+        is_cut = false;
+    }
+    expect(!is_cut);
+    std::vector<double> no_accelerations;
+    no_accelerations.reserve(4);
+    const auto ease = rigid_ccd::JointCurve::through({0, 1}, {0, 1}, {0, 0}, no_accelerations);
+    expect(ease.get() != nullptr);
 
     std::vector<double> edges;
     for (int k = 0; k < 50; ++k) {

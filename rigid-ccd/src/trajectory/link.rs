@@ -28,6 +28,8 @@ use ccd_core::{
 /// The acceleration of the link's origin is known at each time. It changes at most at `(|ω̈| + 3 |ω̇| |ω| + |ω|³) |r|`
 /// for each arm, and by `3 |ṡ| (|ω̇| + |ω|²)` more for one that slides, with `|ω̈| ≤ Σ |q̇| (|ω̇| + |ω| |ω × z|)`.
 ///
+/// If only one joint moves, and it turns, the link turns about its axis: the motion's centre is there, and rests.
+///
 /// The rates hold at all times: before time 0 and after the duration the link moves on, without regard to limits.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkTrajectory<'c> {
@@ -197,14 +199,30 @@ impl<'c> LinkTrajectory<'c> {
         })
     }
 
+    /// Returns whether one joint moves this link in its frame, and it turns.
+    fn turns_about_one_axis(&self) -> bool {
+        let mut moving = self.joints(0.0).filter(|(_, _, rate)| *rate != 0.0);
+        let (first, second) = (moving.next(), moving.next());
+        second.is_none()
+            && first.is_some_and(|(joint, ..)| matches!(joint.kind(), JointKind::Revolute(_)))
+    }
+
     /// Returns the pose, the velocities and the accelerations of the link at a time.
     fn state(&self, time: f64) -> Result<LinkState, InputError> {
         let mut state = LinkState::state_at_rest(match self.reference_link {
             Some(_) => Pose::IDENTITY,
             None => self.chain.base(),
         });
+        let turns_about_one_axis = self.turns_about_one_axis();
         for (joint, position, rate) in self.joints(time) {
+            let before = state.pose;
             state.move_past_joint(joint, position, rate)?;
+            if turns_about_one_axis && rate != 0.0 {
+                state.pivot = Some(match joint.direction() {
+                    Direction::Forward => before.transform_point(joint.origin().translation()),
+                    Direction::Backward => before.translation(),
+                });
+            }
         }
         Ok(state)
     }
@@ -239,6 +257,9 @@ impl SmoothTrajectory for LinkTrajectory<'_> {
     }
 
     fn acceleration_bounds(&self, from: f64, to: f64) -> AccelerationBounds {
+        if self.turns_about_one_axis() {
+            return AccelerationBounds::default();
+        }
         self.link_bounds(from, to).acceleration_bounds
     }
 
@@ -249,6 +270,9 @@ impl SmoothTrajectory for LinkTrajectory<'_> {
         to: f64,
     ) -> Result<(Motion, Option<Acceleration>), InputError> {
         let state = self.state(time)?;
+        if self.turns_about_one_axis() {
+            return Ok((state.to_motion()?, None));
+        }
         let acceleration = Acceleration {
             acceleration_vector: state.acceleration,
             jerk_bound: self.link_bounds(from, to).jerk_bounds.linear_acceleration,
@@ -266,7 +290,13 @@ impl SmoothTrajectory for LinkTrajectory<'_> {
             ..
         } = self.link_bounds(from, to);
         let base = length(self.chain.base().translation());
-        let turn = U * (24.0 * joints + 4.0 * angles);
+        // A centre on an axis is rounded as well.
+        let centre = if self.turns_about_one_axis() {
+            1.0
+        } else {
+            0.0
+        };
+        let turn = U * (24.0 * (joints + centre) + 4.0 * angles);
         let rounding = DeviationBound {
             centre_deviation: turn * arms + 8.0 * U * (base + arms),
             max_deviation_angle: turn,
@@ -283,6 +313,8 @@ struct LinkState {
     acceleration: DVec3,
     /// The angular acceleration `ω̇` of the link, in radians per unit of time squared.
     angular_acceleration: DVec3,
+    /// A point on the axis of the only joint that moves, if it turns.
+    pivot: Option<DVec3>,
 }
 
 impl LinkState {
@@ -294,11 +326,16 @@ impl LinkState {
             spin: DVec3::ZERO,
             acceleration: DVec3::ZERO,
             angular_acceleration: DVec3::ZERO,
+            pivot: None,
         }
     }
 
     fn to_motion(&self) -> Result<Motion, InputError> {
-        Motion::new(self.pose, self.velocity, self.spin)
+        let Some(pivot) = self.pivot else {
+            return Motion::new(self.pose, self.velocity, self.spin);
+        };
+        let centre = self.pose.rotation().conjugate() * (pivot - self.pose.translation());
+        Motion::about(self.pose, DVec3::ZERO, self.spin, centre)
     }
 
     /// Updates the state from the link before a joint to the link after it.

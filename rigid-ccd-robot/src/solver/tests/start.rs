@@ -494,3 +494,30 @@ fn letting_go_keeps_its_memory() {
         assert_eq!(allocated.count_total, 0, "{allocated:?}");
     }
 }
+
+/// What stands on a table is turned there by one joint, near and far from its axis.
+#[test]
+fn what_stands_on_a_table_turns_there() {
+    let bodies = [
+        Body::cylinder(0.033, 0.06).unwrap(),
+        Body::cuboid([0.05, 0.03, 0.06]).unwrap(),
+        Body::capsule(0.03, 0.03).unwrap(),
+    ];
+    for (body, distance) in bodies.iter().flat_map(|body| [(body, 0.0), (body, 0.4)]) {
+        for as_mesh in [false, true] {
+            let hinge = trajectory::Joint::revolute(at([0.1, 0.2, 0.3]), [0.0, 0.0, 1.0]).unwrap();
+            let cell = cell_with_can(
+                robot_of(vec![hinge, slide([0.0, 0.0, 1.0])]),
+                (body.clone(), at([distance, 0.0, 0.06 - 0.3])),
+                &[("table", slab(as_mesh), Pose::IDENTITY)],
+            );
+            let mut solver = cell.solver().with_settings(leave());
+            let mut answer = |to: [f64; 2]| solver.first_contact(&[[0.0, 0.0], to]).unwrap();
+            assert_eq!(answer([2.0, 0.0]), PathOutcome::Free, "{body:?}");
+            assert_eq!(answer([-3.0, 0.0]), PathOutcome::Free, "{body:?}");
+            // It sinks by a tenth of the tolerance.
+            let sinks = answer([2.0, -1e-4]);
+            assert!(matches!(sinks, PathOutcome::Contact(_)), "{sinks:?}");
+        }
+    }
+}
