@@ -4,7 +4,7 @@ use crate::arrays::{Elements, flat_numbers};
 use crate::errors::input_error;
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PyTuple};
+use pyo3::types::{PyList, PyTuple};
 use rigid_ccd_robot::JointCurve;
 
 /// Reads a list of curves; `None` for anything else.
@@ -29,15 +29,15 @@ pub(crate) fn read_curve(values: &Bound<'_, PyAny>) -> PyResult<Option<JointCurv
         return Ok(None);
     }
     let attribute = |name: &str| values.getattr_opt(name);
-    let polynomials = match (attribute("x")?, attribute("t")?, attribute("c")?) {
+    let curve = match (attribute("x")?, attribute("t")?, attribute("c")?) {
         (Some(times), _, Some(coefficients)) => Polynomials {
             times: flat_numbers(&times, "path.x")?,
             coefficients: Elements::<f64>::read(&coefficients, "path.c")?,
-        },
-        (None, Some(knots), Some(_)) => Polynomials::of_spline(values, &knots)?,
+        }
+        .curve()?,
+        (None, Some(knots), Some(coefficients)) => curve_of_spline(values, &knots, &coefficients)?,
         _ => return Ok(None),
     };
-    let curve = polynomials.curve()?;
     check_values(values, &curve)?;
     Ok(Some(curve))
 }
@@ -51,35 +51,6 @@ struct Polynomials {
 }
 
 impl Polynomials {
-    /// Expands a B-spline about the start of each segment of its base interval: the derivatives there are its coefficients.
-    fn of_spline(spline: &Bound<'_, PyAny>, knots: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let knots = flat_numbers(knots, "path.t")?;
-        let Some(degree) = spline.getattr_opt("k")? else {
-            return Err(input_error("path: knots `t` without a degree `k`"));
-        };
-        let degree: usize = degree.extract()?;
-        let bases = knots.len().saturating_sub(degree);
-        let mut times = knots.get(degree..bases).unwrap_or_default().to_vec();
-        times.dedup();
-        let starts = PyArray1::from_slice(spline.py(), &times[..times.len().saturating_sub(1)]);
-        let (mut values, mut shape) = (Vec::new(), Vec::new());
-        // Beyond it a curve has no polynomial that fits; one of a higher degree is refused by its number of coefficients.
-        for power in (0..=degree.min(MAX_POWERS)).rev() {
-            let how = PyDict::new(spline.py());
-            how.set_item("nu", power)?;
-            let derivatives = spline.call((&starts,), Some(&how))?;
-            let derivatives = Elements::<f64>::read(&derivatives, "path(times, nu)")?;
-            let factorial: f64 = (1..=power).map(|factor| factor as f64).product();
-            values.extend(derivatives.values.iter().map(|value| value / factorial));
-            shape = derivatives.shape;
-        }
-        shape.insert(0, degree.min(MAX_POWERS) + 1);
-        Ok(Polynomials {
-            times,
-            coefficients: Elements { values, shape },
-        })
-    }
-
     fn curve(&self) -> PyResult<JointCurve> {
         let Elements { values, shape } = &self.coefficients;
         let [powers, segments, joints] = shape[..] else {
@@ -102,8 +73,33 @@ impl Polynomials {
     }
 }
 
-/// The largest power of a B-spline that is read, above the largest degree of a curve.
-const MAX_POWERS: usize = 20;
+/// Reads a B-spline. SciPy allows more coefficients than there are basis functions, which come last and have no effect.
+fn curve_of_spline(
+    spline: &Bound<'_, PyAny>,
+    knots: &Bound<'_, PyAny>,
+    coefficients: &Bound<'_, PyAny>,
+) -> PyResult<JointCurve> {
+    let knots = flat_numbers(knots, "path.t")?;
+    let Some(degree) = spline.getattr_opt("k")? else {
+        return Err(input_error("path: knots `t` without a degree `k`"));
+    };
+    let degree: usize = degree.extract()?;
+    let Elements { values, shape } = Elements::<f64>::read(coefficients, "path.c")?;
+    let [given, joints] = shape[..] else {
+        return Err(input_error(format!(
+            "path: coefficients of shape (coefficients, joints) are needed, not {shape:?}"
+        )));
+    };
+    let bases = knots.len().saturating_sub(degree + 1).min(given);
+    let of_joint = |joint: usize| {
+        (0..bases)
+            .map(|basis| values[basis * joints + joint])
+            .collect()
+    };
+    let joints: Vec<Vec<f64>> = (0..joints).map(of_joint).collect();
+    let curve = JointCurve::from_b_spline(degree, &knots, &joints);
+    curve.map_err(|error| input_error(format!("path: {error}")))
+}
 
 /// The largest difference of a value to that of the object which the curve is, relative to values above 1.
 const MAX_VALUE_DIFFERENCE: f64 = 1e-6;

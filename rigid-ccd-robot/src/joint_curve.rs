@@ -1,9 +1,12 @@
 //! Paths whose joints follow polynomials of the time, as controllers run them.
 
+mod b_spline;
+
 use crate::error::{CurveError, PathError, RobotError};
 use crate::path_point::PathPoint;
 use crate::polynomial::{MAX_DEGREE, Polynomial};
 use crate::robot::Robot;
+use ccd_core::double_double::DoubleDouble;
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::InputError;
 use serde::{Deserialize, Serialize};
@@ -38,6 +41,8 @@ pub struct JointCurve {
     /// The coefficients of each segment, of powers of the share of its time; for each power, lowest first, those of all
     /// joints.
     coefficients: Vec<f64>,
+    /// What rounding to f64 has left of each coefficient.
+    low_coefficients: Vec<f64>,
 }
 
 /// The numbers of a curve that was stored, which are not checked yet.
@@ -48,6 +53,9 @@ struct CurveNumbers {
     joint_count: usize,
     degree: usize,
     coefficients: Vec<f64>,
+    /// Curves that were stored without them have none.
+    #[serde(default)]
+    low_coefficients: Vec<f64>,
 }
 
 impl TryFrom<CurveNumbers> for JointCurve {
@@ -59,6 +67,7 @@ impl TryFrom<CurveNumbers> for JointCurve {
             joint_count,
             degree,
             coefficients,
+            mut low_coefficients,
         } = stored;
         if !(1..=MAX_DEGREE).contains(&degree) {
             return Err(CurveError::DegreeTooHigh { degree });
@@ -67,11 +76,16 @@ impl TryFrom<CurveNumbers> for JointCurve {
         check_times(&times, segments)?;
         let expected = (segments * (degree + 1)).saturating_mul(joint_count);
         check_count("coefficients", 0, coefficients.len(), expected)?;
+        if low_coefficients.is_empty() {
+            low_coefficients.resize(expected, 0.0);
+        }
+        check_count("low coefficients", 0, low_coefficients.len(), expected)?;
         JointCurve {
             times,
             joint_count,
             degree,
             coefficients,
+            low_coefficients,
         }
         .checked()
     }
@@ -81,8 +95,7 @@ impl JointCurve {
     /// Creates a curve from polynomials of the time since each segment's start: for each segment and each joint with a position
     /// of its own its coefficients, that of the lowest power first.
     ///
-    /// The path is that of the polynomials of the share of each segment, whose coefficients are rounded. Where a joint jumps by
-    /// less than 1e-9 from one segment to the next, what lies between is not checked.
+    /// Where a joint jumps by less than 1e-9 from one segment to the next, what lies between is not checked.
     ///
     /// # Errors
     /// [`CurveError`] for numbers that are not finite, times that do not increase, numbers of segments, joints or coefficients
@@ -103,21 +116,16 @@ impl JointCurve {
             if joints.iter().any(Vec::is_empty) {
                 check_count("coefficients", segment, 0, 1)?;
             }
-            let mut scale = 1.0;
+            let duration = DoubleDouble::difference(span[1], span[0]);
+            let mut scale = DoubleDouble::from(1.0);
             for power in 0..=degree {
                 // A lower degree has zeros above it.
                 let own = joints.iter().map(|own| own.get(power).copied());
-                coefficients.extend(own.map(|own| own.map_or(0.0, |own| own * scale)));
-                scale *= span[1] - span[0];
+                coefficients.extend(own.map(|own| DoubleDouble::from(own.unwrap_or(0.0)) * scale));
+                scale = scale * duration;
             }
         }
-        JointCurve {
-            times: times.to_vec(),
-            joint_count,
-            degree,
-            coefficients,
-        }
-        .checked()
+        JointCurve::from_coefficients(times, (joint_count, degree), coefficients)
     }
 
     /// Creates a curve of cubic polynomials through configurations, with the velocities there.
@@ -130,8 +138,9 @@ impl JointCurve {
         velocities: &[Q],
     ) -> Result<Self, CurveError> {
         JointCurve::hermite(times, [positions, velocities], |[[p, v], [q, w]]| {
+            let [two, three] = [2.0, 3.0].map(DoubleDouble::from);
             let change = q - p;
-            [p, v, 3.0 * change - 2.0 * v - w, v + w - 2.0 * change]
+            [p, v, three * change - two * v - w, v + w - two * change]
         })
     }
 
@@ -147,14 +156,15 @@ impl JointCurve {
     ) -> Result<Self, CurveError> {
         let derivatives = [positions, velocities, accelerations];
         JointCurve::hermite(times, derivatives, |[[p, v, a], [q, w, b]]| {
+            let times = |factor: f64, derivative| DoubleDouble::from(factor) * derivative;
             let change = q - p;
             [
                 p,
                 v,
-                0.5 * a,
-                10.0 * change - 6.0 * v - 4.0 * w - 1.5 * a + 0.5 * b,
-                -15.0 * change + 8.0 * v + 7.0 * w + 1.5 * a - b,
-                6.0 * change - 3.0 * (v + w) + 0.5 * (b - a),
+                times(0.5, a),
+                times(10.0, change) - times(6.0, v) - times(4.0, w) - times(1.5, a) + times(0.5, b),
+                times(-15.0, change) + times(8.0, v) + times(7.0, w) + times(1.5, a) - b,
+                times(6.0, change) - times(3.0, v + w) + times(0.5, b - a),
             ]
         })
     }
@@ -164,7 +174,7 @@ impl JointCurve {
     fn hermite<Q: AsRef<[f64]>, const ORDERS: usize, const COUNT: usize>(
         times: &[f64],
         derivatives: [&[Q]; ORDERS],
-        interpolate: impl Fn([[f64; ORDERS]; 2]) -> [f64; COUNT],
+        interpolate: impl Fn([[DoubleDouble; ORDERS]; 2]) -> [DoubleDouble; COUNT],
     ) -> Result<Self, CurveError> {
         let joint_count = derivatives[0].first().map_or(0, |row| row.as_ref().len());
         check_times(times, derivatives[0].len().saturating_sub(1))?;
@@ -176,14 +186,14 @@ impl JointCurve {
         }
         let mut coefficients = Vec::new();
         for (segment, span) in times.windows(2).enumerate() {
-            let duration = span[1] - span[0];
-            let by_joint: Vec<[f64; COUNT]> = (0..joint_count)
+            let duration = DoubleDouble::difference(span[1], span[0]);
+            let by_joint: Vec<[DoubleDouble; COUNT]> = (0..joint_count)
                 .map(|joint| {
                     let ends = [segment, segment + 1].map(|row| {
-                        let mut scale = 1.0;
+                        let mut scale = DoubleDouble::from(1.0);
                         derivatives.map(|rows| {
-                            let by_share = rows[row].as_ref()[joint] * scale;
-                            scale *= duration;
+                            let by_share = DoubleDouble::from(rows[row].as_ref()[joint]) * scale;
+                            scale = scale * duration;
                             by_share
                         })
                     });
@@ -194,11 +204,22 @@ impl JointCurve {
                 coefficients.extend(by_joint.iter().map(|own| own[power]));
             }
         }
+        JointCurve::from_coefficients(times, (joint_count, COUNT - 1), coefficients)
+    }
+
+    fn from_coefficients(
+        times: &[f64],
+        (joint_count, degree): (usize, usize),
+        coefficients: Vec<DoubleDouble>,
+    ) -> Result<Self, CurveError> {
+        let parts = coefficients.into_iter().map(DoubleDouble::parts);
+        let (coefficients, low_coefficients) = parts.map(|[high, low]| (high, low)).unzip();
         JointCurve {
             times: times.to_vec(),
             joint_count,
-            degree: COUNT - 1,
+            degree,
             coefficients,
+            low_coefficients,
         }
         .checked()
     }
@@ -207,8 +228,8 @@ impl JointCurve {
     fn checked(self) -> Result<Self, CurveError> {
         for segment in 0..self.segment_count() {
             for joint in 0..self.joint_count {
-                let own = (0..=self.degree).map(|power| self.coefficients(segment, power)[joint]);
-                if !own.into_iter().all(f64::is_finite) {
+                let own = (0..=self.degree).map(|power| self.coefficient(segment, power, joint));
+                if !own.flat_map(DoubleDouble::parts).all(f64::is_finite) {
                     return Err(CurveError::NotFinite { segment, joint });
                 }
                 self.check_jump(segment, joint, 1.0)?;
@@ -294,16 +315,14 @@ impl JointCurve {
         self.degree
     }
 
-    /// Returns the coefficients of all joints for one power of the share of a segment.
-    pub(crate) fn coefficients(&self, segment: usize, power: usize) -> &[f64] {
-        let start = (segment * (self.degree + 1) + power) * self.joint_count;
-        &self.coefficients[start..][..self.joint_count]
+    /// Returns the coefficient of a joint for one power of the share of a segment.
+    pub(crate) fn coefficient(&self, segment: usize, power: usize, joint: usize) -> DoubleDouble {
+        let number = (segment * (self.degree + 1) + power) * self.joint_count + joint;
+        DoubleDouble::from_parts([self.coefficients[number], self.low_coefficients[number]])
     }
 
     fn polynomial(&self, segment: usize, joint: usize) -> Polynomial {
-        Polynomial::new(self.degree, |power| {
-            self.coefficients(segment, power)[joint].into()
-        })
+        Polynomial::new(self.degree, |power| self.coefficient(segment, power, joint))
     }
 
     /// Refuses a curve with a wrong number of joints, or one on which a joint leaves its limits.

@@ -146,8 +146,12 @@ impl PositionSource {
     }
 
     /// Returns one coefficient of the joint's position as a polynomial, from that of the position in the configuration.
-    pub(crate) fn polynomial_coefficient(&self, power: usize, followed: f64) -> DoubleDouble {
-        let product = DoubleDouble::product(self.multiplier, followed);
+    pub(crate) fn polynomial_coefficient(
+        &self,
+        power: usize,
+        followed: DoubleDouble,
+    ) -> DoubleDouble {
+        let product = DoubleDouble::from(self.multiplier) * followed;
         match power {
             0 => product + DoubleDouble::from(self.offset),
             _ => product,

@@ -56,7 +56,8 @@ fn hermite_curves_have_the_derivatives_that_are_given() {
             let duration = times[segment + 1] - times[segment];
             let of_joint = |joint: usize| {
                 let powers = (0..=3i32).map(|power| {
-                    cubic.coefficients(segment, power as usize)[joint] / duration.powi(power)
+                    let own = cubic.coefficient(segment, power as usize, joint);
+                    own.value() / duration.powi(power)
                 });
                 powers.collect()
             };
@@ -217,4 +218,27 @@ fn a_jump_counts_for_the_joints_that_follow() {
         error.to_string(),
         "joint 0 jumps by 0.0005 at the start of segment 1"
     );
+}
+
+/// A span that is no power of two scales the coefficients without rounding: the values are those of the given polynomial.
+#[test]
+fn polynomials_are_taken_as_they_are_given() {
+    use crate::rational::exact_fraction;
+    let given = [
+        0.3, -1e5, 3e5, -2.2e6, 7e6, -1e7, 9.9e6, -5e6, 1.1e6, -1.3e5,
+    ];
+    let times = [0.1, 0.4];
+    let curve = JointCurve::from_polynomials(&times, &[vec![given.to_vec()]]).unwrap();
+    let duration = exact_fraction(times[1]) - exact_fraction(times[0]);
+    for share in [0.25, 0.7, 1.0] {
+        let time = exact_fraction(share) * &duration;
+        let horner = |value: dashu_ratio::Relaxed, &own: &f64| value * &time + exact_fraction(own);
+        let expected = given.iter().rev().fold(exact_fraction(0.0), horner);
+        let found = curve.polynomial(0, 0).value(share);
+        let error = (exact_fraction(found) - &expected).to_f64().value().abs();
+        assert!(
+            error <= 0.5 * f64::EPSILON * found.abs(),
+            "{found}: {error}"
+        );
+    }
 }

@@ -71,9 +71,8 @@ impl JointPath {
         self.clear(joints.len(), curve.segment_count(), degree);
         for segment in 0..self.segment_count {
             for power in 0..=degree {
-                let given = curve.coefficients(segment, power);
                 for MovingJoint { source, .. } in joints {
-                    let given = given[source.position_index()];
+                    let given = curve.coefficient(segment, power, source.position_index());
                     let [high, low] = source.polynomial_coefficient(power, given).parts();
                     self.coefficients.push(high);
                     self.low_coefficients.push(low);

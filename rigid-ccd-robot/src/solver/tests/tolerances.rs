@@ -245,8 +245,7 @@ fn referee_positions(curve: &JointCurve, joint_count: usize, share: f64) -> Vec<
     let joints = (0..joint_count).map(|joint| {
         let powers = (0..=curve.degree()).rev();
         let value = powers.fold(DoubleDouble::default(), |value, power| {
-            DoubleDouble::from(curve.coefficients(0, power)[joint])
-                + value * DoubleDouble::from(share)
+            curve.coefficient(0, power, joint) + value * DoubleDouble::from(share)
         });
         value.value()
     });

@@ -1,0 +1,109 @@
+//! B-splines as curves: their polynomials, segment by segment, of twice as many digits as the numbers they are made of.
+
+use super::{JointCurve, check_count};
+use crate::error::CurveError;
+use crate::polynomial::MAX_DEGREE;
+use ccd_core::double_double::DoubleDouble;
+use smallvec::SmallVec;
+
+type Points = SmallVec<[DoubleDouble; MAX_DEGREE + 1]>;
+
+impl JointCurve {
+    /// Creates a curve from a B-spline: its degree, its knots, and for each joint with a position of its own the coefficients of
+    /// all basis functions. It begins at the knot with the number `degree`, and has as many basis functions as knots, less
+    /// `degree + 1`.
+    ///
+    /// # Errors
+    /// As of [`JointCurve::from_polynomials`], and knots that decrease.
+    pub fn from_b_spline(
+        degree: usize,
+        knots: &[f64],
+        joints: &[Vec<f64>],
+    ) -> Result<Self, CurveError> {
+        if !(1..=MAX_DEGREE).contains(&degree) {
+            return Err(CurveError::DegreeTooHigh { degree });
+        }
+        let bases = knots.len().saturating_sub(degree + 1);
+        for (number, coefficients) in joints.iter().enumerate() {
+            check_count("coefficients", number, coefficients.len(), bases)?;
+        }
+        // Written so that NaN is refused.
+        let in_order = |pair: &[f64]| pair[0] <= pair[1];
+        if let Some(segment) = knots.windows(2).position(|pair| !in_order(pair)) {
+            return Err(CurveError::TimesNotIncreasing { segment });
+        }
+        let mut times = knots.get(degree..=bases).unwrap_or_default().to_vec();
+        times.dedup();
+        if times.len() < 2 {
+            return Err(CurveError::TooFewTimes { count: times.len() });
+        }
+        let mut polynomials = Vec::new();
+        for basis in (degree..bases).filter(|&basis| knots[basis] < knots[basis + 1]) {
+            let by_joint: Vec<Points> = joints
+                .iter()
+                .map(|own| powers(&bezier_points(degree, knots, own, basis)))
+                .collect();
+            for power in 0..=degree {
+                polynomials.extend(by_joint.iter().map(|own| own[power]));
+            }
+        }
+        JointCurve::from_coefficients(&times, (joints.len(), degree), polynomials)
+    }
+}
+
+/// Returns the control points of a spline between a knot and the next one, as a Bézier curve. Each is the blossom of as many of
+/// both knots: de Boor's algorithm with a knot of its own in each round `[DEBOOR01]`.
+fn bezier_points(degree: usize, knots: &[f64], coefficients: &[f64], basis: usize) -> Points {
+    let ends = [knots[basis], knots[basis + 1]];
+    let of_number = |ones: usize| {
+        let first = basis - degree;
+        let mut points: Points = coefficients[first..=basis]
+            .iter()
+            .map(|&own| own.into())
+            .collect();
+        for round in 1..=degree {
+            let at = ends[usize::from(round <= ones)];
+            for k in (round..=degree).rev() {
+                let [low, high] = [knots[first + k], knots[first + k + degree + 1 - round]];
+                let [part, whole] = [at, high].map(|end| DoubleDouble::difference(end, low));
+                let share = quotient(part, whole);
+                points[k] = points[k - 1] + share * (points[k] - points[k - 1]);
+            }
+        }
+        points[degree]
+    };
+    (0..=degree).map(of_number).collect()
+}
+
+/// Returns a quotient, to 2⁻¹⁰⁰ of itself: what the quotient of f64 leaves over is divided once more, and so is what that leaves.
+fn quotient(part: DoubleDouble, whole: DoubleDouble) -> DoubleDouble {
+    let [divisor, _] = whole.parts();
+    let mut left = part;
+    let mut sum = DoubleDouble::default();
+    for _ in 0..3 {
+        let next = DoubleDouble::from(left.value() / divisor);
+        sum = sum + next;
+        left = left - whole * next;
+    }
+    sum
+}
+
+/// Returns the coefficients of the powers of a Bézier curve's share: `(n over k) Σ (−1)ᵏ⁻ⁱ (k over i) bᵢ`, which are differences of
+/// neighbouring control points, of differences of these, and so on.
+fn powers(points: &Points) -> Points {
+    let degree = points.len() - 1;
+    let mut differences = points.clone();
+    let mut binomial = 1.0;
+    let mut powers = Points::new();
+    for power in 0..=degree {
+        powers.push(DoubleDouble::from(binomial) * differences[0]);
+        for k in 0..degree - power {
+            differences[k] = differences[k + 1] - differences[k];
+        }
+        binomial = binomial * (degree - power) as f64 / (power + 1) as f64;
+    }
+    powers
+}
+
+#[cfg(test)]
+mod tests;
