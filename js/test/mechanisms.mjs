@@ -59,6 +59,19 @@ export default (ccd, { equal, justBefore, between, throws }) => {
       equal(bare.remarks[0].kind, "warning");
       equal(bare.remarks[0].text.includes("2 of 3 moving links have no bodies: a, b"), true);
     },
+    "what is probably a mistake is a warning, and what is usual is none"() {
+      const { robot, cell } = beforeWall();
+      const kinds = (one) => one.remarks.map(({ kind }) => kind);
+      equal([kinds(robot), kinds(cell)], [["remark"], ["remark"]]);
+      cell.add("desk", ccd.Body.box([1200, 800, 750]), { position: [9000, 0, 0] });
+      equal(kinds(cell), ["warning", "remark"]);
+      equal(cell.remarks[0].text.includes("desk is 2400 long, and the robot 1"), true);
+      const joints = [{ type: "revolute", name: "hinge", parent: "frame", child: "leaf" }];
+      const door = new ccd.Cell(new ccd.Robot({ joints, bodies: { leaf: ccd.Body.box([0.4, 0.02, 1]) } }));
+      door.add("floor", ccd.Body.box([200, 200, 0.1]), { position: [0, 0, -3] });
+      door.attach("handle", ccd.Body.capsule(0.01, 0.05), "leaf", { pose: { position: [0.3, 0.03, 0] } });
+      equal(kinds(door), ["remark"]);
+    },
     "a can is lifted from a table"() {
       const lift = { ...slider, axis: [0, 0, 1] };
       const cell = new ccd.Cell(new ccd.Robot({ joints: [lift], bodies: {} }));

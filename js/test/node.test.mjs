@@ -127,8 +127,21 @@ test("what is probably a mistake is said once in the console", async () => {
     firstContact(ball, ball, { motionA: new Motion({ ...far, rotation: [0, 0, 0, 2] }) });
     robot.motion("leaf", [0], [90]);
   }
-  console.warn = warn;
   check.equal(said.length, 4);
+  const { Cell } = module;
+  const cell = new Cell(robot);
+  for (let k = 0; k < 2; k += 1) {
+    cell.add(`wall ${k}`, Body.box([1, 50, 50]), { position: [9, 0, 0] });
+    cell.isFree([[0], [6.28]]);
+    check.equal(said.length, 4 + k);
+    // Of these kinds are said already.
+    cell.isFree([[0], [90]], { tolerance: 1 });
+    cell.add(`desk ${k}`, Body.box([1200, 800, 750]), { position: [9000, 0, 0] });
+  }
+  cell.attach("tool", Body.sphere(0.0005), "leaf", { pose: { position: [0, 0, 2] } });
+  console.warn = warn;
+  check.equal(said.length, 7);
+  for (const [k, pattern] of [/desk 0 is 2400 long, and the robot 2$/, /desk 1 is 2400/, /tool is 0.001 long/].entries()) check.ok(pattern.test(said[4 + k]), said[4 + k]);
   for (const [k, pattern] of [/tolerance is large/, /angular velocity is a round number of degrees/, /is it x, y, z, w\?: \(0, 0, 0, 2\)/, /joint's position/].entries()) {
     check.ok(said[k].startsWith("rigid-ccd: ") && pattern.test(said[k]), said[k]);
   }

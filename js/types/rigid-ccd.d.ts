@@ -332,8 +332,9 @@ export interface RobotParts {
   mayTouch?: readonly (readonly [string, string])[];
 }
 
-/** What is not checked. It changes no answer. */
+/** What is probably a mistake, or what is not checked. It changes no answer. */
 export interface Remark {
+  /** A warning tells what is probably a mistake, or that most of a robot is not checked. */
   kind: "remark" | "warning";
   text: string;
 }
@@ -350,7 +351,7 @@ export class Robot extends Owned {
   readonly limits: [low: number, high: number][];
   /** The pairs of links that are checked. A cell has a list of its own, to which `Cell.setClearance` may add. */
   readonly checkedPairs: [string, string][];
-  /** What is not checked: links without bodies, and pairs of links by reason. A warning says that most of the robot is not. */
+  /** What is probably a mistake, then what is not checked: links without bodies, and pairs of links by reason. */
   readonly remarks: Remark[];
   /** Returns the pose of a link in the frame of the base. */
   pose(link: string, configuration: Configuration): Pose;
@@ -412,7 +413,7 @@ export class Cell extends Owned {
   allowContact(a: string, b: string): void;
   /** Compares two items again that were allowed to touch, or two links that were not checked. */
   forbidContact(a: string, b: string): void;
-  /** What is not checked, and which contacts are allowed. */
+  /** The remarks on the robot, obstacles and attached bodies of an unlikely size, and which contacts are allowed. */
   readonly remarks: Remark[];
   /** Sets the distance that obstacles have to keep from a link, in addition to the margin. */
   setPadding(link: string, distance: number): void;

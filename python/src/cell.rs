@@ -1,33 +1,30 @@
 //! The Python class `Cell`.
 
-use crate::body::{PyBody, extract_body};
-use crate::cell_contents::{CellContents, Contact, PickledContents, UnpickledContents};
-use crate::cell_solver::CellWithCachedSolvers;
-use crate::check_remarks::{remark_texts, warn_of_unchecked, warning_text};
-use crate::errors::{Unresolved, input_error, with_attribute, wrong_type_error};
+use crate::cell_contents::{Contact, PickledContents, UnpickledContents};
+use crate::cell_remarks::{remark_texts, warn_of, warning_text};
+use crate::cell_state::{CellState, read_body};
+use crate::errors::wrong_type_error;
 use crate::motion::{GivenPose, read_given_pose};
 use crate::numbers::read_number;
-use crate::path_answers::{approach_object, contact_object};
+use crate::path_answers::{allowed_setting_names, approach_object, contact_or_unresolved};
 use crate::path_array::GivenPaths;
 use crate::path_questions::{ask_path, path_ranges};
 use crate::path_tables::{GivenQuestion, answer_paths};
 use crate::proofs::prove_path;
 use crate::robot::PyRobot;
-use crate::settings::{
-    APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES, PATH_CONTACT_SETTING_NAMES, read,
-};
+use crate::settings::{CONTACT_SETTING_NAMES, read};
 use crate::table::PyTable;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
+use rigid_ccd::Body;
 use rigid_ccd::table::results::Status;
-use rigid_ccd_robot::path_rows::PathQuestion;
-use rigid_ccd_robot::{Cell, RangeSettings, RobotError};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use rigid_ccd_robot::path_rows::{PathAnswer, PathQuestion};
+use rigid_ccd_robot::{Cell, CellRemark, RangeSettings};
 
 /// A robot among obstacles that rest in the frame of its base.
 ///
 /// A path is an array of shape (n, joints): configurations, between two of which all joints move at constant rates. An array
-/// of shape (joints,) is a configuration alone. Or it is a curve of up to degree 9: a `scipy.interpolate.PPoly` such as
+/// of shape (joints,) is a configuration alone. The columns of a data frame name the joints, with the end `_deg` for degrees. Or it is a curve of up to degree 9: a `scipy.interpolate.PPoly` such as
 /// `CubicSpline`, or any object with its breakpoints `x` and its coefficients `c` of shape (degree + 1, segments, joints); or a
 /// `BSpline` on its base interval, or any object that is called with a time and the order of a derivative as it is, with its knots
 /// `t`, its coefficients `c` and its degree `k`.
@@ -37,25 +34,22 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 #[pyclass(name = "Cell", module = "rigid_ccd", frozen)]
 pub(crate) struct PyCell {
     robot: Py<PyRobot>,
-    cell_with_solvers: CellWithCachedSolvers,
-    contents: Mutex<CellContents>,
+    state: CellState,
 }
 
 #[pymethods]
 impl PyCell {
     #[new]
     fn new(robot: &Bound<'_, PyRobot>) -> PyResult<Self> {
-        let PyRobot {
-            robot: links,
-            pairs,
-            ..
-        } = robot.get();
-        let cell = Cell::new((**links).clone(), pairs.clone());
-        warn_of_unchecked(robot.py(), &cell.check_summary())?;
+        let given = robot.get();
+        let cell = Cell::new((*given.robot).clone(), given.pairs.clone());
+        // Those on files were told when they were read.
+        let told: Vec<_> = given.file_remarks().collect();
+        let remarks = cell.remarks().into_iter();
+        warn_of(robot.py(), remarks.filter(|remark| !told.contains(&remark)))?;
         Ok(PyCell {
             robot: robot.clone().unbind(),
-            cell_with_solvers: CellWithCachedSolvers::new(cell),
-            contents: Mutex::default(),
+            state: CellState::new(cell),
         })
     }
 
@@ -65,7 +59,7 @@ impl PyCell {
         self.robot.clone_ref(py)
     }
 
-    /// Adds an obstacle at a pose in the frame of the robot's base.
+    /// Adds an obstacle at a pose in the frame of the robot's base. Warns if its size is unlikely beside the robot.
     #[pyo3(signature = (name, body, pose = None))]
     fn add(
         &self,
@@ -74,86 +68,65 @@ impl PyCell {
         pose: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let (given, pose) = (read_body(body)?, given_pose_or_identity(pose)?);
-        let body = given.get().body.clone();
-        let place = pose.pose("pose")?;
-        self.change(|cell| cell.add_obstacle(name, body, place))?;
-        self.contents().add(name, Some(given), pose);
-        Ok(())
+        let remark = self.remark_on_size(name, &given.get().body);
+        warn_of(body.py(), remark)?;
+        self.state.add(name, given, pose)
     }
 
     /// Adds an obstacle that is a half-space: all points below the plane z = 0 of the frame at a pose, without an end. A path on which
     /// joints slide so far that this is not certain raises an InputError.
     #[pyo3(signature = (name, pose = None))]
     fn add_plane(&self, name: &str, pose: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
-        let pose = given_pose_or_identity(pose)?;
-        let place = pose.pose("pose")?;
-        self.change(|cell| cell.add_plane(name, place))?;
-        self.contents().add(name, None, pose);
-        Ok(())
+        self.state.add_plane(name, given_pose_or_identity(pose)?)
     }
 
     /// Moves an obstacle to a pose.
     fn move_to(&self, name: &str, pose: &Bound<'_, PyAny>) -> PyResult<()> {
-        let pose = read_given_pose(pose, "pose")?;
-        let place = pose.pose("pose")?;
-        self.change(|cell| cell.move_obstacle(name, place))?;
-        self.contents().move_to(name, pose);
-        Ok(())
+        self.state.move_to(name, read_given_pose(pose, "pose")?)
     }
 
     /// Removes an obstacle.
     fn remove(&self, name: &str) -> PyResult<()> {
-        self.change(|cell| cell.remove_obstacle(name))?;
-        self.contents().remove(name);
-        Ok(())
+        self.state.remove(name)
     }
 
     /// Attaches a body to a link, at a pose in the link's frame. It may touch that link, and the links, attached bodies and
-    /// obstacles in `may_touch`.
+    /// obstacles in `may_touch`. Warns if its size is unlikely beside the robot.
     #[pyo3(signature = (name, body, link, pose = None, may_touch = Vec::new()))]
     fn attach(
         &self,
-        name: &str,
+        name: String,
         body: &Bound<'_, PyAny>,
-        link: &str,
+        link: String,
         pose: Option<&Bound<'_, PyAny>>,
         #[pyo3(from_py_with = read_names)] may_touch: Vec<String>,
     ) -> PyResult<()> {
         let (given, pose) = (read_body(body)?, given_pose_or_identity(pose)?);
-        let body = given.get().body.clone();
-        let place = pose.pose("pose")?;
-        let names: Vec<&str> = may_touch.iter().map(String::as_str).collect();
-        self.change(|cell| cell.attach(name, body, (link, place), &names))?;
-        let attached = (name.to_owned(), given, link.to_owned(), pose, may_touch);
-        self.contents().attach(attached);
-        Ok(())
+        let remark = self.remark_on_size(&name, &given.get().body);
+        warn_of(body.py(), remark)?;
+        self.state.attach((name, given, link, pose, may_touch))
     }
 
     /// Removes a body that is attached to a link.
     fn detach(&self, name: &str) -> PyResult<()> {
-        self.change(|cell| cell.detach(name))?;
-        self.contents().remove(name);
-        Ok(())
+        self.state.detach(name)
     }
 
     /// Allows two items to touch: two links, or a link, an attached body and an obstacle. What is removed takes this away.
     fn allow_contact(&self, a: &str, b: &str) -> PyResult<()> {
-        self.change(|cell| cell.allow_contact([cell.item_named(a)?, cell.item_named(b)?]))?;
-        self.contents().set_contact(a, b, Contact::Allowed);
-        Ok(())
+        self.state.set_contact(a, b, Contact::Allowed)
     }
 
     /// Compares two items again that were allowed to touch, or two links that were not checked.
     fn forbid_contact(&self, a: &str, b: &str) -> PyResult<()> {
-        self.change(|cell| cell.forbid_contact([cell.item_named(a)?, cell.item_named(b)?]))?;
-        self.contents().set_contact(a, b, Contact::Forbidden);
-        Ok(())
+        self.state.set_contact(a, b, Contact::Forbidden)
     }
 
-    /// What is not checked, as texts: links without bodies, pairs of links by reason, allowed contacts; warnings come first.
+    /// What is probably a mistake, then what is not checked, as texts: the robot's remarks, obstacles and attached bodies of an
+    /// unlikely size, and allowed contacts.
     #[getter]
     fn remarks(&self) -> Vec<String> {
-        remark_texts(&self.cell_with_solvers.cell().check_summary())
+        remark_texts(&self.state.solvers.cell().remarks())
     }
 
     /// Sets the distance that obstacles have to keep from a link, in addition to the margin.
@@ -162,9 +135,7 @@ impl PyCell {
         link: &str,
         #[pyo3(from_py_with = read_number)] distance: f64,
     ) -> PyResult<()> {
-        self.change(|cell| cell.set_padding(link, distance))?;
-        self.contents().set_padding(link, distance);
-        Ok(())
+        self.state.set_padding(link, distance)
     }
 
     /// Sets the distance at which a pair counts as touching. `a` is a link or an attached body; so is `b`, or an obstacle.
@@ -174,12 +145,7 @@ impl PyCell {
         b: &str,
         #[pyo3(from_py_with = read_number)] distance: f64,
     ) -> PyResult<()> {
-        self.change(|cell| {
-            let pair = [cell.item_named(a)?, cell.item_named(b)?];
-            cell.set_clearance(pair, distance)
-        })?;
-        self.contents().set_clearance(a, b, distance);
-        Ok(())
+        self.state.set_clearance(a, b, distance)
     }
 
     /// Returns whether nothing touches on a path. That is proven for all configurations on it.
@@ -197,14 +163,7 @@ impl PyCell {
         path: &Bound<'_, PyAny>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
-        let settings = read(settings, PATH_CONTACT_SETTING_NAMES)?;
-        let answer = ask_path(
-            py,
-            &self.cell_with_solvers,
-            PathQuestion::IsFree,
-            path,
-            settings,
-        )?;
+        let answer = self.ask(py, PathQuestion::IsFree, path, settings)?;
         Ok(answer.row.status == Status::Free)
     }
 
@@ -219,23 +178,10 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let settings = read(settings, PATH_CONTACT_SETTING_NAMES)?;
-        let answer = ask_path(
+        contact_or_unresolved(
             py,
-            &self.cell_with_solvers,
-            PathQuestion::FirstContact,
-            path,
-            settings,
-        )?;
-        match answer.limit {
-            Some(limit) => {
-                let until = answer.row.time.unwrap_or(0.0);
-                let text = format!("a limit was reached ({limit}); free until {until}");
-                let error = Unresolved::new_err(text);
-                Err(with_attribute(py, error, "safe_until", until))
-            }
-            None => contact_object(py, &answer),
-        }
+            &self.ask(py, PathQuestion::FirstContact, path, settings)?,
+        )
     }
 
     /// Finds the first contact on a path of configurations, and proves the answer for each of its segments: that all pairs that
@@ -262,7 +208,7 @@ impl PyCell {
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let settings = read(settings, CONTACT_SETTING_NAMES)?;
-        prove_path(py, &self.cell_with_solvers.cell(), path, progress, settings)
+        prove_path(py, &self.state.solvers.cell(), path, progress, settings)
     }
 
     /// Returns bounds of the least distance on a path, with the nearest pair. With a `clearance` it also says whether that is kept.
@@ -273,9 +219,10 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let settings = read(settings, APPROACH_SETTING_NAMES)?;
-        let (clearance, ask) = (settings.clearance, PathQuestion::ClosestApproach);
-        let answer = ask_path(py, &self.cell_with_solvers, ask, path, settings)?;
+        let question = PathQuestion::ClosestApproach;
+        let settings = read(settings, allowed_setting_names(question))?;
+        let clearance = settings.clearance;
+        let answer = ask_path(py, &self.state.solvers, question, path, settings)?;
         approach_object(py, &answer, clearance)
     }
 
@@ -307,7 +254,7 @@ impl PyCell {
             resolution,
             max_pose_error,
         };
-        path_ranges(py, &self.cell_with_solvers, path, how, settings)
+        path_ranges(py, &self.state.solvers, path, how, settings)
     }
 
     /// Answers a question about many edges, on all cores: `start` and `end` are arrays of shape (N, joints). They have no names: `start="leave"` is a
@@ -346,7 +293,7 @@ impl PyCell {
             settings,
         };
         let edges = || GivenPaths::read_edges([start, end], &self.robot.get().robot);
-        answer_paths(py, &self.cell_with_solvers, given, edges)
+        answer_paths(py, &self.state.solvers, given, edges)
     }
 
     /// Answers a question about many paths of equally many configurations, on all cores: an array of shape
@@ -369,63 +316,48 @@ impl PyCell {
             settings,
         };
         let paths = || GivenPaths::read(paths, &self.robot.get().robot);
-        answer_paths(py, &self.cell_with_solvers, given, paths)
+        answer_paths(py, &self.state.solvers, given, paths)
     }
 
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
     ) -> (Bound<'py, PyType>, (Py<PyRobot>,), PickledContents) {
         let (py, cell) = (slf.py(), slf.get());
-        let contents = cell.contents().pickled(py);
+        let contents = cell.state.pickled(py);
         (slf.get_type(), (cell.robot.clone_ref(py),), contents)
     }
 
     fn __setstate__(&self, state: UnpickledContents<'_>) -> PyResult<()> {
-        let (obstacles, attached, paddings, clearances, contacts) = state;
-        for (name, body, pose) in &obstacles {
-            match body {
-                Some(body) => self.add(name, body, Some(pose))?,
-                None => self.add_plane(name, Some(pose))?,
-            }
-        }
-        for (name, body, link, pose, may_touch) in attached {
-            self.attach(&name, &body, &link, Some(&pose), may_touch)?;
-        }
-        for (link, distance) in &paddings {
-            self.set_padding(link, *distance)?;
-        }
-        for (a, b, distance) in &clearances {
-            self.set_clearance(a, b, *distance)?;
-        }
-        for (a, b, is_allowed) in &contacts {
-            if *is_allowed {
-                self.allow_contact(a, b)?;
-            } else {
-                self.forbid_contact(a, b)?;
-            }
-        }
-        Ok(())
+        self.state.restore(state)
     }
 
     fn __repr__(&self) -> String {
-        let cell = self.cell_with_solvers.cell();
+        let cell = self.state.solvers.cell();
         let obstacles: Vec<&str> = cell.obstacle_names().collect();
-        let summary = cell.check_summary();
         format!(
-            "Cell({summary}: {}{})",
+            "Cell({}: {}; sizes: {}{})",
+            cell.check_summary(),
             obstacles.join(", "),
-            warning_text(&summary)
+            cell.sizes_text(),
+            warning_text(&cell.remarks())
         )
     }
 }
 
 impl PyCell {
-    fn contents(&self) -> MutexGuard<'_, CellContents> {
-        self.contents.lock().unwrap_or_else(PoisonError::into_inner)
+    fn ask(
+        &self,
+        py: Python<'_>,
+        question: PathQuestion,
+        path: &Bound<'_, PyAny>,
+        settings: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<PathAnswer> {
+        let settings = read(settings, allowed_setting_names(question))?;
+        ask_path(py, &self.state.solvers, question, path, settings)
     }
 
-    fn change(&self, change: impl FnOnce(&mut Cell) -> Result<(), RobotError>) -> PyResult<()> {
-        self.cell_with_solvers.change(change).map_err(input_error)
+    fn remark_on_size(&self, name: &str, body: &Body) -> Option<CellRemark> {
+        self.state.solvers.cell().remark_on_size(name, body)
     }
 }
 
@@ -439,9 +371,4 @@ fn given_pose_or_identity(given: Option<&Bound<'_, PyAny>>) -> PyResult<GivenPos
 fn read_names(given: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
     let names = given.extract::<Vec<String>>();
     names.map_err(|_| wrong_type_error("may_touch", "a list of names", given))
-}
-
-fn read_body(given: &Bound<'_, PyAny>) -> PyResult<Py<PyBody>> {
-    extract_body(given, "body")?;
-    Ok(given.clone().cast_into::<PyBody>()?.unbind())
 }

@@ -1,9 +1,8 @@
 //! The Python class `LinkMotion`.
 
-use crate::arrays::flat_numbers;
 use crate::errors::{input_error, warn};
 use crate::motion::pose_matrix;
-use crate::path_array::check_joint_order;
+use crate::path_array::read_configurations;
 use crate::pickle::Reduced;
 use pyo3::prelude::*;
 use rigid_ccd::Remark;
@@ -75,9 +74,8 @@ impl PyLinkMotion {
             .map_or(Ok(links.base()), |name| links.link_number(name))
             .map_err(input_error)?;
         let chain = links.chain_between(from, to);
-        check_joint_order(start, links, "start")?;
-        check_joint_order(end, links, "end")?;
-        let (start, end) = (flat_numbers(start, "start")?, flat_numbers(end, "end")?);
+        let start = read_configurations(start, links, "start")?.values;
+        let end = read_configurations(end, links, "end")?.values;
         let positions = |what, configuration: &[f64]| {
             let positions = chain.positions(links, configuration);
             positions.map_err(|error| input_error(format!("{what}: {error}")))

@@ -61,6 +61,23 @@ pub(crate) fn contact_object<'py>(
     class.call1(values).map(Some)
 }
 
+/// Returns the first contact of an answer as an object of Python; `None` without one.
+///
+/// # Errors
+/// `Unresolved` if a limit was reached first.
+pub(crate) fn contact_or_unresolved<'py>(
+    py: Python<'py>,
+    answer: &PathAnswer,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let Some(limit) = answer.limit else {
+        return contact_object(py, answer);
+    };
+    let until = answer.row.time.unwrap_or(0.0);
+    let text = format!("a limit was reached ({limit}); free until {until}");
+    let error = Unresolved::new_err(text);
+    Err(with_attribute(py, error, "safe_until", until))
+}
+
 /// Returns the bounds of a least distance as an object of Python, with what they say of a clearance.
 pub(crate) fn approach_object<'py>(
     py: Python<'py>,

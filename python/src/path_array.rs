@@ -5,6 +5,7 @@ use crate::cell_solver::Paths;
 use crate::curve::{read_curve, read_curves};
 use crate::errors::input_error;
 use pyo3::prelude::*;
+use rigid_ccd_robot::joint_columns::{AngleUnit, joint_column, names_joint};
 use rigid_ccd_robot::{JointCurve, PathPoint, Robot};
 
 /// A path as Python gives it: configurations, or polynomials.
@@ -19,14 +20,22 @@ impl GivenPath {
         if let Some(curve) = read_curve(values)? {
             return Ok(GivenPath::Curve(curve));
         }
-        check_joint_order(values, robot, "path")?;
-        let path = PathArray::read(values, "path")?;
+        let given = read_configurations(values, robot, "path")?;
+        let path = PathArray::new(given.values, given.shape, "path")?;
         match path.shape.len() {
             1 | 2 => Ok(GivenPath::Configurations(path)),
             _ => Err(input_error(format!(
                 "path: an array of shape (configurations, joints) is needed, not {:?}",
                 path.shape
             ))),
+        }
+    }
+
+    /// Returns what a function finds first in the configurations, or in those of a curve at its times.
+    pub(crate) fn find_configuration<T>(&self, find: impl Fn(&[f64]) -> Option<T>) -> Option<T> {
+        match self {
+            GivenPath::Configurations(array) => array.configurations().into_iter().find_map(find),
+            GivenPath::Curve(curve) => find_on_curve(curve, find),
         }
     }
 
@@ -73,6 +82,16 @@ impl GivenPaths {
         Ok(GivenPaths::Array(array))
     }
 
+    /// Returns what a function finds first in the configurations, or in those of curves at their times.
+    pub(crate) fn find_configuration<T>(&self, find: impl Fn(&[f64]) -> Option<T>) -> Option<T> {
+        match self {
+            GivenPaths::Array(array) => array.configurations().into_iter().find_map(find),
+            GivenPaths::Curves(curves) => {
+                curves.iter().find_map(|curve| find_on_curve(curve, &find))
+            }
+        }
+    }
+
     /// Returns the number of paths.
     pub(crate) fn count(&self) -> usize {
         match self {
@@ -87,10 +106,8 @@ impl GivenPaths {
         robot: &Robot,
     ) -> PyResult<Self> {
         let joints = robot.free_joint_names().len();
-        check_joint_order(start, robot, "start")?;
-        check_joint_order(end, robot, "end")?;
-        let start = Elements::<f64>::read(start, "start")?;
-        let end = Elements::<f64>::read(end, "end")?;
+        let start = read_configurations(start, robot, "start")?;
+        let end = read_configurations(end, robot, "end")?;
         let count = match (&start.shape[..], &end.shape[..]) {
             (&[count, columns], &[other, others])
                 if count == other && [columns, others] == [joints; 2] =>
@@ -110,43 +127,68 @@ impl GivenPaths {
     }
 }
 
-/// Refuses a data frame, or a series of one, whose columns name joints of the robot in another order than its configurations.
-pub(crate) fn check_joint_order(
+/// Reads configurations of a robot from an array, or from a data frame or a series of one whose columns name the joints, with the
+/// end `_deg` for degrees. Columns in another order than the positions of a configuration are refused.
+pub(crate) fn read_configurations(
     values: &Bound<'_, PyAny>,
     robot: &Robot,
     what: &str,
-) -> PyResult<()> {
-    let columns = match values.getattr_opt("column_names")? {
-        Some(names) => Some(names),
-        None => values.getattr_opt("columns")?,
+) -> PyResult<Elements<f64>> {
+    let units = match column_names(values)? {
+        Some(names) => units_of_columns(&names, robot, what)?,
+        None => Vec::new(),
     };
-    let names = match columns {
-        Some(names) => Some(names),
-        // The index of a series; that of a list is a method.
-        None => values
-            .getattr_opt("index")?
-            .filter(|index| !index.is_callable()),
-    };
-    let names: Option<Vec<String>> =
-        names
-            .and_then(|names| names.try_iter().ok())
-            .and_then(|names| {
-                let names = names.map(|name| name?.extract());
-                names.collect::<PyResult<_>>().ok()
-            });
-    let Some(names) = names else {
-        return Ok(());
-    };
-    let joints: Vec<&str> = robot.free_joint_names().collect();
-    let names_a_joint = names.iter().any(|name| joints.contains(&name.as_str()));
-    if !names_a_joint || names == joints {
-        return Ok(());
+    let mut given = Elements::<f64>::read(values, what)?;
+    if units.contains(&AngleUnit::Degree) {
+        let units = units.iter().cycle();
+        for (position, unit) in given.values.iter_mut().zip(units) {
+            *position = unit.to_radians(*position);
+        }
+    }
+    Ok(given)
+}
+
+/// Returns the names of the columns of a table, a data frame or a series of one; `None` if they have none.
+fn column_names(values: &Bound<'_, PyAny>) -> PyResult<Option<Vec<String>>> {
+    let mut columns = None;
+    for attribute in ["column_names", "columns", "index"] {
+        columns = match columns {
+            // The index of a series; that of a list is a method.
+            None => values
+                .getattr_opt(attribute)?
+                .filter(|names| !names.is_callable()),
+            found => found,
+        };
+    }
+    let names = columns.and_then(|names| names.try_iter().ok());
+    let names = names.map(|names| names.map(|name| name?.extract()).collect::<PyResult<_>>());
+    Ok(names.and_then(Result::ok))
+}
+
+/// Returns the unit of each column; none if no column names a joint.
+fn units_of_columns(names: &[String], robot: &Robot, what: &str) -> PyResult<Vec<AngleUnit>> {
+    if !names.iter().any(|name| names_joint(name, robot, "")) {
+        return Ok(Vec::new());
+    }
+    let mut units = Vec::new();
+    for (number, joint) in robot.free_joint_names().enumerate() {
+        let found = joint_column(names, robot, ("", joint), AngleUnit::Radian);
+        let found = found.map_err(|error| input_error(format!("{what}: {error}")))?;
+        units.extend(found.filter(|own| own.column == number).map(|own| own.unit));
+    }
+    if units.len() == names.len() {
+        return Ok(units);
     }
     Err(input_error(format!(
         "{what}: the columns are {}, and the joints of a configuration {}: take the columns robot.joint_names",
         names.join(", "),
-        joints.join(", ")
+        robot.free_joint_names().collect::<Vec<_>>().join(", ")
     )))
+}
+
+fn find_on_curve<T>(curve: &JointCurve, find: impl Fn(&[f64]) -> Option<T>) -> Option<T> {
+    let mut times = curve.times().iter();
+    times.find_map(|&time| find(&curve.positions(time)))
 }
 
 /// Configurations from an array, one after another.

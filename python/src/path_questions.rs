@@ -1,5 +1,6 @@
 //! Asks a cell a question about one path, and makes objects of Python of the answer.
 
+use crate::cell_remarks::{Asked, warn_of_question};
 use crate::cell_solver::CellWithCachedSolvers;
 use crate::errors::{bounds_interruption, input_error, interruption_error, time_interruption};
 use crate::interruptible::run_interruptibly;
@@ -25,8 +26,10 @@ pub(crate) fn ask_path(
     path: &Bound<'_, PyAny>,
     mut settings: Settings,
 ) -> PyResult<PathAnswer> {
-    let path = GivenPath::read(path, solvers.cell().robot())?;
+    let cell = solvers.cell();
+    let path = GivenPath::read(path, cell.robot())?;
     settings.check().map_err(input_error)?;
+    warn_of_question(py, &cell, &Asked::Path(&path), settings.tolerance)?;
     let clearance = settings.clearance.take();
     let question = |settings: Settings| {
         solvers.ask(&settings, |solver| match &path {
@@ -83,7 +86,9 @@ pub(crate) fn path_ranges<'py>(
     how: RangeSettings,
     settings: Settings,
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-    let path = GivenPath::read(path, solvers.cell().robot())?;
+    let cell = solvers.cell();
+    let path = GivenPath::read(path, cell.robot())?;
+    warn_of_question(py, &cell, &Asked::Path(&path), settings.tolerance)?;
     let work = |stop: &Arc<_>| {
         let settings = Settings {
             stop: Some(Arc::clone(stop)),

@@ -1,5 +1,6 @@
 //! Answers a question about each of many paths, as a table.
 
+use crate::cell_remarks::{Asked, warn_of_question};
 use crate::cell_solver::CellWithCachedSolvers;
 use crate::errors::input_error;
 use crate::path_answers::{allowed_setting_names, question_named};
@@ -34,9 +35,11 @@ pub(crate) fn answer_paths(
     let mut settings = read(given.settings, allowed_setting_names(question))?;
     settings.check().map_err(input_error)?;
     let clearance = settings.clearance.take();
-    (solvers.cell().check_any_compared()).map_err(input_error)?;
+    let cell = solvers.cell();
+    cell.check_any_compared().map_err(input_error)?;
     let threads = read_thread_count(given.threads)?;
     let paths = read_paths()?;
+    warn_of_question(py, &cell, &Asked::Paths(&paths), settings.tolerance)?;
     let progress = GivenProgress {
         progress: given.progress,
         total: Some(paths.count()),

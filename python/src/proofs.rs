@@ -1,6 +1,7 @@
 //! The Python functions that write and check machine-checkable proofs.
 
 use crate::body::extract_body;
+use crate::cell_remarks::{Asked, warn_of_question};
 use crate::errors::{input_error, interruption_error, wrong_type_error};
 use crate::interruptible::{run_interruptibly, run_or_leave};
 use crate::movement::GivenMovement;
@@ -101,7 +102,9 @@ pub(crate) fn prove_path<'py>(
     progress: Option<&Bound<'_, PyAny>>,
     settings: Settings,
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-    let path = match GivenPath::read(path, cell.robot())? {
+    let path = GivenPath::read(path, cell.robot())?;
+    warn_of_question(py, cell, &Asked::Path(&path), settings.tolerance)?;
+    let path = match path {
         GivenPath::Configurations(path) => path,
         GivenPath::Curve(_) => {
             return Err(input_error(

@@ -1,30 +1,26 @@
 //! The Python class `Robot`.
 
-use crate::arrays::flat_numbers;
-use crate::check_remarks::{remark_texts, warning_text};
-use crate::errors::{file_error, input_error, interruption_error, wrong_type_error};
-use crate::interruptible::run_interruptibly;
+use crate::cell_remarks::{remark_texts, warn_of, warning_text};
+use crate::errors::input_error;
 use crate::joint::PyJoint;
-use crate::link_contact_table::link_contact_table;
+use crate::link_contacts::{LinkContactQuestion, read_max_boxes};
 use crate::link_motion::PyLinkMotion;
 use crate::motion::pose_matrix;
-use crate::numbers::{read_number, whole_number};
-use crate::path_array::check_joint_order;
+use crate::numbers::read_number;
+use crate::path_array::read_configurations;
 use crate::pickle::{ConstructorCall, Reduced};
 use crate::robot_base::RobotBase;
 use crate::robot_file::{read_folders, read_robot, with_options};
-use crate::robot_links::{find_or_add_link, read_link_bodies};
+use crate::robot_links::read_links;
 use crate::table::PyTable;
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyType};
-use rigid_ccd_robot::{
-    Joint, Link, LinkBody, LinkContactSettings, LinkPairs, PlacedRobot, Robot, RobotFile,
-    SkipReason,
-};
+use rigid_ccd::text::RoundedToFourDigits;
+use rigid_ccd_robot::joint_columns::{AngleUnit, joint_column};
+use rigid_ccd_robot::{CellRemark, Joint, LinkPairs, PlacedRobot, Robot, RobotFile, SkipReason};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// A robot: a tree of links and joints, and the pairs of links that are checked.
 ///
@@ -71,28 +67,7 @@ impl PyRobot {
             .iter()
             .map(|joint| joint.get().joint.clone())
             .collect();
-        let mut links: Vec<Link> = Vec::new();
-        for name in joints
-            .iter()
-            .flat_map(|joint| [&joint.parent, &joint.child])
-        {
-            find_or_add_link(&mut links, name);
-        }
-        // What was read is kept for pickle, and not what the caller may change.
-        let read = PyDict::new(py);
-        let items = bodies.as_ref().map(|bodies| bodies.items()).transpose()?;
-        for item in items.iter().flatten() {
-            let (name, held): (String, Bound<'_, PyAny>) = item.extract()?;
-            let held = read_link_bodies(&held)?;
-            let link = find_or_add_link(&mut links, &name);
-            for (body, pose) in &held {
-                link.bodies.push(LinkBody {
-                    body: Arc::new(body.get().body.clone()),
-                    pose: pose.pose("bodies")?,
-                });
-            }
-            read.set_item(name, held)?;
-        }
+        let (links, read) = read_links(py, &joints, bodies.as_ref())?;
         let robot = Robot::new(links, joints).map_err(input_error)?;
         let mut pairs = LinkPairs::from_robot(&robot);
         for (a, b) in &may_touch {
@@ -106,7 +81,8 @@ impl PyRobot {
         })
     }
 
-    /// Reads a robot from a URDF file and the mesh files that it names.
+    /// Reads a robot from a URDF file and the mesh files that it names. Warns of what is probably a mistake in them, as `remarks`
+    /// tells it.
     ///
     /// Args:
     ///     path: the URDF file.
@@ -139,8 +115,7 @@ impl PyRobot {
     /// Bodies become links, and the world the link "world". The pairs of links that are checked are those of MuJoCo. A joint
     /// follows another one if an element ``equality`` makes its position a linear function of the other's; other constraints
     /// leave joints independent. Ranges of ball joints and margins are left out. The positions of a free joint are those of its
-    /// body in the world. A plane, a height field, an ellipsoid, a shape that is fitted to a mesh, and an element that is not known
-    /// are errors.
+    /// body in the world. A shape that is fitted to a mesh, a plane on a body that moves, and an element that is not known are errors.
     ///
     /// Args:
     ///     path: the MJCF file.
@@ -306,10 +281,24 @@ impl PyRobot {
         pairs.map(|[a, b]| (name(a), name(b))).collect()
     }
 
-    /// What is not checked, as texts: links without bodies, and pairs of links by reason; warnings come first.
+    /// What is probably a mistake, then what is not checked, as texts: elements of files that are left out, an SRDF of another
+    /// robot, sizes and angles in another unit; links without bodies, and pairs of links by reason.
     #[getter]
     fn remarks(&self) -> Vec<String> {
-        remark_texts(&self.pairs.check_summary(&self.robot))
+        remark_texts(&self.pairs.remarks(&self.robot))
+    }
+
+    /// Finds the column of a joint among the names of columns, with a prefix before its name: the name, and whether its positions
+    /// are in degrees.
+    fn _joint_column(
+        &self,
+        names: Vec<String>,
+        prefix: &str,
+        joint: &str,
+    ) -> PyResult<Option<(String, bool)>> {
+        let found = joint_column(&names, &self.robot, (prefix, joint), AngleUnit::Radian);
+        let found = found.map_err(input_error)?;
+        Ok(found.map(|own| (names[own.column].clone(), own.unit == AngleUnit::Degree)))
     }
 
     /// Returns the pose of a link in the frame of the base, as a matrix of shape (4, 4).
@@ -319,9 +308,8 @@ impl PyRobot {
         configuration: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let py = configuration.py();
-        check_joint_order(configuration, &self.robot, "configuration")?;
-        let positions = flat_numbers(configuration, "configuration")?;
-        let pose = self.robot.pose(link, &positions).map_err(input_error)?;
+        let given = read_configurations(configuration, &self.robot, "configuration")?;
+        let pose = self.robot.pose(link, &given.values).map_err(input_error)?;
         Ok(pose_matrix(py, &pose))
     }
 
@@ -387,52 +375,23 @@ impl PyRobot {
         name: &str,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<PyTable> {
-        if let Some(progress) = progress.as_ref().filter(|progress| !progress.is_callable()) {
-            return Err(wrong_type_error("progress", "a function", progress));
-        }
-        let progress = progress.map(Bound::unbind);
-        let (decided, all) = (AtomicUsize::new(0), AtomicUsize::new(0));
-        let work = |stop: &Arc<AtomicBool>| {
-            let settings = LinkContactSettings {
-                max_boxes,
-                deadline: None,
-                stop: Some(Arc::clone(stop)),
-            };
-            self.robot.classify_link_contacts(&settings, |now, pairs| {
-                decided.fetch_max(now, Ordering::Relaxed);
-                all.store(pairs, Ordering::Relaxed);
-            })
+        let asked = LinkContactQuestion {
+            robot: &self.robot,
+            max_boxes,
+            srdf: srdf.map(|path| (path, name)),
+            progress,
         };
-        let mut reported = None;
-        let mut report = |py: Python<'_>| {
-            let now = [&decided, &all].map(|count| count.load(Ordering::Relaxed));
-            match &progress {
-                Some(progress) if reported.replace(now) != Some(now) => {
-                    progress.call1(py, (now[0], now[1])).map(drop)
-                }
-                _ => Ok(()),
-            }
-        };
-        let (meetings, interruption) = run_interruptibly(py, work, &mut report)?;
-        let meetings = meetings.map_err(input_error)?;
-        if let Err(cause) = interruption.and_then(|()| report(py)) {
-            let batch = link_contact_table(&self.robot, &meetings).map_err(input_error)?;
-            return Err(interruption_error(py, cause, PyTable { batch }));
-        }
-        if let Some(path) = srdf {
-            let text = self.robot.to_srdf(name, &meetings);
-            std::fs::write(&path, text).map_err(|error| file_error(&error, &path))?;
-        }
-        let batch = link_contact_table(&self.robot, &meetings).map_err(input_error)?;
-        Ok(PyTable { batch })
+        asked.answer(py)
     }
 
     fn __repr__(&self) -> String {
-        let summary = self.pairs.check_summary(&self.robot);
+        let size = self.robot.size().map(RoundedToFourDigits);
         format!(
-            "Robot({summary}; joints {}{})",
+            "Robot({}{}; joints {}{})",
+            self.pairs.check_summary(&self.robot),
+            size.map_or_else(String::new, |size| format!("; size {size}")),
             self.joint_names().join(", "),
-            warning_text(&summary)
+            warning_text(&self.pairs.remarks(&self.robot))
         )
     }
 }
@@ -445,14 +404,18 @@ impl PyRobot {
         constructor_call: ConstructorCall,
     ) -> PyResult<Self> {
         let (robot, pairs) = read_robot(py, file, srdf)?;
-        Ok(PyRobot {
+        let read = PyRobot {
             robot: Arc::new(robot),
             pairs,
             constructor_call,
-        })
+        };
+        warn_of(py, read.file_remarks().cloned())?;
+        Ok(read)
     }
-}
 
-fn read_max_boxes(given: &Bound<'_, PyAny>) -> PyResult<usize> {
-    whole_number(given, "max_boxes", 0..=usize::MAX)
+    /// Returns the remarks on the files that the robot is from.
+    pub(crate) fn file_remarks(&self) -> impl Iterator<Item = &CellRemark> {
+        let of_pairs = self.pairs.file_remarks();
+        self.robot.file_remarks().iter().chain(of_pairs)
+    }
 }

@@ -3,10 +3,43 @@
 use crate::body::{PyBody, extract_body};
 use crate::motion::{GivenPose, read_given_pose};
 use pyo3::prelude::*;
-use rigid_ccd_robot::Link;
+use pyo3::types::{PyDict, PyMapping};
+use rigid_ccd_robot::{Joint, Link, LinkBody};
+use std::sync::Arc;
+
+/// Makes the links that joints name, and those that have bodies. Also returns the bodies as they were read, for pickle: the caller may
+/// change what was given.
+pub(crate) fn read_links<'py>(
+    py: Python<'py>,
+    joints: &[Joint],
+    bodies: Option<&Bound<'py, PyMapping>>,
+) -> PyResult<(Vec<Link>, Bound<'py, PyDict>)> {
+    let mut links: Vec<Link> = Vec::new();
+    for name in joints
+        .iter()
+        .flat_map(|joint| [&joint.parent, &joint.child])
+    {
+        find_or_add_link(&mut links, name);
+    }
+    let read = PyDict::new(py);
+    let items = bodies.map(|bodies| bodies.items()).transpose()?;
+    for item in items.iter().flatten() {
+        let (name, held): (String, Bound<'_, PyAny>) = item.extract()?;
+        let held = read_link_bodies(&held)?;
+        let link = find_or_add_link(&mut links, &name);
+        for (body, pose) in &held {
+            link.bodies.push(LinkBody {
+                body: Arc::new(body.get().body.clone()),
+                pose: pose.pose("bodies")?,
+            });
+        }
+        read.set_item(name, held)?;
+    }
+    Ok((links, read))
+}
 
 /// Returns the link that has a name, which is new if there is none.
-pub(crate) fn find_or_add_link<'a>(links: &'a mut Vec<Link>, name: &str) -> &'a mut Link {
+fn find_or_add_link<'a>(links: &'a mut Vec<Link>, name: &str) -> &'a mut Link {
     let number = links.iter().position(|link| link.name == name);
     let number = number.unwrap_or_else(|| {
         links.push(Link::named(name));
@@ -16,7 +49,7 @@ pub(crate) fn find_or_add_link<'a>(links: &'a mut Vec<Link>, name: &str) -> &'a 
 }
 
 /// Reads what is fixed to a link: a body, or pairs of a body and its pose.
-pub(crate) fn read_link_bodies(held: &Bound<'_, PyAny>) -> PyResult<Vec<(Py<PyBody>, GivenPose)>> {
+fn read_link_bodies(held: &Bound<'_, PyAny>) -> PyResult<Vec<(Py<PyBody>, GivenPose)>> {
     let body = |given: &Bound<'_, PyAny>| -> PyResult<Py<PyBody>> {
         extract_body(given, "bodies")?;
         Ok(given.clone().cast_into::<PyBody>()?.unbind())

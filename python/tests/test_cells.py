@@ -240,6 +240,12 @@ def test_edges_of_tables_are_those_of_arrays(robot: Robot) -> None:
     for wrong, message in (({"id": ["a"], "from_shoulder": [0]}, "to_shoulder"), ({"from_shoulder": [0]}, "id")):
         with pytest.raises(InputError, match=message):
             query(wrong)
+    in_degrees = {"id": ids, "from_shoulder_deg": np.rad2deg(start), "to_shoulder": end}
+    found = query(in_degrees)
+    assert [*found["status"]] == [*expected["status"]] and np.nanmax(np.abs(found["time"] - expected["time"])) < 1e-9
+    for more, message in ((["from_shoulder"], "two columns for the joint shoulder"), (["from_elbow_deg"], "elbow, which rests")):
+        with pytest.raises(InputError, match=message):
+            query({**in_degrees, **{name: start for name in more}})
     with pytest.raises(InputError, match="knee"):
         EdgesQuery(cell, rest={"knee": 0})
     with pytest.raises((InputError, TypeError), match="ask"):
@@ -391,6 +397,28 @@ def test_a_plane_has_no_end(robot: Robot) -> None:
     cell.remove("slope")
     with pytest.raises(InputError, match="nothing is compared"):
         cell.is_free([[0, 0], [3, 0]])
+
+
+def test_frames_may_be_in_degrees(robot: Robot) -> None:
+    pandas = pytest.importorskip("pandas")
+    cell = Cell(robot)
+    cell.add("post", Body.sphere(0.1), ([0, 1.5, 0], [1, 0, 0, 0]))
+    path = np.array([[0.0, 0.1], [1.5, 0.2]])
+    degrees = np.rad2deg(path)
+    for frame in (
+        pandas.DataFrame({"shoulder_deg": degrees[:, 0], "elbow": path[:, 1]}),
+        pandas.DataFrame(degrees, columns=["shoulder_deg", "elbow_deg"]),
+    ):
+        for one, other in zip((cell.first_contact(frame), cell.first_contact(frame[::-1])), (cell.first_contact(path), cell.first_contact(path[::-1]))):
+            assert one is not None and other is not None and one.share == pytest.approx(other.share, abs=1e-9)
+        assert robot.pose("fore", frame.iloc[1]) == pytest.approx(robot.pose("fore", path[1]))
+        assert cell.edges(frame, path)["status"].tolist() == cell.edges(path, frame)["status"].tolist()
+    with pytest.raises(InputError, match="the columns are elbow_deg, shoulder"):
+        cell.is_free(pandas.DataFrame(degrees, columns=["elbow_deg", "shoulder"]))
+    slide = Cell(Robot([Joint.prismatic("x", "rail", "cart")], {"cart": Body.sphere(1)}))
+    slide.add_plane("floor", ([0, 0, -2], [1, 0, 0, 0]))
+    with pytest.raises(InputError, match="the joint x slides, and has no degrees"):
+        slide.is_free(pandas.DataFrame({"x_deg": [1.0]}))
 
 
 def test_what_is_not_checked_is_said(robot: Robot, tmp_path: Path) -> None:

@@ -1,13 +1,28 @@
 """Valid input that is probably a mistake gives a warning; usual input does not."""
 
+import copy
 import math
+import pathlib
 import warnings
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 
-from rigid_ccd import Body, Joint, Motion, Path, Robot, closest_approach, distance, first_contact, first_contacts, is_free
+from rigid_ccd import (
+    Body,
+    Cell,
+    Joint,
+    Motion,
+    Path,
+    Robot,
+    closest_approach,
+    distance,
+    first_contact,
+    first_contacts,
+    is_free,
+)
 
 BALL, WALL = Body.sphere(0.5), Body.box(0.1, 5, 5)
 PART = Body.sphere(0.0005)
@@ -78,3 +93,190 @@ def arm() -> Robot:
     """Returns a revolute and a prismatic joint."""
     hinge = Joint.revolute("hinge", "base", "upper")
     return Robot([hinge, Joint.prismatic("slide", "upper", "fore", axis=[1, 0, 0])])
+
+
+URDF = """<robot name="arm"><link name="base"/>
+  <link name="upper"><collision><geometry><box size="0.8 0.1 0.1"/></geometry></collision></link>
+  <joint name="hinge" type="continuous"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/></joint></robot>"""
+SRDF = '<robot name="arm"><disable_collisions link1="base" link2="upper" reason="Adjacent"/></robot>'
+MJCF = """<mujoco model="arm"><worldbody><geom type="plane" size="1 1 1"/><body name="a" pos="0 0 1"><joint/><geom size="0.1"/>
+  <body name="b" pos="1 0 0"><joint/><geom size="0.1"/></body></body></worldbody></mujoco>"""
+
+
+def told(act: Callable[[], object]) -> list[str]:
+    """Returns the texts of all warnings, which are about the lines of this file."""
+    with warnings.catch_warnings(record=True) as all_of_them:
+        warnings.simplefilter("always")
+        act()
+    for one in all_of_them:
+        assert one.filename == __file__ and one.category is UserWarning
+    return [str(one.message) for one in all_of_them]
+
+
+def table(unit: float) -> Body:
+    """Returns a table of 1.2 m as a mesh."""
+    corners = np.array([[x, y, z] for x in (0, 1.2) for y in (0, 0.8) for z in (0, 0.75)])
+    faces = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+    return Body(corners * unit, faces)
+
+
+def two_links(size: float = 0.4, **limits: Any) -> Robot:
+    """Returns an arm whose links are of a size and twice as far apart."""
+    at = ([0, 0, 2 * size], [1, 0, 0, 0])
+    rod = Body.box(0.1 * size, 0.1 * size, size)
+    joints = [Joint.revolute("hinge", "base", "upper", at, [0, 1, 0], **limits), Joint.revolute("elbow", "upper", "fore", at, [0, 1, 0])]
+    return Robot(joints, {name: rod for name in ("base", "upper", "fore")})
+
+
+def test_a_mesh_in_millimetres_is_warned_of() -> None:
+    cell, far = Cell(two_links()), ([5000, 0, 0], [1, 0, 0, 0])
+    [text] = told(lambda: cell.add("table", table(1000), far))
+    assert "is it in the robot's unit of length? table is 1200 long, and the robot 2.4" in text
+    [held] = told(lambda: cell.attach("tool", table(1000), "fore", far))
+    assert "tool is 1200 long" in held
+    assert cell.remarks[:2] == [held, text]
+    for part in ("sizes: robot 2.4, tool 1200, table 1200", text):
+        assert part in repr(cell)
+    # Copies have the remarks, and do not warn again of what is in them.
+    assert told(lambda: copy.copy(cell)) == []
+    # In metres all is well.
+    cell.remove("table")
+    cell.detach("tool")
+    assert told(lambda: cell.add("table", table(1), far)) == []
+    # A warning that is an error leaves the cell as it was.
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(UserWarning, match="dust is 0.0002"):
+            cell.add("dust", Body.sphere(0.0001))
+    assert "dust" not in repr(cell)
+
+
+def test_a_robot_with_meshes_in_millimetres_is_warned_of() -> None:
+    at = ([0, 0, 0.4], [1, 0, 0, 0])
+    robot = Robot([Joint.revolute("hinge", "base", "upper", at), Joint.revolute("elbow", "upper", "fore", at)], {"upper": table(1000)})
+    assert "upper is 1200 long, and the robot 0.8" in robot.remarks[0] and "size 1200" in repr(robot)
+    [text] = told(lambda: Cell(robot))
+    assert text == robot.remarks[0]
+
+
+PATH: Any = [[0.0, 0.0], [0.1, 0.0]]
+QUESTIONS: dict[str, Callable[..., object]] = {
+    "is_free": lambda cell, path, **how: cell.is_free(path, **how),
+    "first_contact": lambda cell, path, **how: cell.first_contact(path, **how),
+    "closest_approach": lambda cell, path, **how: cell.closest_approach(path, **how),
+    "clearance_ranges": lambda cell, path, **how: cell.clearance_ranges(path, **how),
+    "prove": lambda cell, path, **how: cell.prove(path, **how),
+    "edges": lambda cell, path, **how: cell.edges(path[:1], path[1:], **how),
+    "paths": lambda cell, path, **how: cell.paths([path], **how),
+}
+
+
+@pytest.mark.parametrize("name", QUESTIONS)
+def test_tolerances_and_degrees_of_questions_are_warned_of(name: str) -> None:
+    ask, cell = QUESTIONS[name], Cell(two_links())
+    cell.add("table", table(1), ([5, 0, 0], [1, 0, 0, 0]))
+    assert told(lambda: ask(cell, PATH)) == []
+    [text] = told(lambda: ask(cell, PATH, tolerance=1.0))
+    assert text.startswith("base: the tolerance is large against the smaller body")
+    [text] = told(lambda: ask(cell, [[0.0, 0.0], [0.0, 90.0]]))
+    assert text.startswith("joint elbow: a joint's position is a round number of degrees")
+
+
+def test_files_with_mistakes_are_warned_of_once(tmp_path: pathlib.Path) -> None:
+    def srdf(text: str) -> str:
+        (tmp_path / "arm.srdf").write_text(text)
+        return str(tmp_path / "arm.srdf")
+
+    def mjcf(text: str) -> Robot:
+        (tmp_path / "arm.xml").write_text(text)
+        return Robot.from_mjcf(tmp_path / "arm.xml")
+
+    of_other = SRDF.replace('name="arm"', 'name="leg"')
+    with_tail = SRDF.replace("</robot>", '<disable_collisions link1="upper" link2="tail"/></robot>')
+    weld = '<equality><weld body1="b"/></equality></mujoco>'
+    readers: list[tuple[Callable[[], Robot], str]] = [
+        (lambda: Robot.from_urdf_text(URDF, srdf=srdf(of_other)), "It is of `leg`, and the robot is `arm`"),
+        (lambda: Robot.from_urdf_text(URDF, srdf=srdf(with_tail)), "the SRDF names links that the robot does not have; their pairs are left out: tail"),
+        (lambda: Robot.from_urdf_text(URDF.replace("<axis", '<origin rpy="0 0 90"/><axis')), "joint hinge: roll, pitch or yaw is more than a turn"),
+        (lambda: Robot.from_urdf_text('<robot name="a"><link name="base"/></robot>'), "one link without shapes, base"),
+        (lambda: mjcf(MJCF.replace("</mujoco>", weld)), "in equality"),
+        (lambda: mjcf("<mujoco><worldbody/></mujoco>"), "one link without shapes, world"),
+    ]
+    for read, words in readers:
+        robots: list[Robot] = []
+        [text] = told(lambda: robots.append(read()))
+        assert words in text
+        [robot] = robots
+        assert text in "".join(robot.remarks) or words in robot.remarks[0]
+        assert words in repr(robot)
+        cells: list[Cell] = []
+        assert told(lambda: cells.append(Cell(robot))) == []
+        assert words in cells[0].remarks[0]
+    right = srdf(SRDF)
+    assert told(lambda: Robot.from_urdf_text(URDF, srdf=right)) == told(lambda: mjcf(MJCF)) == []
+
+
+def usual_cells(tmp_path: pathlib.Path) -> dict[str, Callable[[], object]]:
+    """Returns what makes cells of usual kinds, and asks them."""
+    slide = Joint.prismatic("x", "rail", "cart", axis=[1, 0, 0])
+    ball, far = Body.sphere(0.1), ([4, 0, 0.5], [1, 0, 0, 0])
+
+    def asked(robot: Robot, body: Body, at: Any = far, **how: Any) -> None:
+        cell = Cell(robot)
+        cell.add("thing", body, at)
+        path = np.zeros((2, len(robot.joint_names)))
+        cell.is_free(path, **how)
+        cell.closest_approach(path, tolerance=how.get("tolerance", 1e-4))
+        cell.edges(path[:1], path[1:])
+
+    def read(text: str, name: str) -> Robot:
+        (tmp_path / name).write_text(text)
+        reader = Robot.from_mjcf if name.endswith("xml") else Robot.from_urdf
+        return reader(tmp_path / name)
+
+    def with_srdf() -> Robot:
+        (tmp_path / "arm.srdf").write_text(SRDF)
+        return Robot.from_urdf_text(URDF, srdf=tmp_path / "arm.srdf")
+
+    def held() -> None:
+        cell = Cell(Robot([Joint.prismatic("lift", "rail", "fork")]))
+        cell.add("table", Body.box(1, 1, 0.1), ([0, 0, -0.1], [1, 0, 0, 0]))
+        cell.attach("can", Body.cylinder(0.033, 0.06), "fork", ([0, 0, 0.06], [1, 0, 0, 0]))
+        cell.is_free([[0], [0.5]], start="leave")
+
+    def on_plane() -> None:
+        cell = Cell(two_links())
+        cell.add_plane("floor", ([0, 0, -2], [1, 0, 0, 0]))
+        cell.first_contact(PATH)
+
+    drone = Robot.combined({"drone": Robot([], {"body": Body.box(0.2, 0.2, 0.05)})}, bases={"drone": "floating"})
+    cart = Robot.combined({"cart": Robot([slide], {"cart": ball})}, bases={"cart": "planar"})
+    gripper = Robot([Joint.prismatic("grip", "palm", "finger", axis=[1, 0, 0], limits=[0, 0.04])], {"finger": Body.box(0.01, 0.01, 0.03)})
+    point = Robot(
+        [Joint.prismatic("x", "w", "a", axis=[1, 0, 0], limits=[0, 10]), Joint.prismatic("y", "a", "b", axis=[0, 1, 0], limits=[0, 10])],
+        {"b": Body.sphere(0.02)},
+    )
+    return {
+        "an arm at a table": lambda: asked(two_links(), table(1)),
+        "an arm and a screw": lambda: asked(two_links(), Body.capsule(0.003, 0.008)),
+        "an arm on a floor of 400 m": lambda: asked(two_links(), Body.box(200, 200, 0.1), ([0, 0, -3], [1, 0, 0, 0])),
+        "an arm in a hall": lambda: asked(two_links(), Body.box(30, 20, 4), ([60, 0, 0], [1, 0, 0, 0])),
+        "an arm in millimetres": lambda: asked(two_links(400), table(1000), ([5000, 0, 0], [1, 0, 0, 0]), tolerance=1.0),
+        "a slide before a wall": lambda: asked(Robot([slide], {"cart": ball}), Body.box(0.1, 5, 5)),
+        "a drone in a building": lambda: asked(drone, Body.box(60, 40, 10), ([99, 0, 0], [1, 0, 0, 0])),
+        "a cart in a street": lambda: asked(cart, Body.box(80, 10, 15), ([0, 50, 0], [1, 0, 0, 0])),
+        "a gripper and a can": lambda: asked(gripper, Body.cylinder(0.033, 0.06)),
+        "a point in a maze": lambda: asked(point, Body.box(5, 0.1, 0.5), ([5, 5, 0], [1, 0, 0, 0])),
+        "a point cloud": lambda: asked(two_links(), Body.sphere(0)),
+        "a file with an SRDF": lambda: asked(with_srdf(), table(1)),
+        "a model of MuJoCo": lambda: asked(read(MJCF, "arm.xml"), table(1)),
+        "a can that is lifted": held,
+        "an arm above a plane": on_plane,
+        "two arms": lambda: asked(Robot.combined({"left": two_links(), "right": two_links()}, {"right": far}), table(1), ([0, 5, 0], [1, 0, 0, 0])),
+        "a hinge of a few turns": lambda: Cell(two_links(limits=[-7, 7])).is_free([[6.28, 0], [-6.28, 12]]),
+    }
+
+
+def test_usual_cells_have_no_warnings(tmp_path: pathlib.Path) -> None:
+    for kind, ask in usual_cells(tmp_path).items():
+        assert told(ask) == [], kind

@@ -570,9 +570,10 @@ rccd_status rccd_cell_allow_contact(struct rccd_cell *cell, const char *a, const
 // That of `rccd_cell_allow_contact`.
 rccd_status rccd_cell_forbid_contact(struct rccd_cell *cell, const char *a, const char *b);
 
-// Stores what of the cell is checked, as lines of text: counts, then what is not checked and why. A line that begins with
-// `warning: ` says that most of the robot is not checked. The text is valid until the next such call for the cell, or until the
-// cell is freed.
+// Stores what of the cell is checked, as lines of text: counts, then all remarks on the cell. A line that begins with `warning: `
+// says that something is probably a mistake, such as a size in another unit or an SRDF of another robot, or that most of the robot
+// is not checked. The other lines say what is not checked and why. The text is valid until the next such call for the cell, or
+// until the cell is freed.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `out` is null or points to a place for a text.

@@ -94,7 +94,7 @@ public:
     Result<Done> forbid_contact(const std::string &a, const std::string &b) {
         return detail::done(rccd_cell_forbid_contact(handle_.get(), detail::c_text(a), detail::c_text(b)));
     }
-    // Returns what is checked, as lines: counts, then what is not checked and why; the warnings begin with `warning: `.
+    // Returns what is checked, as lines: counts, then all remarks on the cell; those on probable mistakes begin with `warning: `.
     Result<std::string> check_summary() {
         rccd_text text{};
         const rccd_status status = rccd_cell_check_summary(handle_.get(), &text);

@@ -314,9 +314,10 @@ pub unsafe extern "C" fn rccd_cell_forbid_contact(
     unsafe { change_pair(cell, a, b, Cell::forbid_contact) }
 }
 
-/// Stores what of the cell is checked, as lines of text: counts, then what is not checked and why. A line that begins with
-/// `warning: ` says that most of the robot is not checked. The text is valid until the next such call for the cell, or until the
-/// cell is freed.
+/// Stores what of the cell is checked, as lines of text: counts, then all remarks on the cell. A line that begins with `warning: `
+/// says that something is probably a mistake, such as a size in another unit or an SRDF of another robot, or that most of the robot
+/// is not checked. The other lines say what is not checked and why. The text is valid until the next such call for the cell, or
+/// until the cell is freed.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `out` is null or points to a place for a text.
@@ -333,9 +334,8 @@ pub unsafe extern "C" fn rccd_cell_check_summary(
             check_summary,
             ..
         } = unsafe { exclusive("cell", cell) }?;
-        let summary = cell.check_summary();
-        *check_summary = summary.to_string();
-        for remark in summary.remarks() {
+        *check_summary = cell.check_summary().to_string();
+        for remark in cell.remarks() {
             let kind = if remark.is_warning() { "warning: " } else { "" };
             check_summary.push_str(&format!("\n{kind}{remark}"));
         }

@@ -3,8 +3,7 @@
 use super::print_error;
 use ccd_core::Body;
 use rigid_ccd::Remark;
-use rigid_ccd::text::Number;
-use std::fmt;
+use rigid_ccd::text::RoundedToFourDigits;
 
 /// The ratio of sizes above which the command warns; millimetres and metres differ by 1000.
 const MAX_USUAL_SIZE_RATIO: f64 = 100.0;
@@ -30,15 +29,5 @@ pub(super) fn warn_of_different_units(a: &Body, b: &Body) {
             sides_text(a),
             sides_text(b)
         ));
-    }
-}
-
-/// Displays a number rounded to four digits.
-pub(super) struct RoundedToFourDigits(pub(super) f64);
-
-impl fmt::Display for RoundedToFourDigits {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let rounded: f64 = format!("{:.3e}", self.0).parse().unwrap_or(self.0);
-        write!(f, "{}", Number(rounded))
     }
 }

@@ -193,7 +193,7 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
     let out = Output::claim(&args.out)?;
     let cell = robot.load(args.quiet)?;
     if !args.quiet {
-        print_remarks(cell.remarks(args.tolerance()));
+        print_remarks(cell.remark_on_tolerance(args.tolerance()));
     }
     let mut solver = cell.solver().with_settings(Settings {
         margin: args.clearance,

@@ -12,12 +12,13 @@ use crate::pairs::LinkPairs;
 use crate::robot::Robot;
 use crate::solver::kinematics::Kinematics;
 use crate::tuning::{MAX_LINK_PARTS, MAX_OBSTACLE_PARTS};
+use crate::units::SizeScale;
 use compared::AllowedPairs;
 use margins::Margins;
 use part::{HullPart, PlacedBody};
 use rigid_ccd::{Body, Pose};
 use std::cmp::Ordering;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A robot among obstacles that rest in the frame of its base.
 ///
@@ -37,6 +38,9 @@ pub struct Cell {
     obstacle_names: Vec<String>,
     margins: Margins,
     allowed: AllowedPairs,
+    size_scale: SizeScale,
+    /// A body of the smallest item, and the item's size; `None` in it if nothing has a size. It is found when it is first needed.
+    smallest_item: OnceLock<Option<(usize, f64)>>,
 }
 
 /// Where a robot holds a body.
@@ -89,6 +93,8 @@ impl Cell {
         let mut cell = Cell {
             margins: Margins::default(),
             allowed: AllowedPairs::default(),
+            size_scale: robot.size_scale(),
+            smallest_item: OnceLock::new(),
             robot,
             pairs,
             kinematics,
@@ -347,6 +353,7 @@ impl Cell {
         let count = parts.len();
         self.parts.splice(first..first, parts);
         self.bodies.insert(number, placed);
+        self.smallest_item = OnceLock::new();
         count
     }
 
@@ -360,6 +367,7 @@ impl Cell {
 
     fn remove(&mut self, number: usize) {
         self.bodies.remove(number);
+        self.smallest_item = OnceLock::new();
         let after_removal = |body: usize| match body.cmp(&number) {
             Ordering::Less => Some(body),
             Ordering::Equal => None,

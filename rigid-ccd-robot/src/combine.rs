@@ -94,10 +94,10 @@ impl Robot {
         }
         links.extend(base_links);
         let remarks = robots.iter().flat_map(|placed| {
-            let own = placed.robot.remarks().iter();
+            let own = placed.robot.file_remarks().iter();
             own.map(|remark| remark.with_robot_name(|name| placed.prefixed(name)))
         });
-        let combined = Robot::new(links, joints)?.with_remarks(remarks);
+        let combined = Robot::new(links, joints)?.with_file_remarks(remarks);
         let mut pairs = LinkPairs::from_robot(&combined);
         for (placed, first) in robots.iter().zip(first_links) {
             let own = first..first + placed.robot.links().len();
@@ -106,8 +106,9 @@ impl Robot {
                     robot: placed.name.to_owned(),
                 });
             }
-            let own = placed.pairs.remarks().iter();
-            pairs.add_remarks(own.map(|own| own.with_robot_name(|name| placed.prefixed(name))));
+            let own = placed.pairs.file_remarks().iter();
+            pairs
+                .add_file_remarks(own.map(|own| own.with_robot_name(|name| placed.prefixed(name))));
         }
         Ok((combined, pairs))
     }

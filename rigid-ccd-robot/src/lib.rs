@@ -28,12 +28,12 @@
 //! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/start` contacts at the start that may part, `solver/clearance_ranges` where a distance is kept, `solver/distance_curve` the distance over a path |
 //! | `path`, `joint_curve`, `polynomial`, `path_point` | what a question is about: a [`Path`] through configurations, or a [`JointCurve`] of polynomials |
 //! | `link_contacts` | whether two links can ever touch, by branch and bound over their joints: [`Robot::classify_link_contacts`] |
-//! | `pairs` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
-//! | `remark` | what is valid in a robot or a cell, but probably a mistake: [`CellRemark`] |
-//! | `check_summary` | what of a robot is checked, in numbers, and remarks about what is not: [`CheckSummary`] |
+//! | `pairs`, `skip_reason` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
+//! | `remark` | what is probably a mistake in a robot or a cell, and what is not checked: [`CellRemark`]; `robot_remarks`, `cell/remarks` and `units` make the remarks |
+//! | `check_summary` | what of a robot is checked, in numbers: [`CheckSummary`] |
 //! | `robot_file` | a robot from a URDF or MJCF file with its meshes: [`RobotFile`] |
 //! | `srdf` | pairs that are not checked, from an SRDF file |
-//! | `path_rows` | answers as rows of tables, for the command and the Python package |
+//! | `path_rows`, `joint_columns` | answers as rows of tables, and columns of joints, for the command and the Python package |
 //! | `evidence` | records of answers, to be asked again later: [`evidence::Evidence`] |
 //! | `tuning` | numbers that only cost time |
 
@@ -42,6 +42,9 @@ mod check_summary;
 mod combine;
 mod error;
 pub mod evidence;
+#[cfg(feature = "tables")]
+#[doc(hidden)]
+pub mod joint_columns;
 mod joint_curve;
 mod link_contacts;
 mod pairs;
@@ -58,23 +61,26 @@ mod rational;
 mod remark;
 mod robot;
 mod robot_file;
+mod robot_remarks;
+mod skip_reason;
 mod solver;
 mod srdf;
 #[cfg(test)]
 mod test_robots;
 mod tuning;
+mod units;
 #[cfg(test)]
 #[allow(dead_code)]
 #[path = "../../ccd-core/src/tests/worst.rs"]
 mod worst;
 
 pub use cell::{CarriedBody, Cell, Item};
-pub use check_summary::{CheckRemark, CheckSummary, LeftOutPairs, Surroundings};
+pub use check_summary::{CheckSummary, Surroundings};
 pub use combine::PlacedRobot;
 pub use error::{CurveError, NothingCompared, PathError, RobotError};
 pub use joint_curve::JointCurve;
 pub use link_contacts::{LinkContactClass, LinkContactSettings};
-pub use pairs::{LinkPairs, SkipReason};
+pub use pairs::LinkPairs;
 pub use path::Path;
 pub use path_point::PathPoint;
 pub use remark::CellRemark;
@@ -82,6 +88,7 @@ pub use robot::{ChainBetween, CompoundKind, Joint, Link, LinkBody, PositionRule,
 pub use robot_file::{
     BodyElements, MeshConversion, MjcfError, RobotFile, RobotFileError, UrdfError,
 };
+pub use skip_reason::{LeftOutPairs, SkipReason};
 pub use solver::{
     CellSolver, ClearanceRange, ClosestApproach, DistanceRange, PathContact, PathOutcome,
     RangeSettings,

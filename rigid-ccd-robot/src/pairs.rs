@@ -2,8 +2,8 @@
 
 use crate::remark::CellRemark;
 use crate::robot::Robot;
+use crate::skip_reason::{LeftOutPairs, SkipReason};
 use std::collections::BTreeMap;
-use std::fmt;
 use std::ops::Range;
 
 /// The pairs of a robot's links that are checked for collision, with the reason for each pair that is not. Links go by
@@ -17,30 +17,7 @@ pub struct LinkPairs {
     /// The numbers of the links that have bodies.
     links_with_bodies: Vec<usize>,
     /// The remarks on the file that the pairs are from.
-    remarks: Vec<CellRemark>,
-}
-
-/// The reason why a pair of links is not checked.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum SkipReason {
-    /// A joint connects the two links directly.
-    Adjacent,
-    /// No joint moves one link relative to the other.
-    NoMotion,
-    /// The caller or a file, such as an SRDF, excludes the pair, for the reason given here.
-    Disabled(String),
-}
-
-impl fmt::Display for SkipReason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            SkipReason::Adjacent => f.write_str("adjacent"),
-            SkipReason::NoMotion => f.write_str("no joint between them moves"),
-            SkipReason::Disabled(reason) if reason.is_empty() => f.write_str("disabled"),
-            SkipReason::Disabled(reason) => write!(f, "disabled: {reason}"),
-        }
-    }
+    file_remarks: Vec<CellRemark>,
 }
 
 impl LinkPairs {
@@ -51,7 +28,7 @@ impl LinkPairs {
         let mut pairs = LinkPairs {
             skip_reasons: BTreeMap::new(),
             links_with_bodies: links,
-            remarks: Vec::new(),
+            file_remarks: Vec::new(),
         };
         for [one, other] in pairs.all_pairs().collect::<Vec<_>>() {
             let reason = if robot.are_neighbours(one, other) {
@@ -68,12 +45,12 @@ impl LinkPairs {
     }
 
     /// Returns the remarks on the file that the pairs are from.
-    pub fn remarks(&self) -> &[CellRemark] {
-        &self.remarks
+    pub fn file_remarks(&self) -> &[CellRemark] {
+        &self.file_remarks
     }
 
-    pub(crate) fn add_remarks(&mut self, remarks: impl IntoIterator<Item = CellRemark>) {
-        self.remarks.extend(remarks);
+    pub(crate) fn add_file_remarks(&mut self, remarks: impl IntoIterator<Item = CellRemark>) {
+        self.file_remarks.extend(remarks);
     }
 
     /// Excludes a pair from the check for a reason. A pair that is excluded already keeps its reason.
@@ -112,6 +89,22 @@ impl LinkPairs {
     pub fn skipped_pairs(&self) -> impl Iterator<Item = ([usize; 2], &SkipReason)> {
         self.all_pairs()
             .filter_map(|pair| Some((pair, self.skip_reasons.get(&pair)?)))
+    }
+
+    /// Returns the pairs of links with bodies that are not checked, by reason.
+    pub(crate) fn left_out_pairs(&self, robot: &Robot) -> Vec<LeftOutPairs> {
+        let mut groups: Vec<LeftOutPairs> = Vec::new();
+        for (pair, reason) in self.skipped_pairs() {
+            let names = pair.map(|link| robot.links()[link].name.clone());
+            match groups.iter_mut().find(|group| group.reason == *reason) {
+                Some(group) => group.pairs.push(names),
+                None => groups.push(LeftOutPairs {
+                    reason: reason.clone(),
+                    pairs: vec![names],
+                }),
+            }
+        }
+        groups
     }
 
     /// Replaces what is skipped among the links of a range by what is skipped among those of a robot whose links they are.

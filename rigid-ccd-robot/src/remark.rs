@@ -1,18 +1,41 @@
-//! Remarks on robots and cells that are valid, but probably a mistake.
+//! Remarks on robots and cells: what is probably a mistake, and what is not checked.
 
+use crate::skip_reason::LeftOutPairs;
 use rigid_ccd::Remark;
+use rigid_ccd::text::RoundedToFourDigits;
 use std::fmt;
 
-/// A remark on a robot or a cell that is valid, but probably a mistake. It changes no answer.
+/// A remark on a robot or a cell. It changes no answer.
 ///
-/// [`Cell::remarks`](crate::Cell::remarks) lists those on a cell. The command prints them, and the Python package warns of them.
+/// A [warning](CellRemark::is_warning) tells what is probably a mistake, or that most of a robot is not checked. A note tells what
+/// is not checked. [`LinkPairs::remarks`](crate::LinkPairs::remarks) lists those on a robot, [`Cell::remarks`](crate::Cell::remarks)
+/// those on a cell.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CellRemark {
-    /// Something in a robot's file is left out, which another program may take into account.
+    /// More than half of the moving links have no bodies.
+    MostLinksWithoutBodies {
+        /// The moving links without bodies.
+        links: Vec<String>,
+        /// The number of moving links.
+        moving_count: usize,
+    },
+    /// More than half of the moving links are checked against no other link, because a file or a caller leaves their pairs out.
+    MostLinksUnchecked {
+        /// The moving links that are checked against no other link.
+        links: Vec<String>,
+        /// The number of moving links with bodies.
+        moving_count: usize,
+    },
+    /// The file of a robot has one link, without shapes.
+    EmptyRobot {
+        /// The name of the link.
+        link: String,
+    },
+    /// Elements of a robot's file are left out, which other programs may take into account.
     LeftOut {
-        /// The element, with the name of what it belongs to.
-        element: String,
+        /// The elements, each with the name of what it belongs to.
+        elements: Vec<String>,
     },
     /// An SRDF disables or enables pairs of links that the robot does not have, and these pairs are left out.
     UnknownLinks {
@@ -26,14 +49,14 @@ pub enum CellRemark {
         /// The name in the SRDF.
         of_srdf: String,
     },
-    /// A link is a hundred times as large as the robot's reach, or something else a hundred times as large as the robot or
-    /// a thousandth of it.
+    /// A link is far larger than the robot's reach, or something else far larger or smaller than the robot: it may be in another
+    /// unit of length.
     UnlikelySize {
         /// The name of the link, the attached body or the obstacle.
         item: String,
         /// The largest side of its largest body's bounding box.
         size: f64,
-        /// The size of the robot, see [`Cell::robot_size`](crate::Cell::robot_size); for a link, that of its joints.
+        /// The size of the robot, see [`Robot::size`](crate::Robot::size); for a link, that of its joints.
         robot_size: f64,
     },
     /// A number or the tolerance is probably in another unit.
@@ -42,6 +65,18 @@ pub enum CellRemark {
         item: String,
         /// The remark.
         remark: Remark,
+    },
+    /// Links have no bodies. This is a note.
+    LinksWithoutBodies {
+        /// The links.
+        links: Vec<String>,
+    },
+    /// Pairs of links are not checked. This is a note.
+    PairsLeftOut(LeftOutPairs),
+    /// Pairs other than two links were allowed to touch. This is a note.
+    ContactsAllowed {
+        /// The pairs.
+        pairs: Vec<[String; 2]>,
     },
 }
 
@@ -52,39 +87,58 @@ impl CellRemark {
         CellRemark::Input { item, remark }
     }
 
-    /// Returns the remark's text without names and numbers, the same for remarks of one kind.
-    pub fn general_text(&self) -> &'static str {
-        match self {
-            CellRemark::LeftOut { .. } => {
-                "something in the robot's file is left out, which other programs may take into account"
-            }
-            CellRemark::UnknownLinks { .. } => {
-                "the SRDF names links that the robot does not have; their pairs are left out"
-            }
-            CellRemark::OtherRobotName { .. } => {
-                "the SRDF is of a robot with another name; are its pairs those of this one?"
-            }
-            CellRemark::UnlikelySize { .. } => {
-                "something has a size that is unlikely beside the robot; is it in the robot's unit of length?"
-            }
-            CellRemark::Input { remark, .. } => remark.general_text(),
-        }
+    /// Returns whether something is probably a mistake, or most of a robot is not checked, so that an answer says little.
+    pub fn is_warning(&self) -> bool {
+        !matches!(
+            self,
+            CellRemark::LinksWithoutBodies { .. }
+                | CellRemark::PairsLeftOut(_)
+                | CellRemark::ContactsAllowed { .. }
+        )
     }
 
-    /// Returns this remark with a robot's name before the names in it.
-    pub(crate) fn with_robot_name(&self, prefixed: impl Fn(&str) -> String) -> Self {
-        let mut remark = self.clone();
-        match &mut remark {
-            CellRemark::LeftOut { element: name } => *name = prefixed(name),
-            CellRemark::UnlikelySize { item, .. } | CellRemark::Input { item, .. } => {
-                *item = prefixed(item);
-            }
-            CellRemark::OtherRobotName { .. } => {}
-            CellRemark::UnknownLinks { links } => {
-                for link in links {
-                    *link = prefixed(link);
+    pub(crate) fn left_out(element: String) -> Self {
+        let elements = vec![element];
+        CellRemark::LeftOut { elements }
+    }
+
+    /// Adds the remark to a list, in which one remark names all elements that are left out.
+    pub(crate) fn add_to(self, remarks: &mut Vec<CellRemark>) {
+        if let CellRemark::LeftOut { elements } = &self {
+            for other in &mut *remarks {
+                if let CellRemark::LeftOut { elements: all } = other {
+                    all.extend(elements.iter().cloned());
+                    return;
                 }
             }
+        }
+        remarks.push(self);
+    }
+
+    /// Sorts remarks so that warnings come first.
+    pub(crate) fn warnings_first(mut remarks: Vec<CellRemark>) -> Vec<CellRemark> {
+        remarks.sort_by_key(|remark| !remark.is_warning());
+        remarks
+    }
+
+    /// Returns this remark on a file with a robot's name before the names in it.
+    pub(crate) fn with_robot_name(&self, prefixed: impl Fn(&str) -> String) -> Self {
+        let mut remark = self.clone();
+        let names: Vec<&mut String> = match &mut remark {
+            CellRemark::MostLinksWithoutBodies { links, .. }
+            | CellRemark::MostLinksUnchecked { links, .. }
+            | CellRemark::LinksWithoutBodies { links }
+            | CellRemark::UnknownLinks { links } => links.iter_mut().collect(),
+            CellRemark::LeftOut { elements } => elements.iter_mut().collect(),
+            CellRemark::EmptyRobot { link: name }
+            | CellRemark::UnlikelySize { item: name, .. }
+            | CellRemark::Input { item: name, .. } => vec![name],
+            CellRemark::PairsLeftOut(LeftOutPairs { pairs, .. })
+            | CellRemark::ContactsAllowed { pairs } => pairs.iter_mut().flatten().collect(),
+            CellRemark::OtherRobotName { .. } => Vec::new(),
+        };
+        for name in names {
+            *name = prefixed(name);
         }
         remark
     }
@@ -93,25 +147,89 @@ impl CellRemark {
 impl fmt::Display for CellRemark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            CellRemark::LeftOut { element } => write!(f, "{}: {element}", self.general_text()),
-            CellRemark::UnknownLinks { links } => {
-                write!(f, "{}: {}", self.general_text(), links.join(", "))
-            }
+            CellRemark::MostLinksWithoutBodies {
+                links,
+                moving_count,
+            } => write!(
+                f,
+                "most of the robot is not checked: {} of {moving_count} moving links have no bodies: {}; the shapes for drawing \
+                 may have them",
+                links.len(),
+                links.join(", ")
+            ),
+            CellRemark::MostLinksUnchecked {
+                links,
+                moving_count,
+            } => write!(
+                f,
+                "most of the robot is not checked against itself: {} of {moving_count} moving links are checked against no other \
+                 link: {}",
+                links.len(),
+                links.join(", ")
+            ),
+            CellRemark::EmptyRobot { link } => write!(
+                f,
+                "the robot's file has one link without shapes, {link}, and no joints: has it macros only, or shapes for drawing only?"
+            ),
+            CellRemark::LeftOut { elements } => write!(
+                f,
+                "something in the robot's file is left out, which other programs may take into account: {}",
+                elements.join(", ")
+            ),
+            CellRemark::UnknownLinks { links } => write!(
+                f,
+                "the SRDF names links that the robot does not have; their pairs are left out: {}",
+                links.join(", ")
+            ),
             CellRemark::OtherRobotName { robot, of_srdf } => write!(
                 f,
-                "{}: `{of_srdf}`, and the robot is `{robot}`",
-                self.general_text()
+                "the SRDF is of a robot with another name; are its pairs those of this one? It is of `{of_srdf}`, and the robot is \
+                 `{robot}`"
             ),
             CellRemark::UnlikelySize {
                 item,
                 size,
                 robot_size,
-            } => write!(
-                f,
-                "{}: {item} is {size:.4} long, and the robot {robot_size:.4}",
-                self.general_text()
-            ),
+            } => {
+                let [size, robot_size] = [size, robot_size].map(|&size| RoundedToFourDigits(size));
+                write!(
+                    f,
+                    "something has a size that is unlikely beside the robot; is it in the robot's unit of length? {item} is {size} \
+                     long, and the robot {robot_size}"
+                )
+            }
             CellRemark::Input { item, remark } => write!(f, "{item}: {remark}"),
+            CellRemark::LinksWithoutBodies { links } => write!(
+                f,
+                "{} without bodies, compared with nothing: {}",
+                counted(links.len(), "link"),
+                links.join(", ")
+            ),
+            CellRemark::PairsLeftOut(LeftOutPairs { reason, pairs }) => write!(
+                f,
+                "{} of links not checked ({reason}): {}",
+                counted(pairs.len(), "pair"),
+                listed(pairs)
+            ),
+            CellRemark::ContactsAllowed { pairs } => write!(
+                f,
+                "{} allowed: {}",
+                counted(pairs.len(), "contact"),
+                listed(pairs)
+            ),
         }
+    }
+}
+
+fn listed(pairs: &[[String; 2]]) -> String {
+    let texts: Vec<String> = pairs.iter().map(|[a, b]| format!("{a} and {b}")).collect();
+    texts.join(", ")
+}
+
+/// Returns a number of things as text.
+pub(crate) fn counted(count: usize, thing: &str) -> String {
+    match count {
+        1 => format!("1 {thing}"),
+        _ => format!("{count} {thing}s"),
     }
 }

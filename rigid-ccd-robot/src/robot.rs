@@ -33,7 +33,7 @@ pub struct Robot {
     /// For each link, the link nearest to the base from which only fixed joints lead to it.
     rigid_roots: Vec<usize>,
     /// The remarks on the file that the robot is from.
-    remarks: Vec<CellRemark>,
+    file_remarks: Vec<CellRemark>,
 }
 
 /// A link of a robot: a frame, with the bodies that are fixed in it.
@@ -247,19 +247,24 @@ impl Robot {
             tree,
             position_sources: sources,
             free_joints,
-            remarks: Vec::new(),
+            file_remarks: Vec::new(),
         })
     }
 
     /// Adds remarks on the file that the robot is from.
-    pub(crate) fn with_remarks(mut self, remarks: impl IntoIterator<Item = CellRemark>) -> Self {
-        self.remarks.extend(remarks);
+    pub(crate) fn with_file_remarks(
+        mut self,
+        remarks: impl IntoIterator<Item = CellRemark>,
+    ) -> Self {
+        for remark in remarks {
+            remark.add_to(&mut self.file_remarks);
+        }
         self
     }
 
     /// Returns the remarks on the file that the robot is from.
-    pub fn remarks(&self) -> &[CellRemark] {
-        &self.remarks
+    pub fn file_remarks(&self) -> &[CellRemark] {
+        &self.file_remarks
     }
 
     /// Returns the links, in the order in which they were given.

@@ -16,6 +16,7 @@ pub use mjcf_error::MjcfError;
 pub use urdf_error::UrdfError;
 
 use crate::pairs::LinkPairs;
+use crate::remark::CellRemark;
 use crate::robot::Robot;
 use crate::srdf::Srdf;
 use ccd_decomp::{HTML_ADVICE, is_html};
@@ -124,7 +125,7 @@ impl RobotFile {
     /// a picture, a mesh that MuJoCo makes, a plane on a body that moves, and an element that is not known are errors.
     ///
     /// Elements and attributes that are not known are errors, too, unless they are known to say nothing of shapes, joints and
-    /// pairs. [`Robot::remarks`] names what may be a mistake.
+    /// pairs. [`Robot::file_remarks`] names what may be a mistake.
     ///
     /// # Errors
     /// [`RobotFileError`] with the link or the joint, and with the file of a mesh.
@@ -132,16 +133,23 @@ impl RobotFile {
         let text = self.text()?;
         self.search_folders.check_given_folders()?;
         let meshes = MeshBodies::new(self.mesh_conversion);
-        match self.mjcf(&text)? {
-            Some(model) => model.robot(self.body_elements, &meshes),
+        let robot = match self.mjcf(&text)? {
+            Some(model) => model.robot(self.body_elements, &meshes)?,
             None => {
                 let folders = &self.search_folders;
                 let reader = UrdfReader::new(self.body_elements, &meshes, folders);
                 reader
                     .read(&text)
-                    .map_err(|error| self.syntax_error(error))?
+                    .map_err(|error| self.syntax_error(error))??
             }
-        }
+        };
+        let empty = match robot.links() {
+            [link] if !link.has_shapes() => Some(CellRemark::EmptyRobot {
+                link: link.name.clone(),
+            }),
+            _ => None,
+        };
+        Ok(robot.with_file_remarks(empty))
     }
 
     /// Returns which pairs of links are checked: all pairs except neighbours, links that never move relative to each

@@ -1,9 +1,10 @@
 //! Which pairs of links are not checked: reads them from an SRDF file, and writes one with proofs.
 
 use crate::link_contacts::LinkContactClass;
-use crate::pairs::{LinkPairs, SkipReason};
+use crate::pairs::LinkPairs;
 use crate::remark::CellRemark;
 use crate::robot::Robot;
+use crate::skip_reason::SkipReason;
 use roxmltree::{Document, Node};
 use std::fmt::Write;
 
@@ -138,10 +139,10 @@ impl Srdf {
             }
         }
         if !unknown.is_empty() {
-            pairs.add_remarks([CellRemark::UnknownLinks { links: unknown }]);
+            pairs.add_file_remarks([CellRemark::UnknownLinks { links: unknown }]);
         }
         if !robot_name.is_empty() && !self.robot_name.is_empty() && robot_name != self.robot_name {
-            pairs.add_remarks([CellRemark::OtherRobotName {
+            pairs.add_file_remarks([CellRemark::OtherRobotName {
                 robot: robot_name.to_owned(),
                 of_srdf: self.robot_name.clone(),
             }]);

@@ -32,6 +32,30 @@ pub(crate) fn random_body(random: &mut Pcg64) -> Body {
     }
 }
 
+/// The links of a [row](row_of_links).
+pub(crate) const LINKS: [&str; 5] = ["base", "a", "b", "c", "d"];
+
+/// Returns an arm of links in a row, 1 apart, of which those that are named have a body.
+pub(crate) fn row_of_links(links: &[&str], with_bodies: &[&str]) -> Robot {
+    let link = |name: &&str| {
+        if with_bodies.contains(name) {
+            Link::named(*name).with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY)
+        } else {
+            Link::named(*name)
+        }
+    };
+    let origin = Pose::at([1.0, 0.0, 0.0]).unwrap();
+    let joints = links.windows(2).map(|pair| Joint {
+        name: format!("to {}", pair[1]),
+        parent: pair[0].into(),
+        child: pair[1].into(),
+        axis_and_limits: trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap(),
+        position_rule: PositionRule::Independent,
+    });
+    let joints = joints.collect();
+    Robot::new(links.iter().map(link).collect(), joints).unwrap()
+}
+
 /// Returns a random tree of links with joints that turn, slide, are fixed, or follow the first one.
 pub(crate) fn random_robot(random: &mut Pcg64) -> Robot {
     let count = random.random_range(3..8);

@@ -111,7 +111,6 @@ mod solver;
 #[cfg(feature = "tables")]
 #[doc(hidden)]
 pub mod table;
-#[cfg(feature = "tables")]
 #[doc(hidden)]
 pub mod text;
 pub mod trajectory;

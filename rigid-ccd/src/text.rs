@@ -18,6 +18,17 @@ impl fmt::Display for Number {
     }
 }
 
+/// Displays a number rounded to four digits.
+#[derive(Clone, Copy)]
+pub struct RoundedToFourDigits(pub f64);
+
+impl fmt::Display for RoundedToFourDigits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rounded: f64 = format!("{:.3e}", self.0).parse().unwrap_or(self.0);
+        write!(f, "{}", Number(rounded))
+    }
+}
+
 /// Displays the beginning of a text from a file, with its length if that is not all.
 #[derive(Clone, Copy)]
 pub struct Excerpt<'a>(pub &'a str);

@@ -1,6 +1,7 @@
 //! A robot among obstacles, and questions about its paths.
 
 use super::body::Body;
+use super::host::tell_warnings;
 use super::path_answer::PathAnswer;
 use super::poses::pose_from_numbers;
 use super::robot::{Robot, names_of_pairs, remark_texts};
@@ -33,6 +34,7 @@ impl Cell {
     #[wasm_bindgen(constructor)]
     pub fn new(robot: &Robot) -> Self {
         let cell = rigid_ccd_robot::Cell::new(robot.robot.clone(), robot.pairs.clone());
+        tell_warnings(cell.remarks());
         Cell {
             cell: Some(with_solver(cell)),
         }
@@ -44,7 +46,10 @@ impl Cell {
     /// A name that is taken, or a pose that is not valid.
     pub fn add(&mut self, name: &str, body: &Body, pose: &[f64]) -> Result<(), JsError> {
         let pose = pose_from_numbers(pose)?;
-        self.change(|cell| cell.add_obstacle(name, body.body.clone(), pose))
+        self.change(|cell| {
+            tell_warnings(cell.remark_on_size(name, &body.body));
+            cell.add_obstacle(name, body.body.clone(), pose)
+        })
     }
 
     /// Moves an obstacle.
@@ -79,6 +84,7 @@ impl Cell {
         let pose = pose_from_numbers(pose)?;
         self.change(move |cell| {
             let may_touch: Vec<&str> = may_touch.iter().map(String::as_str).collect();
+            tell_warnings(cell.remark_on_size(name, &body.body));
             cell.attach(name, body.body.clone(), (link, pose), &may_touch)
         })
     }
@@ -107,13 +113,13 @@ impl Cell {
         self.change(|cell| cell.forbid_contact([cell.item_named(a)?, cell.item_named(b)?]))
     }
 
-    /// Returns what is not checked: two texts for each remark, of which the first is "warning" or "remark".
+    /// Returns two texts for each remark, of which the first is "warning" or "remark".
     ///
     /// # Errors
     /// A cell that was lost.
     pub fn remarks(&self) -> Result<Vec<String>, JsError> {
         let cell = self.cell.as_ref().ok_or_else(lost)?.borrow_owner();
-        Ok(remark_texts(&cell.check_summary()))
+        Ok(remark_texts(cell.remarks()))
     }
 
     /// Sets the distance that obstacles have to keep from a link.
@@ -232,6 +238,12 @@ impl Cell {
             0 => vec![&[]; count],
             _ => path.chunks(joints).collect(),
         };
+        tell_warnings(cell.borrow_owner().remark_on_tolerance(settings[0]));
+        let robot = cell.borrow_owner().robot();
+        let mut remarks = configurations
+            .iter()
+            .filter_map(|at| robot.remark_on_configuration(at));
+        tell_warnings(remarks.next());
         let answer = cell.with_dependent_mut(|_, solver| {
             solver.set_settings(Settings {
                 tolerance: settings[0],

@@ -1,6 +1,7 @@
 //! What JavaScript is told beside answers: remarks on what is probably a mistake, and the text of a fault that ends the engine.
 
 use rigid_ccd::Remark;
+use rigid_ccd_robot::CellRemark;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 // `js/module/wasm.js` has this object.
@@ -33,6 +34,17 @@ pub(crate) fn tell(remarks: impl IntoIterator<Item = Remark>) {
                 );
             }
             _ => remark(kind, &told.to_string()),
+        }
+    }
+}
+
+/// Tells JavaScript the warnings among the remarks on a robot or a cell. Those on input are one of each kind.
+pub(crate) fn tell_warnings(remarks: impl IntoIterator<Item = CellRemark>) {
+    for told in remarks.into_iter().filter(CellRemark::is_warning) {
+        let text = told.to_string();
+        match told {
+            CellRemark::Input { remark: input, .. } => remark(input.general_text(), &text),
+            _ => remark(&text, &text),
         }
     }
 }

@@ -6,7 +6,7 @@ use super::movement::{LinkMotion, Movement};
 use super::poses::{pose_from_numbers, pose_to_numbers};
 use rigid_ccd::Remark;
 use rigid_ccd::trajectory::{self, JointKind};
-use rigid_ccd_robot::{CheckSummary, Joint, Link, LinkBody, LinkPairs, PositionRule, SkipReason};
+use rigid_ccd_robot::{CellRemark, Joint, Link, LinkBody, LinkPairs, PositionRule, SkipReason};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 /// A robot, with the pairs of its links that are checked.
@@ -151,9 +151,9 @@ impl Robot {
         names_of_pairs(&self.robot, &self.pairs)
     }
 
-    /// Returns what is not checked: two texts for each remark, of which the first is "warning" or "remark".
+    /// Returns two texts for each remark, of which the first is "warning" or "remark".
     pub fn remarks(&self) -> Vec<String> {
-        remark_texts(&self.pairs.check_summary(&self.robot))
+        remark_texts(self.pairs.remarks(&self.robot))
     }
 
     /// Returns the numbers of the pose of a link.
@@ -204,10 +204,9 @@ pub(crate) fn names_of_pairs(robot: &rigid_ccd_robot::Robot, pairs: &LinkPairs) 
     links.map(|link| robot.links()[link].name.clone()).collect()
 }
 
-/// Returns two texts for each remark of a summary: "warning" or "remark", and what it says.
-pub(crate) fn remark_texts(summary: &CheckSummary) -> Vec<String> {
-    let remarks = summary.remarks().into_iter();
-    let texts = remarks.flat_map(|remark| {
+/// Returns two texts for each remark: "warning" or "remark", and what it says.
+pub(crate) fn remark_texts(remarks: Vec<CellRemark>) -> Vec<String> {
+    let texts = remarks.into_iter().flat_map(|remark| {
         let kind = if remark.is_warning() {
             "warning"
         } else {

@@ -19,9 +19,9 @@ class EdgesQuery:
     It is a callable that goes where functions of tables go: Ray Data's `map_batches`, Dask's `map_partitions`, Spark's
     `mapInArrow`, a pool of processes. It can be pickled, with its cell.
 
-    A table has a column `id`, and for each joint the columns `from_JOINT` and `to_JOINT`, as `ccd edges` reads them. The
-    results are a table of the same kind, with the ids and the columns of `Cell.edges`. Called with an iterator of tables
-    it returns an iterator of tables.
+    A table has a column `id`, and for each joint the columns `from_JOINT` and `to_JOINT`, as `ccd edges` reads them: with
+    the end `_deg` they are in degrees. The results are a table of the same kind, with the ids and the columns of
+    `Cell.edges`. Called with an iterator of tables it returns an iterator of tables.
 
     Args:
         cell: the cell, as it is now; later changes do not count.
@@ -75,20 +75,28 @@ class EdgesQuery:
         return table
 
     def _configurations(self, table: Table) -> NDArray[np.float64]:
-        joints = self._cell.robot.joint_names
-        moving = [joint for joint in joints if joint not in self._rest]
-        needed = [f"{end}_{joint}" for joint in moving for end in ("from", "to")]
-        if missing := [name for name in needed if name not in table]:
-            raise InputError(f"edges: no column {', '.join(missing)}; `rest` says where joints without columns rest")
-        for joint in self._rest:
-            if f"from_{joint}" in table or f"to_{joint}" in table:
-                raise InputError(f"edges: there are columns for {joint}, which rests")
-        if unknown := set(table) - {"id", *needed}:
-            raise InputError(f"edges: unknown column {', '.join(sorted(unknown))}")
+        robot, names = self._cell.robot, table.column_names
+        joints = robot.joint_names
         ends = np.empty((2, len(table["id"]), len(joints)))
+        known, missing = {"id"}, []
         for k, joint in enumerate(joints):
-            for end, name in enumerate(("from", "to")):
-                ends[end, :, k] = self._rest[joint] if joint in self._rest else _numbers(table, f"{name}_{joint}")
+            for end, prefix in enumerate(("from_", "to_")):
+                column = robot._joint_column(names, prefix, joint)
+                if column is None and joint in self._rest:
+                    ends[end, :, k] = self._rest[joint]
+                elif column is None:
+                    missing.append(prefix + joint)
+                elif joint in self._rest:
+                    raise InputError(f"edges: there are columns for {joint}, which rests")
+                else:
+                    name, is_in_degrees = column
+                    positions = _numbers(table, name)
+                    ends[end, :, k] = np.deg2rad(positions) if is_in_degrees else positions
+                    known.add(name)
+        if missing:
+            raise InputError(f"edges: no column {', '.join(missing)}; `rest` says where joints without columns rest")
+        if unknown := set(table) - known:
+            raise InputError(f"edges: unknown column {', '.join(sorted(unknown))}")
         return ends
 
     def _answer(self, ends: NDArray[np.float64]) -> Table:

@@ -437,3 +437,63 @@ fn held_bodies_are_lifted_from_what_they_stand_on() {
         assert_eq!(lifted(&report), RccdOutcome::Contact);
     }
 }
+
+#[test]
+fn all_remarks_are_in_the_summary() {
+    let folder = tempfile::tempdir().unwrap();
+    let srdf = folder.path().join("arm.srdf");
+    std::fs::write(&srdf, r#"<robot name="leg"/>"#).unwrap();
+    let weld = r#"<mujoco model="arm"><worldbody><body name="a"><joint type="slide"/><geom size="0.1"/></body></worldbody>
+        <equality><weld name="w" body1="a"/></equality></mujoco>"#;
+    let turned = r#"<robot name="arm"><link name="base"/><link name="a"><collision><origin rpy="0 0 90"/>
+        <geometry><sphere radius="0.1"/></geometry></collision></link><joint name="j" type="continuous"><parent link="base"/>
+        <child link="a"/></joint></robot>"#;
+    let texts = [weld, turned, srdf.to_str().unwrap()];
+    let [weld, turned, srdf] = texts.map(|text| std::ffi::CString::new(text).unwrap());
+    let place = RccdPose {
+        position: [9000.0, 0.0, 0.0],
+        orientation: [0.0, 0.0, 0.0, 1.0],
+    };
+    // SAFETY: texts end with a zero, and pointers are to values that live here.
+    let summary = |robot: &std::ffi::CString, radius: f64| unsafe {
+        let cell = Handle::new(rccd_cell_free, |out| {
+            rccd_cell_from_text(robot.as_ptr(), null(), srdf.as_ptr(), null(), out)
+        });
+        let (pointer, body) = (cell.pointer(), crate::support::sphere(radius));
+        ok(rccd_cell_add_obstacle(
+            pointer,
+            c"boulder".as_ptr(),
+            body.pointer(),
+            &place,
+        ));
+        let mut lines = empty_answer().item_a;
+        ok(rccd_cell_check_summary(pointer, &mut lines));
+        text(lines)
+    };
+    for (robot, radius, expected) in [
+        (&weld, 0.2, &["weld w in equality", "It is of `leg`"][..]),
+        (
+            &turned,
+            0.2,
+            &["link a: roll, pitch or yaw", "It is of `leg`"],
+        ),
+        (
+            &turned,
+            200.0,
+            &["link a: roll", "It is of `leg`", "boulder is 400 long"],
+        ),
+    ] {
+        let lines = summary(robot, radius);
+        let warnings: Vec<&str> = lines
+            .lines()
+            .filter(|line| line.starts_with("warning: "))
+            .collect();
+        assert_eq!(warnings.len(), expected.len(), "{lines}");
+        for part in expected {
+            assert!(
+                warnings.iter().any(|line| line.contains(part)),
+                "{part}: {lines}"
+            );
+        }
+    }
+}

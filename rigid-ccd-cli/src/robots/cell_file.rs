@@ -283,7 +283,8 @@ fn place_in(text: &str, byte: usize) -> String {
 impl CellFile {
     /// Returns the remarks on the rotations of the file.
     fn remarks(&self) -> Vec<CellRemark> {
-        let of = |kind: &str, name: &str, rpy: &Option<Vec<f64>>, quaternion: &Option<Vec<f64>>| {
+        type Angles = Option<Vec<f64>>;
+        let of = |kind: &str, name: &str, rpy: &Angles, quaternion: &Angles| {
             let rpy = rpy.as_deref().and_then(|rpy| rpy.try_into().ok());
             let quaternion = quaternion.as_deref().and_then(|own| own.try_into().ok());
             let remark = rpy
@@ -292,14 +293,16 @@ impl CellFile {
             Some(CellRemark::on(format!("{kind} {name}"), remark))
         };
         let obstacles = self.obstacle.iter();
-        let obstacles =
-            obstacles.filter_map(|own| of("obstacle", &own.name, &own.rpy, &own.quaternion));
+        let obstacles = obstacles.map(|own| of("obstacle", &own.name, &own.rpy, &own.quaternion));
+        let planes = self.plane.iter();
+        let planes = planes.map(|own| of("plane", &own.name, &own.rpy, &own.quaternion));
         let robots = self.robot.iter();
-        let robots = robots.filter_map(|own| of("robot", &own.name, &own.rpy, &own.quaternion));
+        let robots = robots.map(|own| of("robot", &own.name, &own.rpy, &own.quaternion));
         let attached = self.attached.iter();
         let attached =
-            attached.filter_map(|own| of("attached body", &own.name, &own.rpy, &own.quaternion));
-        obstacles.chain(robots).chain(attached).collect()
+            attached.map(|own| of("attached body", &own.name, &own.rpy, &own.quaternion));
+        let all = obstacles.chain(planes).chain(robots).chain(attached);
+        all.flatten().collect()
     }
 }
 

@@ -90,7 +90,7 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     }
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let cell = args.cell.load(args.quiet)?;
-    print_remarks(cell.remarks(args.tolerance));
+    print_remarks(cell.remark_on_tolerance(args.tolerance));
     let path = args.read_path(&cell)?;
     let mut solver = cell.solver().with_settings(args.settings(0.0));
     let closest = solver.closest_approach(&path.configurations)?;

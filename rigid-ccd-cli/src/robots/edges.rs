@@ -56,7 +56,7 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     };
     let claimed = ClaimedFiles::claim(&files)?;
     let cell = args.cell.load(args.quiet)?;
-    print_remarks(cell.remarks(args.tolerance));
+    print_remarks(cell.remark_on_tolerance(args.tolerance));
     let (mut table, length) =
         PathTable::open("--edges", &args.edges, cell.robot(), args.joints.given())
             .with_context(|| input_name(&args.edges))?;

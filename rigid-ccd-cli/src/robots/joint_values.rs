@@ -6,6 +6,7 @@ use ccd_core::limits::MAX_COORDINATE;
 use clap::Args;
 use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::Robot;
+use rigid_ccd_robot::joint_columns::AngleUnit;
 use std::str::FromStr;
 
 /// The options that say where joints are that a table has no columns for.
@@ -30,14 +31,8 @@ pub(crate) struct GivenJoints<'a> {
     /// The positions and ranges of the joints that are named.
     pub(super) named: &'a [JointRange],
     pub(super) others: OtherJoints,
+    /// The unit of the positions of joints that turn, in columns that say none.
     pub(super) unit: AngleUnit,
-}
-
-/// The unit of the positions of joints that turn, in columns that say none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum AngleUnit {
-    Radian,
-    Degree,
 }
 
 /// What joints do that have neither columns nor a position.

@@ -5,11 +5,10 @@ use crate::files::refuse_overwriting_input;
 use crate::print_escaped_to_stderr;
 use crate::print_remarks;
 use crate::progress::Progress;
-use crate::size::RoundedToFourDigits;
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use rigid_ccd_robot::{
-    BodyElements, Cell, CheckSummary, Item, LeftOutPairs, LinkPairs, MeshConversion, Robot,
+    BodyElements, Cell, CellRemark, CheckSummary, LeftOutPairs, LinkPairs, MeshConversion, Robot,
     RobotFile, SkipReason,
 };
 use std::path::{Path, PathBuf};
@@ -131,13 +130,13 @@ impl RobotArgs {
         Ok(robot)
     }
 
-    /// Prints what of the robot is checked, and what is not, without any other file.
+    /// Prints what of the robot is checked, and the remarks on it, without any other file.
     ///
     /// # Errors
     /// If the file cannot be read again.
     pub(crate) fn print_checked(&self, robot: &Robot, quiet: bool) -> Result<()> {
         let pairs = self.file().link_pairs(robot, None)?;
-        print_checked(&pairs.check_summary(robot), quiet);
+        print_checked(&pairs.check_summary(robot), &pairs.remarks(robot), quiet);
         Ok(())
     }
 }
@@ -154,18 +153,17 @@ impl CellArgs {
                 .with_context(|| file.display().to_string())?,
             None => Cell::new(robot, pairs),
         };
-        let summary = cell.check_summary();
+        let remarks = cell.remarks();
         if let Err(nothing) = cell.check_any_compared() {
-            let remarks = summary.remarks().into_iter();
-            let remarks: Vec<String> = remarks.map(|remark| format!("; {remark}")).collect();
+            let remarks = remarks.iter().map(|remark| format!("; {remark}"));
             bail!(
                 "{nothing}; --geometry visual takes the other shapes of the robot{}",
-                remarks.concat()
+                remarks.collect::<String>()
             );
         }
-        print_checked(&summary, quiet);
+        print_checked(&cell.check_summary(), &remarks, quiet);
         if !quiet {
-            print_escaped_to_stderr(&sizes(&cell));
+            print_escaped_to_stderr(&format!("sizes in metres: {}", cell.sizes_text()));
         }
         Ok(cell)
     }
@@ -222,28 +220,20 @@ pub(crate) fn refuse_overwriting_any<'a>(
     Ok(())
 }
 
-/// Says how large the robot, the bodies that it holds, and the obstacles are.
-fn sizes(cell: &Cell) -> String {
-    let of_others = cell.item_sizes().into_iter().filter_map(|(item, size)| {
-        let is_own = matches!(item, Item::Link(_));
-        (!is_own).then(|| format!(", {} {}", item.name(), RoundedToFourDigits(size)))
-    });
-    let robot = cell.robot_size().unwrap_or(0.0);
-    let of_others: String = of_others.collect();
-    format!(
-        "sizes in metres: robot {}{of_others}",
-        RoundedToFourDigits(robot)
-    )
-}
-
-/// Prints what is compared, and what is not; if `quiet`, only that most of a robot is not.
-fn print_checked(summary: &CheckSummary, quiet: bool) {
+/// Prints what is compared, and the remarks; if `quiet`, only the warnings.
+fn print_checked(summary: &CheckSummary, remarks: &[CellRemark], quiet: bool) {
     if !quiet {
         print_escaped_to_stderr(&summary.to_string());
     }
-    for remark in summary.remarks() {
+    for remark in remarks {
+        let advice = match remark {
+            CellRemark::MostLinksWithoutBodies { .. } | CellRemark::EmptyRobot { .. } => {
+                " (--geometry visual)"
+            }
+            _ => "",
+        };
         if remark.is_warning() {
-            print_escaped_to_stderr(&format!("warning: {remark} (--geometry visual)"));
+            print_escaped_to_stderr(&format!("warning: {remark}{advice}"));
         } else if !quiet {
             print_escaped_to_stderr(&remark.to_string());
         }

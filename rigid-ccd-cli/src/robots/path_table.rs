@@ -1,16 +1,16 @@
 //! Reads a table of edges or paths of a robot, with columns named like its joints.
 
-use super::joint_values::{AngleUnit, GivenJoints, OtherJoints, check_joints};
+use super::joint_values::{GivenJoints, OtherJoints, check_joints};
 use crate::files::open_table;
 use crate::resumable::RowSource;
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::table::motions::{RowError, RowPosition, RowProblem, TableError};
 use rigid_ccd::table::records::{Record, Records};
 use rigid_ccd::table::table_records::TableRecords;
 use rigid_ccd::text::Excerpt;
-use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::Robot;
+use rigid_ccd_robot::joint_columns::{JointColumn, joint_column, names_joint};
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -52,14 +52,10 @@ struct PathColumns {
     end_positions: Option<Vec<PositionCell>>,
 }
 
-/// The end of the name of a column whose positions are in degrees.
-const DEGREES_SUFFIX: &str = "_deg";
-
 /// Where the position of a joint comes from.
 #[derive(Clone, Copy)]
 enum PositionCell {
-    /// A column with angles in a unit; of a joint that slides, it has lengths and the unit is that of radians.
-    Cell(usize, AngleUnit),
+    Cell(JointColumn),
     AtRest(f64),
 }
 
@@ -188,12 +184,9 @@ impl PathColumns {
         }
         let find = |name: &str| header.iter().position(|column| column == name);
         let joints: Vec<&str> = robot.free_joint_names().collect();
-        let is_of_edges = header.iter().any(|column| {
-            let name = column.strip_prefix("from_");
-            let joint = name.map(|name| name.strip_suffix(DEGREES_SUFFIX).unwrap_or(name));
-            let is_joint = |own: &str| joints.contains(&own);
-            name.is_some_and(is_joint) || joint.is_some_and(is_joint)
-        });
+        let is_of_edges = header
+            .iter()
+            .any(|column| names_joint(column, robot, "from_"));
         let prefixes: &[&str] = if is_of_edges {
             &["from_", "to_"]
         } else {
@@ -202,13 +195,14 @@ impl PathColumns {
         let mut missing = Vec::new();
         let mut positions = |prefix: &str| {
             let cell = |(number, joint): (usize, &&str)| {
-                let column = column_of_joint(&header, robot, (prefix, joint), at_rest.unit)?;
+                let column = joint_column(&header, robot, (prefix, joint), at_rest.unit)
+                    .map_err(|error| anyhow!("header: {error}"))?;
                 let rests = at_rest.named.iter().find(|range| range.joint == **joint);
                 match (column, rests) {
                     (Some(_), Some(_)) => {
                         bail!("--joint {joint}: the table has columns for this joint")
                     }
-                    (Some(cell), None) => Ok(cell),
+                    (Some(column), None) => Ok(PositionCell::Cell(column)),
                     (None, Some(range)) if range.is_at_rest() => {
                         Ok(PositionCell::AtRest(range.from))
                     }
@@ -257,7 +251,7 @@ impl PathColumns {
             .iter()
             .chain(ends)
             .filter_map(|cell| match cell {
-                PositionCell::Cell(column, _) => Some(*column),
+                PositionCell::Cell(own) => Some(own.column),
                 PositionCell::AtRest(_) => None,
             });
         let known: Vec<usize> = positions.chain(self.id).chain(self.time).collect();
@@ -287,10 +281,9 @@ impl PathColumns {
             .flatten()
         {
             let configuration = positions.iter().map(|cell| match *cell {
-                PositionCell::Cell(column, AngleUnit::Radian) => self.number(record, column),
-                PositionCell::Cell(column, AngleUnit::Degree) => {
-                    Ok(self.number(record, column)?.to_radians())
-                }
+                PositionCell::Cell(JointColumn { column, unit }) => self
+                    .number(record, column)
+                    .map(|position| unit.to_radians(position)),
                 PositionCell::AtRest(position) => Ok(position),
             });
             path.configurations
@@ -321,45 +314,6 @@ impl PathColumns {
                 value,
             }),
         }
-    }
-}
-
-/// Returns the column that a joint has, with a prefix before its name; `None` if it has none.
-///
-/// # Errors
-/// If there are two, if the name of a column may be that of two joints, and for degrees of a joint that slides.
-fn column_of_joint(
-    header: &[String],
-    robot: &Robot,
-    (prefix, joint): (&str, &str),
-    unit: AngleUnit,
-) -> Result<Option<PositionCell>> {
-    let find = |name: &str| header.iter().position(|column| column == name);
-    let turns = robot.joints().iter().any(|own| {
-        own.name == joint && matches!(own.axis_and_limits.kind(), JointKind::Revolute(_))
-    });
-    let in_degrees = format!("{joint}{DEGREES_SUFFIX}");
-    let (plain, degrees) = (
-        find(&format!("{prefix}{joint}")),
-        find(&format!("{prefix}{in_degrees}")),
-    );
-    let is_other_joint = robot.free_joint_names().any(|own| own == in_degrees);
-    match (plain, degrees) {
-        (None, Some(_)) if is_other_joint => bail!(
-            "header: `{prefix}{in_degrees}` may be the joint {in_degrees}, or {joint} in degrees; rename one of the joints"
-        ),
-        (Some(_), Some(_)) if !is_other_joint => {
-            bail!(
-                "header: two columns for the joint {joint}, `{prefix}{joint}` and `{prefix}{in_degrees}`"
-            )
-        }
-        (None, Some(_)) if !turns => {
-            bail!("header: `{prefix}{in_degrees}`: the joint {joint} slides, and has no degrees")
-        }
-        (None, Some(column)) => Ok(Some(PositionCell::Cell(column, AngleUnit::Degree))),
-        (Some(column), _) if turns => Ok(Some(PositionCell::Cell(column, unit))),
-        (Some(column), _) => Ok(Some(PositionCell::Cell(column, AngleUnit::Radian))),
-        (None, None) => Ok(None),
     }
 }
 

@@ -328,11 +328,12 @@ fn cells() {
                 Remarked,
                 "obstacle table: roll, pitch or yaw",
             ),
+            ("box:1,1,0.02", "box:900,900,2", Remarked, "table is 1800"),
             (
-                "box:1,1,0.02",
-                "box:900,900,0.02",
+                "[[clearance]]",
+                "[[plane]]\nname = \"floor\"\nposition = [0, 0, -9]\nrpy = [0, 0, 90]\n[[clearance]]",
                 Remarked,
-                "table is 1800",
+                "plane floor: roll, pitch or yaw",
             ),
         ],
     );

@@ -807,3 +807,74 @@ fn what_is_not_checked_is_printed() {
     let clearance = call(&scene, &ranges).run_for_messages(0);
     assert_contains(&clearance, "2 of 3 moving links have no bodies");
 }
+
+/// Tests that each mistake gives one warning, whichever command reads the cell, and that `--quiet` leaves only warnings.
+#[test]
+fn remarks_are_told_once() {
+    let scene = folder();
+    let arm = fs::read_to_string(scene.directory.join("arm.urdf")).unwrap();
+    let turned = arm.replacen("xyz=\"0.25 0 0\"", "xyz=\"0.25 0 0\" rpy=\"90 0 0\"", 1);
+    assert_ne!(turned, arm);
+    scene.file("turned.urdf", &turned);
+    scene.file("leg.srdf", "<robot name=\"leg\"/>");
+    scene.file(
+        "hall.toml",
+        "[[obstacle]]\nname = \"crate\"\nbody = \"box:600,400,375\"\nposition = [5000, 0, 0]\n",
+    );
+    let cell = ["turned.urdf", "--srdf", "leg.srdf", "--cell", "hall.toml"];
+    let warnings = [
+        "link upper: roll, pitch or yaw",
+        "It is of `leg`, and the robot is `arm`",
+        "crate is 1200 long",
+    ];
+    let notes = "pairs of links not checked (adjacent)";
+    let of_tolerance = "the tolerance is large against";
+    let edges = [
+        &["edges"][..],
+        &cell,
+        &["--edges", "moves.csv", "--tolerance", "0.5"],
+    ]
+    .concat();
+    let clearance = [
+        &["clearance"][..],
+        &cell,
+        &["--path", "path.csv", "--tolerance", "0.5"],
+    ]
+    .concat();
+    let view = [
+        &["view"][..],
+        &cell,
+        &[
+            "--path",
+            "path.csv",
+            "--out",
+            "out.html",
+            "--tolerance",
+            "0.5",
+        ],
+    ]
+    .concat();
+    for args in [edges, clearance, view] {
+        for quiet in [&[][..], &["--quiet"]] {
+            let output = call(&scene, &args).args(quiet).output();
+            let message = stderr(&output);
+            for warning in warnings {
+                assert_eq!(message.matches(warning).count(), 1, "{args:?}: {message}");
+            }
+            let expected = usize::from(quiet.is_empty());
+            assert_eq!(message.matches(notes).count(), expected, "{message}");
+            if quiet.is_empty() {
+                assert_eq!(message.matches(of_tolerance).count(), 1, "{message}");
+            }
+        }
+    }
+    let acm = call(&scene, &["acm", "turned.urdf", "--out", "out.srdf"]).run_for_messages(0);
+    assert_eq!(acm.matches(warnings[0]).count(), 1, "{acm}");
+    // What is usual has no warning.
+    let usual = call(&scene, &EDGES).output();
+    let message = stderr(&usual);
+    assert!(
+        !message.contains("warning: ") && !message.contains(of_tolerance),
+        "{message}"
+    );
+}

@@ -2,7 +2,7 @@
 
 use super::{Cell, Item};
 use crate::error::{NothingCompared, RobotError};
-use crate::pairs::SkipReason;
+use crate::skip_reason::SkipReason;
 use std::collections::BTreeSet;
 
 /// The pairs of bodies that may touch, besides pairs of links that are not checked. The lower number comes first.

@@ -7,9 +7,9 @@ use ccd_core::fan_triangles;
 use ccd_core::order::greater;
 use ccd_core::{Body, Facet, FacetOrigin, Facets, Piece, Pieces, Polytope, Solidity, SupportMap};
 use plane::Plane;
-use rigid_ccd::Pose;
 use rigid_ccd::glam::{DMat3, DVec3};
 use rigid_ccd::oracle::Frame;
+use rigid_ccd::{Pose, Remark};
 use std::sync::Arc;
 
 /// A body in a cell, at rest in a frame: that of the moving joint above its link, or the base for an obstacle.
@@ -20,6 +20,8 @@ pub(crate) struct PlacedBody {
     pub(crate) pose: Pose,
     /// The number of the frame.
     pub(crate) frame: usize,
+    /// The sides of the box around the body along its own axes.
+    pub(super) sides: [f64; 3],
     /// How far from the base the body is a half-space; `None` for a body that is no plane.
     pub(super) plane_reach: Option<f64>,
     /// Convex hulls that enclose the body together, in its own coordinates.
@@ -81,6 +83,7 @@ impl PlacedBody {
             .map(|pieces| Arc::new(Hull::around_pieces(pieces)))
             .collect();
         PlacedBody {
+            sides: Remark::sides(&body),
             body,
             pose,
             frame,

@@ -1,124 +1,94 @@
-//! What is probably a mistake in a cell.
+//! The remarks on a cell, and the sizes of what is in it.
 
 use super::{Cell, Item};
 use crate::remark::CellRemark;
-use crate::robot::Robot;
-use ccd_core::order::{greater, lesser};
-use rigid_ccd::glam::DVec3;
-use rigid_ccd::{Pose, Remark};
-
-/// The ratio of sizes above which a remark is made; millimetres and metres differ by 1000.
-const MAX_USUAL_SIZE_RATIO: f64 = 100.0;
-
-/// The ratio of sizes below which a remark is made. Screws are a few hundredths of a robot.
-const MIN_USUAL_SIZE_RATIO: f64 = 0.001;
+use ccd_core::order::greater;
+use rigid_ccd::text::RoundedToFourDigits;
+use rigid_ccd::{Body, Remark};
 
 impl Cell {
-    /// Lists the remarks on the robot's files, on sizes that differ as millimetres and metres do, and on a tolerance that is
-    /// large against what it is used for.
+    /// Lists the remarks on the robot and on what is around it, warnings first: on the robot's files, on sizes that differ as
+    /// millimetres and metres do, and on what is not checked.
     ///
     /// # Complexity
-    /// Linear in the points of all bodies.
-    pub fn remarks(&self, tolerance: f64) -> Vec<CellRemark> {
-        let of_files = self.robot().remarks().iter();
-        let of_pairs = self.link_pairs().remarks().iter();
-        let mut remarks: Vec<CellRemark> = of_files.chain(of_pairs).cloned().collect();
-        let sizes = self.item_sizes();
-        remarks.extend(self.remarks_on_sizes(&sizes));
-        remarks.extend(sizes.iter().filter_map(|&(item, size)| {
-            let remark = Remark::remark_on_tolerance(tolerance, [size; 2])?;
-            let item = item.name().to_owned();
-            Some(CellRemark::Input { item, remark })
+    /// Linear in the points of the robot's bodies, and quadratic in its links.
+    pub fn remarks(&self) -> Vec<CellRemark> {
+        let mut remarks = self.pairs.remarks(&self.robot);
+        let sized = (0..self.bodies.len()).filter(|&body| !self.is_plane(body));
+        remarks.extend(sized.filter_map(|body| match self.item_of_body(body) {
+            Item::Link(_) => None,
+            item => self.size_scale.remark(item.name(), self.bodies[body].sides),
         }));
-        remarks
+        let allowed = self.allowed_contacts().into_iter();
+        let pairs = allowed.map(|pair| pair.map(|item| item.name().to_owned()));
+        let pairs: Vec<[String; 2]> = pairs.collect();
+        if !pairs.is_empty() {
+            remarks.push(CellRemark::ContactsAllowed { pairs });
+        }
+        CellRemark::warnings_first(remarks)
     }
 
-    /// Returns the largest side of a box around the robot's bodies, while its joints are as near to 0 as their limits allow;
-    /// `None` without bodies.
+    /// Returns a remark if a body that is to be an obstacle, or to be attached to a link, has a size that is unlikely beside the
+    /// robot.
     ///
-    /// It may be too large by a small factor, because a ball stands for each body.
-    pub fn robot_size(&self) -> Option<f64> {
-        let placed = self
-            .placed_at_rest()
-            .filter(|(item, _)| matches!(item, Item::Link(_)));
-        largest_side(placed.flat_map(|(_, corners)| corners))
+    /// # Complexity
+    /// Linear in the points of the body.
+    pub fn remark_on_size(&self, name: &str, body: &Body) -> Option<CellRemark> {
+        self.size_scale.remark(name, Remark::sides(body))
+    }
+
+    /// Returns a remark if a tolerance is large against the smallest link, attached body or obstacle.
+    ///
+    /// # Complexity
+    /// Constant, but for the first time after the cell has changed.
+    pub fn remark_on_tolerance(&self, tolerance: f64) -> Option<CellRemark> {
+        let find = || {
+            let sizes = self.sizes_by_body().filter(|&(_, size)| size > 0.0);
+            sizes.min_by(|(_, one), (_, other)| one.total_cmp(other))
+        };
+        let (body, size) = (*self.smallest_item.get_or_init(find))?;
+        let remark = Remark::remark_on_tolerance(tolerance, [size; 2])?;
+        Some(CellRemark::on(self.item_of_body(body).name(), remark))
     }
 
     /// Returns the size of each link with bodies, attached body and obstacle: the largest side of its largest body's bounding
     /// box. Planes have none.
-    pub fn item_sizes(&self) -> Vec<(Item<'_>, f64)> {
-        let mut sizes: Vec<(Item<'_>, f64)> = Vec::new();
-        let bodies = self.carried_bodies().enumerate();
-        for (_, carried) in bodies.filter(|&(number, _)| !self.is_plane(number)) {
-            let size = Remark::body_size(carried.body);
-            match sizes.iter_mut().find(|(item, _)| *item == carried.item) {
-                Some((_, largest)) => *largest = greater(*largest, size),
-                None => sizes.push((carried.item, size)),
-            }
-        }
-        sizes
+    pub fn item_sizes(&self) -> impl Iterator<Item = (Item<'_>, f64)> {
+        let sizes = self.sizes_by_body();
+        sizes.map(|(body, size)| (self.item_of_body(body), size))
     }
 
-    fn remarks_on_sizes(&self, sizes: &[(Item<'_>, f64)]) -> Vec<CellRemark> {
-        let reach = largest_side(self.robot().frames_at_rest());
-        let robot_size = self.robot_size();
-        let unlikely = |&(item, size): &(Item<'_>, f64)| {
-            let (robot_size, is_unlikely) = match item {
-                Item::Link(_) => {
-                    let reach = reach.filter(|&reach| reach > 0.0)?;
-                    (reach, size > MAX_USUAL_SIZE_RATIO * reach)
-                }
-                Item::Attached(_) | Item::Obstacle(_) => {
-                    let robot = robot_size.filter(|&robot| robot > 0.0)?;
-                    let is_large = size > MAX_USUAL_SIZE_RATIO * robot;
-                    let is_small = size > 0.0 && size < MIN_USUAL_SIZE_RATIO * robot;
-                    (robot, is_large || is_small)
-                }
-            };
-            is_unlikely.then(|| CellRemark::UnlikelySize {
-                item: item.name().to_owned(),
-                size,
-                robot_size,
+    /// Returns the sizes of the robot, of attached bodies and of obstacles, in one line.
+    pub fn sizes_text(&self) -> String {
+        let robot = RoundedToFourDigits(self.robot.size().unwrap_or(0.0));
+        let others = self.item_sizes().filter_map(|(item, size)| {
+            let is_other = !matches!(item, Item::Link(_));
+            is_other.then(|| format!(", {} {}", item.name(), RoundedToFourDigits(size)))
+        });
+        format!("robot {robot}{}", others.collect::<String>())
+    }
+
+    /// Returns the size of each item, with the number of its last body.
+    fn sizes_by_body(&self) -> impl Iterator<Item = (usize, f64)> {
+        let sized = (0..self.bodies.len()).filter(|&body| !self.is_plane(body));
+        let mut sizes = sized
+            .map(|body| {
+                let sides = self.bodies[body].sides;
+                (body, sides.into_iter().fold(0.0, greater))
             })
-        };
-        sizes.iter().filter_map(unlikely).collect()
+            .peekable();
+        std::iter::from_fn(move || {
+            let (mut last, mut largest) = sizes.next()?;
+            // The bodies of a link follow each other.
+            let item = self.item_of_body(last);
+            while let Some((body, size)) =
+                sizes.next_if(|&(body, _)| self.item_of_body(body) == item)
+            {
+                (last, largest) = (body, greater(largest, size));
+            }
+            Some((last, largest))
+        })
     }
-
-    /// Returns two opposite corners of a box around each body, while joints are as near to 0 as their limits allow.
-    fn placed_at_rest(&self) -> impl Iterator<Item = (Item<'_>, [DVec3; 2])> {
-        let placed = self.placed_bodies(&self.robot().configuration_nearest_zero());
-        let corners = |(item, body, pose): (_, &rigid_ccd::Body, Pose)| {
-            let radius = DVec3::splat(body.bounding_radius());
-            let centre = pose.translation();
-            (item, [centre - radius, centre + radius])
-        };
-        let bodies = placed.unwrap_or_default().into_iter().enumerate();
-        let bodies = bodies.filter(|&(number, _)| !self.is_plane(number));
-        bodies.map(move |(_, body)| corners(body))
-    }
-}
-
-impl Robot {
-    /// Returns the origins of all links, while joints are as near to 0 as their limits allow.
-    fn frames_at_rest(&self) -> impl Iterator<Item = DVec3> {
-        let at = self.configuration_nearest_zero();
-        let links = self.links().iter();
-        links.filter_map(move |link| Some(self.pose(&link.name, &at).ok()?.translation()))
-    }
-}
-
-/// Returns the largest side of a box around points; `None` if there are none.
-fn largest_side(points: impl IntoIterator<Item = DVec3>) -> Option<f64> {
-    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for point in points {
-        for axis in 0..3 {
-            low[axis] = lesser(low[axis], point[axis]);
-            high[axis] = greater(high[axis], point[axis]);
-        }
-    }
-    let sides = (high - low).to_array();
-    let side = sides.into_iter().fold(f64::NEG_INFINITY, greater);
-    (side >= 0.0).then_some(side)
 }
 
 #[cfg(test)]

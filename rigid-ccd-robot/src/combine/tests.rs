@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::cell::{Cell, Item};
-use crate::pairs::SkipReason;
+use crate::skip_reason::SkipReason;
 use crate::solver::tests::{least_distance, random_configuration};
 use crate::test_robots::{random_pose, random_robot};
 use rand::{RngExt, SeedableRng};

@@ -55,7 +55,7 @@ impl MjcfModel {
             links.extend(between);
             joints.extend(own);
         }
-        Ok(Robot::new(links, joints)?.with_remarks(self.remarks()?))
+        Ok(Robot::new(links, joints)?.with_file_remarks(self.remarks()?))
     }
 
     /// Lists the constraints that leave joints independent, and limits that seem to be in degrees.
@@ -64,8 +64,10 @@ impl MjcfModel {
         for kind in ["connect", "weld"] {
             for constraint in self.constraints_named(kind) {
                 if constraint.truth_or("active", true)? {
-                    let element = format!("{} in equality", constraint.label());
-                    remarks.push(CellRemark::LeftOut { element });
+                    remarks.push(CellRemark::left_out(format!(
+                        "{} in equality",
+                        constraint.label()
+                    )));
                 }
             }
         }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::pairs::SkipReason;
+use crate::skip_reason::SkipReason;
 use rigid_ccd::glam::{DQuat, EulerRot};
 use std::fs;
 use std::sync::Arc;
@@ -269,4 +269,50 @@ fn deeply_nested_elements_are_read() {
     };
     assert!(nested(100).is_ok());
     assert!(nested(60_000).is_ok());
+}
+
+/// Tests that a file of which nothing is left to check is remarked upon, and one part by itself is not.
+#[test]
+fn a_file_without_shapes_and_joints_is_remarked_upon() {
+    let remarks = |text: &str| {
+        let file = RobotFile::from_text(text, "part.xml");
+        let robot = file.read().unwrap();
+        let remarks = file.link_pairs(&robot, None).unwrap().remarks(&robot);
+        let warnings = remarks.into_iter().filter(CellRemark::is_warning);
+        warnings
+            .map(|remark| remark.to_string())
+            .collect::<Vec<_>>()
+    };
+    let urdf = |content: &str| format!("<robot name='part'>{content}</robot>");
+    let ball = "<geometry><sphere radius='1'/></geometry>";
+    let visual = format!("<link name='base'><visual>{ball}</visual></link>");
+    let part = format!("<link name='base'><collision>{ball}</collision></link>");
+    let left_out = "<link name='base'/><drake:joint/><my:arm/>";
+    for (text, expected) in [
+        (
+            urdf("<link name='base'/>"),
+            "one link without shapes, base,",
+        ),
+        (urdf(&visual), "shapes for drawing only"),
+        (urdf(left_out), "one link without shapes, base,"),
+        (
+            "<mujoco><worldbody/></mujoco>".to_owned(),
+            "one link without shapes, world,",
+        ),
+    ] {
+        let told = remarks(&text);
+        assert!(
+            told.iter().any(|one| one.contains(expected)),
+            "{text}: {told:?}"
+        );
+    }
+    let told = remarks(&urdf(left_out));
+    let expected = "drake:joint in robot part, my:arm in robot part";
+    assert!(
+        told.len() == 2 && told.iter().any(|one| one.ends_with(expected)),
+        "{told:?}"
+    );
+    assert!(remarks(&urdf(&part)).is_empty());
+    let scene = "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>";
+    assert!(remarks(scene).is_empty());
 }

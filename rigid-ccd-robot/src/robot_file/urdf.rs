@@ -78,7 +78,7 @@ impl<'r> UrdfReader<'r> {
             links.extend(between);
             all_joints.extend(own);
         }
-        Ok(Robot::new(links, all_joints)?.with_remarks(std::mem::take(&mut self.remarks)))
+        Ok(Robot::new(links, all_joints)?.with_file_remarks(std::mem::take(&mut self.remarks)))
     }
 
     fn link(&mut self, element: &Element<'_>, name: &str) -> Result<Link, RobotFileError> {

@@ -89,7 +89,7 @@ fn links_are_disabled_as_a_whole() {
         let pairs = applied(content).unwrap();
         (
             pairs.checked_pairs().collect::<Vec<_>>(),
-            pairs.remarks().len(),
+            pairs.file_remarks().len(),
         )
     };
     let whole = r#"<disable_default_collisions link=" c "/>"#;
@@ -100,12 +100,12 @@ fn links_are_disabled_as_a_whole() {
     // Links of another variant of the robot are left out, with one remark.
     let variant = r#"<disable_collisions link1="c" link2="tool"/><disable_collisions link1="a" link2="tail"/>"#;
     assert_eq!(checked(variant), (vec![[0, 2]], 1));
-    let remark = applied(variant).unwrap().remarks()[0].to_string();
+    let remark = applied(variant).unwrap().file_remarks()[0].to_string();
     assert!(remark.ends_with(": tail, tool"), "{remark}");
     let mut pairs = LinkPairs::from_robot(&robot);
     let twin = Srdf::from_text(r#"<robot name="other twin"/>"#).unwrap();
     twin.apply(&robot, "twin", &mut pairs).unwrap();
-    let remark = pairs.remarks()[0].to_string();
+    let remark = pairs.file_remarks()[0].to_string();
     assert!(
         remark.ends_with(": `other twin`, and the robot is `twin`"),
         "{remark}"

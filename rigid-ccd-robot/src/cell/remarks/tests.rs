@@ -2,96 +2,202 @@
 
 use super::*;
 use crate::pairs::LinkPairs;
-use crate::robot::{Joint, Link, PositionRule};
-use rigid_ccd::{Body, trajectory};
+use crate::robot::{CompoundKind, Joint, Link, PositionRule, Robot};
+use crate::{PlacedRobot, test_robots};
+use rigid_ccd::{Pose, trajectory};
 
 /// An arm of two links of a given size, 0.4 apart.
 fn arm(size: f64) -> Robot {
-    let rod = || Body::cuboid([size / 2.0, 0.1 * size, 0.1 * size]).unwrap();
-    let links = vec![
-        Link::named("base").with_body(rod(), Pose::IDENTITY),
-        Link::named("arm").with_body(rod(), Pose::IDENTITY),
-    ];
-    let origin = Pose::at([0.0, 0.0, 0.4]).unwrap();
-    let hinge = Joint {
-        name: "hinge".into(),
-        parent: "base".into(),
-        child: "arm".into(),
-        axis_and_limits: trajectory::Joint::revolute(origin, [0.0, 1.0, 0.0]).unwrap(),
-        position_rule: PositionRule::Independent,
-    };
-    Robot::new(links, vec![hinge]).unwrap()
+    two_links(size, hinge(0.4))
 }
 
-fn cell(robot: Robot, obstacle: Body) -> Cell {
+/// An arm in another unit.
+fn scaled_arm(scale: f64) -> Robot {
+    two_links(0.4 * scale, hinge(0.4 * scale))
+}
+
+fn hinge(height: f64) -> trajectory::Joint {
+    let origin = Pose::at([0.0, 0.0, height]).unwrap();
+    trajectory::Joint::revolute(origin, [0.0, 1.0, 0.0]).unwrap()
+}
+
+/// A slide of two links of a given size, with limits.
+fn slide(size: f64, limits: [f64; 2]) -> Robot {
+    let slide = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
+    two_links(size, slide.with_limits(limits[0]..=limits[1]))
+}
+
+fn two_links(size: f64, axis_and_limits: trajectory::Joint) -> Robot {
+    let rod = || Body::cuboid([size / 2.0, 0.1 * size, 0.1 * size]).unwrap();
+    let links = ["base", "arm"].map(|name| Link::named(name).with_body(rod(), Pose::IDENTITY));
+    let joint = Joint {
+        name: "joint".into(),
+        parent: "base".into(),
+        child: "arm".into(),
+        axis_and_limits,
+        position_rule: PositionRule::Independent,
+    };
+    Robot::new(links.to_vec(), vec![joint]).unwrap()
+}
+
+fn cell_of(robot: Robot) -> Cell {
     let pairs = LinkPairs::from_robot(&robot);
-    let mut cell = Cell::new(robot, pairs);
+    Cell::new(robot, pairs)
+}
+
+fn cell(robot: Robot, half_sides: [f64; 3]) -> Cell {
+    let (mut cell, obstacle) = (cell_of(robot), Body::cuboid(half_sides).unwrap());
     let at = Pose::at([0.0, 0.0, -5.0]).unwrap();
+    let told = cell.remark_on_size("table", &obstacle);
     cell.add_obstacle("table", obstacle, at).unwrap();
+    assert_eq!(
+        told.is_some(),
+        warnings(&cell).iter().any(|text| text.contains("table is"))
+    );
     cell
 }
 
-fn texts(cell: &Cell, tolerance: f64) -> Vec<String> {
-    cell.remarks(tolerance)
-        .iter()
-        .map(CellRemark::to_string)
-        .collect()
+fn warnings(cell: &Cell) -> Vec<String> {
+    let remarks = cell.remarks().into_iter().filter(CellRemark::is_warning);
+    remarks.map(|remark| remark.to_string()).collect()
 }
 
 #[test]
 fn sizes_in_another_unit_are_remarked_upon() {
-    let table = || Body::cuboid([600.0, 400.0, 10.0]).unwrap();
-    let texts_of_table = texts(&cell(arm(0.4), table()), 1e-4);
-    assert_eq!(texts_of_table.len(), 1, "{texts_of_table:?}");
-    assert!(
-        texts_of_table[0].contains("table is 1200"),
-        "{texts_of_table:?}"
-    );
-    // A robot whose meshes are in millimetres, while its joints are in metres.
-    let remarks = texts(&cell(arm(400.0), table()), 1e-4);
-    assert!(
-        remarks.iter().any(|text| text.contains("arm is 400")),
-        "{remarks:?}"
-    );
-    let crumb = texts(&cell(arm(400.0), Body::sphere(0.1).unwrap()), 1e-4);
-    assert!(
-        crumb.iter().any(|text| text.contains("table is 0.2")),
-        "{crumb:?}"
-    );
+    let table = [600.0, 400.0, 10.0];
+    for (robot, half_sides, expected) in [
+        (arm(0.4), table, "table is 1200 long, and the robot 0."),
+        (slide(0.4, [-1.0, 1.0]), table, "table is 1200"),
+        (
+            slide(0.4, [f64::NEG_INFINITY, f64::INFINITY]),
+            table,
+            "table is 1200",
+        ),
+        // A robot whose meshes are in millimetres, while its joints are in metres.
+        (arm(400.0), table, "arm is 400 long, and the robot 0.4"),
+        (arm(400.0), [0.0001; 3], "table is 0.0002"),
+    ] {
+        let warned = warnings(&cell(robot, half_sides));
+        assert!(
+            warned.iter().any(|text| text.contains(expected)),
+            "{expected}: {warned:?}"
+        );
+    }
 }
 
+/// Tests cells of usual kinds: they have no warning, with a usual tolerance.
 #[test]
-fn usual_cells_have_no_remarks() {
-    for obstacle in [
-        Body::cuboid([20.0, 20.0, 0.1]).unwrap(),
-        Body::sphere(0.004).unwrap(),
-        Body::cuboid([0.6, 0.4, 0.01]).unwrap(),
+fn usual_cells_have_no_warnings() {
+    let endless = [f64::NEG_INFINITY, f64::INFINITY];
+    let point = || slide(0.02, [0.0, 10.0]);
+    let placed = |robot: &Robot| {
+        let (robot, pairs) = Robot::combine(&[PlacedRobot {
+            name: "drone",
+            robot,
+            pairs: &LinkPairs::from_robot(robot),
+            carrier: None,
+            pose: Pose::IDENTITY,
+            base_motion: Some(CompoundKind::Floating),
+        }])
+        .unwrap();
+        assert!(pairs.file_remarks().is_empty());
+        robot
+    };
+    for (kind, robot, half_sides) in [
+        ("an arm at a table", arm(0.4), [0.6, 0.4, 0.01]),
+        ("an arm and a screw", arm(0.4), [0.004, 0.002, 0.002]),
+        ("an arm in a hall", arm(0.4), [20.0, 20.0, 4.0]),
+        ("an arm on a floor of 200 m", arm(0.4), [100.0, 100.0, 0.1]),
+        (
+            "an arm in millimetres",
+            scaled_arm(1000.0),
+            [600.0, 400.0, 10.0],
+        ),
+        (
+            "a slide before a wall",
+            slide(0.4, endless),
+            [0.1, 5.0, 5.0],
+        ),
+        (
+            "a cart in a building",
+            slide(0.3, endless),
+            [60.0, 40.0, 10.0],
+        ),
+        ("a point in a maze", point(), [5.0, 0.1, 0.5]),
+        ("a point in a large maze", point(), [50.0, 0.1, 0.5]),
+        ("a drone in a hall", placed(&arm(0.2)), [50.0, 50.0, 10.0]),
+        (
+            "a gripper and a can",
+            slide(0.05, [0.0, 0.04]),
+            [0.03, 0.03, 0.06],
+        ),
+        (
+            "a row of links",
+            test_robots::row_of_links(&test_robots::LINKS, &test_robots::LINKS),
+            [1.0; 3],
+        ),
     ] {
-        let remarks = texts(&cell(arm(0.4), obstacle), 1e-4);
-        assert!(remarks.is_empty(), "{remarks:?}");
+        let cell = cell(robot, half_sides);
+        let warned = warnings(&cell);
+        assert!(warned.is_empty(), "{kind}: {warned:?}");
+        assert_eq!(cell.remark_on_tolerance(1e-4), None, "{kind}");
     }
 }
 
 #[test]
-fn a_tolerance_as_large_as_a_link_is_remarked_upon() {
-    let cell = cell(arm(0.4), Body::cuboid([3.0, 3.0, 0.1]).unwrap());
-    let remarks = texts(&cell, 0.1);
-    assert_eq!(remarks.len(), 2, "{remarks:?}");
+fn a_tolerance_as_large_as_the_smallest_item_is_remarked_upon() {
+    let mut cell = cell(arm(0.4), [3.0, 3.0, 0.1]);
+    let text = |cell: &Cell, tolerance: f64| {
+        let remark = cell.remark_on_tolerance(tolerance);
+        remark.map(|remark| remark.to_string())
+    };
+    let large = text(&cell, 0.1).unwrap();
+    assert!(large.starts_with("base: the tolerance is large"), "{large}");
+    assert_eq!(text(&cell, 0.03), None);
+    let pin = Body::sphere(0.05).unwrap();
+    let far = Pose::at([9.0, 0.0, 0.0]).unwrap();
+    cell.add_obstacle("pin", pin, far).unwrap();
+    let large = text(&cell, 0.03).unwrap();
+    assert!(large.starts_with("pin: the tolerance is large"), "{large}");
+    cell.remove_obstacle("pin").unwrap();
+    assert_eq!(text(&cell, 0.03), None);
+}
+
+#[test]
+fn positions_in_degrees_are_remarked_upon() {
+    let text = |robot: &Robot, position: f64| {
+        let remark = robot.remark_on_configuration(&[position]);
+        remark.map(|remark| remark.to_string())
+    };
+    let told = text(&arm(0.4), 90.0).unwrap();
     assert!(
-        remarks[0].starts_with("base: the tolerance is large"),
-        "{remarks:?}"
+        told.starts_with("joint joint: a joint's position is a round number"),
+        "{told}"
     );
+    for position in [0.0, 1.5, -6.28, 25.0, 91.3] {
+        assert_eq!(text(&arm(0.4), position), None, "{position}");
+    }
+    assert_eq!(text(&slide(0.4, [0.0, 100.0]), 90.0), None);
 }
 
 #[test]
 fn sizes_are_those_of_bodies() {
-    let cell = cell(arm(0.4), Body::cuboid([3.0, 3.0, 0.1]).unwrap());
+    let cell = cell(arm(0.4), [3.0, 3.0, 0.1]);
     let sizes: Vec<(&str, f64)> = cell
         .item_sizes()
-        .iter()
-        .map(|(item, size)| (item.name(), *size))
+        .map(|(item, size)| (item.name(), size))
         .collect();
     assert_eq!(sizes, [("base", 0.4), ("arm", 0.4), ("table", 6.0)]);
-    let size = cell.robot_size().unwrap();
-    assert!((0.5..1.0).contains(&size), "{size}");
+    assert_eq!(cell.sizes_text(), "robot 0.48, table 6");
+}
+
+#[test]
+fn allowed_contacts_are_noted() {
+    let mut cell = cell(arm(0.4), [3.0, 3.0, 0.1]);
+    let ball = Body::sphere(0.1).unwrap();
+    cell.attach("can", ball, ("arm", Pose::IDENTITY), &["table"])
+        .unwrap();
+    let last = cell.remarks().pop().unwrap();
+    assert_eq!(last.to_string(), "1 contact allowed: can and table");
+    assert!(!last.is_warning());
 }

@@ -3,11 +3,12 @@
 use super::attributes::Attributes;
 use super::bodies::{MjcfGeom, WORLD};
 use super::model::MjcfModel;
-use crate::pairs::{LinkPairs, SkipReason};
+use crate::pairs::LinkPairs;
 use crate::robot::Robot;
 use crate::robot_file::body_elements::BodyElements;
 use crate::robot_file::error::RobotFileError;
 use crate::robot_file::mjcf_error::MjcfError;
+use crate::skip_reason::SkipReason;
 
 impl MjcfModel {
     /// Returns the pairs of links that MuJoCo checks. A pair of links is checked if some of their geoms are.

@@ -1,6 +1,6 @@
 use super::super::{BodyElements, RobotFile, RobotFileError};
-use crate::pairs::SkipReason;
 use crate::robot::Robot;
+use crate::skip_reason::SkipReason;
 use rigid_ccd::glam::{DAffine3, DQuat, DVec3};
 use rigid_ccd::{Body, Pose, Solver};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
@@ -511,7 +511,11 @@ fn remarks_name_constraints_and_limits_in_degrees() {
     let text = r#"<mujoco><compiler angle="radian"/><worldbody><body name="a"><joint name="j" range="-90 90"/><geom size="1"/></body>
         </worldbody><equality><weld name="w" body1="a"/><connect body1="a" active="false"/></equality></mujoco>"#;
     let robot = file_of(text).read().unwrap();
-    let remarks: Vec<String> = robot.remarks().iter().map(ToString::to_string).collect();
+    let remarks: Vec<String> = robot
+        .file_remarks()
+        .iter()
+        .map(ToString::to_string)
+        .collect();
     assert_eq!(remarks.len(), 2, "{remarks:?}");
     assert!(remarks[0].ends_with("weld w in equality"), "{remarks:?}");
     assert!(remarks[1].starts_with("joint j: "), "{remarks:?}");

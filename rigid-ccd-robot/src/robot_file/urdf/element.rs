@@ -41,7 +41,7 @@ impl<'t> Element<'t> {
     /// Takes the first element of a document.
     pub(super) fn root(document: &'t Document<'t>) -> Result<Self, UrdfError> {
         let root = document.root_element();
-        if let Some(own) = root.descendants().find(|own| prefix(*own) == Some(XACRO)) {
+        if let Some(own) = root.descendants().find(|own| is_of_xacro(*own)) {
             let element = format!("{XACRO}:{}", own.tag_name().name());
             return Err(UrdfError::Xacro { found: element });
         }
@@ -97,9 +97,11 @@ impl<'t> Element<'t> {
         for child in self.node.children().filter(Node::is_element) {
             let name = child.tag_name().name();
             if prefix(child).is_some() || self.vocabulary.left_out.contains(&name) {
-                remarks.push(CellRemark::LeftOut {
-                    element: format!("{} in {}", qualified_name(child), self.label()),
-                });
+                remarks.push(CellRemark::left_out(format!(
+                    "{} in {}",
+                    qualified_name(child),
+                    self.label()
+                )));
             } else if !self.vocabulary.harmless.contains(&name) {
                 read.push(Element::new(child, self.name())?);
             }
@@ -190,6 +192,12 @@ pub(super) fn required<'e, 't>(
     only(elements, name)?.ok_or_else(|| UrdfError::MissingElement {
         element: name.to_owned(),
     })
+}
+
+/// Returns whether an element is one of xacro, whatever the prefix that a file declares for it.
+fn is_of_xacro(node: Node<'_, '_>) -> bool {
+    let namespace = node.tag_name().namespace();
+    prefix(node) == Some(XACRO) || namespace.is_some_and(|name| name.ends_with(XACRO))
 }
 
 fn prefix<'t>(node: Node<'t, 't>) -> Option<&'t str> {

@@ -38,7 +38,7 @@ fn read(text: &str) -> Result<Robot, String> {
 fn all_that_is_known_is_read() {
     let robot = read(ARM).unwrap();
     assert_eq!(robot.limits().collect::<Vec<_>>(), [[-1.0, 2.0]]);
-    assert_eq!(robot.remarks(), []);
+    assert_eq!(robot.file_remarks(), []);
     assert_eq!(robot.links()[0].bodies.len(), 1);
 }
 
@@ -188,6 +188,11 @@ fn what_is_not_known_is_refused() {
             "`xacro:arm` is of xacro",
         ),
         (
+            "</robot>",
+            "<m:macro xmlns:m=\"http://ros.org/wiki/xacro\"/></robot>",
+            "`xacro:macro` is of xacro",
+        ),
+        (
             "xyz=\"0 0 1\" rpy=\"0 0 0.5\"",
             "xyz=\"0 0 ${height}\"",
             "joint `elbow`: `0 0 ${height}` is of xacro",
@@ -241,7 +246,11 @@ fn what_is_left_out_is_remarked_upon() {
         ),
     ] {
         let robot = read(&ARM.replacen(given, instead, 1)).unwrap();
-        let remarks: Vec<String> = robot.remarks().iter().map(ToString::to_string).collect();
+        let remarks: Vec<String> = robot
+            .file_remarks()
+            .iter()
+            .map(ToString::to_string)
+            .collect();
         assert!(
             remarks.len() == 1 && remarks[0].contains(expected),
             "{instead}: {remarks:?}"

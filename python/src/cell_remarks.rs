@@ -1,0 +1,56 @@
+//! Remarks on robots, cells and questions about cells, as texts and warnings of Python.
+
+use crate::path_array::{GivenPath, GivenPaths};
+use pyo3::exceptions::PyUserWarning;
+use pyo3::prelude::*;
+use rigid_ccd_robot::{Cell, CellRemark};
+use std::ffi::CString;
+
+/// Returns remarks as texts.
+pub(crate) fn remark_texts(remarks: &[CellRemark]) -> Vec<String> {
+    remarks.iter().map(ToString::to_string).collect()
+}
+
+/// Returns the warnings among remarks for a `repr`; empty if there are none.
+pub(crate) fn warning_text(remarks: &[CellRemark]) -> String {
+    let warnings = remarks.iter().filter(|remark| remark.is_warning());
+    warnings.map(|warning| format!("; {warning}")).collect()
+}
+
+/// Warns the Python program of the warnings among remarks. Those on numbers are told without these, as all of a line are one.
+pub(crate) fn warn_of(
+    py: Python<'_>,
+    remarks: impl IntoIterator<Item = CellRemark>,
+) -> PyResult<()> {
+    for remark in remarks.into_iter().filter(CellRemark::is_warning) {
+        let text = match &remark {
+            CellRemark::Input { item, remark } => format!("{item}: {}", remark.general_text()),
+            other => other.to_string(),
+        };
+        let text = CString::new(text)?;
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
+    }
+    Ok(())
+}
+
+/// The configurations of a question.
+pub(crate) enum Asked<'a> {
+    Path(&'a GivenPath),
+    Paths(&'a GivenPaths),
+}
+
+/// Warns of a tolerance that is large against what is in the cell, and of a position in degrees.
+pub(crate) fn warn_of_question(
+    py: Python<'_>,
+    cell: &Cell,
+    asked: &Asked<'_>,
+    tolerance: f64,
+) -> PyResult<()> {
+    let of_tolerance = cell.remark_on_tolerance(tolerance);
+    let robot = cell.robot();
+    let of_positions = match asked {
+        Asked::Path(path) => path.find_configuration(|at| robot.remark_on_configuration(at)),
+        Asked::Paths(paths) => paths.find_configuration(|at| robot.remark_on_configuration(at)),
+    };
+    warn_of(py, of_tolerance.into_iter().chain(of_positions))
+}

@@ -1,0 +1,146 @@
+//! What a cell of Python holds: the cell with its solvers, and in step with it what was put in, as Python gave it.
+
+use crate::body::{PyBody, extract_body};
+use crate::cell_contents::{
+    AttachedBody, CellContents, Contact, PickledContents, UnpickledContents,
+};
+use crate::cell_solver::CellWithCachedSolvers;
+use crate::errors::input_error;
+use crate::motion::{GivenPose, read_given_pose};
+use pyo3::prelude::*;
+use rigid_ccd_robot::{Cell, RobotError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// A cell, and the arguments of the calls that made it.
+pub(crate) struct CellState {
+    pub(crate) solvers: CellWithCachedSolvers,
+    contents: Mutex<CellContents>,
+}
+
+impl CellState {
+    pub(crate) fn new(cell: Cell) -> Self {
+        CellState {
+            solvers: CellWithCachedSolvers::new(cell),
+            contents: Mutex::default(),
+        }
+    }
+
+    pub(crate) fn add(&self, name: &str, body: Py<PyBody>, pose: GivenPose) -> PyResult<()> {
+        let (added, place) = (body.get().body.clone(), pose.pose("pose")?);
+        self.change(|cell| cell.add_obstacle(name, added, place))?;
+        self.contents().add(name, Some(body), pose);
+        Ok(())
+    }
+
+    pub(crate) fn add_plane(&self, name: &str, pose: GivenPose) -> PyResult<()> {
+        let place = pose.pose("pose")?;
+        self.change(|cell| cell.add_plane(name, place))?;
+        self.contents().add(name, None, pose);
+        Ok(())
+    }
+
+    pub(crate) fn move_to(&self, name: &str, pose: GivenPose) -> PyResult<()> {
+        let place = pose.pose("pose")?;
+        self.change(|cell| cell.move_obstacle(name, place))?;
+        self.contents().move_to(name, pose);
+        Ok(())
+    }
+
+    pub(crate) fn remove(&self, name: &str) -> PyResult<()> {
+        self.change(|cell| cell.remove_obstacle(name))?;
+        self.contents().remove(name);
+        Ok(())
+    }
+
+    pub(crate) fn attach(&self, attached: AttachedBody) -> PyResult<()> {
+        let (name, body, link, pose, may_touch) = &attached;
+        let (body, place) = (body.get().body.clone(), pose.pose("pose")?);
+        let others: Vec<&str> = may_touch.iter().map(String::as_str).collect();
+        self.change(|cell| cell.attach(name, body, (link, place), &others))?;
+        self.contents().attach(attached);
+        Ok(())
+    }
+
+    pub(crate) fn detach(&self, name: &str) -> PyResult<()> {
+        self.change(|cell| cell.detach(name))?;
+        self.contents().remove(name);
+        Ok(())
+    }
+
+    pub(crate) fn set_contact(&self, a: &str, b: &str, contact: Contact) -> PyResult<()> {
+        self.change(|cell| {
+            let pair = [cell.item_named(a)?, cell.item_named(b)?];
+            match contact {
+                Contact::Allowed => cell.allow_contact(pair),
+                Contact::Forbidden => cell.forbid_contact(pair),
+            }
+        })?;
+        self.contents().set_contact(a, b, contact);
+        Ok(())
+    }
+
+    pub(crate) fn set_padding(&self, link: &str, distance: f64) -> PyResult<()> {
+        self.change(|cell| cell.set_padding(link, distance))?;
+        self.contents().set_padding(link, distance);
+        Ok(())
+    }
+
+    pub(crate) fn set_clearance(&self, a: &str, b: &str, distance: f64) -> PyResult<()> {
+        self.change(|cell| {
+            let pair = [cell.item_named(a)?, cell.item_named(b)?];
+            cell.set_clearance(pair, distance)
+        })?;
+        self.contents().set_clearance(a, b, distance);
+        Ok(())
+    }
+
+    /// Returns what was put in, for pickle.
+    pub(crate) fn pickled(&self, py: Python<'_>) -> PickledContents {
+        self.contents().pickled(py)
+    }
+
+    /// Puts in again what pickle stored.
+    pub(crate) fn restore(&self, contents: UnpickledContents<'_>) -> PyResult<()> {
+        let (obstacles, attached, paddings, clearances, contacts) = contents;
+        for (name, body, pose) in &obstacles {
+            let pose = read_given_pose(pose, "pose")?;
+            match body {
+                Some(body) => self.add(name, read_body(body)?, pose)?,
+                None => self.add_plane(name, pose)?,
+            }
+        }
+        for (name, body, link, pose, may_touch) in attached {
+            let pose = read_given_pose(&pose, "pose")?;
+            self.attach((name, read_body(&body)?, link, pose, may_touch))?;
+        }
+        for (link, distance) in &paddings {
+            self.set_padding(link, *distance)?;
+        }
+        for (a, b, distance) in &clearances {
+            self.set_clearance(a, b, *distance)?;
+        }
+        for (a, b, is_allowed) in &contacts {
+            let contact = if *is_allowed {
+                Contact::Allowed
+            } else {
+                Contact::Forbidden
+            };
+            self.set_contact(a, b, contact)?;
+        }
+        Ok(())
+    }
+
+    fn contents(&self) -> MutexGuard<'_, CellContents> {
+        self.contents.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn change(&self, change: impl FnOnce(&mut Cell) -> Result<(), RobotError>) -> PyResult<()> {
+        self.solvers.change(change).map_err(input_error)
+    }
+}
+
+/// Reads a body of a cell.
+pub(crate) fn read_body(given: &Bound<'_, PyAny>) -> PyResult<Py<PyBody>> {
+    extract_body(given, "body")?;
+    Ok(given.clone().cast_into::<PyBody>()?.unbind())
+}

@@ -1,0 +1,151 @@
+//! Sizes and positions of robots that are probably in another unit.
+
+use crate::remark::CellRemark;
+use crate::robot::Robot;
+use ccd_core::order::{greater, lesser};
+use rigid_ccd::glam::DVec3;
+use rigid_ccd::trajectory::JointKind;
+use rigid_ccd::{Pose, Remark};
+
+/// The ratio of sizes above which a remark is made; millimetres and metres differ by 1000.
+const MAX_USUAL_SIZE_RATIO: f64 = 100.0;
+
+/// The same for a robot that slides without an end, such as a drone in a building.
+const MAX_USUAL_SIZE_RATIO_OF_FREE: f64 = 1000.0;
+
+/// The ratio of sizes below which a remark is made. Screws are a few hundredths of a robot.
+const MIN_USUAL_SIZE_RATIO: f64 = 0.001;
+
+/// What the sizes of bodies are compared with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SizeScale {
+    /// The size of the robot, or of its joints; `None` without bodies, or without joints.
+    size: Option<f64>,
+    /// How far joints slide: the longest range with an end, or infinite.
+    travel: f64,
+}
+
+impl Robot {
+    /// Returns the largest side of a box around the robot's bodies, while its joints are as near to 0 as their limits allow;
+    /// `None` without bodies.
+    ///
+    /// # Complexity
+    /// Linear in the points of all bodies.
+    pub fn size(&self) -> Option<f64> {
+        largest_side(self.frames_at_rest().flat_map(|(link, frame)| {
+            let bodies = self.links()[link].bodies.iter();
+            bodies.flat_map(move |held| {
+                let pose = frame.compose(&held.pose);
+                held.body.pieces().iter().flat_map(move |piece| {
+                    let radius = DVec3::splat(piece.radius);
+                    let points = piece.points.iter();
+                    points.flat_map(move |&point| {
+                        let centre = pose.transform_point(point);
+                        [centre - radius, centre + radius]
+                    })
+                })
+            })
+        }))
+    }
+
+    /// Returns a remark if the position of a joint that turns is many turns, and a round number of degrees.
+    pub fn remark_on_configuration(&self, configuration: &[f64]) -> Option<CellRemark> {
+        let named = self.free_joint_names().zip(configuration);
+        let mut remarks = named.filter_map(|(name, &position)| {
+            let remark = Remark::remark_on_joint(position)?;
+            let mut joints = self.joints().iter();
+            let joint = joints.find(|joint| joint.name == name)?;
+            matches!(joint.axis_and_limits.kind(), JointKind::Revolute(_))
+                .then(|| CellRemark::on(format!("joint {name}"), remark))
+        });
+        remarks.next()
+    }
+
+    /// Returns what the sizes of bodies around the robot are compared with.
+    pub(crate) fn size_scale(&self) -> SizeScale {
+        SizeScale {
+            size: self.size(),
+            travel: self.longest_travel(),
+        }
+    }
+
+    /// Returns a remark for each link that is far larger than the robot's joints reach.
+    pub(crate) fn remarks_on_link_sizes(&self) -> Vec<CellRemark> {
+        let origins = self.frames_at_rest().map(|(_, frame)| frame.translation());
+        let scale = SizeScale {
+            size: largest_side(origins),
+            travel: self.longest_travel(),
+        };
+        let links = self.links().iter().filter_map(|link| {
+            let sides = link.bodies.iter().map(|held| Remark::sides(&held.body));
+            let mut remarks = sides.filter_map(|sides| scale.remark_on_large(&link.name, sides));
+            remarks.next()
+        });
+        links.collect()
+    }
+
+    /// Returns the frames of all links, while joints are as near to 0 as their limits allow.
+    fn frames_at_rest(&self) -> impl Iterator<Item = (usize, Pose)> {
+        let at = self.configuration_nearest_zero();
+        let links = self.links().iter().enumerate();
+        links.filter_map(move |(number, link)| Some((number, self.pose(&link.name, &at).ok()?)))
+    }
+
+    /// Returns the length of the longest way that a joint slides.
+    fn longest_travel(&self) -> f64 {
+        let joints = self.joints().iter().map(|joint| &joint.axis_and_limits);
+        let slides = joints.filter(|joint| matches!(joint.kind(), JointKind::Prismatic(_)));
+        let travel = slides.map(|joint| joint.limits().end() - joint.limits().start());
+        travel.fold(0.0, greater)
+    }
+}
+
+impl SizeScale {
+    /// Returns a remark if something beside the robot has a size that is unlikely, given the sides of a box around it.
+    pub(crate) fn remark(&self, item: &str, sides: [f64; 3]) -> Option<CellRemark> {
+        let size = sides.into_iter().fold(0.0, greater);
+        let robot_size = self.size?;
+        let is_small = size > 0.0 && size < MIN_USUAL_SIZE_RATIO * robot_size;
+        is_small
+            .then(|| unlikely_size(item, size, robot_size))
+            .or_else(|| self.remark_on_large(item, sides))
+    }
+
+    /// Returns a remark if something is far too large. What is thinner than the robot may be: floors and walls have any length.
+    fn remark_on_large(&self, item: &str, sides: [f64; 3]) -> Option<CellRemark> {
+        let robot_size = self.size.filter(|&size| size > 0.0)?;
+        let [thickness, size] = [
+            sides.into_iter().fold(f64::INFINITY, lesser),
+            sides.into_iter().fold(0.0, greater),
+        ];
+        let usual = if self.travel.is_finite() {
+            MAX_USUAL_SIZE_RATIO * greater(robot_size, self.travel)
+        } else {
+            MAX_USUAL_SIZE_RATIO_OF_FREE * robot_size
+        };
+        let is_large = size > usual && thickness > robot_size;
+        is_large.then(|| unlikely_size(item, size, robot_size))
+    }
+}
+
+fn unlikely_size(item: &str, size: f64, robot_size: f64) -> CellRemark {
+    CellRemark::UnlikelySize {
+        item: item.to_owned(),
+        size,
+        robot_size,
+    }
+}
+
+/// Returns the largest side of a box around points; `None` if there are none.
+fn largest_side(points: impl IntoIterator<Item = DVec3>) -> Option<f64> {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for point in points {
+        for axis in 0..3 {
+            low[axis] = lesser(low[axis], point[axis]);
+            high[axis] = greater(high[axis], point[axis]);
+        }
+    }
+    let sides = (high - low).to_array();
+    let side = sides.into_iter().fold(f64::NEG_INFINITY, greater);
+    (side >= 0.0).then_some(side)
+}
