@@ -107,7 +107,7 @@ fn links_are_disabled_as_a_whole() {
     twin.apply(&robot, "twin", &mut pairs).unwrap();
     let remark = pairs.file_remarks()[0].to_string();
     assert!(
-        remark.ends_with(": `other twin`, and the robot is `twin`"),
+        remark.ends_with("It is of `other twin`, and the robot is `twin`"),
         "{remark}"
     );
     let other = r#"<disable_collisions link1="tool" link2="tail"/>"#;
