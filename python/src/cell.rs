@@ -24,10 +24,11 @@ use rigid_ccd_robot::{Cell, CellRemark, RangeSettings};
 /// A robot among obstacles that rest in the frame of its base.
 ///
 /// A path is an array of shape (n, joints): configurations, between two of which all joints move at constant rates. An array
-/// of shape (joints,) is a configuration alone. The columns of a data frame name the joints, with the end `_deg` for degrees. Or it is a curve of up to degree 9: a `scipy.interpolate.PPoly` such as
-/// `CubicSpline`, or any object with its breakpoints `x` and its coefficients `c` of shape (degree + 1, segments, joints); or a
-/// `BSpline` on its base interval, or any object that is called with a time and the order of a derivative as it is, with its knots
-/// `t`, its coefficients `c` and its degree `k`.
+/// of shape (joints,) is a configuration alone. The columns of a data frame name the joints, with the end `_deg` for degrees.
+///
+/// Or a path is a curve of up to degree 9: a `scipy.interpolate.PPoly` such as `CubicSpline`, or any object with its breakpoints
+/// `x` and its coefficients `c` of shape (degree + 1, segments, joints); or a `BSpline` on its base interval, or any object that is
+/// called with a time and the order of a derivative as it is, with its knots `t`, its coefficients `c` and its degree `k`.
 ///
 /// Args:
 ///     robot: the robot.

@@ -56,7 +56,7 @@ impl CellState {
         let (name, body, link, pose, may_touch) = &attached;
         let (body, place) = (body.get().body.clone(), pose.pose("pose")?);
         let others: Vec<&str> = may_touch.iter().map(String::as_str).collect();
-        self.change(|cell| cell.attach(name, body, (link, place), &others))?;
+        self.change(|cell| cell.attach(name, body, (link.as_str(), place), &others))?;
         self.contents().attach(attached);
         Ok(())
     }
