@@ -242,7 +242,7 @@ def usual_cells(tmp_path: pathlib.Path) -> dict[str, Callable[[], object]]:
         cell = Cell(Robot([Joint.prismatic("lift", "rail", "fork")]))
         cell.add("table", Body.box(1, 1, 0.1), ([0, 0, -0.1], [1, 0, 0, 0]))
         cell.attach("can", Body.cylinder(0.033, 0.06), "fork", ([0, 0, 0.06], [1, 0, 0, 0]))
-        cell.is_free([[0], [0.5]], start="leave")
+        cell.is_free([[0.0], [0.5]], start="leave")
 
     def on_plane() -> None:
         cell = Cell(two_links())
@@ -273,7 +273,7 @@ def usual_cells(tmp_path: pathlib.Path) -> dict[str, Callable[[], object]]:
         "a can that is lifted": held,
         "an arm above a plane": on_plane,
         "two arms": lambda: asked(Robot.combined({"left": two_links(), "right": two_links()}, {"right": far}), table(1), ([0, 5, 0], [1, 0, 0, 0])),
-        "a hinge of a few turns": lambda: Cell(two_links(limits=[-7, 7])).is_free([[6.28, 0], [-6.28, 12]]),
+        "a hinge of a few turns": lambda: Cell(two_links(limits=[-7, 7])).is_free([[6.28, 0.0], [-6.28, 12.0]]),
     }
 
 
