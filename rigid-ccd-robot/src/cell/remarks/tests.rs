@@ -174,7 +174,7 @@ fn positions_in_degrees_are_remarked_upon() {
         told.starts_with("joint joint: a joint's position is a round number"),
         "{told}"
     );
-    for position in [0.0, 1.5, -6.28, 25.0, 91.3] {
+    for position in [0.0, 1.5, -6.3, 25.0, 91.3] {
         assert_eq!(text(&arm(0.4), position), None, "{position}");
     }
     assert_eq!(text(&slide(0.4, [0.0, 100.0]), 90.0), None);
