@@ -23,6 +23,12 @@ pub(crate) const MORTON_SHIFTS: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
 /// Unit: one. Larger: fewer passes, and worse trees.
 pub(crate) const MIN_MERGED_SHARE: f32 = 0.125;
 
+/// The distance between vertices on open edges up to which a report says that joining them closes the mesh. It changes no body.
+///
+/// Unit: the size of the mesh. Seams of round surfaces that are computed with sines are open by a rounding of 64-bit or 32-bit
+/// floats.
+pub(crate) const JOINING_DISTANCE_PER_SIZE: f64 = 1e-6;
+
 /// The number of rays from a shell after which its nesting counts as unknown.
 ///
 /// Unit: rays. A ray meets an edge only by accident.

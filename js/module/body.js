@@ -1,12 +1,13 @@
 // Bodies from shapes, arrays and files.
 
-import { bytesOf, finiteNumber, lengthOf, listOfNumbers, nameOf, optionsOf, trueOrFalse, typedArrayName } from "./numbers.js";
+import { bytesOf, choiceOf, finiteNumber, lengthOf, listOfNumbers, nameOf, optionsOf, trueOrFalse, typedArrayName } from "./numbers.js";
 import { innerOf, Owned } from "./owned.js";
 import { vectorNumbers } from "./places.js";
 import { classes } from "./wasm.js";
 import { described } from "./words.js";
 
-const MESH_OPTIONS = { pieces: [nameOf, "auto"], surface: [trueOrFalse, false] };
+const MESH_OPTIONS = { pieces: [choiceOf(["auto", "triangles", "patches", "hull", "outer-hull"]), "auto"], surface: [trueOrFalse, false] };
+const FILE_OPTIONS = { scale: [positiveNumber, 1], unit: [choiceOf(["um", "mm", "cm", "m", "in", "ft"]), undefined] };
 
 export class Body extends Owned {
   get [Symbol.toStringTag]() {
@@ -27,8 +28,8 @@ export class Body extends Owned {
   }
 
   static fromFile(name, bytes, options) {
-    const { scale, pieces, surface } = optionsOf(options, "Body.fromFile", { scale: [positiveNumber, 1], ...MESH_OPTIONS });
-    return new Body(classes().Body.from_file(nameOf(name, "name"), bytesOf(bytes, name), scale, pieces, surface));
+    const { pieces, surface, ...file } = optionsOf(options, "Body.fromFile", { ...FILE_OPTIONS, ...MESH_OPTIONS });
+    return ofMesh(name, bytes, file, (mesh) => new Body(classes().Body.from_read_mesh(mesh, pieces, surface)));
   }
 
   static box(halfExtents) {
@@ -70,11 +71,19 @@ export class Body extends Owned {
 }
 
 /** Reads the triangles of a mesh file, to be drawn or changed before they become a body. */
-export function readMesh(name, bytes) {
-  const mesh = classes().Mesh.read(nameOf(name, "name"), bytesOf(bytes, name));
-  const arrays = { positions: mesh.positions(), indices: mesh.indices() };
-  mesh.free();
-  return arrays;
+export function readMesh(name, bytes, options) {
+  const file = optionsOf(options, "readMesh", FILE_OPTIONS);
+  return ofMesh(name, bytes, file, (mesh) => ({ positions: mesh.positions(), indices: mesh.indices(), unit: mesh.unit() ?? null }));
+}
+
+/** Returns what a function makes of the mesh in a file. */
+function ofMesh(name, bytes, { scale, unit }, made) {
+  const mesh = classes().Mesh.read(nameOf(name, "name"), bytesOf(bytes, name), scale, unit);
+  try {
+    return made(mesh);
+  } finally {
+    mesh.free();
+  }
 }
 
 /** Reads an argument that has to be a body, for the WebAssembly. */

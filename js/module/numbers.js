@@ -152,6 +152,16 @@ export function nameOf(value, what) {
   return value;
 }
 
+/** Makes a reader of one of some texts. `advice` says what stands for others, by their text. */
+export function choiceOf(known, advice = {}) {
+  const list = `${known.slice(0, -1).map(quoted).join(", ")} or ${quoted(known.at(-1))}`;
+  return (value, what) => {
+    if (known.includes(nameOf(value, what))) return value;
+    const more = Object.hasOwn(advice, value) ? `: ${advice[value]}` : "";
+    throw new TypeError(`${what}: ${quoted(value)} is not ${list}${more}`);
+  };
+}
+
 /** The least and the greatest value of each setting, as the WebAssembly has them. */
 const SETTINGS = {
   tolerance: [1e-100, 1e12],

@@ -12,12 +12,14 @@ export function vectorNumbers(value, what) {
 
 /** Writes a vector into numbers from a place on. `part` is what it is of `what`. */
 function writeVector(value, numbers, at, what, part = "") {
-  writeCoordinates(value, 3, numbers, at) || refuse(value, "[x, y, z] or { x, y, z } of finite numbers", what, part);
+  writeCoordinates(value, 3, numbers, at) || refuse(value, 3, what + part);
 }
 
 /** Writes a quaternion, `[x, y, z, w]` or `{ x, y, z, w }`. */
 function writeQuaternion(value, numbers, at, what, part = "") {
-  writeCoordinates(value, 4, numbers, at) || refuse(value, "[x, y, z, w] or { x, y, z, w } of finite numbers", what, part);
+  writeCoordinates(value, 4, numbers, at) || refuse(value, 4, what + part);
+  const isZero = numbers[at] === 0 && numbers[at + 1] === 0 && numbers[at + 2] === 0 && numbers[at + 3] === 0;
+  if (isZero) throw new RangeError(`${what}${part}: a quaternion of length zero names no orientation`);
 }
 
 const COORDINATES = ["x", "y", "z", "w"];
@@ -25,19 +27,29 @@ const COORDINATES = ["x", "y", "z", "w"];
 /** Returns whether a value has so many coordinates, and all are finite numbers. */
 function writeCoordinates(value, count, numbers, at) {
   if (typeof value !== "object" || value === null) return false;
-  const isList = typeof value.length === "number";
-  if (isList ? value.length !== count : hasMore(value, count)) return false;
+  if (isList(value) ? value.length !== count : hasMore(value, count)) return false;
   for (let k = 0; k < count; k += 1) {
-    const coordinate = isList ? value[k] : value[COORDINATES[k]];
+    const coordinate = coordinateOf(value, k);
     if (typeof coordinate !== "number" || !Number.isFinite(coordinate)) return false;
     numbers[at + k] = coordinate;
   }
   return true;
 }
 
-/** Returns whether an object has more than so many coordinates. Those of classes, such as in three.js, may have other properties. */
+function isList(value) {
+  return typeof value.length === "number";
+}
+
+function coordinateOf(value, k) {
+  return isList(value) ? value[k] : value[COORDINATES[k]];
+}
+
+/**
+ * Returns whether an object has more than so many coordinates. Those of classes, such as in three.js, may have other properties, but no
+ * order of rotations: that is of three angles, which are no vector.
+ */
 function hasMore(value, count) {
-  if (Object.getPrototypeOf(value) !== Object.prototype) return count < 4 && value.w !== undefined;
+  if (Object.getPrototypeOf(value) !== Object.prototype) return typeof value.order === "string" || (count < 4 && value.w !== undefined);
   for (const name in value) {
     const place = COORDINATES.indexOf(name);
     if (place < 0 || place >= count) return true;
@@ -45,10 +57,15 @@ function hasMore(value, count) {
   return false;
 }
 
-function refuse(value, needed, what, part) {
-  const isList = typeof value === "object" && typeof value?.length === "number";
-  const given = isList ? `[${Array.from({ length: Math.min(value.length, 5) }, (_, k) => described(value[k]))}]` : described(value);
-  throw new TypeError(`${what}${part}: ${needed} is needed, not ${given}`);
+/** Refuses what is no vector or quaternion of finite numbers: a number that is not finite is out of range, all else is of another type. */
+function refuse(value, count, what) {
+  const names = COORDINATES.slice(0, count).join(", ");
+  const needed = `${what}: [${names}] or { ${names} } of finite numbers is needed, not`;
+  if (typeof value !== "object" || value === null) throw new TypeError(`${needed} ${described(value)}`);
+  const isWhole = isList(value) ? value.length === count : !hasMore(value, count);
+  const parts = Array.from({ length: isList(value) ? Math.min(value.length, 5) : count }, (_, k) => coordinateOf(value, k));
+  if (isWhole && parts.every((part) => typeof part === "number")) throw new RangeError(`${needed} [${parts}]`);
+  throw new TypeError(`${needed} ${isList(value) ? `[${parts.map(described)}]` : described(value)}`);
 }
 
 /** The number of numbers of a pose: a position and a quaternion. */
@@ -101,7 +118,7 @@ export function motionNumbers(motion, what) {
 export function throwNumbers(motion, what) {
   const numbers = new Float64Array(MOTION_LENGTH + 3);
   writeParts(motion, what, THROW, numbers, 0);
-  if (motion.acceleration === undefined) refuse(undefined, "[x, y, z] or { x, y, z } of finite numbers", what, ".acceleration");
+  if (motion.acceleration === undefined) refuse(undefined, 3, `${what}.acceleration`);
   return numbers;
 }
 

@@ -2,14 +2,15 @@
 
 import { Body, bodyOf } from "./body.js";
 import { LinkMotion } from "./movement.js";
-import { fieldsOf, finiteNumber, isPlain, listOf, listOfNumbers, nameOf, numberOrInfinity, optionsOf, settingNumber, tupleOf } from "./numbers.js";
+import { choiceOf, fieldsOf, finiteNumber, isPlain, listOf, listOfNumbers, nameOf, numberOrInfinity, optionsOf, settingNumber, tupleOf } from "./numbers.js";
 import { Owned } from "./owned.js";
 import { NO_OFFSET, poseNumbers, poseOfNumbers, vectorNumbers } from "./places.js";
 import { classes } from "./wasm.js";
 import { described, quoted } from "./words.js";
 
+const TYPES = choiceOf(["revolute", "prismatic", "fixed"], { continuous: "a continuous joint is a revolute one without limits" });
 /** What every joint has. */
-const FIXED = { type: [nameOf], name: [nameOf], parent: [nameOf], child: [nameOf], origin: [poseNumbers, NO_OFFSET] };
+const FIXED = { type: [TYPES], name: [nameOf], parent: [nameOf], child: [nameOf], origin: [poseNumbers, NO_OFFSET] };
 /** What a joint with a position has, too. */
 const MOVING = { ...FIXED, axis: [vectorNumbers, [0, 0, 1]], limits: [limitsOf, [-Infinity, Infinity]], mimic: [mimicOf, undefined] };
 

@@ -3,8 +3,8 @@
 import { answerOf } from "./answer.js";
 import { bodyOf } from "./body.js";
 import { Movement } from "./movement.js";
-import { checkNames, settingNumber } from "./numbers.js";
-import { described, Owned } from "./owned.js";
+import { checkNames, choiceOf, settingNumber } from "./numbers.js";
+import { Owned } from "./owned.js";
 import { MOTION_LENGTH, writeMotion, writeRest } from "./places.js";
 import { classes, engine, numbersAt } from "./wasm.js";
 
@@ -22,6 +22,7 @@ const OF_CONTACTS = ["motionA", "motionB", "duration", "tolerance", "margin", "b
 const OF_DISTANCES = OF_CONTACTS.filter((name) => name !== "margin");
 const AT_REST = OF_DISTANCES.filter((name) => name !== "duration");
 
+const startOf = choiceOf(["report", "leave"]);
 const PLACES = { tolerance: TOLERANCE, margin: MARGIN, budget: BUDGET, duration: DURATION };
 
 /** The engine that has the solver. */
@@ -72,8 +73,12 @@ export function keepsClearance(a, b, clearance, options) {
   if (lower >= clearance && lower > 0) return true;
   if (upper < clearance || upper <= 0) return false;
   if (answer.kind === "unresolved") throw new UnresolvedError({ limit: answer.limit, advice: answer.advice, lower, upper });
-  const advice = "the bodies exceed their shapes by more than the clearance lacks; a smaller excess may tell";
-  throw new UnresolvedError({ limit: "excess", advice, lower, upper });
+  const excess = a.excess + b.excess;
+  const known =
+    upper - excess < clearance
+      ? { limit: "excess", advice: "the bodies exceed their shapes by more than the clearance lacks; a smaller excess may tell" }
+      : { limit: "tolerance", advice: "the distance is the clearance, to within the tolerance; a smaller tolerance may tell, but not of equal ones" };
+  throw new UnresolvedError({ ...known, lower, upper });
 }
 
 /** Returns the settings of a question about a path: tolerance, margin, 1 to leave contacts at the start or 0, and budget. Others are for the caller. */
@@ -83,9 +88,7 @@ export function settingsOf(options, known) {
   for (const name of ["tolerance", "margin", "budget"]) {
     if (known.includes(name) && options?.[name] !== undefined) settings[PLACES[name]] = settingNumber(options[name], name);
   }
-  const start = options?.start ?? "report";
-  if (start !== "report" && start !== "leave") throw new TypeError(`start: "report" or "leave" is needed, not ${described(start)}`);
-  settings[CLEARANCE] = start === "leave" ? 1 : 0;
+  settings[CLEARANCE] = options?.start !== undefined && startOf(options.start, "start") === "leave" ? 1 : 0;
   return settings;
 }
 

@@ -9,12 +9,14 @@
 //! | `movement`, `poses` | what moves a body: constant velocities, poses, a throw, the link of a robot |
 //! | `solver`, `answer` | questions about two bodies, and their answers as numbers |
 //! | `robot`, `cell`, `path_answer` | robots and mechanisms, and questions about their paths |
+//! | `fault` | errors as JavaScript has them |
 //! | `limits` | reasons why a question is not answered |
 //! | `host` | what JavaScript is told beside answers: remarks, and the text of a fault |
 
 mod answer;
 mod body;
 mod cell;
+mod fault;
 mod host;
 mod limits;
 mod movement;

@@ -69,6 +69,8 @@ function calls(ccd) {
     ["scale", "optionalNumber", (value) => Body.fromFile("a.obj", file, { scale: value })],
     ["name", "name", (value) => ccd.readMesh(value, file)],
     ["a.obj", "object", (value) => ccd.readMesh("a.obj", value)],
+    ["options", "options", (value) => ccd.readMesh("a.obj", file, value)],
+    ["unit", "optionalVector", (value) => ccd.readMesh("a.obj", file, { unit: value })],
     ["motion", "optionalPose", (value) => new Motion(value)],
     ...["position", "velocity", "spin", "center"].map((name) => [name, "optionalVector", (value) => new Motion({ [name]: value })]),
     ["rotation", "optionalVector", (value) => new Motion({ rotation: value })],

@@ -84,6 +84,88 @@ export default (ccd, { equal, ok, between, throws }) => ({
       ok(body.isSolid && lower <= 2 && upper >= 2 && upper - lower < 1e-3, `${name}: ${lower} to ${upper}`);
     }
   },
+  "the unit of a file is kept, told and converted"() {
+    const dae = `<COLLADA version="1.5.0"><asset><unit meter="0.001"/></asset><library_geometries><geometry><mesh><source id="s"><float_array id="a">0 0 0 1000 0 0 0 1000 0 0 0 1000</float_array><technique_common><accessor source="#a" count="4" stride="3"/></technique_common></source><vertices id="v"><input semantic="POSITION" source="#s"/></vertices><triangles count="4"><input semantic="VERTEX" source="#v"/><p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries></COLLADA>`;
+    const bytes = new TextEncoder().encode(dae);
+    const read = (options) => ccd.readMesh("part.dae", bytes, options);
+    for (const [options, size, unit] of [
+      [undefined, 1000, "mm"],
+      [{ unit: "mm" }, 1000, "mm"],
+      [{ unit: "m" }, 1, "m"],
+      [{ unit: "cm", scale: 2 }, 200, null],
+      [{ scale: 0.001 }, 1, null],
+    ]) {
+      equal([Math.max(...read(options).positions), read(options).unit], [size, unit]);
+      const body = ccd.Body.fromFile("part.dae", bytes, options);
+      const { lower, upper } = ccd.distance(body, ccd.Body.sphere(size), { motionB: { position: [0, 0, 3 * size] } });
+      ok(lower <= size && size <= upper && upper - lower <= 2e-3, `${JSON.stringify(options)}: ${lower} to ${upper}`);
+    }
+    equal(ccd.readMesh("part.obj", new TextEncoder().encode(TETRAHEDRON)).unit, null);
+    equal(ccd.readMesh("part.gltf", gltf(), { unit: "mm" }).positions[3], 1000);
+    ok(throws(() => read({ unit: "inch" }), /^unit: "inch" is not "um", .* or "ft"$/) instanceof TypeError, "units");
+    throws(() => read({ size: 2 }), /options of readMesh: there is no "size"/);
+  },
+  "an outer hull encloses an open mesh"() {
+    const { positions, indices } = cubeOfThree();
+    const open = indices.slice(6);
+    throws(() => ccd.Body.fromMesh(positions, open, { pieces: "hull" }), /close the mesh, or use triangles or an outer hull/);
+    const hull = ccd.Body.fromMesh(positions, open, { pieces: "outer-hull" });
+    equal([hull.pieces, ccd.firstContact(ccd.Body.sphere(0.5), hull).kind], [1, "overlapping"]);
+    ok(hull.excess > 0.5, hull.report);
+  },
+  "a seam that is open by a rounding says what closes it"() {
+    const ring = Array.from({ length: 7 }, (_, k) => [Math.sin((k * Math.PI) / 3), 0, Math.cos((k * Math.PI) / 3)]);
+    const positions = new Float32Array([0, 1, 0, 0, -1, 0, ...ring.flat()]);
+    const indices = Array.from({ length: 6 }, (_, k) => [0, k + 2, k + 3, 1, k + 3, k + 2]).flat();
+    const open = ccd.Body.fromMesh(positions, indices);
+    ok(!open.isSolid && /closed if vertices up to \d\.\de-1\d apart are joined/.test(open.report), open.report);
+    equal(ccd.Body.fromMesh(positions.map((x) => Math.round(x * 1e6) / 1e6), indices).isSolid, true);
+  },
+  "very large and very small lengths have few digits in reports"() {
+    equal([ccd.Body.sphere(1e-300).report, ccd.Body.box([1e11, 1, 0.25]).report], ["ball of radius 1e-300", "box of half extents 1e11, 1, 0.25"]);
+  },
+  "errors are about the type, the range or something else"() {
+    const { Body, Motion, Path, Robot } = ccd;
+    const { positions, indices } = cubeOfThree();
+    const joint = { type: "revolute", name: "j", parent: "a", child: "b", limits: [-1, 1] };
+    const robot = new Robot({ joints: [joint], bodies: { b: Body.sphere(1) } });
+    const cell = new ccd.Cell(robot);
+    cell.add("wall", Body.sphere(1), { position: [9, 0, 0] });
+    const ranges = [
+      () => Body.sphere(-1),
+      () => Body.box([1, -1, 1]),
+      () => Body.cylinder(1, 1, 0),
+      () => Body.fromMesh(positions, [0, 1, 99]),
+      () => Body.fromMesh([0, 0, 0, 1, 0, 1e13, 0, 1, 0], [0, 1, 2]),
+      () => cell.setPadding("b", -1),
+      () => cell.setClearance("b", "wall", -1),
+      () => cell.isFree([[0], [2]]),
+      () => robot.pose("b", [2]),
+      () => robot.motion("b", [0], [2]),
+      () => robot.motion("b", [0], [1], { duration: 0 }),
+      () => new Robot({ joints: [{ ...joint, limits: [1, -1] }] }),
+      () => new Robot({ joints: [{ ...joint, axis: [0, 0, 0] }] }),
+      () => Motion.between({}, {}, { duration: 0 }),
+      () => new Path([1, 0], [{}, {}]),
+      () => new Path([], []),
+      () => new Motion({ position: [NaN, 0, 0] }),
+    ];
+    const types = [
+      () => Body.fromMesh(positions, indices, { pieces: "cubes" }),
+      () => new Robot({ joints: [{ ...joint, type: "screw" }] }),
+      () => new Motion({ position: ["1", 0, 0] }),
+    ];
+    const others = [
+      () => Body.fromFile("a.obj", new TextEncoder().encode("v 1 2\n")),
+      () => Body.fromMesh(positions, indices.slice(6), { pieces: "hull" }),
+      () => cell.remove("door"),
+      () => cell.add("wall", Body.sphere(1)),
+      () => new Robot({ joints: [joint, joint] }),
+    ];
+    for (const [name, calls] of Object.entries({ RangeError: ranges, TypeError: types, Error: others })) {
+      for (const call of calls) equal([throws(call, /./).name, String(call)], [name, String(call)]);
+    }
+  },
   "round shapes say by how much they are exceeded"() {
     const cylinder = ccd.Body.cylinder(1, 2, 1e-4);
     between(cylinder.excess, 1e-6, 1e-4);
@@ -99,11 +181,11 @@ export default (ccd, { equal, ok, between, throws }) => ({
     throws(() => ccd.Body.fromMesh(positions, [0, 1]), /indices: 2 numbers/);
     throws(() => ccd.Body.fromMesh(positions, [0, 1, -2]), /indices\[2\]/);
     throws(() => ccd.Body.fromMesh(positions, indices, { peices: "hull" }), /no "peices"/);
-    throws(() => ccd.Body.fromMesh(positions, indices, { pieces: "cubes" }), /pieces: "cubes"/);
+    throws(() => ccd.Body.fromMesh(positions, indices, { pieces: "cubes" }), /^pieces: "cubes" is not "auto", .* or "outer-hull"$/);
     throws(() => ccd.Body.fromFile("a.obj", new TextEncoder().encode("v 1 2\n")), /a\.obj.*line 1/);
     throws(() => ccd.Body.fromFile("a.txt", new Uint8Array()), /txt.*; use \.gltf, \.glb, \.dae, \.obj, \.stl, \.ply or \.off$/);
     throws(() => ccd.Body.fromFile("a.fbx", new Uint8Array()), /export it as \.glb$/);
-    throws(() => ccd.Body.fromFile("a.gltf", gltf({ uri: "a.bin" })), /a\.bin/);
+    throws(() => ccd.Body.fromFile("a.gltf", gltf({ uri: "a.bin" })), /a\.bin.*export it as a \.glb/);
     throws(() => ccd.Body.sphere(-1), /radius/);
     throws(() => ccd.Body.box([1, 2]), /halfExtents/);
     throws(() => new ccd.Body(), /Body\.fromMesh/);

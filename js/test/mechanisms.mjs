@@ -52,6 +52,9 @@ export default (ccd, { equal, justBefore, between, throws }) => {
     "what is not checked is remarked upon"() {
       const { robot, cell } = beforeWall();
       equal(robot.remarks, [{ kind: "remark", text: "1 link without bodies, compared with nothing: rail" }]);
+      // A pair of links that is not compared may touch anyway.
+      cell.allowContact("carriage", "rail");
+      equal(cell.remarks, robot.remarks);
       cell.allowContact("carriage", "wall");
       equal(cell.remarks[1], { kind: "remark", text: "1 contact allowed: carriage and wall" });
       const joints = ["a", "b", "c"].map((name, k) => ({ type: "revolute", name: `to ${name}`, parent: k === 0 ? "base" : "_abc"[k], child: name, origin: { position: [1, 0, 0] } }));
@@ -86,7 +89,7 @@ export default (ccd, { equal, justBefore, between, throws }) => {
       justBefore(hit.share, 0.793, 1e-6);
       equal([cell.isFree([[0], [0.7]], { start: "leave" }), cell.isFree([[0], [-0.1]], { start: "leave" })], [true, false]);
       throws(() => cell.closestApproach(path, { start: "leave" }), /no "start"/);
-      throws(() => cell.isFree(path, { start: "go" }), /start: "report" or "leave" is needed/);
+      throws(() => cell.isFree(path, { start: "go" }), /^start: "go" is not "report" or "leave"$/);
       cell.allowContact("can", "table");
       justBefore(cell.firstContact(path, { tolerance: 1e-6 }).share, 0.793, 1e-6);
       cell.forbidContact("can", "table");
@@ -139,7 +142,12 @@ export default (ccd, { equal, justBefore, between, throws }) => {
     },
     "errors name the joint, the link or the configuration"() {
       const { robot, cell } = beforeWall();
-      throws(() => new ccd.Robot({ joints: [{ ...slider, type: "screw" }] }), /joint "slider": type "screw"/);
+      throws(() => new ccd.Robot({ joints: [{ ...slider, type: "screw" }] }), /^joint "slider": type: "screw" is not "revolute", "prismatic" or "fixed"$/);
+      throws(() => new ccd.Robot({ joints: [{ ...slider, type: "continuous" }] }), /a revolute one without limits/);
+      throws(() => new ccd.Robot({ joints: [slider], bodies: { cariage: ccd.Body.sphere(1) } }), /link `cariage` has no joint/);
+      throws(() => new ccd.Robot({ joints: [{ ...slider, mimic: { joint: "slidder" } }] }), /follows `slidder`, but there is no such joint/);
+      throws(() => cell.add("", ccd.Body.sphere(1)), /needs a name that is not empty/);
+      throws(() => cell.attach("", ccd.Body.sphere(1), "carriage"), /needs a name that is not empty/);
       throws(() => new ccd.Robot({ joints: [{ ...slider, limits: [1, 0] }] }), /slider/);
       throws(() => new ccd.Robot({ joints: [{ ...slider, axis: [0, 0, 0] }] }), /joint "slider"/);
       throws(() => new ccd.Robot({ joints: [{ ...slider, child: undefined }] }), /joint "slider": child: a string is needed, not undefined/);

@@ -147,6 +147,37 @@ test("what is probably a mistake is said once in the console", async () => {
   }
 });
 
+test("a mesh that is probably a mistake is said once in the console", async () => {
+  const { warn } = console;
+  const said = [];
+  console.warn = (text) => said.push(text);
+  const module = await import(`${MODULE}?meshes`);
+  await module.init();
+  const { Body } = module;
+  // Meshes that are flat or meant as surfaces have no inside that is missed.
+  const corners = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1];
+  const dae = (unit) => `<COLLADA version="1.4.1"><asset>${unit}</asset><library_geometries><geometry><mesh><source id="s"><float_array id="a">${corners.join(" ")}</float_array><technique_common><accessor source="#a" count="4" stride="3"/></technique_common></source><vertices id="v"><input semantic="POSITION" source="#s"/></vertices><triangles count="4"><input semantic="VERTEX" source="#v"/><p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries></COLLADA>`;
+  const file = (unit, options) => Body.fromFile("part.dae", new TextEncoder().encode(dae(unit)), options);
+  Body.fromMesh(corners, [0, 1, 2]);
+  Body.fromMesh(corners, [0, 1, 2, 0, 1, 3], { surface: true });
+  Body.fromMesh(corners, [0, 1, 2, 0, 1, 3], { pieces: "outer-hull" });
+  file("");
+  file('<unit meter="1"/>');
+  file('<unit meter="0.001"/>', { unit: "m" });
+  check.equal(said, []);
+  for (let k = 0; k < 2; k += 1) {
+    Body.fromMesh(corners, [0, 1, 2, 0, 1, 3]);
+    Body.fromMesh([...corners, -1e-16, 0, 0], [0, 2, 1, 4, 1, 3, 4, 3, 2, 1, 2, 3]);
+    Body.fromMesh(new Float32Array(36));
+    file('<unit meter="0.001"/>');
+    module.readMesh("part.dae", new TextEncoder().encode(dae('<unit meter="0.0254"/>')));
+  }
+  console.warn = warn;
+  const patterns = [/not closed: it is a surface, and another body inside it is not found.*: 4 edges/, /by no more than rounding.*up to 1\.0e-16 apart.*mergeVertices/, /all vertices of a mesh are at one point/, /unit that is not the metre.*: mm$/];
+  check.equal(said.length, patterns.length);
+  for (const [k, pattern] of patterns.entries()) check.ok(pattern.test(said[k]), said[k]);
+});
+
 /** Returns the error of an init, which has to have one. */
 async function refused(init) {
   const error = await init.then(() => null, (caught) => caught);

@@ -44,6 +44,20 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
       const turns = new ccd.Path([0, 1], [{}, {}], { spins: [[0, 0, 4 * Math.PI]] });
       between(Math.abs(turns.pose(0.25).rotation[2]), 1 - 1e-9, 1);
     },
+    "a motion between two poses is asked about until its end"() {
+      const wall = ccd.Body.box([0.1, 5, 5]);
+      const passes = ccd.Motion.between({ position: [-3, 0, 0] }, { position: [3, 0, 0] }, { duration: 4 });
+      equal([passes.end, ccd.Motion.between({}, {}).end, new ccd.Motion({ velocity: [1, 0, 0] }).end], [4, 1, null]);
+      for (const options of [{ motionA: passes }, { motionA: { position: [0, 0, 0] }, motionB: passes }]) {
+        const [a, b] = options.motionB ? [wall, ball] : [ball, wall];
+        equal(ccd.isFree(a, b, options), false);
+        justBefore(ccd.firstContact(a, b, { ...options, tolerance: 1e-6 }).time, 1.6, 1e-6);
+        equal(ccd.isFree(a, b, { ...options, duration: 1 }), true);
+        equal(ccd.keepsClearance(a, b, 0.1, options), false);
+      }
+      const path = new ccd.Path([0, 3], [{}, {}]);
+      throws(() => ccd.isFree(ball, wall, { motionA: passes, motionB: path }), /end at different times/);
+    },
     "each question has its answers"() {
       const flies = { motionA: { position: [-3, 0, 0], velocity: [6, 0, 0] } };
       const { kind, first, last } = ccd.contactInterval(ball, ball, flies);
@@ -60,6 +74,13 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
       equal(ccd.firstContact(ball, ball, { motionA: { position: [1, 0, 0] } }).kind, "touching");
       const inside = ccd.firstContact(ball, ball);
       equal([inside.kind, inside.time], ["overlapping", 0]);
+    },
+    "a clearance that is the distance is not told"() {
+      const [cube, at] = [ccd.Body.box([0.5, 0.5, 0.5]), { motionB: { position: [3.4, 0, 0] } }];
+      const error = throws(() => ccd.keepsClearance(ball, cube, 2.4, at), /^unresolved \(tolerance\): .*a smaller tolerance/);
+      ok(error.lower <= 2.4 && error.upper >= 2.4, String(error));
+      const round = ccd.Body.cylinder(0.5, 1, 0.1);
+      throws(() => ccd.keepsClearance(ball, round, 2.41, { ...at, tolerance: 1e-5 }), /^unresolved \(excess\)/);
     },
     "a limit leaves what is proven"() {
       const cone = ccd.Body.cone(1, 1);
@@ -118,7 +139,17 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
       throws(() => ccd.firstContact(ball, {}), /^b: a Body is needed/);
       throws(() => ccd.firstContact(ball, ball, { motionA: { position: [0, NaN, 0] } }), /motionA\.position/);
       throws(() => ccd.firstContact(ball, ball, { motionA: { speed: 1 } }), /motionA: there is no "speed"/);
-      throws(() => ccd.firstContact(ball, ball, { motionA: { rotation: [0, 0, 0, 0] } }), /quaternion/);
+      for (const wrong of [[NaN, 0, 0], { x: 0, y: Infinity, z: 0 }]) {
+        ok(throws(() => ccd.firstContact(ball, ball, { motionA: { velocity: wrong } }), /^motionA\.velocity: .*(NaN|Infinity)/) instanceof RangeError, String(wrong));
+      }
+      ok(throws(() => ccd.firstContact(ball, ball, { motionA: { rotation: [0, 0, 0, 0] } }), /^motionA\.rotation: .*length zero/) instanceof RangeError, "zero");
+      // Three angles in an order are no vector.
+      class Euler {
+        constructor() {
+          Object.assign(this, { isEuler: true, x: 1, y: 2, z: 3, order: "XYZ" });
+        }
+      }
+      ok(throws(() => ccd.firstContact(ball, ball, { motionA: { spin: new Euler() } }), /^motionA\.spin: .*not an object of Euler/) instanceof TypeError, "angles");
       const path = (end) => new ccd.Path([0, end], [{}, {}]);
       throws(() => ccd.closestApproach(ball, ball, { motionA: path(1), motionB: path(2) }), /end at different times/);
       throws(() => ccd.closestApproach(ball, ball, { motionA: path(1), motionB: { spin: "fast" } }), /motionB\.spin/);

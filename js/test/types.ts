@@ -1,6 +1,6 @@
 // What TypeScript has to accept, and what it has to refuse.
 
-import { Body, Cell, closestApproach, contactInterval, EngineError, firstContact, init, Motion, Path, Robot, Throw, UnresolvedError } from "rigid-ccd";
+import { Body, Cell, closestApproach, contactInterval, EngineError, firstContact, init, Motion, Path, readMesh, Robot, Throw, UnresolvedError } from "rigid-ccd";
 import type { Feature, Joint, Vector } from "rigid-ccd";
 
 export async function answers(): Promise<string> {
@@ -26,6 +26,17 @@ export async function answers(): Promise<string> {
       return none;
     }
   }
+}
+
+/** What the types of three.js have for an attribute's array. */
+type TypedArray = Int8Array | Uint8Array | Uint8ClampedArray | Int16Array | Uint16Array | Int32Array | Uint32Array | Float32Array | Float64Array;
+
+export function units(bytes: Uint8Array, position: TypedArray): string {
+  const { positions, unit } = readMesh("part.dae", bytes, { unit: "mm", scale: 2 });
+  Body.fromMesh(position, null, { pieces: "outer-hull" });
+  // @ts-expect-error There is no such unit.
+  Body.fromFile("part.dae", bytes, { unit: "inch" });
+  return `${positions.length} ${unit ?? "unknown"}`;
 }
 
 export function mechanisms(mesh: { position: Float32Array; index: Uint16Array }): number {

@@ -50,6 +50,9 @@ declare global {
   interface SymbolConstructor {
     readonly dispose: unique symbol;
   }
+  interface Disposable {
+    [Symbol.dispose](): void;
+  }
 }
 
 /** Something in the memory of the WebAssembly. It ends with `free`, with a block that has it by `using`, or when it is collected as garbage. */
@@ -59,32 +62,45 @@ declare abstract class Owned {
 }
 
 export interface BodyOptions {
-  /** The convex pieces to make: the fewest that are exact by default. A hull fills what is hollow. */
-  pieces?: "auto" | "triangles" | "patches" | "hull";
-  /** Whether a closed mesh is a hollow surface, too. */
+  /**
+   * The convex pieces to make: the fewest that are exact by default. A `"hull"` is that of a closed convex mesh, and exact. An
+   * `"outer-hull"` encloses any mesh, open ones too; `excess` says by how much.
+   */
+  pieces?: "auto" | "triangles" | "patches" | "hull" | "outer-hull";
+  /** Whether a closed mesh is a hollow surface, too. An open one is a surface anyway, and is not remarked upon with it. */
   surface?: boolean;
+}
+
+export interface FileOptions {
+  /** A factor on all coordinates; 1 by default. */
+  scale?: number;
+  /**
+   * The unit to convert coordinates to, before `scale`. A COLLADA states its unit, and a glTF is in metres; the numbers of other files are
+   * taken to be in the unit. Without it coordinates are those of the file, and a unit that is not the metre is a line in the console.
+   */
+  unit?: "um" | "mm" | "cm" | "m" | "in" | "ft";
 }
 
 /**
  * A rigid body: a mesh, a box, a ball, a capsule, a cylinder or a cone.
  *
  * A mesh is a solid when it is closed and consistently oriented. Otherwise it is a surface. A body inside a solid overlaps it; a body
- * inside a surface does not.
+ * inside a surface does not. A mesh that is not closed is a line in the console, unless it is to be a `surface`.
  */
 export class Body extends Owned {
   private constructor();
   /**
    * Makes a body of a mesh in memory, such as the attribute `position` and the index of a `BufferGeometry` of three.js.
    *
-   * Without indices each three vertices are a triangle. Vertices at the same point are one. An error names the first vertex or triangle
-   * that is not valid.
+   * Without indices each three vertices are a triangle. Vertices at exactly the same point are one; the README says what closes seams
+   * of three.js. Positions are a Float32Array, a Float64Array or an array. An error names the first vertex or triangle that is not valid.
    */
-  static fromMesh(positions: Float32Array | Float64Array | readonly number[], indices?: ArrayLike<number> | null, options?: BodyOptions): Body;
+  static fromMesh(positions: ArrayLike<number>, indices?: ArrayLike<number> | null, options?: BodyOptions): Body;
   /**
-   * Reads an STL, OBJ, PLY, OFF, COLLADA or glTF; the end of the name tells which. Coordinates are multiplied by `scale`. A glTF is a `.glb`, or a
-   * `.gltf` that holds its data: other files cannot be fetched.
+   * Reads an STL, OBJ, PLY, OFF, COLLADA or glTF; the end of the name tells which. A glTF is a `.glb`, or a `.gltf` that holds its data:
+   * other files cannot be fetched.
    */
-  static fromFile(name: string, bytes: Uint8Array | ArrayBuffer, options?: BodyOptions & { scale?: number }): Body;
+  static fromFile(name: string, bytes: Uint8Array | ArrayBuffer, options?: BodyOptions & FileOptions): Body;
   /** Makes a box about its origin. */
   static box(halfExtents: GivenVector): Body;
   /** Makes a ball about its origin. */
@@ -105,8 +121,15 @@ export class Body extends Owned {
   readonly excess: number;
 }
 
-/** Reads the triangles of a file that `Body.fromFile` reads, to be drawn, or changed before they become a body. */
-export function readMesh(name: string, bytes: Uint8Array | ArrayBuffer): { positions: Float64Array; indices: Uint32Array };
+/**
+ * Reads the triangles of a file that `Body.fromFile` reads, to be drawn, or changed before they become a body. `unit` is that of the
+ * positions: the one asked for, or the one that the file states; null if neither is known, or with a `scale`.
+ */
+export function readMesh(
+  name: string,
+  bytes: Uint8Array | ArrayBuffer,
+  options?: FileOptions,
+): { positions: Float64Array; indices: Uint32Array; unit: FileOptions["unit"] | null };
 
 // --- What moves a body
 
@@ -122,7 +145,7 @@ export interface MotionNumbers extends GivenPose {
 
 /** What moves a body. */
 export abstract class Movement extends Owned {
-  /** When the movement ends; null if it goes on. */
+  /** When the movement ends, of a path, a link's motion and `Motion.between`: there a question about it ends, too. Null if it goes on. */
   readonly end: number | null;
   pose(time: number): Pose;
 }
@@ -130,7 +153,10 @@ export abstract class Movement extends Owned {
 /** A motion at constant velocities. Questions take its numbers as well, which need no `free`. */
 export class Motion extends Movement {
   constructor(motion?: MotionNumbers);
-  /** Makes the motion between two poses: the center moves straight, and the body turns the shortest way. The duration is 1 by default. */
+  /**
+   * Makes the motion between two poses: the center moves straight, and the body turns the shortest way. The duration is 1 by default, and
+   * questions end there. One that is asked for longer goes on at the same velocities.
+   */
   static between(start: GivenPose, end: GivenPose, options?: { duration?: number; center?: GivenVector }): Motion;
 }
 
@@ -177,7 +203,7 @@ export interface Movements {
 }
 
 export interface Moving extends Movements {
-  /** The end of the question, which starts at time 0. By default that of a path or a link, else 1. */
+  /** The end of the question, which starts at time 0. By default the end of what moves the bodies, else 1. Two that end at different times need it. */
   duration?: number;
 }
 
@@ -281,13 +307,13 @@ export function contactInterval(a: Body, b: Body, options?: Moving & ContactSett
 export function closestApproach(a: Body, b: Body, options?: Moving & Settings): LeastDistance | Overlapping | Unresolved;
 /** How far apart are they at time 0? */
 export function distance(a: Body, b: Body, options?: Movements & Settings): LeastDistance | Overlapping | Unresolved;
-/** Are they at least `clearance` apart all the time? Throws an `UnresolvedError` if the bounds do not tell. */
+/** Are they at least `clearance` apart all the time? Throws an `UnresolvedError` if the bounds do not tell, as for a distance that is the clearance exactly. */
 export function keepsClearance(a: Body, b: Body, clearance: number, options?: Moving & Settings): boolean;
 
 /** A question that wants yes or no was not decided. Which bounds are proven depends on the question. */
 export class UnresolvedError extends Error implements Limit {
   private constructor();
-  limit: Limit["limit"] | "excess";
+  limit: Limit["limit"] | "excess" | "tolerance";
   advice: string;
   safeUntil?: number;
   lower?: number;
@@ -312,6 +338,7 @@ export interface FixedJoint extends JointBetween {
 
 /** A joint with a position: an angle, or a length for one that slides. */
 export interface MovingJoint extends JointBetween {
+  /** A continuous joint of URDF is a revolute one without limits. */
   type: "revolute" | "prismatic";
   /** In the joint's frame, of any length; z by default. */
   axis?: GivenVector;

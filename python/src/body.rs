@@ -11,6 +11,7 @@ use pyo3::types::{PyBytes, PyType};
 use rigid_ccd::body::{SolidOfRevolution, Solidity};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::mesh::{Adjustments, Detail, StoreFault, StoredBodyContent, TriangleMesh, prepare};
+use rigid_ccd::text::Number;
 use rigid_ccd::{Body, Remark};
 use std::borrow::Cow;
 use std::path::PathBuf;
@@ -23,8 +24,13 @@ use std::path::PathBuf;
 /// Args:
 ///     vertices: array of shape (n, 3), in any unit of length.
 ///     faces: array of shape (m, 3), integers from 0.
-///     pieces: the convex pieces to make: "auto", "triangles", "patches" or "hull".
+///     pieces: the convex pieces to make: "auto", "triangles", "patches", "hull" of a convex solid, or "outer-hull", which
+///         encloses any mesh.
 ///     surface: whether a closed mesh is a hollow surface, too.
+///
+/// A mesh that is not closed gives a warning, unless it is meant as a surface. If only rounding keeps it open, as the seam
+/// of a round shape, the warning says so: trimesh joins such vertices with `merge_vertices(merge_tex=True,
+/// merge_norm=True)`.
 ///
 /// Raises:
 ///     InputError: the mesh is no mesh; the message names the element.
@@ -88,18 +94,26 @@ impl PyBody {
         let faces = triangles(faces)?;
         let detail = detail(pieces, surface)?;
         let bytes = size_of_val(&*faces) as u64;
-        run_or_leave(py, bytes, move || {
+        let made = run_or_leave(py, bytes, move || {
             let mesh = TriangleMesh::new(points, &faces).map_err(input_error)?;
-            PyBody::from_model(prepare(&mesh, detail).map_err(input_error)?)
-        })?
+            let model = prepare(&mesh, detail).map_err(input_error)?;
+            let remark = Remark::remark_on_mesh(detail, &mesh, &model.report);
+            Ok::<_, PyErr>((PyBody::from_model(model)?, remark))
+        });
+        let (body, remark) = made??;
+        warn(py, remark, 1)?;
+        Ok(body)
     }
 
     /// Reads a mesh file (.gltf, .glb, .dae, .obj, .stl, .ply, .off), or a prepared body (.ccd).
     ///
+    /// Coordinates keep the unit that a COLLADA or a glTF states, unless `unit` converts them. One that is not the metre
+    /// gives a warning, if neither a unit nor a factor is given.
+    ///
     /// Args:
     ///     path: the file.
     ///     part: the name or the number of a part of a scene; None for all of it.
-    ///     unit: "um", "mm", "cm", "m", "in" or "ft" converts files whose unit is known to it: of glTF, or by `file_unit`.
+    ///     unit: "um", "mm", "cm", "m", "in" or "ft" converts files whose unit is known to it: of glTF and COLLADA, or by `file_unit`.
     ///     pieces: as of `Body`.
     ///     file_unit: the unit of the file's numbers, whatever the file says.
     ///     scale: a factor on all coordinates.
@@ -128,6 +142,7 @@ impl PyBody {
         let adjustments = read_adjustments(file_unit, scale, mirror)?;
         let file = BodyFile {
             may_be_prepared: adjustments == Adjustments::NONE && !surface,
+            keeps_numbers: unit.is_none() && file_unit.is_none() && scale.is_none(),
             adjustments: match parse_unit("unit", unit)? {
                 Some(unit) => adjustments.with_target_unit(unit),
                 None => adjustments,
@@ -138,8 +153,13 @@ impl PyBody {
         };
         // What cannot be read is an error of the reader.
         let file_bytes = std::fs::metadata(&file.path).map_or(0, |file| file.len());
-        let read = move || PyBody::from_model(file.read()?);
-        run_or_leave(class.py(), file_bytes, read)?
+        let read = move || {
+            let (model, remarks) = file.read()?;
+            Ok::<_, PyErr>((PyBody::from_model(model)?, remarks))
+        };
+        let (body, remarks) = run_or_leave(class.py(), file_bytes, read)??;
+        warn(class.py(), remarks, 1)?;
+        Ok(body)
     }
 
     /// Makes a body of a trimesh mesh, or of any object with `vertices` and `faces`.
@@ -191,7 +211,10 @@ impl PyBody {
                 return Err(input_error(text));
             }
         };
-        let report = format!("box of half extents {x}, {y}, {z}");
+        let report = {
+            let [x, y, z] = [x, y, z].map(Number);
+            format!("box of half extents {x}, {y}, {z}")
+        };
         let recipe = ConstructorCall::new(class.py(), Some("box"), (x, y, z))?;
         PyBody::from_shape(Body::cuboid([x, y, z]), recipe, report)
     }
@@ -202,7 +225,7 @@ impl PyBody {
         class: &Bound<'_, PyType>,
         #[pyo3(from_py_with = read_number)] radius: f64,
     ) -> PyResult<Self> {
-        let report = format!("ball of radius {radius}");
+        let report = format!("ball of radius {}", Number(radius));
         let recipe = ConstructorCall::new(class.py(), Some("sphere"), (radius,))?;
         PyBody::from_shape(Body::sphere(radius), recipe, report)
     }
@@ -214,7 +237,7 @@ impl PyBody {
         #[pyo3(from_py_with = read_number)] radius: f64,
         #[pyo3(from_py_with = read_number)] half_height: f64,
     ) -> PyResult<Self> {
-        let report = format!("capsule of radius {radius} and half height {half_height}");
+        let report = round_report("capsule", radius, half_height);
         let recipe = ConstructorCall::new(class.py(), Some("capsule"), (radius, half_height))?;
         PyBody::from_shape(Body::capsule(radius, half_height), recipe, report)
     }
@@ -364,7 +387,8 @@ impl PyBody {
         let body = enclosure.and_then(|enclosure| enclosure.body());
         let body = body.map_err(input_error)?;
         let report = format!(
-            "{name} of radius {radius} and half height {half_height}, sticking out by up to {:.3e}",
+            "{}, sticking out by up to {:.3e}",
+            round_report(name, radius, half_height),
             body.excess()
         );
         let recipe = ConstructorCall::new(py, Some(name), (radius, half_height, excess))?;
@@ -381,18 +405,24 @@ impl PyBody {
     }
 }
 
+fn round_report(name: &str, radius: f64, half_height: f64) -> String {
+    let [radius, half_height] = [radius, half_height].map(Number);
+    format!("{name} of radius {radius} and half height {half_height}")
+}
+
 fn detail(name: &str, surface: bool) -> PyResult<Detail> {
     match name {
         "auto" | "triangles" if surface => Ok(Detail::Surface),
-        "patches" | "hull" if surface => Err(InputError::new_err(format!(
+        "patches" | "hull" | "outer-hull" if surface => Err(InputError::new_err(format!(
             "surface: {name} fill a solid; a hollow surface has pieces=\"triangles\""
         ))),
         "auto" => Ok(Detail::Auto),
         "triangles" => Ok(Detail::Triangles),
         "patches" => Ok(Detail::Patches(Default::default())),
         "hull" => Ok(Detail::Hull),
+        "outer-hull" => Ok(Detail::OuterHull),
         _ => Err(InputError::new_err(format!(
-            "pieces: {name:?} is none of \"auto\", \"triangles\", \"patches\", \"hull\""
+            "pieces: {name:?} is none of \"auto\", \"triangles\", \"patches\", \"hull\", \"outer-hull\""
         ))),
     }
 }

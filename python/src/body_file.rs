@@ -4,6 +4,7 @@ use crate::errors::{InputError, file_error, input_error};
 use crate::numbers::whole_number;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
+use rigid_ccd::Remark;
 use rigid_ccd::mesh::{
     Adjustments, Axis, Detail, MeshSource, STORED_BODY_EXTENSION, SourceError, StoredBodyContent,
     Unit, prepare,
@@ -18,11 +19,13 @@ pub(crate) struct BodyFile {
     pub(crate) detail: Detail,
     /// Whether nothing is asked for that a prepared body cannot give.
     pub(crate) may_be_prepared: bool,
+    /// Whether neither a unit nor a factor is given.
+    pub(crate) keeps_numbers: bool,
 }
 
 impl BodyFile {
-    /// Reads the file.
-    pub(crate) fn read(self) -> PyResult<StoredBodyContent> {
+    /// Reads the file, and remarks on its mesh.
+    pub(crate) fn read(self) -> PyResult<(StoredBodyContent, Vec<Remark>)> {
         let path = self.path;
         // An unreadable file is an OSError. A pipe would block, and is refused.
         let there = std::fs::metadata(&path).map_err(|error| file_error(&error, &path))?;
@@ -35,15 +38,20 @@ impl BodyFile {
                 let error = SourceError::AdjustedStoredBody { file: path };
                 return Err(input_error(error));
             }
-            return StoredBodyContent::load(&path).map_err(input_error);
+            let stored = StoredBodyContent::load(&path).map_err(input_error)?;
+            return Ok((stored, Vec::new()));
         }
         let source = MeshSource {
             file: path,
             part: self.part,
             adjustments: self.adjustments,
         };
-        let (mesh, _) = source.read().map_err(input_error)?;
-        prepare(&mesh, self.detail).map_err(|error| input_error(format!("{source}: {error}")))
+        let (mesh, unit) = source.read().map_err(input_error)?;
+        let prepared = prepare(&mesh, self.detail);
+        let model = prepared.map_err(|error| input_error(format!("{source}: {error}")))?;
+        let kept = unit.filter(|_| self.keeps_numbers);
+        let remarks = Remark::remark_on_mesh(self.detail, &mesh, &model.report).into_iter();
+        Ok((model, remarks.chain(Remark::remark_on_unit(kept)).collect()))
     }
 }
 

@@ -28,6 +28,9 @@ const ORTHONORMALITY_TOLERANCE: f64 = 1e-5;
 #[pyclass(name = "Motion", module = "rigid_ccd", frozen)]
 pub(crate) struct PyMotion {
     pub(crate) motion: Motion,
+    /// The end of a motion between two poses; None if it goes on.
+    #[pyo3(get)]
+    pub(crate) end: Option<f64>,
     constructor_call: ConstructorCall,
 }
 
@@ -64,7 +67,8 @@ impl PyMotion {
     /// Makes the motion from one pose to another: the centre moves in a straight line, and the body rotates the
     /// shortest way.
     ///
-    /// A pose is a matrix of shape (4, 4), or a pair of a position and a rotation as `Motion` takes them.
+    /// A pose is a matrix of shape (4, 4), or a pair of a position and a rotation as `Motion` takes them. Questions about
+    /// the motion end at its `duration`, if they are given none.
     #[classmethod]
     #[pyo3(signature = (start, end, duration = 1.0, center = None))]
     fn between(
@@ -83,6 +87,7 @@ impl PyMotion {
         let parts = (start, end, duration, center);
         Ok(PyMotion {
             motion: motion.map_err(input_error)?,
+            end: Some(duration),
             constructor_call: ConstructorCall::new(class.py(), Some("between"), parts)?,
         })
     }
@@ -125,6 +130,7 @@ impl PyMotion {
         let parts = (place, wxyz(turned), velocity, spin, center);
         Ok(PyMotion {
             motion: motion.map_err(input_error)?,
+            end: None,
             constructor_call: ConstructorCall::new(py, None, parts)?,
         })
     }

@@ -1,5 +1,6 @@
 //! The movement of a body in a query: a motion, the motion of a robot's link, or a path.
 
+use crate::body::extract_body;
 use crate::errors::{input_error, wrong_type_error};
 use crate::link_motion::PyLinkMotion;
 use crate::motion::PyMotion;
@@ -10,7 +11,8 @@ use rigid_ccd::{Body, Motion, Remark};
 
 /// The movement of a body as a Python argument gives it.
 pub(crate) enum GivenMovement<'c> {
-    Motion(Motion),
+    /// A motion, with its end if it is one between two poses.
+    Motion(Motion, Option<f64>),
     Link(LinkTrajectory<'c>, f64),
     Path(&'c Poses),
 }
@@ -19,10 +21,11 @@ impl<'c> GivenMovement<'c> {
     /// Extracts a movement from the argument `motion_a` or `motion_b`; None means at rest.
     pub(crate) fn extract(given: Option<&'c Bound<'_, PyAny>>, what: &str) -> PyResult<Self> {
         let Some(given) = given.filter(|given| !given.is_none()) else {
-            return Ok(GivenMovement::Motion(Motion::STILL));
+            return Ok(GivenMovement::Motion(Motion::STILL, None));
         };
         if let Ok(motion) = given.cast::<PyMotion>() {
-            return Ok(GivenMovement::Motion(motion.get().motion));
+            let motion = motion.get();
+            return Ok(GivenMovement::Motion(motion.motion, motion.end));
         }
         if let Ok(link) = given.cast::<PyLinkMotion>() {
             return Ok(GivenMovement::Link(
@@ -40,10 +43,10 @@ impl<'c> GivenMovement<'c> {
         ))
     }
 
-    /// Returns the time at which the movement ends; `None` for a motion, which has no end.
+    /// Returns the time at which the movement ends; `None` for a motion at constant velocities, which goes on.
     fn end_time(&self) -> Option<f64> {
         match self {
-            GivenMovement::Motion(_) => None,
+            GivenMovement::Motion(_, end) => *end,
             GivenMovement::Link(_, duration) => Some(*duration),
             GivenMovement::Path(poses) => Some(poses.end_time()),
         }
@@ -51,7 +54,7 @@ impl<'c> GivenMovement<'c> {
 
     fn trajectory(&self) -> &dyn Trajectory {
         match self {
-            GivenMovement::Motion(motion) => motion,
+            GivenMovement::Motion(motion, _) => motion,
             GivenMovement::Link(link, _) => link,
             GivenMovement::Path(poses) => *poses,
         }
@@ -64,9 +67,29 @@ pub(crate) struct Pair<'c> {
     pub(crate) b: (&'c Body, GivenMovement<'c>),
 }
 
-impl Pair<'_> {
-    /// Returns the duration of a query: the given one, or the movements' end. The default is that of links and paths,
-    /// which must be equal for both, or 1.
+/// A body and its motion, as a Python caller passes them.
+pub(crate) type GivenBodyAndMotion<'a, 'py> =
+    (&'a Bound<'py, PyAny>, Option<&'a Bound<'py, PyAny>>);
+
+impl<'c> Pair<'c> {
+    /// Extracts the bodies and their movements from the arguments of a question.
+    pub(crate) fn extract(
+        [(a, motion_a), (b, motion_b)]: [GivenBodyAndMotion<'c, '_>; 2],
+    ) -> PyResult<Self> {
+        Ok(Pair {
+            a: (
+                extract_body(a, "a")?,
+                GivenMovement::extract(motion_a, "motion_a")?,
+            ),
+            b: (
+                extract_body(b, "b")?,
+                GivenMovement::extract(motion_b, "motion_b")?,
+            ),
+        })
+    }
+
+    /// Returns the duration of a query: the given one, or the movements' end. The default is that of links, paths and
+    /// motions between two poses, which must be equal for both, or 1.
     pub(crate) fn duration(&self, given: Option<f64>) -> PyResult<f64> {
         let courses = [&self.a.1, &self.b.1];
         let ends = courses.iter().filter_map(|course| course.end_time());
@@ -100,7 +123,7 @@ impl Pair<'_> {
     pub(crate) fn remarks(&self, duration: f64) -> impl Iterator<Item = Remark> {
         let courses = [&self.a.1, &self.b.1].into_iter();
         courses.filter_map(move |course| match course {
-            GivenMovement::Motion(motion) => Remark::remark_on_spin(motion.spin(), duration),
+            GivenMovement::Motion(motion, _) => Remark::remark_on_spin(motion.spin(), duration),
             GivenMovement::Link(..) | GivenMovement::Path(_) => None,
         })
     }

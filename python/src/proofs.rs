@@ -4,12 +4,12 @@ use crate::body::extract_body;
 use crate::cell_remarks::{Asked, warn_of_question};
 use crate::errors::{input_error, interruption_error, wrong_type_error};
 use crate::interruptible::{run_interruptibly, run_or_leave};
-use crate::movement::GivenMovement;
-use crate::numbers::read_number;
+use crate::movement::{GivenBodyAndMotion, GivenMovement, Pair};
+use crate::numbers::read_optional_number;
 use crate::path_answers::path_error;
 use crate::path_array::GivenPath;
 use crate::progress::{GivenProgress, run_with_progress};
-use crate::queries::{GivenBodyAndMotion, ask};
+use crate::queries::ask;
 use crate::settings::{CONTACT_SETTING_NAMES, read};
 use ccd_prove::{
     Body, CellNotProvable, NoMesh, PathNotProven, Proof, ProvenCell, ProvenPair, Statement,
@@ -53,14 +53,14 @@ fn proof_objects<'a, 'py>(
 /// >>> proof.check()
 /// 'holds'
 #[pyfunction]
-#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = 1.0, **settings))]
+#[pyo3(signature = (a, b, motion_a = None, motion_b = None, duration = None, **settings))]
 pub(crate) fn prove<'py>(
     py: Python<'py>,
     a: &Bound<'_, PyAny>,
     b: &Bound<'_, PyAny>,
     motion_a: Option<&Bound<'_, PyAny>>,
     motion_b: Option<&Bound<'_, PyAny>>,
-    #[pyo3(from_py_with = read_number)] duration: f64,
+    #[pyo3(from_py_with = read_optional_number)] duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
     let settings = read(settings, CONTACT_SETTING_NAMES)?;
@@ -69,6 +69,7 @@ pub(crate) fn prove<'py>(
         constant_motion((b, motion_b), "motion_b")?,
     ];
     let bodies = [(a, motion_a), (b, motion_b)];
+    let duration = Pair::extract(bodies)?.duration(duration)?;
     let answer = ask(
         py,
         Question::FirstContact,
@@ -186,7 +187,7 @@ impl PathProofs {
 /// Reads a motion at constant velocities, of which alone there are proofs.
 fn constant_motion((_, motion): GivenBodyAndMotion<'_, '_>, what: &str) -> PyResult<Motion> {
     match (GivenMovement::extract(motion, what)?, motion) {
-        (GivenMovement::Motion(motion), _) => Ok(motion),
+        (GivenMovement::Motion(motion, _), _) => Ok(motion),
         (_, Some(given)) => Err(wrong_type_error(what, "a Motion for a proof", given)),
         (_, None) => Ok(Motion::STILL),
     }

@@ -8,7 +8,7 @@ use crate::errors::{
 };
 use crate::interruptible::run_interruptibly;
 use crate::motion::read_pose;
-use crate::movement::{GivenMovement, Pair};
+use crate::movement::{GivenBodyAndMotion, Pair};
 use crate::numbers::read_optional_number;
 use crate::settings::{
     APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES, DISTANCE_QUERY_SETTING_NAMES, read,
@@ -133,31 +133,18 @@ impl PairQuestion<'_> {
     }
 }
 
-/// A body and its motion, as a Python caller passes them.
-pub(crate) type GivenBodyAndMotion<'a, 'py> =
-    (&'a Bound<'py, PyAny>, Option<&'a Bound<'py, PyAny>>);
-
 /// Checks the arguments of a question about two moving bodies, warns of likely mistakes, and answers the question.
 pub(crate) fn ask(
     py: Python<'_>,
     question: Question,
-    [(a, motion_a), (b, motion_b)]: [GivenBodyAndMotion<'_, '_>; 2],
+    bodies: [GivenBodyAndMotion<'_, '_>; 2],
     duration: Option<f64>,
     settings: &Settings,
 ) -> PyResult<Answer> {
-    let pair = Pair {
-        a: (
-            extract_body(a, "a")?,
-            GivenMovement::extract(motion_a, "motion_a")?,
-        ),
-        b: (
-            extract_body(b, "b")?,
-            GivenMovement::extract(motion_b, "motion_b")?,
-        ),
-    };
+    let pair = Pair::extract(bodies)?;
     let duration = pair.duration(duration)?;
     warn(py, pair.remarks(duration), 1)?;
-    warn_of_large_tolerance([a, b], settings.tolerance, 1)?;
+    warn_of_large_tolerance(bodies.map(|(body, _)| body), settings.tolerance, 1)?;
     let bodies = pair.moving_bodies();
     let asked = PairQuestion {
         question,
@@ -191,7 +178,7 @@ fn distance_of_answer<'py>(
 /// Args:
 ///     a, b: the bodies.
 ///     motion_a, motion_b: a Motion, a Path, or a LinkMotion; None rests at the world's origin.
-///     duration: the end, in the motions' unit of time; by default that of a path or a link, else 1.
+///     duration: the end, in the motions' unit of time; by default that of a path, a link or `Motion.between`, else 1.
 ///     tolerance: a contact is reported at a distance of at most margin + tolerance, in your unit of length; 0.001 by
 ///         default.
 ///     margin: a distance to keep; 0 by default.

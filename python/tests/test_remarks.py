@@ -26,6 +26,13 @@ from rigid_ccd import (
 
 BALL, WALL = Body.sphere(0.5), Body.box(0.1, 5, 5)
 PART = Body.sphere(0.0005)
+CORNERS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+FACES = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+COLLADA = """<COLLADA version="1.4.1"><asset>{unit}</asset><library_geometries><geometry><mesh><source id="s">
+<float_array id="a">0 0 0 1 0 0 0 1 0 0 0 1</float_array><technique_common><accessor source="#a" count="4" stride="3"/>
+</technique_common></source><vertices id="v"><input semantic="POSITION" source="#s"/></vertices><triangles count="4">
+<input semantic="VERTEX" source="#v"/><p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries>
+</COLLADA>"""
 
 
 @pytest.mark.parametrize(
@@ -43,6 +50,9 @@ PART = Body.sphere(0.0005)
         ("far from unit length", lambda: first_contacts(BALL, WALL, quaternions(2.0))),
         ("far from unit length", lambda: first_contacts(BALL, WALL, {"t": [0.0, 1.0], **quaternions(2.0)})),
         ("a joint's position", lambda: arm().motion("upper", [0, 0], [90, 0])),
+        ("a mesh is not closed: it is a surface", lambda: Body(CORNERS, FACES[1:])),
+        ("not closed, by no more than rounding", lambda: Body([*CORNERS, [-1e-16, 0, 0]], [[4, 2, 1], *FACES[1:]])),
+        ("all vertices of a mesh are at one point", lambda: Body(np.zeros((12, 3)), np.arange(12).reshape(4, 3))),
     ],
 )
 def test_traps_are_warned_of_once(words: str, ask: Any) -> None:
@@ -52,6 +62,23 @@ def test_traps_are_warned_of_once(words: str, ask: Any) -> None:
     texts = [str(one.message) for one in told]
     assert len(texts) == 1 and words in texts[0], texts
     assert told[0].filename == __file__ and told[0].category is UserWarning
+
+
+def test_a_file_in_another_unit_is_warned_of(tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "part.dae"
+    path.write_text(COLLADA.format(unit='<unit meter="0.001"/>'))
+    with pytest.warns(UserWarning, match="a unit that is not the metre, and its numbers are kept") as told:
+        kept = Body.from_file(path)
+    assert len(told) == 1 and told[0].filename == __file__
+    assert distance(kept, PART, None, ([0, 0, 3], [1, 0, 0, 0])).upper > 1.9
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        converted = Body.from_file(path, unit="m")
+        assert distance(converted, PART, None, ([0, 0, 3], [1, 0, 0, 0]), tolerance=1e-6).lower > 2.99
+        Body.from_file(path, scale=0.001)
+        Body.from_file(path, file_unit="mm")
+        path.write_text(COLLADA.format(unit=""))
+        Body.from_file(path)
 
 
 def test_what_is_usual_is_not() -> None:
@@ -68,6 +95,11 @@ def test_what_is_usual_is_not() -> None:
         first_contact(Body.box(1, 1, 1e-6), WALL, Motion([3, 0, 0]))
         arm().motion("upper", [0, 0], [2 * math.pi, 90])
         Path([0, 1], np.tile(np.eye(4), (2, 1, 1)))
+        Body(CORNERS, FACES)
+        # What is flat has no inside, and what is meant as a surface none that is missed.
+        Body(CORNERS, FACES[:1])
+        Body(CORNERS, FACES[1:], surface=True)
+        Body(CORNERS, FACES[1:], pieces="outer-hull")
 
 
 def test_a_warning_may_be_an_error() -> None:

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 /// The options for reading mesh files, and for their convex pieces.
 #[derive(Clone, Debug, Args)]
 pub(super) struct MeshArgs {
-    /// Unit of all lengths: files in another unit (glTF: metres; others as in part.stl@mm) are converted to it, all
+    /// Unit of all lengths: files in another unit (glTF: metres; COLLADA: its own; others as in part.stl@mm) are converted to it, all
     /// other numbers are taken to be in it [default: the numbers of the files]
     #[arg(long, value_name = "UNIT", value_parser = named_value_parser(UNITS), hide_possible_values = false)]
     unit: Option<Unit>,

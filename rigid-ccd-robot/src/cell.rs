@@ -123,7 +123,7 @@ impl Cell {
     /// Adds an obstacle at a pose in the frame of the robot's base.
     ///
     /// # Errors
-    /// [`RobotError::NameTaken`], [`RobotError::TooFar`].
+    /// [`RobotError::NameTaken`], [`RobotError::EmptyName`], [`RobotError::TooFar`].
     pub fn add_obstacle(
         &mut self,
         name: impl Into<String>,
@@ -167,8 +167,8 @@ impl Cell {
     /// named; [`Cell::allow_contact`] allows more of them later.
     ///
     /// # Errors
-    /// [`RobotError::NameTaken`], [`RobotError::NoSuchLink`], [`RobotError::TooFar`], and [`RobotError::NoSuchItem`] for what it may
-    /// touch.
+    /// [`RobotError::NameTaken`], [`RobotError::EmptyName`], [`RobotError::NoSuchLink`], [`RobotError::TooFar`], and
+    /// [`RobotError::NoSuchItem`] for what it may touch.
     pub fn attach(
         &mut self,
         name: impl Into<String>,
@@ -384,6 +384,9 @@ impl Cell {
     }
 
     fn check_new_name(&self, name: &str) -> Result<(), RobotError> {
+        if name.is_empty() {
+            return Err(RobotError::EmptyName);
+        }
         match self.item_named(name) {
             Ok(_) => Err(RobotError::NameTaken { name: name.into() }),
             Err(_) => Ok(()),

@@ -28,6 +28,9 @@ pub enum RobotError {
         /// The name of the robot.
         robot: String,
     },
+    /// An attached body or an obstacle has the empty text as its name.
+    #[error("an attached body or an obstacle needs a name that is not empty")]
+    EmptyName,
     /// Nothing in the cell has the given name.
     #[error("there is no link, attached body or obstacle `{name}`")]
     NoSuchItem {
@@ -83,6 +86,16 @@ pub enum RobotError {
         /// The name of the second base.
         second_base: String,
     },
+    /// A link is the parent and the child of no joint, though the robot has joints.
+    #[error(
+        "link `{link}` has no joint, and a robot has one base, `{base}`; is it the name of the link that was meant?"
+    )]
+    LinkWithoutJoint {
+        /// The name of the link.
+        link: String,
+        /// The name of the base.
+        base: String,
+    },
     /// The lower limit of a joint is above the upper one, or one of them is not a number.
     #[error("joint `{joint}`: its limits are {low} and {high}; give the lower one first")]
     InvalidLimits {
@@ -111,7 +124,15 @@ pub enum RobotError {
         /// The name of a link in the loop.
         link: String,
     },
-    /// A joint follows another joint that does not exist, has no position, or follows the first joint in turn.
+    /// A joint follows another joint that does not exist.
+    #[error("joint `{joint}` follows `{followed_joint}`, but there is no such joint")]
+    NoSuchMimicJoint {
+        /// The name of the joint that was to follow another joint.
+        joint: String,
+        /// The name that no joint has.
+        followed_joint: String,
+    },
+    /// A joint follows another joint that has no position, or follows the first joint in turn.
     #[error("joint `{joint}` follows `{followed_joint}`, which has no position of its own")]
     InvalidMimicJoint {
         /// The name of the joint that was to follow another joint.

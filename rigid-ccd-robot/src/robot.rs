@@ -474,7 +474,10 @@ fn position_sources_and_free_joints(
                     offset_magnitude += f64::abs(multiplier * shift);
                     multiplier *= factor;
                     let found = joints.iter().find(|other| other.name == *followed);
-                    at = found.ok_or_else(|| unfollowable_joint_error(joint, followed))?;
+                    at = found.ok_or_else(|| RobotError::NoSuchMimicJoint {
+                        joint: at.name.clone(),
+                        followed_joint: followed.clone(),
+                    })?;
                 }
             }
         }

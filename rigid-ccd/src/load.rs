@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// Loads a body from a mesh file (OBJ, STL, PLY, OFF; glTF and COLLADA with the features `gltf` and `collada`) or a prepared body (`.ccd`).
 ///
-/// Coordinates keep the unit of the file. All parts of a file make one body: [`load_parts`] makes one of each.
+/// Coordinates keep the [unit of the file](MeshFile::unit). All parts of a file make one body: [`load_parts`] makes one of each.
 /// A mesh becomes the fewest convex pieces that are exact: one hull, convex patches or triangles
 /// ([`Detail::Auto`]). To choose the pieces, or to get a report of defects, use
 /// [`mesh::body_from_mesh`](ccd_decomp::body_from_mesh).
@@ -26,8 +26,9 @@ pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
     Ok(source.load(Detail::Auto)?.body)
 }
 
-/// Loads a body as [`load`] does, with coordinates converted to a unit. A glTF, which is in metres, is
-/// [converted](MeshFile::converted_to_unit); the coordinates of other files are taken to be in the unit already.
+/// Loads a body as [`load`] does, with coordinates converted to a unit. A file that [states its
+/// unit](MeshFile::unit), as glTF and COLLADA do, is [converted](MeshFile::converted_to_unit); the coordinates of others are taken
+/// to be in the unit already.
 ///
 /// # Errors
 /// Those of [`load`].

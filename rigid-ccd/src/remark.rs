@@ -1,5 +1,9 @@
 //! Remarks on input that is valid, but probably a mistake.
 
+#[cfg(feature = "meshes")]
+mod mesh;
+
+use crate::text::Number;
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
@@ -55,6 +59,23 @@ pub enum Remark {
         quaternion_components: [f64; 4],
         /// The length of the quaternion, which should be 1.
         quaternion_norm: f64,
+    },
+    /// A mesh bounds no solid, and was not asked to be a surface.
+    SurfaceOnly {
+        /// The number of its edges with a single face.
+        open_edges: usize,
+    },
+    /// A mesh bounds no solid, but would if vertices that nearly meet were one.
+    OpenSeam {
+        /// The largest distance between two of these vertices.
+        joining_distance: f64,
+    },
+    /// All vertices of a mesh are at one point.
+    PointMesh,
+    /// A mesh file states a unit that is not the metre, and no unit was asked for.
+    UnitOfFile {
+        /// The symbol of the unit.
+        unit: &'static str,
     },
 }
 
@@ -164,6 +185,20 @@ impl Remark {
             Remark::NonUnitQuaternion { .. } => {
                 "a quaternion is far from unit length, and was taken as one of length 1; is it w, x, y, z?"
             }
+            Remark::SurfaceOnly { .. } => {
+                "a mesh is not closed: it is a surface, and another body inside it is not found; close it, or say that it is \
+                 meant as a surface"
+            }
+            Remark::OpenSeam { .. } => {
+                "a mesh is not closed, by no more than rounding: it is a surface, and another body inside it is not found; join \
+                 the vertices that nearly meet"
+            }
+            Remark::PointMesh => {
+                "all vertices of a mesh are at one point; are its numbers there yet?"
+            }
+            Remark::UnitOfFile { .. } => {
+                "a mesh file states a unit that is not the metre, and its numbers are kept; ask for a unit to convert them"
+            }
         }
     }
 
@@ -207,29 +242,53 @@ fn is_round_degrees(angle: f64) -> bool {
 
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: ", self.general_text())?;
+        f.write_str(self.general_text())?;
+        if *self != Remark::PointMesh {
+            f.write_str(": ")?;
+        }
         match *self {
             Remark::CoarseTolerance { tolerance, size } => {
+                let [tolerance, size] = [tolerance, size].map(Number);
                 write!(f, "{tolerance}, and the body is {size} long")
             }
             Remark::AngularVelocityInDegrees { spin, turn } => {
-                let [x, y, z] = spin.to_array();
+                let [x, y, z] = spin.to_array().map(Number);
                 write!(f, "({x}, {y}, {z}) makes {:.1} turns", turn / TAU)
             }
             Remark::JointInDegrees {
                 joint_position: position,
             } => {
-                write!(f, "{position} is {:.1} turns", position.abs() / TAU)
+                let turns = position.abs() / TAU;
+                write!(f, "{} is {turns:.1} turns", Number(position))
             }
-            Remark::RollPitchYawInDegrees {
-                angles: [roll, pitch, yaw],
-            } => write!(f, "({roll}, {pitch}, {yaw})"),
+            Remark::RollPitchYawInDegrees { angles } => {
+                let [roll, pitch, yaw] = angles.map(Number);
+                write!(f, "({roll}, {pitch}, {yaw})")
+            }
             Remark::NonUnitQuaternion {
-                quaternion_components: [w, x, y, z],
-                quaternion_norm: length,
-            } => write!(f, "({w}, {x}, {y}, {z}) has the length {length:.3}"),
+                quaternion_components,
+                quaternion_norm,
+            } => {
+                let [w, x, y, z] = quaternion_components.map(Number);
+                write!(
+                    f,
+                    "({w}, {x}, {y}, {z}) has the length {}",
+                    Number(rounded(quaternion_norm))
+                )
+            }
+            Remark::SurfaceOnly { open_edges } => write!(f, "{open_edges} edges have one face"),
+            Remark::OpenSeam { joining_distance } => {
+                write!(f, "they are up to {joining_distance:.1e} apart")
+            }
+            Remark::PointMesh => Ok(()),
+            Remark::UnitOfFile { unit } => write!(f, "{unit}"),
         }
     }
+}
+
+/// Rounds a number to four digits, if it is large enough.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.3e}").parse().unwrap_or(number)
 }
 
 #[cfg(test)]

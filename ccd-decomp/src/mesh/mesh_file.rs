@@ -87,8 +87,12 @@ impl MeshFile {
     }
 
     /// Returns the unit of the coordinates; `None` if it is unknown. It is the unit of the last call of
-    /// [`MeshFile::converted_to_unit`] or [`MeshFile::with_stated_unit`], else that of the format. A glTF is in metres; the other
-    /// formats have no unit.
+    /// [`MeshFile::converted_to_unit`] or [`MeshFile::with_stated_unit`], else that of the file. A COLLADA states it, by
+    /// default the metre; a glTF is in metres; the other formats have no unit.
+    ///
+    /// Coordinates keep the unit of the file unless they are converted. All doors have this rule: the command prints the
+    /// unit, and warns of two files in different ones; the packages for Python and JavaScript remark on a unit that is not
+    /// the metre, if none is asked for. Meshes of a robot are converted to metres.
     pub fn unit(&self) -> Option<Unit> {
         self.target_unit.or(self.content.unit)
     }

@@ -13,7 +13,7 @@ use std::fmt;
 #[non_exhaustive]
 pub enum DecomposeError {
     /// An edge does not have exactly two faces that run along it in opposite directions.
-    #[error("{topology}; {}, or use triangles", .topology.advice())]
+    #[error("{topology}; {}, or use triangles or an outer hull", .topology.advice())]
     NotManifold {
         /// The irregular edges of the mesh, by kind.
         topology: Box<TopologyDefects>,

@@ -1,5 +1,7 @@
 //! Computes the topology of a mesh: irregular edges, closedness, orientation.
 
+mod joining;
+
 use super::nesting::MisorientedShells;
 use crate::half_edges::SortedHalfEdges;
 use crate::mesh::TriangleMesh;
@@ -28,6 +30,10 @@ pub struct TopologyDefects {
     /// The enclosed volume after wrong shells are reversed, in cubic units of length. It is negative if all normals
     /// point inward, and meaningful for closed meshes only.
     pub signed_volume: f64,
+    /// The largest distance between vertices on open edges that have to be joined, so that the mesh is closed: at most a
+    /// millionth of its size. `None` if that does not close it, and of a mesh from a stored body.
+    #[serde(skip)]
+    pub joining_distance: Option<f64>,
 }
 
 /// An edge by its vertex numbers, the smaller first. The first of several vertices at one point represents them.
@@ -68,6 +74,7 @@ impl TopologyDefects {
             tally.add(Edge(v, w));
         }
         if !topology.is_closed() {
+            topology.joining_distance = joining::joining_distance(mesh, &edges);
             return (topology, None);
         }
         let nesting = MisorientedShells::new(mesh, &edges);
@@ -101,7 +108,9 @@ impl TopologyDefects {
 
     /// Returns advice on how to make the mesh a manifold, as a part of error messages.
     pub(crate) fn advice(&self) -> &'static str {
-        if !(self.boundary_edges.is_empty() && self.branching_edges.is_empty()) {
+        if self.joining_distance.is_some() {
+            "join these vertices"
+        } else if !(self.boundary_edges.is_empty() && self.branching_edges.is_empty()) {
             "close the mesh"
         } else if !self.flipped_edges.is_empty() {
             "turn the faces that look the other way"
@@ -171,6 +180,12 @@ impl fmt::Display for TopologyDefects {
         }
         for (tally, what) in notes.iter().filter(|(tally, _)| !tally.is_empty()) {
             write!(f, "; {what}: {tally}")?;
+        }
+        if let Some(distance) = self.joining_distance {
+            write!(
+                f,
+                "; closed if vertices up to {distance:.1e} apart are joined"
+            )?;
         }
         Ok(())
     }

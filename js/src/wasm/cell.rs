@@ -1,6 +1,7 @@
 //! A robot among obstacles, and questions about its paths.
 
 use super::body::Body;
+use super::fault::Fault;
 use super::host::tell_warnings;
 use super::path_answer::PathAnswer;
 use super::poses::pose_from_numbers;
@@ -10,7 +11,7 @@ use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd::{Settings, StartPolicy};
 use rigid_ccd_robot::{CellSolver, PathError, RangeSettings, RobotError};
 use self_cell::self_cell;
-use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+use wasm_bindgen::prelude::wasm_bindgen;
 
 self_cell!(
     /// A cell with a solver that keeps its memory from one question to the next.
@@ -44,7 +45,7 @@ impl Cell {
     ///
     /// # Errors
     /// A name that is taken, or a pose that is not valid.
-    pub fn add(&mut self, name: &str, body: &Body, pose: &[f64]) -> Result<(), JsError> {
+    pub fn add(&mut self, name: &str, body: &Body, pose: &[f64]) -> Result<(), Fault> {
         let pose = pose_from_numbers(pose)?;
         self.change(|cell| {
             tell_warnings(cell.remark_on_size(name, &body.body));
@@ -56,7 +57,7 @@ impl Cell {
     ///
     /// # Errors
     /// No such obstacle, or a pose that is not valid.
-    pub fn move_to(&mut self, name: &str, pose: &[f64]) -> Result<(), JsError> {
+    pub fn move_to(&mut self, name: &str, pose: &[f64]) -> Result<(), Fault> {
         let pose = pose_from_numbers(pose)?;
         self.change(|cell| cell.move_obstacle(name, pose))
     }
@@ -65,7 +66,7 @@ impl Cell {
     ///
     /// # Errors
     /// No such obstacle.
-    pub fn remove(&mut self, name: &str) -> Result<(), JsError> {
+    pub fn remove(&mut self, name: &str) -> Result<(), Fault> {
         self.change(|cell| cell.remove_obstacle(name))
     }
 
@@ -80,7 +81,7 @@ impl Cell {
         link: &str,
         pose: &[f64],
         may_touch: Vec<String>,
-    ) -> Result<(), JsError> {
+    ) -> Result<(), Fault> {
         let pose = pose_from_numbers(pose)?;
         self.change(move |cell| {
             let may_touch: Vec<&str> = may_touch.iter().map(String::as_str).collect();
@@ -93,7 +94,7 @@ impl Cell {
     ///
     /// # Errors
     /// No such body.
-    pub fn detach(&mut self, name: &str) -> Result<(), JsError> {
+    pub fn detach(&mut self, name: &str) -> Result<(), Fault> {
         self.change(|cell| cell.detach(name))
     }
 
@@ -101,7 +102,7 @@ impl Cell {
     ///
     /// # Errors
     /// An unknown name, or a pair that is never compared.
-    pub fn allow_contact(&mut self, a: &str, b: &str) -> Result<(), JsError> {
+    pub fn allow_contact(&mut self, a: &str, b: &str) -> Result<(), Fault> {
         self.change(|cell| cell.allow_contact([cell.item_named(a)?, cell.item_named(b)?]))
     }
 
@@ -109,7 +110,7 @@ impl Cell {
     ///
     /// # Errors
     /// An unknown name, or a pair that is never compared.
-    pub fn forbid_contact(&mut self, a: &str, b: &str) -> Result<(), JsError> {
+    pub fn forbid_contact(&mut self, a: &str, b: &str) -> Result<(), Fault> {
         self.change(|cell| cell.forbid_contact([cell.item_named(a)?, cell.item_named(b)?]))
     }
 
@@ -117,7 +118,7 @@ impl Cell {
     ///
     /// # Errors
     /// A cell that was lost.
-    pub fn remarks(&self) -> Result<Vec<String>, JsError> {
+    pub fn remarks(&self) -> Result<Vec<String>, Fault> {
         let cell = self.cell.as_ref().ok_or_else(lost)?.borrow_owner();
         Ok(remark_texts(cell.remarks()))
     }
@@ -126,7 +127,7 @@ impl Cell {
     ///
     /// # Errors
     /// An unknown link, or a distance that is out of range.
-    pub fn set_padding(&mut self, link: &str, distance: f64) -> Result<(), JsError> {
+    pub fn set_padding(&mut self, link: &str, distance: f64) -> Result<(), Fault> {
         self.change(|cell| cell.set_padding(link, distance))
     }
 
@@ -134,7 +135,7 @@ impl Cell {
     ///
     /// # Errors
     /// An unknown name, or a distance that is out of range.
-    pub fn set_clearance(&mut self, a: &str, b: &str, distance: f64) -> Result<(), JsError> {
+    pub fn set_clearance(&mut self, a: &str, b: &str, distance: f64) -> Result<(), Fault> {
         self.change(|cell| {
             let pair = [cell.item_named(a)?, cell.item_named(b)?];
             cell.set_clearance(pair, distance)
@@ -145,7 +146,7 @@ impl Cell {
     ///
     /// # Errors
     /// A cell that was lost.
-    pub fn checked_pairs(&self) -> Result<Vec<String>, JsError> {
+    pub fn checked_pairs(&self) -> Result<Vec<String>, Fault> {
         let cell = self.cell.as_ref().ok_or_else(lost)?.borrow_owner();
         Ok(names_of_pairs(cell.robot(), cell.link_pairs()))
     }
@@ -161,7 +162,7 @@ impl Cell {
         path: &[f64],
         count: usize,
         settings: &[f64],
-    ) -> Result<PathAnswer, JsError> {
+    ) -> Result<PathAnswer, Fault> {
         self.with_solver_for((path, count), settings, |solver, path| {
             let answer = match question {
                 Question::AnyContact => {
@@ -190,7 +191,7 @@ impl Cell {
         settings: &[f64],
         resolution: f64,
         max_pose_error: f64,
-    ) -> Result<Vec<f64>, JsError> {
+    ) -> Result<Vec<f64>, Fault> {
         let how = RangeSettings {
             resolution,
             max_pose_error,
@@ -214,14 +215,14 @@ impl Cell {
     fn change(
         &mut self,
         change: impl FnOnce(&mut rigid_ccd_robot::Cell) -> Result<(), RobotError>,
-    ) -> Result<(), JsError> {
+    ) -> Result<(), Fault> {
         let mut cell = self.taken()?.into_owner();
         let changed = change(&mut cell);
         self.cell = Some(with_solver(cell));
         Ok(changed?)
     }
 
-    fn taken(&mut self) -> Result<CellWithSolver, JsError> {
+    fn taken(&mut self) -> Result<CellWithSolver, Fault> {
         self.cell.take().ok_or_else(lost)
     }
 
@@ -231,7 +232,7 @@ impl Cell {
         (path, count): (&[f64], usize),
         settings: &[f64],
         then: impl FnOnce(&mut CellSolver<'_>, &[&[f64]]) -> Result<T, PathError>,
-    ) -> Result<T, JsError> {
+    ) -> Result<T, Fault> {
         let mut cell = self.taken()?;
         let joints = cell.borrow_owner().robot().limits().len();
         let configurations: Vec<&[f64]> = match joints {
@@ -262,8 +263,8 @@ impl Cell {
     }
 }
 
-fn lost() -> JsError {
-    JsError::new("the cell was lost in an earlier error")
+fn lost() -> Fault {
+    Fault::plain("the cell was lost in an earlier error")
 }
 
 /// Returns the number of segments between the configurations of a path.

@@ -1,6 +1,7 @@
 //! What JavaScript is told beside answers: remarks on what is probably a mistake, and the text of a fault that ends the engine.
 
 use rigid_ccd::Remark;
+use rigid_ccd::text::Number;
 use rigid_ccd_robot::CellRemark;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -25,14 +26,20 @@ pub(crate) fn tell(remarks: impl IntoIterator<Item = Remark>) {
             // A quaternion has w last here.
             Remark::NonUnitQuaternion {
                 quaternion_components: [w, x, y, z],
-                quaternion_norm: length,
+                ..
             } => {
                 let kind = kind.replace("w, x, y, z", "x, y, z, w");
-                remark(
-                    &kind,
-                    &format!("{kind}: ({x}, {y}, {z}, {w}) has the length {length:.3}"),
-                );
+                let told = told.to_string();
+                let length = told.rsplit(") ").next().unwrap_or_default();
+                let [x, y, z, w] = [x, y, z, w].map(Number);
+                remark(&kind, &format!("{kind}: ({x}, {y}, {z}, {w}) {length}"));
             }
+            Remark::OpenSeam { .. } => remark(
+                kind,
+                &format!(
+                    "{told}; coordinates that are rounded are the same, and BufferGeometryUtils.mergeVertices of three.js joins vertices once normal and uv are deleted"
+                ),
+            ),
             _ => remark(kind, &told.to_string()),
         }
     }

@@ -1,12 +1,13 @@
 //! What moves a body: constant velocities, poses at times, a throw, the link of a robot.
 
+use super::fault::Fault;
 use super::poses::{POSE_LENGTH, pose_from_numbers, pose_to_numbers};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::trajectory::{Ballistic, LinkTrajectory, MovingBody, Poses, Trajectory};
 use rigid_ccd::{Body, InputError, Motion};
 use rigid_ccd_robot::ChainBetween;
 use std::rc::Rc;
-use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+use wasm_bindgen::prelude::wasm_bindgen;
 
 /// The number of numbers of a motion: pose, velocity, angular velocity, centre.
 pub(crate) const MOTION_LENGTH: usize = POSE_LENGTH + 9;
@@ -19,6 +20,8 @@ pub struct Movement(Rc<MovementKind>);
 #[derive(Debug)]
 enum MovementKind {
     Motion(Motion),
+    /// A motion between two poses, and the time of the second.
+    Between(Motion, f64),
     Throw(Ballistic),
     Poses(Poses),
     Link(LinkMotion),
@@ -39,7 +42,7 @@ impl Movement {
     ///
     /// # Errors
     /// A number that is not finite, or a quaternion of length 0.
-    pub fn from_velocities(numbers: &[f64]) -> Result<Self, JsError> {
+    pub fn from_velocities(numbers: &[f64]) -> Result<Self, Fault> {
         Ok(Movement::new(MovementKind::Motion(motion_from_numbers(
             numbers,
         )?)))
@@ -54,17 +57,18 @@ impl Movement {
         end: &[f64],
         center: &[f64],
         duration: f64,
-    ) -> Result<Self, JsError> {
-        let (start, end) = (pose_from_numbers(start)?, pose_from_numbers(end)?);
+    ) -> Result<Self, Fault> {
+        let start = pose_from_numbers(start).map_err(Fault::of_element("start"))?;
+        let end = pose_from_numbers(end).map_err(Fault::of_element("end"))?;
         let motion = Motion::between(start, end, vector(center), duration)?;
-        Ok(Movement::new(MovementKind::Motion(motion)))
+        Ok(Movement::new(MovementKind::Between(motion, duration)))
     }
 
     /// Makes a throw of the numbers of a motion, and of an acceleration.
     ///
     /// # Errors
     /// Those of [`Movement::from_velocities`].
-    pub fn thrown(numbers: &[f64], acceleration: &[f64]) -> Result<Self, JsError> {
+    pub fn thrown(numbers: &[f64], acceleration: &[f64]) -> Result<Self, Fault> {
         let thrown = Ballistic::new(motion_from_numbers(numbers)?, vector(acceleration))?;
         Ok(Movement::new(MovementKind::Throw(thrown)))
     }
@@ -78,14 +82,14 @@ impl Movement {
         poses: &[f64],
         center: &[f64],
         spins: Option<Vec<f64>>,
-    ) -> Result<Self, JsError> {
+    ) -> Result<Self, Fault> {
         let poses = poses.as_chunks::<POSE_LENGTH>().0.iter().enumerate();
         let timed = times.iter().zip(poses).map(|(&time, (k, numbers))| {
             let pose = pose_from_numbers(numbers);
-            let pose = pose.map_err(|error| JsError::new(&format!("pose {k}: {error}")))?;
+            let pose = pose.map_err(Fault::of_element(format!("poses[{k}]")))?;
             Ok((time, pose))
         });
-        let poses = Poses::new(timed.collect::<Result<_, JsError>>()?)?;
+        let poses = Poses::new(timed.collect::<Result<_, Fault>>()?)?;
         let mut poses = poses.about(vector(center))?;
         if let Some(spins) = spins {
             poses = poses.with_angular_velocities(spins.as_chunks::<3>().0.to_vec())?;
@@ -97,6 +101,7 @@ impl Movement {
     pub fn end(&self) -> Option<f64> {
         match &*self.0 {
             MovementKind::Motion(_) | MovementKind::Throw(_) => None,
+            MovementKind::Between(_, duration) => Some(*duration),
             MovementKind::Poses(poses) => Some(poses.end_time()),
             MovementKind::Link(link) => Some(link.duration),
         }
@@ -106,12 +111,12 @@ impl Movement {
     ///
     /// # Errors
     /// A time that is not finite.
-    pub fn pose(&self, time: f64) -> Result<Vec<f64>, JsError> {
+    pub fn pose(&self, time: f64) -> Result<Vec<f64>, Fault> {
         if !time.is_finite() {
-            return Err(JsError::new(&format!("time: {time} is not finite")));
+            return Err(Fault::of_range(format!("time: {time} is not finite")));
         }
         let pose = match &*self.0 {
-            MovementKind::Motion(motion) => motion.pose(time),
+            MovementKind::Motion(motion) | MovementKind::Between(motion, _) => motion.pose(time),
             MovementKind::Throw(thrown) => Trajectory::pose(thrown, time)?,
             MovementKind::Poses(poses) => poses.pose(time)?,
             MovementKind::Link(link) => Trajectory::pose(&link.trajectory()?, time)?,
@@ -142,7 +147,7 @@ impl Movement {
     /// Returns the angular velocity of a motion at constant velocities.
     pub(crate) fn constant_spin(&self) -> Option<DVec3> {
         match &*self.0 {
-            MovementKind::Motion(motion) => Some(motion.spin()),
+            MovementKind::Motion(motion) | MovementKind::Between(motion, _) => Some(motion.spin()),
             MovementKind::Throw(_) | MovementKind::Poses(_) | MovementKind::Link(_) => None,
         }
     }
@@ -154,7 +159,9 @@ impl Movement {
         then: impl FnOnce(MovingBody<'_>) -> Result<T, InputError>,
     ) -> Result<T, InputError> {
         match &*self.0 {
-            MovementKind::Motion(motion) => then((body, *motion).into()),
+            MovementKind::Motion(motion) | MovementKind::Between(motion, _) => {
+                then((body, *motion).into())
+            }
             MovementKind::Throw(thrown) => then((body, thrown).into()),
             MovementKind::Poses(poses) => then((body, poses).into()),
             MovementKind::Link(link) => then((body, &link.trajectory()?).into()),

@@ -1,13 +1,14 @@
 //! Robots and mechanisms of links and joints.
 
 use super::body::Body;
+use super::fault::Fault;
 use super::host::tell;
 use super::movement::{LinkMotion, Movement};
 use super::poses::{pose_from_numbers, pose_to_numbers};
 use rigid_ccd::Remark;
 use rigid_ccd::trajectory::{self, JointKind};
 use rigid_ccd_robot::{CellRemark, Joint, Link, LinkBody, LinkPairs, PositionRule, SkipReason};
-use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+use wasm_bindgen::prelude::wasm_bindgen;
 
 /// A robot, with the pairs of its links that are checked.
 #[wasm_bindgen]
@@ -46,21 +47,18 @@ impl RobotBuilder {
         parent: &str,
         child: &str,
         numbers: &[f64],
-    ) -> Result<(), JsError> {
-        let in_joint = |error| JsError::new(&format!("joint {name:?}: {error}"));
-        let origin = pose_from_numbers(numbers).map_err(in_joint)?;
+    ) -> Result<(), Fault> {
+        let in_joint = Fault::of_element(format!("joint {name:?}"));
+        let origin = pose_from_numbers(numbers).map_err(&in_joint)?;
         let axis = [7, 8, 9].map(|k| numbers[k]);
         let joint = match kind {
             "fixed" => Ok(trajectory::Joint::fixed(origin)),
             "revolute" => trajectory::Joint::revolute(origin, axis),
             "prismatic" => trajectory::Joint::prismatic(origin, axis),
-            _ => {
-                let known = "\"revolute\", \"prismatic\" or \"fixed\"";
-                let text = format!("joint {name:?}: type {kind:?} is not {known}");
-                return Err(JsError::new(&text));
-            }
+            // `js/module/robot.js` refuses it by its name.
+            _ => return Err(Fault::plain(format!("joint {name:?}: type {kind:?}"))),
         };
-        let joint = joint.map_err(in_joint)?;
+        let joint = joint.map_err(&in_joint)?;
         self.joints.push(Joint {
             name: name.to_owned(),
             parent: parent.to_owned(),
@@ -88,9 +86,9 @@ impl RobotBuilder {
     ///
     /// # Errors
     /// A pose that is not valid.
-    pub fn add_body(&mut self, link: &str, body: &Body, pose: &[f64]) -> Result<(), JsError> {
-        let pose = pose_from_numbers(pose)
-            .map_err(|error| JsError::new(&format!("body of {link:?}: {error}")))?;
+    pub fn add_body(&mut self, link: &str, body: &Body, pose: &[f64]) -> Result<(), Fault> {
+        let pose =
+            pose_from_numbers(pose).map_err(Fault::of_element(format!("body of {link:?}")))?;
         let body = body.body.clone();
         self.link(link).bodies.push(LinkBody { body, pose });
         Ok(())
@@ -105,7 +103,7 @@ impl RobotBuilder {
     ///
     /// # Errors
     /// The link or the joint that is not valid.
-    pub fn build(self) -> Result<Robot, JsError> {
+    pub fn build(self) -> Result<Robot, Fault> {
         let robot = rigid_ccd_robot::Robot::new(self.links, self.joints)?;
         let mut pairs = LinkPairs::from_robot(&robot);
         for [one, other] in &self.may_touch {
@@ -160,7 +158,7 @@ impl Robot {
     ///
     /// # Errors
     /// An unknown link, or a configuration that is not valid.
-    pub fn pose(&self, link: &str, configuration: &[f64]) -> Result<Vec<f64>, JsError> {
+    pub fn pose(&self, link: &str, configuration: &[f64]) -> Result<Vec<f64>, Fault> {
         Ok(pose_to_numbers(&self.robot.pose(link, configuration)?))
     }
 
@@ -175,14 +173,14 @@ impl Robot {
         start: &[f64],
         end: &[f64],
         duration: f64,
-    ) -> Result<Movement, JsError> {
+    ) -> Result<Movement, Fault> {
         let robot = &self.robot;
         let to = robot.link_number(link)?;
         let from = seen_from.map_or(Ok(robot.base()), |name| robot.link_number(&name))?;
         let chain = robot.chain_between(from, to);
-        let positions = |what, configuration: &[f64]| {
+        let positions = |what: &str, configuration: &[f64]| {
             let positions = chain.positions(robot, configuration);
-            positions.map_err(|error| JsError::new(&format!("{what}: {error}")))
+            positions.map_err(Fault::of_element(what))
         };
         let ends = [positions("start", start)?, positions("end", end)?];
         let turning = chain.chain().joints().iter().enumerate();

@@ -2,11 +2,12 @@
 
 use super::answer::{self, ANSWER_LENGTH, AnswerKind};
 use super::body::Body;
+use super::fault::Fault;
 use super::host::tell;
 use super::movement::{MOTION_LENGTH, Movement, motion_from_numbers};
 use rigid_ccd::trajectory::MovingBody;
 use rigid_ccd::{Answer, InputError, Motion, Remark, Settings};
-use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+use wasm_bindgen::prelude::wasm_bindgen;
 
 /// The places of numbers in the memory of a solver; `js/module/solver.js` has the same.
 const SETTINGS: usize = 0;
@@ -83,7 +84,7 @@ impl Solver {
     ///
     /// # Errors
     /// A number that is out of range.
-    pub fn ask(&mut self, question: Question, a: &Body, b: &Body) -> Result<AnswerKind, JsError> {
+    pub fn ask(&mut self, question: Question, a: &Body, b: &Body) -> Result<AnswerKind, Fault> {
         let answer = self.answer(question, a, b)?;
         tell(Remark::remark_on_tolerance(
             self.numbers[SETTINGS],
@@ -102,13 +103,13 @@ impl Default for Solver {
 }
 
 impl Solver {
-    fn answer(&mut self, question: Question, a: &Body, b: &Body) -> Result<Answer, JsError> {
+    fn answer(&mut self, question: Question, a: &Body, b: &Body) -> Result<Answer, Fault> {
         let [move_a, move_b] = std::mem::take(&mut self.movements);
         let duration = self.numbers[DURATION];
         for movement in [&move_a, &move_b].into_iter().flatten() {
             let latest = movement.latest_duration();
             if duration > latest {
-                return Err(JsError::new(&format!(
+                return Err(Fault::of_range(format!(
                     "duration: {duration} is later than {latest}, the end of the link's motion: its joints would go on"
                 )));
             }

@@ -62,7 +62,7 @@ class _Mesh(Protocol):
 
 _Rotation: TypeAlias = ArrayLike | _ScipyRotation
 _Pose: TypeAlias = ArrayLike | tuple[ArrayLike, _Rotation]
-_Pieces: TypeAlias = Literal["auto", "triangles", "patches", "hull"]
+_Pieces: TypeAlias = Literal["auto", "triangles", "patches", "hull", "outer-hull"]
 _Unit: TypeAlias = Literal["um", "mm", "cm", "m", "in", "ft"]
 _Curve: TypeAlias = _Polynomials | _Spline
 _Movement: TypeAlias = Motion | Path | LinkMotion
@@ -141,6 +141,8 @@ class Motion:
     ) -> Motion: ...
     @classmethod
     def still(cls, pose: _Pose) -> Motion: ...
+    @property
+    def end(self) -> float | None: ...
     def pose(self, time: float) -> NDArray[float64]: ...
 
 @final
@@ -379,7 +381,7 @@ def prove(
     b: Body,
     motion_a: Motion | None = None,
     motion_b: Motion | None = None,
-    duration: float = 1.0,
+    duration: float | None = None,
     **settings: Unpack[_OfContacts],
 ) -> Proof | None: ...
 def check_proof(proof: bytes, meshes: Sequence[tuple[bytes, bytes]]) -> str: ...

@@ -57,13 +57,17 @@ impl Cell {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn allow_contact(&mut self, pair: [Item<'_>; 2]) -> Result<(), RobotError> {
-        let bodies = self.bodies_of_pair(pair)?;
         match self.checked_links_of(pair)? {
-            Some([a, b]) => {
-                self.pairs
-                    .skip(a, b, SkipReason::Disabled("contact allowed".to_owned()));
+            Some([a, b]) if a != b => {
+                if self.pairs.is_checked(a, b) {
+                    let reason = SkipReason::Disabled("contact allowed".to_owned());
+                    self.pairs.skip(a, b, reason);
+                }
             }
-            None => self.allowed.0.extend(bodies),
+            _ => {
+                let bodies = self.bodies_of_pair(pair)?;
+                self.allowed.0.extend(bodies);
+            }
         }
         Ok(())
     }

@@ -205,6 +205,19 @@ fn what_is_no_tree_is_refused() {
     assert_eq!(refused(0, Vec::new()), RobotError::NoLinks);
     let two_bases = refused(2, Vec::new());
     assert!(matches!(two_bases, RobotError::TwoBases { .. }));
+    // A misspelt link has no joint, wherever it stands.
+    for lone in ["link0", "link2"] {
+        let held = if lone == "link0" {
+            ["link1", "link2"]
+        } else {
+            ["link0", "link1"]
+        };
+        let (link, base) = (lone.into(), held[0].into());
+        assert_eq!(
+            refused(3, vec![hinge("a", held[0], held[1])]),
+            RobotError::LinkWithoutJoint { link, base }
+        );
+    }
     let looped = |a, b| vec![hinge("a", "link1", a), hinge("b", "link2", b)];
     let error = refused(3, looped("link2", "link1"));
     assert_eq!(
@@ -251,10 +264,18 @@ fn joints_that_follow_nothing_are_refused() {
         let fixed = trajectory::Joint::fixed(Pose::IDENTITY);
         let joints = vec![b, joint("fixed", "link0", "link1", fixed)];
         let error = Robot::new(links(3), joints).unwrap_err();
-        assert!(
-            matches!(error, RobotError::InvalidMimicJoint { .. }),
-            "{followed}: {error}"
-        );
+        let (joint, followed_joint) = ("b".into(), followed.into());
+        let expected = match followed {
+            "none" => RobotError::NoSuchMimicJoint {
+                joint,
+                followed_joint,
+            },
+            _ => RobotError::InvalidMimicJoint {
+                joint,
+                followed_joint,
+            },
+        };
+        assert_eq!(error, expected);
     }
 }
 

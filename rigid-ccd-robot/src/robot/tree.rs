@@ -65,6 +65,16 @@ impl Tree {
         let base = match (bases.next(), bases.next()) {
             (Some(base), None) => base,
             (Some(first), Some(second)) => {
+                let is_parent = |link: usize| above.iter().flatten().any(|of| of.link == link);
+                if let (true, false) | (false, true) = (is_parent(first), is_parent(second)) {
+                    let (base, lone) = if is_parent(first) {
+                        (first, second)
+                    } else {
+                        (second, first)
+                    };
+                    let (link, base) = (name(lone), name(base));
+                    return Err(RobotError::LinkWithoutJoint { link, base });
+                }
                 let (first, second) = (name(first), name(second));
                 return Err(RobotError::TwoBases {
                     first_base: first,

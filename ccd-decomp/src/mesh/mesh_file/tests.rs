@@ -213,7 +213,7 @@ mod beside {
         );
         let message = error.to_string();
         assert!(
-            message.contains("only a file has others beside it"),
+            message.contains("bytes have no files beside them"),
             "{message}"
         );
     }

@@ -165,3 +165,47 @@ fn two_faces_back_to_back_hold_nothing() {
     assert!(sheet.is_manifold());
     assert_eq!(sheet.signed_volume, 0.0);
 }
+
+/// A cylinder of 8 faces around, whose seam is computed at both angles 0 and 2π, as in many libraries.
+fn cylinder_with_seam() -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let (mut points, mut faces) = (
+        vec![dvec3(0.0, 0.0, -1.0), dvec3(0.0, 0.0, 1.0)],
+        Vec::new(),
+    );
+    for k in 0..=8 {
+        let (sin, cos) = (f64::from(k) / 8.0 * std::f64::consts::TAU).sin_cos();
+        points.extend([dvec3(cos, sin, -1.0), dvec3(cos, sin, 1.0)]);
+    }
+    for k in (2..18).step_by(2) {
+        let [low, high, next_low, next_high] = [k, k + 1, k + 2, k + 3];
+        faces.extend([[low, next_low, high], [high, next_low, next_high]]);
+        faces.extend([[0, next_low, low], [1, high, next_high]]);
+    }
+    (points, faces)
+}
+
+#[test]
+fn a_seam_that_is_open_by_rounding_says_what_closes_it() {
+    let (mut points, faces) = cylinder_with_seam();
+    let open = topology(points.clone(), &faces);
+    assert_eq!((open.is_closed(), open.boundary_edges.count()), (false, 6));
+    let distance = open.joining_distance.unwrap();
+    assert!((1e-17..1e-15).contains(&distance), "{distance}");
+    let text = open.to_string();
+    assert!(
+        text.ends_with("; closed if vertices up to 2.4e-16 apart are joined"),
+        "{text}"
+    );
+    // Farther apart is another shape, and so is one with a hole.
+    let far = points
+        .iter()
+        .map(|p| *p + 1e-5 * f64::from(p.y.abs() < 1e-9 && p.y != 0.0));
+    assert_eq!(topology(far.collect(), &faces).joining_distance, None);
+    assert_eq!(topology(points.clone(), &faces[1..]).joining_distance, None);
+    points.truncate(16);
+    let closed: Vec<[u32; 3]> = (faces.iter())
+        .map(|face| face.map(|v| if v < 18 { v } else { v - 16 }))
+        .collect();
+    points.extend(cylinder_with_seam().0.drain(16..18));
+    assert_eq!(topology(points, &closed).to_string(), "closed");
+}

@@ -98,7 +98,7 @@ fn buffer_bytes<'a>(
 fn missing_linked_file_fault(name: String) -> MeshFault {
     MeshFault::UnreadableLinkedFile {
         referenced_file_name: name,
-        reason: "only a file has others beside it; read the mesh from a file, or export a .glb"
+        reason: "bytes have no files beside them; export it as a .glb, which holds all of it, or read it by the path of its file"
             .into(),
     }
 }
