@@ -122,3 +122,55 @@ fn fixed_angles_of_more_than_a_turn_are_remarked_upon() {
         assert_eq!(Remark::remark_on_roll_pitch_yaw(angles), None, "{angles:?}");
     }
 }
+
+/// Tests that numbers are short, however small, and that a mesh which is only a surface, or in another unit, is remarked upon.
+#[cfg(feature = "meshes")]
+#[test]
+fn meshes_are_remarked_upon() {
+    use ccd_decomp::{Detail, TriangleMesh, Unit, body_from_mesh};
+    let corners = |x| {
+        let [o, y, z] = [[x, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], y, z, o]
+    };
+    let remark = |corners, faces: &[[u32; 3]], asked| {
+        let mesh = TriangleMesh::new(corners, faces).unwrap();
+        let report = body_from_mesh(&mesh, asked).unwrap().report;
+        Remark::remark_on_mesh(asked, &mesh, &report)
+    };
+    let closed = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    let seam = [[4, 2, 1], closed[1], closed[2], closed[3]];
+    let auto = Detail::Auto;
+    assert_eq!(remark(corners(0.0), &closed, auto), None);
+    assert_eq!(remark(corners(0.0), &seam, auto), None);
+    for (asked, is_remarked) in [
+        (auto, true),
+        (Detail::Triangles, true),
+        (Detail::Surface, false),
+        (Detail::OuterHull, false),
+    ] {
+        let open = remark(corners(0.0), &closed[1..], asked);
+        let expected = Remark::SurfaceOnly { open_edges: 3 };
+        assert_eq!(open, is_remarked.then_some(expected), "{asked:?}");
+        let joining_distance = 1e-9;
+        let open = remark(corners(joining_distance), &seam, asked);
+        let expected = Remark::OpenSeam { joining_distance };
+        assert_eq!(open, is_remarked.then_some(expected), "{asked:?}");
+    }
+    // What is flat has no inside.
+    assert_eq!(remark(corners(0.0), &closed[..1], auto), None);
+    let point = remark(vec![[1.0; 3]; 3], &[[0, 1, 2]], auto);
+    assert_eq!(point, Some(Remark::PointMesh));
+    assert_eq!(Remark::remark_on_unit(None), None);
+    assert_eq!(Remark::remark_on_unit(Some(Unit::Metre)), None);
+    let text = Remark::remark_on_unit(Some(Unit::Inch))
+        .unwrap()
+        .to_string();
+    assert!(text.ends_with(": in"), "{text}");
+    let text = Remark::remark_on_quaternion([0.0, 1e-300, 0.0, 0.0])
+        .unwrap()
+        .to_string();
+    assert!(
+        text.ends_with("(0, 1e-300, 0, 0) has the length 1e-300"),
+        "{text}"
+    );
+}

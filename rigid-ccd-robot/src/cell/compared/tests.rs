@@ -163,6 +163,19 @@ fn what_is_never_compared_is_not_allowed() {
             );
         }
     }
+    // Links that are not compared anyway may touch, as an SRDF says of neighbours.
+    let before = cell.check_summary().to_string();
+    cell.allow_contact([Item::Link("base"), Item::Link("red")])
+        .unwrap();
+    assert_eq!(cell.check_summary().to_string(), before);
+    for name in ["", "post"] {
+        let body = Body::sphere(0.1).unwrap();
+        let error = cell.add_obstacle(name, body, Pose::IDENTITY).unwrap_err();
+        match name {
+            "" => assert_eq!(error, RobotError::EmptyName),
+            _ => assert!(matches!(error, RobotError::NameTaken { .. })),
+        }
+    }
     let unknown = [Item::Link("red"), Item::Obstacle("pots")];
     let error = cell.allow_contact(unknown).unwrap_err().to_string();
     assert_eq!(error, "there is no obstacle `pots`");
