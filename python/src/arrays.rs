@@ -3,7 +3,7 @@
 use crate::errors::{input_error, input_error_from};
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyBytes, PyFloat, PyInt, PyList, PyString, PyTuple};
+use pyo3::types::{PyBool, PyBytes, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 
 /// The elements of an array, the last index fastest, whatever their order in memory.
 pub(crate) struct Elements<T> {
@@ -163,11 +163,17 @@ pub(crate) fn numpy_array<'py>(
     let array = numpy.call_method1("asarray", (values,));
     let array = array.map_err(|error| input_error_from(py, what, error))?;
     let masked_array = numpy.getattr("ma")?.getattr("MaskedArray")?;
-    if has_masked_value(values, &masked_array, array.getattr("ndim")?.extract()?)? {
-        return Err(input_error(format!(
-            "{what}: some values are masked; fill them, or leave them out"
-        )));
-    }
+    // NumPy takes what is under a mask.
+    visit_parts(values, array.getattr("ndim")?.extract()?, &mut |part, _| {
+        let is_masked = part.is_instance(&masked_array)?
+            && part.getattr("mask")?.call_method0("any")?.is_truthy()?;
+        if is_masked {
+            return Err(input_error(format!(
+                "{what}: some values are masked; fill them, or leave them out"
+            )));
+        }
+        Ok(())
+    })?;
     Ok(array)
 }
 
@@ -176,29 +182,39 @@ pub(crate) fn kind(array: &Bound<'_, PyAny>) -> PyResult<char> {
     array.getattr("dtype")?.getattr("kind")?.extract()
 }
 
-/// Returns whether an array, or one in lists of arrays, has masked values: NumPy takes what is under the masks. Lists are searched
-/// to the depth of the dimensions of the array that they make.
-fn has_masked_value(
-    values: &Bound<'_, PyAny>,
-    masked_array: &Bound<'_, PyAny>,
+/// Calls `visit` with what NumPy makes an array of, and with each object in its nested lists that is no number, to a depth: that of
+/// the dimensions of the array; with how much deeper each one is.
+pub(crate) fn visit_parts<'py>(
+    values: &Bound<'py, PyAny>,
     depth: usize,
-) -> PyResult<bool> {
-    if values.is_instance(masked_array)? {
-        let mask = values.getattr("mask")?;
-        return mask.call_method0("any")?.is_truthy();
-    }
-    let is_list = values.is_instance_of::<PyList>() || values.is_instance_of::<PyTuple>();
-    if depth == 0 || !is_list {
-        return Ok(false);
+    visit: &mut impl FnMut(&Bound<'py, PyAny>, usize) -> PyResult<()>,
+) -> PyResult<()> {
+    values.py().check_signals()?;
+    visit(values, depth)?;
+    if depth == 0 || !is_nested(values)? {
+        return Ok(());
     }
     for value in values.try_iter()?.take(values.len()?) {
         let value = value?;
         let is_number = value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>();
-        if !is_number && has_masked_value(&value, masked_array, depth - 1)? {
-            return Ok(true);
+        if !is_number {
+            visit_parts(&value, depth - 1, visit)?;
         }
     }
-    Ok(false)
+    Ok(())
+}
+
+/// Returns whether NumPy takes the elements of an object one by one: those of a list, or of another sequence that is no array.
+fn is_nested(values: &Bound<'_, PyAny>) -> PyResult<bool> {
+    if values.is_instance_of::<PyList>() || values.is_instance_of::<PyTuple>() {
+        return Ok(true);
+    }
+    let is_text = values.is_instance_of::<PyString>() || values.is_instance_of::<PyBytes>();
+    Ok(!is_text
+        && !values.is_instance_of::<PyDict>()
+        && !values.hasattr("__array__")?
+        && values.hasattr("__len__")?
+        && values.hasattr("__getitem__")?)
 }
 
 /// Refuses objects that NumPy converts to numbers and that are none: text, truth values and None.

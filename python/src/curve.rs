@@ -1,20 +1,24 @@
 //! Reads curves from the piecewise polynomials of SciPy.
 
 use crate::arrays::{Elements, flat_numbers};
+use crate::configurations::read_configurations;
 use crate::errors::input_error;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
-use rigid_ccd_robot::JointCurve;
+use rigid_ccd_robot::{JointCurve, Robot};
 
 /// Reads a list of curves; `None` for anything else.
-pub(crate) fn read_curves(values: &Bound<'_, PyAny>) -> PyResult<Option<Vec<JointCurve>>> {
+pub(crate) fn read_curves(
+    values: &Bound<'_, PyAny>,
+    robot: &Robot,
+) -> PyResult<Option<Vec<JointCurve>>> {
     if !(values.is_instance_of::<PyList>() || values.is_instance_of::<PyTuple>()) {
         return Ok(None);
     }
     let mut curves = Vec::new();
     for value in values.try_iter()? {
-        match read_curve(&value?)? {
+        match read_curve(&value?, robot)? {
             Some(curve) => curves.push(curve),
             None => return Ok(None),
         }
@@ -23,7 +27,7 @@ pub(crate) fn read_curves(values: &Bound<'_, PyAny>) -> PyResult<Option<Vec<Join
 }
 
 /// Reads an object with the attributes of `scipy.interpolate.PPoly` or `BSpline`; `None` for an object that is no such curve.
-pub(crate) fn read_curve(values: &Bound<'_, PyAny>) -> PyResult<Option<JointCurve>> {
+pub(crate) fn read_curve(values: &Bound<'_, PyAny>, robot: &Robot) -> PyResult<Option<JointCurve>> {
     // A data frame may have columns of these names.
     if values.hasattr("__array__")? {
         return Ok(None);
@@ -32,13 +36,15 @@ pub(crate) fn read_curve(values: &Bound<'_, PyAny>) -> PyResult<Option<JointCurv
     let curve = match (attribute("x")?, attribute("t")?, attribute("c")?) {
         (Some(times), _, Some(coefficients)) => Polynomials {
             times: flat_numbers(&times, "path.x")?,
-            coefficients: Elements::<f64>::read(&coefficients, "path.c")?,
+            coefficients: read_configurations(&coefficients, robot, "path.c")?,
         }
         .curve()?,
-        (None, Some(knots), Some(coefficients)) => curve_of_spline(values, &knots, &coefficients)?,
+        (None, Some(knots), Some(coefficients)) => {
+            curve_of_spline(values, &knots, &coefficients, robot)?
+        }
         _ => return Ok(None),
     };
-    check_values(values, &curve)?;
+    check_values(values, &curve, robot)?;
     Ok(Some(curve))
 }
 
@@ -78,13 +84,14 @@ fn curve_of_spline(
     spline: &Bound<'_, PyAny>,
     knots: &Bound<'_, PyAny>,
     coefficients: &Bound<'_, PyAny>,
+    robot: &Robot,
 ) -> PyResult<JointCurve> {
     let knots = flat_numbers(knots, "path.t")?;
     let Some(degree) = spline.getattr_opt("k")? else {
         return Err(input_error("path: knots `t` without a degree `k`"));
     };
     let degree: usize = degree.extract()?;
-    let Elements { values, shape } = Elements::<f64>::read(coefficients, "path.c")?;
+    let Elements { values, shape } = read_configurations(coefficients, robot, "path.c")?;
     let [given, joints] = shape[..] else {
         return Err(input_error(format!(
             "path: coefficients of shape (coefficients, joints) are needed, not {shape:?}"
@@ -106,14 +113,14 @@ const MAX_VALUE_DIFFERENCE: f64 = 1e-6;
 
 /// Refuses an object whose values are not those of its coefficients as powers, such as a `BPoly`: two values in each segment are
 /// compared. An object that cannot be called has no values.
-fn check_values(given: &Bound<'_, PyAny>, curve: &JointCurve) -> PyResult<()> {
+fn check_values(given: &Bound<'_, PyAny>, curve: &JointCurve, robot: &Robot) -> PyResult<()> {
     if !given.is_callable() {
         return Ok(());
     }
     let inside = |span: &[f64]| [0.375, 0.75].map(|share| span[0] + share * (span[1] - span[0]));
     let times: Vec<f64> = curve.times().windows(2).flat_map(inside).collect();
     let array = PyArray1::from_slice(given.py(), &times);
-    let values = flat_numbers(&given.call1((array,))?, "path(times)")?;
+    let values = read_configurations(&given.call1((array,))?, robot, "path(times)")?.values;
     let joints = values.len() / times.len();
     for (k, time) in times.iter().enumerate() {
         let (values, own) = (&values[k * joints..][..joints], curve.positions(*time));

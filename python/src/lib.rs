@@ -9,6 +9,7 @@ mod cell_contents;
 mod cell_remarks;
 mod cell_solver;
 mod cell_state;
+mod configurations;
 mod curve;
 mod errors;
 mod interruptible;

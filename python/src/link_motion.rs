@@ -1,8 +1,8 @@
 //! The Python class `LinkMotion`.
 
+use crate::configurations::read_configurations;
 use crate::errors::{input_error, warn};
 use crate::motion::pose_matrix;
-use crate::path_array::read_configurations;
 use crate::pickle::Reduced;
 use pyo3::prelude::*;
 use rigid_ccd::Remark;

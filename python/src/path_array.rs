@@ -1,11 +1,10 @@
 //! Reads paths and edges from NumPy arrays.
 
-use crate::arrays::Elements;
 use crate::cell_solver::Paths;
+use crate::configurations::read_configurations;
 use crate::curve::{read_curve, read_curves};
 use crate::errors::input_error;
 use pyo3::prelude::*;
-use rigid_ccd_robot::joint_columns::{AngleUnit, joint_column, names_joint};
 use rigid_ccd_robot::{JointCurve, PathPoint, Robot};
 
 /// A path as Python gives it: configurations, or polynomials.
@@ -17,11 +16,10 @@ pub(crate) enum GivenPath {
 impl GivenPath {
     /// Reads a curve, or an array of configurations; one of one dimension is one configuration.
     pub(crate) fn read(values: &Bound<'_, PyAny>, robot: &Robot) -> PyResult<Self> {
-        if let Some(curve) = read_curve(values)? {
+        if let Some(curve) = read_curve(values, robot)? {
             return Ok(GivenPath::Curve(curve));
         }
-        let given = read_configurations(values, robot, "path")?;
-        let path = PathArray::new(given.values, given.shape, "path")?;
+        let path = PathArray::read(values, robot, "path")?;
         match path.shape.len() {
             1 | 2 => Ok(GivenPath::Configurations(path)),
             _ => Err(input_error(format!(
@@ -74,10 +72,10 @@ pub(crate) enum GivenPaths {
 impl GivenPaths {
     /// Reads an array of shape (paths, configurations, joints), or a list of curves.
     pub(crate) fn read(values: &Bound<'_, PyAny>, robot: &Robot) -> PyResult<Self> {
-        if let Some(curves) = read_curves(values)? {
+        if let Some(curves) = read_curves(values, robot)? {
             return Ok(GivenPaths::Curves(curves));
         }
-        let array = PathArray::read(values, "paths")?;
+        let array = PathArray::read(values, robot, "paths")?;
         array.check_shape_of_paths(robot.free_joint_names().len())?;
         Ok(GivenPaths::Array(array))
     }
@@ -127,65 +125,6 @@ impl GivenPaths {
     }
 }
 
-/// Reads configurations of a robot from an array, or from a data frame or a series of one whose columns name the joints, with the
-/// end `_deg` for degrees. Columns in another order than the positions of a configuration are refused.
-pub(crate) fn read_configurations(
-    values: &Bound<'_, PyAny>,
-    robot: &Robot,
-    what: &str,
-) -> PyResult<Elements<f64>> {
-    let units = match column_names(values)? {
-        Some(names) => units_of_columns(&names, robot, what)?,
-        None => Vec::new(),
-    };
-    let mut given = Elements::<f64>::read(values, what)?;
-    if units.contains(&AngleUnit::Degree) {
-        let units = units.iter().cycle();
-        for (position, unit) in given.values.iter_mut().zip(units) {
-            *position = unit.to_radians(*position);
-        }
-    }
-    Ok(given)
-}
-
-/// Returns the names of the columns of a table, a data frame or a series of one; `None` if they have none.
-fn column_names(values: &Bound<'_, PyAny>) -> PyResult<Option<Vec<String>>> {
-    let mut columns = None;
-    for attribute in ["column_names", "columns", "index"] {
-        columns = match columns {
-            // The index of a series; that of a list is a method.
-            None => values
-                .getattr_opt(attribute)?
-                .filter(|names| !names.is_callable()),
-            found => found,
-        };
-    }
-    let names = columns.and_then(|names| names.try_iter().ok());
-    let names = names.map(|names| names.map(|name| name?.extract()).collect::<PyResult<_>>());
-    Ok(names.and_then(Result::ok))
-}
-
-/// Returns the unit of each column; none if no column names a joint.
-fn units_of_columns(names: &[String], robot: &Robot, what: &str) -> PyResult<Vec<AngleUnit>> {
-    if !names.iter().any(|name| names_joint(name, robot, "")) {
-        return Ok(Vec::new());
-    }
-    let mut units = Vec::new();
-    for (number, joint) in robot.free_joint_names().enumerate() {
-        let found = joint_column(names, robot, ("", joint), AngleUnit::Radian);
-        let found = found.map_err(|error| input_error(format!("{what}: {error}")))?;
-        units.extend(found.filter(|own| own.column == number).map(|own| own.unit));
-    }
-    if units.len() == names.len() {
-        return Ok(units);
-    }
-    Err(input_error(format!(
-        "{what}: the columns are {}, and the joints of a configuration {}: take the columns robot.joint_names",
-        names.join(", "),
-        robot.free_joint_names().collect::<Vec<_>>().join(", ")
-    )))
-}
-
 fn find_on_curve<T>(curve: &JointCurve, find: impl Fn(&[f64]) -> Option<T>) -> Option<T> {
     let mut times = curve.times().iter();
     times.find_map(|&time| find(&curve.positions(time)))
@@ -199,8 +138,8 @@ pub(crate) struct PathArray {
 
 impl PathArray {
     /// Reads an array of numbers.
-    pub(crate) fn read(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Self> {
-        let given = Elements::<f64>::read(values, what)?;
+    fn read(values: &Bound<'_, PyAny>, robot: &Robot, what: &str) -> PyResult<Self> {
+        let given = read_configurations(values, robot, what)?;
         PathArray::new(given.values, given.shape, what)
     }
 

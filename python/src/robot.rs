@@ -1,13 +1,13 @@
 //! The Python class `Robot`.
 
 use crate::cell_remarks::{remark_texts, warn_of, warning_text};
+use crate::configurations::read_configurations;
 use crate::errors::input_error;
 use crate::joint::PyJoint;
 use crate::link_contacts::{LinkContactQuestion, read_max_boxes};
 use crate::link_motion::PyLinkMotion;
 use crate::motion::pose_matrix;
 use crate::numbers::read_number;
-use crate::path_array::read_configurations;
 use crate::pickle::{ConstructorCall, Reduced};
 use crate::robot_base::RobotBase;
 use crate::robot_file::{read_folders, read_robot, with_options};

@@ -413,7 +413,7 @@ def test_frames_may_be_in_degrees(robot: Robot) -> None:
             assert one is not None and other is not None and one.share == pytest.approx(other.share, abs=1e-9)
         assert robot.pose("fore", frame.iloc[1]) == pytest.approx(robot.pose("fore", path[1]))
         assert cell.edges(frame, path)["status"].tolist() == cell.edges(path, frame)["status"].tolist()
-    with pytest.raises(InputError, match="the columns are elbow_deg, shoulder"):
+    with pytest.raises(InputError, match="the labels are elbow_deg, shoulder"):
         cell.is_free(pandas.DataFrame(degrees, columns=["elbow_deg", "shoulder"]))
     slide = Cell(Robot([Joint.prismatic("x", "rail", "cart")], {"cart": Body.sphere(1)}))
     slide.add_plane("floor", ([0, 0, -2], [1, 0, 0, 0]))

@@ -1,0 +1,212 @@
+//! Reads configurations of a robot from arrays, and from data frames and other containers that label them.
+
+use crate::arrays::{Elements, numpy_array, visit_parts};
+use crate::errors::input_error;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyList, PyString, PyTuple};
+use rigid_ccd_robot::Robot;
+use rigid_ccd_robot::joint_columns::{AngleUnit, joint_column};
+
+/// Reads configurations of a robot, the last index that of the joint, from anything that NumPy can convert to an array of numbers.
+///
+/// NumPy drops labels. So those of the last index, at any depth of nested lists, must be the joints in their order, or default
+/// numbers; and without names of joints there, no other index has names: it may be that of the joints. Names of the whole may end
+/// in `_deg`, for degrees.
+pub(crate) fn read_configurations(
+    values: &Bound<'_, PyAny>,
+    robot: &Robot,
+    what: &str,
+) -> PyResult<Elements<f64>> {
+    let array = numpy_array(values, what)?;
+    let depth = array.getattr("ndim")?.extract()?;
+    let mut units = Vec::new();
+    visit_parts(values, depth, &mut |part, depth| {
+        let labels = Labels::read(part, depth)?;
+        if let Some(found) = labels.units(robot, what)? {
+            if !part.is(values) && found.contains(&AngleUnit::Degree) {
+                return Err(refusal(&labels.last[0], robot, what));
+            }
+            units = found;
+        }
+        Ok(())
+    })?;
+    let mut given = Elements::<f64>::read(&array, what)?;
+    if units.contains(&AngleUnit::Degree) {
+        let positions = given.values.iter_mut().zip(units.iter().cycle());
+        positions.for_each(|(position, unit)| *position = unit.to_radians(*position));
+    }
+    Ok(given)
+}
+
+/// The prefixes of the joints' names in a table of edges, by the argument that has these columns.
+const PREFIXES: [(&str, &str); 2] = [("start", "from_"), ("end", "to_")];
+
+/// The labels of a part of an array.
+#[derive(Default)]
+struct Labels<'py> {
+    /// All that label the last index.
+    last: Vec<Vec<Bound<'py, PyAny>>>,
+    /// Those of all other indices.
+    others: Vec<Bound<'py, PyAny>>,
+}
+
+impl<'py> Labels<'py> {
+    /// Reads the labels of an object, whose elements are so many lists deep.
+    fn read(part: &Bound<'py, PyAny>, depth: usize) -> PyResult<Self> {
+        let mut labels = Labels::default();
+        if part.is_exact_instance_of::<PyList>() || part.is_exact_instance_of::<PyTuple>() {
+            return Ok(labels);
+        }
+        let columns = match attribute(part, "column_names")? {
+            Some(columns) => Some(columns),
+            None => attribute(part, "columns")?,
+        };
+        if let Some(columns) = columns.map(elements).transpose()?.flatten() {
+            labels.last.push(columns);
+            if let Some(rows) = attribute(part, "index")? {
+                labels.others = elements(rows)?.unwrap_or_default();
+            }
+        } else if part.hasattr("to_frame")? {
+            // A series. Its name is the label of a column, or of a row of a frame.
+            let index = attribute(part, "index")?.map(elements).transpose()?;
+            labels.last.extend(index.flatten());
+            labels.others.extend(attribute(part, "name")?);
+        } else if let (Some(dimensions), Some(coordinates)) =
+            (attribute(part, "dims")?, attribute(part, "coords")?)
+        {
+            labels.read_coordinates(&dimensions, &coordinates)?;
+        } else if let Some(fields) = attribute(part, "_fields")? {
+            let fields = elements(fields)?.unwrap_or_default();
+            match depth {
+                0 | 1 => labels.last.push(fields),
+                _ => labels.others = fields,
+            }
+        } else if let Some(dtype) = attribute(part, "dtype")?
+            && let Some(fields) = attribute(&dtype, "names")?
+        {
+            labels.last.extend(elements(fields)?);
+        }
+        Ok(labels)
+    }
+
+    /// Adds the coordinates of an array of xarray.
+    fn read_coordinates(
+        &mut self,
+        dimensions: &Bound<'py, PyAny>,
+        coordinates: &Bound<'py, PyAny>,
+    ) -> PyResult<()> {
+        let dimensions: Vec<Bound<'_, PyAny>> = dimensions.try_iter()?.collect::<PyResult<_>>()?;
+        for name in coordinates.try_iter()? {
+            let coordinate = coordinates.get_item(name?)?;
+            let of = coordinate.getattr("dims")?.try_iter()?;
+            let of: Vec<Bound<'_, PyAny>> = of.collect::<PyResult<_>>()?;
+            let values = coordinate.getattr("values")?.call_method0("ravel")?;
+            let values = elements(values)?.unwrap_or_default();
+            let is_last = match (&of[..], dimensions.last()) {
+                ([only], Some(last)) => only.eq(last)?,
+                _ => false,
+            };
+            if is_last {
+                self.last.push(values);
+            } else {
+                self.others.extend(values);
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the unit of each joint; `None` without names. Labels that are wrong for configurations of a robot are refused.
+    fn units(&self, robot: &Robot, what: &str) -> PyResult<Option<Vec<AngleUnit>>> {
+        let mut units = None;
+        for labels in self.last.iter().filter(|labels| !are_default(labels)) {
+            let found = units_of_names(labels, robot, what)?;
+            if found.is_none() || (units.is_some() && units != found) {
+                return Err(refusal(labels, robot, what));
+            }
+            units = found;
+        }
+        if units.is_none() && self.others.iter().any(is_name) {
+            return Err(refusal(&self.others, robot, what));
+        }
+        Ok(units)
+    }
+}
+
+/// Returns the unit of each joint by the names of the joints in their order; `None` for other names.
+fn units_of_names(
+    labels: &[Bound<'_, PyAny>],
+    robot: &Robot,
+    what: &str,
+) -> PyResult<Option<Vec<AngleUnit>>> {
+    let Ok(names) = labels.iter().map(|label| label.extract()).collect() else {
+        return Ok(None);
+    };
+    let names: Vec<String> = names;
+    let prefix = PREFIXES.iter().find(|(argument, _)| *argument == what);
+    for prefix in ["", prefix.map_or("", |(_, prefix)| prefix)] {
+        let mut units = Vec::new();
+        for (number, joint) in robot.free_joint_names().enumerate() {
+            let found = joint_column(&names, robot, (prefix, joint), AngleUnit::Radian);
+            let found = found.map_err(|error| input_error(format!("{what}: {error}")))?;
+            units.extend(found.filter(|own| own.column == number).map(|own| own.unit));
+        }
+        if units.len() == names.len() && units.len() == robot.free_joint_names().len() {
+            return Ok(Some(units));
+        }
+    }
+    Ok(None)
+}
+
+/// Makes the error for labels that are not those of the joints.
+fn refusal(labels: &[Bound<'_, PyAny>], robot: &Robot, what: &str) -> PyErr {
+    let joints: Vec<&str> = robot.free_joint_names().collect();
+    let labels = texts(labels).unwrap_or_else(|_| "no texts".to_owned());
+    input_error(format!(
+        "{what}: the labels are {labels}, and the joints of a configuration {}: take robot.joint_names, in this order",
+        joints.join(", ")
+    ))
+}
+
+/// Returns an attribute that is neither a method nor None.
+fn attribute<'py>(of: &Bound<'py, PyAny>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let found = of.getattr_opt(name)?;
+    Ok(found.filter(|found| !found.is_none() && !found.is_callable()))
+}
+
+/// Returns the elements of a list of labels; `None` for what is no list.
+fn elements(labels: Bound<'_, PyAny>) -> PyResult<Option<Vec<Bound<'_, PyAny>>>> {
+    labels.try_iter().ok().map(Iterator::collect).transpose()
+}
+
+/// Returns whether labels are those that a library gives to what has none: numbers, or `column_0` and so on.
+fn are_default(labels: &[Bound<'_, PyAny>]) -> bool {
+    labels.iter().enumerate().all(|(k, label)| {
+        let is_number = label.extract::<i64>().is_ok();
+        let text = || label.extract::<String>();
+        is_number || text().is_ok_and(|text| text == format!("column_{k}"))
+    })
+}
+
+/// Returns whether a label is a text, or several labels of a hierarchy; an empty text is none.
+fn is_name(label: &Bound<'_, PyAny>) -> bool {
+    let is_empty = || label.extract::<String>().is_ok_and(|text| text.is_empty());
+    (label.is_instance_of::<PyString>() && !is_empty())
+        || label.is_instance_of::<PyBytes>()
+        || label.is_instance_of::<PyTuple>()
+}
+
+/// The number of labels that a message shows.
+const MAX_SHOWN_LABELS: usize = 16;
+
+fn texts(labels: &[Bound<'_, PyAny>]) -> PyResult<String> {
+    let shown = labels.iter().take(MAX_SHOWN_LABELS);
+    let texts: Vec<String> = shown
+        .map(|label| Ok(label.str()?.to_string()))
+        .collect::<PyResult<_>>()?;
+    let more = if labels.len() > MAX_SHOWN_LABELS {
+        ", …"
+    } else {
+        ""
+    };
+    Ok(texts.join(", ") + more)
+}
