@@ -1,5 +1,6 @@
 //! A mesh with the tree that its certificate describes.
 
+use crate::stop::{Never, Stop, sort};
 use crate::tree::Tree;
 use ccd_core::glam::{DVec3, DVec4};
 use sha2::{Digest, Sha256};
@@ -33,21 +34,35 @@ impl Body {
     /// # Panics
     /// As [`new`](Self::new).
     pub fn rounded(vertices: &[[f64; 4]], faces: &[[u32; 3]]) -> Self {
+        let Ok(body) = Body::of_mesh(vertices, faces, Never);
+        body
+    }
+
+    fn of_mesh<S: Stop>(
+        vertices: &[[f64; 4]],
+        faces: &[[u32; 3]],
+        stop: S,
+    ) -> Result<Self, S::Stopped> {
         let corner = |v: u32| DVec4::from_array(vertices[v as usize]);
         let triangles: Vec<[DVec4; 3]> = faces.iter().map(|face| face.map(corner)).collect();
         assert!(!triangles.is_empty(), "a body has triangles");
         let mesh = mesh_bytes(vertices, faces);
-        let digest: [u8; 32] = Sha256::digest(&mesh).into();
-        let (tree, written) = Tree::new(&triangles);
+        let mut hasher = Sha256::new();
+        for part in mesh.chunks(HASHED_AT_ONCE) {
+            stop.check()?;
+            hasher.update(part);
+        }
+        let digest: [u8; 32] = hasher.finalize().into();
+        let (tree, written) = Tree::new(&triangles, stop)?;
         let mut certificate = b"CCDBODY1".to_vec();
         certificate.extend(digest);
         certificate.extend(written.iter().flat_map(|number| number.to_le_bytes()));
-        Body {
+        Ok(Body {
             tree,
             mesh,
             digest,
             certificate,
-        }
+        })
     }
 
     /// Makes a body of the triangles of one of the engine's; `None` if a piece of more than three points has none.
@@ -55,12 +70,16 @@ impl Body {
     /// A ball is a triangle whose corners are its centre, a capsule one that is its axis. Vertices and triangles are sorted, so that
     /// the bytes of the mesh do not depend on the tree that the engine has built.
     pub fn of(body: &ccd_core::Body) -> Option<Self> {
-        Some(Body::of_triangles(&triangles_of(body)?))
+        let Ok(body) = Body::of_triangles(&triangles_of(body)?, Never);
+        Some(body)
     }
 
-    pub(crate) fn of_triangles(triangles: &[[DVec4; 3]]) -> Self {
-        let (vertices, faces) = canonical(triangles);
-        Body::rounded(&vertices, &faces)
+    pub(crate) fn of_triangles<S: Stop>(
+        triangles: &[[DVec4; 3]],
+        stop: S,
+    ) -> Result<Self, S::Stopped> {
+        let (vertices, faces) = canonical(triangles, stop)?;
+        Body::of_mesh(&vertices, &faces, stop)
     }
 
     /// Returns the mesh as the bytes whose digest a certificate states.
@@ -78,6 +97,9 @@ impl Body {
         &self.certificate
     }
 }
+
+/// The number of bytes that are hashed without a look at the flag that stops the work.
+const HASHED_AT_ONCE: usize = 1 << 20;
 
 /// Returns the triangles of one of the engine's bodies.
 pub(crate) fn triangles_of(body: &ccd_core::Body) -> Option<Vec<[DVec4; 3]>> {
@@ -103,30 +125,32 @@ pub(crate) fn triangles_of(body: &ccd_core::Body) -> Option<Vec<[DVec4; 3]>> {
     Some(triangles)
 }
 
+/// Vertices, and triangles by the numbers of their corners.
+type Canonical = (Vec<[f64; 4]>, Vec<[u32; 3]>);
+
 /// Returns the vertices of triangles in the order of their coordinates, and the triangles in the order of their corners, the
 /// least of which comes first.
-fn canonical(triangles: &[[DVec4; 3]]) -> (Vec<[f64; 4]>, Vec<[u32; 3]>) {
+fn canonical<S: Stop>(triangles: &[[DVec4; 3]], stop: S) -> Result<Canonical, S::Stopped> {
     let compare = |a: &[f64; 4], b: &[f64; 4]| {
         let coordinates = a.iter().zip(b).map(|(a, b)| a.total_cmp(b));
         coordinates.fold(Ordering::Equal, Ordering::then)
     };
     let mut vertices: Vec<[f64; 4]> = triangles.iter().flatten().map(|v| v.to_array()).collect();
-    vertices.sort_by(compare);
+    sort(&mut vertices, compare, stop)?;
     vertices.dedup_by(|a, b| compare(a, b).is_eq());
     let number = |corner: DVec4| {
         let corner = corner.to_array();
         vertices.partition_point(|v| compare(v, &corner).is_lt()) as u32
     };
-    let mut faces: Vec<[u32; 3]> = triangles
-        .iter()
-        .map(|corners| corners.map(number))
-        .collect();
+    let numbers = |corners: &[DVec4; 3]| stop.check().map(|()| corners.map(number));
+    let faces = triangles.iter().map(numbers);
+    let mut faces: Vec<[u32; 3]> = faces.collect::<Result<_, _>>()?;
     for face in &mut faces {
         let least = (0..3).min_by_key(|&k| face[k]).unwrap_or(0);
         face.rotate_left(least);
     }
-    faces.sort_unstable();
-    (vertices, faces)
+    sort(&mut faces, Ord::cmp, stop)?;
+    Ok((vertices, faces))
 }
 
 fn mesh_bytes(vertices: &[[f64; 4]], faces: &[[u32; 3]]) -> Vec<u8> {

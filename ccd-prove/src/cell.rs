@@ -7,12 +7,14 @@ use crate::positions::{ImpossiblePosition, check_positions};
 use crate::resting::{Resting, resting_bodies};
 use crate::scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
 use crate::statement::Statement;
+use crate::stop::{Never, Stop};
 use crate::write::{Proof, mesh_points, prove_unless_stopped, statement_of};
 use ccd_core::{Motion, Pose};
 use rigid_ccd::Settings;
 use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::{Cell, Item, PathContact, PathOutcome, RobotError};
 use std::collections::HashMap;
+use std::sync::atomic::AtomicBool;
 
 /// A cell whose bodies are prepared for proofs.
 ///
@@ -33,8 +35,33 @@ impl<'c> ProvenCell<'c> {
     /// # Errors
     /// [`CellNotProvable`], with the name of an obstacle, a held body or a link, or if no pair is compared.
     pub fn new(cell: &'c Cell) -> Result<Self, CellNotProvable> {
-        cell.check_any_compared()?;
-        let bodies = resting_bodies(cell)?;
+        let Ok(proven) = ProvenCell::prepare(cell, Never);
+        proven
+    }
+
+    /// Prepares the bodies of a cell as [`new`](Self::new) does; `None` soon after another thread sets a flag.
+    pub fn unless_stopped(
+        cell: &'c Cell,
+        stop: &AtomicBool,
+    ) -> Option<Result<Self, CellNotProvable>> {
+        ProvenCell::prepare(cell, stop).ok()
+    }
+
+    fn prepare<S: Stop>(
+        cell: &'c Cell,
+        stop: S,
+    ) -> Result<Result<Self, CellNotProvable>, S::Stopped> {
+        if let Err(nothing) = cell.check_any_compared() {
+            return Ok(Err(nothing.into()));
+        }
+        let bodies = resting_bodies(cell, stop)?;
+        Ok(bodies.map_or_else(
+            |error| Err(error.into()),
+            |bodies| Ok(ProvenCell::of_bodies(cell, bodies)),
+        ))
+    }
+
+    fn of_bodies(cell: &'c Cell, bodies: Vec<Resting>) -> Self {
         let mut links = cell.robot().joints_parents_first();
         let mut carries = vec![false; cell.robot().links().len()];
         for resting in &bodies {
@@ -44,11 +71,11 @@ impl<'c> ProvenCell<'c> {
             carries[*parent] |= carries[*link];
         }
         links.retain(|(link, ..)| carries[*link]);
-        Ok(ProvenCell {
+        ProvenCell {
             cell,
             bodies,
             links,
-        })
+        }
     }
 
     /// Returns the cell.

@@ -17,6 +17,7 @@ mod screw;
 mod split;
 mod stated_link;
 mod statement;
+mod stop;
 mod stretch;
 mod tolerances;
 mod tree;

@@ -1,11 +1,13 @@
 //! Two bodies as proofs take them, and the proof of an answer about them.
 
-use crate::body::Body;
+use crate::body::{Body, triangles_of};
 use crate::error::{NoMesh, NotProven};
 use crate::scene::{Scene, Witness};
 use crate::statement::Statement;
+use crate::stop::{Never, Stop};
 use crate::write::{Proof, prove_unless_stopped, statement_of};
 use ccd_core::{Answer, Motion, Outcome, Settings};
+use std::sync::atomic::AtomicBool;
 
 /// Two bodies that are prepared for proofs.
 #[derive(Clone, Debug)]
@@ -19,9 +21,29 @@ impl ProvenPair {
     /// # Errors
     /// [`NoMesh`], with the name `a` or `b`.
     pub fn new(a: &ccd_core::Body, b: &ccd_core::Body) -> Result<Self, NoMesh> {
-        let [a, b] = [("a", a), ("b", b)]
-            .map(|(name, body)| Body::of(body).ok_or_else(|| NoMesh { body: name.into() }));
-        Ok(ProvenPair { bodies: [a?, b?] })
+        let Ok(pair) = ProvenPair::prepare([a, b], Never);
+        pair
+    }
+
+    /// Prepares two bodies as [`new`](Self::new) does; `None` soon after another thread sets a flag.
+    pub fn unless_stopped(
+        a: &ccd_core::Body,
+        b: &ccd_core::Body,
+        stop: &AtomicBool,
+    ) -> Option<Result<Self, NoMesh>> {
+        ProvenPair::prepare([a, b], stop).ok()
+    }
+
+    fn prepare<S: Stop>(
+        bodies: [&ccd_core::Body; 2],
+        stop: S,
+    ) -> Result<Result<Self, NoMesh>, S::Stopped> {
+        let [a, b] = bodies.map(triangles_of);
+        let no_mesh = |name: &str| Ok(Err(NoMesh { body: name.into() }));
+        let Some(a) = a else { return no_mesh("a") };
+        let Some(b) = b else { return no_mesh("b") };
+        let [a, b] = [a, b].map(|triangles| Body::of_triangles(&triangles, stop));
+        Ok(Ok(ProvenPair { bodies: [a?, b?] }))
     }
 
     /// Returns the meshes of the bodies.

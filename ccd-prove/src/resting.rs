@@ -2,6 +2,7 @@
 
 use crate::body::{Body, triangles_of};
 use crate::error::NoMesh;
+use crate::stop::Stop;
 use crate::tolerances::PLACING;
 use ccd_core::Pose;
 use ccd_core::glam::{DVec3, DVec4};
@@ -30,7 +31,10 @@ type Kind = (usize, Vec<[u64; 3]>);
 ///
 /// # Errors
 /// [`NoMesh`].
-pub(crate) fn resting_bodies(cell: &Cell) -> Result<Vec<Resting>, NoMesh> {
+pub(crate) fn resting_bodies<S: Stop>(
+    cell: &Cell,
+    stop: S,
+) -> Result<Result<Vec<Resting>, NoMesh>, S::Stopped> {
     let ways = ways_to_roots(cell.robot());
     let mut partners = vec![Vec::new(); cell.carried_bodies().len()];
     // Two margins tell a distance that is added to the margin from one that replaces it.
@@ -44,8 +48,11 @@ pub(crate) fn resting_bodies(cell: &Cell) -> Result<Vec<Resting>, NoMesh> {
         if partners.is_empty() {
             continue;
         }
-        let name = carried.item.name();
-        let triangles = triangles_of(carried.body).ok_or_else(|| NoMesh { body: name.into() })?;
+        stop.check()?;
+        let Some(triangles) = triangles_of(carried.body) else {
+            let body = carried.item.name().into();
+            return Ok(Err(NoMesh { body }));
+        };
         let root = ways[carried.link].0;
         let member = Member {
             number,
@@ -57,10 +64,10 @@ pub(crate) fn resting_bodies(cell: &Cell) -> Result<Vec<Resting>, NoMesh> {
     }
     let kinds = kinds.into_iter();
     let mut bodies: Vec<Resting> = kinds
-        .map(|((root, _), members)| union(root, members, &ways))
-        .collect();
+        .map(|((root, _), members)| union(root, members, &ways, stop))
+        .collect::<Result<_, _>>()?;
     bodies.sort_by_key(|resting| resting.members[0]);
-    Ok(bodies)
+    Ok(Ok(bodies))
 }
 
 /// A body of a cell, and the triangles of its mesh.
@@ -88,18 +95,23 @@ fn ways_to_roots(robot: &Robot) -> Vec<WayToRoot> {
 }
 
 /// Returns bodies of one kind as one.
-fn union(root: usize, mut members: Vec<Member<'_>>, ways: &[WayToRoot]) -> Resting {
+fn union<S: Stop>(
+    root: usize,
+    mut members: Vec<Member<'_>>,
+    ways: &[WayToRoot],
+    stop: S,
+) -> Result<Resting, S::Stopped> {
     let numbers = members.iter().map(|member| member.number).collect();
     if members.len() == 1 {
         let Member {
             carried, triangles, ..
         } = members.remove(0);
-        return Resting {
+        return Ok(Resting {
             members: numbers,
             link: carried.link,
             pose: carried.pose,
-            body: Body::of_triangles(&triangles),
-        };
+            body: Body::of_triangles(&triangles, stop)?,
+        });
     }
     let mut all = Vec::new();
     for Member {
@@ -110,12 +122,12 @@ fn union(root: usize, mut members: Vec<Member<'_>>, ways: &[WayToRoot]) -> Resti
         let placed = |corner| poses().fold(corner, place);
         all.extend(triangles.into_iter().map(|corners| corners.map(placed)));
     }
-    Resting {
+    Ok(Resting {
         members: numbers,
         link: root,
         pose: Pose::IDENTITY,
-        body: Body::of_triangles(&all),
-    }
+        body: Body::of_triangles(&all, stop)?,
+    })
 }
 
 /// Places a ball; its radius grows by what its centre may be off.
@@ -135,6 +147,7 @@ fn place(ball: DVec4, pose: &Pose) -> DVec4 {
 mod tests {
     use super::*;
     use crate::error::CellNotProvable;
+    use crate::stop::Never;
     use crate::{ProvenCell, prove};
     use dashu_ratio::RBig;
     use rigid_ccd::trajectory;
@@ -227,7 +240,8 @@ mod tests {
 
     /// Each pair that the cell compares is stated once, with its margin, and no other; and what is stated is proven.
     fn check(cell: &Cell, kinds: &[&[usize]]) {
-        let bodies = resting_bodies(cell).unwrap();
+        let Ok(bodies) = resting_bodies(cell, Never);
+        let bodies = bodies.unwrap();
         let members: Vec<&[usize]> = bodies.iter().map(|body| &body.members[..]).collect();
         assert_eq!(members, kinds);
         let proven = ProvenCell::new(cell).unwrap();
@@ -277,7 +291,8 @@ mod tests {
         for number in 0..4 {
             cell.remove_obstacle(&format!("obstacle {number}")).unwrap();
         }
-        assert!(resting_bodies(&cell).unwrap().is_empty());
+        let Ok(bodies) = resting_bodies(&cell, Never);
+        assert!(bodies.unwrap().is_empty());
         // A proof about nothing would hold whatever the path.
         let error = ProvenCell::new(&cell).unwrap_err();
         assert!(

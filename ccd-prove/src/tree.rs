@@ -2,6 +2,7 @@
 
 use crate::bounds::{Bounds, of_each};
 use crate::split::split;
+use crate::stop::Stop;
 use ccd_core::glam::{DVec3, DVec4};
 use ccd_core::order::greater;
 
@@ -34,7 +35,10 @@ impl Tree {
 
     /// Makes a tree of triangles, and returns it as it is written: each node in its order, for a part of more than one triangle how
     /// many of them its first part has, for a triangle its number.
-    pub(crate) fn new(triangles: &[[DVec4; 3]]) -> (Tree, Vec<u32>) {
+    pub(crate) fn new<S: Stop>(
+        triangles: &[[DVec4; 3]],
+        stop: S,
+    ) -> Result<(Tree, Vec<u32>), S::Stopped> {
         let boxes: Vec<Bounds> = triangles.iter().map(Bounds::of).collect();
         let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
         let mut tree = Tree {
@@ -42,17 +46,18 @@ impl Tree {
             nodes: Vec::new(),
         };
         let mut written = Vec::new();
-        tree.add((triangles, &boxes), &mut order, 0, &mut written);
-        (tree, written)
+        tree.add((triangles, &boxes), (&mut order, 0), &mut written, stop)?;
+        Ok((tree, written))
     }
 
-    fn add(
+    /// Adds a part of the triangles that is so many splits deep.
+    fn add<S: Stop>(
         &mut self,
         (triangles, boxes): (&[[DVec4; 3]], &[Bounds]),
-        part: &mut [u32],
-        depth: usize,
+        (part, depth): (&mut [u32], usize),
         written: &mut Vec<u32>,
-    ) {
+        stop: S,
+    ) -> Result<(), S::Stopped> {
         let node = self.nodes.len();
         let corners = part.iter().flat_map(|&number| triangles[number as usize]);
         self.nodes.push(Node::of(corners, self.triangles.len()));
@@ -60,13 +65,14 @@ impl Tree {
             written.push(number);
             self.triangles.push(triangles[number as usize]);
         } else {
-            let count = split(boxes, part, depth);
+            let count = split(boxes, part, depth, stop)?;
             written.push(count as u32);
             let (first, second) = part.split_at_mut(count);
-            self.add((triangles, boxes), first, depth + 1, written);
+            self.add((triangles, boxes), (first, depth + 1), written, stop)?;
             self.nodes[node].second = Some(self.nodes.len());
-            self.add((triangles, boxes), second, depth + 1, written);
+            self.add((triangles, boxes), (second, depth + 1), written, stop)?;
         }
+        Ok(())
     }
 
     /// Returns both parts of a part; `None` if it is a triangle.

@@ -190,15 +190,17 @@ impl PyCell {
     /// nothing. A curve has no proofs.
     ///
     /// Args:
-    ///     path: configurations.
+    ///     path: configurations; one alone is a rest there.
     ///     progress: a function of the number of segments proven and of all segments; or a bar of tqdm; or True for one.
     ///
     /// Returns:
-    ///     A list of `Proof`: one for each segment, the last one that of a contact or of where a limit was reached. A segment at
-    ///     whose start bodies touch, or one is in another, has no proof. A deadline is one for the search, not for proofs.
+    ///     A list of `Proof`: one for each segment, until the end or the first contact. It is never empty. A deadline is one for the
+    ///     search, not for proofs.
     ///
     /// Raises:
-    ///     InputError: a body has no triangles, the path is a curve, or a segment cannot be proven.
+    ///     InputError: a body has no triangles, the path is a curve, or a segment cannot be proven, such as one at whose start bodies
+    ///         touch, or one is in another; its `results` has the proofs of the segments before.
+    ///     Unresolved: a limit was reached first; its `results` has the proofs of what is known, and `safe_until` says until when.
     ///     Interrupted: Ctrl-C; its `results` has the proofs made by then.
     #[pyo3(signature = (path, *, progress = None, **settings))]
     fn prove<'py>(

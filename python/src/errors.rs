@@ -21,7 +21,7 @@ pyo3::create_exception!(
     rigid_ccd,
     Unresolved,
     PyRuntimeError,
-    "A limit was reached first. Attribute `safe_until`: no contact happens before this time; or, of a distance, `lower` and `upper`: what is known of it. The others are None."
+    "A limit was reached first. Attribute `safe_until`: no contact happens before this time; or, of a distance, `lower` and `upper`: what is known of it; of a proof `results`: the proofs of what is known. The others are None."
 );
 pyo3::create_exception!(
     rigid_ccd,
@@ -38,7 +38,7 @@ pub(crate) fn add_exceptions(module: &Bound<'_, PyModule>) -> PyResult<()> {
         (
             "Unresolved",
             py.get_type::<Unresolved>(),
-            &["safe_until", "lower", "upper"],
+            &["results", "safe_until", "lower", "upper"],
         ),
         (
             "Interrupted",

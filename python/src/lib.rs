@@ -57,6 +57,7 @@ fn _rigid_ccd(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(proofs::prove, module)?)?;
     module.add_function(wrap_pyfunction!(proofs::check_proof, module)?)?;
     module.add_function(wrap_pyfunction!(proofs::proof_statement, module)?)?;
+    module.add_function(wrap_pyfunction!(proofs::read_proof, module)?)?;
     module.add_function(wrap_pyfunction!(table_queries::answer_table, module)?)?;
     Ok(())
 }

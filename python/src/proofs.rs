@@ -2,7 +2,10 @@
 
 use crate::body::extract_body;
 use crate::cell_remarks::{Asked, warn_of_question};
-use crate::errors::{input_error, interruption_error, wrong_type_error};
+use crate::errors::{
+    Unresolved, input_error, interruption_error, time_interruption, unresolved_error,
+    with_attribute, wrong_type_error,
+};
 use crate::interruptible::{run_interruptibly, run_or_leave};
 use crate::movement::{GivenBodyAndMotion, GivenMovement, Pair};
 use crate::numbers::read_optional_number;
@@ -12,14 +15,15 @@ use crate::progress::{GivenProgress, run_with_progress};
 use crate::queries::ask;
 use crate::settings::{CONTACT_SETTING_NAMES, read};
 use ccd_prove::{
-    Body, CellNotProvable, NoMesh, PathNotProven, Proof, ProvenCell, ProvenPair, Statement,
+    Body, CellNotProvable, NoMesh, NotProven, PathNotProven, Proof, ProvenCell, ProvenPair,
+    Statement,
 };
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyType};
 use rigid_ccd::batch::Question;
-use rigid_ccd::{Motion, Settings};
-use rigid_ccd_robot::{Cell, PathError};
+use rigid_ccd::{Motion, Outcome, Settings};
+use rigid_ccd_robot::{Cell, PathError, PathOutcome};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -42,10 +46,11 @@ fn proof_objects<'a, 'py>(
 /// Finds the first contact of two moving bodies, and proves the answer: that nothing touches before it, or at all.
 ///
 /// Arguments and exceptions are those of `first_contact`, but for motions, each a `Motion` or None. The proof is of the
-/// triangles: of a body inside another one it says nothing. None if the bodies touch at the start.
+/// triangles: of a body inside another one it says nothing.
 ///
 /// Raises:
-///     InputError: a body has no triangles, or the answer cannot be proven.
+///     InputError: a body has no triangles, the bodies touch at the start, or the answer cannot be proven.
+///     Unresolved: a limit was reached first; its `results` has the proof of what is known, if there is one.
 ///
 /// >>> from rigid_ccd import Body, Motion, prove
 /// >>> wall = Body.box(0.1, 5, 5)
@@ -62,7 +67,7 @@ pub(crate) fn prove<'py>(
     motion_b: Option<&Bound<'_, PyAny>>,
     #[pyo3(from_py_with = read_optional_number)] duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
-) -> PyResult<Option<Bound<'py, PyAny>>> {
+) -> PyResult<Bound<'py, PyAny>> {
     let settings = read(settings, CONTACT_SETTING_NAMES)?;
     let motions = [
         constant_motion((a, motion_a), "motion_a")?,
@@ -83,16 +88,34 @@ pub(crate) fn prove<'py>(
             stop: Some(Arc::clone(stop)),
             ..settings.clone()
         };
-        let pair = ProvenPair::new(a, b)?;
-        let proof = pair.prove(motions, duration, &settings, &answer);
-        Ok((pair, proof))
+        let prove = |pair: ProvenPair| {
+            let proof = pair.prove(motions, duration, &settings, &answer);
+            (pair, proof)
+        };
+        let pair = ProvenPair::unless_stopped(a, b, stop)?;
+        Some(pair.map(prove))
     };
     let (proven, seen) = run_interruptibly(py, work, |_| Ok(()))?;
-    seen?;
+    let safe_until = match answer.outcome {
+        Outcome::Free { .. } => Some(duration),
+        Outcome::Contact { time, .. } => Some(time),
+        Outcome::Unresolved(known) => Some(known.safe_until),
+        _ => None,
+    };
+    seen.map_err(|cause| time_interruption(py, cause, safe_until))?;
+    let proven = proven.ok_or_else(|| input_error("the proof was stopped"))?;
     let (pair, proof) = proven.map_err(|error: NoMesh| input_error(error))?;
     let proof = proof.transpose().map_err(input_error)?;
-    let objects = proof_objects(py, proof.as_slice(), pair.meshes())?;
-    Ok(objects.into_iter().next())
+    let mut objects = proof_objects(py, proof.as_slice(), pair.meshes())?;
+    match answer.outcome {
+        Outcome::Unresolved(known) => {
+            let error = unresolved_error(py, &known);
+            Err(with_attribute(py, error, "results", objects.pop()))
+        }
+        _ => objects
+            .pop()
+            .ok_or_else(|| input_error("a and b touch at the start: there is nothing to prove")),
+    }
 }
 
 /// Finds the first contact of a cell on a path of configurations, and proves the answer, a proof for each segment.
@@ -113,7 +136,11 @@ pub(crate) fn prove_path<'py>(
             ));
         }
     };
-    let path = path.configurations();
+    let mut path = path.configurations();
+    if let [only] = path[..] {
+        // A configuration alone is a rest there.
+        path.push(only);
+    }
     let progress = GivenProgress {
         progress,
         total: Some(path.len() - 1),
@@ -134,8 +161,7 @@ pub(crate) fn prove_path<'py>(
     let proofs = proof_objects(py, &proofs, &meshes)?;
     match (seen, fault) {
         (Err(cause), _) => Err(interruption_error(py, cause, proofs)),
-        (Ok(()), Some(Fault::Path(error))) => Err(path_error(py, error, 0.0)),
-        (Ok(()), Some(Fault::Proof(error))) => Err(input_error(error)),
+        (Ok(()), Some(fault)) => Err(with_attribute(py, fault.error(py), "results", proofs)),
         (Ok(()), None) => Ok(proofs),
     }
 }
@@ -151,9 +177,56 @@ struct PathProofs {
 enum Fault {
     Path(PathError),
     Proof(PathNotProven),
+    /// Two bodies touch at a time, but nothing shows it to a checker.
+    Contact([String; 2], f64),
+    /// A limit was reached; the path is free until a time.
+    Limit(String, f64),
+}
+
+impl Fault {
+    /// Returns why proofs do not show an outcome to its end; `None` if they do.
+    fn of_outcome(outcome: &PathOutcome<'_>, proofs: &[Proof]) -> Option<Self> {
+        match outcome {
+            PathOutcome::Free => None,
+            PathOutcome::Contact(contact) => {
+                let last = proofs.get(contact.at.segment);
+                let last = last.and_then(|proof| Statement::read(&proof.bytes));
+                let is_shown = last.is_some_and(|statement| statement.witness.is_some());
+                let names = contact.items.map(|item| item.name().to_owned());
+                (!is_shown).then(|| Fault::Contact(names, contact.at.time()))
+            }
+            PathOutcome::Unresolved { free_until, limit } => {
+                Some(Fault::Limit(limit.to_string(), free_until.time()))
+            }
+        }
+    }
+
+    fn error(self, py: Python<'_>) -> PyErr {
+        match self {
+            Fault::Path(error) => path_error(py, error, 0.0),
+            Fault::Proof(error) => input_error(error),
+            Fault::Contact([a, b], time) => input_error(format!(
+                "path: {a} and {b} touch at {time}, and no proof can show it; `results` has the proofs of the segments before"
+            )),
+            Fault::Limit(limit, time) => {
+                let text = format!("a limit was reached ({limit}); free until {time}");
+                with_attribute(py, Unresolved::new_err(text), "safe_until", time)
+            }
+        }
+    }
 }
 
 impl PathProofs {
+    /// There are none: another thread has stopped the work before the first one.
+    const STOPPED: PathProofs = PathProofs {
+        meshes: Vec::new(),
+        proofs: Vec::new(),
+        fault: Some(Fault::Proof(PathNotProven::Segment {
+            segment: 0,
+            reason: NotProven::Stopped { at: 0.0 },
+        })),
+    };
+
     /// Searches a path, and proves the answer; adds to `done` each segment that is proven.
     fn find(
         cell: &Cell,
@@ -161,7 +234,13 @@ impl PathProofs {
         settings: &Settings,
         done: &AtomicUsize,
     ) -> Result<Self, CellNotProvable> {
-        let proven = ProvenCell::new(cell)?;
+        let proven = match &settings.stop {
+            Some(stop) => ProvenCell::unless_stopped(cell, stop),
+            None => Some(ProvenCell::new(cell)),
+        };
+        let Some(proven) = proven.transpose()? else {
+            return Ok(PathProofs::STOPPED);
+        };
         let mut found = PathProofs {
             meshes: proven.meshes().cloned().collect(),
             proofs: Vec::new(),
@@ -177,6 +256,8 @@ impl PathProofs {
                     }
                     done.fetch_add(1, Ordering::Relaxed);
                 }
+                let missing = || Fault::of_outcome(&outcome, &found.proofs);
+                found.fault = found.fault.or_else(missing);
             }
             Err(error) => found.fault = Some(Fault::Path(error)),
         }
@@ -218,9 +299,26 @@ pub(crate) fn check_proof(
     Ok(verdict.map_or_else(|stop| stop.to_string(), |()| "holds".to_owned()))
 }
 
+/// Returns what a proof states for a program: until when nothing touches, whether a contact ends it, and the digests of its meshes; an
+/// error if the bytes are no proof.
+#[pyfunction]
+pub(crate) fn read_proof(proof: &[u8]) -> PyResult<(f64, bool, Vec<String>)> {
+    let statement = read_statement(proof)?;
+    let hex = |digest: [u8; 32]| digest.iter().map(|byte| format!("{byte:02x}")).collect();
+    let digests = statement.bodies.iter().map(|(digest, _)| hex(*digest));
+    Ok((
+        statement.until,
+        statement.witness.is_some(),
+        digests.collect(),
+    ))
+}
+
+fn read_statement(proof: &[u8]) -> PyResult<Statement> {
+    Statement::read(proof).ok_or_else(|| input_error("this is no proof"))
+}
+
 /// Returns what a proof states, in words; an error if the bytes are no proof.
 #[pyfunction]
 pub(crate) fn proof_statement(proof: &[u8]) -> PyResult<String> {
-    let statement = Statement::read(proof).ok_or_else(|| input_error("this is no proof"))?;
-    Ok(statement.to_string())
+    Ok(read_statement(proof)?.to_string())
 }

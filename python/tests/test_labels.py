@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from test_arrays import CELL, PATH, READS, ROBOT, Own, Polynomials
 
-from rigid_ccd import InputError
+from rigid_ccd import Body, Cell, InputError, Joint, Robot
 
 pandas: Any = pytest.importorskip("pandas")
 polars: Any = pytest.importorskip("polars")
@@ -124,7 +124,8 @@ def test_names_are_those_of_the_joints_or_refused(kind: str, container: str) -> 
             read(given)
         if container in LABELLED and container not in ("rows of xarray", "numbers of xarray", "hierarchy"):
             text = str(refused.value)
-            assert f"labels are {', '.join(names)}, and the joints of a configuration x, y" in text, text
+            of_degrees = any(name.endswith("_deg") for name in names) and ("has no degrees" in text or "two columns" in text)
+            assert of_degrees or f"labels are {', '.join(names)}, and the joints of a configuration x, y" in text, text
     for names in [JOINTS] + [[prefixes[kind] + name for name in JOINTS] for _ in [0] if kind in prefixes]:
         given = labelled(make, values, names, right)
         if container in NO_ARRAYS or container in ("numbers of xarray", "hierarchy"):
@@ -163,6 +164,27 @@ def test_a_name_of_a_column_is_no_configuration() -> None:
     for given in (column, named, scalars.sel(joint="x"), [scalars[0].sel(joint=name) for name in ("y", "x")]):
         with pytest.raises(InputError, match="the labels are .*, and the joints of a configuration x, y"):
             CELL.is_free(given)
+
+
+def test_degrees_are_those_of_a_whole_frame() -> None:
+    joints = [Joint.revolute("pan", "base", "a", axis=[0, 0, 1]), Joint.revolute("lift", "a", "b", axis=[0, 1, 0])]
+    robot = Robot(joints, {"base": Body.sphere(0.1), "b": [(Body.sphere(0.1), ([1, 0, 0], [1, 0, 0, 0]))]})
+    cell = Cell(robot)
+    cell.add("post", Body.sphere(0.1), ([0, 1, 0], [1, 0, 0, 0]))
+    path = [[0.0, 0.0], [3.0, 0.5]]
+    degrees = frame(np.rad2deg(path).tolist(), ["pan_deg", "lift_deg"])
+    known, found = cell.first_contact(path), cell.first_contact(degrees)
+    assert known is not None and found is not None and abs(found.time - known.time) < 1e-9
+    refused: list[Any] = [[row for _, row in degrees.iterrows()], degrees[["lift_deg", "pan_deg"]], degrees.T]
+    for given in refused:
+        with pytest.raises(InputError, match="the labels are"):
+            cell.is_free(given)
+    questions: list[Callable[[], Any]] = [lambda: cell.paths([degrees]), lambda: cell.edges([degrees.iloc[0]], [degrees.iloc[1]])]
+    for ask in questions:
+        with pytest.raises(InputError, match="the labels are pan_deg, lift_deg"):
+            ask()
+    start, end = (degrees.iloc[[k]].add_prefix(prefix) for k, prefix in enumerate(("from_", "to_")))
+    assert cell.edges(start, end, "first-contact")["status"].tolist() == ["contact"]
 
 
 def test_values_of_a_curve_are_labelled_too() -> None:

@@ -6,7 +6,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rigid_ccd import Body, Cell, InputError, Joint, Motion, Proof, Robot, check_proof, first_contact, prove
+from rigid_ccd import (
+    Body,
+    Cell,
+    InputError,
+    Joint,
+    Motion,
+    Proof,
+    Robot,
+    Unresolved,
+    check_folder,
+    check_proof,
+    first_contact,
+    prove,
+)
 from rigid_ccd import Path as PosePath
 
 WALL = Body.box(0.1, 5, 5)
@@ -29,9 +42,7 @@ def cell(tmp_path: Path) -> Cell:
 
 
 def proof_of(body: Body, motion: Motion = FLIES, **settings: float) -> Proof:
-    proof = prove(body, WALL, motion, **settings)  # type: ignore[arg-type]
-    assert proof is not None
-    return proof
+    return prove(body, WALL, motion, **settings)  # type: ignore[arg-type]
 
 
 def test_proofs_of_contacts_and_of_free_motions_hold() -> None:
@@ -65,10 +76,82 @@ def test_files_are_those_of_the_command(tmp_path: Path) -> None:
     assert names == [".body", ".body", ".mesh", ".mesh", ".proof"]
     again = pickle.loads(pickle.dumps(proof))
     assert again == proof and again.check() == "holds"
+    loaded = Proof.load(tmp_path / "proofs", "hit")
+    assert loaded == proof and loaded.check() == "holds"
+
+
+def test_a_saved_proof_is_not_lost(tmp_path: Path) -> None:
+    hit, free = proof_of(Body.sphere(0.5)), proof_of(Body.sphere(0.5), Motion([-3, 0, 0]))
+    hit.save(tmp_path, "it.proof")
+    hit.save(tmp_path, "it")
+    with pytest.raises(FileExistsError, match="it.proof is another proof"):
+        free.save(tmp_path, "it")
+    assert Proof.load(tmp_path, "it.proof") == hit
+    free.save(tmp_path, "it", overwrite=True)
+    assert Proof.load(tmp_path, "it") == free
+    hit.save(tmp_path, "hit")
+    assert check_folder(tmp_path) == {"hit": "holds", "it": "holds"}
+    (tmp_path / "hit.proof").write_bytes(hit.proof[:-1])
+    assert check_folder(tmp_path)["hit"].startswith("broken: ")
+    next(tmp_path.glob("*.mesh")).unlink()
+    with pytest.raises(InputError, match="hit.proof: the folder has no mesh with the digest"):
+        check_folder(tmp_path)
+    with pytest.raises(InputError, match="there is no proof in this folder"):
+        check_folder(tmp_path / "nothing")
+
+
+def test_a_proof_says_whether_it_ends_in_a_contact(cell: Cell) -> None:
+    hit, free = proof_of(Body.sphere(0.5)), proof_of(Body.sphere(0.5), Motion([-3, 0, 0]))
+    found = first_contact(Body.sphere(0.5), WALL, FLIES)
+    assert found is not None and (hit.outcome, hit.until) == ("contact", found.time)
+    assert repr(hit) == f"Proof(contact at {found.time}, 2 bodies)"
+    assert (free.outcome, free.until, repr(free)) == ("free", 1, "Proof(free until 1.0, 2 bodies)")
+    assert repr(Proof(b"", [])) == "Proof(this is no proof)"
+    first, second = cell.prove([[-1.0], [0.0], [3.0], [0.0]])
+    assert (first.outcome, first.until) == ("free", 1)
+    assert second.outcome == "contact" and 0 < second.until < 1
+
+
+def test_a_list_of_proofs_is_an_answer(cell: Cell) -> None:
+    """All proofs say "free" exactly if the path is free, and without proofs there is an exception."""
+    random = np.random.default_rng(7)
+    seen = set()
+    for _ in range(40):
+        path = random.uniform(-3, 3, (int(random.integers(1, 4)), 1))
+        try:
+            proofs = cell.prove(path)
+        except InputError as error:
+            assert "upper and post touch at" in str(error) and isinstance(error.results, list)
+            assert not cell.is_free(path)
+            seen.add("error")
+            continue
+        assert proofs and all(proof.check() == "holds" for proof in proofs)
+        assert all(proof.outcome == "free" for proof in proofs) == cell.is_free(path)
+        seen.add(proofs[-1].outcome)
+    assert seen == {"error", "free", "contact"}
+
+
+def test_a_configuration_alone_rests(cell: Cell) -> None:
+    rest, = cell.prove([0.0])
+    assert (rest.check(), rest.outcome, rest.until) == ("holds", "free", 1)
+    with pytest.raises(InputError, match="upper and post touch at 0"):
+        cell.prove([np.pi / 2])
+
+
+def test_at_a_limit_there_are_the_proofs_of_what_is_known(cell: Cell) -> None:
+    with pytest.raises(Unresolved) as ended:
+        cell.prove([[-1.0], [0.0], [1.0]], deadline=1e-12)
+    assert isinstance(ended.value.results, list) and ended.value.safe_until is not None
+    assert all(proof.check() == "holds" for proof in ended.value.results)
+    with pytest.raises(Unresolved) as stopped:
+        prove(Body.box(1, 1, 1), WALL, FLIES, tolerance=1e-9, budget=2)
+    known = stopped.value.results
+    assert known is None or (isinstance(known, Proof) and known.until == stopped.value.safe_until)
 
 
 def test_what_has_no_proof_is_said() -> None:
-    assert prove(Body.box(1, 1, 1), WALL) is None
+    with pytest.raises(InputError, match="touch at the start"):
+        prove(Body.box(1, 1, 1), WALL)
     moving = PosePath([0, 1], np.tile(np.eye(4), (2, 1, 1)))
     with pytest.raises(TypeError, match="motion_a: .*a Motion for a proof"):
         prove(WALL, WALL, moving)  # type: ignore[arg-type]
@@ -81,7 +164,8 @@ def test_each_segment_of_a_path_has_a_proof(cell: Cell) -> None:
     proofs = cell.prove(path)
     assert [proof.check() for proof in proofs] == ["holds"] * 2
     assert len(cell.prove([[-1.0], [-0.5], [0.0]])) == 2
-    assert cell.prove([[np.pi / 2], [3.0]]) == []
+    with pytest.raises(InputError, match="upper and post touch at 0, and no proof"):
+        cell.prove([[np.pi / 2], [3.0]])
     with pytest.raises(InputError, match="positions"):
         cell.prove([[0.0, 1.0]])
 
@@ -90,7 +174,6 @@ def test_a_proof_says_what_moves_in_the_numbers_that_were_given(cell: Cell) -> N
     falls = Motion([-3, 0, 0], velocity=[4, 0, 0.3], spin=[0, 0, 20])
     for duration in (1.0, 10.0, 0.01, 3e-5):
         proof = prove(Body.sphere(0.5), WALL, falls, duration=duration)
-        assert proof is not None
         assert "velocity [4.0, 0.0, 0.3] axis [0.0, 0.0, 20.0]" in str(proof)
         assert proof.check() == "holds"
     turns, = cell.prove([[0.25], [-2.5]])

@@ -22,7 +22,7 @@ tables of the command ``ccd``.
 
 from ._answers import Contact, Distance, PathContact, PathDistance, PathRange
 from ._edges_query import EdgesQuery
-from ._proofs import Proof
+from ._proofs import Proof, check_folder
 from ._query import TableQuery
 from ._rigid_ccd import (
     Body,
@@ -72,6 +72,7 @@ __all__ = [
     "TableQuery",
     "Unresolved",
     "are_free",
+    "check_folder",
     "check_proof",
     "closest_approach",
     "closest_approaches",

@@ -1,14 +1,15 @@
 """Machine-checkable proofs of answers."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from hashlib import sha256
 from os import PathLike
 from pathlib import Path
+from typing import Literal
 
-from ._rigid_ccd import InputError, check_proof, proof_statement
+from ._rigid_ccd import InputError, check_proof, proof_statement, read_proof
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Proof:
     """A machine-checkable proof that bodies stay apart, and where they first come near each other.
 
@@ -20,8 +21,18 @@ class Proof:
         meshes: for each mesh its bytes, and those of its tree.
     """
 
-    proof: bytes = field(repr=False)
-    meshes: list[tuple[bytes, bytes]] = field(repr=False)
+    proof: bytes
+    meshes: list[tuple[bytes, bytes]]
+
+    @property
+    def until(self) -> float:
+        """The time until which nothing touches, in that of the motions; of a segment of a path its share, from 0 to 1."""
+        return read_proof(self.proof)[0]
+
+    @property
+    def outcome(self) -> Literal["free", "contact"]:
+        """What is at that time: "contact" if two bodies come near each other then; else "free"."""
+        return "contact" if read_proof(self.proof)[1] else "free"
 
     def check(self) -> str:
         """Check the proof by code that shares nothing with what found it: "holds", or why it does not."""
@@ -31,14 +42,74 @@ class Proof:
         """Return what is stated: meshes, motions, margins and times."""
         return proof_statement(self.proof)
 
-    def save(self, folder: str | PathLike[str], name: str) -> None:
-        """Write NAME.proof to a folder, and each mesh with its tree as DIGEST.mesh and DIGEST.body."""
-        if not name or Path(name).name != name:
-            raise InputError(f"name: {name!r} is no name of a file")
-        folder = Path(folder)
+    def __repr__(self) -> str:
+        """Return what is stated in short. It is not checked."""
+        try:
+            until, has_contact, digests = read_proof(self.proof)
+        except InputError as error:
+            return f"Proof({error})"
+        return f"Proof({'contact at' if has_contact else 'free until'} {until}, {len(digests)} bodies)"
+
+    def save(self, folder: str | PathLike[str], name: str, *, overwrite: bool = False) -> None:
+        """Write NAME.proof to a folder, and each mesh with its tree as DIGEST.mesh and DIGEST.body.
+
+        Raises:
+            FileExistsError: there is another proof of that name, and `overwrite` is False.
+        """
+        folder, file = _files(folder, name)
+        if not overwrite and file.exists() and file.read_bytes() != self.proof:
+            raise FileExistsError(f"{file} is another proof; overwrite=True replaces it")
         folder.mkdir(parents=True, exist_ok=True)
         for mesh, tree in self.meshes:
             digest = sha256(mesh).hexdigest()[:16]
             (folder / f"{digest}.mesh").write_bytes(mesh)
             (folder / f"{digest}.body").write_bytes(tree)
-        (folder / f"{name}.proof").write_bytes(self.proof)
+        file.write_bytes(self.proof)
+
+    @classmethod
+    def load(cls, folder: str | PathLike[str], name: str) -> "Proof":
+        """Read NAME.proof and its meshes from a folder that `save` or the command ``ccd`` wrote. It is not checked.
+
+        Raises:
+            InputError: the file is no proof, or one of its meshes is missing.
+        """
+        folder, file = _files(folder, name)
+        return cls._read(file, _meshes(folder))
+
+    @classmethod
+    def _read(cls, file: Path, meshes: dict[str, tuple[bytes, bytes]]) -> "Proof":
+        proof = file.read_bytes()
+        needed = dict.fromkeys(read_proof(proof)[2])
+        if missing := [digest for digest in needed if digest not in meshes]:
+            raise InputError(f"{file}: the folder has no mesh with the digest {missing[0]}")
+        return cls(proof, [meshes[digest] for digest in needed])
+
+
+def check_folder(folder: str | PathLike[str]) -> dict[str, str]:
+    """Check all proofs of a folder: for each name "holds", or why it does not.
+
+    Raises:
+        InputError: there is no proof in the folder, a file is no proof, or a mesh is missing.
+    """
+    files = sorted(Path(folder).glob("*.proof"))
+    if not files:
+        raise InputError(f"{folder}: there is no proof in this folder")
+    meshes = _meshes(Path(folder))
+    return {file.stem: Proof._read(file, meshes).check() for file in files}
+
+
+def _files(folder: str | PathLike[str], name: str) -> tuple[Path, Path]:
+    """Return a folder, and the file of a proof in it; its name may end in .proof."""
+    stem = name.removesuffix(".proof")
+    if not stem or Path(stem).name != stem:
+        raise InputError(f"name: {name!r} is no name of a file")
+    return Path(folder), Path(folder) / f"{stem}.proof"
+
+
+def _meshes(folder: Path) -> dict[str, tuple[bytes, bytes]]:
+    """Read the meshes of a folder with their trees, by the digests of the meshes."""
+    meshes = {}
+    for file in sorted(folder.glob("*.mesh")):
+        mesh = file.read_bytes()
+        meshes[sha256(mesh).hexdigest()] = (mesh, file.with_suffix(".body").read_bytes())
+    return meshes

@@ -34,6 +34,7 @@ __all__ = [
     "is_free",
     "proof_statement",
     "prove",
+    "read_proof",
 ]
 
 class _ScipyRotation(Protocol):
@@ -68,9 +69,10 @@ _Curve: TypeAlias = _Polynomials | _Spline
 _Movement: TypeAlias = Motion | Path | LinkMotion
 
 class InputError(ValueError):
-    results: Table | None
+    results: Table | list[Proof] | None
 
 class Unresolved(RuntimeError):
+    results: Proof | list[Proof] | None
     safe_until: float | None
     lower: float | None
     upper: float | None
@@ -383,9 +385,10 @@ def prove(
     motion_b: Motion | None = None,
     duration: float | None = None,
     **settings: Unpack[_OfContacts],
-) -> Proof | None: ...
+) -> Proof: ...
 def check_proof(proof: bytes, meshes: Sequence[tuple[bytes, bytes]]) -> str: ...
 def proof_statement(proof: bytes) -> str: ...
+def read_proof(proof: bytes) -> tuple[float, bool, list[str]]: ...
 def is_free(
     a: Body,
     b: Body,
