@@ -8,7 +8,7 @@ use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 use pyo3::prelude::*;
 use rigid_ccd_robot::{LinkContactClass, LinkContactSettings, Robot};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -32,6 +32,9 @@ impl LinkContactQuestion<'_, '_> {
         } = self;
         if let Some(progress) = progress.as_ref().filter(|progress| !progress.is_callable()) {
             return Err(wrong_type_error("progress", "a function", progress));
+        }
+        if let Some((path, _)) = &srdf {
+            check_folder_of(path)?;
         }
         let progress = progress.map(Bound::unbind);
         let (decided, all) = (AtomicUsize::new(0), AtomicUsize::new(0));
@@ -69,6 +72,17 @@ impl LinkContactQuestion<'_, '_> {
         let batch = link_contact_table(robot, &meetings).map_err(input_error)?;
         Ok(PyTable { batch })
     }
+}
+
+/// Refuses the path of a file to write whose folder is missing, before the work and not after it.
+fn check_folder_of(path: &Path) -> PyResult<()> {
+    let folder = match path.parent() {
+        Some(folder) if folder.as_os_str().is_empty() => Path::new("."),
+        Some(folder) => folder,
+        None => path,
+    };
+    let found = std::fs::metadata(folder);
+    found.map_err(|error| file_error(&error, path)).map(drop)
 }
 
 /// Reads the number of boxes that are examined for a pair.

@@ -10,7 +10,7 @@ use crate::motion::pose_matrix;
 use crate::numbers::read_number;
 use crate::pickle::{ConstructorCall, Reduced};
 use crate::robot_base::RobotBase;
-use crate::robot_file::{read_folders, read_robot, with_options};
+use crate::robot_file::{check_path, check_text, read_folders, read_robot, with_options};
 use crate::robot_links::read_links;
 use crate::table::PyTable;
 use numpy::{PyArray2, PyArrayMethods};
@@ -104,6 +104,7 @@ impl PyRobot {
         geometry: &str,
         meshes: &str,
     ) -> PyResult<Self> {
+        check_path(&path)?;
         let arguments = (&path, &srdf, &packages, geometry, meshes);
         let constructor_call = ConstructorCall::new(class.py(), Some("from_urdf"), arguments)?;
         let file = with_options(RobotFile::from_path(path), packages, geometry, meshes)?;
@@ -134,6 +135,7 @@ impl PyRobot {
         geometry: &str,
         meshes: &str,
     ) -> PyResult<Self> {
+        check_path(&path)?;
         let arguments = (&path, &srdf, geometry, meshes);
         let constructor_call = ConstructorCall::new(class.py(), Some("from_mjcf"), arguments)?;
         let file = with_options(RobotFile::from_path(path), None, geometry, meshes)?;
@@ -157,6 +159,7 @@ impl PyRobot {
         geometry: &str,
         meshes: &str,
     ) -> PyResult<Self> {
+        check_text(text)?;
         let arguments = (text, &path, &srdf, &packages, geometry, meshes);
         let constructor_call = ConstructorCall::new(class.py(), Some("from_urdf_text"), arguments)?;
         let file = with_options(RobotFile::from_text(text, path), packages, geometry, meshes)?;

@@ -4,7 +4,7 @@ use crate::errors::{input_error, wrong_type_error};
 use crate::interruptible::run_or_leave;
 use pyo3::prelude::*;
 use rigid_ccd_robot::{BodyElements, LinkPairs, MeshConversion, Robot, RobotFile};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Sets the options of `Robot.from_urdf` and `Robot.from_mjcf`.
 pub(crate) fn with_options(
@@ -47,6 +47,26 @@ pub(crate) fn read_robot(
     };
     // The files of its meshes are not known yet.
     run_or_leave(py, u64::MAX, read)?
+}
+
+/// Refuses the text of a robot where the path of its file is needed.
+pub(crate) fn check_path(path: &Path) -> PyResult<()> {
+    if path.to_string_lossy().trim_start().starts_with('<') {
+        return Err(input_error(
+            "path: this is the text of a robot, and not the path of a file; Robot.from_urdf_text reads that of a URDF",
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses the path of a file where the text of a robot is needed.
+pub(crate) fn check_text(text: &str) -> PyResult<()> {
+    if text.contains('<') {
+        return Ok(());
+    }
+    Err(input_error(
+        "text: this is no XML; Robot.from_urdf reads the file at a path",
+    ))
 }
 
 /// Reads one folder, or a list of them.

@@ -39,6 +39,31 @@ def test_a_model_of_mujoco_is_a_robot(tmp_path: Path) -> None:
     assert above_floor.is_free([9, 9, 0.11, 0, 0, 0]) and not above_floor.is_free([9, 9, 0.09, 0, 0, 0])
 
 
+def test_a_text_is_no_path_and_a_path_no_text(tmp_path: Path) -> None:
+    text = '<robot name="r"><link name="a"/></robot>' + " " * 5000
+    for read in (Robot.from_urdf, Robot.from_mjcf):
+        with pytest.raises(InputError, match="path: this is the text of a robot") as refused:
+            read(text)
+        assert len(str(refused.value)) < 200
+    with pytest.raises(InputError, match="text: this is no XML; Robot.from_urdf reads"):
+        Robot.from_urdf_text("robot.urdf")
+
+
+def test_the_folder_of_an_srdf_is_looked_at_before_the_work(tmp_path: Path) -> None:
+    arm = Robot([Joint.revolute("turn", "base", "arm", axis=[0, 0, 1])], {"base": Body.sphere(1), "arm": Body.sphere(1)})
+    told: list[tuple[int, int]] = []
+    for path in (tmp_path / "nowhere" / "arm.srdf", ""):
+        with pytest.raises(FileNotFoundError):
+            arm.acm(srdf=path, progress=lambda *now: told.append(now))
+    assert told == []
+
+
+def test_an_infinite_position_is_named() -> None:
+    wheel = Robot([Joint.revolute("wheel", "base", "rim")], {"base": Body.sphere(1), "rim": Body.sphere(0.1)})
+    with pytest.raises(InputError, match="joint `wheel`: position is NaN or infinite"):
+        wheel.pose("rim", [np.inf])
+
+
 def test_a_link_carries_a_robot(tmp_path: Path) -> None:
     arm = Robot([Joint.revolute("turn", "base", "arm", ([0, 0, 1], UPRIGHT))], {"base": Body.sphere(0.1)})
     finger = Robot.from_mjcf(write_finger(tmp_path))

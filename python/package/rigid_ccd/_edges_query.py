@@ -38,7 +38,7 @@ class EdgesQuery:
     """
 
     def __init__(
-        self, cell: Cell, *, ask: PathQuestion = "is-free", rest: Mapping[str, float] | None = None, **settings: Any
+        self, cell: Cell, ask: PathQuestion = "is-free", *, rest: Mapping[str, float] | None = None, **settings: Any
     ) -> None:
         # A copy, which later changes of the cell do not reach.
         self._cell: Cell = copy.copy(cell)

@@ -69,7 +69,7 @@ _Curve: TypeAlias = _Polynomials | _Spline
 _Movement: TypeAlias = Motion | Path | LinkMotion
 
 class InputError(ValueError):
-    results: Table | list[Proof] | None
+    results: Any
 
 class Unresolved(RuntimeError):
     results: Proof | list[Proof] | None

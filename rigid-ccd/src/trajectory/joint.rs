@@ -171,6 +171,10 @@ impl Joint {
     pub(super) fn unchecked_pose(&self, position: f64) -> Result<Pose, InputError> {
         let moved = match self.kind {
             JointKind::Fixed => Pose::IDENTITY,
+            JointKind::Revolute(_) if !position.is_finite() => {
+                let quantity = "position";
+                return Err(InputError::NotFinite { quantity });
+            }
             JointKind::Revolute(axis) => {
                 Pose::new(DVec3::ZERO, DQuat::from_axis_angle(axis, position))?
             }
