@@ -101,7 +101,7 @@ pub use mesh::affine::AffineMap;
 pub use mesh::error::{MeshError, MeshFault};
 pub use mesh::format::Format;
 pub use mesh::mesh_file::{MeshFile, NamedMesh};
-pub use mesh::remark::{Remark, Remarks};
+pub use mesh::remark::{DIVIDED_VERTICES, Remark, Remarks};
 pub use mesh::repair::Repairs;
 pub use mesh::unit::{Unit, UnknownUnit};
 pub use messages::{FileError, HTML_ADVICE, is_html};

@@ -122,7 +122,8 @@ impl PyRobot {
     ///     path: the MJCF file.
     ///     srdf: an SRDF file that names further pairs of links which are not checked.
     ///     geometry: "collision" for geoms that can collide, or "visual" for those of the groups 0 to 2.
-    ///     meshes: "exact", or "hull" for the convex hull of each mesh, which is what MuJoCo takes.
+    ///     meshes: "exact", or "hull" for the convex hull of each mesh, which is what MuJoCo takes. A mesh that is exact is free
+    ///         in its hollows, where MuJoCo finds contacts.
     ///
     /// Raises:
     ///     InputError: the file is no robot, or a mesh is missing; the message names the link or the joint.

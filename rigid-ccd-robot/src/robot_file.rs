@@ -20,7 +20,7 @@ use crate::remark::CellRemark;
 use crate::robot::Robot;
 use crate::srdf::Srdf;
 use ccd_decomp::{HTML_ADVICE, is_html};
-use meshes::MeshBodies;
+use meshes::{MeshBodies, MeshRules};
 use mjcf::MjcfModel;
 use packages::SearchFolders;
 use roxmltree::Document;
@@ -122,7 +122,8 @@ impl RobotFile {
     /// Other constraints, such as those that close loops of bodies, leave joints independent: a path has to keep them. Ranges
     /// of ball joints and margins of geoms are left out. The positions of a free joint are those of its body in the world, and of
     /// a `mocap` body as well. An ellipsoid becomes a polytope that encloses it. A shape that is fitted to a mesh, a height field in
-    /// a picture, a mesh that MuJoCo makes, a plane on a body that moves, and an element that is not known are errors.
+    /// a picture, a mesh that MuJoCo makes, a plane on a body that moves, and an element that is not known are errors. MuJoCo
+    /// collides the convex hull of a mesh: [`MeshConversion::OuterHull`] takes it, and a mesh that is exact is free in its hollows.
     ///
     /// Elements and attributes that are not known are errors, too, unless they are known to say nothing of shapes, joints and
     /// pairs. [`Robot::file_remarks`] names what may be a mistake.
@@ -132,10 +133,11 @@ impl RobotFile {
     pub fn read(&self) -> Result<Robot, RobotFileError> {
         let text = self.text()?;
         self.search_folders.check_given_folders()?;
-        let meshes = MeshBodies::new(self.mesh_conversion);
+        let meshes = |rules| MeshBodies::new(self.mesh_conversion, rules);
         let robot = match self.mjcf(&text)? {
-            Some(model) => model.robot(self.body_elements, &meshes)?,
+            Some(model) => model.robot(self.body_elements, &meshes(MeshRules::Mjcf))?,
             None => {
+                let meshes = meshes(MeshRules::Urdf);
                 let folders = &self.search_folders;
                 let reader = UrdfReader::new(self.body_elements, &meshes, folders);
                 reader

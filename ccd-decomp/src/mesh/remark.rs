@@ -19,6 +19,9 @@ pub struct Remark {
     pub line: Option<usize>,
 }
 
+/// What the remark on vertices says that have a fourth number other than 1, which divides their coordinates.
+pub const DIVIDED_VERTICES: &str = "vertices divided by their fourth number";
+
 /// The maximum number of kinds of elements that have a remark of their own, to keep the report short.
 const MAX_REMARKED_KINDS: usize = 8;
 

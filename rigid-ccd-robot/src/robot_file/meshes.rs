@@ -1,9 +1,13 @@
 //! Makes bodies of the mesh files that a robot's file names.
 
 use super::error::RobotFileError;
-use ccd_decomp::{Detail, MeshFile, TriangleMesh, Unit, body_from_mesh};
+use super::mjcf_error::MjcfError;
+use ccd_core::fan_triangles;
+use ccd_decomp::{
+    DIVIDED_VERTICES, Detail, MeshFile, TriangleMesh, Unit, body_from_mesh, convex_hull,
+};
 use rigid_ccd::Body;
-use rigid_ccd::glam::DAffine3;
+use rigid_ccd::glam::{DAffine3, DVec3};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -20,9 +24,19 @@ pub enum MeshConversion {
     OuterHull,
 }
 
+/// The kind of file that names meshes, on which it depends what they mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum MeshRules {
+    /// A fourth number of a vertex divides the others, as for Coal. Vertices without a face do not count.
+    Urdf,
+    /// MuJoCo does not read a fourth number of a vertex, and its hulls contain vertices without a face.
+    Mjcf,
+}
+
 /// Makes bodies of meshes; a mesh that occurs several times becomes one shared body.
 pub(super) struct MeshBodies {
     conversion: MeshConversion,
+    rules: MeshRules,
     bodies_by_mesh: RefCell<HashMap<MeshKey, Arc<Body>>>,
 }
 
@@ -30,9 +44,10 @@ pub(super) struct MeshBodies {
 type MeshKey = (PathBuf, [u64; 12]);
 
 impl MeshBodies {
-    pub(super) fn new(conversion: MeshConversion) -> Self {
+    pub(super) fn new(conversion: MeshConversion, rules: MeshRules) -> Self {
         MeshBodies {
             conversion,
+            rules,
             bodies_by_mesh: RefCell::default(),
         }
     }
@@ -47,6 +62,11 @@ impl MeshBodies {
         let mesh = MeshFile::read(&file)?
             .converted_to_unit(Unit::Metre)
             .into_mesh()?;
+        let mut remarks = mesh.repairs().remarks.iter();
+        if self.rules == MeshRules::Mjcf && remarks.any(|own| own.what == DIVIDED_VERTICES) {
+            let shape = "a mesh whose vertices have a fourth number other than 1";
+            return Err(MjcfError::UnsupportedShape { shape }.into());
+        }
         let body = self.body_of_mesh(&mesh, map, file)?;
         self.bodies_by_mesh
             .borrow_mut()
@@ -65,8 +85,24 @@ impl MeshBodies {
             MeshConversion::Exact => Detail::Auto,
             MeshConversion::OuterHull => Detail::OuterHull,
         };
+        let has_loose_vertices = !mesh.repairs().unreferenced_vertices.is_empty();
+        let is_hull_of_all =
+            self.rules == MeshRules::Mjcf && detail == Detail::OuterHull && has_loose_vertices;
+        let mesh = if is_hull_of_all {
+            &hull_mesh(mesh.vertices())?
+        } else {
+            mesh
+        };
         let prepared = body_from_mesh(&mesh.transformed(map)?, detail)
             .map_err(|error| RobotFileError::Prepare { file, error })?;
         Ok(Arc::new(prepared.body))
     }
+}
+
+/// Returns the hull of points as a mesh.
+pub(super) fn hull_mesh(points: &[DVec3]) -> Result<TriangleMesh, RobotFileError> {
+    let shape = "a mesh without a hull";
+    let hull = convex_hull(points).map_err(|_| MjcfError::UnsupportedShape { shape })?;
+    let faces: Vec<[u32; 3]> = hull.facets.iter().flat_map(fan_triangles).collect();
+    Ok(TriangleMesh::new(hull.points, &faces)?)
 }

@@ -11,6 +11,7 @@ mod geoms;
 mod height_fields;
 mod joints;
 mod model;
+mod names;
 mod orientation;
 mod pairs;
 mod schema;
@@ -71,6 +72,7 @@ impl MjcfModel {
                 }
             }
         }
+        remarks.extend(self.margins()?);
         let joints = self.bodies.iter().flat_map(|body| &body.joints);
         for joint in joints.filter(|joint| joint.kind == MjcfJointKind::Hinge) {
             let mut limits = joint.limits.into_iter().flatten();
@@ -79,6 +81,27 @@ impl MjcfModel {
             remarks.extend(remark.map(named));
         }
         Ok(remarks)
+    }
+
+    /// Remarks on margins, in which MuJoCo finds contacts of shapes that do not touch.
+    fn margins(&self) -> Result<Option<CellRemark>, MjcfError> {
+        let geoms = self.bodies.iter().flat_map(|body| &body.geoms);
+        let solid = geoms.filter(|geom| self.is_solid(geom));
+        let of_geoms = solid.map(|geom| &geom.attributes);
+        let mut labels = Vec::new();
+        for own in of_geoms.chain(self.constraints_named("pair")) {
+            let [margin] = own.array("margin")?.unwrap_or([0.0]);
+            if self.settings.margin().unwrap_or(margin) != 0.0 {
+                labels.push(own.label());
+            }
+        }
+        let more = labels.len().saturating_sub(1);
+        Ok(labels.first().map(|first| {
+            CellRemark::left_out(match more {
+                0 => format!("margin of {first}"),
+                _ => format!("margin of {first} and {more} more"),
+            })
+        }))
     }
 }
 

@@ -11,7 +11,7 @@ pub enum MjcfError {
         error: String,
     },
     /// Elements are nested too deeply, or there are too many of them.
-    #[error("elements are nested too deeply, or are too many; does a file include itself?")]
+    #[error("elements are nested too deeply, or are too many")]
     TooManyElements,
     /// An element is not known here. It may stand for a shape or a joint.
     #[error("element `{element}` in `{parent}` is not supported")]
@@ -47,6 +47,30 @@ pub enum MjcfError {
         /// The name that nothing has.
         name: String,
     },
+    /// Several elements of one kind have one name, or a file is included more than once.
+    #[error("there are several elements `{kind}` with the name `{name}`")]
+    RepeatedName {
+        /// The kind of the elements.
+        kind: String,
+        /// Their name, or that of the file.
+        name: String,
+    },
+    /// MuJoCo moves the frame of a body without children to its centre of mass, so that the positions of its free joint are others.
+    #[error(
+        "the frame of body `{body}` is aligned with its inertia, which is not supported; set align=\"false\""
+    )]
+    AlignedBody {
+        /// The name of the body.
+        body: String,
+    },
+    /// A pair has two geoms of one body, which are never compared.
+    #[error("an element `{pair}` has two geoms of the body `{body}`; leave it out of the file")]
+    PairOfOneBody {
+        /// The kind of the element, and its name.
+        pair: String,
+        /// The name of the body.
+        body: String,
+    },
     /// A shape has no body of its kind.
     #[error("{shape} is not supported; leave it out of the file, and model it as an obstacle")]
     UnsupportedShape {
@@ -59,6 +83,13 @@ impl MjcfError {
     pub(crate) fn unknown_name(kind: &'static str, name: &str) -> Self {
         MjcfError::UnknownName {
             kind,
+            name: name.to_owned(),
+        }
+    }
+
+    pub(crate) fn repeated_name(kind: &str, name: &str) -> Self {
+        MjcfError::RepeatedName {
+            kind: kind.to_owned(),
             name: name.to_owned(),
         }
     }

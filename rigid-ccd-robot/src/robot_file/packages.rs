@@ -77,7 +77,8 @@ impl SearchFolders {
         let in_folder = |folder: &PathBuf| {
             let is_package = folder.file_name().is_some_and(|name| name == package);
             let itself = is_package.then(|| folder.join(rest));
-            [Some(folder.join(package).join(rest)), itself]
+            // A package before what is in it.
+            [itself, Some(folder.join(package).join(rest))]
                 .into_iter()
                 .flatten()
         };

@@ -6,7 +6,7 @@
 use crate::mesh::content::{Content, Geometry};
 use crate::mesh::error::MeshFault;
 use crate::mesh::polygons::Polygons;
-use crate::mesh::remark::Remarks;
+use crate::mesh::remark::{DIVIDED_VERTICES, Remarks};
 use ccd_core::glam::DVec3;
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -89,8 +89,8 @@ impl ObjReader {
                 let weight = weight.parse::<f64>().ok().filter(|&weight| weight != 0.0);
                 let weight = weight.ok_or_else(|| problem("divides a position by no number"))?;
                 if weight != 1.0 {
-                    let what = "vertices divided by their fourth number";
-                    self.polygons.remarks.add(what, 1, Some(line));
+                    let remarks = &mut self.polygons.remarks;
+                    remarks.add(DIVIDED_VERTICES, 1, Some(line));
                 }
                 point /= weight;
             }

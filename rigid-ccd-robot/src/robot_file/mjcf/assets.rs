@@ -3,6 +3,7 @@
 use super::attributes::Attributes;
 use super::classes::Classes;
 use super::document::{Element, children_of_sections};
+use super::names::Names;
 use crate::robot_file::mjcf_error::MjcfError;
 use rigid_ccd::Pose;
 use rigid_ccd::glam::{DAffine3, DQuat, DVec3};
@@ -37,6 +38,7 @@ pub(super) enum MeshSource {
 
 /// Reads the shapes of a model by their names. One without a name has that of its file.
 pub(super) fn read_assets(root: &Element, classes: &Classes) -> Result<Assets, MjcfError> {
+    let mut names = Names::default();
     let mut assets = Assets {
         meshes: HashMap::new(),
         height_fields: HashMap::new(),
@@ -51,23 +53,21 @@ pub(super) fn read_assets(root: &Element, classes: &Classes) -> Result<Assets, M
             _ => return Err(element.unknown_in("asset")),
         }
         let own = classes.merged(element, None)?;
-        let file = own.get("file");
+        let file = own.name("file");
         let stem = file.and_then(|file| Path::new(file).file_stem());
         let stem = stem.and_then(|stem| stem.to_str());
-        let Some(name) = own.get("name").or(stem) else {
+        let Some(name) = own.name("name").or(stem) else {
             return Err(own.invalid("name"));
         };
+        names.add(&element.name, Some(name))?;
         if element.name == "hfield" {
             assets.height_fields.insert(name.to_owned(), own);
             continue;
         }
         let scale = own.array("scale")?.map_or(DVec3::ONE, DVec3::from_array);
         let at = own.array("refpos")?.map_or(DVec3::ZERO, DVec3::from_array);
-        let [w, x, y, z] = own.array("refquat")?.unwrap_or([1.0, 0.0, 0.0, 0.0]);
-        if [w, x, y, z] == [0.0; 4] {
-            return Err(own.invalid("refquat"));
-        }
-        let reference = Pose::new(at, DQuat::from_xyzw(x, y, z, w));
+        let rotation = own.quaternion("refquat")?.unwrap_or(DQuat::IDENTITY);
+        let reference = Pose::new(at, rotation);
         let back = reference.map_err(|_| own.invalid("refpos"))?.inverse();
         let back = DAffine3::from_rotation_translation(back.rotation(), back.translation());
         let asset = MeshAsset {
@@ -81,7 +81,7 @@ pub(super) fn read_assets(root: &Element, classes: &Classes) -> Result<Assets, M
 
 fn mesh_source(own: &Attributes) -> Result<MeshSource, MjcfError> {
     let vertices = own.numbers("vertex")?;
-    Ok(match (own.get("file"), vertices) {
+    Ok(match (own.name("file"), vertices) {
         (Some(file), None) => MeshSource::File(file.to_owned()),
         (None, Some(coordinates)) => {
             let (points, rest) = coordinates.as_chunks::<3>();
@@ -101,7 +101,9 @@ fn mesh_source(own: &Attributes) -> Result<MeshSource, MjcfError> {
 
 fn faces(own: &Attributes) -> Result<Vec<[u32; 3]>, MjcfError> {
     let text = own.get("face").unwrap_or("");
-    let corners = text.split_whitespace().map(|corner| corner.parse().ok());
+    let corners = text
+        .split_ascii_whitespace()
+        .map(|corner| corner.parse().ok());
     let corners: Option<Vec<u32>> = corners.collect();
     let corners = corners.ok_or_else(|| own.invalid("face"))?;
     match corners.as_chunks::<3>() {

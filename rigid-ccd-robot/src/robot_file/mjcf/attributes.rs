@@ -1,11 +1,21 @@
 //! The attributes of an element of an MJCF file, with those of its class.
 
 use crate::robot_file::mjcf_error::MjcfError;
-use roxmltree::Node;
+use ccd_core::vector::unit;
+use rigid_ccd::glam::{DQuat, DVec3};
+use roxmltree::{Attribute, Node};
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 /// The attributes that give a rotation; an element has one of them at most.
 pub(super) const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
+
+/// The attributes that are numbers. Like MuJoCo, this reader takes one that is empty as not given.
+const NUMBERS: &str = "axis axisangle conaffinity contype count elevation euler face fromto group margin ncol nrow o_margin \
+    offset polycoef pos quat range ref refpos refquat scale size xyaxes zaxis";
+
+/// The lengths of vectors that have a direction. Shorter and longer ones do not have one in MuJoCo.
+const LENGTHS_WITH_DIRECTION: RangeInclusive<f64> = 1e-10..=1e100;
 
 /// The attributes of an element by their names.
 #[derive(Clone, Debug, Default)]
@@ -16,12 +26,17 @@ pub(super) struct Attributes {
 }
 
 impl Attributes {
+    /// Takes the attributes of an element with their texts as they are, except empty numbers.
     pub(super) fn read(node: Node<'_, '_>) -> Self {
-        let values = node.attributes();
+        let is_given = |own: &Attribute<'_, '_>| {
+            let is_empty = own.value().trim_ascii().is_empty();
+            !(is_empty && NUMBERS.split(' ').any(|number| number == own.name()))
+        };
+        let values = node.attributes().filter(is_given);
         Attributes {
             element: node.tag_name().name().to_owned(),
             values: values
-                .map(|own| (own.name().to_owned(), own.value().trim().to_owned()))
+                .map(|own| (own.name().to_owned(), own.value().to_owned()))
                 .collect(),
         }
     }
@@ -42,9 +57,9 @@ impl Attributes {
             let merged = match values.get(name) {
                 Some(of_class) if name == "size" => {
                     let rest = of_class
-                        .split_whitespace()
-                        .skip(value.split_whitespace().count());
-                    let all = value.split_whitespace().chain(rest);
+                        .split_ascii_whitespace()
+                        .skip(value.split_ascii_whitespace().count());
+                    let all = value.split_ascii_whitespace().chain(rest);
                     all.collect::<Vec<_>>().join(" ")
                 }
                 _ => value.clone(),
@@ -64,15 +79,19 @@ impl Attributes {
         }
     }
 
-    /// Returns the text of an attribute; an empty one counts as none.
+    /// Returns the text of an attribute, which may be empty. No keyword is.
     pub(super) fn get(&self, name: &str) -> Option<&str> {
-        let value = self.values.get(name).map(String::as_str);
-        value.filter(|value| !value.is_empty())
+        self.values.get(name).map(String::as_str)
     }
 
-    /// Returns the text of an attribute that has to be there.
-    pub(super) fn required(&self, name: &str) -> Result<&str, MjcfError> {
-        self.get(name).ok_or_else(|| self.invalid(name))
+    /// Returns the name of something or of a file; an empty one counts as none.
+    pub(super) fn name(&self, attribute: &str) -> Option<&str> {
+        self.get(attribute).filter(|name| !name.is_empty())
+    }
+
+    /// Returns the name of something or of a file that has to be there.
+    pub(super) fn required_name(&self, attribute: &str) -> Result<&str, MjcfError> {
+        self.name(attribute).ok_or_else(|| self.invalid(attribute))
     }
 
     /// Returns the numbers of an attribute.
@@ -81,7 +100,7 @@ impl Attributes {
             return Ok(None);
         };
         let numbers = text
-            .split_whitespace()
+            .split_ascii_whitespace()
             .map(|number| number.parse::<f64>().ok());
         let finite = numbers.map(|number| number.filter(|number| number.is_finite()));
         let numbers: Option<Vec<f64>> = finite.collect();
@@ -100,10 +119,29 @@ impl Attributes {
         Ok(Some(array))
     }
 
+    /// Returns the unit vector along a vector that an attribute gives.
+    pub(super) fn direction(&self, name: &str, vector: DVec3) -> Result<DVec3, MjcfError> {
+        let has_direction = |_: &DVec3| LENGTHS_WITH_DIRECTION.contains(&vector.length());
+        let along = unit(vector).filter(has_direction);
+        along.ok_or_else(|| self.invalid(name))
+    }
+
+    /// Returns the rotation by a quaternion.
+    pub(super) fn quaternion(&self, name: &str) -> Result<Option<DQuat>, MjcfError> {
+        let Some([w, x, y, z]) = self.array(name)? else {
+            return Ok(None);
+        };
+        let quaternion = DQuat::from_xyzw(x, y, z, w);
+        if !LENGTHS_WITH_DIRECTION.contains(&quaternion.length()) {
+            return Err(self.invalid(name));
+        }
+        Ok(Some(quaternion))
+    }
+
     /// Returns a whole number, or another one if there is none.
-    pub(super) fn integer_or(&self, name: &str, other: i64) -> Result<i64, MjcfError> {
+    pub(super) fn integer_or(&self, name: &str, other: i32) -> Result<i32, MjcfError> {
         match self.get(name) {
-            Some(text) => text.parse().map_err(|_| self.invalid(name)),
+            Some(text) => text.trim_ascii().parse().map_err(|_| self.invalid(name)),
             None => Ok(other),
         }
     }
@@ -111,8 +149,8 @@ impl Attributes {
     /// Returns whether an attribute is `true`, or another value if there is none.
     pub(super) fn truth_or(&self, name: &str, other: bool) -> Result<bool, MjcfError> {
         match self.get(name) {
-            Some("true" | "1") => Ok(true),
-            Some("false" | "0") => Ok(false),
+            Some("true") => Ok(true),
+            Some("false") => Ok(false),
             None => Ok(other),
             Some(_) => Err(self.invalid(name)),
         }
@@ -125,9 +163,9 @@ impl Attributes {
 
     /// Returns the kind of the element, and its name if it has one.
     pub(super) fn label(&self) -> String {
-        match self.get("name") {
-            Some(name) if !name.is_empty() => format!("{} {name}", self.element),
-            _ => self.element.clone(),
+        match self.name("name") {
+            Some(name) => format!("{} {name}", self.element),
+            None => self.element.clone(),
         }
     }
 

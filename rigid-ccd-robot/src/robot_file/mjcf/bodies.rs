@@ -29,13 +29,15 @@ pub(super) struct MjcfJoint {
     /// The name, or that of the body with the joint's number.
     pub(super) name: String,
     pub(super) kind: MjcfJointKind,
-    /// The anchor and the axis in the body's frame.
+    /// The anchor and the axis, a unit vector, in the body's frame.
     pub(super) anchor: DVec3,
     pub(super) axis: DVec3,
     /// The limits of the position; `None` for a joint without.
     pub(super) limits: Option<[f64; 2]>,
     /// The position in which the body has its pose.
     pub(super) reference: f64,
+    /// Whether the frame of a body without children is moved to its centre of mass.
+    is_aligned: bool,
 }
 
 /// How a joint moves its body.
@@ -53,13 +55,13 @@ pub(super) struct MjcfGeom {
     pub(super) pose: Pose,
     /// The pose of the frame around it, in which points are given.
     pub(super) frame: Pose,
-    pub(super) contype: i64,
-    pub(super) conaffinity: i64,
+    pub(super) contype: i32,
+    pub(super) conaffinity: i32,
 }
 
 impl MjcfGeom {
     pub(super) fn name(&self) -> Option<&str> {
-        self.attributes.get("name")
+        self.attributes.name("name")
     }
 }
 
@@ -130,6 +132,9 @@ impl Reader<'_> {
             }
             let mut own = self.classes.merged(child, place.class)?;
             own.add_to_name(place.suffix);
+            if let Some(class) = own.get("childclass") {
+                self.classes.check(class)?;
+            }
             let inner = Place {
                 class: own.get("childclass").or(place.class),
                 ..*place
@@ -197,7 +202,7 @@ impl Reader<'_> {
     ) -> Result<(), MjcfError> {
         let number = self.bodies.len();
         let name = own
-            .get("name")
+            .name("name")
             .map_or_else(|| format!("body{number}"), str::to_owned);
         let pose = place.frame.compose(&read_pose(own, self.settings)?);
         let mut joints = Vec::new();
@@ -210,6 +215,7 @@ impl Reader<'_> {
                 axis: DVec3::Z,
                 limits: None,
                 reference: 0.0,
+                is_aligned: false,
             });
         }
         self.bodies.push(MjcfBody {
@@ -225,7 +231,14 @@ impl Reader<'_> {
             frame: Pose::IDENTITY,
             ..*place
         };
-        self.add_children(element, &inner)
+        self.add_children(element, &inner)?;
+        let has_children = self.bodies.len() > number + 1;
+        let body = &self.bodies[number];
+        if !has_children && body.joints.iter().any(|own| own.is_aligned) {
+            let body = body.name.clone();
+            return Err(MjcfError::AlignedBody { body });
+        }
+        Ok(())
     }
 
     fn geom(&self, attributes: Attributes, frame: Pose) -> Result<MjcfGeom, MjcfError> {
@@ -259,13 +272,19 @@ impl Reader<'_> {
         }
         let anchor = own.array("pos")?.map_or(DVec3::ZERO, DVec3::from_array);
         let axis = own.array("axis")?.map_or(DVec3::Z, DVec3::from_array);
+        let axis = own.direction("axis", axis)?;
+        let of_compiler = self.settings.aligns_free_bodies;
+        let is_aligned = match own.get("align") {
+            None | Some("auto") => of_compiler,
+            Some(_) => own.truth_or("align", of_compiler)?,
+        };
         let scale = |position: f64| match kind {
             MjcfJointKind::Hinge => self.settings.radians(position),
             _ => position,
         };
         let [reference] = own.array("ref")?.unwrap_or([0.0]);
         Ok(MjcfJoint {
-            name: own.get("name").map_or_else(
+            name: own.name("name").map_or_else(
                 || format!("{}/joint{}", body.name, body.joints.len()),
                 str::to_owned,
             ),
@@ -280,12 +299,13 @@ impl Reader<'_> {
                 }
             },
             reference: scale(reference),
+            is_aligned: kind == MjcfJointKind::Free && is_aligned,
         })
     }
 
     fn limits(&self, own: &Attributes) -> Result<Option<[f64; 2]>, MjcfError> {
         let range: Option<[f64; 2]> = own.array("range")?;
-        let proper = range.filter(|[low, high]| low < high);
+        let proper = range.filter(|[low, high]| low < high && self.settings.has_limits);
         match own.get("limited") {
             // A range without a length is none.
             None | Some("auto") => Ok(proper.filter(|_| self.settings.limits_follow_ranges)),

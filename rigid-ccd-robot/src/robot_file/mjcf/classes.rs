@@ -18,10 +18,15 @@ impl Classes {
     /// Reads the sections `default` of a model.
     pub(super) fn read(root: &Element) -> Result<Self, MjcfError> {
         let mut classes = Classes(BTreeMap::from([(MAIN.to_owned(), ClassAttributes::new())]));
+        let mut name_of_main = None;
         for section in root.children.iter().filter(|own| own.name == "default") {
-            // The outermost class counts for all elements, whatever its name is.
+            // The outermost class counts for all elements, and has one name, whatever it is.
+            let name = section.attributes.name("class").unwrap_or(MAIN);
+            if *name_of_main.get_or_insert(name) != name {
+                return Err(section.attributes.invalid("class"));
+            }
             let inherited = classes.0[MAIN].clone();
-            let main = classes.add(section, &inherited, MAIN)?;
+            let main = classes.add(section, &inherited, name)?;
             classes.0.insert(MAIN.to_owned(), main);
         }
         Ok(classes)
@@ -34,8 +39,7 @@ impl Classes {
         inherited: &ClassAttributes,
         name: &str,
     ) -> Result<ClassAttributes, MjcfError> {
-        let name = class.attributes.get("class").unwrap_or(name);
-        let mut own = self.0.get(name).unwrap_or(inherited).clone();
+        let mut own = inherited.clone();
         for element in class
             .children
             .iter()
@@ -53,10 +57,23 @@ impl Classes {
             .iter()
             .filter(|element| element.name == "default")
         {
-            let name = inner.attributes.required("class")?.to_owned();
-            self.add(inner, &own, &name)?;
+            let name = inner.attributes.required_name("class")?;
+            if self.0.contains_key(name) {
+                return Err(MjcfError::repeated_name("class", name));
+            }
+            self.add(inner, &own, name)?;
         }
         Ok(own)
+    }
+
+    /// Checks that there is a class with a name.
+    pub(super) fn check(&self, name: &str) -> Result<(), MjcfError> {
+        self.attributes_of(name).map(|_| ())
+    }
+
+    fn attributes_of(&self, name: &str) -> Result<&ClassAttributes, MjcfError> {
+        let class = self.0.get(name);
+        class.ok_or_else(|| MjcfError::unknown_name("class", name))
     }
 
     /// Returns the attributes of an element with those of its class: its own one, or else that of the body around it.
@@ -76,10 +93,7 @@ impl Classes {
         of_body: Option<&str>,
     ) -> Result<Attributes, MjcfError> {
         let class = element.attributes.get("class").or(of_body).unwrap_or(MAIN);
-        let Some(class) = self.0.get(class) else {
-            return Err(MjcfError::unknown_name("class", class));
-        };
-        match class.get(name) {
+        match self.attributes_of(class)?.get(name) {
             Some(of_class) => element.attributes.over(of_class),
             None => Ok(element.attributes.clone()),
         }

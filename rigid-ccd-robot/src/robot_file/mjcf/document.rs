@@ -4,12 +4,13 @@ use super::attributes::Attributes;
 use crate::robot_file::error::RobotFileError;
 use crate::robot_file::mjcf_error::MjcfError;
 use roxmltree::{Document, Node, ParsingOptions};
-use std::path::Path;
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
 
 /// The largest depth of elements and of files that include each other. Deeper ones would exhaust the stack.
 const MAX_DEPTH: usize = 200;
 
-/// The largest number of elements, so that files that include each other several times end.
+/// The largest number of elements.
 pub(super) const MAX_ELEMENTS: usize = 1 << 20;
 
 /// An element of an MJCF file.
@@ -43,6 +44,7 @@ pub(super) fn parse(text: &str, folder: &Path) -> Result<Element, RobotFileError
     let mut reader = Reader {
         folder,
         element_count: 0,
+        included: HashSet::new(),
     };
     let document = parse_xml(text).map_err(|error| MjcfError::Syntax { error })?;
     let mut elements = reader.elements(document.root_element(), 0)?;
@@ -57,9 +59,34 @@ fn parse_xml(text: &str) -> Result<Document<'_>, String> {
     Document::parse_with_options(text, options).map_err(|error| error.to_string())
 }
 
+/// Refuses names with a prefix, as of `x:geom`, which MJCF does not have.
+fn refuse_prefixes(node: Node<'_, '_>) -> Result<(), MjcfError> {
+    let qualified = |prefix: &str, name: &str| format!("{prefix}:{name}");
+    let name = node.tag_name();
+    let prefix_of = |namespace| node.lookup_prefix(namespace);
+    if let Some(prefix) = name.namespace().and_then(prefix_of) {
+        let parent = node.parent_element();
+        return Err(MjcfError::UnknownElement {
+            element: qualified(prefix, name.name()),
+            parent: parent.map_or("", |own| own.tag_name().name()).to_owned(),
+        });
+    }
+    for attribute in node.attributes() {
+        if let Some(prefix) = attribute.namespace().and_then(prefix_of) {
+            return Err(MjcfError::UnknownAttribute {
+                element: name.name().to_owned(),
+                attribute: qualified(prefix, attribute.name()),
+            });
+        }
+    }
+    Ok(())
+}
+
 struct Reader<'r> {
     folder: &'r Path,
     element_count: usize,
+    /// The files that were included.
+    included: HashSet<PathBuf>,
 }
 
 impl Reader<'_> {
@@ -73,9 +100,20 @@ impl Reader<'_> {
         if depth > MAX_DEPTH || self.element_count > MAX_ELEMENTS {
             return Err(MjcfError::TooManyElements.into());
         }
+        refuse_prefixes(node)?;
         let attributes = Attributes::read(node);
         if node.tag_name().name() == "include" {
-            let file = self.folder.join(attributes.required("file")?);
+            if let Some(child) = self.children(node, depth + 1)?.first() {
+                return Err(child.unknown_in("include").into());
+            }
+            if let Some(other) = attributes.names().find(|name| *name != "file") {
+                return Err(attributes.unknown(other).into());
+            }
+            let name = attributes.required_name("file")?;
+            let file = self.folder.join(name);
+            if !self.included.insert(file.clone()) {
+                return Err(MjcfError::repeated_name("include", name).into());
+            }
             let text =
                 ccd_file::read_to_string(&file).map_err(|error| RobotFileError::Unreadable {
                     file: file.clone(),

@@ -8,10 +8,8 @@ use super::orientation::rotation_of_z_to;
 use crate::robot::{Link, LinkBody};
 use crate::robot_file::body_elements::BodyElements;
 use crate::robot_file::error::RobotFileError;
-use crate::robot_file::meshes::MeshBodies;
+use crate::robot_file::meshes::{MeshBodies, hull_mesh};
 use crate::robot_file::mjcf_error::MjcfError;
-use ccd_core::fan_triangles;
-use ccd_core::vector::unit;
 use ccd_decomp::TriangleMesh;
 use rigid_ccd::glam::{DAffine3, DVec3};
 use rigid_ccd::{Body, Pose};
@@ -19,7 +17,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// The first group of geoms that MuJoCo does not draw.
-const FIRST_HIDDEN_GROUP: i64 = 3;
+const FIRST_HIDDEN_GROUP: i32 = 3;
+
+/// The kinds of geoms that may be given by the points between which they are.
+const BETWEEN_POINTS: [&str; 4] = ["capsule", "cylinder", "box", "ellipsoid"];
 
 /// Makes bodies and planes of the geoms of a model.
 pub(super) struct GeomReader<'r> {
@@ -46,23 +47,24 @@ impl GeomReader<'_> {
     fn add_geom(&self, link: &mut Link, geom: &MjcfGeom) -> Result<(), RobotFileError> {
         let own = &geom.attributes;
         let is_body = match self.elements {
-            BodyElements::Collision => {
-                geom.contype != 0 || geom.conaffinity != 0 || self.mjcf.is_in_pair(geom)
-            }
+            BodyElements::Collision => self.mjcf.is_solid(geom),
             BodyElements::Visual => own.integer_or("group", 0)? < FIRST_HIDDEN_GROUP,
         };
         if !is_body {
             return Ok(());
         }
         let kind = own.get("type").unwrap_or("sphere");
+        if own.get("fromto").is_some() && !BETWEEN_POINTS.contains(&kind) {
+            return Err(own.invalid("fromto").into());
+        }
         let body = match kind {
             "plane" => {
                 link.planes.push(geom.pose);
                 return Ok(());
             }
-            "mesh" => self.mesh(own.required("mesh")?)?,
-            "hfield" => self.height_field(own.required("hfield")?)?,
-            _ if own.get("mesh").is_some() => {
+            "mesh" => self.mesh(own.required_name("mesh")?)?,
+            "hfield" => self.height_field(own.required_name("hfield")?)?,
+            _ if own.name("mesh").is_some() => {
                 return Err(unsupported("a shape that is fitted to a mesh"));
             }
             _ => {
@@ -86,9 +88,7 @@ impl GeomReader<'_> {
             MeshSource::Builtin => Err(unsupported("a mesh that MuJoCo makes")),
             MeshSource::Given { vertices, faces } => {
                 let mesh = match &faces[..] {
-                    [] => {
-                        hull_mesh(vertices).ok_or_else(|| unsupported("a mesh without a hull"))?
-                    }
+                    [] => hull_mesh(vertices)?,
                     faces => TriangleMesh::new(vertices.clone(), faces)?,
                 };
                 self.meshes.body_of_mesh(&mesh, asset.map, name.into())
@@ -100,7 +100,7 @@ impl GeomReader<'_> {
         let Some(own) = self.mjcf.assets.height_fields.get(name) else {
             return Err(MjcfError::unknown_name("hfield", name).into());
         };
-        let file = own.get("file").map(|uri| self.file(uri)).transpose()?;
+        let file = own.name("file").map(|uri| self.file(uri)).transpose()?;
         let mesh = HeightField::read(own, file.as_deref())?.mesh()?;
         self.meshes
             .body_of_mesh(&mesh, DAffine3::IDENTITY, name.into())
@@ -117,13 +117,6 @@ impl GeomReader<'_> {
             searched_paths: vec![file],
         })
     }
-}
-
-/// Returns the hull of points; `None` for points that have none.
-fn hull_mesh(points: &[DVec3]) -> Option<TriangleMesh> {
-    let hull = ccd_decomp::convex_hull(points).ok()?;
-    let faces: Vec<[u32; 3]> = hull.facets.iter().flat_map(fan_triangles).collect();
-    TriangleMesh::new(hull.points, &faces).ok()
 }
 
 /// Makes the body of a geom that its sizes describe, and returns it with its pose.
@@ -149,24 +142,25 @@ fn primitive(geom: &MjcfGeom, kind: &str) -> Result<(Body, Pose), RobotFileError
 fn pose_and_sizes(geom: &MjcfGeom, kind: &str) -> Result<(Pose, Vec<f64>), RobotFileError> {
     let own = &geom.attributes;
     let sizes = own.numbers("size")?.unwrap_or_default();
-    let is_shape = ["sphere", "capsule", "cylinder", "box", "ellipsoid"].contains(&kind);
-    let points = if is_shape { own.array("fromto")? } else { None };
-    let (pose, sizes) = match points {
+    let (pose, sizes) = match own.array("fromto")? {
         None => (geom.pose, sizes),
         Some([x, y, z, to_x, to_y, to_z]) => {
             let (from, to) = (DVec3::new(x, y, z), DVec3::new(to_x, to_y, to_z));
-            let axis = unit(from - to).ok_or_else(|| own.invalid("fromto"))?;
+            let axis = own.direction("fromto", from - to)?;
+            if own.array("pos")?.is_some_and(|at| at != [0.0; 3]) {
+                return Err(own.invalid("pos").into());
+            }
             let pose = Pose::new(0.5 * (from + to), rotation_of_z_to(axis))?;
             let half = 0.5 * from.distance(to);
             let width = sizes.first().copied().unwrap_or(0.0);
             let sizes = match kind {
                 "capsule" | "cylinder" => vec![width, half],
-                "box" | "ellipsoid" => vec![width, width, half],
-                _ => return Err(own.invalid("fromto").into()),
+                _ => vec![width, width, half],
             };
             (geom.frame.compose(&pose), sizes)
         }
     };
+    let is_shape = kind == "sphere" || BETWEEN_POINTS.contains(&kind);
     let used = match kind {
         "sphere" => 1,
         "capsule" | "cylinder" => 2,

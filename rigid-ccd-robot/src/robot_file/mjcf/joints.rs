@@ -5,7 +5,6 @@ use super::model::MjcfModel;
 use crate::robot::{CompoundKind, Joint, Link, PositionRule};
 use crate::robot_file::error::RobotFileError;
 use crate::robot_file::mjcf_error::MjcfError;
-use ccd_core::vector::unit;
 use rigid_ccd::glam::{DQuat, DVec3};
 use rigid_ccd::{InputError, Pose, trajectory};
 use std::collections::HashMap;
@@ -92,9 +91,8 @@ impl<'r> JointReader<'r> {
         let name = &joint.name;
         match joint.kind {
             MjcfJointKind::Hinge => {
-                let axis = unit(joint.axis).unwrap_or(DVec3::ZERO);
                 // The position is 0 where the body has been turned back from its reference.
-                let back = DQuat::from_scaled_axis(-joint.reference * axis);
+                let back = DQuat::from_scaled_axis(-joint.reference * joint.axis);
                 let origin = at_anchor.compose(&Pose::new(DVec3::ZERO, back)?);
                 let moving = trajectory::Joint::revolute(origin, joint.axis)?;
                 chain.push(
@@ -106,8 +104,9 @@ impl<'r> JointReader<'r> {
                 chain.frame = anchor.inverse();
             }
             MjcfJointKind::Slide => {
-                let axis = unit(joint.axis).unwrap_or(DVec3::ZERO);
-                let origin = chain.frame.compose(&Pose::at(-joint.reference * axis)?);
+                let origin = chain
+                    .frame
+                    .compose(&Pose::at(-joint.reference * joint.axis)?);
                 let moving = trajectory::Joint::prismatic(origin, joint.axis)?;
                 chain.push(
                     name.clone(),
@@ -214,8 +213,8 @@ fn read_followers(mjcf: &MjcfModel) -> Result<HashMap<&str, Follower<'_>>, MjcfE
             let joint = joints.get(name).copied();
             joint.ok_or_else(|| MjcfError::unknown_name("joint", name))
         };
-        let joint = find(own.required("joint1")?)?;
-        let Some(leader) = own.get("joint2").map(find).transpose()? else {
+        let joint = find(own.required_name("joint1")?)?;
+        let Some(leader) = own.name("joint2").map(find).transpose()? else {
             continue;
         };
         // Coefficients that are not given are those of equality.

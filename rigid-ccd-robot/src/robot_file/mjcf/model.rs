@@ -5,6 +5,7 @@ use super::attributes::Attributes;
 use super::bodies::{MjcfBody, read_bodies};
 use super::classes::Classes;
 use super::document::parse;
+use super::names::Names;
 use super::schema;
 use super::settings::Settings;
 use crate::robot_file::error::RobotFileError;
@@ -48,17 +49,24 @@ impl MjcfModel {
         let settings = Settings::read(&root, folder)?;
         let classes = Classes::read(&root)?;
         let mut constraints = Vec::new();
+        let mut names = Names::default();
         for section in &root.children {
             match section.name.as_str() {
                 "contact" => {
                     for element in &section.children {
-                        constraints.push(classes.merged(element, None)?);
+                        let own = classes.merged(element, None)?;
+                        names.add(&element.name, own.name("name"))?;
+                        constraints.push(own);
                     }
                 }
                 // Classes have one name for all kinds of equalities.
                 "equality" => {
                     for element in &section.children {
-                        constraints.push(classes.merged_as("equality", element, None)?);
+                        let own = classes.merged_as("equality", element, None)?;
+                        names.add("equality", own.name("name"))?;
+                        if settings.has_equalities {
+                            constraints.push(own);
+                        }
                     }
                 }
                 // A tendon is no shape; it may hold two joints together, which then are independent.
@@ -67,8 +75,18 @@ impl MjcfModel {
                 _ => return Err(section.unknown_in("mujoco").into()),
             }
         }
+        let bodies = read_bodies(&root, &settings, &classes)?;
+        for body in &bodies {
+            names.add("body", Some(&body.name))?;
+            for joint in &body.joints {
+                names.add("joint", Some(&joint.name))?;
+            }
+            for geom in &body.geoms {
+                names.add("geom", geom.name())?;
+            }
+        }
         Ok(MjcfModel {
-            bodies: read_bodies(&root, &settings, &classes)?,
+            bodies,
             assets: read_assets(&root, &classes)?,
             constraints,
             settings,

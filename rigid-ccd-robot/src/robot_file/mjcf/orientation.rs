@@ -22,10 +22,10 @@ fn read_rotation(own: &Attributes, settings: &Settings) -> Result<DQuat, MjcfErr
     if given.next().is_some() {
         return Err(invalid());
     }
-    let direction = |v: [f64; 3]| unit(DVec3::from_array(v)).ok_or_else(invalid);
+    let direction = |v: [f64; 3]| own.direction(name, DVec3::from_array(v));
     let numbers = own.numbers(name)?.unwrap_or_default();
     match (*name, &numbers[..]) {
-        ("quat", &[w, x, y, z]) if numbers != [0.0; 4] => Ok(DQuat::from_xyzw(x, y, z, w)),
+        ("quat", _) => own.quaternion(name)?.ok_or_else(invalid),
         ("axisangle", &[x, y, z, angle]) => {
             let axis = direction([x, y, z])?;
             Ok(DQuat::from_axis_angle(axis, settings.radians(angle)))
@@ -61,21 +61,11 @@ pub(super) fn euler_rotation(angles: [f64; 3], settings: &Settings) -> DQuat {
     rotation
 }
 
-/// Returns the rotation by the least angle that turns the z axis to a unit vector. It has the direction of the vector however
-/// small the angle is.
+/// Returns the rotation by the least angle that turns the z axis to a unit vector. Like MuJoCo's, it is about the x axis if the
+/// two are nearly parallel.
 pub(super) fn rotation_of_z_to(axis: DVec3) -> DQuat {
     let across = DVec3::Z.cross(axis);
-    if across == DVec3::ZERO {
-        let half_turn = DQuat::from_xyzw(1.0, 0.0, 0.0, 0.0);
-        return if axis.z < 0.0 {
-            half_turn
-        } else {
-            DQuat::IDENTITY
-        };
-    }
-    let angle = across.length().atan2(axis.z);
-    match unit(across) {
-        Some(along) => DQuat::from_axis_angle(along, angle),
-        None => DQuat::IDENTITY,
-    }
+    let is_parallel = across.length() < 1e-10;
+    let along = unit(across).filter(|_| !is_parallel).unwrap_or(DVec3::X);
+    DQuat::from_axis_angle(along, across.length().atan2(axis.z))
 }

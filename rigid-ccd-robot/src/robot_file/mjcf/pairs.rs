@@ -39,17 +39,30 @@ impl MjcfModel {
         for pair in self.constraints_named("pair") {
             let mut bodies = [WORLD; 2];
             for (body, name) in bodies.iter_mut().zip(["geom1", "geom2"]) {
-                *body = self.body_of_geom(pair.required(name)?)?;
+                *body = self.body_of_geom(pair.required_name(name)?)?;
             }
-            pairs.include(links[bodies[0]], links[bodies[1]]);
+            let [a, b] = bodies;
+            if a == b {
+                return Err(MjcfError::PairOfOneBody {
+                    pair: pair.label(),
+                    body: self.bodies[a].name.clone(),
+                }
+                .into());
+            }
+            pairs.include(links[a], links[b]);
         }
         Ok(pairs)
     }
 
+    /// Returns whether MuJoCo compares a geom with anything.
+    pub(super) fn is_solid(&self, geom: &MjcfGeom) -> bool {
+        geom.contype != 0 || geom.conaffinity != 0 || self.is_in_pair(geom)
+    }
+
     /// Returns whether an element `pair` names a geom.
-    pub(super) fn is_in_pair(&self, geom: &MjcfGeom) -> bool {
+    fn is_in_pair(&self, geom: &MjcfGeom) -> bool {
         let is_named = |pair: &Attributes| {
-            let names = [pair.get("geom1"), pair.get("geom2")];
+            let names = [pair.name("geom1"), pair.name("geom2")];
             geom.name().is_some() && names.contains(&geom.name())
         };
         self.constraints_named("pair").any(is_named)
@@ -66,7 +79,7 @@ impl MjcfModel {
         let excludes = self.constraints_named("exclude");
         excludes
             .map(|own| {
-                let body = |name: &str| self.body_named(own.required(name)?);
+                let body = |name: &str| self.body_named(own.required_name(name)?);
                 Ok([body("body1")?, body("body2")?])
             })
             .collect()

@@ -12,8 +12,15 @@ pub(super) struct Settings {
     pub(super) euler_axes: [char; 3],
     /// Whether a joint with a range is limited unless it says otherwise.
     pub(super) limits_follow_ranges: bool,
+    /// Whether the frame of a free body without children is moved to its centre of mass.
+    pub(super) aligns_free_bodies: bool,
     /// Whether a body is not compared with its parent.
     pub(super) skips_parents: bool,
+    pub(super) has_limits: bool,
+    pub(super) has_equalities: bool,
+    /// Whether a margin of the options counts in place of those of geoms and pairs.
+    overrides_margins: bool,
+    margin: f64,
     mesh_folder: PathBuf,
     /// Whether meshes are found by their file names alone.
     strips_paths: bool,
@@ -25,7 +32,12 @@ impl Settings {
             has_degrees: true,
             euler_axes: ['x', 'y', 'z'],
             limits_follow_ranges: true,
+            aligns_free_bodies: false,
             skips_parents: true,
+            has_limits: true,
+            has_equalities: true,
+            overrides_margins: false,
+            margin: 0.0,
             mesh_folder: folder.to_owned(),
             strips_paths: false,
         };
@@ -34,22 +46,46 @@ impl Settings {
         for compiler in &compilers {
             settings.set(compiler)?;
         }
-        // The last one counts, and of one element that of meshes.
+        // The last one counts, also an empty one, and of one element that of meshes.
         let mut folders = compilers
             .iter()
             .filter_map(|own| own.get("meshdir").or(own.get("assetdir")));
         if let Some(own) = folders.next_back() {
             settings.mesh_folder = folder.join(own);
         }
+        settings.set_options(root)?;
+        Ok(settings)
+    }
+
+    /// Sets what the options and their flags say. The last one of a name counts.
+    fn set_options(&mut self, root: &Element) -> Result<(), MjcfError> {
+        let mut has_constraints = true;
         for flag in children_of_sections(root, "option").filter(|own| own.name == "flag") {
-            match flag.attributes.get("filterparent") {
-                Some("disable") => settings.skips_parents = false,
-                Some("enable") => settings.skips_parents = true,
-                None => {}
-                Some(_) => return Err(flag.attributes.invalid("filterparent")),
+            let flag = &flag.attributes;
+            for (name, value) in [
+                ("filterparent", &mut self.skips_parents),
+                ("limit", &mut self.has_limits),
+                ("equality", &mut self.has_equalities),
+                ("override", &mut self.overrides_margins),
+                ("constraint", &mut has_constraints),
+            ] {
+                match flag.get(name) {
+                    Some("disable") => *value = false,
+                    Some("enable") => *value = true,
+                    None => {}
+                    Some(_) => return Err(flag.invalid(name)),
+                }
             }
         }
-        Ok(settings)
+        for option in root.children.iter().filter(|own| own.name == "option") {
+            [self.margin] = option
+                .attributes
+                .array("o_margin")?
+                .unwrap_or([self.margin]);
+        }
+        self.has_limits &= has_constraints;
+        self.has_equalities &= has_constraints;
+        Ok(())
     }
 
     fn set(&mut self, compiler: &Attributes) -> Result<(), MjcfError> {
@@ -75,7 +111,13 @@ impl Settings {
         }
         self.limits_follow_ranges = compiler.truth_or("autolimits", self.limits_follow_ranges)?;
         self.strips_paths = compiler.truth_or("strippath", self.strips_paths)?;
+        self.aligns_free_bodies = compiler.truth_or("alignfree", self.aligns_free_bodies)?;
         Ok(())
+    }
+
+    /// Returns the margin that counts in place of those of geoms and pairs; `None` if theirs count.
+    pub(super) fn margin(&self) -> Option<f64> {
+        self.overrides_margins.then_some(self.margin)
     }
 
     /// Converts an angle of the file to radians.

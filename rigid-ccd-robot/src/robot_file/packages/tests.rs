@@ -55,3 +55,17 @@ fn files_of_a_package_are_found_around_the_urdf_and_in_given_folders() {
         assert!(packages.find_file(tip).is_ok(), "{given}");
     }
 }
+
+/// Tests that a package is not looked for within itself first.
+#[test]
+fn a_package_comes_before_what_is_in_it() {
+    let folder = create_package();
+    let package = folder.path().join("arm_description");
+    let inner = package.join("arm_description/meshes");
+    fs::create_dir_all(&inner).unwrap();
+    fs::write(inner.join("link.stl"), "").unwrap();
+    let packages = SearchFolders::for_urdf(&package.join("urdf/arm.urdf"));
+    let found = packages.find_file("package://arm_description/meshes/link.stl");
+    let outer = fs::canonicalize(package.join("meshes/link.stl")).unwrap();
+    assert_eq!(found.unwrap(), outer);
+}

@@ -131,7 +131,9 @@ impl<'t> Element<'t> {
         let Some(text) = self.get(attribute) else {
             return Ok(None);
         };
-        let numbers = text.split_whitespace().map(|number| number.parse().ok());
+        let numbers = text
+            .split_ascii_whitespace()
+            .map(|number| number.parse().ok());
         let numbers: Option<Vec<f64>> = numbers.collect();
         let numbers = numbers.and_then(|numbers| <[f64; COUNT]>::try_from(numbers).ok());
         let wanted = match COUNT {

@@ -3,7 +3,7 @@
 use super::accessor::AccessorReader;
 use super::extensions;
 use super::schema::{Mesh, Primitive};
-use crate::mesh::error::{MeshFault, element_name};
+use crate::mesh::error::{MeshFault, element_name, quoted};
 use crate::mesh::polygons::{Polygons, check_count_fits_indices};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -33,6 +33,10 @@ fn add_primitive(
     let mode = primitive.mode.unwrap_or(TRIANGLES_MODE);
     if mode > TRIANGLE_FAN_MODE {
         let problem = format!("is of mode {mode}, which there is not");
+        return Err(MeshFault::malformed_content(problem));
+    }
+    if let Some(name) = primitive.attributes.unknown_name() {
+        let problem = format!("has an attribute {}, which there is not", quoted(name));
         return Err(MeshFault::malformed_content(problem));
     }
     // A primitive without positions draws nothing.

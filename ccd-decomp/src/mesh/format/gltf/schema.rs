@@ -5,6 +5,7 @@ use super::whole;
 use crate::mesh::error::MeshFault;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
+use std::collections::BTreeMap;
 
 /// The top-level JSON object of a glTF.
 #[derive(Deserialize)]
@@ -127,6 +128,31 @@ pub(super) struct Attributes {
     #[serde(rename = "POSITION")]
     #[serde(default, deserialize_with = "whole::optional_whole_number")]
     pub(super) position: Option<usize>,
+    #[serde(flatten)]
+    others: BTreeMap<String, IgnoredAny>,
+}
+
+/// The names of attributes beside positions. Those of the second list have a number after them.
+const OTHER_ATTRIBUTES: [&str; 2] = ["NORMAL", "TANGENT"];
+const NUMBERED_ATTRIBUTES: [&str; 4] = ["COLOR_", "JOINTS_", "TEXCOORD_", "WEIGHTS_"];
+
+impl Attributes {
+    /// Returns the name of an attribute that glTF does not have. Those of programs begin with `_`, those of extensions have a `:`.
+    pub(super) fn unknown_name(&self) -> Option<&str> {
+        let is_number = |text: &str| text.parse::<u32>().is_ok();
+        let is_numbered = |name: &str| {
+            let mut numbers = NUMBERED_ATTRIBUTES
+                .iter()
+                .filter_map(|own| name.strip_prefix(own));
+            numbers.any(is_number)
+        };
+        let is_of_others = |name: &str| name.starts_with('_') || name.contains(':');
+        let is_known = |name: &str| {
+            OTHER_ATTRIBUTES.contains(&name) || is_numbered(name) || is_of_others(name)
+        };
+        let mut names = self.others.keys().map(String::as_str);
+        names.find(|name| !is_known(name))
+    }
 }
 
 #[derive(Deserialize)]

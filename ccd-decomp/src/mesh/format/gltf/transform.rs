@@ -11,6 +11,10 @@ pub(super) fn node_transform(node: &Node) -> Result<AffineMap, MeshFault> {
     let Some(matrix) = node.matrix else {
         return affine_from_trs(node);
     };
+    if node.translation.is_some() || node.rotation.is_some() || node.scale.is_some() {
+        let problem = "has a matrix beside a translation, a rotation or a scale";
+        return Err(MeshFault::malformed_content(problem));
+    }
     let matrix = DMat4::from_cols_array(&matrix);
     if matrix.row(3) == DVec4::W && matrix.is_finite() {
         Ok(DAffine3::from_mat4(matrix).into())
