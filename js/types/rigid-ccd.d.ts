@@ -436,7 +436,7 @@ export class Cell extends Owned {
   /** Attaches a body to a link, at a pose in its frame. It may touch that link, and the links, attached bodies and obstacles that are named. */
   attach(name: string, body: Body, link: string, options?: { pose?: GivenPose; mayTouch?: readonly string[] }): void;
   detach(name: string): void;
-  /** Allows two items to touch: two links, or a link, an attached body and an obstacle. What is removed takes this away. */
+  /** Allows two items to touch, also if they have a clearance: two links, or a link, an attached body and an obstacle. What is removed takes this away, and so do `forbidContact` and `setClearance`. */
   allowContact(a: string, b: string): void;
   /** Compares two items again that were allowed to touch, or two links that were not checked. */
   forbidContact(a: string, b: string): void;
@@ -446,7 +446,7 @@ export class Cell extends Owned {
   setPadding(link: string, distance: number): void;
   /** The pairs of links that are checked: those of the robot, and those that `setClearance` has added. */
   readonly checkedPairs: [string, string][];
-  /** Sets the distance at which a pair counts as touching. A pair of links that was not checked is checked from then on. */
+  /** Sets the distance at which a pair counts as touching. A pair of links that was not checked is checked from then on, and so is a pair that was allowed to touch. */
   setClearance(a: string, b: string, distance: number): void;
   /** What touches first on a path? Nothing touches before. A cell of which nothing is compared is an error for all questions. */
   firstContact(path: ArrayLike<Configuration>, options?: PathSettings): PathContact;

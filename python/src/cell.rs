@@ -113,7 +113,8 @@ impl PyCell {
         self.state.detach(name)
     }
 
-    /// Allows two items to touch: two links, or a link, an attached body and an obstacle. What is removed takes this away.
+    /// Allows two items to touch: two links, or a link, an attached body and an obstacle, also if they have a clearance. What is
+    /// removed takes this away, and so do `forbid_contact` and `set_clearance`.
     fn allow_contact(&self, a: &str, b: &str) -> PyResult<()> {
         self.state.set_contact(a, b, Contact::Allowed)
     }
@@ -139,7 +140,8 @@ impl PyCell {
         self.state.set_padding(link, distance)
     }
 
-    /// Sets the distance at which a pair counts as touching. `a` is a link or an attached body; so is `b`, or an obstacle.
+    /// Sets the distance at which a pair counts as touching, also if it was allowed to. `a` is a link or an attached body; so is `b`,
+    /// or an obstacle.
     fn set_clearance(
         &self,
         a: &str,

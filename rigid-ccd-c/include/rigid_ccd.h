@@ -558,7 +558,8 @@ rccd_status rccd_cell_attach(struct rccd_cell *cell,
 // `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero.
 rccd_status rccd_cell_detach(struct rccd_cell *cell, const char *name);
 
-// Allows two items to touch: two links, or a link, a held body and an obstacle. What is removed takes this away.
+// Allows two items to touch, also if they have a clearance: two links, or a link, a held body and an obstacle. What is removed
+// takes this away, and so do `rccd_cell_forbid_contact` and `rccd_cell_set_clearance`.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.

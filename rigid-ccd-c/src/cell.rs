@@ -286,7 +286,8 @@ pub unsafe extern "C" fn rccd_cell_detach(cell: *mut RccdCell, name: *const c_ch
     })
 }
 
-/// Allows two items to touch: two links, or a link, a held body and an obstacle. What is removed takes this away.
+/// Allows two items to touch, also if they have a clearance: two links, or a link, a held body and an obstacle. What is removed
+/// takes this away, and so do `rccd_cell_forbid_contact` and `rccd_cell_set_clearance`.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.

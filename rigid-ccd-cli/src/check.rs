@@ -8,6 +8,7 @@ use crate::files::input_name;
 use crate::meshes::MeshArgs;
 use crate::numbers::parse_nonnegative;
 use crate::output::print_line;
+use crate::resumable::RowRange;
 use crate::robots::{CellArgs, JointsArgs, length};
 use crate::{RunOutcome, print_error};
 use anyhow::{Context, Result, bail};
@@ -59,6 +60,14 @@ pub(crate) struct CheckArgs {
     edges: Option<PathBuf>,
     #[command(flatten)]
     joints: JointsArgs,
+    /// Only these rows of --motions or --edges have to have proofs, numbered from 0, TO excluded; either end may be omitted
+    #[arg(
+        long,
+        value_name = "FROM..TO",
+        default_value = "..",
+        hide_default_value = true
+    )]
+    rows: RowRange,
     /// Distance that all pairs of the cell have to keep by the proofs, such as 0.005 or 5mm
     #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length, requires = "urdf")]
     clearance: f64,
@@ -105,7 +114,9 @@ const MAX_UNITS: usize = 16;
 /// Runs `ccd check`.
 pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
     let proofs = args.proof_files()?;
-    let meshes = Meshes::read(args.folder_of_meshes())?;
+    let meshes = Meshes::read(args.folder_of_meshes());
+    // Whether a file is a proof matters more than what is beside it.
+    let meshes = meshes.or_else(|error| refuse_other_files(&proofs).and(Err(error)))?;
     let cell = args.cell.robot.is_given().then(|| args.cell.load(true));
     let cell = cell.transpose()?;
     let subject = match &cell {
@@ -159,9 +170,21 @@ pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
     }
     let matched = args
         .table()
-        .map(|table| held.match_rows(table, &subject))
+        .map(|table| held.match_rows((table, args.rows), &subject))
         .transpose()?;
     Ok(matched.map_or(outcome, |matched| outcome.max(matched)))
+}
+
+/// Refuses the first file that is no proof.
+fn refuse_other_files(proofs: &[PathBuf]) -> Result<()> {
+    for path in proofs {
+        let name = input_name(path);
+        let bytes = ccd_file::read(path).with_context(|| format!("{name}: cannot read it"))?;
+        if Statement::read(&bytes).is_none() {
+            bail!("{name}: this is no proof");
+        }
+    }
+    Ok(())
 }
 
 impl CheckArgs {
@@ -175,8 +198,10 @@ impl CheckArgs {
                     bail!("{}: has no file NAME.proof", path.display());
                 }
                 files.extend(found);
-            } else {
+            } else if path.exists() {
                 files.push(path.clone());
+            } else {
+                bail!("{}: no such file or folder", path.display());
             }
         }
         Ok(files)

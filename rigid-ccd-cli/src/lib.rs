@@ -12,6 +12,7 @@ mod counts;
 mod decompose;
 mod files;
 mod html;
+mod interruption;
 mod man;
 mod meshes;
 mod named;
@@ -116,7 +117,7 @@ pub enum RunOutcome {
     /// Every row has an answer.
     AllAnswered,
     /// Every row has an answer, and some are not proven: to be `free` or `kept` with `--check`, to keep a clearance that is
-    /// required, or by a proof that holds.
+    /// required, or by a proof that holds. Or a signal ended the search about pairs of links.
     SomeRowsUnproven,
     /// Some rows could not be read, answered or drawn; all others are done.
     SomeRowsBad,

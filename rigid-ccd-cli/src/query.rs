@@ -104,7 +104,7 @@ pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     run.bad_rows.print_total();
     let shown = write_page(args, &pair, run.html_rows.zip(html))?;
     if run.summary.counts.row_count() == 0 && earlier.is_none() {
-        warn_of_no_rows(args, start.rows);
+        resumable::warn_of_no_rows(&files, start);
     }
     if !args.quiet {
         print_summary(args, &run.summary);
@@ -294,19 +294,6 @@ fn timed_question_from_args(args: &QueryArgs) -> TimedQuestion {
             ..Settings::DEFAULT
         },
         repetitions: NonZeroUsize::new(args.repeat as usize).unwrap_or(NonZeroUsize::MIN),
-    }
-}
-
-/// Warns that no row was answered, and says why.
-fn warn_of_no_rows(args: &QueryArgs, skipped: usize) {
-    let input = input_name(&args.motions);
-    if args.rows.includes_all_rows() {
-        print_error(&format!("{input}: has a header, but no rows"));
-    } else {
-        print_error(&format!(
-            "{input}: has {skipped} rows, and --rows {} selects none of them",
-            args.rows
-        ));
     }
 }
 

@@ -10,7 +10,7 @@ mod run_files;
 
 pub(super) use batches::{Batches, RowSource, answer_in_batches};
 pub(super) use journal::{Checkpoint, FILE_CHECKSUM_PREFIX, option_values, options_text};
-pub(super) use outcome::report_outcome;
+pub(super) use outcome::{report_outcome, warn_of_no_rows};
 pub(super) use outputs::{ClaimedFiles, OpenedTables, Outputs};
 pub(super) use resume::{check_finished, report, skip_rows};
 pub(super) use row_range::RowRange;

@@ -1,6 +1,6 @@
 //! Reads the table of a scene: one row for each body.
 
-use super::files::refuse_overwriting_input;
+use super::files::{input_name, open_table, refuse_overwriting_input};
 use super::meshes::MeshArgs;
 use super::{print_error, print_escaped_to_stderr, print_remarks};
 use crate::picture::DrawnBody;
@@ -15,7 +15,6 @@ use rigid_ccd::table::records::Records;
 use rigid_ccd::table::table_records::TableRecords;
 use rigid_ccd::{Remark, Scene};
 use std::collections::HashMap;
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
 /// The time at which all motions end by default.
@@ -53,9 +52,10 @@ pub(super) fn read(
     out: &Path,
 ) -> Result<SceneTable> {
     refuse_overwriting_input((option, path), ("--out", out))?;
-    let name = || path.display().to_string();
+    let name = || input_name(path);
     let duration = how.duration.unwrap_or(DEFAULT_DURATION);
-    let (rows, remarks) = read_rows(path, duration).with_context(name)?;
+    let (records, _) = open_table(option, path)?;
+    let (rows, remarks) = read_rows(records, duration).with_context(name)?;
     let mut scene = SceneTable {
         bodies: HashMap::new(),
         files: Vec::new(),
@@ -81,8 +81,10 @@ pub(super) fn read(
 type RowWithPosition = (RowPosition, BodyRow);
 
 /// Reads the rows of a table, and returns them with remarks about probable mistakes.
-fn read_rows(path: &Path, duration: f64) -> Result<(Vec<RowWithPosition>, Vec<Remark>)> {
-    let mut records = TableRecords::from_file(File::open(path)?)?;
+fn read_rows(
+    mut records: TableRecords,
+    duration: f64,
+) -> Result<(Vec<RowWithPosition>, Vec<Remark>)> {
     let header = records.header()?;
     if !header.iter().any(|column| column == BODY_COLUMN_NAME) {
         bail!(

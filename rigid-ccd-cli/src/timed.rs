@@ -6,7 +6,7 @@ use rigid_ccd::batch::{BodyPair, Question, TimedAnswer, median};
 use rigid_ccd::table::courses::Movements;
 use rigid_ccd::table::motions::RowProblem;
 use std::num::NonZeroUsize;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// The question about each row, with the method, the settings and the number of repetitions for timing.
 #[derive(Clone, Debug)]
@@ -40,10 +40,18 @@ pub(crate) fn answer_timed(
         let query = bodies.build_query(timing.question, course, &timing.settings)?;
         let answer = solver.answer(timing.question, &query);
         let answer = answer.ok_or(RowProblem::NeedsBestFirst)??;
-        micros.push(start.elapsed().as_secs_f64() * 1e6);
+        micros.push(microseconds(start.elapsed()));
         if micros.len() == timing.repetitions.get() {
             let micros = median(&mut micros);
             return Ok(TimedAnswer { answer, micros });
         }
     }
 }
+
+/// Returns a duration in microseconds, to a nanosecond: with as few digits as that takes.
+pub(crate) fn microseconds(duration: Duration) -> f64 {
+    duration.as_nanos() as f64 / 1e3
+}
+
+#[cfg(test)]
+mod tests;

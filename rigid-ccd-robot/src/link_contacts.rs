@@ -66,7 +66,7 @@ impl LinkContactClass {
 #[derive(Clone, Debug)]
 pub struct LinkContactSettings {
     /// The number of boxes of configurations that are examined, for a pair in the mean: what one pair does not need is left for the
-    /// others.
+    /// others, except those whose links touch without depth, as parts that slide on each other do. No box decides about such.
     pub max_boxes: usize,
     /// The time for all pairs together; `None` for no limit. With it, answers depend on the machine.
     pub deadline: Option<Duration>,
@@ -121,14 +121,16 @@ impl Robot {
         let mut boxes = lesser(FIRST_ROUND_BOXES, settings.max_boxes);
         while left > 0 && !end.is_reached() {
             // The sort keeps the order of equal ones.
+            let quota_of = |pair: usize| records[pair].quota(boxes, settings.max_boxes);
             let mut open: Vec<usize> = (0..all)
                 .filter(|&pair| !records[pair].is_decided() && !records[pair].is_exhausted)
+                // What was examined before is examined again.
+                .filter(|&pair| quota_of(pair) > records[pair].boxes)
                 .collect();
             open.sort_by(|&a, &b| records[a].open_share.total_cmp(&records[b].open_share));
             let quotas = open.iter().map_while(|&pair| {
-                let quota = lesser(boxes, left);
+                let quota = lesser(quota_of(pair), left);
                 left -= quota;
-                // What was examined before is examined again.
                 (quota > records[pair].boxes).then_some((pair, quota))
             });
             let quotas: Vec<(usize, usize)> = quotas.collect();

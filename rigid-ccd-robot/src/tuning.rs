@@ -74,3 +74,6 @@ pub(crate) const DESCENT_HALVINGS: i32 = 10;
 /// The number of boxes that are examined for each pair of links at first, and the factor from one round to the next.
 pub(crate) const FIRST_ROUND_BOXES: usize = 1000;
 pub(crate) const ROUND_FACTOR: usize = 4;
+
+/// The number of boxes after which the search about a pair of links ends if the links touch without depth in the middle of each.
+pub(crate) const MAX_BOXES_WITHOUT_DEPTH: usize = 4000;

@@ -17,7 +17,7 @@ impl Meshes {
         let read_both = |mesh: PathBuf| Ok((read(&mesh)?, read(&mesh.with_extension("body"))?));
         let meshes: Vec<_> = paths.into_iter().map(read_both).collect::<Result<_>>()?;
         if meshes.is_empty() {
-            let shown = folder.display();
+            let shown = here(folder).display();
             bail!("{shown}: has no file NAME.mesh; give --bodies FOLDER");
         }
         Ok(Meshes(meshes))
@@ -37,13 +37,18 @@ impl Meshes {
     }
 }
 
-/// Returns the files of a folder that have an extension, in the order of their names.
-pub(super) fn files_ending_in(extension: &str, folder: &Path) -> Result<Vec<PathBuf>> {
-    let here = if folder.as_os_str().is_empty() {
+/// Returns the name of a folder; that of this one is empty in paths of its files.
+fn here(folder: &Path) -> &Path {
+    if folder.as_os_str().is_empty() {
         Path::new(".")
     } else {
         folder
-    };
+    }
+}
+
+/// Returns the files of a folder that have an extension, in the order of their names.
+pub(super) fn files_ending_in(extension: &str, folder: &Path) -> Result<Vec<PathBuf>> {
+    let here = here(folder);
     let entries = fs::read_dir(here).and_then(|entries| {
         let paths = entries.map(|entry| Ok(entry?.path()));
         paths.collect::<io::Result<Vec<_>>>()

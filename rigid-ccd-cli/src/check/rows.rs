@@ -6,6 +6,7 @@ use crate::bad_rows::BadRowCounter;
 use crate::files::{input_name, open_movement_rows};
 use crate::output::print_line;
 use crate::progress::Progress;
+use crate::resumable::RowRange;
 use crate::robots::{GivenJoints, PathTable};
 use anyhow::{Context, Result, bail};
 use ccd_prove::{Statement, Subject as Stated};
@@ -72,16 +73,24 @@ impl Proofs {
         });
     }
 
-    /// Prints for each row of a table which proofs are about it, and which proofs are of no row.
+    /// Prints for each asked row of a table which proofs are about it, and which proofs are of no row of the table.
     pub(super) fn match_rows(
         mut self,
-        table: AskedTable<'_>,
+        (table, asked): (AskedTable<'_>, RowRange),
         subject: &Subject<'_>,
     ) -> Result<RunOutcome> {
         let mut counts = BTreeMap::new();
         let mut bad_rows = BadRowCounter::new(input_name(table.path()));
         let no_progress = Progress::for_rows(None, true);
+        let mut number = 0;
         table.for_each_row(subject, |row| {
+            number += 1;
+            if !asked.contains(number - 1) {
+                // Its proofs are of a row, too.
+                let segments = row.iter().flat_map(|row| &row.segments);
+                segments.for_each(|wanted| drop(self.best_proof(wanted.as_ref())));
+                return Ok(());
+            }
             match row {
                 Ok(row) => {
                     let extent = self.match_row(&row)?;

@@ -152,7 +152,7 @@ Exit codes:
   0  every row has an answer, whatever it is: also `contact`, `violated` and `unresolved`
   1  the results or the contacts cannot be written
   2  bad input: a file or an option that cannot be used, an output that another run is writing, rows
-     of status `error`, or a row with more contacts than --budget allows
+     of status `error`, a row with more contacts than --budget allows, or with --check no row
   3  with --check: every row has an answer, and some are not `free` or, with --clearance, `kept`
 
 Examples:

@@ -13,6 +13,10 @@ pub(crate) struct RowRange {
 }
 
 impl RowRange {
+    pub(crate) fn contains(self, row: usize) -> bool {
+        self.start <= row && self.end_row.is_none_or(|end| row < end)
+    }
+
     pub(crate) fn includes_all_rows(self) -> bool {
         self.start == 0 && self.end_row.is_none()
     }

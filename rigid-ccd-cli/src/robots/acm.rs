@@ -6,11 +6,13 @@ use crate::numbers::parse_seconds;
 use crate::output::{Output, is_standard_output};
 use crate::progress::Progress;
 use crate::table::TableWriter;
-use crate::{RunOutcome, print_escaped_to_stderr};
+use crate::{RunOutcome, interruption, print_error, print_escaped_to_stderr};
 use anyhow::{Result, bail};
 use clap::Args;
 use rigid_ccd_robot::{LinkContactClass, LinkContactSettings, Robot};
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// Decide which pairs of a robot's links can touch, and write those that need no check as SRDF
@@ -19,7 +21,8 @@ use std::time::Duration;
 pub(crate) struct AcmArgs {
     #[command(flatten)]
     robot: RobotArgs,
-    /// Examine at most N boxes of configurations for a pair in the mean; a larger number decides more pairs
+    /// Examine at most N boxes of configurations for a pair in the mean; a larger number decides more pairs, but none that touch
+    /// without depth, as parts that slide on each other
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1..))]
     boxes: u32,
     /// Leave the pairs undecided that are not decided after this time, in seconds [default: none]
@@ -52,7 +55,10 @@ Table of pairs (--report):
   touching_JOINT, apart_JOINT
                      a configuration that touches, and one that does not
 
-Exit code: 0 if the pairs are examined, also if some stay undecided; 2 for bad input, 1 if nothing can be written.
+Ctrl-C ends the search as --deadline does: what is decided by then is written. A second one ends the command.
+
+Exit code: 0 if the pairs are examined, also if some stay undecided; 3 if Ctrl-C ended that; 2 for bad input, 1 if nothing
+can be written.
 
 Examples:
   ccd acm arm.urdf --out arm.srdf
@@ -77,8 +83,9 @@ pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
         .map(Output::claim_table)
         .transpose()?;
     let robot = args.robot.load(args.quiet)?;
+    let stop = interruption::flag()?;
     args.robot.print_checked(&robot, args.quiet)?;
-    let classes = classify(&robot, args)?;
+    let classes = classify(&robot, args, &stop)?;
     let name = args.robot.path().file_stem().unwrap_or_default();
     let srdf = robot.to_srdf(&name.to_string_lossy(), &classes);
     out.write(|writer| writer.write_all(srdf.as_bytes()))?;
@@ -88,19 +95,31 @@ pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
     if !args.quiet {
         print_escaped_to_stderr(&summary(&classes));
     }
-    Ok(RunOutcome::AllAnswered)
+    let is_whole = classes.iter().all(|(_, class)| class.is_decided());
+    Ok(if stop.load(Ordering::Relaxed) && !is_whole {
+        print_error("interrupted: what was decided by then is written");
+        RunOutcome::SomeRowsUnproven
+    } else {
+        RunOutcome::AllAnswered
+    })
 }
 
 /// Decides about all pairs, and shows how many are examined.
-fn classify(robot: &Robot, args: &AcmArgs) -> Result<Vec<([usize; 2], LinkContactClass)>> {
+fn classify(
+    robot: &Robot,
+    args: &AcmArgs,
+    stop: &Arc<AtomicBool>,
+) -> Result<Vec<([usize; 2], LinkContactClass)>> {
     let settings = LinkContactSettings {
         max_boxes: args.boxes as usize,
         deadline: args.deadline,
-        stop: None,
+        stop: Some(Arc::clone(stop)),
     };
     let progress = Progress::start_single_step("examining pairs of links", args.quiet);
     let show = |decided: usize, all: usize| {
-        progress.set_message(&format!("{decided} of {all} pairs of links are decided"));
+        progress.set_message(&format!(
+            "{decided} of {all} pairs of links are decided; Ctrl-C, --deadline or fewer --boxes leave the others undecided"
+        ));
     };
     Ok(robot.classify_link_contacts(&settings, show)?)
 }

@@ -1,9 +1,12 @@
 //! Reads what is around a robot: a TOML file of obstacles, other robots, held objects, paddings and clearances; or the parts of
 //! a glTF.
 
+mod pairs;
+mod values;
+
 use anyhow::{Context, Result, anyhow, bail};
 use ccd_decomp::{BodySource, Detail, Unit};
-use rigid_ccd::glam::{DQuat, EulerRot};
+use pairs::{AllowedContact, Clearance, PairsWithClearance};
 use rigid_ccd::{Body, Pose, Remark, load_parts};
 use rigid_ccd_robot::{
     Cell, CellRemark, CompoundKind, Link, LinkPairs, PlacedRobot, Robot, RobotFile,
@@ -11,6 +14,7 @@ use rigid_ccd_robot::{
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
+use values::pose;
 
 /// The content of the TOML file.
 #[derive(Debug, Default, Deserialize)]
@@ -107,19 +111,6 @@ struct AttachedBody {
     quaternion: Option<Vec<f64>>,
     #[serde(default)]
     may_touch: Vec<String>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Clearance {
-    between: Vec<String>,
-    distance: f64,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct AllowedContact {
-    between: Vec<String>,
 }
 
 /// What is around a robot, with the file that says so.
@@ -246,37 +237,27 @@ impl<'p> CellSource<'p> {
         for (link, distance) in &file.padding {
             cell.set_padding(link, *distance)?;
         }
-        for Clearance { between, distance } in &file.clearance {
-            let set = |cell: &mut Cell| -> Result<()> {
-                let [a, b]: &[String; 2] = values("between", between)?;
-                let pair = [cell.item_named(a)?, cell.item_named(b)?];
-                Ok(cell.set_clearance(pair, *distance)?)
-            };
-            set(cell).with_context(|| format!("clearance between {}", between.join(", ")))?;
+        let pairs = PairsWithClearance::set(cell, &file.clearance)?;
+        for attached in &file.attached {
+            for item in &attached.may_touch {
+                pairs.refuse([&attached.name, item]).with_context(|| {
+                    format!("may_touch {item} of attached body {}", attached.name)
+                })?;
+            }
         }
-        for AllowedContact { between } in &file.allowed {
-            let allow = |cell: &mut Cell| -> Result<()> {
-                let [a, b]: &[String; 2] = values("between", between)?;
-                let pair = [cell.item_named(a)?, cell.item_named(b)?];
-                Ok(cell.allow_contact(pair)?)
-            };
-            allow(cell).with_context(|| format!("allowed {}", between.join(", ")))?;
-        }
-        Ok(())
+        pairs.allow(cell, &file.allowed)
     }
 }
 
-/// Returns the line of a byte in a TOML text, with what stands there and the header of its table.
+/// Returns the line of a byte in a TOML text, with what stands there and the header of its table, unless it is that.
 fn place_in(text: &str, byte: usize) -> String {
     let number = 1 + text[..byte].matches('\n').count();
     let lines = || text.lines().take(number).map(str::trim);
     let line = lines().last().unwrap_or_default();
-    let header = lines()
-        .filter(|own| own.starts_with('[') && *own != line)
-        .last();
+    let header = lines().filter(|own| own.starts_with('[')).last();
     match header {
-        Some(header) => format!("line {number}, `{line}` of {header}"),
-        None => format!("line {number}, `{line}`"),
+        Some(header) if header != line => format!("line {number}, `{line}` of {header}"),
+        _ => format!("line {number}, `{line}`"),
     }
 }
 
@@ -384,39 +365,6 @@ fn body_beside(folder: &Path, text: &str) -> Result<Body> {
         _ => {}
     }
     Ok(source.load_in_unit(Unit::Metre, Detail::Auto)?.body)
-}
-
-/// Returns a pose whose rotation is roll, pitch and yaw as in a URDF, a quaternion (w, x, y, z), or none.
-fn pose(
-    position: &Option<Vec<f64>>,
-    rpy: &Option<Vec<f64>>,
-    quaternion: &Option<Vec<f64>>,
-) -> Result<Pose> {
-    let position = match position {
-        Some(position) => *values("position", position)?,
-        None => [0.0; 3],
-    };
-    let rotation = match (rpy, quaternion) {
-        (Some(_), Some(_)) => bail!("give either rpy or quaternion"),
-        (Some(rpy), None) => {
-            let &[roll, pitch, yaw] = values("rpy", rpy)?;
-            DQuat::from_euler(EulerRot::ZYX, yaw, pitch, roll)
-        }
-        (None, Some(quaternion)) => {
-            let &[w, x, y, z] = values("quaternion", quaternion)?;
-            DQuat::from_xyzw(x, y, z, w)
-        }
-        (None, None) => DQuat::IDENTITY,
-    };
-    Ok(Pose::new(position, rotation)?)
-}
-
-/// Returns the values of a key that has a fixed number of them.
-fn values<'v, T, const COUNT: usize>(key: &str, given: &'v [T]) -> Result<&'v [T; COUNT]> {
-    let count = given.len();
-    given
-        .try_into()
-        .map_err(|_| anyhow!("{key} has {count} values, not {COUNT}"))
 }
 
 #[cfg(test)]

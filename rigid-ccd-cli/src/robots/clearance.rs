@@ -61,7 +61,8 @@ pub(crate) struct ClearanceArgs {
 const AFTER_HELP: &str = "\
 Prints bounds of the least distance of all pairs that are checked, with the pair and where it is. With --require also the
 ranges in which all pairs certainly keep the clearance, in which one certainly violates it, and the rest. The ends of kept
-ranges are limits of the joints that would keep it. Times are those of column `t` of --path; without it, each segment takes 1.
+ranges are limits of the joints that would keep it. Paddings and clearances of the cell do not count, as in
+`ccd edges --ask closest-approach`; a clearance between two links checks them. Times are those of column `t` of --path; without it, each segment takes 1.
 The curve of --json has at most 512 ranges, each with bounds of the least distance in it. Without --joint and --path the only
 joint moves over all its limits.
 
@@ -89,7 +90,13 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
         }
     }
     let html = args.html.as_deref().map(Output::claim).transpose()?;
-    let cell = args.cell.load(args.quiet)?;
+    let mut cell = args.cell.load(args.quiet)?;
+    if cell.remove_paddings_and_clearances() {
+        print_error(
+            "the distances of [padding] and [[clearance]] do not count: those are measured that all pairs keep; \
+             `ccd edges` asks whether they are kept",
+        );
+    }
     print_remarks(cell.remark_on_tolerance(args.tolerance));
     let path = args.read_path(&cell)?;
     let mut solver = cell.solver().with_settings(args.settings(0.0));

@@ -17,7 +17,8 @@ use crate::resumable::{
     answer_in_batches, option_values, options_text,
 };
 use crate::time_histogram::TimeHistogram;
-use crate::{RunOutcome, print_error, print_remarks};
+use crate::timed::microseconds;
+use crate::{RunOutcome, print_remarks};
 use anyhow::{Context, Result, bail};
 use args::UNRECORDED_OPTIONS;
 use ccd_core::StartPolicy;
@@ -71,7 +72,7 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
         OpenedTables::Finished(end) => {
             resumable::check_finished(&files, &mut table, end)?;
             begin_or_resume(&certificates, Some(end))?;
-            return Ok(report_outcome(&files, end));
+            return Ok(resumable::report_outcome(&files, end));
         }
     };
     begin_or_resume(&certificates, earlier)?;
@@ -97,6 +98,7 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
         raised_tolerances: RaisedTolerances::new(args.tolerance),
     };
     let end = answer_in_batches(&files, &mut table, start, &mut run)?;
+    let remark = table.remark_on_degrees();
     let EdgesRun {
         outputs,
         progress,
@@ -107,11 +109,15 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     } = run;
     outputs.finish(end)?;
     drop(progress);
+    print_remarks(remark);
     bad_rows.print_total();
+    if end.counts.row_count() == 0 && earlier.is_none() {
+        resumable::warn_of_no_rows(&files, start);
+    }
     if !args.quiet {
         print_summary(end, &times, &raised_tolerances);
     }
-    Ok(report_outcome(&files, end))
+    Ok(resumable::report_outcome(&files, end))
 }
 
 /// The state of a run while it answers rows.
@@ -234,7 +240,7 @@ fn answer(args: &EdgesArgs, solver: &mut CellSolver<'_>, path: &TablePath) -> Re
     let start = Instant::now();
     let clearance = Some(args.clearance).filter(|&clearance| clearance > 0.0);
     let row = args.ask.answer(solver, &path.configurations, clearance);
-    let micros = start.elapsed().as_secs_f64() * 1e6;
+    let micros = microseconds(start.elapsed());
     ResultRow {
         id: path.id.clone(),
         time: row.time.map(|time| path.table_time_rounded_down(time)),
@@ -293,15 +299,6 @@ fn print_summary(end: Checkpoint, times: &TimeHistogram, raised_tolerances: &Rai
     for line in text.lines() {
         crate::print_escaped_to_stderr(line);
     }
-}
-
-/// Returns how a run ended. No row is no proof: with `--check` it is bad input.
-fn report_outcome(files: &RunFiles<'_>, end: Checkpoint) -> RunOutcome {
-    if files.check && end.counts.row_count() == 0 {
-        print_error("--check: no row is answered");
-        return RunOutcome::SomeRowsBad;
-    }
-    resumable::report_outcome(files, end)
 }
 
 impl EdgesArgs {

@@ -105,7 +105,7 @@ impl RobotArgs {
     pub(crate) fn load(&self, quiet: bool) -> Result<Robot> {
         let progress = Progress::start_single_step("reading the robot's meshes", quiet);
         let name = || self.path().display().to_string();
-        let robot = self.file().read()?;
+        let robot = self.file().read().map_err(|error| self.explain(error))?;
         drop(progress);
         if !quiet {
             let joints: Vec<&str> = robot.free_joint_names().collect();
@@ -128,6 +128,18 @@ impl RobotArgs {
             }
         }
         Ok(robot)
+    }
+
+    /// Adds to an error what a robot's file is, if its name is that of another.
+    fn explain(&self, error: impl Into<anyhow::Error>) -> anyhow::Error {
+        let extension = self.path().extension().and_then(|own| own.to_str());
+        let error = error.into();
+        match extension {
+            Some("toml" | "csv" | "parquet" | "srdf" | "glb" | "gltf" | "obj" | "stl") => {
+                error.context("ROBOT is a URDF or MJCF file; --cell takes what is around it")
+            }
+            _ => error,
+        }
     }
 
     /// Prints what of the robot is checked, and the remarks on it, without any other file.

@@ -10,7 +10,7 @@ use rigid_ccd::table::records::{Record, Records};
 use rigid_ccd::table::table_records::TableRecords;
 use rigid_ccd::text::Excerpt;
 use rigid_ccd_robot::Robot;
-use rigid_ccd_robot::joint_columns::{JointColumn, joint_column, names_joint};
+use rigid_ccd_robot::joint_columns::{AngleUnit, JointColumn, joint_column, names_joint};
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -36,6 +36,8 @@ pub(crate) struct PathTable {
     next: Option<RowPosition>,
     path_count: usize,
     known_ids: HashSet<String>,
+    /// The largest angle so far that is given in degrees.
+    largest_degrees: f64,
     /// The checksum and the length of the input up to the end of the last path.
     checksum: u32,
     consumed_bytes: u64,
@@ -79,10 +81,23 @@ impl PathTable {
             columns,
             path_count: 0,
             known_ids: HashSet::new(),
+            largest_degrees: 0.0,
             checksum,
             consumed_bytes,
         };
         Ok((table, length))
+    }
+
+    /// Returns a remark if angles in degrees, in the rows so far, are as small as if they were in radians.
+    pub(crate) fn remark_on_degrees(&self) -> Option<String> {
+        let largest = self.largest_degrees;
+        let may_be_radians = largest > 0.0 && largest <= std::f64::consts::TAU;
+        may_be_radians.then(|| {
+            format!(
+                "no angle in degrees is beyond {largest}, which is less than a turn in radians; radians have neither --degrees \
+                 nor columns that end in _deg"
+            )
+        })
     }
 
     /// Reads the next path; `None` at the end.
@@ -115,6 +130,8 @@ impl PathTable {
                 let added = self.columns.add_row(path, self.records.current());
                 added.map_err(|problem| (at, problem))
             });
+            let degrees = self.columns.largest_degrees(self.records.current());
+            self.largest_degrees = greater(self.largest_degrees, degrees);
             self.checksum = self.records.checksum();
             self.consumed_bytes = self.records.consumed_bytes();
             self.next = self.records.advance()?;
@@ -167,10 +184,10 @@ impl PathColumns {
     fn new(header: Vec<String>, robot: &Robot, at_rest: GivenJoints<'_>) -> Result<Self> {
         check_joints(robot, at_rest.named)?;
         let nearest_zero = robot.configuration_nearest_zero();
+        if header.iter().all(String::is_empty) {
+            return Err(TableError::Empty.into());
+        }
         if let [only] = &header[..] {
-            if only.is_empty() {
-                return Err(TableError::Empty.into());
-            }
             if let Some(found) = [';', '\t'].into_iter().find(|mark| only.contains(*mark)) {
                 let header = only.clone();
                 return Err(TableError::WrongSeparator { found, header }.into());
@@ -240,29 +257,38 @@ impl PathColumns {
             end_positions,
             header,
         };
-        columns.refuse_unknown_columns()?;
+        columns.refuse_unclear_columns()?;
         Ok(columns)
     }
 
-    fn refuse_unknown_columns(&self) -> Result<()> {
-        let ends = self.end_positions.iter().flatten();
-        let positions = self
-            .positions
-            .iter()
-            .chain(ends)
-            .filter_map(|cell| match cell {
-                PositionCell::Cell(own) => Some(own.column),
-                PositionCell::AtRest(_) => None,
-            });
-        let known: Vec<usize> = positions.chain(self.id).chain(self.time).collect();
+    /// Refuses columns that are not known, and those that are two things.
+    fn refuse_unclear_columns(&self) -> Result<()> {
+        let mut known: Vec<usize> = self.id.into_iter().chain(self.time).collect();
+        for cell in self.cells() {
+            if let PositionCell::Cell(JointColumn { column, .. }) = *cell {
+                if known.contains(&column) {
+                    let name = &self.header[column];
+                    bail!(
+                        "header: `{name}` may be the column {name} of a path, or the joint of this name; rename the joint"
+                    );
+                }
+                known.push(column);
+            }
+        }
         match (0..self.header.len()).find(|column| !known.contains(column)) {
             None => Ok(()),
             Some(unknown) => bail!(
-                "header: unknown column `{}`; known are id, t and the joints: of edges from_JOINT and to_JOINT, with the end _deg for \
-                 degrees",
+                "header: unknown column `{}`; known are id, t and the joints: of edges from_JOINT and to_JOINT; angles are in \
+                 radians, with the end _deg in degrees, and lengths in metres",
                 Excerpt(&self.header[unknown])
             ),
         }
+    }
+
+    /// Returns where the positions of a row come from.
+    fn cells(&self) -> impl Iterator<Item = &PositionCell> {
+        let ends = self.end_positions.iter().flatten();
+        self.positions.iter().chain(ends)
     }
 
     fn id(&self, record: &impl Record) -> Option<String> {
@@ -272,6 +298,18 @@ impl PathColumns {
     /// Returns whether a row belongs to the path of the rows before it, which have an id or none.
     fn continues(&self, id: &Option<String>, record: &impl Record) -> bool {
         self.end_positions.is_none() && self.id(record) == *id
+    }
+
+    /// Returns the largest angle that a row gives in degrees; 0 if it gives none.
+    fn largest_degrees(&self, record: &impl Record) -> f64 {
+        let angles = self.cells().filter_map(|cell| match *cell {
+            PositionCell::Cell(JointColumn {
+                column,
+                unit: AngleUnit::Degree,
+            }) => record.number(column).ok()?,
+            _ => None,
+        });
+        angles.map(f64::abs).fold(0.0, greater)
     }
 
     fn add_row(&self, mut path: TablePath, record: &impl Record) -> Result<TablePath, RowProblem> {

@@ -3,6 +3,7 @@
 use super::joint_values::{GivenJoints, OtherJoints, check_joints};
 use super::path_table::{PathTable, TablePath};
 use crate::files::input_name;
+use crate::print_remarks;
 use anyhow::{Context, Result, bail};
 use rigid_ccd_robot::{Cell, Robot};
 use std::path::Path;
@@ -45,9 +46,9 @@ impl RobotPaths<'_> {
             return Ok(found);
         };
         let name = || input_name(file);
-        let (table, _) =
+        let (mut table, _) =
             PathTable::open("--path", file, cell.robot(), self.joints).with_context(name)?;
-        for path in table {
+        for path in table.by_ref() {
             match path.with_context(name)? {
                 Err(error) if self.ids.is_empty() || self.ids.contains(&error.id) => {
                     found.problems.push(format!("{}: {error}", name()));
@@ -61,6 +62,7 @@ impl RobotPaths<'_> {
                 break;
             }
         }
+        print_remarks(table.remark_on_degrees());
         if self.ids.is_empty() && found.paths.is_empty() && found.problems.is_empty() {
             bail!("{}: has a header, but no rows", name());
         }

@@ -15,6 +15,7 @@ mod readers;
 mod refusals;
 mod replay;
 mod resume;
+mod robot_use;
 mod robots;
 mod scene;
 mod view;

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 /// Returns a folder with the arm of the examples: two links of 0.5 and 0.4 that turn about y, a ball of 0.06 as hand.
-fn folder() -> Scene {
+pub(crate) fn folder() -> Scene {
     let scene = Scene::new("robots");
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     for name in ["arm.urdf", "arm.srdf", "cell.toml", "moves.csv", "path.csv"] {
@@ -15,11 +15,11 @@ fn folder() -> Scene {
     scene
 }
 
-fn call(scene: &Scene, args: &[&str]) -> CommandCall {
+pub(crate) fn call(scene: &Scene, args: &[&str]) -> CommandCall {
     CommandCall::with_args(args).folder(&scene.directory)
 }
 
-const EDGES: [&str; 6] = [
+pub(crate) const EDGES: [&str; 6] = [
     "edges",
     "arm.urdf",
     "--cell",

@@ -25,7 +25,8 @@ impl AllowedPairs {
 
 impl Cell {
     /// Allows two items to touch: two links, or a link, a body that is attached to one, and an obstacle. They are not compared
-    /// until [`Cell::forbid_contact`] or [`Cell::set_clearance`] names them, or until one is removed.
+    /// until [`Cell::forbid_contact`] or [`Cell::set_clearance`] names them, or until one is removed: what is said last holds. A
+    /// clearance that they had counts again after [`Cell::forbid_contact`].
     ///
     /// # Errors
     /// [`RobotError::NoSuchLink`], [`RobotError::NoSuchAttachedBody`] or [`RobotError::NoSuchObstacle`], and

@@ -54,6 +54,20 @@ impl Cell {
         Ok(())
     }
 
+    /// Removes all paddings and clearances, so that all pairs have the margin of the settings. What a clearance checks stays checked.
+    /// Returns whether there were any.
+    pub fn remove_paddings_and_clearances(&mut self) -> bool {
+        let Margins {
+            padding_per_body: paddings,
+            clearance_per_pair: clearances,
+        } = &mut self.margins;
+        // Written so that NaN counts.
+        let had_any = !clearances.is_empty() || paddings.iter().any(|&own| own != 0.0);
+        clearances.clear();
+        paddings.fill(0.0);
+        had_any
+    }
+
     /// Returns the distance at which a pair of bodies counts as touching.
     #[inline]
     pub(crate) fn margin(&self, [a, b]: [usize; 2], margin: f64) -> f64 {

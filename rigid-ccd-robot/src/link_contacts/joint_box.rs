@@ -18,6 +18,11 @@ impl JointBox {
         }
     }
 
+    /// Returns the box that is a point.
+    pub(super) fn at(positions: &[f64]) -> Self {
+        JointBox::new(positions.iter().map(|&own| [own; 2]).collect())
+    }
+
     pub(super) fn ranges(&self) -> &[[f64; 2]] {
         &self.ranges
     }

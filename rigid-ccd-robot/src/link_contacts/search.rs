@@ -3,10 +3,11 @@
 use super::LinkContactClass;
 use super::joint_box::JointBox;
 use super::joints_between::JointsBetween;
-use super::measuring::{BoxClass, Contact, LinkPair, Measurer};
+use super::measuring::{BoxClass, BoxLook, Contact, LinkPair, Measurer};
 use super::search_end::SearchEnd;
 use crate::cell::Cell;
-use ccd_core::order::greater;
+use crate::tuning::MAX_BOXES_WITHOUT_DEPTH;
+use ccd_core::order::{greater, lesser};
 use rigid_ccd::Error;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -27,7 +28,11 @@ pub(super) struct PairRecord {
     pub(super) boxes: usize,
     /// Whether witnesses were sought.
     is_sampled: bool,
-    /// Whether more boxes cannot decide: positions have no bounds, or a box that is a point stays open.
+    /// Whether the links touch without depth at some positions: no box around them can be decided, and only positions at which the
+    /// links are apart decide about the pair.
+    pub(super) touches_without_depth: bool,
+    /// Whether more boxes hardly decide: positions have no bounds, a box that is a point stays open, or the links touch without
+    /// depth in the middle of all boxes.
     pub(super) is_exhausted: bool,
 }
 
@@ -61,6 +66,7 @@ impl PairRecord {
             open_share: 1.0,
             boxes: 0,
             is_sampled: false,
+            touches_without_depth: false,
             is_exhausted: false,
         }
     }
@@ -109,6 +115,16 @@ impl PairRecord {
     /// Returns whether the question about the links is answered.
     pub(super) fn is_decided(&self) -> bool {
         self.verdict.is_some() || (self.touching.is_some() && self.apart.is_some())
+    }
+
+    /// Returns the number of boxes that a search is to examine at most, if it may examine `limit`, and `own_share` is what a pair
+    /// has in the mean.
+    pub(super) fn quota(&self, limit: usize, own_share: usize) -> usize {
+        if self.touches_without_depth {
+            lesser(limit, own_share)
+        } else {
+            limit
+        }
     }
 
     /// Keeps positions at which the links touch, or are apart.
@@ -193,8 +209,13 @@ impl<'c> PairSearch<'c> {
         let mut waiting = BinaryHeap::from([WaitingBox(pair.joints.all_positions.clone())]);
         let (mut apart_share, mut touching_share) = (0.0, 0.0);
         let mut always = Verdict::Always;
+        let mut without_depth = 0;
         record.boxes = 0;
         while record.boxes < max_boxes && !self.is_over() {
+            if record.boxes == MAX_BOXES_WITHOUT_DEPTH && without_depth == record.boxes {
+                record.is_exhausted = true;
+                break;
+            }
             let Some(WaitingBox(joint_box)) = waiting.pop() else {
                 break;
             };
@@ -206,10 +227,15 @@ impl<'c> PairSearch<'c> {
             record.keep_witness(look.in_middle.contact, &middle);
             let is_nearer = record.keep_distance(look.in_middle.distance, &middle);
             if is_nearer && record.touching.is_none() {
-                self.descend(pair, record, middle, look.in_middle.distance)?;
+                self.descend(pair, record, middle.clone(), look.in_middle.distance)?;
             }
             if record.is_decided() {
                 return Ok(());
+            }
+            let is_asked = !record.touches_without_depth || without_depth + 1 == record.boxes;
+            if is_asked && self.stays_open((pair, record), &look, &middle)? {
+                without_depth += 1;
+                record.touches_without_depth = true;
             }
             match look.class {
                 BoxClass::Apart => apart_share += joint_box.volume_share,
@@ -243,6 +269,22 @@ impl<'c> PairSearch<'c> {
             record.verdict = Some(if is_apart { Verdict::Never } else { always });
         }
         Ok(())
+    }
+
+    /// Returns whether a box that is not decided would not be, however small it were around its middle: the links touch there,
+    /// without depth.
+    fn stays_open(
+        &mut self,
+        (pair, record): (&LinkPair, &PairRecord),
+        look: &BoxLook,
+        middle: &[f64],
+    ) -> Result<bool, Error> {
+        if look.class != BoxClass::Open || look.in_middle.contact == Contact::Apart {
+            return Ok(false);
+        }
+        let point = JointBox::at(middle);
+        let look = self.measurer.look_over_box(pair, &point, record.known())?;
+        Ok(look.class == BoxClass::Open)
     }
 }
 

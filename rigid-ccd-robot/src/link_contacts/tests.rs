@@ -183,6 +183,58 @@ fn a_search_can_be_stopped_and_watched() {
     assert_eq!(pairs(found), pairs(stopped));
 }
 
+/// Tests that a slide on a rail, whose least distance is 0 everywhere, ends its search early, and that one which sinks into a block
+/// at an end of the rail takes no box from other pairs.
+#[test]
+fn a_slide_on_a_rail_takes_no_share_of_others() {
+    let cuboid =
+        |half: [f64; 3], at: [f64; 3]| (Body::cuboid(half).unwrap(), Pose::at(at).unwrap());
+    let robot = |blocks: &[[f64; 3]]| {
+        let (rail, at) = cuboid([4.0, 1.0, 0.5], [0.0, 0.0, -0.5]);
+        let mut base = Link::named("rail").with_body(rail, at);
+        for &place in blocks {
+            let (block, at) = cuboid([0.5, 0.5, 0.5], place);
+            base = base.with_body(block, at);
+        }
+        let (carriage, at) = cuboid([0.25, 0.25, 0.25], [0.0, 0.0, 0.25]);
+        let links = vec![base, Link::named("carriage").with_body(carriage, at)];
+        let slides = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
+        let joints = vec![Joint {
+            name: "slide".into(),
+            parent: "rail".into(),
+            child: "carriage".into(),
+            axis_and_limits: slides.with_limits(0.0..=2.0),
+            position_rule: PositionRule::Independent,
+        }];
+        Robot::new(links, joints).unwrap()
+    };
+    let search = |robot: &Robot, max_boxes: usize| {
+        let cell = Cell::new(robot.clone(), LinkPairs::from_robot(robot));
+        let end = SearchEnd::starting_now(&LinkContactSettings::DEFAULT);
+        let mut record = PairRecord::new([0, 1]);
+        let mut search = PairSearch::new(&cell, end);
+        search.search(&mut record, max_boxes).unwrap();
+        assert!(!record.is_decided());
+        record
+    };
+    let sliding = search(&robot(&[]), 20_000);
+    assert!(
+        sliding.is_exhausted && sliding.boxes <= 4_000,
+        "{sliding:?}"
+    );
+    let sinking = search(&robot(&[[2.0, 0.0, 0.4]]), 2_000);
+    assert!(
+        !sinking.is_exhausted && sinking.boxes == 2_000,
+        "{sinking:?}"
+    );
+    assert_eq!(
+        [9_000, 500].map(|limit| sinking.quota(limit, 1_000)),
+        [1_000, 500]
+    );
+    // A pair that is open takes what others leave.
+    assert_eq!(PairRecord::new([0, 1]).quota(9_000, 1_000), 9_000);
+}
+
 /// Tests random planar arms of two links, whose last one carries a ball: it touches the ball at the base where the elbow's
 /// angle is beyond a known one.
 #[test]

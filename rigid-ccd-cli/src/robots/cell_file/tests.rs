@@ -74,6 +74,30 @@ fn a_cell_has_what_its_file_says() {
     assert_eq!(contact.items.map(|item| item.name()), ["arm", "table"]);
 }
 
+/// Tests that a message names the table that is wrong, and not the one above it.
+#[test]
+fn errors_name_their_own_table() {
+    let allowed = "[[allowed]]\nbetween = ['arm', 'base']\n";
+    for (text, expected) in [
+        (
+            "[[obstacles]]\nname = 'a'",
+            "line 3, `[[obstacles]]`: unknown field `obstacles`",
+        ),
+        (
+            "[[obstacle]]\nbody = 'sphere:1'",
+            "line 3, `[[obstacle]]`: missing field `name`",
+        ),
+        (
+            "[[obstacle]]\nname = 1",
+            "line 4, `name = 1` of [[obstacle]]: invalid type",
+        ),
+    ] {
+        let error = read(&format!("{allowed}{text}")).unwrap_err();
+        let message = crate::causes::message_with_causes(&error);
+        assert!(message.contains(expected), "{text}: {message}");
+    }
+}
+
 /// Tests that a plane is a half-space without an end, at the pose that the file gives.
 #[test]
 fn a_plane_has_no_end() {
@@ -117,6 +141,49 @@ fn errors_name_what_is_wrong() {
         let error = read(text).map(|_| ()).unwrap_err();
         let message = crate::causes::message_with_causes(&error);
         assert!(message.contains(expected), "{message}");
+    }
+}
+
+/// Tests that no clearance gets lost: a pair has one, and none if it may touch.
+#[test]
+fn a_pair_says_one_thing() {
+    let things = "
+        [[obstacle]]
+        name = 'wall'
+        body = 'sphere:1'
+        position = [3, 0, 0]
+        [[attached]]
+        name = 'tool'
+        body = 'sphere:0.05'
+        link = 'arm'
+        may_touch = ['wall']
+        [[clearance]]
+        between = ['arm', 'wall']
+        distance = 0.1\n";
+    read(things).unwrap();
+    for (text, expected) in [
+        (
+            "[[clearance]]\nbetween = ['wall', 'arm']\ndistance = 0.05",
+            "clearance between wall, arm: this pair has another clearance",
+        ),
+        (
+            "[[allowed]]\nbetween = ['wall', 'arm']",
+            "allowed wall, arm: this pair has a [[clearance]]",
+        ),
+        (
+            "[[clearance]]\nbetween = ['wall', 'tool']\ndistance = 0.05",
+            "may_touch wall of attached body tool: this pair has a [[clearance]]",
+        ),
+    ] {
+        for text in [format!("{things}{text}"), format!("{text}\n{things}")] {
+            let error = read(&text).map(|_| ()).unwrap_err();
+            let message = crate::causes::message_with_causes(&error);
+            let reversed = "clearance between arm, wall: this pair has another clearance";
+            assert!(
+                message.contains(expected) || message.contains(reversed),
+                "{text}: {message}"
+            );
+        }
     }
 }
 

@@ -110,7 +110,7 @@ Table of edges: a row for each edge, on which all joints move at constant rates.
 Table of paths: a row for each configuration; rows of one id follow each other.
   id                        name of the path [default: all rows are one path]
   t                         time of the row, later than that of the row before [default: 0, 1, 2, ...]
-  JOINT                     position of the joint
+  JOINT                     position of the joint, which is not named id or t
 Each joint with a position of its own needs its columns, or --joint. Mimic joints have none.
 In Parquet, columns hold numbers, text or booleans, and an absent value is an empty cell.
 
@@ -136,7 +136,7 @@ Cell (--cell), TOML. Bodies are those of `ccd query --a`; files are looked for n
   [[clearance]]                   # distance that a pair keeps, instead of --clearance and padding
   between = [\"hand\", \"table\"]
   distance = 0.002
-  [[allowed]]                     # a pair that may touch
+  [[allowed]]                     # a pair that may touch, and has no clearance
   between = [\"finger\", \"table\"]
 A glTF is a cell, too: each of its parts is an obstacle.
 
@@ -156,7 +156,7 @@ Table of results:
   a, b                      links, held objects or obstacles; a is of the robot
   distance_lower, distance_upper
                             bounds of the distance of a and b at `time`; of closest-approach: of the least distance of
-                            all pairs on the path
+                            all pairs on the path. What bodies exceed their shapes by is in distance_upper
   witness_a_x ... witness_b_z
                             nearest points of both at `time`, in the frame of the base
   feature_a, feature_b      the vertex, edge or face of the mesh that each point is on (v7, e3-4, f5); empty for a convex
@@ -167,7 +167,7 @@ is-free has the columns id, status, micros and reason.
 Exit codes:
   0  every row has an answer, whatever it is
   1  the results cannot be written
-  2  bad input, or rows of status `error`
+  2  bad input, rows of status `error`, or with --check no row
   3  with --check: a row is not `free` or `kept`
 
 Examples:

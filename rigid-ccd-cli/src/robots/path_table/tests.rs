@@ -99,6 +99,13 @@ fn bad_rows_are_errors_of_their_paths() {
 fn tables_that_do_not_fit_the_robot_are_refused() {
     for (text, at_rest, expected) in [
         ("hip\n0\n", vec![], "no column rail"),
+        ("", vec![], "is empty"),
+        (
+            "hip,rail,rail_mm\n0,0,0\n",
+            vec![],
+            "unknown column `rail_mm`; known are id, t and the joints: of edges from_JOINT and to_JOINT; angles are in \
+             radians, with the end _deg in degrees, and lengths in metres",
+        ),
         ("hip,rail,knee\n0,0,0\n", vec![], "unknown column `knee`"),
         ("hip,hip,rail\n0,0,0\n", vec![], "appears twice"),
         (
@@ -181,6 +188,35 @@ fn angles_are_in_degrees_where_the_table_or_the_option_says_so() {
         let error = read(text, AngleUnit::Radian).unwrap_err().to_string();
         assert!(error.contains(expected), "{text}: {error}");
     }
+    let remark = |text: &str, unit: AngleUnit| {
+        let named = &[];
+        fs::write(&path, text).unwrap();
+        let others = OtherJoints::Refused;
+        let joints = GivenJoints {
+            named,
+            others,
+            unit,
+        };
+        let mut table = PathTable::open("--edges", &path, &robot(), joints)
+            .unwrap()
+            .0;
+        table.by_ref().for_each(drop);
+        table.remark_on_degrees()
+    };
+    let radians = "hip,rail\n-1.5,90\n2.7,90\n";
+    let found = remark(radians, AngleUnit::Degree).unwrap();
+    assert!(
+        found.starts_with("no angle in degrees is beyond 2.7"),
+        "{found}"
+    );
+    assert!(remark("hip_deg,rail\n1,0\n", AngleUnit::Radian).is_some());
+    for (text, unit) in [
+        (radians, AngleUnit::Radian),
+        ("hip,rail\n-1.5,0\n90,0\n", AngleUnit::Degree),
+        ("hip_deg,rail\n0,0\n", AngleUnit::Radian),
+    ] {
+        assert_eq!(remark(text, unit), None);
+    }
     let mut joints = robot().joints().to_vec();
     joints[1].name = "hip_deg".into();
     let twin = Robot::new(robot().links().to_vec(), joints).unwrap();
@@ -188,6 +224,18 @@ fn angles_are_in_degrees_where_the_table_or_the_option_says_so() {
         open_for(&twin, "hip,hip_deg\n1,2\n", AngleUnit::Radian).unwrap(),
         [[1.0, 2.0]]
     );
+    let mut joints = robot().joints().to_vec();
+    for name in ["t", "id"] {
+        joints[1].name = name.into();
+        let robot = Robot::new(robot().links().to_vec(), joints.clone()).unwrap();
+        let text = format!("hip,{name}\n1,2\n");
+        let error = open_for(&robot, &text, AngleUnit::Radian).unwrap_err();
+        let expected = format!("`{name}` may be the column {name} of a path, or the joint");
+        assert!(error.to_string().contains(&expected), "{error}");
+        let edges = format!("from_hip,to_hip,from_{name},to_{name}\n1,2,3,4\n");
+        let ends = open_for(&robot, &edges, AngleUnit::Radian).unwrap();
+        assert_eq!(ends, [[1.0, 3.0], [2.0, 4.0]]);
+    }
     let error = open_for(&twin, "hip_deg\n1\n", AngleUnit::Radian).unwrap_err();
     assert!(
         error.to_string().contains("may be the joint hip_deg"),
