@@ -65,7 +65,8 @@ impl From<&str> for RccdText {
 
 /// Loads the robot of a URDF or MJCF file, with its meshes, as a cell without obstacles. All pairs of links are checked but
 /// neighbours, links that never move relative to each other, and those that an SRDF file disables; null stands for no such
-/// file. `package_folder` is searched first for `package://` names; null stands for none.
+/// file. `package_folder` is searched first for `package://` names; null stands for none. Meshes are taken as they are; MuJoCo takes
+/// their convex hulls, so that it finds contacts in hollows that are free here.
 ///
 /// # Safety
 /// Each text is null or ends with a zero; `out` is null or points to a place for a handle.

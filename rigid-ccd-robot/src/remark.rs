@@ -1,6 +1,7 @@
 //! Remarks on robots and cells: what is probably a mistake, and what is not checked.
 
 use crate::skip_reason::LeftOutPairs;
+use ccd_decomp::Remarks;
 use rigid_ccd::Remark;
 use rigid_ccd::text::RoundedToFourDigits;
 use std::fmt;
@@ -78,6 +79,18 @@ pub enum CellRemark {
         /// The pairs.
         pairs: Vec<[String; 2]>,
     },
+    /// Meshes of an MJCF are not convex and are taken as they are, where MuJoCo takes their hulls. This is a note.
+    ExactMeshes {
+        /// The files of the meshes, or their names.
+        meshes: Vec<String>,
+    },
+    /// The reader of a mesh skipped or changed something. This is a note.
+    MeshContent {
+        /// The file of the mesh.
+        mesh: String,
+        /// What was skipped or changed.
+        content: Remarks,
+    },
 }
 
 impl CellRemark {
@@ -94,6 +107,8 @@ impl CellRemark {
             CellRemark::LinksWithoutBodies { .. }
                 | CellRemark::PairsLeftOut(_)
                 | CellRemark::ContactsAllowed { .. }
+                | CellRemark::ExactMeshes { .. }
+                | CellRemark::MeshContent { .. }
         )
     }
 
@@ -135,7 +150,9 @@ impl CellRemark {
             | CellRemark::Input { item: name, .. } => vec![name],
             CellRemark::PairsLeftOut(LeftOutPairs { pairs, .. })
             | CellRemark::ContactsAllowed { pairs } => pairs.iter_mut().flatten().collect(),
-            CellRemark::OtherRobotName { .. } => Vec::new(),
+            CellRemark::OtherRobotName { .. }
+            | CellRemark::ExactMeshes { .. }
+            | CellRemark::MeshContent { .. } => Vec::new(),
         };
         for name in names {
             *name = prefixed(name);
@@ -217,6 +234,12 @@ impl fmt::Display for CellRemark {
                 counted(pairs.len(), "contact"),
                 listed(pairs)
             ),
+            CellRemark::ExactMeshes { meshes } => write!(
+                f,
+                "hollows of meshes are free, where MuJoCo finds contacts with the convex hull: {}",
+                meshes.join(", ")
+            ),
+            CellRemark::MeshContent { mesh, content } => write!(f, "mesh {mesh}: {content}"),
         }
     }
 }

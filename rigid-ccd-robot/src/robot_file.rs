@@ -133,11 +133,15 @@ impl RobotFile {
     pub fn read(&self) -> Result<Robot, RobotFileError> {
         let text = self.text()?;
         self.search_folders.check_given_folders()?;
-        let meshes = |rules| MeshBodies::new(self.mesh_conversion, rules);
-        let robot = match self.mjcf(&text)? {
-            Some(model) => model.robot(self.body_elements, &meshes(MeshRules::Mjcf))?,
+        let model = self.mjcf(&text)?;
+        let rules = match model {
+            Some(_) => MeshRules::Mjcf,
+            None => MeshRules::Urdf,
+        };
+        let meshes = MeshBodies::new(self.mesh_conversion, rules);
+        let robot = match model {
+            Some(model) => model.robot(self.body_elements, &meshes)?,
             None => {
-                let meshes = meshes(MeshRules::Urdf);
                 let folders = &self.search_folders;
                 let reader = UrdfReader::new(self.body_elements, &meshes, folders);
                 reader
@@ -151,7 +155,8 @@ impl RobotFile {
             }),
             _ => None,
         };
-        Ok(robot.with_file_remarks(empty))
+        let remarks = meshes.into_remarks().into_iter().chain(empty);
+        Ok(robot.with_file_remarks(remarks))
     }
 
     /// Returns which pairs of links are checked: all pairs except neighbours, links that never move relative to each

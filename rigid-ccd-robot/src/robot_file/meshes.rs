@@ -2,15 +2,17 @@
 
 use super::error::RobotFileError;
 use super::mjcf_error::MjcfError;
+use crate::remark::CellRemark;
 use ccd_core::fan_triangles;
 use ccd_decomp::{
-    DIVIDED_VERTICES, Detail, MeshFile, TriangleMesh, Unit, body_from_mesh, convex_hull,
+    DIVIDED_VERTICES, Detail, MeshFile, PiecesKind, PreparedBody, Remarks, TriangleMesh, Unit,
+    body_from_mesh, convex_hull,
 };
 use rigid_ccd::Body;
 use rigid_ccd::glam::{DAffine3, DVec3};
 use std::cell::RefCell;
-use std::collections::HashMap;
-use std::path::PathBuf;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// How a mesh of a robot becomes a body: exactly, or as its convex hull.
@@ -38,6 +40,10 @@ pub(super) struct MeshBodies {
     conversion: MeshConversion,
     rules: MeshRules,
     bodies_by_mesh: RefCell<HashMap<MeshKey, Arc<Body>>>,
+    /// The files that were read, with what their reader skipped or changed.
+    contents: RefCell<BTreeMap<PathBuf, Remarks>>,
+    /// The meshes that are not their hulls although MuJoCo takes these.
+    exact_meshes: RefCell<BTreeSet<PathBuf>>,
 }
 
 /// The key of a shared body: the file of the mesh, and the bits of the map to which it is subjected.
@@ -49,7 +55,26 @@ impl MeshBodies {
             conversion,
             rules,
             bodies_by_mesh: RefCell::default(),
+            contents: RefCell::default(),
+            exact_meshes: RefCell::default(),
         }
+    }
+
+    /// Returns the remarks on all meshes.
+    pub(super) fn into_remarks(self) -> Vec<CellRemark> {
+        let name = |path: &PathBuf| path.display().to_string();
+        let contents = self.contents.into_inner().into_iter();
+        let mut remarks: Vec<CellRemark> = contents
+            .map(|(file, content)| CellRemark::MeshContent {
+                mesh: name(&file),
+                content,
+            })
+            .collect();
+        let meshes: Vec<String> = self.exact_meshes.into_inner().iter().map(name).collect();
+        if !meshes.is_empty() {
+            remarks.push(CellRemark::ExactMeshes { meshes });
+        }
+        remarks
     }
 
     /// Makes the body of a mesh file, whose vertices are mapped. A map that mirrors turns the triangles as well.
@@ -62,10 +87,15 @@ impl MeshBodies {
         let mesh = MeshFile::read(&file)?
             .converted_to_unit(Unit::Metre)
             .into_mesh()?;
-        let mut remarks = mesh.repairs().remarks.iter();
-        if self.rules == MeshRules::Mjcf && remarks.any(|own| own.what == DIVIDED_VERTICES) {
+        let content = &mesh.repairs().remarks;
+        let is_divided = content.iter().any(|own| own.what == DIVIDED_VERTICES);
+        if self.rules == MeshRules::Mjcf && is_divided {
             let shape = "a mesh whose vertices have a fourth number other than 1";
             return Err(MjcfError::UnsupportedShape { shape }.into());
+        }
+        if !content.is_empty() {
+            let mut contents = self.contents.borrow_mut();
+            contents.insert(file.clone(), content.clone());
         }
         let body = self.body_of_mesh(&mesh, map, file)?;
         self.bodies_by_mesh
@@ -81,6 +111,33 @@ impl MeshBodies {
         map: DAffine3,
         file: PathBuf,
     ) -> Result<Arc<Body>, RobotFileError> {
+        let prepared = self.prepared(mesh, map, &file)?;
+        let is_hull = matches!(
+            prepared.report.kind,
+            PiecesKind::Hull | PiecesKind::OuterHull
+        );
+        if self.rules == MeshRules::Mjcf && !is_hull {
+            self.exact_meshes.borrow_mut().insert(file);
+        }
+        Ok(Arc::new(prepared.body))
+    }
+
+    /// Makes the body of a height field, of which MuJoCo does not take the hull.
+    pub(super) fn body_of_height_field(
+        &self,
+        mesh: &TriangleMesh,
+        name: &str,
+    ) -> Result<Arc<Body>, RobotFileError> {
+        let prepared = self.prepared(mesh, DAffine3::IDENTITY, Path::new(name))?;
+        Ok(Arc::new(prepared.body))
+    }
+
+    fn prepared(
+        &self,
+        mesh: &TriangleMesh,
+        map: DAffine3,
+        file: &Path,
+    ) -> Result<PreparedBody, RobotFileError> {
         let detail = match self.conversion {
             MeshConversion::Exact => Detail::Auto,
             MeshConversion::OuterHull => Detail::OuterHull,
@@ -93,9 +150,10 @@ impl MeshBodies {
         } else {
             mesh
         };
-        let prepared = body_from_mesh(&mesh.transformed(map)?, detail)
-            .map_err(|error| RobotFileError::Prepare { file, error })?;
-        Ok(Arc::new(prepared.body))
+        body_from_mesh(&mesh.transformed(map)?, detail).map_err(|error| RobotFileError::Prepare {
+            file: file.to_owned(),
+            error,
+        })
     }
 }
 

@@ -316,3 +316,24 @@ fn a_file_without_shapes_and_joints_is_remarked_upon() {
     let scene = "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>";
     assert!(remarks(scene).is_empty());
 }
+
+/// Tests that what the reader of a link's mesh skips or changes is noted.
+#[test]
+fn contents_of_meshes_are_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    let obj =
+        "v 0 0 0 2\nv 1 0 0\nv 0 1 0\nv 0 0 1\nl 1 2\nfoo 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    fs::write(folder.path().join("part.obj"), obj).unwrap();
+    let text = "<robot name='r'><link name='a'><collision><geometry><mesh filename='part.obj'/></geometry></collision></link></robot>";
+    let robot = RobotFile::from_text(text, folder.path().join("r.urdf"))
+        .read()
+        .unwrap();
+    let [note] = robot.file_remarks() else {
+        panic!("{:?}", robot.file_remarks());
+    };
+    assert!(!note.is_warning());
+    let told = note.to_string();
+    for expected in ["part.obj", "divided by their fourth number: 1", "foo"] {
+        assert!(told.contains(expected), "{told}");
+    }
+}

@@ -11,7 +11,7 @@ use crate::robot_file::error::RobotFileError;
 use crate::robot_file::meshes::{MeshBodies, hull_mesh};
 use crate::robot_file::mjcf_error::MjcfError;
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::glam::{DAffine3, DVec3};
+use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Pose};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -102,8 +102,7 @@ impl GeomReader<'_> {
         };
         let file = own.name("file").map(|uri| self.file(uri)).transpose()?;
         let mesh = HeightField::read(own, file.as_deref())?.mesh()?;
-        self.meshes
-            .body_of_mesh(&mesh, DAffine3::IDENTITY, name.into())
+        self.meshes.body_of_height_field(&mesh, name)
     }
 
     /// Returns the path of a file that a model names.

@@ -1,6 +1,7 @@
 //! Tests that what MuJoCo 4.0 takes is read as it reads it, or refused, and that what it refuses is refused.
 
 use super::{checked_names, distance_from_link, file_of, largest_difference};
+use crate::remark::CellRemark;
 use crate::robot::Robot;
 use crate::robot_file::{BodyElements, MeshConversion, RobotFile};
 use rigid_ccd::glam::{DAffine3, DVec3};
@@ -524,5 +525,35 @@ fn geoms_between_points_have_no_other_place() {
             told.contains(expected) && told.ends_with("is not valid"),
             "{told}"
         );
+    }
+}
+
+/// Tests that a note names the meshes in whose hollows MuJoCo finds contacts: no convex ones, and no height fields.
+#[test]
+fn meshes_with_hollows_are_noted() {
+    let convex = format!(r#"<mesh name="m" {TETRAHEDRON}/>"#);
+    let open = r#"<mesh name="m" vertex="0 0 0 1 0 0 0 1 0 0 0 1" face="0 2 1 0 1 3"/>"#;
+    let field = r#"<hfield name="f" nrow="2" ncol="2" size="1 1 1 1" elevation="0 1 1 0"/>"#;
+    let geom = r#"type="mesh" mesh="m"/><geom type="hfield" hfield="f""#;
+    for (mesh, expected) in [(&*convex, 0), (open, 1)] {
+        let text = slide("", geom, &format!("<asset>{mesh}{field}</asset>"));
+        let exact = read(&text);
+        let told: Vec<String> = exact
+            .file_remarks()
+            .iter()
+            .map(ToString::to_string)
+            .collect();
+        assert_eq!(told.len(), expected, "{told:?}");
+        assert!(
+            told.iter()
+                .all(|own| own.ends_with("with the convex hull: m")),
+            "{told:?}"
+        );
+        assert!(!exact.file_remarks().iter().any(CellRemark::is_warning));
+        let hull = file_of(&text)
+            .with_mesh_conversion(MeshConversion::OuterHull)
+            .read()
+            .unwrap();
+        assert_eq!(hull.file_remarks(), []);
     }
 }
