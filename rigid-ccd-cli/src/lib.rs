@@ -102,7 +102,7 @@ enum Command {
     /// Ask recorded questions about a robot again, and say whether the recorded answers hold
     Replay(Box<ReplayArgs>),
     /// Check machine-checkable proofs of `ccd query` or `ccd edges`
-    Check(CheckArgs),
+    Check(Box<CheckArgs>),
     /// Split a mesh into convex pieces; print statistics, write the pieces or the prepared body
     Decompose(DecomposeArgs),
     /// Print a completion script for a shell

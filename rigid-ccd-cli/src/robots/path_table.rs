@@ -187,11 +187,11 @@ impl PathColumns {
         if header.iter().all(String::is_empty) {
             return Err(TableError::Empty.into());
         }
-        if let [only] = &header[..] {
-            if let Some(found) = [';', '\t'].into_iter().find(|mark| only.contains(*mark)) {
-                let header = only.clone();
-                return Err(TableError::WrongSeparator { found, header }.into());
-            }
+        if let [only] = &header[..]
+            && let Some(found) = [';', '\t'].into_iter().find(|mark| only.contains(*mark))
+        {
+            let header = only.clone();
+            return Err(TableError::WrongSeparator { found, header }.into());
         }
         for (k, column) in header.iter().enumerate() {
             if header[..k].contains(column) {

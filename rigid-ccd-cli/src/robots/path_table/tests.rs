@@ -26,6 +26,10 @@ fn robot() -> Robot {
 }
 
 fn open(text: &str, at_rest: &[&str]) -> Result<PathTable> {
+    open_for(&robot(), text, (at_rest, AngleUnit::Radian))
+}
+
+fn open_for(robot: &Robot, text: &str, (at_rest, unit): (&[&str], AngleUnit)) -> Result<PathTable> {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("edges.csv");
     fs::write(&path, text)?;
@@ -33,9 +37,9 @@ fn open(text: &str, at_rest: &[&str]) -> Result<PathTable> {
     let at_rest = GivenJoints {
         named: &named,
         others: OtherJoints::Refused,
-        unit: AngleUnit::Radian,
+        unit,
     };
-    Ok(PathTable::open("--edges", &path, &robot(), at_rest)?.0)
+    Ok(PathTable::open("--edges", &path, robot, at_rest)?.0)
 }
 
 fn read(text: &str, at_rest: &[&str]) -> Vec<Result<TablePath, RowError>> {
@@ -151,16 +155,8 @@ fn skipped_paths_count_in_the_checksum() {
 /// Tests that columns of angles may be in degrees, by their names or by the option, and that no column has two meanings.
 #[test]
 fn angles_are_in_degrees_where_the_table_or_the_option_says_so() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("edges.csv");
     let open_for = |robot: &Robot, text: &str, unit: AngleUnit| {
-        fs::write(&path, text).unwrap();
-        let joints = GivenJoints {
-            named: &[],
-            others: OtherJoints::Refused,
-            unit,
-        };
-        let table = PathTable::open("--edges", &path, robot, joints)?.0;
+        let table = open_for(robot, text, (&[], unit))?;
         let path = table.map(|path| path.unwrap().unwrap()).next().unwrap();
         Ok::<_, anyhow::Error>(path.configurations)
     };
@@ -188,18 +184,25 @@ fn angles_are_in_degrees_where_the_table_or_the_option_says_so() {
         let error = read(text, AngleUnit::Radian).unwrap_err().to_string();
         assert!(error.contains(expected), "{text}: {error}");
     }
+    let mut joints = robot().joints().to_vec();
+    joints[1].name = "hip_deg".into();
+    let twin = Robot::new(robot().links().to_vec(), joints).unwrap();
+    assert_eq!(
+        open_for(&twin, "hip,hip_deg\n1,2\n", AngleUnit::Radian).unwrap(),
+        [[1.0, 2.0]]
+    );
+    let error = open_for(&twin, "hip_deg\n1\n", AngleUnit::Radian).unwrap_err();
+    assert!(
+        error.to_string().contains("may be the joint hip_deg"),
+        "{error}"
+    );
+}
+
+/// Tests that angles as small as radians are remarked upon where they are read as degrees.
+#[test]
+fn radians_read_as_degrees_are_remarked_upon() {
     let remark = |text: &str, unit: AngleUnit| {
-        let named = &[];
-        fs::write(&path, text).unwrap();
-        let others = OtherJoints::Refused;
-        let joints = GivenJoints {
-            named,
-            others,
-            unit,
-        };
-        let mut table = PathTable::open("--edges", &path, &robot(), joints)
-            .unwrap()
-            .0;
+        let mut table = open_for(&robot(), text, (&[], unit)).unwrap();
         table.by_ref().for_each(drop);
         table.remark_on_degrees()
     };
@@ -217,28 +220,22 @@ fn angles_are_in_degrees_where_the_table_or_the_option_says_so() {
     ] {
         assert_eq!(remark(text, unit), None);
     }
-    let mut joints = robot().joints().to_vec();
-    joints[1].name = "hip_deg".into();
-    let twin = Robot::new(robot().links().to_vec(), joints).unwrap();
-    assert_eq!(
-        open_for(&twin, "hip,hip_deg\n1,2\n", AngleUnit::Radian).unwrap(),
-        [[1.0, 2.0]]
-    );
+}
+
+/// Tests that a column of a path is not also that of a joint.
+#[test]
+fn a_joint_named_as_a_column_of_paths_is_refused_there() {
     let mut joints = robot().joints().to_vec();
     for name in ["t", "id"] {
         joints[1].name = name.into();
         let robot = Robot::new(robot().links().to_vec(), joints.clone()).unwrap();
-        let text = format!("hip,{name}\n1,2\n");
-        let error = open_for(&robot, &text, AngleUnit::Radian).unwrap_err();
+        let read = |text: &str| open_for(&robot, text, (&[], AngleUnit::Radian));
+        let error = read(&format!("hip,{name}\n1,2\n")).map(|_| ());
+        let message = error.unwrap_err().to_string();
         let expected = format!("`{name}` may be the column {name} of a path, or the joint");
-        assert!(error.to_string().contains(&expected), "{error}");
+        assert!(message.contains(&expected), "{message}");
         let edges = format!("from_hip,to_hip,from_{name},to_{name}\n1,2,3,4\n");
-        let ends = open_for(&robot, &edges, AngleUnit::Radian).unwrap();
-        assert_eq!(ends, [[1.0, 3.0], [2.0, 4.0]]);
+        let path = read(&edges).unwrap().next().unwrap().unwrap().unwrap();
+        assert_eq!(path.configurations, [[1.0, 3.0], [2.0, 4.0]]);
     }
-    let error = open_for(&twin, "hip_deg\n1\n", AngleUnit::Radian).unwrap_err();
-    assert!(
-        error.to_string().contains("may be the joint hip_deg"),
-        "{error}"
-    );
 }
