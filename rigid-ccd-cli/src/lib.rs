@@ -98,7 +98,7 @@ enum Command {
     /// Prove where a mechanism keeps a clearance, over a joint or along a path
     Clearance(Box<ClearanceArgs>),
     /// Decide which pairs of a robot's links can touch, and write those that need no check as SRDF
-    Acm(AcmArgs),
+    Acm(Box<AcmArgs>),
     /// Ask recorded questions about a robot again, and say whether the recorded answers hold
     Replay(Box<ReplayArgs>),
     /// Check machine-checkable proofs of `ccd query` or `ccd edges`
