@@ -171,7 +171,7 @@ def test_degrees_are_those_of_a_whole_frame() -> None:
     robot = Robot(joints, {"base": Body.sphere(0.1), "b": [(Body.sphere(0.1), ([1, 0, 0], [1, 0, 0, 0]))]})
     cell = Cell(robot)
     cell.add("post", Body.sphere(0.1), ([0, 1, 0], [1, 0, 0, 0]))
-    path = [[0.0, 0.0], [3.0, 0.5]]
+    path = [[0.0, 0.0], [3.0, 0.1]]
     degrees = frame(np.rad2deg(path).tolist(), ["pan_deg", "lift_deg"])
     known, found = cell.first_contact(path), cell.first_contact(degrees)
     assert known is not None and found is not None and abs(found.time - known.time) < 1e-9
