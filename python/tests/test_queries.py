@@ -131,12 +131,12 @@ def test_questions_end_where_a_motion_between_poses_does() -> None:
     passes = Motion.between(([-3, 0, 0], [1, 0, 0, 0]), ([3, 0, 0], [1, 0, 0, 0]), duration=4)
     assert (passes.end, Motion.between(np.eye(4), np.eye(4)).end, Motion().end) == (4, 1, None)
     assert pickle.loads(pickle.dumps(passes)).end == 4
-    for bodies, motions in (((BALL, WALL), (passes, None)), ((WALL, BALL), (Motion(), passes))):
-        assert not is_free(*bodies, *motions)
-        assert is_free(*bodies, *motions, duration=1)
-        contact = first_contact(*bodies, *motions, tolerance=1e-6)
+    for a, b, motion_a, motion_b in ((BALL, WALL, passes, None), (WALL, BALL, Motion(), passes)):
+        assert not is_free(a, b, motion_a, motion_b)
+        assert is_free(a, b, motion_a, motion_b, duration=1)
+        contact = first_contact(a, b, motion_a, motion_b, tolerance=1e-6)
         assert contact is not None and 1.6 - 1e-6 <= contact.time <= 1.6
-        assert closest_approach(*bodies, *motions).lower <= 0
+        assert closest_approach(a, b, motion_a, motion_b).lower <= 0
     with pytest.raises(InputError, match="end at different times"):
         is_free(BALL, WALL, passes, Path([0, 3], [np.eye(4), np.eye(4)]))
 

@@ -26,7 +26,7 @@ from rigid_ccd import (
 
 BALL, WALL = Body.sphere(0.5), Body.box(0.1, 5, 5)
 PART = Body.sphere(0.0005)
-CORNERS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+CORNERS: Any = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
 FACES = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
 COLLADA = """<COLLADA version="1.4.1"><asset>{unit}</asset><library_geometries><geometry><mesh><source id="s">
 <float_array id="a">0 0 0 1 0 0 0 1 0 0 0 1</float_array><technique_common><accessor source="#a" count="4" stride="3"/>
