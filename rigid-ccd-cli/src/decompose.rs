@@ -6,8 +6,7 @@ use super::RunOutcome;
 use super::files::refuse_overwriting_input;
 use super::meshes::MeshArgs;
 use super::named::{PATCH_ORDERS, named_value_parser};
-use super::output::{Output, OutputError};
-use super::standard_output;
+use super::output::{self, Output, OutputError};
 use crate::progress::Progress;
 use anyhow::{Context, Result, bail};
 use ccd_core::Body;
@@ -128,8 +127,8 @@ pub(super) fn run(args: &DecomposeArgs) -> Result<RunOutcome> {
     }
     let statistics = Statistics::new((name, unit), &model, &body, build_ms);
     match args.format {
-        StatisticsFormatArg::Text => standard_output::print(&statistics)?,
-        StatisticsFormatArg::Json => standard_output::print(serde_json::to_string(&statistics)?)?,
+        StatisticsFormatArg::Text => output::print(&statistics)?,
+        StatisticsFormatArg::Json => output::print(serde_json::to_string(&statistics)?)?,
     }
     Ok(RunOutcome::AllAnswered)
 }

@@ -3,6 +3,7 @@
 use crate::printable::PrintableText;
 use crate::standard_output;
 use ccd_file::{Claim, Destination};
+use std::fmt::Display;
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -114,7 +115,13 @@ impl Output {
 
 /// Writes a line to standard output, with control characters escaped.
 pub(super) fn print_line(line: &str) -> Result<(), OutputError> {
-    standard_output::print(PrintableText(line))
+    print(PrintableText(line))
+}
+
+/// Writes a text and an end of line to standard output.
+pub(super) fn print(text: impl Display) -> Result<(), OutputError> {
+    let printed = standard_output::lock().and_then(|mut stream| writeln!(stream, "{text}"));
+    printed.map_err(OutputError::standard_output_error)
 }
 
 /// Returns whether a path is `-` or `/dev/stdout`, which stand for standard output. A file to which standard output is

@@ -1,8 +1,6 @@
 //! Standard output, which fails if it was closed when the program started.
 
-use crate::output::OutputError;
-use std::fmt::Display;
-use std::io::{self, StdoutLock, Write};
+use std::io::{self, StdoutLock};
 
 /// Returns standard output.
 ///
@@ -13,12 +11,6 @@ pub(super) fn lock() -> io::Result<StdoutLock<'static>> {
         return Err(io::Error::other("it is closed"));
     }
     Ok(io::stdout().lock())
-}
-
-/// Writes a text and an end of line.
-pub(super) fn print(text: impl Display) -> Result<(), OutputError> {
-    let printed = lock().and_then(|mut stream| writeln!(stream, "{text}"));
-    printed.map_err(OutputError::standard_output_error)
 }
 
 #[cfg(unix)]

@@ -10,8 +10,8 @@ use super::path_table::TablePath;
 use super::robot_paths::{FoundPaths, RobotPaths};
 use crate::files::{input_name, refuse_overwriting_input};
 use crate::html::write_page;
-use crate::output::{Output, is_standard_output};
-use crate::{RunOutcome, print_error, print_remarks, standard_output};
+use crate::output::{self, Output, is_standard_output};
+use crate::{RunOutcome, print_error, print_remarks};
 use anyhow::{Result, bail};
 use clap::Args;
 use report::Report;
@@ -129,9 +129,9 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     if args.json {
         let halvings = halvings(path.configurations.len() - 1);
         let curve = solver.distance_curve(&path.configurations, halvings)?;
-        standard_output::print(report.to_json(&curve))?;
+        output::print(report.to_json(&curve))?;
     } else {
-        standard_output::print(&report)?;
+        output::print(&report)?;
     }
     if let Some(html) = html {
         // A violation is no contact: the page shows where the least distance is.
