@@ -30,6 +30,7 @@ pub struct Fault {
 
 impl Fault {
     /// Makes an `Error` with a text.
+    #[expect(clippy::needless_pass_by_value, reason = "errors are mapped by it")]
     pub(crate) fn plain(text: impl ToString) -> Self {
         Fault {
             text: text.to_string(),
