@@ -270,7 +270,7 @@ impl SmoothTrajectory for LinkTrajectory<'_> {
         to: f64,
     ) -> Result<(Motion, Option<Acceleration>), InputError> {
         let state = self.state(time)?;
-        if self.turns_about_one_axis() {
+        if state.pivot.is_some() {
             return Ok((state.to_motion()?, None));
         }
         let acceleration = Acceleration {
