@@ -1,13 +1,13 @@
 //! The question which links of a robot can touch, and the table of its answer.
 
-use crate::errors::{file_error, input_error, interruption_error, wrong_type_error};
-use crate::interruptible::run_interruptibly;
+use crate::errors::{file_error, input_error};
 use crate::numbers::whole_number;
+use crate::progress::{GivenProgress, results_or_interruption, run_with_progress};
 use crate::table::PyTable;
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use arrow_schema::ArrowError;
 use pyo3::prelude::*;
-use rigid_ccd_robot::{LinkContactClass, LinkContactSettings, Robot};
+use rigid_ccd_robot::{LinkContactClass, LinkContactSettings, LinkPairs, Robot};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -16,9 +16,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 pub(crate) struct LinkContactQuestion<'a, 'py> {
     pub(crate) robot: &'a Robot,
     pub(crate) max_boxes: usize,
-    /// The SRDF file to write, and the name of the robot in it.
-    pub(crate) srdf: Option<(PathBuf, &'a str)>,
-    pub(crate) progress: Option<Bound<'py, PyAny>>,
+    /// The SRDF file to write.
+    pub(crate) srdf: Option<PathBuf>,
+    pub(crate) progress: Option<&'a Bound<'py, PyAny>>,
 }
 
 impl LinkContactQuestion<'_, '_> {
@@ -30,47 +30,33 @@ impl LinkContactQuestion<'_, '_> {
             srdf,
             progress,
         } = self;
-        if let Some(progress) = progress.as_ref().filter(|progress| !progress.is_callable()) {
-            return Err(wrong_type_error("progress", "a function", progress));
-        }
-        if let Some((path, _)) = &srdf {
+        if let Some(path) = &srdf {
             check_folder_of(path)?;
         }
-        let progress = progress.map(Bound::unbind);
-        let (decided, all) = (AtomicUsize::new(0), AtomicUsize::new(0));
-        let work = |stop: &Arc<AtomicBool>| {
+        let pairs = LinkPairs::from_robot(robot);
+        let pair_count = pairs.checked_pairs().count() + pairs.skipped_pairs().count();
+        let given = GivenProgress {
+            progress,
+            total: Some(pair_count),
+        };
+        let work = |stop: &Arc<AtomicBool>, decided: &AtomicUsize| {
             let settings = LinkContactSettings {
                 max_boxes,
                 deadline: None,
                 stop: Some(Arc::clone(stop)),
             };
-            robot.classify_link_contacts(&settings, |now, pairs| {
+            robot.classify_link_contacts(&settings, |now, _| {
                 decided.fetch_max(now, Ordering::Relaxed);
-                all.store(pairs, Ordering::Relaxed);
             })
         };
-        let mut reported = None;
-        let mut report = |py: Python<'_>| {
-            let now = [&decided, &all].map(|count| count.load(Ordering::Relaxed));
-            match &progress {
-                Some(progress) if reported.replace(now) != Some(now) => {
-                    progress.call1(py, (now[0], now[1])).map(drop)
-                }
-                _ => Ok(()),
-            }
-        };
-        let (meetings, interruption) = run_interruptibly(py, work, &mut report)?;
+        let (meetings, seen) = run_with_progress(py, given, work)?;
         let meetings = meetings.map_err(input_error)?;
-        if let Err(cause) = interruption.and_then(|()| report(py)) {
-            let batch = link_contact_table(robot, &meetings).map_err(input_error)?;
-            return Err(interruption_error(py, cause, PyTable { batch }));
-        }
-        if let Some((path, name)) = srdf {
-            let text = robot.to_srdf(name, &meetings);
+        if let (Some(path), Ok(())) = (srdf, &seen) {
+            let text = robot.to_srdf(&meetings);
             std::fs::write(&path, text).map_err(|error| file_error(&error, &path))?;
         }
         let batch = link_contact_table(robot, &meetings).map_err(input_error)?;
-        Ok(PyTable { batch })
+        results_or_interruption(py, PyTable { batch }, seen)
     }
 }
 

@@ -360,8 +360,8 @@ impl PyRobot {
     /// Args:
     ///     max_boxes: the number of boxes of joint positions that are examined for a pair in the mean, each of some microseconds.
     ///     srdf: an SRDF file to write, in which the pairs are disabled that need no check, each with the evidence.
-    ///     name: the name of the robot in that file.
-    ///     progress: a function of the numbers of pairs that are decided, and of all pairs, called again and again.
+    ///     progress: a function of the numbers of pairs that are decided, and of all pairs, called again and again; a bar of
+    ///         tqdm, or True for one.
     ///
     /// Ctrl-C raises `Interrupted`, whose `results` is the table with what is decided by then.
     ///
@@ -370,19 +370,18 @@ impl PyRobot {
     ///     "always-as-enclosed" if the shapes that bodies enclose may not touch, "sometimes" or
     ///     "undecided"); for an undecided pair `apart` and `undecided`, the shares of the configurations for which it is proven
     ///     apart, and nothing is proven, and `least_distance`, the least one that was found.
-    #[pyo3(signature = (max_boxes = 100_000, *, srdf = None, name = "robot", progress = None))]
+    #[pyo3(signature = (max_boxes = 100_000, *, srdf = None, progress = None))]
     fn acm(
         &self,
         py: Python<'_>,
         #[pyo3(from_py_with = read_max_boxes)] max_boxes: usize,
         srdf: Option<PathBuf>,
-        name: &str,
-        progress: Option<Bound<'_, PyAny>>,
+        progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<PyTable> {
         let asked = LinkContactQuestion {
             robot: &self.robot,
             max_boxes,
-            srdf: srdf.map(|path| (path, name)),
+            srdf,
             progress,
         };
         asked.answer(py)

@@ -136,19 +136,20 @@ def test_pairs_are_proven_and_written(tmp_path: Path) -> None:
         '<link name="base"><collision><origin xyz="0 1.5 0"/><geometry><sphere radius="0.1"/></geometry>'
         "</collision></link>"
     )
-    text = URDF.replace('<link name="base"/>', pillar)
+    text = URDF.replace('<link name="base"/>', pillar).replace('name="arm"', 'name="two links"')
     for limit, evidence in (("3", "sometimes"), ("1", "never")):
         file, srdf = tmp_path / "arm.urdf", tmp_path / "arm.srdf"
         shoulder = text.replace('lower="-3" upper="3"', f'lower="-1" upper="{limit}"', 1)
         elbow = shoulder.replace('lower="-3" upper="3"', 'lower="-0.1" upper="0.1"')
         file.write_text(elbow)
         robot = Robot.from_urdf(file)
-        table = robot.acm(20_000, srdf=srdf, name="arm")
+        table = robot.acm(20_000, srdf=srdf)
         pairs = {(a, b): e for a, b, e in zip(table["link_a"], table["link_b"], table["evidence"], strict=True)}
         assert pairs[("base", "fore")] == evidence
         again = Robot.from_urdf(file, srdf)
         assert (("base", "fore") in again.checked_pairs) == (evidence == "sometimes")
-        assert 'robot name="arm"' in srdf.read_text()
+        assert not [remark for remark in again.remarks if "another name" in remark]
+        assert '<robot name="two links">' in srdf.read_text()
 
 
 def test_wrong_input_is_named(robot: Robot, tmp_path: Path) -> None:

@@ -74,6 +74,11 @@ pub enum CellRemark {
     },
     /// Pairs of links are not checked. This is a note.
     PairsLeftOut(LeftOutPairs),
+    /// Links and attached bodies that no joint moves are not compared with obstacles. This is a note.
+    RestingBesideObstacles {
+        /// The names of the links and the attached bodies.
+        items: Vec<String>,
+    },
     /// Pairs other than two links were allowed to touch. This is a note.
     ContactsAllowed {
         /// The pairs.
@@ -106,6 +111,7 @@ impl CellRemark {
             self,
             CellRemark::LinksWithoutBodies { .. }
                 | CellRemark::PairsLeftOut(_)
+                | CellRemark::RestingBesideObstacles { .. }
                 | CellRemark::ContactsAllowed { .. }
                 | CellRemark::ExactMeshes { .. }
                 | CellRemark::MeshContent { .. }
@@ -143,7 +149,8 @@ impl CellRemark {
             CellRemark::MostLinksWithoutBodies { links, .. }
             | CellRemark::MostLinksUnchecked { links, .. }
             | CellRemark::LinksWithoutBodies { links }
-            | CellRemark::UnknownLinks { links } => links.iter_mut().collect(),
+            | CellRemark::UnknownLinks { links }
+            | CellRemark::RestingBesideObstacles { items: links } => links.iter_mut().collect(),
             CellRemark::LeftOut { elements } => elements.iter_mut().collect(),
             CellRemark::EmptyRobot { link: name }
             | CellRemark::UnlikelySize { item: name, .. }
@@ -227,6 +234,11 @@ impl fmt::Display for CellRemark {
                 "{} of links not checked ({reason}): {}",
                 counted(pairs.len(), "pair"),
                 listed(pairs)
+            ),
+            CellRemark::RestingBesideObstacles { items } => write!(
+                f,
+                "not compared with obstacles, since no joint moves it: {}",
+                items.join(", ")
             ),
             CellRemark::ContactsAllowed { pairs } => write!(
                 f,

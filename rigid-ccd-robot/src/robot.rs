@@ -23,6 +23,7 @@ use tree::Tree;
 /// order of [`Robot::free_joint_names`], which is that in which joints were given.
 #[derive(Clone, Debug)]
 pub struct Robot {
+    name: String,
     links: Vec<Link>,
     joints: Vec<Joint>,
     tree: Tree,
@@ -248,7 +249,20 @@ impl Robot {
             position_sources: sources,
             free_joints,
             file_remarks: Vec::new(),
+            name: String::new(),
         })
+    }
+
+    /// Gives the robot a name. A file has one; without a file it is empty.
+    #[must_use]
+    pub fn with_name(self, name: impl Into<String>) -> Self {
+        let name = name.into();
+        Robot { name, ..self }
+    }
+
+    /// Returns the name of the robot; empty if it has none.
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// Adds remarks on the file that the robot is from.

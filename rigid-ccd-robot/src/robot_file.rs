@@ -156,7 +156,8 @@ impl RobotFile {
             _ => None,
         };
         let remarks = meshes.into_remarks().into_iter().chain(empty);
-        Ok(robot.with_file_remarks(remarks))
+        let name = robot_name(&text);
+        Ok(robot.with_name(name).with_file_remarks(remarks))
     }
 
     /// Returns which pairs of links are checked: all pairs except neighbours, links that never move relative to each
@@ -185,8 +186,7 @@ impl RobotFile {
                 file: file.to_owned(),
                 error,
             })?;
-            let name = robot_name(&text);
-            srdf.apply(robot, &name, &mut pairs)
+            srdf.apply(robot, &mut pairs)
                 .map_err(|error| RobotFileError::Srdf {
                     file: file.to_owned(),
                     error,

@@ -114,12 +114,7 @@ impl Srdf {
 
     /// Excludes and includes pairs of a robot's links. Adds a remark with the links that the robot does not have, and one if
     /// its name is another.
-    pub(crate) fn apply(
-        &self,
-        robot: &Robot,
-        robot_name: &str,
-        pairs: &mut LinkPairs,
-    ) -> Result<(), SrdfError> {
+    pub(crate) fn apply(&self, robot: &Robot, pairs: &mut LinkPairs) -> Result<(), SrdfError> {
         let number = |link: &String| robot.link_number(link).ok();
         let unknown = self.unknown_links(robot)?;
         for link in self.disabled_links.iter().filter_map(number) {
@@ -141,9 +136,10 @@ impl Srdf {
         if !unknown.is_empty() {
             pairs.add_file_remarks([CellRemark::UnknownLinks { links: unknown }]);
         }
-        if !robot_name.is_empty() && !self.robot_name.is_empty() && robot_name != self.robot_name {
+        let are_named = !robot.name().is_empty() && !self.robot_name.is_empty();
+        if are_named && robot.name() != self.robot_name {
             pairs.add_file_remarks([CellRemark::OtherRobotName {
-                robot: robot_name.to_owned(),
+                robot: robot.name().to_owned(),
                 of_srdf: self.robot_name.clone(),
             }]);
         }
@@ -216,20 +212,24 @@ fn escape(text: &str) -> String {
 
 impl Robot {
     /// Writes an SRDF file in which all pairs are disabled that need no check: neighbours, and pairs that are proven to touch
-    /// never or always. The reason of each says which.
+    /// never or always. The reason of each says which. A robot without a name is called `robot`.
     ///
     /// ```
     /// use rigid_ccd_robot::{Link, LinkContactSettings, Robot};
-    /// let robot = Robot::new(vec![Link::named("base")], Vec::new())?;
+    /// let robot = Robot::new(vec![Link::named("base")], Vec::new())?.with_name("stone");
     /// let classes = robot.classify_link_contacts(&LinkContactSettings::DEFAULT, |_, _| ())?;
-    /// let srdf = robot.to_srdf("stone", &classes);
+    /// let srdf = robot.to_srdf(&classes);
     /// assert!(srdf.contains("<robot name=\"stone\">"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn to_srdf(&self, robot_name: &str, meetings: &[([usize; 2], LinkContactClass)]) -> String {
+    pub fn to_srdf(&self, meetings: &[([usize; 2], LinkContactClass)]) -> String {
+        let name = match self.name() {
+            "" => "robot",
+            name => name,
+        };
         let mut text = format!(
             "<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n",
-            escape(robot_name)
+            escape(name)
         );
         for ([one, other], meeting) in meetings {
             let reason = match meeting {

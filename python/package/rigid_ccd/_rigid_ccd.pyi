@@ -273,8 +273,7 @@ class Robot:
         max_boxes: int = 100_000,
         *,
         srdf: str | PathLike[str] | None = None,
-        name: str = "robot",
-        progress: Callable[[int, int], object] | None = None,
+        progress: _Progress = None,
     ) -> Table: ...
 
 @final

@@ -86,8 +86,7 @@ pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
     let stop = interruption::flag()?;
     args.robot.print_checked(&robot, args.quiet)?;
     let classes = classify(&robot, args, &stop)?;
-    let name = args.robot.path().file_stem().unwrap_or_default();
-    let srdf = robot.to_srdf(&name.to_string_lossy(), &classes);
+    let srdf = robot.to_srdf(&classes);
     out.write(|writer| writer.write_all(srdf.as_bytes()))?;
     if let Some(report) = report {
         write_report(&robot, &classes, report)?;

@@ -293,6 +293,15 @@ fn pairs_are_written_as_srdf() {
     call(&scene, &EDGES)
         .args(&["--srdf", "acm.srdf"])
         .run_expecting_code(0);
+    // It is of the robot, whatever the robot's file is called.
+    let [urdf, model] = ["arm.urdf", "model.urdf"].map(|name| scene.directory.join(name));
+    fs::rename(urdf, model).unwrap();
+    call(&scene, &["acm", "model.urdf", "--out", "acm.srdf"]).run_for_messages(0);
+    let edges = EDGES.map(|arg| if arg == "arm.urdf" { "model.urdf" } else { arg });
+    let message = call(&scene, &edges)
+        .args(&["--srdf", "acm.srdf"])
+        .run_for_messages(0);
+    assert!(!message.contains("another name"), "{message}");
 }
 
 #[test]

@@ -151,13 +151,17 @@ impl Cell {
     /// that moves and an obstacle.
     fn are_comparable(&self, a: usize, b: usize) -> bool {
         let count = self.robot_body_count();
-        let moves = |body: usize| self.kinematics.link_frame_and_pose(self.link_of(body)).0 > 0;
         match (a < count, b < count) {
             (true, true) => self.is_checked(a, b),
-            (true, false) => moves(a),
-            (false, true) => moves(b),
+            (true, false) => self.moves(a),
+            (false, true) => self.moves(b),
             (false, false) => false,
         }
+    }
+
+    /// Returns whether a joint moves one of the robot's bodies.
+    pub(super) fn moves(&self, body: usize) -> bool {
+        self.kinematics.link_frame_and_pose(self.link_of(body)).0 > 0
     }
 
     /// Returns whether two of the robot's bodies are checked against each other, unless they are allowed to touch.

@@ -18,7 +18,8 @@ pub(crate) struct Margins {
 
 impl Cell {
     /// Grows a link as obstacles see it: they are to stay away by this distance in addition to the margin. The robot's own
-    /// links, and bodies attached to the link, are not affected.
+    /// links, and bodies attached to the link, are not affected. On a link that no joint moves it has no effect, since that link is
+    /// not compared with obstacles.
     ///
     /// # Errors
     /// [`RobotError::NoSuchLink`], and [`RobotError::Input`] for a distance that is not from 0 to 1e12.

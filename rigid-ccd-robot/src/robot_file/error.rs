@@ -67,7 +67,7 @@ pub enum RobotFileError {
         error: SrdfError,
     },
     /// A folder of packages is none.
-    #[error("{}: is no folder of packages", folder.display())]
+    #[error("there is no folder {} to look for packages in", folder.display())]
     NoFolder {
         /// The path that is given.
         folder: PathBuf,

@@ -80,10 +80,11 @@ fn links_are_disabled_as_a_whole() {
         position_rule: PositionRule::Independent,
     };
     let robot = Robot::new(links.to_vec(), vec![slide("a", "b"), slide("b", "c")]).unwrap();
+    let robot = robot.with_name("twin");
     let applied = |content: &str| {
         let mut pairs = LinkPairs::from_robot(&robot);
         let srdf = Srdf::from_text(&format!("<robot>{content}</robot>")).unwrap();
-        srdf.apply(&robot, "twin", &mut pairs).map(|()| pairs)
+        srdf.apply(&robot, &mut pairs).map(|()| pairs)
     };
     let checked = |content: &str| {
         let pairs = applied(content).unwrap();
@@ -104,7 +105,7 @@ fn links_are_disabled_as_a_whole() {
     assert!(remark.ends_with(": tail, tool"), "{remark}");
     let mut pairs = LinkPairs::from_robot(&robot);
     let twin = Srdf::from_text(r#"<robot name="other twin"/>"#).unwrap();
-    twin.apply(&robot, "twin", &mut pairs).unwrap();
+    twin.apply(&robot, &mut pairs).unwrap();
     let remark = pairs.file_remarks()[0].to_string();
     assert!(
         remark.ends_with("It is of `other twin`, and the robot is `twin`"),
@@ -145,9 +146,10 @@ fn proven_pairs_are_written_and_read() {
         joint("two", "c", "d", fixed()),
         joint("three", "d", "e", slide.with_limits(-1.0..=1.0)),
     ];
-    let robot = Robot::new(links, joints).unwrap();
+    let robot = Robot::new(links, joints).unwrap().with_name("<box>");
     let meetings = classify(&robot, 1000);
-    let read = Srdf::from_text(&robot.to_srdf("<box>", &meetings)).unwrap();
+    let read = Srdf::from_text(&robot.to_srdf(&meetings)).unwrap();
+    assert_eq!(read.robot_name, "<box>");
     let expected = [
         ["a & b", "c", "Always (proven)"],
         ["a & b", "d", "Never (proven)"],

@@ -201,3 +201,21 @@ fn allowed_contacts_are_noted() {
     assert_eq!(last.to_string(), "1 contact allowed: can and table");
     assert!(!last.is_warning());
 }
+
+#[test]
+fn links_that_never_move_are_named_beside_obstacles() {
+    let resting = |cell: &Cell| {
+        let texts = cell.remarks().into_iter().map(|remark| remark.to_string());
+        texts
+            .filter(|text| text.contains("no joint moves it"))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(resting(&cell_of(arm(0.4))), [""; 0]);
+    let mut cell = cell(arm(0.4), [0.2; 3]);
+    let text = "not compared with obstacles, since no joint moves it: base";
+    assert_eq!(resting(&cell), [text]);
+    let at_base = ("base", Pose::at([1.0, 0.0, 0.0]).unwrap());
+    cell.attach("pedestal", Body::cuboid([0.1; 3]).unwrap(), at_base, &[])
+        .unwrap();
+    assert_eq!(resting(&cell), [format!("{text}, pedestal")]);
+}

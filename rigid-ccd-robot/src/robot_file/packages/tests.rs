@@ -56,6 +56,32 @@ fn files_of_a_package_are_found_around_the_urdf_and_in_given_folders() {
     }
 }
 
+#[test]
+fn escapes_of_a_uri_are_read() {
+    let folder = create_package();
+    let meshes = folder.path().join("arm_description/meshes");
+    for name in ["left link.stl", "100%.stl", "%20.stl"] {
+        fs::write(meshes.join(name), "").unwrap();
+    }
+    let packages = SearchFolders::for_urdf(&folder.path().join("arm_description/urdf/arm.urdf"));
+    for (escaped, name) in [
+        ("left%20link.stl", "left link.stl"),
+        ("left link.stl", "left link.stl"),
+        ("100%.stl", "100%.stl"),
+        ("100%25.stl", "100%.stl"),
+        // A file of just this name comes first.
+        ("%20.stl", "%20.stl"),
+    ] {
+        let found = packages.find_file(&format!("package://arm_description/meshes/{escaped}"));
+        let found = fs::canonicalize(found.unwrap()).unwrap();
+        assert_eq!(
+            found,
+            fs::canonicalize(meshes.join(name)).unwrap(),
+            "{escaped}"
+        );
+    }
+}
+
 /// Tests that a package is not looked for within itself first.
 #[test]
 fn a_package_comes_before_what_is_in_it() {
