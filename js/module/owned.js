@@ -1,6 +1,6 @@
 // An object whose memory is in the WebAssembly.
 
-import { engine } from "./wasm.js";
+import { endOf, engine } from "./wasm.js";
 import { described, nameOfClass } from "./words.js";
 
 /**
@@ -19,12 +19,13 @@ export class Owned {
   /** Returns the object of the WebAssembly. */
   static inner(owned) {
     if (owned.#inner === null) throw new Error(`this ${nameOfClass(owned)} was freed`);
-    if (owned.#home.ended !== null) throw owned.#home.ended;
+    const end = endOf(owned.#home);
+    if (end !== null) throw end;
     return owned.#inner;
   }
 
   free() {
-    if (this.#home.ended === null) this.#inner?.free();
+    if (endOf(this.#home) === null) this.#inner?.free();
     this.#inner = null;
   }
 }

@@ -25,6 +25,8 @@ export class EngineError extends Error {
 
 export async function init(options) {
   const { simd: wanted } = optionsOf(options, "init", { simd: [trueOrFalse, undefined] });
+  // An engine that has ended is loaded anew.
+  if (loaded !== null) endOf(loaded);
   loading ??= load(wanted ?? WebAssembly.validate(VECTOR_MODULE)).catch((error) => {
     loading = null;
     throw error;
@@ -50,7 +52,8 @@ export function numbersAt(address, count) {
 
 export function engine() {
   if (loaded === null) throw new Error("rigid-ccd is not loaded: `await init()` comes first");
-  if (loaded.ended !== null) throw loaded.ended;
+  const end = endOf(loaded);
+  if (end !== null) throw end;
   return loaded;
 }
 
@@ -58,7 +61,7 @@ async function load(simd) {
   if (simd && !WebAssembly.validate(VECTOR_MODULE)) throw new Error("simd: this engine has no WebAssembly with 128-bit vectors");
   const built = simd ? { code: CODE, bindgen: wasm_bindgen } : await fallback();
   const module = await WebAssembly.compile(await unpacked(bytesOfBase64(built.code)));
-  const fresh = { classes: null, memory: null, simd, fault: null, ended: null };
+  const fresh = { classes: null, memory: null, simd, fault: null, failure: null, ended: null };
   fresh.classes = built.bindgen(guard(fresh), { remark, fault: (text) => (fresh.fault = text) });
   ({ memory: fresh.memory } = await fresh.classes({ module_or_path: module }));
   loaded = fresh;
@@ -69,10 +72,12 @@ async function load(simd) {
 function guard(fresh) {
   const guarded = (call) => (...values) => {
     // Garbage of an engine that has ended needs no memory.
-    if (fresh.ended !== null) return undefined;
+    if (endOf(fresh) !== null) return undefined;
     try {
       return call(...values);
     } catch (error) {
+      // What comes next may fail if the stack is full; this assignment does not.
+      fresh.failure = error;
       throw failed(fresh, error);
     }
   };
@@ -86,16 +91,26 @@ function guard(fresh) {
   };
 }
 
+/** Returns the error with which an engine has ended, or null. */
+export function endOf(engine) {
+  if (engine.failure !== null) failed(engine, engine.failure);
+  return engine.ended;
+}
+
 /** Ends an engine if it cannot go on after an error. Returns what is to be thrown. */
 function failed(fresh, error) {
   // Too deep a stack is an error of the JavaScript engine: a RangeError, or an InternalError.
-  if (!(error instanceof WebAssembly.RuntimeError || error instanceof RangeError || error.name === "InternalError")) return error;
+  if (!(error instanceof WebAssembly.RuntimeError || error instanceof RangeError || error.name === "InternalError")) {
+    fresh.failure = null;
+    return error;
+  }
   const { fault, memory } = fresh;
   // Without a fault it is the end of the memory that makes the code unreachable.
   const isMemory = fault === null ? /unreachable/i.test(error.message) : /capacity overflow/.test(fault);
   const what = isMemory ? `the memory of the WebAssembly is at its end, ${memory.buffer.byteLength} bytes` : `a fault of rigid-ccd: ${fault ?? error.message}`;
   fresh.ended = new EngineError(isMemory ? "memory" : "fault", what, error);
   if (loaded === fresh) loading = null;
+  fresh.failure = null;
   return fresh.ended;
 }
 

@@ -96,6 +96,32 @@ test("at the end of its memory the engine ends with a typed error, and another o
   check.ok(module.memoryUsage() < 2 ** 26, "the memory is a new one");
 });
 
+test("too deep a stack ends the engine with a typed error, and another one begins", async () => {
+  const { module } = await withMemory("stack");
+  let bodies = [module.Body.sphere(0.5), module.Body.box([1, 1, 1])];
+  const ask = () => module.firstContact(...bodies, { motionA: { position: [3, 0, 0], velocity: [-2, 0, 0] } }).kind;
+  const deep = (levels) => (levels > 0 ? deep(levels - 1) : ask());
+  let ends = 0;
+  for (let levels = 1000; levels < 20000; levels += 1) {
+    try {
+      deep(levels);
+    } catch {
+      // The stack may be full before the engine is asked.
+    }
+    if (levels % 500 !== 0) continue;
+    try {
+      check.equal(ask(), "contact");
+    } catch (error) {
+      check.ok(error instanceof module.EngineError && error.reason === "fault", String(error));
+      ends += 1;
+      await module.init();
+      bodies = [module.Body.sphere(0.5), module.Body.box([1, 1, 1])];
+      check.equal(ask(), "contact");
+    }
+  }
+  check.ok(ends > 0, "the stack was never full within the engine");
+});
+
 test("a fault of the engine says so", async () => {
   const { module } = await withMemory("fault", (exports) => {
     const fails = () => {

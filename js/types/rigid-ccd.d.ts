@@ -84,7 +84,8 @@ export interface FileOptions {
 /**
  * A rigid body: a mesh, a box, a ball, a capsule, a cylinder or a cone.
  *
- * A mesh is a solid when it is closed and consistently oriented. Otherwise it is a surface. A body inside a solid overlaps it; a body
+ * A mesh is a solid when it is closed and consistently oriented. Otherwise it is a surface. A closed shell inside another one bounds a
+ * cavity, however it is turned. A body inside a solid overlaps it; a body
  * inside a surface does not. A mesh that is not closed is a line in the console, unless it is to be a `surface`.
  */
 export class Body extends Owned {

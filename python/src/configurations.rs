@@ -38,6 +38,24 @@ pub(crate) fn read_configurations(
     Ok(given)
 }
 
+/// Refuses starts and ends of edges in data frames whose rows have other labels: NumPy pairs rows by their places.
+pub(crate) fn check_same_rows([start, end]: [&Bound<'_, PyAny>; 2]) -> PyResult<()> {
+    let rows_of = |frame: &Bound<'_, PyAny>| match attribute(frame, "columns")? {
+        Some(_) => attribute(frame, "index"),
+        None => PyResult::Ok(None),
+    };
+    let (Some(starts), Some(ends)) = (rows_of(start)?, rows_of(end)?) else {
+        return Ok(());
+    };
+    if starts.len()? != ends.len()? || starts.call_method1("equals", (ends,))?.is_truthy()? {
+        return Ok(());
+    }
+    Err(input_error(
+        "start, end: the rows of the frames have other labels, or another order; reset_index(drop=True) of both pairs them by \
+         their places",
+    ))
+}
+
 /// The prefixes of the joints' names in a table of edges, by the argument that has these columns.
 const PREFIXES: [(&str, &str); 2] = [("start", "from_"), ("end", "to_")];
 

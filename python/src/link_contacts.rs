@@ -15,6 +15,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 /// The arguments of `Robot.acm`.
 pub(crate) struct LinkContactQuestion<'a, 'py> {
     pub(crate) robot: &'a Robot,
+    pub(crate) pairs: &'a LinkPairs,
     pub(crate) max_boxes: usize,
     /// The SRDF file to write.
     pub(crate) srdf: Option<PathBuf>,
@@ -26,6 +27,7 @@ impl LinkContactQuestion<'_, '_> {
     pub(crate) fn answer(self, py: Python<'_>) -> PyResult<PyTable> {
         let LinkContactQuestion {
             robot,
+            pairs,
             max_boxes,
             srdf,
             progress,
@@ -33,7 +35,6 @@ impl LinkContactQuestion<'_, '_> {
         if let Some(path) = &srdf {
             check_folder_of(path)?;
         }
-        let pairs = LinkPairs::from_robot(robot);
         let pair_count = pairs.checked_pairs().count() + pairs.skipped_pairs().count();
         let given = GivenProgress {
             progress,
@@ -52,7 +53,7 @@ impl LinkContactQuestion<'_, '_> {
         let (meetings, seen) = run_with_progress(py, given, work)?;
         let meetings = meetings.map_err(input_error)?;
         if let (Some(path), Ok(())) = (srdf, &seen) {
-            let text = robot.to_srdf(&meetings);
+            let text = robot.to_srdf(pairs, &meetings);
             std::fs::write(&path, text).map_err(|error| file_error(&error, &path))?;
         }
         let batch = link_contact_table(robot, &meetings).map_err(input_error)?;

@@ -1,7 +1,7 @@
 //! Reads paths and edges from NumPy arrays.
 
 use crate::cell_solver::Paths;
-use crate::configurations::read_configurations;
+use crate::configurations::{check_same_rows, read_configurations};
 use crate::curve::{read_curve, read_curves};
 use crate::errors::input_error;
 use pyo3::prelude::*;
@@ -104,6 +104,7 @@ impl GivenPaths {
         robot: &Robot,
     ) -> PyResult<Self> {
         let joints = robot.free_joint_names().len();
+        check_same_rows([start, end])?;
         let start = read_configurations(start, robot, "start")?;
         let end = read_configurations(end, robot, "end")?;
         let count = match (&start.shape[..], &end.shape[..]) {

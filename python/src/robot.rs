@@ -355,11 +355,12 @@ impl PyRobot {
     }
 
     /// Decides for each pair of links with bodies whether they never touch, always, or sometimes, within the limits of all
-    /// joints. "never" and "always" are proofs, and of "sometimes" there are two configurations as witnesses.
+    /// joints. "never" and "always" are proofs. "sometimes" is shown by two configurations, which `ccd acm --report` writes.
     ///
     /// Args:
     ///     max_boxes: the number of boxes of joint positions that are examined for a pair in the mean, each of some microseconds.
-    ///     srdf: an SRDF file to write, in which the pairs are disabled that need no check, each with the evidence.
+    ///     srdf: an SRDF file to write, in which the pairs are disabled that need no check, each with the evidence: neighbours that
+    ///         this robot does not check, and pairs that touch never or always.
     ///     progress: a function of the numbers of pairs that are decided, and of all pairs, called again and again; a bar of
     ///         tqdm, or True for one.
     ///
@@ -380,6 +381,7 @@ impl PyRobot {
     ) -> PyResult<PyTable> {
         let asked = LinkContactQuestion {
             robot: &self.robot,
+            pairs: &self.pairs,
             max_boxes,
             srdf,
             progress,

@@ -156,7 +156,8 @@ enum rccd_start_policy
  {
     // The contact is the answer.
     RCCD_START_POLICY_REPORT = 0,
-    // The contact is ignored until the bodies approach.
+    // The contact is ignored until the bodies approach: of motions at constant velocities, in questions about the first or any
+    // contact. In others the contact is the answer.
     RCCD_START_POLICY_LEAVE = 1,
 };
 #ifndef __cplusplus
@@ -434,7 +435,7 @@ rccd_status rccd_body_prepare(const double *vertices,
                               uint32_t detail,
                               const char *path);
 
-// Loads a body from a file: OBJ, STL, PLY, OFF, or one that `rccd_body_prepare` or `ccd decompose` has stored.
+// Loads a body from a file: OBJ, STL, PLY, OFF, glTF, GLB, DAE, or one that `rccd_body_prepare` or `ccd decompose` has stored.
 //
 // # Safety
 // `path` is null or a text that ends with a zero, and `out` is null or points to a place for a handle.

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -23,7 +24,15 @@
 #define RIGID_CCD_HAS_EIGEN 1
 #endif
 
+// Files of a program may differ in whether failures are exceptions: what they link has the choice in its names.
+#ifdef RIGID_CCD_EXPECTED
+#define RIGID_CCD_FAILURES with_expected
+#else
+#define RIGID_CCD_FAILURES with_exceptions
+#endif
+
 namespace rigid_ccd {
+inline namespace RIGID_CCD_FAILURES {
 
 // A failure of a call. A query that reaches a limit is none: its answer is unresolved.
 class Error : public std::runtime_error {
@@ -292,6 +301,9 @@ public:
     }
     // Takes a handle.
     explicit Trajectory(rccd_trajectory *handle) : handle_(handle, rccd_trajectory_free) {}
+    // A move is a copy: without a trajectory a body rests.
+    Trajectory(const Trajectory &) = default;
+    Trajectory &operator=(const Trajectory &) = default;
     const rccd_trajectory *get() const noexcept { return handle_.get(); }
 
 private:
@@ -302,17 +314,23 @@ private:
     std::shared_ptr<const rccd_trajectory> handle_;
 };
 
-// A body and what moves it; with neither motion nor trajectory it rests at the origin. It refers to both, and is made for
-// one call.
+// A body and what moves it; with neither motion nor trajectory it rests at the origin. It keeps both alive.
 class MovingBody {
 public:
-    MovingBody(const Body &body) : moving_{body.get(), nullptr, nullptr} {}
-    MovingBody(const Body &body, const Motion &motion) : moving_{body.get(), &motion, nullptr} {}
-    MovingBody(const Body &body, const Trajectory &along) : moving_{body.get(), nullptr, along.get()} {}
-    const rccd_moving_body *get() const noexcept { return &moving_; }
+    MovingBody(const Body &body) : body_(body) {}
+    MovingBody(const Body &body, const Motion &motion) : body_(body), motion_(motion) {}
+    MovingBody(const Body &body, const Trajectory &along) : body_(body), along_(along) {}
+    // Returns what a call takes; it refers to this object. Without a trajectory's handle there is no body either, which is an error.
+    rccd_moving_body get() const noexcept {
+        const rccd_trajectory *along = along_ ? along_->get() : nullptr;
+        const bool lost = along_ && along == nullptr;
+        return {lost ? nullptr : body_.get(), motion_ ? &*motion_ : nullptr, along};
+    }
 
 private:
-    rccd_moving_body moving_;
+    Body body_;
+    std::optional<Motion> motion_;
+    std::optional<Trajectory> along_;
 };
 
 // An answer, with the fields of rccd_answer.
@@ -341,6 +359,9 @@ public:
     static Result<Stop> make() { return detail::hold<Stop, rccd_stop>(rccd_stop_new); }
     // Takes a handle.
     explicit Stop(rccd_stop *handle) : handle_(handle, rccd_stop_free) {}
+    // A move is a copy: without a flag nothing is stopped.
+    Stop(const Stop &) = default;
+    Stop &operator=(const Stop &) = default;
     void set() const noexcept { rccd_stop_set(get()); }
     void clear() const noexcept { rccd_stop_clear(get()); }
     const rccd_stop *get() const noexcept { return handle_.get(); }
@@ -382,8 +403,9 @@ public:
     // Decides whether the bodies keep a distance.
     Result<Answer> keeps_clearance(const MovingBody &a, const MovingBody &b, double duration, double clearance) {
         Answer answer;
+        const rccd_moving_body moving_a = a.get(), moving_b = b.get();
         const rccd_status status =
-            rccd_keeps_clearance(handle_.get(), a.get(), b.get(), duration, clearance, &answer);
+            rccd_keeps_clearance(handle_.get(), &moving_a, &moving_b, duration, clearance, &answer);
         return detail::after(status, [&] { return answer; });
     }
 
@@ -391,12 +413,14 @@ private:
     template <typename Question>
     Result<Answer> ask(Question question, const MovingBody &a, const MovingBody &b, double duration) {
         Answer answer;
-        const rccd_status status = question(handle_.get(), a.get(), b.get(), duration, &answer);
+        const rccd_moving_body moving_a = a.get(), moving_b = b.get();
+        const rccd_status status = question(handle_.get(), &moving_a, &moving_b, duration, &answer);
         return detail::after(status, [&] { return answer; });
     }
     std::unique_ptr<rccd_solver, void (*)(rccd_solver *)> handle_;
 };
 
+} // namespace RIGID_CCD_FAILURES
 } // namespace rigid_ccd
 
 #endif

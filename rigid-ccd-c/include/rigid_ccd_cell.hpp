@@ -7,11 +7,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <mutex>
-#include <optional>
 #include <thread>
 
 namespace rigid_ccd {
+inline namespace RIGID_CCD_FAILURES {
 
 namespace detail {
 
@@ -37,6 +38,7 @@ public:
     // `package://` names may be empty.
     static Result<Cell> load(const std::string &robot, const std::string &srdf = "",
                              const std::string &package_folder = "") {
+        if (has_zero(srdf) || has_zero(package_folder)) return zero_in_path();
         return detail::hold<Cell, rccd_cell>([&](rccd_cell **out) {
             return rccd_cell_load(detail::c_text(robot), or_null(srdf), or_null(package_folder), out);
         });
@@ -45,6 +47,7 @@ public:
     // empty.
     static Result<Cell> from_text(const std::string &robot, const std::string &folder = "", const std::string &srdf = "",
                                   const std::string &package_folder = "") {
+        if (has_zero(folder) || has_zero(srdf) || has_zero(package_folder)) return zero_in_path();
         return detail::hold<Cell, rccd_cell>([&](rccd_cell **out) {
             return rccd_cell_from_text(detail::c_text(robot), or_null(folder), or_null(srdf), or_null(package_folder), out);
         });
@@ -111,6 +114,10 @@ public:
     const rccd_cell *get() const noexcept { return handle_.get(); }
 
 private:
+    static bool has_zero(const std::string &text) { return text.find('\0') != std::string::npos; }
+    static Result<Cell> zero_in_path() {
+        return detail::fail<Cell>({RCCD_STATUS_INVALID_ARGUMENT, "the path of a file or folder has a zero in it"});
+    }
     static const char *or_null(const std::string &text) { return text.empty() ? nullptr : text.c_str(); }
     std::unique_ptr<rccd_cell, void (*)(rccd_cell *)> handle_;
 };
@@ -272,14 +279,15 @@ public:
         return call(loan.solver);
     }
 
-    // Measures edges on several threads: for each edge the configurations of its start and of its end, one after the other.
+    // Measures edges on several threads: for each edge the configurations of its start and of its end, one after the other. Where
+    // the system starts no more threads, fewer do the work.
     std::vector<EdgeMeasure> measure_edges(View<double> edges, unsigned thread_count) {
         const std::size_t joints = cell_.joint_count(), count = joints ? edges.size() / (2 * joints) : 0;
         if (edges.size() != 2 * joints * count) throw detail::wrong_configurations(2 * joints, edges.size());
         std::vector<EdgeMeasure> measured(count, EdgeMeasure(0));
         std::atomic<std::size_t> next{0};
         std::mutex failure_mutex;
-        std::optional<Error> failure;
+        std::exception_ptr failure;
         const auto work = [&] {
             try {
                 with_solver([&](CellSolver &solver) {
@@ -288,17 +296,20 @@ public:
                         measured[k] = solver.measure_edge({edge, joints}, {edge + joints, joints});
                     }
                 });
-            } catch (const Error &error) {
+            } catch (...) {
                 const std::lock_guard<std::mutex> lock(failure_mutex);
-                failure = error;
+                failure = std::current_exception();
                 next = count;
             }
         };
         std::vector<std::thread> threads;
-        for (unsigned k = 1; k < thread_count; ++k) threads.emplace_back(work);
+        try {
+            for (std::size_t k = 1; k < thread_count && k < count; ++k) threads.emplace_back(work);
+        } catch (const std::exception &) {
+        }
         work();
         for (std::thread &thread : threads) thread.join();
-        if (failure) throw *failure;
+        if (failure) std::rethrow_exception(failure);
         return measured;
     }
 
@@ -328,6 +339,7 @@ private:
 };
 #endif
 
+} // namespace RIGID_CCD_FAILURES
 } // namespace rigid_ccd
 
 #endif

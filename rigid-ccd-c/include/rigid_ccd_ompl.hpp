@@ -17,6 +17,7 @@
 #include <vector>
 
 namespace rigid_ccd {
+inline namespace RIGID_CCD_FAILURES {
 
 // Accepts an edge if nothing touches on all of it. The cell is not to change while the validator lives.
 class OmplMotionValidator : public ompl::base::MotionValidator {
@@ -71,6 +72,7 @@ private:
     mutable SolverPool pool_;
 };
 
+} // namespace RIGID_CCD_FAILURES
 } // namespace rigid_ccd
 
 #endif

@@ -144,7 +144,7 @@ pub unsafe extern "C" fn rccd_body_prepare(
     })
 }
 
-/// Loads a body from a file: OBJ, STL, PLY, OFF, or one that `rccd_body_prepare` or `ccd decompose` has stored.
+/// Loads a body from a file: OBJ, STL, PLY, OFF, glTF, GLB, DAE, or one that `rccd_body_prepare` or `ccd decompose` has stored.
 ///
 /// # Safety
 /// `path` is null or a text that ends with a zero, and `out` is null or points to a place for a handle.

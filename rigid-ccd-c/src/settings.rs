@@ -14,7 +14,8 @@ use std::time::Duration;
 pub enum RccdStartPolicy {
     /// The contact is the answer.
     Report = 0,
-    /// The contact is ignored until the bodies approach.
+    /// The contact is ignored until the bodies approach: of motions at constant velocities, in questions about the first or any
+    /// contact. In others the contact is the answer.
     Leave = 1,
 }
 

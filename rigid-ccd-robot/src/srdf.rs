@@ -211,18 +211,22 @@ fn escape(text: &str) -> String {
 }
 
 impl Robot {
-    /// Writes an SRDF file in which all pairs are disabled that need no check: neighbours, and pairs that are proven to touch
-    /// never or always. The reason of each says which. A robot without a name is called `robot`.
+    /// Writes an SRDF file in which all pairs are disabled that need no check: neighbours, unless `pairs` checks them, and pairs
+    /// that are proven to touch never or always. The reason of each says which. A robot without a name is called `robot`.
     ///
     /// ```
-    /// use rigid_ccd_robot::{Link, LinkContactSettings, Robot};
+    /// use rigid_ccd_robot::{Link, LinkContactSettings, LinkPairs, Robot};
     /// let robot = Robot::new(vec![Link::named("base")], Vec::new())?.with_name("stone");
     /// let classes = robot.classify_link_contacts(&LinkContactSettings::DEFAULT, |_, _| ())?;
-    /// let srdf = robot.to_srdf(&classes);
+    /// let srdf = robot.to_srdf(&LinkPairs::from_robot(&robot), &classes);
     /// assert!(srdf.contains("<robot name=\"stone\">"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn to_srdf(&self, meetings: &[([usize; 2], LinkContactClass)]) -> String {
+    pub fn to_srdf(
+        &self,
+        pairs: &LinkPairs,
+        meetings: &[([usize; 2], LinkContactClass)],
+    ) -> String {
         let name = match self.name() {
             "" => "robot",
             name => name,
@@ -235,7 +239,8 @@ impl Robot {
             let reason = match meeting {
                 LinkContactClass::Never => "Never (proven)",
                 LinkContactClass::Always => "Always (proven)",
-                _ if self.are_neighbours(*one, *other) => "Adjacent",
+                // A file or a caller may check neighbours, such as the world and a body of an MJCF.
+                _ if pairs.skip_reason(*one, *other) == Some(&SkipReason::Adjacent) => "Adjacent",
                 LinkContactClass::AlwaysAsEnclosed
                 | LinkContactClass::Sometimes { .. }
                 | LinkContactClass::Undecided { .. } => continue,

@@ -70,6 +70,11 @@ pub enum Remark {
         /// The largest distance between two of these vertices.
         joining_distance: f64,
     },
+    /// Closed shells of a mesh were turned, so that one inside another bounds a cavity.
+    TurnedShells {
+        /// The number of shells that were turned.
+        turned_shells: usize,
+    },
     /// All vertices of a mesh are at one point.
     PointMesh,
     /// A mesh file states a unit that is not the metre, and no unit was asked for.
@@ -193,6 +198,10 @@ impl Remark {
                 "a mesh is not closed, by no more than rounding: it is a surface, and another body inside it is not found; join \
                  the vertices that nearly meet"
             }
+            Remark::TurnedShells { .. } => {
+                "closed shells of a mesh did not alternate and were turned: one inside another bounds a cavity, and a body in it is \
+                 not found; if both are solid, give each a body of its own"
+            }
             Remark::PointMesh => {
                 "all vertices of a mesh are at one point; are its numbers there yet?"
             }
@@ -277,6 +286,10 @@ impl fmt::Display for Remark {
                 )
             }
             Remark::SurfaceOnly { open_edges } => write!(f, "{open_edges} edges have one face"),
+            Remark::TurnedShells { turned_shells: 1 } => write!(f, "1 shell was turned"),
+            Remark::TurnedShells { turned_shells } => {
+                write!(f, "{turned_shells} shells were turned")
+            }
             Remark::OpenSeam { joining_distance } => {
                 write!(f, "they are up to {joining_distance:.1e} apart")
             }

@@ -101,8 +101,9 @@ class PathDistance:
         upper: the nearest pair comes at least as near as this.
         nearest: the nearest pair; None if no pair was measured.
         limit: the limit that ended the search; None if there was none.
-        tolerance: the bounds differ by at most this, and by what the bodies exceed their shapes by, unless a limit was reached: the
-            tolerance that was asked for, unless the rounding of positions allows only a larger one.
+        tolerance: the bounds differ by at most this and a thousandth of it, and by what the bodies exceed their shapes by,
+            unless a limit was reached: the tolerance that was asked for, unless the rounding of positions allows only a
+            larger one.
         clearance: whether the required clearance is "kept", "violated", or "unverified" within the bounds; None where none
             was required.
     """

@@ -44,6 +44,14 @@ fn failures_are_values_without_exceptions() {
 }
 
 #[test]
+fn no_handle_is_lost() {
+    let other = folder().join("tests/programs/failures_as_values.cpp");
+    let options = ["-std=c++17", other.to_str().unwrap()];
+    let printed = build_and_run("c++", &options, "tests/programs/handles.cpp", &[]);
+    assert_eq!(printed, "handles hold\n");
+}
+
+#[test]
 fn robots_in_cpp_answer() {
     let arm = folder().join("../rigid-ccd-robot/examples/edges/arm.urdf");
     let arguments = [arm.to_str().unwrap(), "link7"];

@@ -74,7 +74,9 @@ int main(int, char **argv) {
         edges.insert(edges.end(), start.begin(), start.end());
         edges.insert(edges.end(), joints, 0.03 * k);
     }
+    // No more threads are started than there are edges.
     rigid_ccd::SolverPool pool(cell);
+    expect(pool.measure_edges(edges, 1u << 31).size() == 50);
     const auto one = pool.measure_edges(edges, 1), two = pool.measure_edges(edges, 2);
     expect(one.size() == 50 && two.size() == 50);
     std::size_t free = 0;

@@ -40,8 +40,8 @@ pub(crate) struct AcmArgs {
 }
 
 const AFTER_HELP: &str = "\
-The SRDF disables neighbours, and pairs that are proven to touch never or always, over all configurations within the
-limits of the joints. Pairs that never touch may come near each other: with a clearance they are to be checked. MoveIt's own
+The SRDF disables neighbours, unless the robot's file has them checked as MJCF does beside the world, and pairs that are
+proven to touch never or always, over all configurations within the limits of the joints. Pairs that never touch may come near each other: with a clearance they are to be checked. MoveIt's own
 file samples configurations.
 
 Table of pairs (--report):
@@ -84,9 +84,9 @@ pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
         .transpose()?;
     let robot = args.robot.load(args.quiet)?;
     let stop = interruption::flag()?;
-    args.robot.print_checked(&robot, args.quiet)?;
+    let pairs = args.robot.link_pairs_printed(&robot, args.quiet)?;
     let classes = classify(&robot, args, &stop)?;
-    let srdf = robot.to_srdf(&classes);
+    let srdf = robot.to_srdf(&pairs, &classes);
     out.write(|writer| writer.write_all(srdf.as_bytes()))?;
     if let Some(report) = report {
         write_report(&robot, &classes, report)?;

@@ -28,7 +28,7 @@ use rigid_ccd::table::motions::RowError;
 use rigid_ccd::table::results::{Column, Line, ResultRow, Status, names};
 use rigid_ccd::{ParallelSolver, Settings};
 use rigid_ccd_robot::path_rows::PathQuestion;
-use rigid_ccd_robot::{Cell, CellSolver};
+use rigid_ccd_robot::{Cell, CellRemark, CellSolver, Robot};
 use std::iter::once;
 use std::time::Instant;
 
@@ -86,6 +86,8 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     });
     let mut run = EdgesRun {
         args,
+        robot: cell.robot(),
+        remark: None,
         columns,
         batch_size: BatchSize::new(solver.threads()),
         solver,
@@ -105,11 +107,13 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
         bad_rows,
         times,
         raised_tolerances,
+        remark: remark_on_radians,
         ..
     } = run;
     outputs.finish(end)?;
     drop(progress);
     print_remarks(remark);
+    print_remarks(remark_on_radians);
     bad_rows.print_total();
     if end.counts.row_count() == 0 && earlier.is_none() {
         resumable::warn_of_no_rows(&files, start);
@@ -123,6 +127,9 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
 /// The state of a run while it answers rows.
 struct EdgesRun<'a> {
     args: &'a EdgesArgs,
+    robot: &'a Robot,
+    /// A remark on the first position that seems to be in degrees.
+    remark: Option<CellRemark>,
     columns: Vec<Column>,
     solver: ParallelSolver<CellSolver<'a>>,
     batch_size: BatchSize,
@@ -148,6 +155,10 @@ impl Batches<Result<TablePath, RowError>> for EdgesRun<'_> {
         &mut self,
         paths: &[Result<TablePath, RowError>],
     ) -> Result<(), OutputError> {
+        if self.remark.is_none() {
+            let mut read = paths.iter().flatten();
+            self.remark = read.find_map(|path| path.remark(self.robot));
+        }
         let (args, progress) = (self.args, &self.progress);
         let start = Instant::now();
         let rows = self.solver.map(paths, |solver, path| {

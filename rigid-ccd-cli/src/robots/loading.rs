@@ -146,10 +146,10 @@ impl RobotArgs {
     ///
     /// # Errors
     /// If the file cannot be read again.
-    pub(crate) fn print_checked(&self, robot: &Robot, quiet: bool) -> Result<()> {
+    pub(crate) fn link_pairs_printed(&self, robot: &Robot, quiet: bool) -> Result<LinkPairs> {
         let pairs = self.file().link_pairs(robot, None)?;
         print_checked(&pairs.check_summary(robot), &pairs.remarks(robot), quiet);
-        Ok(())
+        Ok(pairs)
     }
 }
 

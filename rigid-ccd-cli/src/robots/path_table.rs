@@ -9,8 +9,8 @@ use rigid_ccd::table::motions::{RowError, RowPosition, RowProblem, TableError};
 use rigid_ccd::table::records::{Record, Records};
 use rigid_ccd::table::table_records::TableRecords;
 use rigid_ccd::text::Excerpt;
-use rigid_ccd_robot::Robot;
 use rigid_ccd_robot::joint_columns::{AngleUnit, JointColumn, joint_column, names_joint};
+use rigid_ccd_robot::{CellRemark, Robot};
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -369,6 +369,12 @@ impl TablePath {
             configurations,
             times: None,
         }
+    }
+
+    /// Returns a remark on the first position that seems to be in degrees where radians are meant.
+    pub(super) fn remark(&self, robot: &Robot) -> Option<CellRemark> {
+        let mut configurations = self.configurations.iter();
+        configurations.find_map(|at| robot.remark_on_configuration(at))
     }
 
     /// Converts the time of a path whose segments take one unit of time each to the time of the table, rounded down; without

@@ -63,6 +63,8 @@ impl RobotPaths<'_> {
             }
         }
         print_remarks(table.remark_on_degrees());
+        let remark = |path: &TablePath| path.remark(cell.robot());
+        print_remarks(found.paths.iter().find_map(remark));
         if self.ids.is_empty() && found.paths.is_empty() && found.problems.is_empty() {
             bail!("{}: has a header, but no rows", name());
         }

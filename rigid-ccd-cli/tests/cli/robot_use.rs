@@ -1,6 +1,6 @@
 //! Tests what the commands of robots say to those who use them for the first time.
 
-use crate::command::{CommandCall, assert_contains};
+use crate::command::{CommandCall, assert_contains, stderr};
 use crate::robots::{EDGES, call, folder};
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -198,4 +198,35 @@ fn rows_of_a_table_are_checked_that_are_asked_for() {
     assert_contains(&text, "rows: 1; proven to the end: 0");
     assert_contains(&text, "proofs of no row: 0");
     rows("50..", 2);
+}
+
+/// Tests that a position in degrees where radians are meant gives one warning, of a joint that no limit refuses.
+#[test]
+fn positions_in_degrees_are_remarked_upon() {
+    let scene = folder();
+    let wheel = r#"<robot name="wheel">
+        <link name="axle"><collision><origin xyz="5 0 0"/><geometry><sphere radius="0.1"/></geometry></collision></link>
+        <link name="fork"/>
+        <link name="rim"><collision><origin xyz="1 0 0"/><geometry><sphere radius="0.1"/></geometry></collision></link>
+        <joint name="fork" type="fixed"><parent link="axle"/><child link="fork"/></joint>
+        <joint name="turn" type="continuous"><parent link="fork"/><child link="rim"/><axis xyz="0 0 1"/></joint>
+    </robot>"#;
+    scene.file("wheel.urdf", wheel);
+    let warning = "joint turn: a joint's position is a round number of degrees";
+    for (last, expected) in [("90", 1), ("1.5", 0)] {
+        scene.file(
+            "turns.csv",
+            &format!("id,turn\na,0\na,{last}\nb,0\nb,{last}\n"),
+        );
+        for table in [["edges", "--edges"], ["clearance", "--path"]] {
+            let [command, option] = table;
+            let args = [command, "wheel.urdf", option, "turns.csv"];
+            let message = stderr(&call(&scene, &args).output());
+            assert_eq!(
+                message.matches(warning).count(),
+                expected,
+                "{args:?}: {message}"
+            );
+        }
+    }
 }

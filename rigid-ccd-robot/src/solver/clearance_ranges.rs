@@ -68,7 +68,7 @@ impl CellSolver<'_> {
     /// Unverified remain about twice the resolution around each border, stretches where the distance is kept or violated by
     /// less than the tolerance or than the error of poses, violations by less than what bodies
     /// [exceed](rigid_ccd::Body::excess) their shapes by, and overlaps of bodies that are not convex at a distance of 0. When
-    /// time runs out the rest of the path is unverified.
+    /// time runs out, or all work together has taken 8 budgets for each segment, the rest of the path is unverified.
     ///
     /// # Complexity
     /// A few searches for each halving around a border. What stays unverified is examined in steps of the resolution, each of
@@ -125,8 +125,9 @@ impl CellSolver<'_> {
         resolution: f64,
     ) -> Result<Vec<ClearanceRange>, PathError> {
         self.set_path_reporting_start(path)?;
-        let mut found = Vec::new();
-        self.examine(self.search.whole_path_stretch(), resolution, &mut found)?;
+        let (whole, mut found) = (self.search.whole_path_stretch(), Vec::new());
+        self.search.stop_condition.begin_searches(&whole);
+        self.examine(whole, resolution, &mut found)?;
         let segments = self.search.segment_count();
         let ranges = found.iter().map(|(from, to, clearance)| ClearanceRange {
             from: PathPoint::from_path_position(*from, segments),
@@ -143,14 +144,12 @@ impl CellSolver<'_> {
         resolution: f64,
         found: &mut Vec<(f64, f64, ClearanceVerdict)>,
     ) -> Result<(), Error> {
-        let is_in_time = self.search.stop_condition.interruption().is_none();
-        let clearance = if is_in_time && self.is_clearance_kept(stretch)? {
+        let goes_on = !self.search.stop_condition.ends_question();
+        let clearance = if goes_on && self.is_clearance_kept(stretch)? {
             ClearanceVerdict::Kept
-        } else if is_in_time && self.search.is_margin_violated(&stretch)? {
+        } else if goes_on && self.search.is_margin_violated(&stretch)? {
             ClearanceVerdict::Violated
-        } else if is_in_time
-            && stretch.to - stretch.from > resolution
-            && self.search.placement.moves()
+        } else if goes_on && stretch.to - stretch.from > resolution && self.search.placement.moves()
         {
             for half in stretch.halves() {
                 self.examine(half, resolution, found)?;

@@ -17,6 +17,8 @@ pub(crate) struct StopCondition {
     most_work: u64,
     /// The work of all pairs so far.
     work: u64,
+    /// The work that was left for this search and those that follow, of a question of many searches.
+    left_for_question: u64,
     end: Option<Instant>,
     stop: Option<Arc<AtomicBool>>,
 }
@@ -26,6 +28,7 @@ impl StopCondition {
         budget: u64::MAX,
         most_work: u64::MAX,
         work: 0,
+        left_for_question: u64::MAX,
         end: None,
         stop: None,
     };
@@ -36,6 +39,7 @@ impl StopCondition {
             budget: settings.budget,
             most_work: settings.budget,
             work: 0,
+            left_for_question: u64::MAX,
             // A time beyond the end of the clock is none.
             end: settings
                 .deadline
@@ -44,12 +48,29 @@ impl StopCondition {
         }
     }
 
-    /// Allows new work for a search of a stretch: some budgets for each segment, or for a part of one.
+    /// Allows work for all searches of a question about a stretch together: some budgets for each segment.
+    pub(crate) fn begin_searches(&mut self, stretch: &Stretch) {
+        self.left_for_question = self.most_work_in(stretch);
+        self.work = 0;
+    }
+
+    /// Allows new work for a search of a stretch: some budgets for each segment, or for a part of one, and no more than is left for
+    /// all searches.
     pub(crate) fn begin_search(&mut self, stretch: &Stretch) {
+        self.left_for_question = self.left_for_question.saturating_sub(self.work);
+        self.most_work = self.most_work_in(stretch).min(self.left_for_question);
+        self.work = 0;
+    }
+
+    fn most_work_in(&self, stretch: &Stretch) -> u64 {
         let segments = (stretch.to - stretch.from).ceil() as u64;
         let budgets = segments.max(1).saturating_mul(BUDGETS_PER_SEGMENT);
-        self.most_work = self.budget.saturating_mul(budgets);
-        self.work = 0;
+        self.budget.saturating_mul(budgets)
+    }
+
+    /// Returns whether no further search can begin: all work is spent, the time is over, or the search is stopped.
+    pub(crate) fn ends_question(&self) -> bool {
+        self.work >= self.left_for_question || self.interruption().is_some()
     }
 
     /// Counts work, in units of the budget.

@@ -148,7 +148,8 @@ fn proven_pairs_are_written_and_read() {
     ];
     let robot = Robot::new(links, joints).unwrap().with_name("<box>");
     let meetings = classify(&robot, 1000);
-    let read = Srdf::from_text(&robot.to_srdf(&meetings)).unwrap();
+    let pairs = LinkPairs::from_robot(&robot);
+    let read = Srdf::from_text(&robot.to_srdf(&pairs, &meetings)).unwrap();
     assert_eq!(read.robot_name, "<box>");
     let expected = [
         ["a & b", "c", "Always (proven)"],
@@ -157,4 +158,35 @@ fn proven_pairs_are_written_and_read() {
         ["d", "e", "Never (proven)"],
     ];
     assert_eq!(names(&read.disabled), expected);
+}
+
+/// Tests that no pair is disabled that a file has checked and that may touch.
+#[test]
+fn neighbours_that_are_checked_stay_checked() {
+    let links = ["base", "arm"].map(|name| {
+        let ball = rigid_ccd::Body::sphere(0.5).unwrap();
+        Link::named(name).with_body(ball, rigid_ccd::Pose::IDENTITY)
+    });
+    let slide = trajectory::Joint::prismatic(rigid_ccd::Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
+    let joint = Joint {
+        name: "slide".into(),
+        parent: "base".into(),
+        child: "arm".into(),
+        axis_and_limits: slide.with_limits(0.0..=3.0),
+        position_rule: PositionRule::Independent,
+    };
+    let robot = Robot::new(links.to_vec(), vec![joint]).unwrap();
+    let classes = classify(&robot, 1000);
+    assert!(
+        matches!(classes[0].1, LinkContactClass::Sometimes { .. }),
+        "{classes:?}"
+    );
+    let disabled = |pairs: &LinkPairs| {
+        let text = robot.to_srdf(pairs, &classes);
+        Srdf::from_text(&text).unwrap().disabled.len()
+    };
+    let mut pairs = LinkPairs::from_robot(&robot);
+    assert_eq!(disabled(&pairs), 1);
+    pairs.include(0, 1);
+    assert_eq!(disabled(&pairs), 0);
 }

@@ -5,8 +5,8 @@ use ccd_core::Solidity;
 use ccd_decomp::{Detail, PiecesKind, Report, TriangleMesh, Unit};
 
 impl Remark {
-    /// Returns a remark if a body that was made of a mesh is a surface although none was asked for, or is a single point. A
-    /// flat one has no inside, and a hull is found wherever it is touched.
+    /// Returns a remark if a body that was made of a mesh is a surface although none was asked for, has shells that were turned,
+    /// or is a single point. A flat one has no inside, and a hull is found wherever it is touched.
     ///
     /// ```
     /// use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
@@ -27,8 +27,12 @@ impl Remark {
             return Some(Remark::PointMesh);
         }
         let is_meant = asked == Detail::Surface || report.kind == PiecesKind::OuterHull;
-        if report.volume == Solidity::Solid || is_meant || sides.contains(&0.0) {
+        if is_meant || sides.contains(&0.0) {
             return None;
+        }
+        if report.volume == Solidity::Solid {
+            let turned_shells = topology.wrong_shells.count();
+            return (turned_shells > 0).then_some(Remark::TurnedShells { turned_shells });
         }
         Some(match topology.joining_distance {
             Some(joining_distance) => Remark::OpenSeam { joining_distance },

@@ -156,6 +156,18 @@ fn meshes_are_remarked_upon() {
         let expected = Remark::OpenSeam { joining_distance };
         assert_eq!(open, is_remarked.then_some(expected), "{asked:?}");
     }
+    // A tetrahedron in another one, both turned outward, and as a cavity.
+    let both = |inner: [[u32; 3]; 4]| {
+        let small = corners(0.0).into_iter().map(|at| at.map(|x| 0.1 + 0.1 * x));
+        let points = corners(0.0).into_iter().chain(small).collect();
+        let inner = inner.map(|face| face.map(|corner| corner + 5));
+        remark(points, &[closed, inner].concat(), auto)
+    };
+    assert_eq!(
+        both(closed),
+        Some(Remark::TurnedShells { turned_shells: 1 })
+    );
+    assert_eq!(both(closed.map(|[a, b, c]| [a, c, b])), None);
     // What is flat has no inside.
     assert_eq!(remark(corners(0.0), &closed[..1], auto), None);
     let point = remark(vec![[1.0; 3]; 3], &[[0, 1, 2]], auto);

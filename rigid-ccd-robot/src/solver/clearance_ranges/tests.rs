@@ -104,6 +104,52 @@ fn without_time_nothing_is_verified() {
     assert_eq!(to.share, 1.0);
 }
 
+/// Tests that a budget is for the whole question, however finely it is asked, and that what is told then holds.
+#[test]
+fn a_budget_ends_the_question() {
+    let cell = lid_with_stop(1.0);
+    let finest = RangeSettings {
+        resolution: 1e-9,
+        ..RangeSettings::DEFAULT
+    };
+    let mut verified = Vec::new();
+    for budget in [1, 100, 10_000] {
+        let settings = Settings {
+            budget,
+            ..settings_with_margin(0.1)
+        };
+        let mut solver = cell.solver().with_settings(settings);
+        let path: Vec<[f64; 1]> = (0..4).map(|k| [0.5 * f64::from(k)]).collect();
+        let ranges = solver.clearance_ranges(&path, finest).unwrap();
+        let last = ranges[ranges.len() - 1];
+        assert_eq!((last.to.segment, last.to.share), (2, 1.0));
+        let known = ranges
+            .iter()
+            .filter(|range| range.verdict != ClearanceVerdict::Unverified);
+        let length = |range: &ClearanceRange| {
+            let at = |point: PathPoint| point.segment as f64 + point.share;
+            at(range.to) - at(range.from)
+        };
+        verified.push(known.map(length).sum::<f64>());
+        // The balls of 0.1 are nearer than 0.1 where the angle between them is below this one.
+        let near = angle_of_gap(0.1);
+        for range in ranges.iter() {
+            let angle = |point: PathPoint| 0.5 * (point.segment as f64 + point.share);
+            let [from, to] = [range.from, range.to].map(|point| angle(point) - 1.0);
+            match range.verdict {
+                ClearanceVerdict::Kept => assert!(to < -near || from > near, "{range:?}"),
+                ClearanceVerdict::Violated => assert!(from > -near && to < near, "{range:?}"),
+                ClearanceVerdict::Unverified => {}
+            }
+        }
+    }
+    assert!(
+        verified[0] < verified[1] && verified[1] <= verified[2],
+        "{verified:?}"
+    );
+    assert!(verified[0] < 2.0 && verified[2] > 2.9, "{verified:?}");
+}
+
 fn joint(
     name: &str,
     [parent, child]: [&str; 2],
