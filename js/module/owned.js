@@ -1,6 +1,6 @@
 // An object whose memory is in the WebAssembly.
 
-import { endOf, engine } from "./wasm.js";
+import { engineEnd, engine } from "./wasm.js";
 import { described, nameOfClass } from "./words.js";
 
 /**
@@ -19,13 +19,13 @@ export class Owned {
   /** Returns the object of the WebAssembly. */
   static inner(owned) {
     if (owned.#inner === null) throw new Error(`this ${nameOfClass(owned)} was freed`);
-    const end = endOf(owned.#home);
+    const end = engineEnd(owned.#home);
     if (end !== null) throw end;
     return owned.#inner;
   }
 
   free() {
-    if (endOf(this.#home) === null) this.#inner?.free();
+    if (engineEnd(this.#home) === null) this.#inner?.free();
     this.#inner = null;
   }
 }

@@ -26,7 +26,7 @@ export class EngineError extends Error {
 export async function init(options) {
   const { simd: wanted } = optionsOf(options, "init", { simd: [trueOrFalse, undefined] });
   // An engine that has ended is loaded anew.
-  if (loaded !== null) endOf(loaded);
+  if (loaded !== null) engineEnd(loaded);
   loading ??= load(wanted ?? WebAssembly.validate(VECTOR_MODULE)).catch((error) => {
     loading = null;
     throw error;
@@ -52,7 +52,7 @@ export function numbersAt(address, count) {
 
 export function engine() {
   if (loaded === null) throw new Error("rigid-ccd is not loaded: `await init()` comes first");
-  const end = endOf(loaded);
+  const end = engineEnd(loaded);
   if (end !== null) throw end;
   return loaded;
 }
@@ -72,7 +72,7 @@ async function load(simd) {
 function guard(fresh) {
   const guarded = (call) => (...values) => {
     // Garbage of an engine that has ended needs no memory.
-    if (endOf(fresh) !== null) return undefined;
+    if (engineEnd(fresh) !== null) return undefined;
     try {
       return call(...values);
     } catch (error) {
@@ -92,7 +92,7 @@ function guard(fresh) {
 }
 
 /** Returns the error with which an engine has ended, or null. */
-export function endOf(engine) {
+export function engineEnd(engine) {
   if (engine.failure !== null) failed(engine, engine.failure);
   return engine.ended;
 }

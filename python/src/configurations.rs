@@ -38,22 +38,31 @@ pub(crate) fn read_configurations(
     Ok(given)
 }
 
-/// Refuses starts and ends of edges in data frames whose rows have other labels: NumPy pairs rows by their places.
+/// Refuses starts and ends of edges in data frames whose rows have the same labels in another order: NumPy pairs rows by their
+/// places. Other labels are taken, such as those of a frame without its last row, and without its first one.
 pub(crate) fn check_same_rows([start, end]: [&Bound<'_, PyAny>; 2]) -> PyResult<()> {
-    let rows_of = |frame: &Bound<'_, PyAny>| match attribute(frame, "columns")? {
-        Some(_) => attribute(frame, "index"),
-        None => PyResult::Ok(None),
-    };
-    let (Some(starts), Some(ends)) = (rows_of(start)?, rows_of(end)?) else {
+    let (Some(starts), Some(ends)) = (labels_of_rows(start)?, labels_of_rows(end)?) else {
         return Ok(());
     };
-    if starts.len()? != ends.len()? || starts.call_method1("equals", (ends,))?.is_truthy()? {
+    if starts.call_method1("equals", (&ends,))?.is_truthy()? {
+        return Ok(());
+    }
+    let differing = starts.call_method1("symmetric_difference", (ends,))?;
+    if differing.len()? > 0 {
         return Ok(());
     }
     Err(input_error(
-        "start, end: the rows of the frames have other labels, or another order; reset_index(drop=True) of both pairs them by \
-         their places",
+        "start, end: the rows of the frames have the same labels in another order; end.loc[start.index] has that of the starts, \
+         and reset_index(drop=True) of both pairs rows by their places",
     ))
+}
+
+/// Returns the labels of a data frame's rows.
+fn labels_of_rows<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>>> {
+    match attribute(frame, "columns")? {
+        Some(_) => attribute(frame, "index"),
+        None => Ok(None),
+    }
 }
 
 /// The prefixes of the joints' names in a table of edges, by the argument that has these columns.

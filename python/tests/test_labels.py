@@ -205,14 +205,17 @@ def test_many_labels_are_cut_short() -> None:
     assert len(str(refused.value)) < 300
 
 
-def test_rows_of_edges_have_the_same_labels() -> None:
+def test_rows_of_edges_have_the_same_order() -> None:
     start = pandas.DataFrame([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], columns=JOINTS)
     end = start + 0.5
-    expected = CELL.edges(start.to_numpy(), end.to_numpy())
-    assert CELL.edges(start, end)["status"] == expected["status"]
-    assert CELL.edges(start, end.to_numpy())["status"] == expected["status"]
-    for other in (end.iloc[::-1], end.set_index(pandas.Index([1, 2, 3]))):
-        with pytest.raises(InputError, match="rows of the frames have other labels"):
-            CELL.edges(start, other)
-        placed = other.reset_index(drop=True)
-        assert len(CELL.edges(start, placed)["status"]) == 3
+
+    def statuses(start: Any, end: Any) -> list[str]:
+        return CELL.edges(start, end)["status"].tolist()
+
+    expected = statuses(start.to_numpy(), end.to_numpy())
+    assert statuses(start, end) == statuses(start, end.to_numpy()) == expected
+    with pytest.raises(InputError, match="the same labels in another order"):
+        statuses(start, end.iloc[::-1])
+    assert statuses(start, end.iloc[::-1].loc[start.index]) == expected
+    assert statuses(start, end.set_index(pandas.Index(["a", "b", "c"]))) == expected
+    assert len(statuses(start.iloc[:-1], start.iloc[1:])) == 2
