@@ -209,7 +209,7 @@ def test_rows_of_edges_have_the_same_order() -> None:
     start = pandas.DataFrame([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], columns=JOINTS)
     end = start + 0.5
 
-    def statuses(start: Any, end: Any) -> list[str]:
+    def statuses(start: Any, end: Any) -> Any:
         return CELL.edges(start, end)["status"].tolist()
 
     expected = statuses(start.to_numpy(), end.to_numpy())

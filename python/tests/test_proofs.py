@@ -10,6 +10,7 @@ from rigid_ccd import (
     Body,
     Cell,
     InputError,
+    Interrupted,
     Joint,
     Motion,
     Proof,
@@ -91,6 +92,15 @@ def test_a_saved_proof_is_not_lost(tmp_path: Path) -> None:
     assert Proof.load(tmp_path, "it") == free
     hit.save(tmp_path, "hit")
     assert check_folder(tmp_path) == {"hit": "holds", "it": "holds"}
+    told: list[tuple[int, int | None]] = []
+
+    def interrupt(done: int, total: int | None) -> None:
+        told.append((done, total))
+        raise KeyboardInterrupt
+
+    with pytest.raises(Interrupted, match="1 of 2 proofs are checked") as interrupted:
+        check_folder(tmp_path, progress=interrupt)
+    assert interrupted.value.results == {"hit": "holds"} and told == [(1, 2)]
     (tmp_path / "hit.proof").write_bytes(hit.proof[:-1])
     assert check_folder(tmp_path)["hit"].startswith("broken: ")
     next(tmp_path.glob("*.mesh")).unlink()

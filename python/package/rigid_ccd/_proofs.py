@@ -6,7 +6,9 @@ from os import PathLike
 from pathlib import Path
 from typing import Literal
 
-from ._rigid_ccd import InputError, check_proof, proof_statement, read_proof
+from ._progress import reporter
+from ._rigid_ccd import InputError, Interrupted, check_proof, proof_statement, read_proof
+from ._settings import Progress
 
 
 @dataclass(frozen=True, repr=False)
@@ -85,17 +87,35 @@ class Proof:
         return cls(proof, [meshes[digest] for digest in needed])
 
 
-def check_folder(folder: str | PathLike[str]) -> dict[str, str]:
+def check_folder(folder: str | PathLike[str], *, progress: Progress = None) -> dict[str, str]:
     """Check all proofs of a folder: for each name "holds", or why it does not.
+
+    Args:
+        folder: the folder.
+        progress: a function of the numbers of proofs that are checked, and of all proofs; a bar of tqdm, or True for one.
 
     Raises:
         InputError: there is no proof in the folder, a file is no proof, or a mesh is missing.
+        Interrupted: Ctrl-C; its `results` has what is known of the proofs that were checked by then.
     """
     files = sorted(Path(folder).glob("*.proof"))
     if not files:
         raise InputError(f"{folder}: there is no proof in this folder")
     meshes = _meshes(Path(folder))
-    return {file.stem: Proof._read(file, meshes).check() for file in files}
+    report, end = reporter(progress)
+    known: dict[str, str] = {}
+    try:
+        for file in files:
+            known[file.stem] = Proof._read(file, meshes).check()
+            if report is not None:
+                report(len(known), len(files))
+    except KeyboardInterrupt as cause:
+        interrupted = Interrupted(f"interrupted; {len(known)} of {len(files)} proofs are checked")
+        interrupted.results = known
+        raise interrupted from cause
+    finally:
+        end()
+    return known
 
 
 def _files(folder: str | PathLike[str], name: str) -> tuple[Path, Path]:
