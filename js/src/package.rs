@@ -32,6 +32,9 @@ const PARTS: [&str; 13] = [
     include_str!("../module/index.js"),
 ];
 
+/// The name of the module without vector instructions, which the other one loads.
+const FALLBACK: &str = "fallback.js";
+
 /// The files of the package besides both modules, by their names.
 const FILES: [(&str, &str); 5] = [
     ("package.json", include_str!("../package.json")),
@@ -41,24 +44,37 @@ const FILES: [(&str, &str); 5] = [
     ("LICENSE-MIT", include_str!("../../LICENSE-MIT")),
 ];
 
+/// The modules of a package.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Modules {
+    /// All that is published.
+    All,
+    /// The one for WebAssembly with vector instructions alone: half of the work, for tests.
+    WithVectors,
+}
+
 /// Writes the package into a folder, which `npm pack` takes.
 ///
 /// # Errors
 /// A build that fails, or a file that cannot be written.
-pub fn write(folder: &Path) -> Result<()> {
+pub fn write(folder: &Path, modules: Modules) -> Result<()> {
     // Most of a build is the optimisation of one unit, on one core.
     let (module, fallback) = thread::scope(|scope| {
-        let fallback = scope.spawn(fallback);
-        (module(), fallback.join())
+        let fallback = (modules == Modules::All).then(|| scope.spawn(fallback));
+        (module(), fallback.map(thread::ScopedJoinHandle::join))
     });
-    let fallback = fallback.map_err(|_| anyhow!("the build of the fallback has panicked"))??;
+    let fallback = fallback
+        .transpose()
+        .map_err(|_| anyhow!("the build of the fallback has panicked"))?
+        .transpose()?;
     let module = module?;
-    let modules = [
-        ("rigid-ccd.js", module.as_str()),
-        ("fallback.js", fallback.as_str()),
-    ];
+    let main = ("rigid-ccd.js", module.as_str());
+    let fallback = fallback.as_deref().map(|text| (FALLBACK, text));
     fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
-    for (name, text) in modules.into_iter().chain(FILES) {
+    if fallback.is_none() && folder.join(FALLBACK).exists() {
+        fs::remove_file(folder.join(FALLBACK)).context("cannot remove the fallback")?;
+    }
+    for (name, text) in [main].into_iter().chain(fallback).chain(FILES) {
         let path = folder.join(name);
         ccd_file::write(&path, |file| file.write_all(text.as_bytes()))
             .with_context(|| format!("cannot write {}", path.display()))?;
