@@ -185,13 +185,19 @@ def test_tables_keep_what_is_answered() -> None:
         assert isinstance(error, Interrupted) and isinstance(error.results, Table) and len(error.results) < rows
 
 
-def test_what_reads_and_makes_meshes(tmp_path: Path) -> None:
-    vertices, faces = knot(60_000)
-    calls: list[Callable[[], Any]] = [lambda: Body(vertices, faces, pieces="patches")]
+def write_obj(path: Path, vertices: Any, faces: Any) -> None:
     lines = [*(f"v {x} {y} {z}" for x, y, z in vertices), *(f"f {a} {b} {c}" for a, b, c in faces + 1)]
-    (tmp_path / "knot.obj").write_text("\n".join(lines))
+    path.write_text("\n".join(lines))
+
+
+def test_what_reads_and_makes_meshes(tmp_path: Path) -> None:
+    # The work goes on after Ctrl-C, and what comes next waits for the cores: this takes some seconds.
+    vertices, faces = knot(1000)
+    calls: list[Callable[[], Any]] = [lambda: Body(vertices, faces, pieces="patches")]
+    write_obj(tmp_path / "knot.obj", vertices, faces)
     calls.append(lambda: Body.from_file(tmp_path / "knot.obj", pieces="patches"))
-    mesh = '<mesh filename="knot.obj"/>'
+    write_obj(tmp_path / "long.obj", *knot(20_000))
+    mesh = '<mesh filename="long.obj"/>'
     links = "".join(f'<link name="l{k}"><collision><geometry>{mesh}</geometry></collision></link>' for k in range(9))
     joints = "".join(f'<joint name="j{k}" type="fixed"><parent link="l0"/><child link="l{k}"/></joint>' for k in range(1, 9))
     (tmp_path / "r.urdf").write_text(f'<robot name="r">{links}{joints}</robot>')
