@@ -565,7 +565,9 @@ rccd_status rccd_cell_detach(struct rccd_cell *cell, const char *name);
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
-rccd_status rccd_cell_allow_contact(struct rccd_cell *cell, const char *a, const char *b);
+rccd_status rccd_cell_allow_contact(struct rccd_cell *cell,
+                                    const char *a,
+                                    const char *b);
 
 // Compares two items again that were allowed to touch, or two links that were not checked.
 //
@@ -580,7 +582,8 @@ rccd_status rccd_cell_forbid_contact(struct rccd_cell *cell, const char *a, cons
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `out` is null or points to a place for a text.
-rccd_status rccd_cell_check_summary(struct rccd_cell *cell, struct rccd_text *out);
+rccd_status rccd_cell_check_summary(struct rccd_cell *cell,
+                                    struct rccd_text *out);
 
 // Sets how much farther than the margin obstacles have to stay from a link; 0 takes it back.
 //
