@@ -116,7 +116,8 @@ inline Error wrong_count(const std::string &what, std::size_t needed, std::size_
 }
 
 // Returns a text for a call; null, which is an error there, if a zero would end it too early.
-inline const char *c_text(const std::string &text) { return text.find('\0') == std::string::npos ? text.c_str() : nullptr; }
+inline bool has_zero(const std::string &text) { return text.find('\0') != std::string::npos; }
+inline const char *c_text(const std::string &text) { return has_zero(text) ? nullptr : text.c_str(); }
 
 // Whether a container has its values one after the other, in an order that is no question. Types of Eigen say so: a matrix is in
 // memory column by column or row by row, and a row of one has gaps.

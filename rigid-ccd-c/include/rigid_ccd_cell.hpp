@@ -38,7 +38,7 @@ public:
     // `package://` names may be empty.
     static Result<Cell> load(const std::string &robot, const std::string &srdf = "",
                              const std::string &package_folder = "") {
-        if (has_zero(srdf) || has_zero(package_folder)) return zero_in_path();
+        if (detail::has_zero(srdf) || detail::has_zero(package_folder)) return zero_in_path();
         return detail::hold<Cell, rccd_cell>([&](rccd_cell **out) {
             return rccd_cell_load(detail::c_text(robot), or_null(srdf), or_null(package_folder), out);
         });
@@ -47,7 +47,7 @@ public:
     // empty.
     static Result<Cell> from_text(const std::string &robot, const std::string &folder = "", const std::string &srdf = "",
                                   const std::string &package_folder = "") {
-        if (has_zero(folder) || has_zero(srdf) || has_zero(package_folder)) return zero_in_path();
+        if (detail::has_zero(folder) || detail::has_zero(srdf) || detail::has_zero(package_folder)) return zero_in_path();
         return detail::hold<Cell, rccd_cell>([&](rccd_cell **out) {
             return rccd_cell_from_text(detail::c_text(robot), or_null(folder), or_null(srdf), or_null(package_folder), out);
         });
@@ -114,7 +114,6 @@ public:
     const rccd_cell *get() const noexcept { return handle_.get(); }
 
 private:
-    static bool has_zero(const std::string &text) { return text.find('\0') != std::string::npos; }
     static Result<Cell> zero_in_path() {
         return detail::fail<Cell>({RCCD_STATUS_INVALID_ARGUMENT, "the path of a file or folder has a zero in it"});
     }

@@ -41,8 +41,8 @@ pub(crate) struct AcmArgs {
 
 const AFTER_HELP: &str = "\
 The SRDF disables neighbours, unless the robot's file has them checked as MJCF does beside the world, and pairs that are
-proven to touch never or always, over all configurations within the limits of the joints. Pairs that never touch may come near each other: with a clearance they are to be checked. MoveIt's own
-file samples configurations.
+proven to touch never or always, over all configurations within the limits of the joints. Pairs that never touch may come
+near each other: with a clearance they are to be checked. MoveIt's own file samples configurations.
 
 Table of pairs (--report):
   link1, link2       the links

@@ -142,7 +142,7 @@ impl RobotArgs {
         }
     }
 
-    /// Prints what of the robot is checked, and the remarks on it, without any other file.
+    /// Returns which pairs of links are checked without any other file. Prints what is checked, and the remarks on the robot.
     ///
     /// # Errors
     /// If the file cannot be read again.

@@ -31,11 +31,14 @@ impl Cell {
 
     /// Returns a remark if there are obstacles, and bodies that no joint moves against them.
     fn remark_on_resting(&self) -> Option<CellRemark> {
-        let resting = (0..self.robot_body_count()).filter(|&body| !self.moves(body));
-        let mut items: Vec<String> = resting
-            .map(|body| self.item_of_body(body).name().to_owned())
-            .collect();
-        items.dedup();
+        let mut items: Vec<String> = Vec::new();
+        for body in (0..self.robot_body_count()).filter(|&body| !self.moves(body)) {
+            let name = self.item_of_body(body).name();
+            // The planes of a link are not beside its bodies.
+            if !items.iter().any(|item| item == name) {
+                items.push(name.to_owned());
+            }
+        }
         let is_apart = !items.is_empty() && self.obstacle_names().len() > 0;
         is_apart.then_some(CellRemark::RestingBesideObstacles { items })
     }

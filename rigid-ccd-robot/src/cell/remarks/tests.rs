@@ -214,6 +214,28 @@ fn links_that_never_move_are_named_beside_obstacles() {
     let mut cell = cell(arm(0.4), [0.2; 3]);
     let text = "not compared with obstacles, since no joint moves it: base";
     assert_eq!(resting(&cell), [text]);
+    let ground = Link::named("ground").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
+    let ground = Link {
+        planes: vec![Pose::IDENTITY],
+        ..ground
+    };
+    let bench = Link::named("bench").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
+    let bench_joint = Joint {
+        name: "legs".into(),
+        parent: "ground".into(),
+        child: "bench".into(),
+        axis_and_limits: trajectory::Joint::fixed(Pose::at([0.0, 0.0, 1.0]).unwrap()),
+        position_rule: PositionRule::Independent,
+    };
+    let on_ground = Robot::new(vec![ground, bench], vec![bench_joint]).unwrap();
+    let mut workshop = cell_of(on_ground);
+    let crate_at = Pose::at([0.0, 0.0, 5.0]).unwrap();
+    let crate_body = Body::cuboid([0.1; 3]).unwrap();
+    workshop
+        .add_obstacle("crate", crate_body, crate_at)
+        .unwrap();
+    let of_workshop = "not compared with obstacles, since no joint moves it: ground, bench";
+    assert_eq!(resting(&workshop), [of_workshop]);
     let at_base = ("base", Pose::at([1.0, 0.0, 0.0]).unwrap());
     cell.attach("pedestal", Body::cuboid([0.1; 3]).unwrap(), at_base, &[])
         .unwrap();
