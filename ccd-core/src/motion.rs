@@ -1,6 +1,7 @@
 //! Motions with constant velocity of a centre and constant angular velocity about it.
 
 pub(crate) mod bound;
+pub(crate) mod free_time;
 pub(crate) mod gap;
 #[cfg(feature = "nalgebra")]
 mod interop;

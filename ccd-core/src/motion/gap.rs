@@ -1,5 +1,6 @@
 //! Computes for how long a gap stays open.
 
+use super::free_time::FreeTime;
 use crate::rounding::RATE_ERROR_F64;
 use crate::tuning::MIN_NEWTON_GROWTH;
 
@@ -63,27 +64,27 @@ impl Gap {
     }
 }
 
-/// Returns the first time within `[0, horizon]` at which a gap may close, or an earlier time; `None` if the gap stays
-/// open. `free_time(τ)` returns a time for which it stays open from `τ` on.
+/// Returns a time for which a gap certainly stays open, which ends at the first time within `[0, horizon]` at which it may
+/// close, or earlier. `free_time(τ)` returns a time for which it stays open from `τ` on.
 #[inline]
 pub(crate) fn first_possible_crossing(
     horizon: f64,
     rounds: usize,
     free_time: impl Fn(f64) -> f64,
-) -> Option<f64> {
+) -> FreeTime {
     let mut tau = 0.0;
     for _ in 0..rounds {
         let step = free_time(tau);
         tau += step;
         if tau >= horizon {
-            return None;
+            return FreeTime::ToEnd;
         }
         // Steps shrink from here on, and the rest is not worth another round.
         if step <= tau * MIN_NEWTON_GROWTH {
             break;
         }
     }
-    Some(tau)
+    FreeTime::AtLeast(tau)
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@
 
 use crate::body::piece::Piece;
 use crate::math::order::lesser;
+use crate::motion::free_time::FreeTime;
 use crate::motion::gap::{Gap, first_possible_crossing};
 use crate::motion::pose::Frame;
 use crate::motion::track::{AngleSinCos, RotatingVector};
@@ -141,9 +142,9 @@ impl<'p> PieceMotionToTurningPlane<'p> {
         }
     }
 
-    /// Returns a time for which the pieces certainly keep the required gap along the plane's normal; `None` if they do
-    /// up to `horizon`. `slack` is the present excess over that gap.
-    pub(crate) fn free_time(&self, slack: f64, horizon: f64) -> Option<f64> {
+    /// Returns a time for which the pieces certainly keep the required gap along the plane's normal, up to `horizon`.
+    /// `slack` is the present excess over that gap.
+    pub(crate) fn free_time(&self, slack: f64, horizon: f64) -> FreeTime {
         let (height, rate) = self.rounding_allowances();
         let apart = slack - height - self.least_start_height();
         first_possible_crossing(horizon, MAX_NEWTON_STEPS, |tau| {

@@ -8,6 +8,7 @@ use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::sharp::improve_axis;
 use crate::engine::meter::Meter;
 use crate::math::order::greater;
+use crate::motion::free_time::FreeTime;
 use crate::problem::{Problem, WhichBody};
 use crate::rounding::MIN_APPROACH_PER_ROUNDING;
 use crate::touching_plane::TouchingPlane;
@@ -87,27 +88,23 @@ impl Snapshot<'_> {
             self.is_plane_between_solids(ids, normal, from)
                 .then_some(level)
         };
-        let time = |level: &TouchingPlaneState| {
-            self.touching_plane_free_time(level, from)
-                .unwrap_or(f64::INFINITY)
-        };
         [WhichBody::A, WhichBody::B]
             .into_iter()
             .filter_map(of)
-            .map(|level| (time(&level), level))
-            .filter(|(time, _)| *time > 0.0)
+            .map(|level| (self.touching_plane_free_time(&level, from), level))
+            .filter(|(free, _)| *free > FreeTime::NONE)
             .reduce(|one, other| if other.0 > one.0 { other } else { one })
             .map(|(_, level)| level)
     }
 
-    /// Returns a time for which the pieces certainly do not approach along the plane's normal; `None` if they never do.
+    /// Returns a time for which the pieces certainly do not approach along the plane's normal.
     pub(crate) fn touching_plane_free_time(
         &self,
         level: &TouchingPlaneState,
         from: DVec3,
-    ) -> Option<f64> {
+    ) -> FreeTime {
         let Some(normal) = self.plane_normal(level.plane_body) else {
-            return Some(0.0);
+            return FreeTime::NONE;
         };
         let slack = self.gap_along_normal(normal, from) - level.min_gap;
         // Written so that NaN counts as no slack.
@@ -117,7 +114,7 @@ impl Snapshot<'_> {
                 gap_excess: slack,
             })
         } else {
-            Some(0.0)
+            FreeTime::NONE
         }
     }
 

@@ -10,10 +10,12 @@ use crate::distance::separation::CheckedClaim;
 use crate::distance::separation::sharp::improve_axis;
 use crate::engine::meter::Meter;
 use crate::math::vector::unit;
+use crate::motion::free_time::FreeTime;
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::MIN_APPROACH_PER_ROUNDING;
 use crate::settings::StartPolicy;
 use glam::DVec3;
+use std::ops::ControlFlow::{self, Break, Continue};
 
 /// A pair of pieces with a clock of its own.
 #[derive(Clone, Debug)]
@@ -96,96 +98,162 @@ impl<C: Default + Clone> Pair<C> {
         snapshot: &Snapshot<'_>,
         oracle: &mut O,
         meter: &mut Meter,
-        free_time: impl FnOnce(&Snapshot<'_>, &CheckedClaim, f64) -> Option<f64>,
+        free_time: impl FnOnce(&Snapshot<'_>, &CheckedClaim, f64) -> FreeTime,
     ) -> PairStep {
-        let (problem, s) = (snapshot.problem, snapshot.clock);
         let Some(checked) = snapshot.query_oracle(oracle, &mut self.cache, meter) else {
             return PairStep::GaveUp;
         };
-        let ids = [self.a, self.b];
-        let in_contact = |checked| PairStep::Contact(contact(snapshot, ids, checked));
-        let apart = problem.contact_distance();
-        if checked.upper <= apart {
-            if s == 0.0 {
-                let inner = &mut meter.scratch_memory().expanding_polytope;
-                match overlap::decide_intersection(
-                    &snapshot.pieces,
-                    &checked,
-                    problem.rounding,
-                    inner,
-                ) {
-                    Intersection::Certain => {
-                        return PairStep::Overlap(contact(snapshot, ids, &checked));
-                    }
-                    // The search for the nearest pieces decides this.
-                    Intersection::Undecided => return in_contact(&checked),
-                    Intersection::None => {}
-                }
-            }
-            let level = || {
-                let plane = problem.touching_plane.as_ref()?;
-                let level = snapshot.choose_plane_state(plane, ids, checked.witness_a)?;
-                Some(ContactRule::TouchingPlane(level))
-            };
-            let goal = match self.contact_rule {
-                ContactRule::ApartAtStart => self
-                    .rule_ignoring_start_contact(problem, oracle, meter)
-                    .or_else(level),
-                ContactRule::SeparatedAfterStart => level(),
-                ContactRule::InContactAtStart { .. } | ContactRule::TouchingPlane(_) => {
-                    Some(self.contact_rule)
-                }
-            };
-            match goal {
-                Some(goal) => self.contact_rule = goal,
-                None => return in_contact(&checked),
-            }
-        } else if checked.lower > apart && self.contact_rule != ContactRule::ApartAtStart {
-            self.contact_rule = ContactRule::SeparatedAfterStart;
+        if let Break(found) = self.choose_rule(snapshot, &checked, oracle, meter) {
+            return found;
         }
-        let (kept, is_resting) = match self.contact_rule {
+        let step = match self.contact_rule {
             ContactRule::ApartAtStart | ContactRule::SeparatedAfterStart => {
-                (problem.kept_gap(), false)
+                self.step_apart(snapshot, &checked, free_time)
             }
-            ContactRule::InContactAtStart { floor } => (floor, true),
-            ContactRule::TouchingPlane(level) => {
-                let free = snapshot.touching_plane_free_time(&level, checked.witness_a);
-                meter.stats.point_evaluations += snapshot.evaluations();
-                return step_from_free_time(s, free).unwrap_or_else(|| in_contact(&checked));
+            ContactRule::InContactAtStart { floor } => {
+                self.step_in_contact_at_start(snapshot, &checked, floor)
+            }
+            ContactRule::TouchingPlane(plane) => {
+                let free = snapshot.touching_plane_free_time(&plane, checked.witness_a);
+                step_from_free_time(snapshot.clock, free)
+                    .unwrap_or_else(|| self.contact(snapshot, &checked))
             }
         };
+        meter.stats.point_evaluations += snapshot.evaluations();
+        step
+    }
+
+    /// Chooses the rule of the pair at its present distance. Breaks off if the pair is in contact by it.
+    fn choose_rule<O: DistanceOracle<Cache = C>>(
+        &mut self,
+        snapshot: &Snapshot<'_>,
+        checked: &CheckedClaim,
+        oracle: &mut O,
+        meter: &mut Meter,
+    ) -> ControlFlow<PairStep> {
+        let problem = snapshot.problem;
+        let apart = problem.contact_distance();
+        // Written so that NaN is no contact: without a gap, it has no free time either.
+        if !(checked.upper <= apart) {
+            if checked.lower > apart && self.contact_rule != ContactRule::ApartAtStart {
+                self.contact_rule = ContactRule::SeparatedAfterStart;
+            }
+            return Continue(());
+        }
+        if snapshot.clock == 0.0 {
+            self.check_overlap_at_start(snapshot, checked, meter)?;
+        }
+        let beside_plane = || {
+            let plane = self.touching_plane_state(snapshot, checked.witness_a)?;
+            Some(ContactRule::TouchingPlane(plane))
+        };
+        let rule = match self.contact_rule {
+            ContactRule::ApartAtStart => self
+                .rule_ignoring_start_contact(problem, oracle, meter)
+                .or_else(beside_plane),
+            ContactRule::SeparatedAfterStart => beside_plane(),
+            ContactRule::InContactAtStart { .. } | ContactRule::TouchingPlane(_) => {
+                Some(self.contact_rule)
+            }
+        };
+        match rule {
+            Some(rule) => {
+                self.contact_rule = rule;
+                Continue(())
+            }
+            None => Break(self.contact(snapshot, checked)),
+        }
+    }
+
+    /// Breaks off if the pieces intersect at the start, or if that is undecided.
+    fn check_overlap_at_start(
+        &self,
+        snapshot: &Snapshot<'_>,
+        checked: &CheckedClaim,
+        meter: &mut Meter,
+    ) -> ControlFlow<PairStep> {
+        let memory = &mut meter.scratch_memory().expanding_polytope;
+        let rounding = snapshot.problem.rounding;
+        match overlap::decide_intersection(&snapshot.pieces, checked, rounding, memory) {
+            Intersection::Certain => {
+                Break(PairStep::Overlap(contact(snapshot, self.pieces(), checked)))
+            }
+            // The search for the nearest pieces decides this.
+            Intersection::Undecided => Break(self.contact(snapshot, checked)),
+            Intersection::None => Continue(()),
+        }
+    }
+
+    /// Advances a pair that was apart.
+    fn step_apart(
+        &mut self,
+        snapshot: &Snapshot<'_>,
+        checked: &CheckedClaim,
+        free_time: impl FnOnce(&Snapshot<'_>, &CheckedClaim, f64) -> FreeTime,
+    ) -> PairStep {
+        let problem = snapshot.problem;
+        let kept = problem.kept_gap();
         // The axis of the claim may lose all of the gap that is left to advance by. Written so that NaN counts as
         // such a loss.
-        let checked = if is_resting || !(checked.lower > kept + problem.rounding) {
-            improve_axis(&snapshot.pieces, &checked, problem.rounding)
+        let checked = if checked.lower > kept + problem.rounding {
+            *checked
         } else {
-            checked
+            improve_axis(&snapshot.pieces, checked, problem.rounding)
         };
-        let free = if is_resting {
-            snapshot.free_time_when_touching(&checked, kept, ids)
-        } else {
-            free_time(snapshot, &checked, kept)
-        };
-        let step = step_from_free_time(s, free).or_else(|| {
-            let plane = problem.touching_plane.as_ref()?;
-            let began = if is_resting {
-                &Snapshot::new(problem, self.a, self.b, 0.0)
-            } else {
-                snapshot
-            };
-            let level = began.choose_plane_state(plane, ids, checked.witness_a)?;
-            self.contact_rule = ContactRule::TouchingPlane(level);
-            step_from_free_time(
-                s,
-                snapshot.touching_plane_free_time(&level, checked.witness_a),
-            )
-        });
-        meter.stats.point_evaluations += snapshot.evaluations();
-        match step {
-            Some(step) => step,
-            None if is_resting => in_contact(&checked),
-            None => PairStep::Stalled,
-        }
+        let free = free_time(snapshot, &checked, kept);
+        step_from_free_time(snapshot.clock, free)
+            .or_else(|| self.step_beside_plane(snapshot, snapshot, &checked))
+            .unwrap_or(PairStep::Stalled)
+    }
+
+    /// Advances a pair that was in contact at the start, and keeps the gap `floor`.
+    fn step_in_contact_at_start(
+        &mut self,
+        snapshot: &Snapshot<'_>,
+        checked: &CheckedClaim,
+        floor: f64,
+    ) -> PairStep {
+        let problem = snapshot.problem;
+        let checked = improve_axis(&snapshot.pieces, checked, problem.rounding);
+        let free = snapshot.free_time_when_touching(&checked, floor, self.pieces());
+        step_from_free_time(snapshot.clock, free)
+            .or_else(|| {
+                let start = Snapshot::new(problem, self.a, self.b, 0.0);
+                self.step_beside_plane(&start, snapshot, &checked)
+            })
+            .unwrap_or_else(|| self.contact(snapshot, &checked))
+    }
+
+    /// Advances a pair that the plane of the contact at the start keeps apart, with the body that is chosen at the
+    /// snapshot `chosen_at`; `None` if it does not.
+    fn step_beside_plane(
+        &mut self,
+        chosen_at: &Snapshot<'_>,
+        snapshot: &Snapshot<'_>,
+        checked: &CheckedClaim,
+    ) -> Option<PairStep> {
+        let plane = self.touching_plane_state(chosen_at, checked.witness_a)?;
+        self.contact_rule = ContactRule::TouchingPlane(plane);
+        let free = snapshot.touching_plane_free_time(&plane, checked.witness_a);
+        step_from_free_time(snapshot.clock, free)
+    }
+
+    /// Returns the plane of the contact at the start with the body that it moves with, if it keeps the pair apart.
+    fn touching_plane_state(
+        &self,
+        snapshot: &Snapshot<'_>,
+        from: DVec3,
+    ) -> Option<TouchingPlaneState> {
+        let plane = snapshot.problem.touching_plane.as_ref()?;
+        snapshot.choose_plane_state(plane, self.pieces(), from)
+    }
+
+    fn pieces(&self) -> [u32; 2] {
+        [self.a, self.b]
+    }
+
+    fn contact(&self, snapshot: &Snapshot<'_>, checked: &CheckedClaim) -> PairStep {
+        PairStep::Contact(contact(snapshot, self.pieces(), checked))
     }
 
     /// Returns the goal of a pair that is in contact at the start, if that contact is to be ignored; `None` if it
@@ -215,10 +283,10 @@ impl<C: Default + Clone> Pair<C> {
 }
 
 /// Converts a free time at clock `s` to a step; `None` if the time is too short for the clock to advance.
-fn step_from_free_time(s: f64, free: Option<f64>) -> Option<PairStep> {
+fn step_from_free_time(s: f64, free: FreeTime) -> Option<PairStep> {
     match free {
-        None => Some(PairStep::FreeUntil(f64::INFINITY)),
-        Some(tau) => {
+        FreeTime::ToEnd => Some(PairStep::FreeUntil(f64::INFINITY)),
+        FreeTime::AtLeast(tau) => {
             let next = (s + tau).next_down();
             (next > s).then_some(PairStep::FreeUntil(next))
         }

@@ -6,6 +6,7 @@ use super::snapshot::{SeparatingPlane, Snapshot};
 use crate::body::piece::Piece;
 use crate::math::order::greater;
 use crate::math::vector::length;
+use crate::motion::free_time::FreeTime;
 use crate::motion::gap::Gap;
 use crate::motion::pose::Frame;
 use crate::problem::BodyWithPath;
@@ -22,12 +23,11 @@ struct RiseBound {
 }
 
 impl Snapshot<'_> {
-    /// Returns a time for which the gap along a plane's fixed normal certainly stays above the required gap; `None` if a
-    /// piece has too many points, or if the time is short because the rate may change: then it is worth following the
-    /// points.
+    /// Returns a time for which the gap along a plane's fixed normal certainly stays above the required gap. `None` says
+    /// that following the points is worth it: the time is short because the rate may change, or a piece has too many points.
     ///
     /// From rates `n·v + (n×ω)·arm` and second derivatives of at most `|n×ω| |ω| |arm|`, with the arms of all points.
-    pub(crate) fn free_time_at_present_rate(&self, plane: &SeparatingPlane) -> Option<f64> {
+    pub(crate) fn free_time_at_present_rate(&self, plane: &SeparatingPlane) -> Option<FreeTime> {
         let pieces = [&self.pieces.a, &self.pieces.b];
         if pieces
             .iter()
@@ -44,8 +44,9 @@ impl Snapshot<'_> {
             rate: a.rate + b.rate,
             second_derivative: a.second_derivative + b.second_derivative,
         };
-        let free = gap.free_time();
-        (free >= self.time_left() || gap.rate * free >= MIN_CLOSED_BY_RATE_SHARE * gap.gap)
+        let time = gap.free_time();
+        let free = FreeTime::up_to(time, self.time_left());
+        (free == FreeTime::ToEnd || gap.rate * time >= MIN_CLOSED_BY_RATE_SHARE * gap.gap)
             .then_some(free)
     }
 }

@@ -6,9 +6,10 @@ use crate::body::piece::Piece;
 use crate::distance::oracle::{DistanceOracle, PiecePair};
 use crate::distance::separation::{self, CheckedClaim};
 use crate::engine::meter::Meter;
-use crate::math::order::{greater, lesser};
+use crate::math::order::lesser;
 use crate::math::vector::{length, unit};
 use crate::motion::bound::{VelocityBound, published_bound, sound_bound};
+use crate::motion::free_time::FreeTime;
 use crate::motion::gap::{Gap, first_possible_crossing};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
@@ -101,24 +102,23 @@ impl<'p> Snapshot<'p> {
     /// Like [`Snapshot::free_time`], for the first visit of two pieces. If the fixed plane perpendicular to the claim's
     /// axis keeps them apart for a while at the present rate, no point is followed, and no other plane is tried. Most
     /// pairs are visited only once.
-    pub(crate) fn first_visit_free_time(&self, checked: &CheckedClaim, kept: f64) -> Option<f64> {
+    pub(crate) fn first_visit_free_time(&self, checked: &CheckedClaim, kept: f64) -> FreeTime {
         let direct = self.plane_of_claim(checked, kept);
         match self.free_time_at_present_rate(&direct) {
-            Some(free) if free >= self.time_left() => None,
-            Some(free) if free >= SUFFICIENT_FIRST_FREE_TIME => Some(free),
-            _ => match self.fixed_plane_free_time(direct.normal, direct.gap_excess)? {
-                free if free >= SUFFICIENT_FIRST_FREE_TIME => Some(free),
+            Some(free) if free >= FreeTime::AtLeast(SUFFICIENT_FIRST_FREE_TIME) => free,
+            _ => match self.fixed_plane_free_time(direct.normal, direct.gap_excess) {
+                free if free >= FreeTime::AtLeast(SUFFICIENT_FIRST_FREE_TIME) => free,
                 free => self.longest_free_time(checked, kept, &direct, free),
             },
         }
     }
 
-    /// Returns a time for which the pieces certainly stay farther apart than `kept`; `None` if they always do. The
-    /// function tries two normals, the claim's axis and the direction in which the nearest points pass each other. The
-    /// planes are fixed, or turn with one of the bodies.
-    pub(crate) fn free_time(&self, checked: &CheckedClaim, kept: f64) -> Option<f64> {
+    /// Returns a time for which the pieces certainly stay farther apart than `kept`. The function tries two normals, the
+    /// claim's axis and the direction in which the nearest points pass each other. The planes are fixed, or turn with one
+    /// of the bodies.
+    pub(crate) fn free_time(&self, checked: &CheckedClaim, kept: f64) -> FreeTime {
         let direct = self.plane_of_claim(checked, kept);
-        let free = self.fixed_plane_free_time(direct.normal, direct.gap_excess)?;
+        let free = self.fixed_plane_free_time(direct.normal, direct.gap_excess);
         self.longest_free_time(checked, kept, &direct, free)
     }
 
@@ -129,20 +129,21 @@ impl<'p> Snapshot<'p> {
         checked: &CheckedClaim,
         kept: f64,
         direct: &SeparatingPlane,
-        mut free: f64,
-    ) -> Option<f64> {
+        mut free: FreeTime,
+    ) -> FreeTime {
+        if free == FreeTime::ToEnd {
+            return free;
+        }
         let passing = self.plane_of_closest_approach(checked, kept);
         if let Some(passing) = &passing {
-            free = greater(
-                free,
-                self.fixed_plane_free_time(passing.normal, passing.gap_excess)?,
-            );
+            free =
+                free.or_longer(|_| self.fixed_plane_free_time(passing.normal, passing.gap_excess));
         }
         let members = self.moving_pieces();
         for plane in iter::once(direct).chain(&passing) {
-            free = greater(self.turning_plane_free_time(&members, plane, free)?, free);
+            free = free.or_longer(|free| self.turning_plane_free_time(&members, plane, free));
         }
-        Some(free)
+        free
     }
 
     /// Like [`Snapshot::free_time`], along the claim's axis alone, by a bound of each body's velocity along it `[FAST06
@@ -156,7 +157,7 @@ impl<'p> Snapshot<'p> {
         kept: f64,
         bound: VelocityBound,
         reaches: [f64; 2],
-    ) -> Option<f64> {
+    ) -> FreeTime {
         let Problem { a, b, .. } = self.problem;
         let normal = self.frames[0].rotation * checked.axis;
         let sides = [
@@ -180,9 +181,7 @@ impl<'p> Snapshot<'p> {
             rate: rate + RATE_ERROR_F64 * speed,
             second_derivative: 0.0,
         };
-        let free = gap.free_time();
-        // Written so that NaN gives no time.
-        (!(free >= self.time_left())).then_some(free)
+        FreeTime::up_to(gap.free_time(), self.time_left())
     }
 
     /// Returns the overlap of two pieces of many points along the axis between their middles, as a share of the smaller
@@ -205,7 +204,7 @@ impl<'p> Snapshot<'p> {
         checked: &CheckedClaim,
         kept: f64,
         [a, b]: [u32; 2],
-    ) -> Option<f64> {
+    ) -> FreeTime {
         let rounding = self.problem.rounding;
         let slack = |axis| self.gap_along(axis, checked.witness_a) - kept;
         // Written so that NaN counts as no slack.
@@ -214,7 +213,7 @@ impl<'p> Snapshot<'p> {
             if is_left(checked.lower - kept) {
                 self.free_time(checked, kept)
             } else {
-                Some(0.0)
+                FreeTime::NONE
             }
         };
         // This includes pieces that have passed the plane by the rounding of resting.
@@ -227,14 +226,14 @@ impl<'p> Snapshot<'p> {
             slack if is_left(slack) => {
                 self.fixed_plane_free_time(self.frames[0].rotation * axis, slack)
             }
-            _ => Some(0.0),
+            _ => FreeTime::NONE,
         };
         match (self.problem.a.body.facing(a), self.problem.b.body.facing(b)) {
             // The side to keep to is unknown, and the pieces are not let go.
-            (Facing::Unclear, _) | (_, Facing::Unclear) => Some(0.0),
+            (Facing::Unclear, _) | (_, Facing::Unclear) => FreeTime::NONE,
             (Facing::OutwardNormal(n), Facing::OutwardNormal(m)) => match -(turn * m) {
                 // The solids are on the same side of the plane: their faces slide, and cannot meet.
-                into_b if n.dot(into_b) < 0.0 => greater_free_time(along(n), along(into_b)),
+                into_b if n.dot(into_b) < 0.0 => along(n).or_longer(|_| along(into_b)),
                 _ => along(n),
             },
             (Facing::OutwardNormal(n), Facing::NoOutwardSide) => along(n),
@@ -243,14 +242,11 @@ impl<'p> Snapshot<'p> {
         }
     }
 
-    /// Returns a time for which a plane certainly keeps the pieces apart; `None` if it always does. The plane is fixed,
-    /// or turns with one of the bodies.
-    pub(crate) fn plane_free_time(&self, plane: &SeparatingPlane) -> Option<f64> {
-        let free = self.fixed_plane_free_time(plane.normal, plane.gap_excess)?;
-        Some(greater(
-            self.turning_plane_free_time(&self.moving_pieces(), plane, free)?,
-            free,
-        ))
+    /// Returns a time for which a plane certainly keeps the pieces apart. The plane is fixed, or turns with one of the
+    /// bodies.
+    pub(crate) fn plane_free_time(&self, plane: &SeparatingPlane) -> FreeTime {
+        self.fixed_plane_free_time(plane.normal, plane.gap_excess)
+            .or_longer(|free| self.turning_plane_free_time(&self.moving_pieces(), plane, free))
     }
 
     /// Returns the gap of the pieces along a unit vector, minus rounding. The vector, and the point from which heights
@@ -297,26 +293,29 @@ impl<'p> Snapshot<'p> {
         members: &[MovingPiece<'_>; 2],
         plane: &SeparatingPlane,
         free: f64,
-    ) -> Option<f64> {
+    ) -> FreeTime {
         if !self.problem.uses_shortcut(Shortcut::TurningPieces) {
-            return Some(0.0);
+            return FreeTime::NONE;
         }
         let [a, b] = members;
         let uses_up =
             |relative_speed: f64| relative_speed * free > MIN_ROTATION_GAP_SHARE * plane.gap_excess;
-        let mut longest = 0.0f64;
+        let mut longest = FreeTime::NONE;
         for (holder, other, normal) in [(a, b, plane.normal), (b, a, -plane.normal)] {
             if uses_up(holder.rotational_speed_bound)
                 && uses_up(holder.rotational_speed_bound_along(normal))
             {
                 let sweep =
                     PieceMotionToTurningPlane::new(holder, other, normal, self.problem.rounding);
-                let free = sweep.free_time(plane.gap_excess, self.time_left());
+                longest =
+                    longest.or_longer(|_| sweep.free_time(plane.gap_excess, self.time_left()));
                 self.record_evaluations(sweep.evaluations.get());
-                longest = greater(longest, free?);
+                if longest == FreeTime::ToEnd {
+                    break;
+                }
             }
         }
-        Some(longest)
+        longest
     }
 
     /// Returns the pieces of A and of B with their motions.
@@ -343,13 +342,13 @@ impl<'p> Snapshot<'p> {
         1.0 - self.clock
     }
 
-    /// Returns a time for which the gap along a fixed unit vector certainly stays above the required gap; `None` if it
-    /// always does. `slack` is the present excess over the required gap.
+    /// Returns a time for which the gap along a fixed unit vector certainly stays above the required gap. `slack` is the
+    /// present excess over the required gap.
     ///
     /// Every point's height along the axis is known exactly
     /// ([`HeightFunction`](crate::motion::track::HeightFunction)). Newton's method follows the least gap between any
     /// two points, with a bound on its curvature.
-    pub(crate) fn fixed_plane_free_time(&self, normal: DVec3, slack: f64) -> Option<f64> {
+    pub(crate) fn fixed_plane_free_time(&self, normal: DVec3, slack: f64) -> FreeTime {
         let (problem, [frame_a, frame_b]) = (self.problem, &self.frames);
         // The highest point along an axis is the lowest along its opposite.
         let clock = self.clock;
@@ -376,7 +375,7 @@ impl<'p> Snapshot<'p> {
         };
         let points = self.pieces.points_per_support_search();
         self.record_evaluations(points);
-        let crossing = match (a.tracks_if_few_points(), b.tracks_if_few_points()) {
+        let found = match (a.tracks_if_few_points(), b.tracks_if_few_points()) {
             (Some(below), Some(above)) => {
                 first_possible_crossing(self.time_left(), rounds, |tau| {
                     self.record_evaluations(points);
@@ -391,11 +390,11 @@ impl<'p> Snapshot<'p> {
                 self.record_evaluations(points);
                 least_free_time_of_many_points(&b, &a, tau, free)
             }),
-        }?;
-        if self.stays_apart_despite_rotation(&a, &b, slack) {
-            None
+        };
+        if found == FreeTime::ToEnd || self.stays_apart_despite_rotation(&a, &b, slack) {
+            FreeTime::ToEnd
         } else {
-            Some(crossing)
+            found
         }
     }
 
@@ -442,11 +441,6 @@ fn least_linear_displacement(rate: f64, linear_acceleration: f64, horizon: f64) 
     } else {
         lesser(0.0, (rate + 0.5 * linear_acceleration * horizon) * horizon)
     }
-}
-
-/// Returns the longer of two free times; `None` stands for an unbounded time.
-fn greater_free_time(one: Option<f64>, other: Option<f64>) -> Option<f64> {
-    Some(greater(one?, other?))
 }
 
 #[cfg(test)]

@@ -106,6 +106,7 @@ fn possible_crossing_time(track: &HeightFunction, limit: f64) -> Option<f64> {
         }
         .free_time()
     })
+    .bounded()
 }
 
 #[test]

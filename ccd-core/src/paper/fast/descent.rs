@@ -12,6 +12,7 @@ use crate::engine::pieces::snapshot::Snapshot;
 use crate::engine::proven::ProvenFacts;
 use crate::math::order::lesser;
 use crate::motion::bound::VelocityBound;
+use crate::motion::free_time::FreeTime;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
 use crate::tuning::{JOIN_DISTANCE_RATIO, MIN_OVERLAP_TO_SPLIT};
@@ -140,7 +141,10 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
         );
         node.distance_lower_bound = checked.lower;
         node.features_on_bridges = self.hulls.features_on_bridges(node.pair, &checked.claim);
-        node.certified_until = free.map_or(f64::INFINITY, |free| (s + free).next_down());
+        node.certified_until = match free {
+            FreeTime::AtLeast(free) => (s + free).next_down(),
+            FreeTime::ToEnd => f64::INFINITY,
+        };
         let contact = problem.contact_distance();
         // Contacts at the start are found at the start, or never.
         let reach = if s > 0.0 { problem.kept_gap() } else { contact };

@@ -122,7 +122,8 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     let gap = gap_at(clock);
     let slack = gap.abs() * random_power_of_ten(rng, -3.0, 0.0);
     let free = PieceMotionToTurningPlane::new(own, other, towards, problem.rounding)
-        .free_time(slack, 1.0 - clock);
+        .free_time(slack, 1.0 - clock)
+        .bounded();
     let until = free.map_or(1.0, |free| clock + free);
     // Both gaps are rounded.
     let least = gap - slack - 2.0 * problem.rounding;
@@ -253,12 +254,13 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
         };
         let still = snapshot
             .fixed_plane_free_time(plane.normal, plane.gap_excess)
+            .bounded()
             .unwrap();
         assert!(still < 0.01, "{still}");
         // 0.5 (1 − cos τ) uses up 0.3 after 1.16.
         assert_eq!(
             snapshot.turning_plane_free_time(&snapshot.moving_pieces(), &plane, still),
-            None
+            FreeTime::ToEnd
         );
         let closer = SeparatingPlane {
             normal,
@@ -266,6 +268,7 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
         };
         let free = snapshot
             .turning_plane_free_time(&snapshot.moving_pieces(), &closer, still)
+            .bounded()
             .unwrap();
         let exact = 0.8f64.acos();
         assert!(free <= exact && free > 0.9 * exact, "{free} {exact}");
@@ -289,10 +292,10 @@ fn no_slack_is_no_time() {
                 problem.rounding,
             )
             .free_time(slack, 0.5);
-            assert_eq!(free, Some(0.0), "{slack}");
+            assert_eq!(free, FreeTime::NONE, "{slack}");
         }
         let free = PieceMotionToTurningPlane::new(&a, &b, DVec3::NAN, problem.rounding)
             .free_time(1.0, 0.5);
-        assert_eq!(free, Some(0.0));
+        assert_eq!(free, FreeTime::NONE);
     }
 }

@@ -23,9 +23,12 @@ fn times_are_proven_and_hardly_shorter_than_those_of_points_that_are_followed() 
         let Some(free) = snapshot.free_time_at_present_rate(&plane) else {
             continue;
         };
-        let followed = snapshot.fixed_plane_free_time(normal, plane.gap_excess);
+        let followed = snapshot
+            .fixed_plane_free_time(normal, plane.gap_excess)
+            .bounded();
         let left = 1.0 - clock;
         let longest = followed.unwrap_or(f64::INFINITY);
+        let free = free.bounded().unwrap_or(f64::INFINITY);
         assert!(free > 0.0, "{number}");
         // The points are followed up to the last percent.
         assert!(

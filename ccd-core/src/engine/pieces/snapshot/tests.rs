@@ -33,7 +33,7 @@ fn an_axis_separates_for_as_long_as_it_says() {
         let gap = heights(clock, normal);
         // The slack is the part of the gap that may be used up.
         let slack = gap.abs() * random_power_of_ten(&mut rng, -3.0, 0.0);
-        let free = snapshot.fixed_plane_free_time(normal, slack);
+        let free = snapshot.fixed_plane_free_time(normal, slack).bounded();
         let until = free.map_or(1.0, |free| clock + free);
         let least = gap - slack - 3.0 * problem.rounding;
         for k in 0..=SAMPLE_COUNT {
@@ -77,7 +77,7 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
         if checked.lower <= kept {
             continue;
         }
-        let free = snapshot.free_time(&checked, kept);
+        let free = snapshot.free_time(&checked, kept).bounded();
         let until = free.map_or(1.0, |free| clock + free);
         for k in 0..=SAMPLE_COUNT {
             let s = clock + (until - clock) * f64::from(k) / f64::from(SAMPLE_COUNT);
@@ -118,9 +118,9 @@ fn no_slack_is_no_time() {
         let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
         for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
             let free = snapshot.fixed_plane_free_time(random_direction(&mut rng), slack);
-            assert_eq!(free, Some(0.0), "{slack}");
+            assert_eq!(free, FreeTime::NONE, "{slack}");
         }
         let free = snapshot.fixed_plane_free_time(DVec3::NAN, 1.0);
-        assert_eq!(free, Some(0.0));
+        assert_eq!(free, FreeTime::NONE);
     }
 }

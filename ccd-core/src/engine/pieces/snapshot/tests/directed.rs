@@ -72,6 +72,7 @@ fn a_directed_time_is_the_gap_over_both_advances() {
             let expected = (checked.lower - kept) / rate;
             let horizon = 1.0 - snapshot.clock;
             let time = snapshot.free_time_along_axis(&checked, kept, bound, reaches);
+            let time = time.bounded();
             match time {
                 Some(time) => {
                     let allowed = ((checked.lower - kept) / time - rate) / allowance;

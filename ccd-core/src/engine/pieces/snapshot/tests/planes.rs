@@ -5,6 +5,7 @@ use crate::body::Body;
 #[cfg(feature = "hull-tree")]
 use crate::body::polytope::Polytope;
 use crate::distance::oracle::{Claim, Effort, GiveUpReason};
+use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::settings::Settings;
@@ -80,8 +81,8 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
 }
 
 /// Converts a free time to a number; `None`, an unbounded time, becomes infinity.
-fn free_time_or_infinity(free: Option<f64>) -> f64 {
-    free.unwrap_or(f64::INFINITY)
+fn free_time_or_infinity(free: FreeTime) -> f64 {
+    free.bounded().unwrap_or(f64::INFINITY)
 }
 
 #[test]
@@ -127,13 +128,12 @@ fn the_plane_of_the_longest_time_counts() {
         turning += usize::from(free_time_or_infinity(free) > fixed);
         passes += usize::from(fixed > along(&&direct));
         let sufficient = |time: &f64| *time >= SUFFICIENT_FIRST_FREE_TIME;
-        let expected = match snapshot.free_time_at_present_rate(&direct) {
-            Some(first) if first >= snapshot.time_left() => f64::INFINITY,
-            first => first
-                .filter(sufficient)
-                .or(Some(along(&&direct)).filter(sufficient))
-                .unwrap_or(free_time_or_infinity(free)),
-        };
+        let at_present_rate = snapshot.free_time_at_present_rate(&direct);
+        let expected = at_present_rate
+            .map(free_time_or_infinity)
+            .filter(sufficient)
+            .or(Some(along(&&direct)).filter(sufficient))
+            .unwrap_or(free_time_or_infinity(free));
         let first = free_time_or_infinity(snapshot.first_visit_free_time(&checked, kept));
         assert_eq!(first, expected, "{:?}", direct.normal);
         at_once[usize::from(first < free_time_or_infinity(free))] += 1;
@@ -190,7 +190,8 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
         let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
         let rate = -away.dot(chased - velocity);
         let slack = 0.1 * rate;
-        let free = snapshot.fixed_plane_free_time(-away, slack).unwrap();
+        let free = snapshot.fixed_plane_free_time(-away, slack);
+        let free = free.bounded().unwrap();
         let speed = chased.length() + velocity.length();
         let allowed = (slack / free - rate) / (RATE_ERROR_F64 * speed);
         assert!((0.4..3.0).contains(&allowed), "{allowed} {rate} {speed}");
