@@ -138,6 +138,21 @@ pub enum ClearanceVerdict {
     Unverified,
 }
 
+impl ClearanceVerdict {
+    /// Compares a required distance with a lower and an upper bound of the least distance.
+    ///
+    /// Bodies that may touch keep no clearance, not even a clearance of 0.
+    pub fn from_bounds([lower, upper]: [f64; 2], required: f64) -> Self {
+        if lower >= required && lower > 0.0 {
+            ClearanceVerdict::Kept
+        } else if upper < required || upper <= 0.0 {
+            ClearanceVerdict::Violated
+        } else {
+            ClearanceVerdict::Unverified
+        }
+    }
+}
+
 impl Answer {
     /// Returns the first contact; `None` if the bodies stay apart.
     ///
@@ -245,14 +260,7 @@ impl Outcome {
     ///
     /// Bodies that may touch keep no clearance, not even a clearance of 0.
     pub fn clearance_verdict(&self, required: f64) -> ClearanceVerdict {
-        let (lower, upper) = (self.lower(), self.upper());
-        if lower >= required && lower > 0.0 {
-            ClearanceVerdict::Kept
-        } else if upper < required || upper <= 0.0 {
-            ClearanceVerdict::Violated
-        } else {
-            ClearanceVerdict::Unverified
-        }
+        ClearanceVerdict::from_bounds([self.lower(), self.upper()], required)
     }
 
     /// Creates the outcome for a contact at a time: [`Outcome::Touching`] at time 0, else [`Outcome::Contact`].

@@ -53,7 +53,7 @@
 //! # The sources
 //! | folder | holds |
 //! |---|---|
-//! | `query.rs`, `settings.rs`, `problem.rs`, `answer.rs` | the question, in a user's units and in a search's own; the answer |
+//! | `question.rs`, `query.rs`, `settings.rs`, `problem.rs`, `answer.rs` | the question, in a user's units and in a search's own; the answer |
 //! | `body/` | convex pieces, the wide tree over them `[FAST06 §5.1]`, trees of hulls `[FAST06 §3.3]`, farthest corners `[FAST06 §4.2]` |
 //! | `motion/` | motions `[FAST06 §4.1]`, bounds of rates `[FAST06 §4.2]`, Δt = d / μ `[FAST06 Eq. 2]`, trajectories of any kind |
 //! | `distance/` | oracles, and the check of their claims |
@@ -91,6 +91,7 @@ mod motion;
 mod paper;
 mod problem;
 mod query;
+mod question;
 mod questions;
 pub mod rounding;
 pub mod schedule;
@@ -139,6 +140,7 @@ pub use motion::trajectory::{
     Acceleration, AccelerationBounds, DeviationBound, SmoothTrajectory, Stretch, Trajectory,
 };
 pub use query::{Movement, MovingBody, Query};
+pub use question::Question;
 pub use schedule::Schedule;
 pub use settings::{ContactNormals, Settings, StartPolicy, VectorInstructions};
 pub use swept_box::SweptBox;

@@ -160,7 +160,27 @@ impl<'a> Query<'a> {
         duration: f64,
         settings: &'a Settings,
     ) -> Result<Self, InputError> {
-        let (a, b, terms) = (a.into(), b.into(), settings.to_query_settings());
+        Query::with_query_settings(a.into(), b.into(), duration, settings.to_query_settings())
+    }
+
+    /// Returns the query about the bodies at rest, where they are at the start.
+    ///
+    /// # Errors
+    /// Those of trajectories, and those of [`Query::new`] for the poses at the start.
+    pub fn at_start(&self) -> Result<Self, InputError> {
+        let rest = |moving: &MovingBody<'a>| -> Result<MovingBody<'a>, InputError> {
+            Ok((moving.body, moving.movement.pose(0.0)?).into())
+        };
+        Query::with_query_settings(rest(&self.a)?, rest(&self.b)?, 0.0, self.settings)
+    }
+
+    #[inline]
+    fn with_query_settings(
+        a: MovingBody<'a>,
+        b: MovingBody<'a>,
+        duration: f64,
+        terms: QuerySettings<'a>,
+    ) -> Result<Self, InputError> {
         // One expression for each case: a problem is large, and is not moved again.
         if let (Movement::Motion(of_a), Movement::Motion(of_b)) = (a.movement, b.movement) {
             let bodies = [(a.body, of_a), (b.body, of_b)];

@@ -12,7 +12,7 @@ use crate::write::{Proof, mesh_points, prove_unless_stopped, statement_of};
 use ccd_core::{Motion, Pose};
 use rigid_ccd::Settings;
 use rigid_ccd::trajectory::JointKind;
-use rigid_ccd_robot::{Cell, Item, PathContact, PathOutcome, RobotError};
+use rigid_ccd_robot::{Cell, Item, PathAnswer, PathContact, PathOutcome, RobotError};
 use std::collections::HashMap;
 use std::sync::atomic::AtomicBool;
 
@@ -187,10 +187,10 @@ impl<'c> ProvenCell<'c> {
     pub fn prove_path<C: AsRef<[f64]>>(
         &self,
         path: &[C],
-        outcome: &PathOutcome<'_>,
+        answer: &PathAnswer<'_>,
         settings: &Settings,
     ) -> Result<Vec<Proof>, PathNotProven> {
-        self.path_proofs(path, outcome, settings).collect()
+        self.path_proofs(path, answer, settings).collect()
     }
 
     /// Proves what is known of a path as [`prove_path`](Self::prove_path) does, one segment after another: each proof is made when
@@ -198,14 +198,11 @@ impl<'c> ProvenCell<'c> {
     pub fn path_proofs<'p, C: AsRef<[f64]>>(
         &'p self,
         path: &'p [C],
-        outcome: &'p PathOutcome<'_>,
+        answer: &'p PathAnswer<'_>,
         settings: &'p Settings,
     ) -> impl Iterator<Item = Result<Proof, PathNotProven>> + 'p {
-        let end = match outcome {
-            PathOutcome::Free => None,
-            PathOutcome::Contact(contact) => Some(contact.at),
-            PathOutcome::Unresolved { free_until, .. } => Some(*free_until),
-        };
+        let is_free = matches!(answer.outcome, PathOutcome::Free);
+        let end = (!is_free).then_some(answer.free_until);
         let last = end.map_or(usize::MAX, |end| end.segment);
         let segments = path.windows(2).enumerate();
         let proofs = segments
@@ -214,7 +211,7 @@ impl<'c> ProvenCell<'c> {
                 let ends = [ends[0].as_ref(), ends[1].as_ref()];
                 let share = end.filter(|end| end.segment == segment);
                 let share = share.map_or(1.0, |end| end.share);
-                self.prove_segment((segment, ends), share, outcome, settings)
+                self.prove_segment((segment, ends), share, answer, settings)
                     .transpose()
             });
         let mut has_failed = false;
@@ -226,11 +223,11 @@ impl<'c> ProvenCell<'c> {
         &self,
         (segment, [from, to]): (usize, [&[f64]; 2]),
         share: f64,
-        outcome: &PathOutcome<'_>,
+        answer: &PathAnswer<'_>,
         settings: &Settings,
     ) -> Result<Option<Proof>, PathNotProven> {
         let scene = self.edge(from, to, settings.margin)?;
-        let contact = match outcome {
+        let contact = match &answer.outcome {
             PathOutcome::Contact(contact) if contact.at.segment == segment => Some(contact),
             _ => None,
         };

@@ -50,9 +50,9 @@ fn prove_with(
     settings: &Settings,
 ) -> Result<Vec<Proof>, PathNotProven> {
     let mut solver = cell.solver().with_settings(settings.clone());
-    let outcome = solver.first_contact(path).unwrap();
+    let answer = solver.first_contact(path).unwrap();
     let proven = ProvenCell::new(cell).unwrap();
-    let proofs = proven.prove_path(path, &outcome, settings)?;
+    let proofs = proven.prove_path(path, &answer, settings)?;
     for proof in &proofs {
         let read = |body: &ccd_prove::Body| {
             ccd_check::Body::new(body.mesh(), body.certificate(), &proof.bytes).unwrap()
@@ -79,14 +79,14 @@ fn a_body_in_another_at_the_start_has_no_proof() {
 fn a_proof_ends_when_it_is_stopped() {
     let cell = cell(block(0.1), (block(0.1), 2.0), None);
     let path = [[0.0, 0.0], [0.5, 0.0]];
-    let outcome = cell.solver().first_contact(&path).unwrap();
+    let answer = cell.solver().first_contact(&path).unwrap();
     let proven = ProvenCell::new(&cell).unwrap();
     let prove = |is_stopped: bool| {
         let settings = Settings {
             stop: Some(Arc::new(AtomicBool::new(is_stopped))),
             ..Settings::DEFAULT
         };
-        proven.prove_path(&path, &outcome, &settings)
+        proven.prove_path(&path, &answer, &settings)
     };
     assert_eq!(prove(false).unwrap().len(), 1);
     let (segment, reason) = (0, NotProven::Stopped { at: 0.0 });

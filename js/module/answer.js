@@ -2,7 +2,8 @@
 
 import { classes } from "./wasm.js";
 
-const KINDS = ["free", "contact", "touching", "overlapping", "interval", "leastDistance", "unresolved"];
+/** The names of the kinds of answers, in the order of the engine. */
+export const KINDS = ["free", "contact", "touching", "overlapping", "interval", "leastDistance", "unresolved"];
 /** Places in the numbers of an answer, and in those of a contact, as `js/src/wasm/answer.rs` writes them. */
 const CONTACTS = 7;
 const CONTACT_LENGTH = 21;
@@ -33,12 +34,12 @@ export function answerOf(kind, numbers, at) {
 }
 
 /** Returns what is known about a limit, by its number. */
-export function limitOf(number) {
+function limitOf(number) {
   return { limit: classes().limit_name(number), advice: classes().limit_advice(number) };
 }
 
 /** Returns a feature of a body, as `v7`, `e3-7`, `f12` or `p0`; null if there is none. */
-export function featureOf(numbers, at) {
+function featureOf(numbers, at) {
   const one = numbers[at + 1];
   switch (numbers[at]) {
     case 0:
@@ -54,7 +55,7 @@ export function featureOf(numbers, at) {
   }
 }
 
-export function vectorAt(numbers, at) {
+function vectorAt(numbers, at) {
   return [numbers[at], numbers[at + 1], numbers[at + 2]];
 }
 

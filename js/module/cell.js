@@ -1,6 +1,6 @@
 // A robot among obstacles, and questions about its paths.
 
-import { featureOf, limitOf, vectorAt } from "./answer.js";
+import { KINDS } from "./answer.js";
 import { bodyOf } from "./body.js";
 import { finiteNumber, joined, listOf, nameOf, optionsOf, settingNumber } from "./numbers.js";
 import { innerOf, Owned } from "./owned.js";
@@ -9,9 +9,6 @@ import { configurationOf, pairsOf, remarksOf, Robot } from "./robot.js";
 import { settingsOf, UnresolvedError } from "./solver.js";
 import { classes } from "./wasm.js";
 
-/** The places of the tolerance and of the pair in the numbers of an answer, as `js/src/wasm/path_answer.rs` writes them. */
-const MET_TOLERANCE = 3;
-const PAIR = 4;
 const RANGE_CONTACT_SETTINGS = ["tolerance", "margin", "budget"];
 const CONTACT_SETTINGS = [...RANGE_CONTACT_SETTINGS, "start"];
 const DISTANCE_SETTINGS = ["tolerance", "budget"];
@@ -80,23 +77,19 @@ export class Cell extends Owned {
   }
 
   firstContact(path, options) {
-    const { kind, numbers, names } = this.#ask(classes().Question.FirstContact, path, options, CONTACT_SETTINGS);
-    return contactAnswer(kind, numbers, names);
+    return contactAnswer(this.#ask(classes().Question.FirstContact, path, options, CONTACT_SETTINGS));
   }
 
   isFree(path, options) {
-    const { kind, numbers, names } = this.#ask(classes().Question.AnyContact, path, options, CONTACT_SETTINGS);
-    const answer = contactAnswer(kind, numbers, names);
+    const answer = this.#ask(classes().Question.AnyContact, path, options, CONTACT_SETTINGS);
     if (answer.kind === "unresolved") throw new UnresolvedError({ limit: answer.limit, advice: answer.advice, safeUntil: answer.safeUntil });
     return answer.kind === "free";
   }
 
   closestApproach(path, options) {
-    const { kind, numbers, names } = this.#ask(classes().Question.ClosestApproach, path, options, DISTANCE_SETTINGS);
-    const bounds = { lower: numbers[0], upper: numbers[1], tolerance: numbers[MET_TOLERANCE] };
-    const nearest = names.length === 0 ? null : pairOf(numbers, names);
-    if (kind === classes().AnswerKind.LeastDistance) return { kind: "leastDistance", ...bounds, nearest };
-    return { kind: "unresolved", ...limitOf(numbers[2]), ...bounds, nearest };
+    const { kind, limit, advice, lower, upper, tolerance, nearest } = this.#ask(classes().Question.ClosestApproach, path, options, DISTANCE_SETTINGS);
+    const bounds = { lower, upper, tolerance, nearest };
+    return kind === "unresolved" ? { kind, limit, advice, ...bounds } : { kind, ...bounds };
   }
 
   clearanceRanges(path, options) {
@@ -109,10 +102,7 @@ export class Cell extends Owned {
   }
 
   #ask(question, path, options, known) {
-    const answer = Owned.inner(this).ask(question, this.#numbersOf(path), path.length, settingsOf(options, known));
-    const parts = { kind: answer.kind, numbers: answer.numbers(), names: answer.names() };
-    answer.free();
-    return parts;
+    return answerOfPath(Owned.inner(this).ask(question, this.#numbersOf(path), path.length, settingsOf(options, known)));
   }
 
   /** Returns the configurations of a path one after another. */
@@ -125,27 +115,35 @@ function namesOf(value, what) {
   return listOf(value, what, nameOf);
 }
 
-function contactAnswer(kind, numbers, names) {
-  const { Free, Contact } = classes().AnswerKind;
-  if (kind === Free) return { kind: "free", safeUntil: numbers[0] + numbers[1] };
-  if (kind === Contact) return { kind: "contact", ...pairOf(numbers, names), tolerance: numbers[MET_TOLERANCE] };
-  const [segment, share, limit] = numbers;
-  return { kind: "unresolved", ...limitOf(limit), safeUntil: segment + share };
+function contactAnswer({ kind, limit, advice, safeUntil, tolerance, nearest }) {
+  if (kind === "contact") return { kind, ...nearest, tolerance };
+  return kind === "unresolved" ? { kind, limit, advice, safeUntil } : { kind, safeUntil };
 }
 
-function pairOf(numbers, [a, b]) {
-  const segment = numbers[PAIR];
-  const share = numbers[PAIR + 1];
-  return {
+/** Reads an answer of the engine, and frees it. */
+function answerOfPath(answer) {
+  const { kind, safe_until: safeUntil, lower, upper, tolerance } = answer;
+  const found = { kind: KINDS[kind], limit: answer.limit(), advice: answer.advice(), safeUntil, lower, upper, tolerance, nearest: contactOfPath(answer.nearest()) };
+  answer.free();
+  return found;
+}
+
+/** Reads the pair of an answer, and frees it; null if there is none. */
+function contactOfPath(pair) {
+  if (pair === undefined) return null;
+  const { segment, share, time, lower, upper } = pair;
+  const found = {
     segment,
     share,
-    time: segment + share,
-    a,
-    b,
-    witnessA: vectorAt(numbers, PAIR + 2),
-    witnessB: vectorAt(numbers, PAIR + 5),
-    distance: [numbers[PAIR + 8], numbers[PAIR + 9]],
-    featureA: featureOf(numbers, PAIR + 10),
-    featureB: featureOf(numbers, PAIR + 13),
+    time,
+    a: pair.a(),
+    b: pair.b(),
+    witnessA: [...pair.witness_a()],
+    witnessB: [...pair.witness_b()],
+    distance: [lower, upper],
+    featureA: pair.feature_a() ?? null,
+    featureB: pair.feature_b() ?? null,
   };
+  pair.free();
+  return found;
 }

@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
-use rigid_ccd::batch::Question;
+use rigid_ccd::Question;
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::table::results::Status;
 use rigid_ccd::{Hit, Outcome};

@@ -6,7 +6,7 @@ use crate::cell_state::{CellState, read_body};
 use crate::errors::wrong_type_error;
 use crate::motion::{GivenPose, read_given_pose};
 use crate::numbers::read_number;
-use crate::path_answers::{allowed_setting_names, approach_object, contact_or_unresolved};
+use crate::path_answers::{allowed_setting_names, approach_object, check_resolved, contact_object};
 use crate::path_array::GivenPaths;
 use crate::path_questions::{ask_path, path_ranges};
 use crate::path_tables::{GivenQuestion, answer_paths};
@@ -16,9 +16,9 @@ use crate::settings::{CONTACT_SETTING_NAMES, read};
 use crate::table::PyTable;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
-use rigid_ccd::Body;
 use rigid_ccd::table::results::Status;
-use rigid_ccd_robot::path_rows::{PathAnswer, PathQuestion};
+use rigid_ccd::{Body, Question};
+use rigid_ccd_robot::path_rows::PathRow;
 use rigid_ccd_robot::{Cell, CellRemark, RangeSettings};
 
 /// A robot among obstacles that rest in the frame of its base.
@@ -166,7 +166,8 @@ impl PyCell {
         path: &Bound<'_, PyAny>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
-        let answer = self.ask(py, PathQuestion::IsFree, path, settings)?;
+        let answer = self.ask(py, Question::AnyContact, path, settings)?;
+        check_resolved(py, &answer)?;
         Ok(answer.row.status == Status::Free)
     }
 
@@ -181,10 +182,9 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
-        contact_or_unresolved(
-            py,
-            &self.ask(py, PathQuestion::FirstContact, path, settings)?,
-        )
+        let answer = self.ask(py, Question::FirstContact, path, settings)?;
+        check_resolved(py, &answer)?;
+        contact_object(py, &answer)
     }
 
     /// Finds the first contact on a path of configurations, and proves the answer for each of its segments: that all pairs that
@@ -224,7 +224,7 @@ impl PyCell {
         path: &Bound<'py, PyAny>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let question = PathQuestion::ClosestApproach;
+        let question = Question::ClosestApproach;
         let settings = read(settings, allowed_setting_names(question))?;
         let clearance = settings.clearance;
         let answer = ask_path(py, &self.state.solvers, question, path, settings)?;
@@ -353,10 +353,10 @@ impl PyCell {
     fn ask(
         &self,
         py: Python<'_>,
-        question: PathQuestion,
+        question: Question,
         path: &Bound<'_, PyAny>,
         settings: Option<&Bound<'_, PyDict>>,
-    ) -> PyResult<PathAnswer> {
+    ) -> PyResult<PathRow> {
         let settings = read(settings, allowed_setting_names(question))?;
         ask_path(py, &self.state.solvers, question, path, settings)
     }

@@ -3,17 +3,15 @@
 use crate::errors::{Unresolved, input_error, with_attribute};
 use crate::settings::{APPROACH_SETTING_NAMES, PATH_CONTACT_SETTING_NAMES};
 use pyo3::prelude::*;
-use rigid_ccd::Error;
+use rigid_ccd::Question;
 use rigid_ccd::answer::Limit;
 use rigid_ccd::table::results::Status;
-use rigid_ccd_robot::PathError;
-use rigid_ccd_robot::path_rows::{PathAnswer, PathQuestion};
+use rigid_ccd_robot::path_rows::PathRow;
+use rigid_ccd_robot::{CellSolver, PathError};
 
-/// Returns the question that has a name.
-pub(crate) fn question_named(name: &str) -> PyResult<PathQuestion> {
-    let found = PathQuestion::ALL
-        .into_iter()
-        .find(|question| question.name() == name);
+/// Returns the question about paths that has a name.
+pub(crate) fn question_named(name: &str) -> PyResult<Question> {
+    let found = Question::from_name(name).filter(|found| CellSolver::QUESTIONS.contains(found));
     found.ok_or_else(|| {
         input_error(format!(
             "ask: '{name}' is not is-free, first-contact or closest-approach"
@@ -22,17 +20,18 @@ pub(crate) fn question_named(name: &str) -> PyResult<PathQuestion> {
 }
 
 /// Returns the names of the settings of a question about many paths.
-pub(crate) fn allowed_setting_names(question: PathQuestion) -> &'static [&'static str] {
-    match question {
-        PathQuestion::IsFree | PathQuestion::FirstContact => PATH_CONTACT_SETTING_NAMES,
-        PathQuestion::ClosestApproach => APPROACH_SETTING_NAMES,
+pub(crate) fn allowed_setting_names(question: Question) -> &'static [&'static str] {
+    if question.is_for_a_distance() {
+        APPROACH_SETTING_NAMES
+    } else {
+        PATH_CONTACT_SETTING_NAMES
     }
 }
 
 /// Returns the pair of an answer as an object of Python; `None` without one.
 pub(crate) fn contact_object<'py>(
     py: Python<'py>,
-    answer: &PathAnswer,
+    answer: &PathRow,
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
     let row = &answer.row;
     let (Some(at), Some(_)) = (answer.at, &row.item_a) else {
@@ -61,16 +60,13 @@ pub(crate) fn contact_object<'py>(
     class.call1(values).map(Some)
 }
 
-/// Returns the first contact of an answer as an object of Python; `None` without one.
+/// Checks that no limit ended a question about contacts.
 ///
 /// # Errors
-/// `Unresolved` if a limit was reached first.
-pub(crate) fn contact_or_unresolved<'py>(
-    py: Python<'py>,
-    answer: &PathAnswer,
-) -> PyResult<Option<Bound<'py, PyAny>>> {
+/// `Unresolved` if a limit was reached.
+pub(crate) fn check_resolved(py: Python<'_>, answer: &PathRow) -> PyResult<()> {
     let Some(limit) = answer.limit else {
-        return contact_object(py, answer);
+        return Ok(());
     };
     let until = answer.row.time.unwrap_or(0.0);
     let text = format!("a limit was reached ({limit}); free until {until}");
@@ -81,7 +77,7 @@ pub(crate) fn contact_or_unresolved<'py>(
 /// Returns the bounds of a least distance as an object of Python, with what they say of a clearance.
 pub(crate) fn approach_object<'py>(
     py: Python<'py>,
-    answer: &PathAnswer,
+    answer: &PathRow,
     clearance: Option<f64>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let row = &answer.row;
@@ -98,31 +94,9 @@ pub(crate) fn approach_object<'py>(
 }
 
 /// Returns whether a deadline ended a question, or the search for the witnesses of its contact.
-pub(crate) fn ended_by_deadline(found: &Result<PathAnswer, PathError>) -> bool {
-    let limit = match found {
-        Ok(answer) => {
-            let is_missing = answer.row.item_a.is_some() && answer.row.witness_a[0].is_none();
-            if is_missing {
-                return true;
-            }
-            answer.limit
-        }
-        Err(PathError::Query(Error::Unresolved(known))) => Some(known.limit),
-        Err(_) => None,
-    };
-    limit == Some(Limit::Deadline)
-}
-
-/// Converts an error about a path to a Python exception. If a limit was reached, nothing is known after the start.
-pub(crate) fn path_error(py: Python<'_>, error: PathError, start_time: f64) -> PyErr {
-    match error {
-        PathError::Query(Error::Unresolved(known)) => {
-            let text = format!(
-                "a limit was reached ({}); free until {start_time}",
-                known.limit
-            );
-            with_attribute(py, Unresolved::new_err(text), "safe_until", start_time)
-        }
-        error => input_error(error),
-    }
+pub(crate) fn ended_by_deadline(found: &Result<PathRow, PathError>) -> bool {
+    found.as_ref().is_ok_and(|answer| {
+        let lacks_witnesses = answer.row.item_a.is_some() && answer.row.witness_a[0].is_none();
+        lacks_witnesses || answer.limit == Some(Limit::Deadline)
+    })
 }

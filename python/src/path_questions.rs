@@ -4,12 +4,12 @@ use crate::cell_remarks::{Asked, warn_of_question};
 use crate::cell_solver::CellWithCachedSolvers;
 use crate::errors::{bounds_interruption, input_error, interruption_error, time_interruption};
 use crate::interruptible::run_interruptibly;
-use crate::path_answers::{ended_by_deadline, path_error};
+use crate::path_answers::ended_by_deadline;
 use crate::path_array::GivenPath;
 use pyo3::prelude::*;
-use rigid_ccd::Settings;
 use rigid_ccd::answer::ClearanceVerdict;
-use rigid_ccd_robot::path_rows::{PathAnswer, PathQuestion};
+use rigid_ccd::{Question, Settings};
+use rigid_ccd_robot::path_rows::{PathQuestion, PathRow};
 use rigid_ccd_robot::{ClearanceRange, PathError, RangeSettings};
 use std::sync::Arc;
 use std::time::Duration;
@@ -22,19 +22,22 @@ const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(5);
 pub(crate) fn ask_path(
     py: Python<'_>,
     solvers: &CellWithCachedSolvers,
-    ask: PathQuestion,
+    question: Question,
     path: &Bound<'_, PyAny>,
     mut settings: Settings,
-) -> PyResult<PathAnswer> {
+) -> PyResult<PathRow> {
     let cell = solvers.cell();
     let path = GivenPath::read(path, cell.robot())?;
     settings.check().map_err(input_error)?;
     warn_of_question(py, &cell, &Asked::Path(&path), settings.tolerance)?;
-    let clearance = settings.clearance.take();
-    let question = |settings: Settings| {
+    let asked = PathQuestion {
+        question,
+        clearance: settings.clearance.take(),
+    };
+    let ask = |settings: Settings| {
         solvers.ask(&settings, |solver| match &path {
-            GivenPath::Configurations(array) => ask.ask(solver, &array.configurations(), clearance),
-            GivenPath::Curve(curve) => ask.ask(solver, curve, clearance),
+            GivenPath::Configurations(array) => asked.ask(solver, &array.configurations()),
+            GivenPath::Curve(curve) => asked.ask(solver, curve),
         })
     };
     let limit = settings.deadline.unwrap_or(Duration::MAX);
@@ -43,39 +46,37 @@ pub(crate) fn ask_path(
         deadline: Some(first_limit),
         ..settings.clone()
     };
-    let mut found = py.detach(|| question(first));
+    let mut found = py.detach(|| ask(first));
     if ended_by_deadline(&found) && limit > first_limit {
         let work = |stop: &Arc<_>| {
-            question(Settings {
+            ask(Settings {
                 deadline: settings.deadline.map(|_| limit - first_limit),
                 stop: Some(Arc::clone(stop)),
                 ..settings
             })
         };
         let (again, seen) = run_interruptibly(py, work, |_| Ok(()))?;
-        seen.map_err(|cause| interruption(py, cause, ask, &again))?;
+        seen.map_err(|cause| interruption(py, cause, question, &again))?;
         found = again;
     }
-    found.map_err(|error| path_error(py, error, path.start_time()))
+    found.map_err(input_error)
 }
 
 /// Makes the exception of an interrupted question, which has what was known by then.
 fn interruption(
     py: Python<'_>,
     cause: PyErr,
-    ask: PathQuestion,
-    found: &Result<PathAnswer, PathError>,
+    question: Question,
+    found: &Result<PathRow, PathError>,
 ) -> PyErr {
     let row = found.as_ref().ok().map(|answer| &answer.row);
-    match ask {
-        PathQuestion::ClosestApproach => {
-            let lower = row.and_then(|row| row.distance_lower).unwrap_or(0.0);
-            let upper = row.and_then(|row| row.distance_upper);
-            bounds_interruption(py, cause, [lower, upper.unwrap_or(f64::INFINITY)])
-        }
-        PathQuestion::FirstContact => time_interruption(py, cause, row.and_then(|row| row.time)),
-        PathQuestion::IsFree => time_interruption(py, cause, None),
+    if question.is_for_a_distance() {
+        let lower = row.and_then(|row| row.distance_lower).unwrap_or(0.0);
+        let upper = row.and_then(|row| row.distance_upper);
+        return bounds_interruption(py, cause, [lower, upper.unwrap_or(f64::INFINITY)]);
     }
+    let known = row.filter(|_| question == Question::FirstContact);
+    time_interruption(py, cause, known.and_then(|row| row.time))
 }
 
 /// Divides a path into ranges, as objects of Python.
@@ -102,7 +103,7 @@ pub(crate) fn path_ranges<'py>(
         })
     };
     let (ranges, seen) = run_interruptibly(py, work, |_| Ok(()))?;
-    let ranges = ranges.map_err(|error| path_error(py, error, path.start_time()))?;
+    let ranges = ranges.map_err(input_error)?;
     let ranges = range_objects(py, &path, &ranges)?;
     match seen {
         Ok(()) => Ok(ranges),

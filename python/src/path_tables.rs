@@ -34,7 +34,10 @@ pub(crate) fn answer_paths(
     let question = question_named(given.ask)?;
     let mut settings = read(given.settings, allowed_setting_names(question))?;
     settings.check().map_err(input_error)?;
-    let clearance = settings.clearance.take();
+    let asked = PathQuestion {
+        question,
+        clearance: settings.clearance.take(),
+    };
     let cell = solvers.cell();
     cell.check_any_compared().map_err(input_error)?;
     let threads = read_thread_count(given.threads)?;
@@ -50,9 +53,8 @@ pub(crate) fn answer_paths(
             ..settings
         };
         let task = Task {
-            question,
+            question: asked,
             settings: &settings,
-            clearance,
             stop,
             done,
         };
@@ -68,7 +70,6 @@ pub(crate) fn answer_paths(
 struct Task<'a> {
     question: PathQuestion,
     settings: &'a Settings,
-    clearance: Option<f64>,
     stop: &'a AtomicBool,
     /// The number of paths answered so far.
     done: &'a AtomicUsize,
@@ -82,21 +83,20 @@ impl Task<'_> {
         threads: Option<u16>,
         paths: &GivenPaths,
     ) -> Vec<ResultRow> {
-        let clearance = self.clearance;
         let groups = match paths {
             GivenPaths::Array(array) => {
                 let paths = array.paths();
                 let chunks = paths.position_chunks();
                 solvers.answer_tasks(self.settings, threads, &chunks, |solver, chunk| {
                     let answer = |path: &[&[f64]]| {
-                        self.unless_stopped(|| self.question.answer(solver, path, clearance))
+                        self.unless_stopped(|| self.question.answer(solver, path).row)
                     };
                     Group::of(paths.map_group(chunk, answer))
                 })
             }
             GivenPaths::Curves(curves) => {
                 solvers.answer_tasks(self.settings, threads, curves, |solver, curve| {
-                    let answer = || self.question.answer(solver, curve, clearance);
+                    let answer = || self.question.answer(solver, curve).row;
                     Group::of(vec![self.unless_stopped(answer)])
                 })
             }

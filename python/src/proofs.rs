@@ -9,7 +9,6 @@ use crate::errors::{
 use crate::interruptible::{run_interruptibly, run_or_leave};
 use crate::movement::{GivenBodyAndMotion, GivenMovement, Pair};
 use crate::numbers::read_optional_number;
-use crate::path_answers::path_error;
 use crate::path_array::GivenPath;
 use crate::progress::{GivenProgress, run_with_progress};
 use crate::queries::ask;
@@ -21,9 +20,9 @@ use ccd_prove::{
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyType};
-use rigid_ccd::batch::Question;
+use rigid_ccd::Question;
 use rigid_ccd::{Motion, Outcome, Settings};
-use rigid_ccd_robot::{Cell, PathError, PathOutcome};
+use rigid_ccd_robot::{Cell, PathAnswer, PathError, PathOutcome};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -185,8 +184,8 @@ enum Fault {
 
 impl Fault {
     /// Returns why proofs do not show an outcome to its end; `None` if they do.
-    fn of_outcome(outcome: &PathOutcome<'_>, proofs: &[Proof]) -> Option<Self> {
-        match outcome {
+    fn of_answer(answer: &PathAnswer<'_>, proofs: &[Proof]) -> Option<Self> {
+        match &answer.outcome {
             PathOutcome::Free => None,
             PathOutcome::Contact(contact) => {
                 let last = proofs.get(contact.at.segment);
@@ -195,15 +194,18 @@ impl Fault {
                 let names = contact.items.map(|item| item.name().to_owned());
                 (!is_shown).then(|| Fault::Contact(names, contact.at.time()))
             }
-            PathOutcome::Unresolved { free_until, limit } => {
-                Some(Fault::Limit(limit.to_string(), free_until.time()))
+            outcome => {
+                let limit = outcome
+                    .limit()
+                    .map_or_else(String::new, |limit| limit.to_string());
+                Some(Fault::Limit(limit, answer.free_until.time()))
             }
         }
     }
 
     fn error(self, py: Python<'_>) -> PyErr {
         match self {
-            Fault::Path(error) => path_error(py, error, 0.0),
+            Fault::Path(error) => input_error(error),
             Fault::Proof(error) => input_error(error),
             Fault::Contact([a, b], time) => input_error(format!(
                 "path: {a} and {b} touch at {time}, and no proof can show it; `results` has the proofs of the segments before"
@@ -248,15 +250,15 @@ impl PathProofs {
         };
         let mut solver = cell.solver().with_settings(settings.clone());
         match solver.first_contact(path) {
-            Ok(outcome) => {
-                for proof in proven.path_proofs(path, &outcome, settings) {
+            Ok(answer) => {
+                for proof in proven.path_proofs(path, &answer, settings) {
                     match proof {
                         Ok(proof) => found.proofs.push(proof),
                         Err(error) => found.fault = Some(Fault::Proof(error)),
                     }
                     done.fetch_add(1, Ordering::Relaxed);
                 }
-                let missing = || Fault::of_outcome(&outcome, &found.proofs);
+                let missing = || Fault::of_answer(&answer, &found.proofs);
                 found.fault = found.fault.or_else(missing);
             }
             Err(error) => found.fault = Some(Fault::Path(error)),

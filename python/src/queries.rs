@@ -15,8 +15,8 @@ use crate::settings::{
 };
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rigid_ccd::Question;
 use rigid_ccd::answer::{Limit, Unresolved};
-use rigid_ccd::batch::Question;
 use rigid_ccd::trajectory::MovingBody;
 use rigid_ccd::{Answer, Hit, InputError, Outcome, Query, Settings, Solver};
 use std::cell::Cell;
@@ -47,7 +47,7 @@ impl PairQuestion<'_> {
     fn answer(&self, solver: &mut Solver, settings: &Settings) -> Result<Answer, InputError> {
         let [a, b] = self.bodies;
         let query = Query::new(a, b, self.duration, settings)?;
-        solver.answer(self.question, &query)
+        solver.answer_query(self.question, &query)
     }
 
     /// Returns the lower bound of the time or the distance that an unresolved answer proves.
@@ -230,7 +230,7 @@ pub(crate) fn is_free(
 ) -> PyResult<bool> {
     let settings = read(settings, CONTACT_SETTING_NAMES)?;
     let bodies = [(a, motion_a), (b, motion_b)];
-    let answer = ask(py, Question::IsFree, bodies, duration, &settings)?;
+    let answer = ask(py, Question::AnyContact, bodies, duration, &settings)?;
     Ok(hit_of_answer(py, answer)?.is_none())
 }
 

@@ -12,8 +12,9 @@ use crate::table::{PyTable, input};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rigid_ccd::Question;
 use rigid_ccd::Settings;
-use rigid_ccd::batch::{BodyPair, Question};
+use rigid_ccd::batch::BodyPair;
 use rigid_ccd::table::motions::TableError;
 
 /// Answers a question about each row of a table of motions; called by `rigid_ccd.first_contacts` and its siblings.

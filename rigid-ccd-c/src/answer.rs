@@ -5,6 +5,7 @@ use crate::growing::Growing;
 use ccd_core::order::lesser;
 use rigid_ccd::answer::{ClearanceVerdict, Contact, Limit, Overlap};
 use rigid_ccd::{Answer, Outcome};
+use rigid_ccd_robot::PathOutcome;
 
 /// What a query has found.
 #[repr(i32)]
@@ -84,6 +85,18 @@ pub struct RccdAnswer {
     pub tolerance: f64,
     /// The work that the query took, in the unit of the budget.
     pub work: u64,
+}
+
+impl RccdOutcome {
+    pub(crate) fn of_path(outcome: &PathOutcome<'_>) -> Self {
+        match outcome {
+            PathOutcome::Free => RccdOutcome::Free,
+            PathOutcome::Contact(_) => RccdOutcome::Contact,
+            PathOutcome::LeastDistance { .. } => RccdOutcome::LeastDistance,
+            // An outcome without a name proves nothing.
+            _ => RccdOutcome::Unresolved,
+        }
+    }
 }
 
 impl RccdLimit {

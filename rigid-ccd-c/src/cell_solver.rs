@@ -8,6 +8,7 @@ use crate::path_answer::RccdPathAnswer;
 use crate::settings::RccdSettings;
 use crate::solver::read_settings;
 use crate::status::{Failure, RccdStatus, status_of};
+use rigid_ccd::Question;
 use rigid_ccd_robot::{Cell, CellSolver, Path};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -108,12 +109,7 @@ pub unsafe extern "C" fn rccd_cell_first_contact(
     answer: *mut RccdPathAnswer,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe {
-        ask(solver, path, answer, |solver, path| {
-            let outcome = solver.first_contact(path).map_err(Failure::input)?;
-            Ok(RccdPathAnswer::from_outcome(&outcome, path.segment_count()))
-        })
-    }
+    unsafe { ask(Question::FirstContact, solver, path, answer) }
 }
 
 /// Finds some contact on a path, perhaps not the first one, or proves that there is none: what a planner asks about an edge. If
@@ -128,12 +124,7 @@ pub unsafe extern "C" fn rccd_cell_any_contact(
     answer: *mut RccdPathAnswer,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe {
-        ask(solver, path, answer, |solver, path| {
-            let found = solver.any_contact(path);
-            RccdPathAnswer::from_any_contact(found, path.segment_count())
-        })
-    }
+    unsafe { ask(Question::AnyContact, solver, path, answer) }
 }
 
 /// Brackets how near any pair comes to touching on a path, to within the tolerance. Margin, paddings and clearances play no
@@ -148,12 +139,7 @@ pub unsafe extern "C" fn rccd_cell_closest_approach(
     answer: *mut RccdPathAnswer,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe {
-        ask(solver, path, answer, |solver, path| {
-            let approach = solver.closest_approach(path).map_err(Failure::input)?;
-            Ok(RccdPathAnswer::from_approach(&approach))
-        })
-    }
+    unsafe { ask(Question::ClosestApproach, solver, path, answer) }
 }
 
 /// Asks a question about a path, and stores the answer.
@@ -161,10 +147,10 @@ pub unsafe extern "C" fn rccd_cell_closest_approach(
 /// # Safety
 /// That of [`rccd_cell_first_contact`].
 unsafe fn ask(
+    question: Question,
     solver: *mut RccdCellSolver,
     path: *const RccdPath,
     out: *mut RccdPathAnswer,
-    question: impl FnOnce(&mut CellSolver<'static>, &dyn Path) -> Result<RccdPathAnswer, Failure>,
 ) -> RccdStatus {
     status_of(|| {
         // SAFETY: the contract of this function.
@@ -183,8 +169,8 @@ unsafe fn ask(
         // SAFETY: the contract of this function.
         let size = unsafe { growing::size_of_place("the answer", out) }?;
         let call = |path: &dyn Path| {
-            let answer = question(solver, path)?;
-            Ok(answer.with_tolerance(solver.met_tolerance()))
+            let answer = solver.answer(question, path).map_err(Failure::input)?;
+            Ok(RccdPathAnswer::new(question, &answer))
         };
         // SAFETY: the contract of this function.
         let answer = unsafe { memory.with_path(path, joint_count(cell), call) }?;

@@ -6,10 +6,10 @@ use crate::cell::RccdText;
 use crate::feature::RccdFeature;
 use crate::growing::{self, Growing};
 use crate::status::Failure;
-use rigid_ccd::Error;
+use rigid_ccd::Question;
 use rigid_ccd::glam::DVec3;
 use rigid_ccd_robot::evidence::RecordedAnswer;
-use rigid_ccd_robot::{ClosestApproach, PathContact, PathError, PathOutcome, PathPoint};
+use rigid_ccd_robot::{PathAnswer, PathContact, PathOutcome};
 
 /// An answer about a path. Numbers that the outcome does not have are NaN, and names are null.
 #[repr(C)]
@@ -69,62 +69,35 @@ impl RccdPathAnswer {
         tolerance: f64::NAN,
     };
 
-    pub(crate) fn with_tolerance(self, tolerance: f64) -> Self {
-        RccdPathAnswer { tolerance, ..self }
-    }
-
-    pub(crate) fn from_outcome(outcome: &PathOutcome<'_>, segments: usize) -> Self {
-        match outcome {
-            PathOutcome::Free => RccdPathAnswer {
-                segment: segments.saturating_sub(1),
-                share: 1.0,
-                ..RccdPathAnswer::EMPTY
-            },
-            PathOutcome::Contact(contact) => RccdPathAnswer {
-                outcome: RccdOutcome::Contact,
-                ..RccdPathAnswer::from_contact(contact)
-            },
-            PathOutcome::Unresolved { free_until, limit } => RccdPathAnswer {
-                outcome: RccdOutcome::Unresolved,
-                limit: (*limit).into(),
-                segment: free_until.segment,
-                share: free_until.share,
-                ..RccdPathAnswer::EMPTY
-            },
-        }
-    }
-
-    /// Converts an answer of which a limit is an error.
-    pub(crate) fn from_any_contact(
-        found: Result<Option<PathContact<'_>>, PathError>,
-        segments: usize,
-    ) -> Result<Self, Failure> {
-        let outcome = match found {
-            Ok(Some(contact)) => PathOutcome::Contact(contact),
-            Ok(None) => PathOutcome::Free,
-            Err(PathError::Query(Error::Unresolved(known))) => PathOutcome::Unresolved {
-                free_until: PathPoint {
-                    segment: 0,
-                    share: 0.0,
-                },
-                limit: known.limit,
-            },
-            Err(error) => return Err(Failure::input(error)),
+    /// Converts the answer to a question.
+    pub(crate) fn new(question: Question, answer: &PathAnswer<'_>) -> Self {
+        let outcome = &answer.outcome;
+        let found = RccdPathAnswer {
+            outcome: RccdOutcome::of_path(outcome),
+            limit: outcome.limit().map_or(RccdLimit::None, RccdLimit::from),
+            tolerance: answer.tolerance,
+            ..match outcome.nearest() {
+                Some(nearest) => RccdPathAnswer::from_contact(&nearest),
+                None => RccdPathAnswer::EMPTY,
+            }
         };
-        Ok(RccdPathAnswer::from_outcome(&outcome, segments))
-    }
-
-    pub(crate) fn from_approach(approach: &ClosestApproach<'_>) -> Self {
-        let nearest = approach.nearest.as_ref();
+        if question.is_for_a_distance() {
+            return RccdPathAnswer {
+                lower: outcome.lower(),
+                upper: outcome.upper(),
+                ..found
+            };
+        }
+        let (segment, share) = match outcome {
+            PathOutcome::Contact(contact) => (contact.at.segment, contact.at.share),
+            // All of the last segment, also if the robot rests and passes no share of any.
+            PathOutcome::Free => (answer.free_until.segment, 1.0),
+            _ => (answer.free_until.segment, answer.free_until.share),
+        };
         RccdPathAnswer {
-            outcome: match approach.limit {
-                Some(_) => RccdOutcome::Unresolved,
-                None => RccdOutcome::LeastDistance,
-            },
-            limit: approach.limit.map_or(RccdLimit::None, RccdLimit::from),
-            lower: approach.lower,
-            upper: approach.upper,
-            ..nearest.map_or(RccdPathAnswer::EMPTY, RccdPathAnswer::from_contact)
+            segment,
+            share,
+            ..found
         }
     }
 

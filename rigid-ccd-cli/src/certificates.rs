@@ -6,8 +6,9 @@ use anyhow::{Context, Result, bail};
 use ccd_core::{Answer, Outcome};
 use ccd_file::Claim;
 use ccd_prove::{Body, NotProven, Proof, ProvenCell, ProvenPair};
+use rigid_ccd::Question;
 use rigid_ccd::Settings;
-use rigid_ccd::batch::{BodyPair, Question};
+use rigid_ccd::batch::BodyPair;
 use rigid_ccd::table::motions::Motions;
 use rigid_ccd_robot::{Cell, CellSolver};
 use std::fs;
@@ -241,7 +242,7 @@ impl<'c> CellCertificates<'c> {
         solver: &mut CellSolver<'_>,
         path: &[Vec<f64>],
     ) -> Result<Vec<(Option<usize>, Proof)>> {
-        let outcome = solver.first_contact(path)?;
+        let answer = solver.first_contact(path)?;
         let at_rest;
         let segments = match path {
             [only] => {
@@ -250,7 +251,7 @@ impl<'c> CellCertificates<'c> {
             }
             _ => path,
         };
-        let proofs = self.cell.prove_path(segments, &outcome, &self.settings)?;
+        let proofs = self.cell.prove_path(segments, &answer, &self.settings)?;
         let number = |segment| (segments.len() > 2).then_some(segment);
         let numbered = proofs.into_iter().enumerate();
         Ok(numbered.map(|(k, proof)| (number(k), proof)).collect())

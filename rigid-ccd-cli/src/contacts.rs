@@ -4,7 +4,8 @@
 mod tests;
 
 use ccd_core::{Answer, Contact, ContactsError, InputError, Outcome, Settings};
-use rigid_ccd::batch::{BodyPair, Question};
+use rigid_ccd::Question;
+use rigid_ccd::batch::BodyPair;
 use rigid_ccd::table::courses::Movements;
 use rigid_ccd::table::results::{Column, ResultRow, reordered_columns};
 

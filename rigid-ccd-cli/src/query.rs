@@ -29,7 +29,9 @@ use anyhow::{Result, bail};
 use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};
 use clap::ArgMatches;
-use rigid_ccd::batch::{BatchSize, Question, parallel_solver};
+use rigid_ccd::Question;
+use rigid_ccd::batch::{BatchSize, parallel_solver};
+use rigid_ccd::table::paths::Grouping;
 use rigid_ccd::table::results::names;
 use run::QueryRun;
 use std::io::{self, Write};
@@ -41,7 +43,7 @@ use summary::Summary;
 pub(super) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     refuse_shared_files(args)?;
     refuse_options_unfit_for_each_other(args)?;
-    let (mut rows, length) = open_movement_rows(&args.motions, args.ask.path_grouping())?;
+    let (mut rows, length) = open_movement_rows(&args.motions, Grouping::of_question(args.ask))?;
     refuse_options_unfit_for_paths(args, &rows)?;
     let files = run_files(args);
     let places = ClaimedFiles::claim(&files)?;
@@ -153,7 +155,7 @@ fn write_page(
 fn page_context(args: &QueryArgs) -> QueryContext {
     let claim = match (args.bound, args.ask) {
         (Some(BoundKind::Published), _) => TimeMeaning::UncertifiedFirstContact,
-        (_, Question::IsFree) => TimeMeaning::SomeContact,
+        (_, Question::AnyContact) => TimeMeaning::SomeContact,
         (_, Question::Distance) => TimeMeaning::MeasurementTime,
         _ if ignores_start_contacts(args) => TimeMeaning::FirstContactAfterParting,
         (_, Question::FirstContact | Question::ContactInterval | Question::ClosestApproach) => {

@@ -9,8 +9,8 @@ use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use clap::ValueEnum;
 use rigid_ccd::CachePadded;
+use rigid_ccd::Question;
 use rigid_ccd::Solver;
-use rigid_ccd::batch::Question;
 use std::fmt;
 
 /// The schedule, the distance backend and the motion bound that a solver is made with.
@@ -154,7 +154,7 @@ where
         question: Question,
         query: &Query<'_>,
     ) -> Option<Result<Answer, InputError>> {
-        Some(self.0.answer(question, query))
+        Some(self.0.answer_query(question, query))
     }
 }
 

@@ -2,7 +2,8 @@
 
 use crate::solver_kind::{Solve, SolverKind};
 use ccd_core::Settings;
-use rigid_ccd::batch::{BodyPair, Question, TimedAnswer, median};
+use rigid_ccd::Question;
+use rigid_ccd::batch::{BodyPair, TimedAnswer, median};
 use rigid_ccd::table::courses::Movements;
 use rigid_ccd::table::motions::RowProblem;
 use std::num::NonZeroUsize;

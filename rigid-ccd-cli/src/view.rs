@@ -19,7 +19,8 @@ use crate::timed::{TimedQuestion, answer_timed};
 use anyhow::{Context, Result, bail};
 use ccd_core::{Settings, VectorInstructions};
 use ccd_view::{AnimationGroup, Page};
-use rigid_ccd::batch::Question;
+use rigid_ccd::Question;
+use rigid_ccd::table::paths::Grouping;
 use rigid_ccd::table::results::{self, ResultRow};
 use std::collections::{HashMap, VecDeque};
 use std::ffi::OsStr;
@@ -52,7 +53,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
     for (option, path) in &read {
         refuse_overwriting_input((option, path), ("--out", &args.out))?;
     }
-    let (mut rows, _) = open_movement_rows(motions, Question::FirstContact.path_grouping())?;
+    let (mut rows, _) = open_movement_rows(motions, Grouping::of_question(Question::FirstContact))?;
     let out = Output::claim(&args.out)?;
     let pair = bodies.load(SolverKind::default(), args.quiet)?;
     let mut known = args.results.as_deref().map(read_results).transpose()?;

@@ -259,6 +259,12 @@ pub enum PathError {
         /// The setting, and which questions take it.
         setting: &'static str,
     },
+    /// A question is none about paths.
+    #[error("{question} is no question about a path")]
+    UnsupportedQuestion {
+        /// The question.
+        question: rigid_ccd::Question,
+    },
     /// A query is invalid, or reached a limit.
     #[error(transparent)]
     Query(#[from] rigid_ccd::Error),

@@ -7,8 +7,8 @@ pub use replay::{EvidenceError, Replay, Verdict};
 
 use crate::cell::Cell;
 use crate::joint_curve::JointCurve;
+use crate::path_answer::{PathAnswer, PathOutcome};
 use crate::path_point::PathPoint;
-use crate::solver::PathOutcome;
 use digest::{body_digest, pairs_digest};
 use rigid_ccd::{Pose, Settings, StartPolicy};
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,7 @@ const FORMAT: &str = "rigid-ccd evidence 1";
 ///
 /// ```
 /// # use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, PositionRule, Robot};
-/// use rigid_ccd_robot::evidence::{Evidence, RecordedPath, Verdict};
+/// use rigid_ccd_robot::evidence::{Evidence, RecordedAnswer, RecordedPath, Verdict};
 /// use rigid_ccd::{Body, Pose, Settings};
 /// # let links = vec![Link::named("base"), Link::named("arm").with_body(Body::capsule(0.1, 0.4)?, Pose::IDENTITY)];
 /// # let hinge = rigid_ccd::trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 1.0, 0.0])?;
@@ -37,7 +37,8 @@ const FORMAT: &str = "rigid-ccd evidence 1";
 /// let (settings, path) = (Settings::DEFAULT, [[0.0], [1.0]]);
 /// let answer = cell.solver().with_settings(settings.clone()).first_contact(&path)?;
 ///
-/// let record = Evidence::new(&cell, &settings, RecordedPath::configurations(&path), &answer)?;
+/// let answer = RecordedAnswer::try_from(&answer)?;
+/// let record = Evidence::new(&cell, &settings, RecordedPath::configurations(&path), answer)?;
 /// let read = Evidence::from_json(&record.to_json()?)?;
 /// assert_eq!(read.replay(&cell)?.verdict, Verdict::SameAnswer);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -181,20 +182,28 @@ impl RecordedPath {
     }
 }
 
-impl From<&PathOutcome<'_>> for RecordedAnswer {
-    fn from(outcome: &PathOutcome<'_>) -> Self {
-        match outcome {
-            PathOutcome::Free => RecordedAnswer::Free,
-            PathOutcome::Contact(contact) => RecordedAnswer::Contact {
-                segment: contact.at.segment,
-                share: contact.at.share,
-                items: contact.items.map(|item| item.name().to_owned()),
-            },
-            PathOutcome::Unresolved { free_until, limit } => RecordedAnswer::Unresolved {
-                limit: limit.to_string(),
-                segment: free_until.segment,
-                share: free_until.share,
-            },
+impl TryFrom<&PathAnswer<'_>> for RecordedAnswer {
+    type Error = EvidenceError;
+
+    fn try_from(answer: &PathAnswer<'_>) -> Result<Self, EvidenceError> {
+        let PathPoint { segment, share } = answer.free_until;
+        match &answer.outcome {
+            PathOutcome::Free => Ok(RecordedAnswer::Free),
+            PathOutcome::Contact(contact) if contact.at == answer.free_until => {
+                Ok(RecordedAnswer::Contact {
+                    segment,
+                    share,
+                    items: contact.items.map(|item| item.name().to_owned()),
+                })
+            }
+            PathOutcome::Unresolved(known) => Ok(RecordedAnswer::Unresolved {
+                limit: known.limit.to_string(),
+                segment,
+                share,
+            }),
+            PathOutcome::Contact(_) | PathOutcome::LeastDistance { .. } => {
+                Err(EvidenceError::NoFirstContact)
+            }
         }
     }
 }
@@ -221,7 +230,7 @@ impl Evidence {
         cell: &Cell,
         settings: &Settings,
         path: RecordedPath,
-        answer: impl Into<RecordedAnswer>,
+        answer: RecordedAnswer,
     ) -> Result<Self, EvidenceError> {
         Ok(Evidence {
             format: FORMAT.to_owned(),
@@ -235,7 +244,7 @@ impl Evidence {
             },
             bodies: bodies_at_start(cell, &path)?,
             path,
-            answer: answer.into(),
+            answer,
             pairs_sha256: pairs_digest(cell, settings.margin),
         })
     }

@@ -27,6 +27,7 @@
 //! | `cell` | a robot among obstacles: [`Cell`]; `cell/compared` which bodies are compared, `cell/margins` at which distances |
 //! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/start` contacts at the start that may part, `solver/clearance_ranges` where a distance is kept, `solver/distance_curve` the distance over a path |
 //! | `path`, `joint_curve`, `polynomial`, `path_point` | what a question is about: a [`Path`] through configurations, or a [`JointCurve`] of polynomials |
+//! | `path_answer` | what was found: [`PathAnswer`], for all questions |
 //! | `link_contacts` | whether two links can ever touch, by branch and bound over their joints: [`Robot::classify_link_contacts`] |
 //! | `pairs`, `skip_reason` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
 //! | `remark` | what is probably a mistake in a robot or a cell, and what is not checked: [`CellRemark`]; `robot_remarks`, `cell/remarks` and `units` make the remarks |
@@ -49,6 +50,7 @@ mod joint_curve;
 mod link_contacts;
 mod pairs;
 mod path;
+mod path_answer;
 mod path_point;
 #[cfg(feature = "tables")]
 #[doc(hidden)]
@@ -82,6 +84,7 @@ pub use joint_curve::JointCurve;
 pub use link_contacts::{LinkContactClass, LinkContactSettings};
 pub use pairs::LinkPairs;
 pub use path::Path;
+pub use path_answer::{PathAnswer, PathContact, PathOutcome, UnresolvedPath};
 pub use path_point::PathPoint;
 pub use remark::CellRemark;
 pub use robot::{ChainBetween, CompoundKind, Joint, Link, LinkBody, PositionRule, Robot};
@@ -89,10 +92,7 @@ pub use robot_file::{
     BodyElements, MeshConversion, MjcfError, RobotFile, RobotFileError, UrdfError,
 };
 pub use skip_reason::{LeftOutPairs, SkipReason};
-pub use solver::{
-    CellSolver, ClearanceRange, ClosestApproach, DistanceRange, PathContact, PathOutcome,
-    RangeSettings,
-};
+pub use solver::{CellSolver, ClearanceRange, DistanceRange, RangeSettings};
 pub use srdf::SrdfError;
 
 /// The example in the README, run as a doctest.

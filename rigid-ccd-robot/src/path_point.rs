@@ -10,6 +10,12 @@ pub struct PathPoint {
 }
 
 impl PathPoint {
+    /// The start of a path.
+    pub const START: PathPoint = PathPoint {
+        segment: 0,
+        share: 0.0,
+    };
+
     /// Returns the time at which a robot is at this point if each segment takes one unit of time: the number of the segment and
     /// the share together.
     pub fn time(self) -> f64 {

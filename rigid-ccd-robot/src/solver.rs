@@ -26,15 +26,15 @@ pub(crate) mod violation;
 pub use clearance_ranges::{ClearanceRange, RangeSettings};
 pub use distance_curve::DistanceRange;
 
-use crate::cell::{Cell, Item};
+use crate::cell::Cell;
 use crate::error::PathError;
 use crate::path::Path;
+use crate::path_answer::{PathAnswer, PathContact, PathOutcome, UnresolvedPath};
 use crate::path_point::PathPoint;
 use ccd_core::order::greater;
 use part_pairs::PartPair;
-use rigid_ccd::answer::{ClearanceVerdict, Feature, HitKind, Limit, Unresolved};
-use rigid_ccd::glam::DVec3;
-use rigid_ccd::{ContactNormals, Error, Hit, Outcome, Settings, Solver, StartPolicy};
+use rigid_ccd::answer::{HitKind, Unresolved};
+use rigid_ccd::{ContactNormals, Error, Hit, Outcome, Question, Settings, Solver, StartPolicy};
 use search::Search;
 
 /// Answers questions about paths in a cell, one after another.
@@ -63,73 +63,12 @@ pub struct CellSolver<'c> {
     distance_solver: Solver,
 }
 
-/// A pair of a cell at a point of a path, where it is in contact or nearest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathContact<'c> {
-    /// Where on the path. Nothing touches before the first contact.
-    pub at: PathPoint,
-    /// The pair; a link or an attached body comes first.
-    pub items: [Item<'c>; 2],
-    /// The nearest points of both, in the frame of the base. If both overlap they are points of two pieces that intersect. `None`
-    /// if the deadline passes before they are found.
-    pub witnesses: Option<[DVec3; 2]>,
-    /// The vertex, edge or face of each mesh that its witness is on, numbered as in the body. `None` for a convex body, whose
-    /// mesh may be its hull, and if one body is inside the other.
-    pub features: [Option<Feature>; 2],
-    /// Bounds of the distance of the pair there, the rounding of computed poses included; 0 if both overlap.
-    pub distance_bounds: [f64; 2],
-}
-
-/// The first contact on a path, if there is one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PathOutcome<'c> {
-    /// Nothing touches on the whole path.
-    Free,
-    /// A pair touches; the path is free before.
-    Contact(PathContact<'c>),
-    /// A limit was reached before the answer was known.
-    Unresolved {
-        /// The path is free before this point.
-        free_until: PathPoint,
-        /// The limit.
-        limit: Limit,
-    },
-}
-
-/// Bounds of the least distance on a path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ClosestApproach<'c> {
-    /// A lower bound of the distance of all pairs at all points of the path.
-    pub lower: f64,
-    /// An upper bound of the least distance; infinite if no distance was measured.
-    pub upper: f64,
-    /// The nearest pair that was found; `None` if no pair was measured.
-    pub nearest: Option<PathContact<'c>>,
-    /// The limit that ended the search; `None` if the bounds differ by the tolerance.
-    pub limit: Option<Limit>,
-}
-
-impl ClosestApproach<'_> {
-    /// Returns whether all pairs stay at least the required distance apart, as far as the bounds tell.
-    ///
-    /// Pairs that may touch keep no clearance, not even a clearance of 0.
-    pub fn clearance_verdict(&self, required: f64) -> ClearanceVerdict {
-        if self.lower >= required && self.lower > 0.0 {
-            ClearanceVerdict::Kept
-        } else if self.upper < required || self.upper <= 0.0 {
-            ClearanceVerdict::Violated
-        } else {
-            ClearanceVerdict::Unverified
-        }
-    }
-}
-
-/// A question about a path.
+/// What a search along a path looks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Question {
+pub(crate) enum Goal {
     AnyContact,
     FirstContact,
-    ClosestApproach,
+    LeastDistance,
 }
 
 impl Cell {
@@ -162,62 +101,47 @@ impl<'c> CellSolver<'c> {
         self.search.set_settings(settings);
     }
 
-    /// Returns the tolerance that the last answer meets. It is that of the settings, unless the rounding of positions allows only
-    /// a larger one: far from the base, or after thousands of turns.
-    ///
-    /// A contact is within this distance beyond the margin. The bounds of a closest approach differ by at most as much, and by what
-    /// the nearest bodies [exceed](rigid_ccd::Body::excess) their shapes by, unless a limit is reached. Both hold to within a
-    /// thousandth of the tolerance. That nothing touches holds without any tolerance.
-    pub fn met_tolerance(&self) -> f64 {
-        self.search.met_tolerance()
-    }
-
-    /// Returns whether the robot touches nothing on a path, itself included.
+    /// Returns whether the robot touches nothing on a path, itself included. A pair in contact is not measured.
     ///
     /// # Guarantee
     /// On a free path all pairs that are checked stay apart by more than the margin. On other paths a pair comes within
-    /// margin + [tolerance](Self::met_tolerance).
+    /// margin + [tolerance](PathAnswer::tolerance).
     ///
     /// # Errors
     /// [`PathError`]; also if a limit is reached.
     pub fn is_free<P: Path + ?Sized>(&mut self, path: &P) -> Result<bool, PathError> {
-        Ok(self.find_any_contact(path)?.is_none())
+        self.search(Goal::AnyContact, path)?;
+        let found = &self.search.result;
+        match (found.nearest, found.limit_reached) {
+            (Some(_), _) => Ok(false),
+            (None, None) => Ok(true),
+            (None, Some((limit, _))) => {
+                Err(Error::from(Unresolved::from_safe_until(0.0, limit)).into())
+            }
+        }
     }
 
     /// Returns any contact on a path, perhaps not the first one. Limits may change which one.
     ///
     /// # Errors
-    /// [`PathError`]; also if a limit is reached.
-    pub fn any_contact<P: Path + ?Sized>(
-        &mut self,
-        path: &P,
-    ) -> Result<Option<PathContact<'c>>, PathError> {
-        let found = self.find_any_contact(path)?;
-        Ok(found.map(|found| self.measure_contact(found)).transpose()?)
+    /// [`PathError`].
+    pub fn any_contact<P: Path + ?Sized>(&mut self, path: &P) -> Result<PathAnswer<'c>, PathError> {
+        self.answer(Question::AnyContact, path)
     }
 
     /// Returns the first contact on a path: the last free point, and what touches there.
     ///
     /// # Guarantee
     /// All pairs that are checked stay apart by more than the margin before that point. There the pair is within
-    /// margin + [tolerance](Self::met_tolerance).
+    /// margin + [tolerance](PathAnswer::tolerance).
     ///
     /// # Errors
     /// [`PathError`].
     pub fn first_contact<P: Path + ?Sized>(
         &mut self,
         path: &P,
-    ) -> Result<PathOutcome<'c>, PathError> {
-        self.answer(Question::FirstContact, path)?;
-        let found = &self.search.result;
-        Ok(match (found.limit_reached, found.nearest) {
-            (Some((limit, until)), _) => PathOutcome::Unresolved {
-                free_until: PathPoint::from_path_position(until, self.search.segment_count()),
-                limit,
-            },
-            (None, Some(nearest)) => PathOutcome::Contact(self.measure_contact(nearest)?),
-            (None, None) => PathOutcome::Free,
-        })
+    ) -> Result<PathAnswer<'c>, PathError> {
+        self.answer(Question::FirstContact, path)
     }
 
     /// Returns how near any pair that is checked comes to touching on a path. The margin, paddings and clearances play no
@@ -225,7 +149,7 @@ impl<'c> CellSolver<'c> {
     ///
     /// # Guarantee
     /// No pair is ever nearer than the lower bound, and the nearest one comes at least as near as the upper bound. They
-    /// differ by at most the [tolerance](Self::met_tolerance), and by what the nearest bodies
+    /// differ by at most the [tolerance](PathAnswer::tolerance), and by what the nearest bodies
     /// [exceed](rigid_ccd::Body::excess) their shapes by, unless a limit is reached.
     ///
     /// # Errors
@@ -233,49 +157,117 @@ impl<'c> CellSolver<'c> {
     pub fn closest_approach<P: Path + ?Sized>(
         &mut self,
         path: &P,
-    ) -> Result<ClosestApproach<'c>, PathError> {
-        self.answer(Question::ClosestApproach, path)?;
-        Ok(self.found_approach()?)
+    ) -> Result<PathAnswer<'c>, PathError> {
+        self.answer(Question::ClosestApproach, path)
     }
 
-    /// Returns the bounds that the last search for a closest approach found.
-    fn found_approach(&mut self) -> Result<ClosestApproach<'c>, Error> {
-        let (lower, upper) = self.search.distance_bounds();
+    /// Answers a question that is chosen at run time, one of [`QUESTIONS`](Self::QUESTIONS).
+    ///
+    /// # Errors
+    /// [`PathError`]; also for other questions.
+    pub fn answer<P: Path + ?Sized>(
+        &mut self,
+        question: Question,
+        path: &P,
+    ) -> Result<PathAnswer<'c>, PathError> {
+        let goal = match question {
+            Question::AnyContact => Goal::AnyContact,
+            Question::FirstContact => Goal::FirstContact,
+            Question::ClosestApproach => Goal::LeastDistance,
+            Question::ContactInterval | Question::Distance => {
+                return Err(PathError::UnsupportedQuestion { question });
+            }
+        };
+        self.search(goal, path)?;
+        Ok(self.measured_answer(goal)?)
+    }
+
+    /// The questions about a path.
+    pub const QUESTIONS: [Question; 3] = [
+        Question::AnyContact,
+        Question::FirstContact,
+        Question::ClosestApproach,
+    ];
+
+    /// Returns the tolerance that the last answer meets: [`PathAnswer::tolerance`], also after [`is_free`](Self::is_free).
+    pub fn met_tolerance(&self) -> f64 {
+        self.search.met_tolerance()
+    }
+
+    /// Makes an answer of what the last search found, and measures the pair in contact.
+    fn measured_answer(&mut self, goal: Goal) -> Result<PathAnswer<'c>, Error> {
         let found = self.search.result;
-        Ok(ClosestApproach {
-            lower,
-            upper,
-            nearest: found
-                .nearest
-                .map(|found| self.measure_contact(found))
-                .transpose()?,
-            limit: found.limit_reached.map(|(limit, _)| limit),
+        let segments = self.search.segment_count();
+        let end = PathPoint::from_path_position(segments as f64, segments);
+        let limit = found.limit_reached;
+        let (outcome, free_until) = match (goal, limit, found.nearest) {
+            (Goal::LeastDistance, ..) => {
+                let outcome = self.measured_distance()?;
+                let free_until = if outcome.lower() > 0.0 {
+                    end
+                } else {
+                    PathPoint::START
+                };
+                (outcome, free_until)
+            }
+            (Goal::FirstContact, Some((limit, until)), _) => {
+                let free_until = PathPoint::from_path_position(until, segments);
+                (PathOutcome::unresolved_contact(limit), free_until)
+            }
+            (Goal::AnyContact, Some((limit, _)), None) => {
+                (PathOutcome::unresolved_contact(limit), PathPoint::START)
+            }
+            (_, _, Some(nearest)) => {
+                let contact = self.measure_contact(nearest)?;
+                let is_first = goal == Goal::FirstContact;
+                let free_until = if is_first {
+                    contact.at
+                } else {
+                    PathPoint::START
+                };
+                (PathOutcome::Contact(contact), free_until)
+            }
+            (_, None, None) => (PathOutcome::Free, end),
+        };
+        Ok(PathAnswer {
+            outcome,
+            free_until,
+            tolerance: self.search.met_tolerance(),
         })
     }
 
-    fn find_any_contact<P: Path + ?Sized>(
-        &mut self,
-        path: &P,
-    ) -> Result<Option<(f64, PartPair)>, PathError> {
-        self.answer(Question::AnyContact, path)?;
-        let found = &self.search.result;
-        if found.nearest.is_none()
-            && let Some((limit, _)) = found.limit_reached
-        {
-            let unresolved = Unresolved::from_safe_until(0.0, limit);
-            return Err(Error::from(unresolved).into());
-        }
-        Ok(found.nearest)
+    /// Returns the bounds of the distance that the last search found.
+    fn measured_distance(&mut self) -> Result<PathOutcome<'c>, Error> {
+        let (lower, upper) = self.search.distance_bounds();
+        let found = self.search.result;
+        let nearest = found
+            .nearest
+            .map(|found| self.measure_contact(found))
+            .transpose()?;
+        Ok(match found.limit_reached {
+            None => PathOutcome::LeastDistance {
+                lower,
+                upper,
+                nearest,
+            },
+            Some((limit, _)) => PathOutcome::Unresolved(UnresolvedPath {
+                limit,
+                lower,
+                upper,
+                nearest,
+            }),
+        })
     }
 
-    fn answer<P: Path + ?Sized>(&mut self, question: Question, path: &P) -> Result<(), PathError> {
-        if question != Question::ClosestApproach && self.leaves_start() {
+    /// Searches a path.
+    fn search<P: Path + ?Sized>(&mut self, goal: Goal, path: &P) -> Result<(), PathError> {
+        if goal != Goal::LeastDistance && self.leaves_start() {
             self.set_path(path)?;
-            return Ok(self.search.answer_leaving_start(question)?);
+            return Ok(self.search.answer_leaving_start(goal)?);
         }
         self.set_path_reporting_start(path)?;
         let whole = self.search.whole_path_stretch();
-        Ok(self.search.answer_question(question, whole)?)
+        Ok(self.search.answer_question(goal, whole)?)
     }
 
     /// Takes a path for questions that do not let contacts at the start go.

@@ -4,16 +4,14 @@
 //! [`Solver`](crate::Solver) instead.
 
 mod batch_size;
-pub(crate) mod question;
 
 pub use batch_size::BatchSize;
-pub use question::Question;
 
 use crate::ParallelSolver;
 use crate::table::courses::Movements;
 use crate::table::motions::RowProblem;
 use crate::table::results::{ClearanceAndExcess, ResultRow};
-use ccd_core::{Answer, Body, InputError, Query, Settings};
+use ccd_core::{Answer, Body, InputError, Query, Question, Settings};
 use std::num::NonZeroUsize;
 
 /// The two bodies of a query; both may be the same body.

@@ -31,6 +31,7 @@
 //! | make a body from vertices and faces in memory | [`mesh::TriangleMesh::new`], then [`mesh::body_from_mesh`]; or [`body::Pieces::from_triangles`] |
 //! | move a body | [`Motion::new`], [`Motion::between`] |
 //! | list all features in contact | [`Query::contacts_at`] |
+//! | choose the question at run time | [`Question`], [`Solver::answer`] |
 //! | read an answer's bounds, limits and cost | [`answer`] |
 //! | choose or write a distance backend | [`Solver::with_oracle`], [`oracle`] |
 //!
@@ -118,8 +119,8 @@ pub mod trajectory;
 pub use ccd_core::glam;
 pub use ccd_core::schedule;
 pub use ccd_core::{
-    Answer, Body, ContactNormals, Hit, InputError, Motion, Outcome, Pose, Query, Settings,
-    StartPolicy, VectorInstructions,
+    Answer, Body, ContactNormals, Hit, InputError, Motion, Outcome, Pose, Query, Question,
+    Settings, StartPolicy, VectorInstructions,
 };
 /// Meshes, and bodies made from them.
 #[cfg(feature = "meshes")]

@@ -3,10 +3,11 @@
 mod questions;
 
 use crate::Error;
-use ccd_core::schedule::{BestFirst, DepthFirst};
-use ccd_core::{Answer, Body, DistanceOracle, InputError, MovingBody, Pose, Query, Settings};
+use ccd_core::{
+    Answer, Body, DistanceOracle, InputError, MovingBody, Pose, Query, Question, Settings,
+};
 use ccd_distance_gjk::Direct;
-use questions::Questions;
+use questions::{Engine, Questions};
 
 /// Finds the first contact of two moving bodies, from time 0 to `duration`.
 ///
@@ -58,10 +59,7 @@ pub fn first_contact<'b>(
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub struct Solver<O: DistanceOracle = Direct> {
-    best_first: BestFirst<O>,
-    depth_first: DepthFirst<O>,
-    oracle: O,
-    questions: Questions<O>,
+    engine: Engine<O>,
     settings: Settings,
 }
 
@@ -87,10 +85,7 @@ impl<O: DistanceOracle> Solver<O> {
 
     fn with_questions(oracle: O, questions: Questions<O>) -> Self {
         Solver {
-            best_first: BestFirst::default(),
-            depth_first: DepthFirst::default(),
-            oracle,
-            questions,
+            engine: Engine::new(oracle, questions),
             settings: Settings::DEFAULT,
         }
     }
@@ -131,8 +126,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
-        let query = build_query(a, b, duration, &self.settings)?;
-        (self.questions.first_contact)(&mut self.best_first, &query, &mut self.oracle)
+        self.answer(Question::FirstContact, a, b, duration)
     }
 
     /// Returns whether two moving bodies stay apart, by more than the margin.
@@ -172,8 +166,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
-        let query = build_query(a, b, duration, &self.settings)?;
-        (self.questions.any_contact)(&mut self.depth_first, &query, &mut self.oracle)
+        self.answer(Question::AnyContact, a, b, duration)
     }
 
     /// Returns when two moving bodies first and last touch.
@@ -199,8 +192,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
-        let query = build_query(a, b, duration, &self.settings)?;
-        (self.questions.contact_interval)(&mut self.best_first, &query, &mut self.oracle)
+        self.answer(Question::ContactInterval, a, b, duration)
     }
 
     /// Brackets the least distance of two moving bodies to within the tolerance, with its time and the nearest pieces.
@@ -236,8 +228,7 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
-        let query = build_query(a, b, duration, &self.settings)?;
-        (self.questions.closest_approach)(&mut self.depth_first, &query, &mut self.oracle)
+        self.answer(Question::ClosestApproach, a, b, duration)
     }
 
     /// Brackets the distance of two bodies at rest, as narrowly as f64 allows, with the nearest pieces.
@@ -257,27 +248,43 @@ impl<O: DistanceOracle> Solver<O> {
         self.closest_approach(a, b, 0.0)
     }
 
+    /// Answers a question that is chosen at run time, as the method of that question does.
+    ///
+    /// # Errors
+    /// Those of [`Solver::first_contact`].
+    ///
+    /// ```
+    /// use rigid_ccd::{Body, Motion, Pose, Question, Solver};
+    /// let ball = Body::sphere(0.5)?;
+    /// let flies = Motion::new(Pose::at([-3.0, 0.0, 0.0])?, [6.0, 0.0, 0.0], [0.0; 3])?;
+    /// let mut solver = Solver::new();
+    /// for question in Question::ALL {
+    ///     let answer = solver.answer(question, (&ball, flies), (&ball, Motion::STILL), 1.0)?;
+    ///     println!("{question}: {:?}", answer.outcome);
+    /// }
+    /// # Ok::<(), rigid_ccd::Error>(())
+    /// ```
+    pub fn answer<'b>(
+        &mut self,
+        question: Question,
+        a: impl Into<MovingBody<'b>>,
+        b: impl Into<MovingBody<'b>>,
+        duration: f64,
+    ) -> Result<Answer, InputError> {
+        let query = build_query(a, b, duration, &self.settings)?;
+        self.engine.answer(question, &query)
+    }
+
     /// Answers a question about the bodies of a query, with the settings of the query instead of the solver's.
     ///
     /// # Errors
     /// Those of trajectories.
-    #[cfg(feature = "tables")]
-    pub fn answer(
+    pub fn answer_query(
         &mut self,
-        question: crate::batch::Question,
+        question: Question,
         query: &Query<'_>,
     ) -> Result<Answer, InputError> {
-        use crate::batch::Question;
-        let (best_first, depth_first) = (&mut self.best_first, &mut self.depth_first);
-        let (ask, oracle) = (&self.questions, &mut self.oracle);
-        match question {
-            Question::FirstContact => (ask.first_contact)(best_first, query, oracle),
-            Question::IsFree => (ask.any_contact)(depth_first, query, oracle),
-            Question::ContactInterval => (ask.contact_interval)(best_first, query, oracle),
-            Question::ClosestApproach | Question::Distance => {
-                (ask.closest_approach)(depth_first, query, oracle)
-            }
-        }
+        self.engine.answer(question, query)
     }
 }
 

@@ -5,7 +5,7 @@ use crate::scene::Scene;
 use anyhow::Result;
 use ccd_core::{Outcome, Settings, VectorInstructions};
 use ccd_view::{Animation, AnimationGroup, Meshes};
-use rigid_ccd::batch::Question;
+use rigid_ccd::Question;
 use rigid_ccd::table::courses::Movements;
 use rigid_ccd::table::results::ResultRow;
 use rigid_ccd_cli::SolverKind;

@@ -9,7 +9,7 @@ use anyhow::{Context, Result, ensure};
 use ccd_prove::ProvenCell;
 use clap::Parser;
 use rigid_ccd::{Body, Pose, Settings, load};
-use rigid_ccd_robot::{Cell, PathOutcome, RobotFile};
+use rigid_ccd_robot::{Cell, RobotFile};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -75,7 +75,7 @@ fn main() -> Result<()> {
         let answer = solver.first_contact(&path)?;
         let solved = start.elapsed();
         let name = format!("edge-{row}");
-        if let PathOutcome::Unresolved { .. } = answer {
+        if answer.outcome.limit().is_some() {
             tally.fail(format!("{name}: {answer:?}"));
             continue;
         }

@@ -164,18 +164,7 @@ impl Cell {
         settings: &[f64],
     ) -> Result<PathAnswer, Fault> {
         self.with_solver_for((path, count), settings, |solver, path| {
-            let answer = match question {
-                Question::AnyContact => {
-                    PathAnswer::from_any_contact(solver.any_contact(path), segments(path))?
-                }
-                Question::ClosestApproach | Question::KeptClearance => {
-                    PathAnswer::from_closest_approach(&solver.closest_approach(path)?)
-                }
-                Question::FirstContact | Question::ContactInterval => {
-                    PathAnswer::from_outcome(solver.first_contact(path)?, segments(path))
-                }
-            };
-            Ok(answer.with_tolerance(solver.met_tolerance()))
+            Ok(solver.answer(question.into(), path)?.into())
         })
     }
 
@@ -265,11 +254,6 @@ impl Cell {
 
 fn lost() -> Fault {
     Fault::plain("the cell was lost in an earlier error")
-}
-
-/// Returns the number of segments between the configurations of a path.
-fn segments(path: &[&[f64]]) -> usize {
-    path.len().saturating_sub(1)
 }
 
 fn with_solver(cell: rigid_ccd_robot::Cell) -> CellWithSolver {

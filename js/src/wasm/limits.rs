@@ -21,22 +21,30 @@ pub(crate) fn limit_number(limit: Limit) -> usize {
 /// Returns the name of the limit with a number.
 #[wasm_bindgen]
 pub fn limit_name(number: usize) -> String {
-    LIMITS.get(number).map_or("other".into(), Limit::to_string)
+    LIMITS.get(number).copied().map_or("other".into(), name)
 }
 
 /// Returns what can be done about the limit with a number, by the names of JavaScript.
 #[wasm_bindgen]
 pub fn limit_advice(number: usize) -> String {
-    let advice = match LIMITS.get(number) {
-        Some(Limit::Budget) => {
+    LIMITS.get(number).copied().map_or(String::new(), advice)
+}
+
+pub(crate) fn name(limit: Limit) -> String {
+    limit.to_string()
+}
+
+/// Returns what can be done about a limit, by the names of JavaScript.
+pub(crate) fn advice(limit: Limit) -> String {
+    let advice = match limit {
+        Limit::Budget => {
             "the budget is spent: a larger tolerance, or isFree with a margin, often decides at once; a larger budget \
              takes longer"
         }
-        Some(Limit::OracleGaveUp) => {
+        Limit::OracleGaveUp => {
             "a distance was not found: a larger tolerance, or another pose, may help"
         }
-        Some(limit) => limit.advice(),
-        None => "",
+        limit => limit.advice(),
     };
     advice.to_owned()
 }

@@ -1,121 +1,140 @@
-//! Answers about the path of a robot.
+//! Answers about the path of a robot. JavaScript reads their fields by name.
 
-use super::answer::{AnswerKind, feature_numbers};
-use super::limits::limit_number;
-use rigid_ccd::Error;
+use super::answer::AnswerKind;
+use super::limits::{advice, name};
 use rigid_ccd::answer::Limit;
 use rigid_ccd::glam::DVec3;
-use rigid_ccd_robot::{ClosestApproach, PathContact, PathError, PathOutcome, PathPoint};
+use rigid_ccd_robot as robot;
+use robot::PathOutcome;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// The index of the tolerance in the numbers of an answer.
-const TOLERANCE: usize = 3;
-
-/// An answer about a path: its kind, numbers at places that `js/module/cell.js` knows, and the names of a pair.
+/// An answer about a path. Times count the segments of the path.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct PathAnswer {
     /// The kind of the answer.
     pub kind: AnswerKind,
-    numbers: Vec<f64>,
-    names: Vec<String>,
+    /// The time before which nothing touches.
+    pub safe_until: f64,
+    /// A lower bound of the distance.
+    pub lower: f64,
+    /// An upper bound of the distance.
+    pub upper: f64,
+    /// The tolerance that is met.
+    pub tolerance: f64,
+    limit: Option<Limit>,
+    nearest: Option<PathContact>,
+}
+
+/// The pair of an answer that touches or is nearest.
+#[wasm_bindgen]
+#[derive(Clone, Debug)]
+pub struct PathContact {
+    /// The number of the segment.
+    pub segment: usize,
+    /// The share of the segment that is passed.
+    pub share: f64,
+    /// The segment and the share together.
+    pub time: f64,
+    /// A lower bound of the distance of the pair there.
+    pub lower: f64,
+    /// An upper bound of it.
+    pub upper: f64,
+    names: [String; 2],
+    witnesses: [DVec3; 2],
+    features: [Option<String>; 2],
 }
 
 #[wasm_bindgen]
 impl PathAnswer {
-    /// Returns the numbers: two bounds of the distance and the number of the limit, or the segment, the share and the number of the
-    /// limit; and the tolerance that is met. If a pair is named, the segment, the share, both witnesses, bounds of the distance and both features follow.
-    pub fn numbers(&self) -> Vec<f64> {
-        self.numbers.clone()
+    /// Returns the name of the limit that was reached, if one was.
+    pub fn limit(&self) -> Option<String> {
+        self.limit.map(name)
     }
 
-    /// Returns the names of the pair, if there is one.
-    pub fn names(&self) -> Vec<String> {
-        self.names.clone()
+    /// Returns what can be done about the limit.
+    pub fn advice(&self) -> Option<String> {
+        self.limit.map(advice)
+    }
+
+    /// Returns the pair that touches or is nearest, if there is one.
+    pub fn nearest(&self) -> Option<PathContact> {
+        self.nearest.clone()
     }
 }
 
-impl PathAnswer {
-    /// Returns the answer with the tolerance that it meets.
-    pub(crate) fn with_tolerance(mut self, tolerance: f64) -> Self {
-        self.numbers[TOLERANCE] = tolerance;
-        self
+#[wasm_bindgen]
+impl PathContact {
+    /// Returns the name of the first one of the pair.
+    pub fn a(&self) -> String {
+        self.names[0].clone()
     }
 
-    /// Makes an answer about a path of some segments.
-    pub(crate) fn from_outcome(outcome: PathOutcome<'_>, segments: usize) -> Self {
-        match outcome {
-            PathOutcome::Free => {
-                PathAnswer::without_pair(AnswerKind::Free, [segments as f64, 0.0, 0.0])
-            }
-            PathOutcome::Contact(contact) => {
-                PathAnswer::without_pair(AnswerKind::Contact, [0.0; 3]).with_pair(&contact)
-            }
-            PathOutcome::Unresolved { free_until, limit } => {
-                PathAnswer::from_limit(free_until, limit)
-            }
-        }
+    /// Returns the name of the second one.
+    pub fn b(&self) -> String {
+        self.names[1].clone()
     }
 
-    /// Makes an answer whether a path is free; a limit that was reached is one, too.
-    pub(crate) fn from_any_contact(
-        found: Result<Option<PathContact<'_>>, PathError>,
-        segments: usize,
-    ) -> Result<Self, PathError> {
-        let outcome = |found| PathAnswer::from_outcome(found, segments);
-        match found {
-            Ok(Some(contact)) => Ok(outcome(PathOutcome::Contact(contact))),
-            Ok(None) => Ok(outcome(PathOutcome::Free)),
-            Err(PathError::Query(Error::Unresolved(known))) => {
-                let start = PathPoint {
-                    segment: 0,
-                    share: 0.0,
-                };
-                Ok(PathAnswer::from_limit(start, known.limit))
-            }
-            Err(error) => Err(error),
-        }
+    /// Returns the point of the first one that is nearest to the second.
+    pub fn witness_a(&self) -> Vec<f64> {
+        self.witnesses[0].to_array().to_vec()
     }
 
-    pub(crate) fn from_closest_approach(closest: &ClosestApproach<'_>) -> Self {
-        let kind = match closest.limit {
-            Some(_) => AnswerKind::Unresolved,
-            None => AnswerKind::LeastDistance,
-        };
-        let limit = closest.limit.map_or(0, limit_number) as f64;
-        let answer = PathAnswer::without_pair(kind, [closest.lower, closest.upper, limit]);
-        match &closest.nearest {
-            Some(nearest) => answer.with_pair(nearest),
-            None => answer,
-        }
+    /// Returns the point of the second one that is nearest to the first.
+    pub fn witness_b(&self) -> Vec<f64> {
+        self.witnesses[1].to_array().to_vec()
     }
 
-    fn from_limit(free_until: PathPoint, limit: Limit) -> Self {
-        let PathPoint { segment, share } = free_until;
-        let numbers = [segment as f64, share, limit_number(limit) as f64];
-        PathAnswer::without_pair(AnswerKind::Unresolved, numbers)
+    /// Returns the feature of the first one's mesh at its point, if it has one.
+    pub fn feature_a(&self) -> Option<String> {
+        self.features[0].clone()
     }
 
-    fn without_pair(kind: AnswerKind, [first, second, limit]: [f64; TOLERANCE]) -> Self {
+    /// Returns the feature of the second one's mesh at its point, if it has one.
+    pub fn feature_b(&self) -> Option<String> {
+        self.features[1].clone()
+    }
+}
+
+impl From<robot::PathAnswer<'_>> for PathAnswer {
+    fn from(answer: robot::PathAnswer<'_>) -> Self {
+        let outcome = &answer.outcome;
         PathAnswer {
-            kind,
-            numbers: vec![first, second, limit, f64::NAN],
-            names: Vec::new(),
+            kind: kind(outcome),
+            safe_until: answer.free_until.time(),
+            lower: outcome.lower(),
+            upper: outcome.upper(),
+            tolerance: answer.tolerance,
+            limit: outcome.limit(),
+            nearest: outcome.nearest().map(PathContact::from),
         }
     }
+}
 
-    fn with_pair(mut self, pair: &PathContact<'_>) -> Self {
-        self.numbers.extend([pair.at.segment as f64, pair.at.share]);
-        let witnesses = pair.witnesses.unwrap_or([DVec3::NAN; 2]);
-        let witnesses = witnesses.iter().flat_map(|point| point.to_array());
-        self.numbers.extend(witnesses);
-        self.numbers.extend(pair.distance_bounds);
-        for feature in pair.features {
-            // No feature is one of a kind after all others.
-            let numbers = feature.map_or([4.0, 0.0, 0.0], feature_numbers);
-            self.numbers.extend(numbers);
+impl From<robot::PathContact<'_>> for PathContact {
+    fn from(contact: robot::PathContact<'_>) -> Self {
+        let [lower, upper] = contact.distance_bounds;
+        PathContact {
+            segment: contact.at.segment,
+            share: contact.at.share,
+            time: contact.at.time(),
+            lower,
+            upper,
+            names: contact.items.map(|item| item.name().to_owned()),
+            witnesses: contact.witnesses.unwrap_or([DVec3::NAN; 2]),
+            features: contact
+                .features
+                .map(|feature| feature.map(|feature| feature.to_string())),
         }
-        self.names = pair.items.map(|item| item.name().to_owned()).to_vec();
-        self
+    }
+}
+
+fn kind(outcome: &PathOutcome<'_>) -> AnswerKind {
+    match outcome {
+        PathOutcome::Free => AnswerKind::Free,
+        PathOutcome::Contact(_) => AnswerKind::Contact,
+        PathOutcome::LeastDistance { .. } => AnswerKind::LeastDistance,
+        // An outcome without a name proves nothing.
+        _ => AnswerKind::Unresolved,
     }
 }

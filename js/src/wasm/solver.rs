@@ -126,7 +126,7 @@ impl Solver {
         tell(spins.filter_map(|spin| Remark::remark_on_spin(spin, duration)));
         Ok(with_moving(move_a, motion_a, a, |a| {
             with_moving(move_b, motion_b, b, |b| {
-                ask(solver, question, a, b, duration)
+                solver.answer(question.into(), a, b, duration)
             })
         })?)
     }
@@ -145,19 +145,15 @@ fn with_moving<T>(
     }
 }
 
-fn ask(
-    solver: &mut rigid_ccd::Solver,
-    question: Question,
-    a: MovingBody<'_>,
-    b: MovingBody<'_>,
-    duration: f64,
-) -> Result<Answer, InputError> {
-    match question {
-        Question::FirstContact => solver.first_contact(a, b, duration),
-        Question::AnyContact => solver.any_contact(a, b, duration),
-        Question::ContactInterval => solver.contact_interval(a, b, duration),
-        Question::ClosestApproach | Question::KeptClearance => {
-            solver.closest_approach(a, b, duration)
+impl From<Question> for rigid_ccd::Question {
+    fn from(question: Question) -> Self {
+        match question {
+            Question::FirstContact => rigid_ccd::Question::FirstContact,
+            Question::AnyContact => rigid_ccd::Question::AnyContact,
+            Question::ContactInterval => rigid_ccd::Question::ContactInterval,
+            Question::ClosestApproach | Question::KeptClearance => {
+                rigid_ccd::Question::ClosestApproach
+            }
         }
     }
 }

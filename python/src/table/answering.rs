@@ -5,8 +5,9 @@ use super::input::Reader;
 use super::pieces::{ChunkSize, RowChunk, RowChunks, find_columns};
 use super::results;
 use arrow_array::RecordBatch;
+use rigid_ccd::Question;
 use rigid_ccd::answer::Limit;
-use rigid_ccd::batch::{BodyPair, Question, TimedAnswer, parallel_solver};
+use rigid_ccd::batch::{BodyPair, TimedAnswer, parallel_solver};
 use rigid_ccd::table::columns::Columns;
 use rigid_ccd::table::courses::{CourseRow, Movements};
 use rigid_ccd::table::motions::{RowProblem, TableError};
@@ -138,7 +139,7 @@ fn answer_timed(
     let query = asked
         .bodies
         .build_query(asked.question, course, asked.settings)?;
-    let answer = solver.answer(asked.question, &query)?;
+    let answer = solver.answer_query(asked.question, &query)?;
     let micros = start.elapsed().as_secs_f64() * 1e6;
     Ok(TimedAnswer { answer, micros })
 }

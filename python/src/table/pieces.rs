@@ -6,11 +6,12 @@ use super::batch::{
 };
 use super::input::Reader;
 use arrow_array::ArrayRef;
+use rigid_ccd::Question;
 use rigid_ccd::Remark;
-use rigid_ccd::batch::Question;
 use rigid_ccd::table::columns::Columns;
 use rigid_ccd::table::courses::{CourseRow, MovementRows, Movements};
 use rigid_ccd::table::motions::{self, RowError, TableError};
+use rigid_ccd::table::paths::Grouping;
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -111,7 +112,7 @@ impl<'p> RowChunks<'p> {
                 PathRowReader::new(&read_whole_table(reader, stop).map_err(unreadable_error)?)?;
             let batch = rows.row_batch();
             RowSource::Paths(
-                Box::new(MovementRows::of(rows, question.path_grouping())?),
+                Box::new(MovementRows::of(rows, Grouping::of_question(question))?),
                 batch,
             )
         } else {

@@ -5,9 +5,9 @@ use arrow_buffer::NullBuffer;
 use arrow_cast::cast;
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use arrow_select::concat::concat_batches;
-use rigid_ccd::batch::Question;
+use rigid_ccd::Question;
 use rigid_ccd::table::results::{self, CellGetter, Column, ResultRow};
-use rigid_ccd_robot::path_rows::PathQuestion;
+use rigid_ccd_robot::path_rows;
 use std::sync::Arc;
 
 /// Returns the columns of the results of a question, as in the command, for a given column of ids.
@@ -57,10 +57,10 @@ pub(crate) fn batch(
 
 /// Converts answers about paths, which have no ids and were not timed, to a batch of columns.
 pub(crate) fn path_batch(
-    question: PathQuestion,
+    question: Question,
     rows: &[ResultRow],
 ) -> Result<RecordBatch, ArrowError> {
-    let mut columns = question.columns();
+    let mut columns = path_rows::columns(question);
     columns.retain(|Column(name, _)| !matches!(*name, "id" | "micros"));
     record_batch(columns_of_rows(&columns, rows))
 }

@@ -8,7 +8,7 @@ use crate::tally::{Answered, Tally, on_threads, report};
 use anyhow::Result;
 use ccd_core::order::lesser;
 use rigid_ccd_c::*;
-use rigid_ccd_robot::{Cell, PathOutcome};
+use rigid_ccd_robot::Cell;
 use std::path::PathBuf;
 use std::ptr::null;
 
@@ -91,11 +91,8 @@ fn read_chunks(args: &Args, cell: &Cell, joints: usize) -> Result<Vec<Chunk>> {
     let mut solver = cell.solver().with_settings(rust_settings(1e-9));
     let chunks = numbers.chunks_exact(WAYPOINTS * joints).map(|positions| {
         let path: Vec<&[f64]> = positions.chunks_exact(joints).collect();
-        let touches_at = match solver.first_contact(&path)? {
-            PathOutcome::Free => f64::INFINITY,
-            PathOutcome::Contact(contact) => contact.at.time(),
-            PathOutcome::Unresolved { limit, .. } => anyhow::bail!("{limit}"),
-        };
+        let contact = solver.first_contact(&path)?.contact()?;
+        let touches_at = contact.map_or(f64::INFINITY, |contact| contact.at.time());
         let positions = positions.to_vec();
         Ok(Chunk {
             positions,

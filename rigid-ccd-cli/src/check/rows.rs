@@ -10,9 +10,10 @@ use crate::resumable::RowRange;
 use crate::robots::{GivenJoints, PathTable};
 use anyhow::{Context, Result, bail};
 use ccd_prove::{Statement, Subject as Stated};
-use rigid_ccd::batch::Question;
+use rigid_ccd::Question;
 use rigid_ccd::table::courses::Movements;
 use rigid_ccd::table::motions::{RowError, RowPosition};
+use rigid_ccd::table::paths::Grouping;
 use rigid_ccd::text::Excerpt;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -221,7 +222,7 @@ impl AskedTable<'_> {
                 let Some(pair) = pair.proven()? else {
                     bail!("--motions needs --a and --b");
                 };
-                let grouping = Question::FirstContact.path_grouping();
+                let grouping = Grouping::of_question(Question::FirstContact);
                 let (rows, _) = open_movement_rows(path, grouping)?;
                 if rows.is_path_table() {
                     bail!("--motions needs a table of motions, not of paths");

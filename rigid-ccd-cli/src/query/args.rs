@@ -12,7 +12,7 @@ use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
 use ccd_core::schedule::Shortcut;
 use ccd_core::{StartPolicy, VectorInstructions};
 use clap::Args;
-use rigid_ccd::batch::Question;
+use rigid_ccd::Question;
 use rigid_ccd::table::results::{self, Column};
 use std::path::PathBuf;
 use std::time::Duration;

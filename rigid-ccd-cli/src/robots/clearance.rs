@@ -101,7 +101,7 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
     let path = args.read_path(&cell)?;
     let mut solver = cell.solver().with_settings(args.settings(0.0));
     let closest = solver.closest_approach(&path.configurations)?;
-    let tolerance = solver.met_tolerance();
+    let tolerance = closest.tolerance;
     if tolerance > args.tolerance {
         print_error(&format!(
             "--tolerance {:e} m cannot be certified at these coordinates: raised to {tolerance:.2e} m",
@@ -122,7 +122,7 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
         path: &path,
         pose_error: args.pose_error,
         required: args.require,
-        closest,
+        closest: closest.outcome,
         tolerance,
         ranges,
     };

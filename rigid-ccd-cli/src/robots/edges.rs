@@ -26,8 +26,8 @@ use clap::ArgMatches;
 use rigid_ccd::batch::{BatchSize, parallel_solver};
 use rigid_ccd::table::motions::RowError;
 use rigid_ccd::table::results::{Column, Line, ResultRow, Status, names};
-use rigid_ccd::{ParallelSolver, Settings};
-use rigid_ccd_robot::path_rows::PathQuestion;
+use rigid_ccd::{ParallelSolver, Question, Settings};
+use rigid_ccd_robot::path_rows::{self, PathQuestion, PathRow};
 use rigid_ccd_robot::{Cell, CellRemark, CellSolver, Robot};
 use std::iter::once;
 use std::time::Instant;
@@ -36,12 +36,12 @@ use std::time::Instant;
 pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     args.cell.refuse_overwriting(&[("--out", &args.out)])?;
     crate::files::refuse_overwriting_input(("--edges", &args.edges), ("--out", &args.out))?;
-    if args.check && args.ask == PathQuestion::ClosestApproach && args.clearance == 0.0 {
+    if args.check && args.ask == Question::ClosestApproach && args.clearance == 0.0 {
         bail!(
             "--check needs --clearance with --ask closest-approach: a distance alone is neither good nor bad"
         );
     }
-    if args.ask == PathQuestion::ClosestApproach && args.start == StartPolicy::Leave {
+    if args.ask == Question::ClosestApproach && args.start == StartPolicy::Leave {
         bail!("--start leave is for --ask is-free and first-contact");
     }
     let columns = args.columns();
@@ -162,19 +162,19 @@ impl Batches<Result<TablePath, RowError>> for EdgesRun<'_> {
         let (args, progress) = (self.args, &self.progress);
         let start = Instant::now();
         let rows = self.solver.map(paths, |solver, path| {
-            let row = match path {
+            let answer = match path {
                 Ok(path) => answer(args, solver, path),
-                Err(error) => ResultRow::error(&error.id, &error.problem),
+                Err(error) => PathRow::from(ResultRow::error(&error.id, &error.problem)),
             };
             progress.step();
-            (row, solver.met_tolerance())
+            answer
         });
         self.batch_size.adapt(start.elapsed());
-        for (path, (row, tolerance)) in paths.iter().zip(rows) {
-            if row.status != Status::Error {
-                self.raised_tolerances.add(tolerance);
+        for (path, answer) in paths.iter().zip(rows) {
+            if answer.row.status != Status::Error {
+                self.raised_tolerances.add(answer.tolerance);
             }
-            self.write(path, row)?;
+            self.write(path, answer.row)?;
         }
         self.prove_and_write(paths)
     }
@@ -247,16 +247,23 @@ impl EdgesRun<'_> {
 const PROVEN_BATCH_ROWS: usize = 64;
 
 /// Answers the question about a path, and takes the time.
-fn answer(args: &EdgesArgs, solver: &mut CellSolver<'_>, path: &TablePath) -> ResultRow {
+fn answer(args: &EdgesArgs, solver: &mut CellSolver<'_>, path: &TablePath) -> PathRow {
     let start = Instant::now();
-    let clearance = Some(args.clearance).filter(|&clearance| clearance > 0.0);
-    let row = args.ask.answer(solver, &path.configurations, clearance);
+    let question = PathQuestion {
+        question: args.ask,
+        clearance: Some(args.clearance).filter(|&clearance| clearance > 0.0),
+    };
+    let answer = question.answer(solver, &path.configurations);
     let micros = microseconds(start.elapsed());
-    ResultRow {
-        id: path.id.clone(),
-        time: row.time.map(|time| path.table_time_rounded_down(time)),
-        micros: Some(micros).filter(|_| row.status != Status::Error),
-        ..row
+    let row = answer.row;
+    PathRow {
+        row: ResultRow {
+            id: path.id.clone(),
+            time: row.time.map(|time| path.table_time_rounded_down(time)),
+            micros: Some(micros).filter(|_| row.status != Status::Error),
+            ..row
+        },
+        ..answer
     }
 }
 
@@ -314,14 +321,14 @@ fn print_summary(end: Checkpoint, times: &TimeHistogram, raised_tolerances: &Rai
 
 impl EdgesArgs {
     fn columns(&self) -> Vec<Column> {
-        self.ask.columns()
+        path_rows::columns(self.ask)
     }
 
     /// Returns the settings of a question. A closest approach measures distances without a margin.
     fn settings(&self) -> Settings {
         let margin = match self.ask {
-            PathQuestion::IsFree | PathQuestion::FirstContact => self.clearance,
-            PathQuestion::ClosestApproach => 0.0,
+            Question::ClosestApproach => 0.0,
+            _ => self.clearance,
         };
         Settings {
             tolerance: self.tolerance,

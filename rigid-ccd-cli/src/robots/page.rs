@@ -9,7 +9,7 @@ use ccd_view::{
 };
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Motion, Pose};
-use rigid_ccd_robot::{Cell, CellSolver, Item, PathContact, PathOutcome};
+use rigid_ccd_robot::{Cell, CellSolver, Item, PathAnswer, PathContact, PathOutcome, PathPoint};
 use std::collections::HashMap;
 
 /// The greatest number of poses of a path that are drawn, and of ranges in which the distance is measured.
@@ -104,23 +104,22 @@ impl<'c> RobotPainter<'c> {
         };
         for range in &ranges {
             let closest = &range.closest;
-            let (lower, upper) = (1e3 * closest.lower, 1e3 * closest.upper);
+            let (lower, upper) = (1e3 * closest.lower(), 1e3 * closest.upper());
             gap.proven.push([seconds(range.from.time()), lower]);
             gap.proven.push([seconds(range.to.time()), lower]);
-            if let Some(nearest) = closest.nearest {
+            if let Some(nearest) = closest.nearest() {
                 let time = seconds(nearest.at.time());
                 gap.points.push(GapSample { time, lower, upper });
             }
         }
         let least = ranges
             .iter()
-            .filter_map(|range| Some((range.closest.upper, range.closest.nearest?)));
+            .filter_map(|range| Some((range.closest.upper(), range.closest.nearest()?)));
         let nearest = least.reduce(|one, other| if other.0 < one.0 { other } else { one });
-        let contact = match first {
-            PathOutcome::Contact(contact) => Some(contact),
-            PathOutcome::Free | PathOutcome::Unresolved { .. } => None,
-        };
-        let shown = contact.or(nearest.map(|(_, nearest)| nearest));
+        let shown = first
+            .outcome
+            .nearest()
+            .or(nearest.map(|(_, nearest)| nearest));
         Ok(Animation {
             start: path.table_time_rounded_down(0.0),
             time: shown.map_or(0.0, |shown| seconds(shown.at.time())),
@@ -248,7 +247,7 @@ fn shown_contact(contact: &PathContact<'_>, seconds: &impl Fn(f64) -> f64) -> Sh
 
 /// Says in words what touches, or how near anything comes.
 fn verdict(
-    first: &PathOutcome<'_>,
+    first: &PathAnswer<'_>,
     nearest: Option<(f64, PathContact<'_>)>,
     clearance: f64,
 ) -> String {
@@ -265,17 +264,11 @@ fn verdict(
             contact.at.segment
         )
     };
-    match (first, nearest) {
+    match (&first.outcome, nearest) {
         (PathOutcome::Contact(contact), _) => {
             format!(
                 "First contact{kept}: {}. Proven: free before.",
                 place(contact)
-            )
-        }
-        (PathOutcome::Unresolved { free_until, limit }, _) => {
-            let (share, segment) = (rounded_down(free_until.share), free_until.segment);
-            format!(
-                "Free{kept} until {share:.4} of segment {segment}; then a limit was reached: {limit}."
             )
         }
         (PathOutcome::Free, Some((distance, contact))) => {
@@ -286,6 +279,14 @@ fn verdict(
             )
         }
         (PathOutcome::Free, None) => format!("Free{kept}, proven."),
+        (outcome, _) => {
+            let PathPoint { segment, share } = first.free_until;
+            let until = format!("{:.4} of segment {segment}", rounded_down(share));
+            let limit = outcome
+                .limit()
+                .map_or_else(String::new, |limit| limit.to_string());
+            format!("Free{kept} until {until}; then a limit was reached: {limit}.")
+        }
     }
 }
 

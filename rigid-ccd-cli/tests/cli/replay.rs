@@ -30,9 +30,9 @@ fn record() -> Evidence {
     let pair = [Item::Link("hand"), Item::Obstacle("post")];
     cell.set_clearance(pair, 0.01).unwrap();
     let path = [[0.0, 0.0], [1.5, 0.0]];
-    let answer = cell.solver().first_contact(&path).unwrap();
+    let answer = RecordedAnswer::try_from(&cell.solver().first_contact(&path).unwrap()).unwrap();
     let path = RecordedPath::configurations(&path);
-    Evidence::new(&cell, &Settings::DEFAULT, path, &answer).unwrap()
+    Evidence::new(&cell, &Settings::DEFAULT, path, answer).unwrap()
 }
 
 /// Returns a folder with the examples and a record.

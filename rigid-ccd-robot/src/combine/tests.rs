@@ -95,13 +95,17 @@ fn links_are_where_the_base_carries_them() {
         }
         assert!(rest.is_empty());
         let cell = Cell::new(both, pairs);
-        let found = cell.solver().closest_approach(&[&configuration]).unwrap();
+        let found = cell
+            .solver()
+            .closest_approach(&[&configuration])
+            .unwrap()
+            .outcome;
         let least = least_distance(&cell, &configuration);
         assert!(
-            found.lower <= least + 1e-9 && found.upper >= least - 1e-9,
+            found.lower() <= least + 1e-9 && found.upper() >= least - 1e-9,
             "{found:?} {least}"
         );
-        let nearest = found.nearest.unwrap().items.map(Item::name);
+        let nearest = found.nearest().unwrap().items.map(Item::name);
         let is_between = nearest[0].starts_with("left") != nearest[1].starts_with("left");
         if is_between {
             between_both += 1;

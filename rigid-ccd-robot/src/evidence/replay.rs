@@ -4,8 +4,8 @@ use super::{Evidence, RecordedAnswer, RecordedBody, RecordedPath, bodies_at_star
 use crate::cell::Cell;
 use crate::error::{PathError, RobotError};
 use crate::path::Path;
+use crate::path_answer::{PathAnswer, PathOutcome};
 use crate::path_point::PathPoint;
-use crate::solver::PathOutcome;
 use rigid_ccd::Settings;
 
 /// How far positions and quaternions of the same body may differ, in metres: sines differ in their last digits from machine to
@@ -25,6 +25,9 @@ pub enum EvidenceError {
     /// The record is of another version of the format.
     #[error("the format is `{0}`, but this version reads `{FORMAT}`", FORMAT = super::FORMAT)]
     OtherFormat(String),
+    /// The answer is none to a question about the first contact.
+    #[error("the answer is not one about the first contact: only such are recorded")]
+    NoFirstContact,
     /// The path has no configuration.
     #[error("the path has no configuration")]
     EmptyPath,
@@ -88,7 +91,7 @@ impl Evidence {
             start_policy: self.settings.start.into(),
             ..Settings::DEFAULT
         };
-        let answer = RecordedAnswer::from(&self.ask(cell, &settings)?);
+        let answer = RecordedAnswer::try_from(&self.ask(cell, &settings)?)?;
         let verdict = if answer == self.answer {
             Verdict::SameAnswer
         } else {
@@ -107,7 +110,7 @@ impl Evidence {
         &self,
         cell: &'c Cell,
         settings: &Settings,
-    ) -> Result<PathOutcome<'c>, EvidenceError> {
+    ) -> Result<PathAnswer<'c>, EvidenceError> {
         let path: &dyn Path = match &self.path {
             RecordedPath::Configurations(all) => all,
             RecordedPath::Curve(curve) => curve,
@@ -117,16 +120,15 @@ impl Evidence {
     }
 
     /// Holds the recorded answer against one with a finer tolerance.
-    fn judge(&self, finer: &PathOutcome<'_>) -> Verdict {
+    fn judge(&self, finer: &PathAnswer<'_>) -> Verdict {
         let free_until = self.answer.free_until();
         // Written so that NaN is not free.
-        let reaches = |point: PathPoint| free_until.is_some_and(|until| until <= point);
-        match *finer {
+        let is_reached = free_until.is_some_and(|until| until <= finer.free_until);
+        match finer.outcome {
             PathOutcome::Free => Verdict::Holds,
-            PathOutcome::Contact(contact) if reaches(contact.at) => Verdict::Holds,
+            _ if is_reached => Verdict::Holds,
             PathOutcome::Contact(contact) => Verdict::Refuted { at: contact.at },
-            PathOutcome::Unresolved { free_until, .. } if reaches(free_until) => Verdict::Holds,
-            PathOutcome::Unresolved { .. } => Verdict::Undecided,
+            PathOutcome::LeastDistance { .. } | PathOutcome::Unresolved(_) => Verdict::Undecided,
         }
     }
 

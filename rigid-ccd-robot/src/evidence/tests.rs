@@ -40,8 +40,8 @@ fn path() -> Vec<[f64; 2]> {
 
 fn record(cell: &Cell, settings: &Settings, path: RecordedPath, asked: &dyn Path) -> Evidence {
     let mut solver = cell.solver().with_settings(settings.clone());
-    let answer = solver.first_contact(asked).unwrap();
-    let record = Evidence::new(cell, settings, path, &answer).unwrap();
+    let answer = RecordedAnswer::try_from(&solver.first_contact(asked).unwrap()).unwrap();
+    let record = Evidence::new(cell, settings, path, answer).unwrap();
     let read = Evidence::from_json(&record.to_json().unwrap()).unwrap();
     assert_eq!(read, record);
     read
@@ -180,5 +180,23 @@ fn what_is_no_record_is_refused() {
             serde_json::from_str::<JointCurve>(&wrong).is_err(),
             "{wrong}"
         );
+    }
+}
+
+/// Tests that an answer to another question is not recorded as one about the first contact.
+#[test]
+fn only_first_contacts_are_recorded() {
+    let (cell, path) = (cell(), path());
+    let mut solver = cell.solver();
+    let closest = solver.closest_approach(&path).unwrap();
+    let any = solver.any_contact(&path).unwrap();
+    assert!(
+        any.contact()
+            .unwrap()
+            .is_some_and(|contact| contact.at.time() > 0.0)
+    );
+    for answer in [closest, any] {
+        let recorded = RecordedAnswer::try_from(&answer);
+        assert!(matches!(recorded, Err(EvidenceError::NoFirstContact)));
     }
 }

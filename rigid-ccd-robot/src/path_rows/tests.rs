@@ -14,10 +14,14 @@ fn rows_are_the_answers_of_the_solver() {
         let cell = random_cell(&mut random);
         let path = [(); 3].map(|()| random_configuration(&mut random, cell.robot()));
         let mut solver = cell.solver();
-        let is_free = PathQuestion::IsFree.answer(&mut solver, &path, None);
-        let first = PathQuestion::FirstContact.answer(&mut solver, &path, None);
+        let is_free = PathQuestion::from(Question::AnyContact)
+            .answer(&mut solver, &path)
+            .row;
+        let first = PathQuestion::from(Question::FirstContact)
+            .answer(&mut solver, &path)
+            .row;
         assert_eq!(is_free.status == Status::Free, first.status == Status::Free);
-        match solver.first_contact(&path).unwrap() {
+        match solver.first_contact(&path).unwrap().outcome {
             PathOutcome::Contact(contact) => {
                 assert!(matches!(
                     first.status,
@@ -33,16 +37,21 @@ fn rows_are_the_answers_of_the_solver() {
                 assert_eq!(first.item_b.as_deref(), Some(contact.items[1].name()));
             }
             PathOutcome::Free => assert_eq!((first.status, first.time), (Status::Free, Some(2.0))),
-            PathOutcome::Unresolved { .. } => panic!("no limit is set"),
+            _ => panic!("no limit is set"),
         }
         statuses[usize::from(first.status == Status::Free)] += 1;
 
-        let nearest = PathQuestion::ClosestApproach.answer(&mut solver, &path, None);
+        let nearest = PathQuestion::from(Question::ClosestApproach)
+            .answer(&mut solver, &path)
+            .row;
         assert_eq!(nearest.status, Status::Measured);
         let (lower, upper) = (nearest.distance_lower.unwrap(), nearest.distance_upper);
         let mut status = |clearance| {
-            let row = PathQuestion::ClosestApproach.answer(&mut solver, &path, Some(clearance));
-            row.status
+            let question = PathQuestion {
+                question: Question::ClosestApproach,
+                clearance: Some(clearance),
+            };
+            question.answer(&mut solver, &path).row.status
         };
         // What may touch keeps no clearance.
         assert_eq!(status(lower) == Status::Kept, lower > 0.0);
@@ -65,12 +74,13 @@ fn limits_and_errors_are_rows() {
         ..Settings::DEFAULT
     };
     let mut solver = cell.solver().with_settings(settings);
-    for question in PathQuestion::ALL {
-        let row = question.answer(&mut solver, &path, None);
-        assert_eq!(row.status, Status::Unresolved, "{}", question.name());
+    for question in CellSolver::QUESTIONS {
+        let asked = PathQuestion::from(question);
+        let row = asked.answer(&mut solver, &path).row;
+        assert_eq!(row.status, Status::Unresolved, "{question}");
         assert_eq!(row.reason.as_deref(), Some("deadline"));
         let empty: [Vec<f64>; 0] = [];
-        let row = question.answer(&mut solver, &empty, None);
+        let row = asked.answer(&mut solver, &empty).row;
         assert_eq!(row.status, Status::Error);
         assert!(
             row.reason
@@ -81,9 +91,25 @@ fn limits_and_errors_are_rows() {
 
 #[test]
 fn columns_are_those_of_the_question() {
-    let columns = |question: PathQuestion| names(&question.columns()).join(",");
-    assert_eq!(columns(PathQuestion::IsFree), "id,status,micros,reason");
+    let columns = |question| names(&columns(question)).join(",");
+    assert_eq!(columns(Question::AnyContact), "id,status,micros,reason");
     let first = "id,status,time,a,b,distance_lower,distance_upper,witness_a_x,witness_a_y,witness_a_z,witness_b_x,witness_b_y,witness_b_z,feature_a,feature_b,micros,reason";
-    assert_eq!(columns(PathQuestion::FirstContact), first);
-    assert_eq!(columns(PathQuestion::ClosestApproach), first);
+    assert_eq!(columns(Question::FirstContact), first);
+    assert_eq!(columns(Question::ClosestApproach), first);
+}
+
+/// Tests that a question that is none about paths is an error in each row, not another question's answer.
+#[test]
+fn other_questions_are_refused() {
+    let mut random = Pcg64::seed_from_u64(4);
+    let cell = random_cell(&mut random);
+    let path = [random_configuration(&mut random, cell.robot())];
+    for question in Question::ALL {
+        let row = PathQuestion::from(question)
+            .answer(&mut cell.solver(), &path)
+            .row;
+        let is_known = CellSolver::QUESTIONS.contains(&question);
+        assert_eq!(row.status != Status::Error, is_known, "{question}");
+        assert_eq!(row.reason.is_none(), is_known, "{question}");
+    }
 }

@@ -1,7 +1,7 @@
 //! The ranges of a path in which all pairs keep their distance, and those in which one of them certainly does not.
 
 use super::stretch::Stretch;
-use super::{CellSolver, Question};
+use super::{CellSolver, Goal};
 use crate::error::PathError;
 use crate::path::Path;
 use crate::path_point::PathPoint;
@@ -166,7 +166,7 @@ impl CellSolver<'_> {
     }
 
     fn is_clearance_kept(&mut self, stretch: Stretch) -> Result<bool, Error> {
-        self.search.answer_question(Question::AnyContact, stretch)?;
+        self.search.answer_question(Goal::AnyContact, stretch)?;
         let found = &self.search.result;
         Ok(found.nearest.is_none() && found.limit_reached.is_none())
     }

@@ -1,9 +1,10 @@
 //! The least distance over each of many ranges of a path.
 
 use super::stretch::Stretch;
-use super::{CellSolver, ClosestApproach, Question};
+use super::{CellSolver, Goal};
 use crate::error::PathError;
 use crate::path::Path;
+use crate::path_answer::PathOutcome;
 use crate::path_point::PathPoint;
 
 /// Bounds of the least distance in a range of a path.
@@ -14,7 +15,7 @@ pub struct DistanceRange<'c> {
     /// The end of the range, where the next one starts.
     pub to: PathPoint,
     /// How near any pair that is checked comes to touching in the range.
-    pub closest: ClosestApproach<'c>,
+    pub closest: PathOutcome<'c>,
 }
 
 /// The greatest number of ranges.
@@ -60,13 +61,12 @@ impl<'c> CellSolver<'c> {
     }
 
     fn distance_range(&mut self, stretch: Stretch) -> Result<DistanceRange<'c>, PathError> {
-        self.search
-            .answer_question(Question::ClosestApproach, stretch)?;
+        self.search.answer_question(Goal::LeastDistance, stretch)?;
         let segments = self.search.segment_count();
         Ok(DistanceRange {
             from: PathPoint::from_path_position(stretch.from, segments),
             to: PathPoint::from_path_position(stretch.to, segments),
-            closest: self.found_approach()?,
+            closest: self.measured_distance()?,
         })
     }
 }

@@ -1,6 +1,6 @@
 //! What the search leaves to the engine: bodies that are not convex, and pairs that are open after all halvings.
 
-use super::Question;
+use super::Goal;
 use super::curved_link::PathSection;
 use super::open_pairs::OpenPair;
 use super::part_pairs::{PartPair, sort_by_proof_distance};
@@ -42,13 +42,13 @@ impl Search<'_> {
     }
 
     fn check_suspect(&mut self, pair: &PartPair, bodies: [usize; 2], at: f64) -> StepResult {
-        let question = match self.question {
-            Question::FirstContact => Question::AnyContact,
+        let goal = match self.goal {
+            Goal::FirstContact => Goal::AnyContact,
             other => other,
         };
         let open = OpenPair::new_at_point(*pair, bodies, at);
-        let answer = self.ask(question, &open, None)?;
-        if question == Question::ClosestApproach {
+        let answer = self.ask(goal, &open, None)?;
+        if goal == Goal::LeastDistance {
             return Ok(self.record_distance(&open, &answer.outcome));
         }
         // A pair that a limit leaves undecided here stays a candidate.
@@ -64,7 +64,7 @@ impl Search<'_> {
     /// Lets the engine decide about each open pair.
     pub(super) fn decide_open_pairs(&mut self) -> Result<(), Error> {
         let mut open = std::mem::take(&mut self.open_pairs);
-        let result = self.decide(open.sorted_for(self.question));
+        let result = self.decide(open.sorted_for(self.goal));
         self.open_pairs = open;
         result
     }
@@ -76,9 +76,9 @@ impl Search<'_> {
             }
             if let Some(limit) = self.stop_condition.reached_limit() {
                 // For the first contact the pairs are in the order of their starts: all before this one is decided.
-                let until = match self.question {
-                    Question::FirstContact => pair.from,
-                    Question::AnyContact | Question::ClosestApproach => 0.0,
+                let until = match self.goal {
+                    Goal::FirstContact => pair.from,
+                    Goal::AnyContact | Goal::LeastDistance => 0.0,
                 };
                 self.result.limit_reached = Some((limit, until));
                 self.result.lower = 0.0;
@@ -102,7 +102,7 @@ impl Search<'_> {
         if splits > 0 && self.drift(&pair) > 0.0 {
             return self.decide_halves(&pair, splits - 1);
         }
-        if self.question == Question::ClosestApproach {
+        if self.goal == Goal::LeastDistance {
             // Nothing is nearer by more than the tolerance. Written so that NaN is measured.
             if self.result.distance_upper_bound - self.tolerance <= 0.0 {
                 return Ok(Break(()));
@@ -111,19 +111,17 @@ impl Search<'_> {
                 return Ok(Continue(()));
             }
         }
-        let outcome = self.ask(self.question, &pair, None)?.outcome;
+        let outcome = self.ask(self.goal, &pair, None)?.outcome;
         let is_spent = outcome.limit() == Some(Limit::Budget);
         if is_spent && splits > 0 && self.stop_condition.reached_limit().is_none() {
-            if self.question == Question::ClosestApproach {
+            if self.goal == Goal::LeastDistance {
                 self.record_upper_bound(&pair, &outcome);
             }
             return self.decide_halves(&pair, splits - 1);
         }
-        Ok(match self.question {
-            Question::AnyContact | Question::FirstContact => {
-                self.record_contact_answer(&pair, &outcome)
-            }
-            Question::ClosestApproach => self.record_distance(&pair, &outcome),
+        Ok(match self.goal {
+            Goal::AnyContact | Goal::FirstContact => self.record_contact_answer(&pair, &outcome),
+            Goal::LeastDistance => self.record_distance(&pair, &outcome),
         })
     }
 
@@ -147,12 +145,12 @@ impl Search<'_> {
                 self.keep_contact(&open.pair, open.point(hit.time), beyond)
             }
             Err(known) => {
-                let until = match self.question {
-                    Question::FirstContact => open.point(known.safe_until),
+                let until = match self.goal {
+                    Goal::FirstContact => open.point(known.safe_until),
                     _ => 0.0,
                 };
                 self.result.limit_reached = Some((known.limit, until));
-                if self.question == Question::FirstContact {
+                if self.goal == Goal::FirstContact {
                     self.result.end = until;
                 }
                 Continue(())
@@ -172,7 +170,7 @@ impl Search<'_> {
         if !(least < f64::INFINITY) {
             return Ok(false);
         }
-        let answer = self.ask(Question::ClosestApproach, open, Some(least))?;
+        let answer = self.ask(Goal::LeastDistance, open, Some(least))?;
         let required = least + self.allowance(open);
         Ok(answer.outcome.clearance_verdict(required) == ClearanceVerdict::Kept)
     }
@@ -211,7 +209,7 @@ impl Search<'_> {
     /// Asks the engine about an open pair. Its margin or clearance is larger by the allowance.
     fn ask(
         &mut self,
-        question: Question,
+        goal: Goal,
         open: &OpenPair,
         clearance: Option<f64>,
     ) -> Result<Answer, Error> {
@@ -235,7 +233,7 @@ impl Search<'_> {
         };
         let answer = self
             .exact_chains
-            .ask(&mut self.solver, question, open.bodies, &section)?;
+            .ask(&mut self.solver, goal, open.bodies, &section)?;
         // A query is a step, even if bounding volumes decide it.
         self.stop_condition
             .add_work(1 + answer.stats.budgeted_work());

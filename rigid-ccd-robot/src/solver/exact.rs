@@ -1,6 +1,6 @@
 //! Pairs of bodies as the engine takes them: a body with the trajectory of its link, against another one at rest.
 
-use super::Question;
+use super::Goal;
 use super::curved_link::{CurvedLink, PathSection};
 use super::pair_chain::{PairChain, pair_chain};
 use crate::cell::Cell;
@@ -38,12 +38,12 @@ impl<'c> PairChains<'c> {
     pub(crate) fn ask(
         &mut self,
         solver: &mut Solver,
-        question: Question,
+        goal: Goal,
         pair: [usize; 2],
         section: &PathSection<'_>,
     ) -> Result<Answer, Error> {
         self.with_link(solver, pair, section, |solver, link, a, b| {
-            ask_solver(solver, question, (a, link), b)
+            ask_solver(solver, goal, (a, link), b)
         })
     }
 
@@ -104,13 +104,13 @@ fn chain<'m>(
 
 fn ask_solver<'b>(
     solver: &mut Solver,
-    question: Question,
+    goal: Goal,
     a: impl Into<MovingBody<'b>> + Copy,
     b: (&'b Body, Motion),
 ) -> Result<Answer, Error> {
-    Ok(match question {
-        Question::AnyContact => solver.any_contact(a, b, 1.0)?,
-        Question::FirstContact => solver.first_contact(a, b, 1.0)?,
-        Question::ClosestApproach => solver.closest_approach(a, b, 1.0)?,
+    Ok(match goal {
+        Goal::AnyContact => solver.any_contact(a, b, 1.0)?,
+        Goal::FirstContact => solver.first_contact(a, b, 1.0)?,
+        Goal::LeastDistance => solver.closest_approach(a, b, 1.0)?,
     })
 }

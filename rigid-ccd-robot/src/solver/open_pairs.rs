@@ -1,6 +1,6 @@
 //! Pairs of bodies that are open in a stretch, for the engine.
 
-use super::Question;
+use super::Goal;
 use super::part_pairs::PartPair;
 use super::stretch::Stretch;
 use ccd_core::order::{greater, lesser};
@@ -87,10 +87,10 @@ impl UndecidedPairs {
 
     /// Returns the open pairs in the order in which the engine is asked: the earliest first for the first contact, the
     /// nearest first for other questions.
-    pub(crate) fn sorted_for(&mut self, question: Question) -> &[OpenPair] {
-        match question {
-            Question::FirstContact => self.0.sort_unstable_by(|a, b| a.from.total_cmp(&b.from)),
-            Question::AnyContact | Question::ClosestApproach => self.0.sort_unstable_by(|a, b| {
+    pub(crate) fn sorted_for(&mut self, goal: Goal) -> &[OpenPair] {
+        match goal {
+            Goal::FirstContact => self.0.sort_unstable_by(|a, b| a.from.total_cmp(&b.from)),
+            Goal::AnyContact | Goal::LeastDistance => self.0.sort_unstable_by(|a, b| {
                 a.pair
                     .distance_to_proof_ratio
                     .total_cmp(&b.pair.distance_to_proof_ratio)

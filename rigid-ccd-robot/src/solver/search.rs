@@ -6,7 +6,7 @@
 
 mod start;
 
-use super::Question;
+use super::Goal;
 use super::exact::PairChains;
 use super::joint_path::JointPath;
 use super::limits::StopCondition;
@@ -58,7 +58,7 @@ pub(crate) struct Search<'c> {
     /// The tolerance of the current path: that of the settings, or what the rounding of positions costs.
     pub(super) tolerance: f64,
     // Of the current question.
-    pub(super) question: Question,
+    pub(super) goal: Goal,
     /// The start of the stretch that the question is about.
     search_start: f64,
     pub(super) stop_condition: StopCondition,
@@ -123,7 +123,7 @@ impl<'c> Search<'c> {
             solver: Solver::new(),
             settings: Settings::DEFAULT,
             tolerance: Settings::DEFAULT.tolerance,
-            question: Question::AnyContact,
+            goal: Goal::AnyContact,
             search_start: 0.0,
             stop_condition: StopCondition::NONE,
             result: SearchResult::NOTHING_FOUND,
@@ -164,10 +164,10 @@ impl<'c> Search<'c> {
     /// Returns the tolerance that the last answer meets.
     pub(crate) fn met_tolerance(&self) -> f64 {
         let found = &self.result;
-        let shown = match self.question {
-            Question::AnyContact | Question::FirstContact => found.distance_beyond_margin,
-            Question::ClosestApproach if found.limit_reached.is_some() => 0.0,
-            Question::ClosestApproach => {
+        let shown = match self.goal {
+            Goal::AnyContact | Goal::FirstContact => found.distance_beyond_margin,
+            Goal::LeastDistance if found.limit_reached.is_some() => 0.0,
+            Goal::LeastDistance => {
                 let (lower, upper) = self.distance_bounds();
                 let excess = |pair: PartPair| {
                     let parts = [pair.a, pair.b].map(|part| &self.cell.parts()[part as usize]);
@@ -226,12 +226,8 @@ impl<'c> Search<'c> {
     }
 
     /// Answers a question about a stretch of the path; the answer is in `result`.
-    pub(crate) fn answer_question(
-        &mut self,
-        question: Question,
-        stretch: Stretch,
-    ) -> Result<(), Error> {
-        self.begin_question(question, &stretch);
+    pub(crate) fn answer_question(&mut self, goal: Goal, stretch: Stretch) -> Result<(), Error> {
+        self.begin_question(goal, &stretch);
         self.start_contacts.clear();
         match self.search(stretch, None)? {
             Break(()) => Ok(()),
@@ -239,8 +235,8 @@ impl<'c> Search<'c> {
         }
     }
 
-    pub(super) fn begin_question(&mut self, question: Question, stretch: &Stretch) {
-        self.question = question;
+    pub(super) fn begin_question(&mut self, goal: Goal, stretch: &Stretch) {
+        self.goal = goal;
         self.search_start = stretch.from;
         self.stop_condition.begin_search(stretch);
         self.result = SearchResult::NOTHING_FOUND;
@@ -281,10 +277,10 @@ impl<'c> Search<'c> {
         if !undecided.is_empty() {
             sort_by_proof_distance(&mut self.candidates[first..]);
             let [earlier, later] = stretch.halves();
-            let halves = match self.question {
-                Question::FirstContact => [earlier, later],
+            let halves = match self.goal {
+                Goal::FirstContact => [earlier, later],
                 // The start of a planner's edge is free as a rule.
-                Question::AnyContact | Question::ClosestApproach => [later, earlier],
+                Goal::AnyContact | Goal::LeastDistance => [later, earlier],
             };
             for half in halves {
                 if self.search(half, Some(undecided.clone()))?.is_break() {
@@ -396,13 +392,13 @@ impl<'c> Search<'c> {
     #[inline(always)]
     fn thresholds(&self, pair: &PartPair, drift: f64) -> Thresholds {
         let tolerance = self.tolerance;
-        match self.question {
-            Question::AnyContact | Question::FirstContact => Thresholds {
+        match self.goal {
+            Goal::AnyContact | Goal::FirstContact => Thresholds {
                 free_distance_threshold: pair.margin + drift,
                 near_distance: pair.margin + tolerance,
             },
             // Touching hulls end the search; others are measured exactly.
-            Question::ClosestApproach => Thresholds {
+            Goal::LeastDistance => Thresholds {
                 free_distance_threshold: self.result.distance_upper_bound - tolerance + drift,
                 near_distance: 0.0,
             },
@@ -416,8 +412,8 @@ impl<'c> Search<'c> {
             return false;
         }
         let length = stretch.to - stretch.from;
-        let is_short = match self.question {
-            Question::ClosestApproach => length <= MAX_APPROACH_STRETCH_LENGTH,
+        let is_short = match self.goal {
+            Goal::LeastDistance => length <= MAX_APPROACH_STRETCH_LENGTH,
             _ => length <= MAX_ENGINE_STRETCH_LENGTH,
         };
         is_short || {
@@ -430,9 +426,9 @@ impl<'c> Search<'c> {
     #[inline(always)]
     pub(super) fn append_candidates(&mut self) {
         let first = self.candidates.len();
-        let allowance = match self.question {
-            Question::AnyContact | Question::FirstContact => self.tolerance,
-            Question::ClosestApproach => f64::INFINITY,
+        let allowance = match self.goal {
+            Goal::AnyContact | Goal::FirstContact => self.tolerance,
+            Goal::LeastDistance => f64::INFINITY,
         };
         let allowance = allowance + 2.0 * self.placement.rounding;
         self.pairs
@@ -448,7 +444,7 @@ impl<'c> Search<'c> {
             }
             self.candidates.truncate(kept);
         }
-        if self.question == Question::ClosestApproach {
+        if self.goal == Goal::LeastDistance {
             // The nearest bodies first: others are then farther apart than these by their bounding volumes.
             for pair in &mut self.candidates[first..] {
                 pair.distance_to_proof_ratio =
@@ -461,7 +457,7 @@ impl<'c> Search<'c> {
     /// Returns whether a distance is of interest and the least so far.
     #[inline(always)]
     fn is_nearest(&self, upper: f64) -> bool {
-        self.question == Question::ClosestApproach && upper < self.result.distance_upper_bound
+        self.goal == Goal::LeastDistance && upper < self.result.distance_upper_bound
     }
 
     /// Keeps a pair as the nearest so far, with an upper bound of its distance.
@@ -478,6 +474,8 @@ impl<'c> Search<'c> {
         at: f64,
         distance_beyond_margin: f64,
     ) -> ControlFlow<()> {
+        // Nothing behind the earliest contact is searched.
+        debug_assert!(at <= self.result.end, "{at} is behind {}", self.result.end);
         self.result.distance_beyond_margin = distance_beyond_margin;
         self.result.nearest = Some((at, *pair));
         let parts = self.cell.parts();
@@ -485,9 +483,9 @@ impl<'c> Search<'c> {
             parts[pair.a as usize].excess_over_shape + parts[pair.b as usize].excess_over_shape;
         self.result.lower = 0.0;
         self.result.end = at;
-        match self.question {
-            Question::FirstContact => Continue(()),
-            Question::AnyContact | Question::ClosestApproach => Break(()),
+        match self.goal {
+            Goal::FirstContact => Continue(()),
+            Goal::AnyContact | Goal::LeastDistance => Break(()),
         }
     }
 }

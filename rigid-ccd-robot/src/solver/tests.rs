@@ -105,7 +105,12 @@ fn edges_agree_with_sampled_configurations() {
                 &random_configuration(&mut random, cell.robot()),
                 reach,
             );
-            match solver.any_contact(&[&from, &to]).unwrap() {
+            match solver
+                .any_contact(&[&from, &to])
+                .unwrap()
+                .contact()
+                .unwrap()
+            {
                 None => {
                     free += 1;
                     for k in 0..=12 {

@@ -2,7 +2,7 @@
 //!
 //! It is if both bodies are nearer in the middle by more than they move from there.
 
-use super::Question;
+use super::Goal;
 use super::measure::{initial_direction, minkowski_support_vertex};
 use super::part_pairs::PartPair;
 use super::placement::Placement;
@@ -21,7 +21,7 @@ impl Search<'_> {
     /// parts by up to this increase.
     pub(super) fn is_margin_violated(&mut self, stretch: &Stretch) -> Result<bool, Error> {
         let parts = self.cell.parts();
-        self.question = Question::AnyContact;
+        self.goal = Goal::AnyContact;
         self.stop_condition.begin_search(stretch);
         self.placement.place(self.cell, &self.path, stretch);
         self.candidates.clear();

@@ -6,15 +6,24 @@
 //! [`Direct`]: crate::oracle::Direct
 
 use ccd_core::schedule::{BestFirst, DepthFirst, Schedule};
-use ccd_core::{Answer, DistanceOracle, InputError, Query};
+use ccd_core::{Answer, DistanceOracle, InputError, Query, Question};
 
 type Ask<S, O> = fn(&mut S, &Query<'_>, &mut O) -> Result<Answer, InputError>;
 
+/// The schedules that answer questions, with their memory and their distance backend.
+pub(super) struct Engine<O: DistanceOracle> {
+    best_first: BestFirst<O>,
+    depth_first: DepthFirst<O>,
+    oracle: O,
+    questions: Questions<O>,
+}
+
+/// The function that answers each question.
 pub(super) struct Questions<O: DistanceOracle> {
-    pub(super) first_contact: Ask<BestFirst<O>, O>,
-    pub(super) contact_interval: Ask<BestFirst<O>, O>,
-    pub(super) any_contact: Ask<DepthFirst<O>, O>,
-    pub(super) closest_approach: Ask<DepthFirst<O>, O>,
+    first_contact: Ask<BestFirst<O>, O>,
+    contact_interval: Ask<BestFirst<O>, O>,
+    any_contact: Ask<DepthFirst<O>, O>,
+    closest_approach: Ask<DepthFirst<O>, O>,
 }
 
 impl<O: DistanceOracle> Questions<O> {
@@ -25,4 +34,31 @@ impl<O: DistanceOracle> Questions<O> {
         any_contact: DepthFirst::any_contact,
         closest_approach: DepthFirst::closest_approach,
     };
+}
+
+impl<O: DistanceOracle> Engine<O> {
+    pub(super) fn new(oracle: O, questions: Questions<O>) -> Self {
+        Engine {
+            best_first: BestFirst::default(),
+            depth_first: DepthFirst::default(),
+            oracle,
+            questions,
+        }
+    }
+
+    pub(super) fn answer(
+        &mut self,
+        question: Question,
+        query: &Query<'_>,
+    ) -> Result<Answer, InputError> {
+        let (best_first, depth_first) = (&mut self.best_first, &mut self.depth_first);
+        let (ask, oracle) = (&self.questions, &mut self.oracle);
+        match question {
+            Question::FirstContact => (ask.first_contact)(best_first, query, oracle),
+            Question::AnyContact => (ask.any_contact)(depth_first, query, oracle),
+            Question::ContactInterval => (ask.contact_interval)(best_first, query, oracle),
+            Question::ClosestApproach => (ask.closest_approach)(depth_first, query, oracle),
+            Question::Distance => (ask.closest_approach)(depth_first, &query.at_start()?, oracle),
+        }
+    }
 }

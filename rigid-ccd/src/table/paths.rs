@@ -13,7 +13,7 @@ use crate::trajectory;
 use crate::trajectory::poses::{MAX_RESIDUAL_ROTATION, residual_rotation};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::length;
-use ccd_core::{InputError, Pose, Trajectory};
+use ccd_core::{InputError, Pose, Question, Trajectory};
 use std::collections::HashSet;
 use std::hash::{BuildHasher, RandomState};
 
@@ -41,6 +41,16 @@ pub enum Grouping {
     ById,
     /// Each row alone is a query of two bodies at rest.
     QueryPerRow,
+}
+
+impl Grouping {
+    /// Returns which rows of a table of paths a question treats as one path.
+    pub fn of_question(question: Question) -> Self {
+        match question {
+            Question::Distance => Grouping::QueryPerRow,
+            _ => Grouping::ById,
+        }
+    }
 }
 
 /// The state of a reader of a table of paths, between two paths.

@@ -12,11 +12,10 @@ pub use columns::reordered_columns;
 pub use columns::{COLUMNS, COUNTER_COLUMNS, CellGetter, Column, ITEM_COLUMNS, Line, names};
 pub use status::Status;
 
-use crate::batch::question::Question;
 use crate::table::courses::Movements;
 use crate::table::motions::RowProblem;
 use ccd_core::glam::DVec3;
-use ccd_core::{Answer, Contact, HitKind, Outcome, Overlap, Stats};
+use ccd_core::{Answer, Contact, HitKind, Outcome, Overlap, Question, Stats};
 use serde::Deserialize;
 use std::io;
 

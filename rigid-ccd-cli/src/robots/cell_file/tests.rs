@@ -70,7 +70,13 @@ fn a_cell_has_what_its_file_says() {
     );
     assert_eq!(cell.attached_names().collect::<Vec<_>>(), ["tool"]);
     // The table is 0.3 below the ball, which has to keep 0.35.
-    let contact = cell.solver().any_contact(&[[1.5]]).unwrap().unwrap();
+    let contact = cell
+        .solver()
+        .any_contact(&[[1.5]])
+        .unwrap()
+        .contact()
+        .unwrap()
+        .unwrap();
     assert_eq!(contact.items.map(|item| item.name()), ["arm", "table"]);
 }
 
@@ -107,7 +113,12 @@ fn a_plane_has_no_end() {
     };
     let touches = |z: f64| {
         let cell = cell(z);
-        let contact = cell.solver().any_contact(&[[1.5]]).unwrap();
+        let contact = cell
+            .solver()
+            .any_contact(&[[1.5]])
+            .unwrap()
+            .contact()
+            .unwrap();
         contact.map(|contact| contact.items.map(|item| item.name().to_owned()))
     };
     assert_eq!(touches(-0.101), None);

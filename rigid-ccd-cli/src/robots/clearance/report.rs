@@ -6,7 +6,7 @@ use ccd_core::order::lesser;
 use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::{
-    Cell, ClearanceRange, ClosestApproach, DistanceRange, Item, PathContact, PathPoint,
+    Cell, ClearanceRange, DistanceRange, Item, PathContact, PathOutcome, PathPoint, UnresolvedPath,
 };
 use serde_json::{Value, json};
 use std::fmt;
@@ -22,7 +22,7 @@ pub(super) struct Report<'a> {
     pub(super) pose_error: f64,
     /// The clearance that is required, if any.
     pub(super) required: Option<f64>,
-    pub(super) closest: ClosestApproach<'a>,
+    pub(super) closest: PathOutcome<'a>,
     /// The tolerance that the closest approach meets.
     pub(super) tolerance: f64,
     pub(super) ranges: Vec<ClearanceRange>,
@@ -30,10 +30,11 @@ pub(super) struct Report<'a> {
 
 impl Report<'_> {
     /// Returns the bounds of the least distance. Both bodies of a pair may be off by the error of poses.
-    fn distance_bounds(&self, closest: &ClosestApproach<'_>) -> [f64; 2] {
+    fn distance_bounds(&self, closest: &PathOutcome<'_>) -> [f64; 2] {
         let error = 2.0 * self.pose_error;
-        let lower = closest.lower - error;
-        [if lower > 0.0 { lower } else { 0.0 }, closest.upper + error]
+        let lower = closest.lower() - error;
+        let lower = if lower > 0.0 { lower } else { 0.0 };
+        [lower, closest.upper() + error]
     }
 
     /// Returns the positions of the joints that move, at a point of the path.
@@ -106,13 +107,13 @@ impl Report<'_> {
         )
     }
 
-    fn closest_json(&self, closest: &ClosestApproach<'_>) -> Value {
+    fn closest_json(&self, closest: &PathOutcome<'_>) -> Value {
         let [lower, upper] = self.distance_bounds(closest);
         json!({
             "distance_lower": lower,
             "distance_upper": Some(upper).filter(|upper| upper.is_finite()),
-            "nearest": closest.nearest.map(|nearest| self.contact_json(&nearest)),
-            "limit": closest.limit.map(|limit| limit.to_string()),
+            "nearest": closest.nearest().map(|nearest| self.contact_json(&nearest)),
+            "limit": closest.limit().map(|limit| limit.to_string()),
         })
     }
 
@@ -191,24 +192,37 @@ impl Report<'_> {
 
 /// Returns ranges that follow each other as one: with the least bounds, the place of the least distance, and any limit.
 fn merged<'a>(ranges: &[DistanceRange<'a>]) -> Option<DistanceRange<'a>> {
-    let merge = |one: DistanceRange<'a>, next: &DistanceRange<'a>| {
-        let nearer = if next.closest.upper < one.closest.upper {
-            &next.closest
-        } else {
-            &one.closest
-        };
-        DistanceRange {
-            from: one.from,
-            to: next.to,
-            closest: ClosestApproach {
-                lower: lesser(one.closest.lower, next.closest.lower),
-                limit: one.closest.limit.or(next.closest.limit),
-                ..*nearer
-            },
-        }
+    let merge = |one: DistanceRange<'a>, next: &DistanceRange<'a>| DistanceRange {
+        from: one.from,
+        to: next.to,
+        closest: merged_distance(&one.closest, &next.closest),
     };
     let (first, others) = ranges.split_first()?;
     Some(others.iter().fold(*first, merge))
+}
+
+/// Returns the least distance of two ranges together.
+fn merged_distance<'a>(one: &PathOutcome<'a>, next: &PathOutcome<'a>) -> PathOutcome<'a> {
+    let nearer = if next.upper() < one.upper() {
+        next
+    } else {
+        one
+    };
+    let lower = lesser(one.lower(), next.lower());
+    let (upper, nearest) = (nearer.upper(), nearer.nearest());
+    match one.limit().or(next.limit()) {
+        None => PathOutcome::LeastDistance {
+            lower,
+            upper,
+            nearest,
+        },
+        Some(limit) => PathOutcome::Unresolved(UnresolvedPath {
+            limit,
+            lower,
+            upper,
+            nearest,
+        }),
+    }
 }
 
 /// Rounds to an integer, in the direction of another number.
@@ -238,11 +252,11 @@ impl fmt::Display for Report<'_> {
         // Rounded down and up.
         let (lower, upper) = ((lower * 1e5).floor() / 1e5, (upper * 1e5).ceil() / 1e5);
         write!(f, "least distance: {lower:.5} to {upper:.5} mm")?;
-        if let Some(nearest) = &self.closest.nearest {
+        if let Some(nearest) = self.closest.nearest() {
             let [a, b] = nearest.items.map(Item::name);
             write!(f, ", {a} and {b} at {}", self.place(nearest.at))?;
         }
-        if let Some(limit) = self.closest.limit {
+        if let Some(limit) = self.closest.limit() {
             write!(f, " (a limit was reached: {limit})")?;
         }
         if let (Some(required), Some(verdict)) = (self.required, self.verdict()) {

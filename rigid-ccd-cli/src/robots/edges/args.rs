@@ -7,7 +7,7 @@ use crate::robots::joint_values::{JointsArgs, length, tolerance_length};
 use crate::robots::loading::CellArgs;
 use ccd_core::StartPolicy;
 use clap::Args;
-use rigid_ccd_robot::path_rows::PathQuestion;
+use rigid_ccd::Question;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -27,7 +27,7 @@ pub(crate) struct EdgesArgs {
     pub(super) joints: JointsArgs,
     /// Question that every row answers
     #[arg(long, value_parser = named_value_parser(QUESTIONS), default_value = "is-free")]
-    pub(super) ask: PathQuestion,
+    pub(super) ask: Question,
     /// Report a contact at a distance of at most clearance + tolerance, in metres
     #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_PATH_TOLERANCE, value_parser = tolerance_length, allow_hyphen_values = true)]
     pub(super) tolerance: f64,
@@ -73,16 +73,16 @@ pub(crate) struct EdgesArgs {
 pub(crate) const DEFAULT_PATH_TOLERANCE: f64 = 1e-4;
 
 /// The questions of `--ask`.
-const QUESTIONS: &Named<PathQuestion> = &[
-    ("is-free", PathQuestion::IsFree, "Does nothing touch?"),
+const QUESTIONS: &Named<Question> = &[
+    ("is-free", Question::AnyContact, "Does nothing touch?"),
     (
         "first-contact",
-        PathQuestion::FirstContact,
+        Question::FirstContact,
         "What touches first, and where?",
     ),
     (
         "closest-approach",
-        PathQuestion::ClosestApproach,
+        Question::ClosestApproach,
         "How near does any pair come?",
     ),
 ];

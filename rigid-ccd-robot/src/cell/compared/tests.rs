@@ -41,6 +41,8 @@ fn contacts(cell: &Cell) -> Vec<String> {
             solver
                 .any_contact(&path)
                 .unwrap()
+                .contact()
+                .unwrap()
                 .map(|contact| contact.items.map(|item| item.name().to_owned()))
         } {
             let [a, b] = &contact;

@@ -4,9 +4,10 @@ use super::super::{Cell, Item};
 use crate::error::{PathError, RobotError};
 use crate::link_contacts::tests::classify;
 use crate::pairs::LinkPairs;
+use crate::path_answer::PathOutcome;
 use crate::robot::{CompoundKind, Link, Robot};
+use crate::solver::RangeSettings;
 use crate::solver::tests::{configuration_between, random_configuration};
-use crate::solver::{PathOutcome, RangeSettings};
 use crate::test_robots::{random_body, random_pose, random_robot};
 use crate::{LinkContactClass, PlacedRobot};
 use ccd_core::order::lesser;
@@ -141,7 +142,7 @@ fn answers_agree_with_the_heights_of_all_corners() {
                     &configuration_between(&from, &to, share),
                 )
             };
-            let until = match solver.first_contact(&path).unwrap() {
+            let until = match solver.first_contact(&path).unwrap().outcome {
                 PathOutcome::Free => {
                     free += 1;
                     assert!(solver.is_free(&path).unwrap());
@@ -158,7 +159,7 @@ fn answers_agree_with_the_heights_of_all_corners() {
                     }
                     contact.at.share
                 }
-                PathOutcome::Unresolved { .. } => panic!("no limit is set"),
+                _ => panic!("no limit is set"),
             };
             let mut least = f64::INFINITY;
             for k in 0..=50 {
@@ -170,12 +171,15 @@ fn answers_agree_with_the_heights_of_all_corners() {
                 );
                 least = lesser(least, own);
             }
-            let closest = solver.closest_approach(&path).unwrap();
-            assert!(closest.lower <= ccd_core::order::greater(least, 0.0) + 1e-9);
-            let nearest = height(closest.nearest.unwrap().at.time());
-            assert!(nearest <= closest.upper + 1e-9, "{nearest} in {closest:?}");
+            let closest = solver.closest_approach(&path).unwrap().outcome;
+            assert!(closest.lower() <= ccd_core::order::greater(least, 0.0) + 1e-9);
+            let nearest = height(closest.nearest().unwrap().at.time());
             assert!(
-                closest.upper - closest.lower <= TOLERANCE + 1e-8,
+                nearest <= closest.upper() + 1e-9,
+                "{nearest} in {closest:?}"
+            );
+            assert!(
+                closest.upper() - closest.lower() <= TOLERANCE + 1e-8,
                 "{closest:?}"
             );
             if until == 1.0 {
@@ -221,8 +225,8 @@ fn a_plane_is_a_large_box() {
         let [from, to] = [(); 2].map(|()| random_configuration(&mut random, &robot));
         let [own, other] = [&cell, &boxes].map(|cell| {
             let mut solver = cell.solver();
-            let closest = solver.closest_approach(&[&from, &to]).unwrap();
-            (closest.lower, closest.upper)
+            let closest = solver.closest_approach(&[&from, &to]).unwrap().outcome;
+            (closest.lower(), closest.upper())
         });
         assert!(
             own.0 <= other.1 + 1e-9 && other.0 <= own.1 + 1e-9,

@@ -18,13 +18,13 @@ fn no_sample_is_below_the_curve() {
         for two in ranges.windows(2) {
             assert_eq!(two[0].to.time(), two[1].from.time());
         }
-        let whole = solver.closest_approach(&path).unwrap();
+        let whole = solver.closest_approach(&path).unwrap().outcome;
         for range in &ranges {
             let closest = range.closest;
-            assert!(closest.upper >= whole.lower);
+            assert!(closest.upper() >= whole.lower());
             assert!(
-                closest.upper - closest.lower <= Settings::DEFAULT.tolerance + 1e-9
-                    || closest.upper.is_infinite()
+                closest.upper() - closest.lower() <= Settings::DEFAULT.tolerance + 1e-9
+                    || closest.upper().is_infinite()
             );
             for _ in 0..8 {
                 let at = range.from.time()
@@ -35,8 +35,8 @@ fn no_sample_is_below_the_curve() {
                     |k: usize| path[segment][k] + share * (path[segment + 1][k] - path[segment][k]);
                 let configuration: Vec<f64> = (0..path[0].len()).map(between).collect();
                 let measured = least_distance(&cell, &configuration);
-                assert!(measured >= closest.lower - 1e-9, "{measured} {closest:?}");
-                near += usize::from(measured < closest.upper + 0.01);
+                assert!(measured >= closest.lower() - 1e-9, "{measured} {closest:?}");
+                near += usize::from(measured < closest.upper() + 0.01);
             }
         }
     }

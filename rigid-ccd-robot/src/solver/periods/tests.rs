@@ -3,8 +3,8 @@
 use super::*;
 use crate::cell::Cell;
 use crate::pairs::LinkPairs;
+use crate::path_answer::{PathContact, PathOutcome};
 use crate::robot::{Joint, Link, PositionRule, Robot};
-use crate::solver::{PathContact, PathOutcome};
 use rigid_ccd::body::{Pieces, Solidity};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Pose, Settings, trajectory};
@@ -86,17 +86,17 @@ fn settings() -> Settings {
 fn gears_over_many_turns_are_measured_by_one_period() {
     let cell = gears(-2.0 / 3.0, 0.15);
     let mut solver = cell.solver().with_settings(settings());
-    let of_period = solver.closest_approach(&turns(3.0)).unwrap();
+    let of_period = solver.closest_approach(&turns(3.0)).unwrap().outcome;
     let work = solver.search.stop_condition.work();
     assert!(
-        of_period.limit.is_none() && of_period.lower > 0.01,
+        of_period.limit().is_none() && of_period.lower() > 0.01,
         "{of_period:?}"
     );
     for count in [30.0, 3000.0] {
-        let found = solver.closest_approach(&turns(count)).unwrap();
-        assert!(found.limit.is_none(), "{found:?}");
+        let found = solver.closest_approach(&turns(count)).unwrap().outcome;
+        assert!(found.limit().is_none(), "{found:?}");
         assert!(
-            found.lower <= of_period.upper && of_period.lower <= found.upper,
+            found.lower() <= of_period.upper() && of_period.lower() <= found.upper(),
             "{found:?} {of_period:?}"
         );
         assert_eq!(solver.met_tolerance(), 1e-4);
@@ -104,13 +104,13 @@ fn gears_over_many_turns_are_measured_by_one_period() {
         assert!(all <= 3 * work, "{all} instead of {work} for {count} turns");
     }
     let margin = Settings {
-        margin: of_period.lower - 2e-4,
+        margin: of_period.lower() - 2e-4,
         ..settings()
     };
     solver.set_settings(margin);
     assert!(solver.is_free(&turns(3000.0)).unwrap());
     assert_eq!(
-        solver.first_contact(&turns(3000.0)).unwrap(),
+        solver.first_contact(&turns(3000.0)).unwrap().outcome,
         PathOutcome::Free
     );
 }
@@ -122,12 +122,15 @@ fn rates_without_a_period_are_searched() {
     // From one turn of the pinion to the next the phase shifts by a fiftieth of a tooth.
     let cell = gears(-(2.0 + 0.005) / 3.0, 0.02);
     let mut solver = cell.solver().with_settings(settings());
-    let outcome = solver.first_contact(&turns(30.0)).unwrap();
+    let outcome = solver.first_contact(&turns(30.0)).unwrap().outcome;
     let PathOutcome::Contact(PathContact { at, .. }) = outcome else {
         panic!("{outcome:?}");
     };
     let before = [[0.3], [0.3 + TAU * 30.0 * (at.share - 1e-3)]];
-    assert_eq!(solver.first_contact(&before).unwrap(), PathOutcome::Free);
+    assert_eq!(
+        solver.first_contact(&before).unwrap().outcome,
+        PathOutcome::Free
+    );
 }
 
 /// Tests that the first contact of a pair with a period is in its first one, while another pair without one goes on.
@@ -152,7 +155,7 @@ fn each_pair_has_its_own_period() {
     let path = [[0.5, 0.0], [0.5 + 40.0 * TAU, 1.0]];
     let mut solver = cell.solver().with_settings(settings());
     // The slide comes within reach after 0.8 of the segment.
-    let PathOutcome::Contact(contact) = solver.first_contact(&path).unwrap() else {
+    let PathOutcome::Contact(contact) = solver.first_contact(&path).unwrap().outcome else {
         panic!("the slide reaches the ball above it");
     };
     assert!((contact.at.share - 0.8).abs() < 1e-4, "{contact:?}");
@@ -161,7 +164,7 @@ fn each_pair_has_its_own_period() {
         ..settings()
     });
     // The arm passes the ball beside it at a distance of 0.3, at the end of its first turn.
-    let PathOutcome::Contact(contact) = solver.first_contact(&path).unwrap() else {
+    let PathOutcome::Contact(contact) = solver.first_contact(&path).unwrap().outcome else {
         panic!("the arm comes near the ball beside it");
     };
     assert_eq!(

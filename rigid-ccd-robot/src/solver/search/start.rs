@@ -5,7 +5,7 @@
 //! stretch there is a gap, or the next stretch follows.
 
 use super::Search;
-use crate::solver::Question;
+use crate::solver::Goal;
 use crate::solver::constant_step::ConstantStep;
 use crate::solver::curved_link::PathSection;
 use crate::solver::measure::{DistanceVerdict, Thresholds, measure};
@@ -50,9 +50,9 @@ struct Gap {
 
 impl Search<'_> {
     /// Answers a question about contacts on the whole path; pairs in contact at the start are let go.
-    pub(crate) fn answer_leaving_start(&mut self, question: Question) -> Result<(), Error> {
+    pub(crate) fn answer_leaving_start(&mut self, goal: Goal) -> Result<(), Error> {
         let whole = self.whole_path_stretch();
-        self.begin_question(question, &whole);
+        self.begin_question(goal, &whole);
         self.start_contacts.clear();
         let leaves = self.find_start_contacts()?;
         if leaves.is_break() || self.follow_start_contacts()?.is_break() {
@@ -100,7 +100,7 @@ impl Search<'_> {
 
     /// Returns whether a question about any contact has its answer.
     fn is_decided(&self) -> bool {
-        self.question == Question::AnyContact && self.result.nearest.is_some()
+        self.goal == Goal::AnyContact && self.result.nearest.is_some()
     }
 
     /// Finds the pairs in contact at the start. One that overlaps is the answer.

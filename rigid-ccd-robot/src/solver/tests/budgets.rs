@@ -1,7 +1,7 @@
 //! Tests that a budget is for a whole question, and that no limit leaves a wrong answer.
 
 use super::*;
-use rigid_ccd::answer::Limit;
+use rigid_ccd::answer::{ClearanceVerdict, Limit};
 use std::time::Duration;
 
 /// A tree of links of many pieces among many obstacles of many pieces: each pair alone may take a budget.
@@ -59,23 +59,24 @@ fn a_budget_is_for_a_whole_question() {
             let distances = shares.map(|time| least_distance(&cell, &at(time)));
             distances.fold(f64::INFINITY, lesser)
         };
-        let free_until = match solver.first_contact(&path).unwrap() {
-            PathOutcome::Free => (count - 1) as f64,
-            PathOutcome::Contact(contact) => contact.at.time(),
-            PathOutcome::Unresolved { free_until, limit } => {
+        let answer = solver.first_contact(&path).unwrap();
+        let free_until = answer.free_until.time();
+        match answer.outcome {
+            PathOutcome::Free => assert_eq!(free_until, (count - 1) as f64),
+            PathOutcome::Contact(contact) => assert_eq!(contact.at, answer.free_until),
+            outcome => {
                 unresolved += 1;
-                assert_eq!(limit, Limit::Budget);
-                free_until.time()
+                assert_eq!(outcome.limit(), Some(Limit::Budget));
             }
-        };
+        }
         largest = greater(largest, check_work(&solver));
         assert!(free_until == 0.0 || samples(free_until * (1.0 - 1e-9)) > 0.0);
-        let closest = solver.closest_approach(&path).unwrap();
+        let closest = solver.closest_approach(&path).unwrap().outcome;
         largest = greater(largest, check_work(&solver));
         let least = samples((count - 1) as f64);
-        assert!(closest.lower <= least, "{closest:?} {least}");
-        assert!(closest.limit.is_none_or(|limit| limit == Limit::Budget));
-        measured_bounds += usize::from(closest.limit.is_some());
+        assert!(closest.lower() <= least, "{closest:?} {least}");
+        assert!(closest.limit().is_none_or(|limit| limit == Limit::Budget));
+        measured_bounds += usize::from(closest.limit().is_some());
         let _ = solver.is_free(&path);
         check_work(&solver);
     }
@@ -99,15 +100,19 @@ fn a_deadline_of_no_time_ends_all_questions() {
             .map(|_| random_configuration(&mut random, cell.robot()))
             .collect();
         let mut solver = cell.solver().with_settings(settings.clone());
-        let outcome = solver.first_contact(&path).unwrap();
-        let PathOutcome::Unresolved { free_until, limit } = outcome else {
-            panic!("{outcome:?}");
-        };
-        assert_eq!((free_until.time(), limit), (0.0, Limit::Deadline));
+        let answer = solver.first_contact(&path).unwrap();
+        let limit = Some(Limit::Deadline);
+        assert_eq!(
+            (answer.free_until.time(), answer.outcome.limit()),
+            (0.0, limit)
+        );
         assert!(solver.is_free(&path).is_err());
         assert_eq!(solver.search.stop_condition.work(), 0);
-        let closest = solver.closest_approach(&path).unwrap();
-        assert_eq!((closest.lower, closest.limit), (0.0, Some(Limit::Deadline)));
+        let closest = solver.closest_approach(&path).unwrap().outcome;
+        assert_eq!(
+            (closest.lower(), closest.limit()),
+            (0.0, Some(Limit::Deadline))
+        );
         let ranges = solver
             .clearance_ranges(&path, RangeSettings::DEFAULT)
             .unwrap();
@@ -116,7 +121,7 @@ fn a_deadline_of_no_time_ends_all_questions() {
         };
         assert_eq!(range.verdict, ClearanceVerdict::Unverified);
         let curve = solver.distance_curve(&path, 2).unwrap();
-        let is_ended = |range: &DistanceRange<'_>| range.closest.limit == Some(Limit::Deadline);
+        let is_ended = |range: &DistanceRange<'_>| range.closest.limit() == Some(Limit::Deadline);
         assert!(curve.len() == 49 * 4 && curve.iter().all(is_ended));
         assert_eq!(solver.search.stop_condition.work(), 0);
     }

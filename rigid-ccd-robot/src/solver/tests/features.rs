@@ -1,7 +1,7 @@
 //! Tests the features of meshes in contact.
 
 use super::*;
-use crate::solver::PathOutcome;
+use crate::path_answer::PathOutcome;
 use rigid_ccd::answer::Feature;
 
 /// Returns the distance of a point from a feature of a mesh.
@@ -75,7 +75,11 @@ fn a_contact_names_the_feature_of_the_mesh() {
         let below = Pose::at([0.0, 0.0, -1.5]).unwrap();
         let pose = below.compose(&random_pose(&mut random, 0.9));
         cell.add_obstacle("ridge", ridge.clone(), pose).unwrap();
-        let PathOutcome::Contact(contact) = cell.solver().first_contact(&[[0.0], [-4.0]]).unwrap()
+        let PathOutcome::Contact(contact) = cell
+            .solver()
+            .first_contact(&[[0.0], [-4.0]])
+            .unwrap()
+            .outcome
         else {
             continue;
         };

@@ -12,8 +12,13 @@ fn what_was_asked_before_changes_no_first_contact() {
         let mut used = cell.solver();
         for _ in 0..20 {
             let path = [(); 2].map(|()| random_configuration(&mut random, cell.robot()));
-            let alone = cell.solver().first_contact(&path[..]).unwrap();
-            let any_alone = cell.solver().any_contact(&path[..]).unwrap();
+            let alone = cell.solver().first_contact(&path[..]).unwrap().outcome;
+            let any_alone = cell
+                .solver()
+                .any_contact(&path[..])
+                .unwrap()
+                .contact()
+                .unwrap();
             contacts += usize::from(matches!(alone, PathOutcome::Contact(_)));
 
             let (is_timed, budget) = (random.random_range(0..2) == 0, random.random_range(0..300));
@@ -31,19 +36,26 @@ fn what_was_asked_before_changes_no_first_contact() {
                 budget,
                 ..Settings::DEFAULT
             });
-            match used.first_contact(&path[..]).unwrap() {
-                PathOutcome::Unresolved { .. } => stopped += 1,
-                answered => assert_same(&answered, &limited.first_contact(&path[..]).unwrap()),
+            match used.first_contact(&path[..]).unwrap().outcome {
+                PathOutcome::Unresolved(_) => stopped += 1,
+                answered => {
+                    let again = limited.first_contact(&path[..]).unwrap().outcome;
+                    assert_same(&answered, &again);
+                }
             }
             // A limit may end the search at another contact.
-            if let Ok(any) = used.any_contact(&path[..]) {
+            if let Ok(any) = used.any_contact(&path[..]).unwrap().contact() {
                 assert_eq!(any.is_some(), any_alone.is_some());
                 answered += 1;
             }
             used.set_settings(Settings::DEFAULT);
-            assert_same(&used.first_contact(&path[..]).unwrap(), &alone);
+            assert_same(&used.first_contact(&path[..]).unwrap().outcome, &alone);
             assert_eq!(
-                used.any_contact(&path[..]).unwrap().map(|any| any.at),
+                used.any_contact(&path[..])
+                    .unwrap()
+                    .contact()
+                    .unwrap()
+                    .map(|any| any.at),
                 any_alone.map(|any| any.at)
             );
         }

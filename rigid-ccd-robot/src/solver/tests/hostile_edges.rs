@@ -66,8 +66,8 @@ fn hostile_edges_keep_the_tolerance_that_they_state() {
         // The referee's own rounding: angles, and lengths of all joints.
         let size = 1.0 + count as f64 * ccd_core::order::greater(scale, 1.0);
         let rounding = 4096.0 * f64::EPSILON * size;
-        let outcome = solver.first_contact(&path).unwrap();
-        let met = solver.met_tolerance();
+        let answer = solver.first_contact(&path).unwrap();
+        let (outcome, met) = (answer.outcome, answer.tolerance);
         raised += usize::from(met > tolerance);
         let until = match outcome {
             PathOutcome::Free => end,
@@ -80,15 +80,15 @@ fn hostile_edges_keep_the_tolerance_that_they_state() {
                 );
                 contact.at.time()
             }
-            PathOutcome::Unresolved { free_until, .. } => {
+            _ => {
                 unresolved += 1;
-                free_until.time()
+                answer.free_until.time()
             }
         };
         free += usize::from(outcome == PathOutcome::Free);
-        let closest = solver.closest_approach(&path).unwrap();
-        if closest.limit.is_none() {
-            let width = closest.upper - closest.lower;
+        let closest = solver.closest_approach(&path).unwrap().outcome;
+        if closest.limit().is_none() {
+            let width = closest.upper() - closest.lower();
             assert!(
                 width <= 1.001 * solver.met_tolerance(),
                 "{number}: {closest:?}"
@@ -102,7 +102,7 @@ fn hostile_edges_keep_the_tolerance_that_they_state() {
                 "{number}: {distance} at {time} before {until}"
             );
             assert!(
-                greater(distance, 0.0) >= closest.lower - rounding,
+                greater(distance, 0.0) >= closest.lower() - rounding,
                 "{number}: {distance} at {time}: {closest:?}"
             );
         }

@@ -98,8 +98,8 @@ fn nothing_touches_before_a_first_contact() {
         };
         let mut solver = cell.solver().with_settings(settings);
         let path = TestPath::random(&mut random, cell.robot());
-        let outcome = solver.first_contact(&path).unwrap();
-        let any = solver.any_contact(&path).unwrap();
+        let outcome = solver.first_contact(&path).unwrap().outcome;
+        let any = solver.any_contact(&path).unwrap().contact().unwrap();
         let end = match outcome {
             PathOutcome::Free => {
                 free += 1;
@@ -116,7 +116,7 @@ fn nothing_touches_before_a_first_contact() {
                 assert!(is_near || there == 0.0, "{contact:?}");
                 Some(contact.at)
             }
-            PathOutcome::Unresolved { .. } => panic!("{outcome:?}"),
+            _ => panic!("{outcome:?}"),
         };
         for at in path.sampled_points() {
             if end.is_none_or(|end| at < end) {
@@ -143,21 +143,21 @@ fn the_closest_approach_brackets_sampled_distances() {
         };
         let mut solver = cell.solver().with_settings(settings);
         let path = TestPath::random(&mut random, cell.robot());
-        let found = solver.closest_approach(&path).unwrap();
-        assert_eq!(found.limit, None);
-        assert!(found.upper - found.lower <= 1e-4 + 1e-9, "{found:?}");
-        let nearest = found.nearest.expect("links are checked");
+        let found = solver.closest_approach(&path).unwrap().outcome;
+        assert_eq!(found.limit(), None);
+        assert!(found.upper() - found.lower() <= 1e-4 + 1e-9, "{found:?}");
+        let nearest = found.nearest().expect("links are checked");
         let [a, b] = nearest.witnesses.unwrap();
-        let is_near = a.distance(b) <= found.upper + 1e-9;
-        assert!(is_near || found.upper <= 1e-9, "{found:?}");
+        let is_near = a.distance(b) <= found.upper() + 1e-9;
+        assert!(is_near || found.upper() <= 1e-9, "{found:?}");
         let least = path
             .sampled_points()
             .into_iter()
             .map(|at| least_distance(&cell, &path.at(at)))
             .fold(f64::INFINITY, lesser);
-        assert!(least >= found.lower, "{least} below {found:?}");
-        narrowest = lesser(narrowest, least - found.lower);
-        if found.upper > 1e-4 {
+        assert!(least >= found.lower(), "{least} below {found:?}");
+        narrowest = lesser(narrowest, least - found.lower());
+        if found.upper() > 1e-4 {
             apart += 1;
         } else {
             touching += 1;
@@ -179,17 +179,17 @@ fn a_cut_edge_is_the_same_edge() {
         let cut: Vec<Vec<f64>> = (0..=64)
             .map(|k| configuration_between(&ends[0], &ends[1], f64::from(k) / 64.0))
             .collect();
-        let whole = solver.closest_approach(&ends).unwrap();
-        let parts = solver.closest_approach(&cut).unwrap();
+        let whole = solver.closest_approach(&ends).unwrap().outcome;
+        let parts = solver.closest_approach(&cut).unwrap().outcome;
         assert!(
-            whole.lower <= parts.upper + 1e-9 && parts.lower <= whole.upper + 1e-9,
+            whole.lower() <= parts.upper() + 1e-9 && parts.lower() <= whole.upper() + 1e-9,
             "{whole:?} {parts:?}"
         );
         // Within the tolerance both answers are right.
-        if whole.lower > 0.0 {
+        if whole.lower() > 0.0 {
             free += 1;
             assert!(solver.is_free(&ends).unwrap() && solver.is_free(&cut).unwrap());
-        } else if whole.upper <= 0.0 {
+        } else if whole.upper() <= 0.0 {
             contacts += 1;
             assert!(!solver.is_free(&ends).unwrap() && !solver.is_free(&cut).unwrap());
         }
@@ -208,7 +208,7 @@ fn a_solver_keeps_its_memory() {
         let path = TestPath::random(&mut random, cell.robot());
         let ask = |solver: &mut CellSolver<'_>| {
             let is_free = solver.is_free(&path).unwrap();
-            let first = solver.first_contact(&path).unwrap();
+            let first = solver.first_contact(&path).unwrap().outcome;
             assert_eq!(is_free, first == PathOutcome::Free);
             is_free
         };
@@ -235,10 +235,11 @@ fn a_deadline_leaves_a_free_start() {
         };
         let path = TestPath::random(&mut random, cell.robot());
         let mut solver = cell.solver().with_settings(settings);
-        if let PathOutcome::Unresolved { free_until, limit } = solver.first_contact(&path).unwrap()
-        {
+        let answer = solver.first_contact(&path).unwrap();
+        if let PathOutcome::Unresolved(known) = answer.outcome {
+            let free_until = answer.free_until;
             unresolved += 1;
-            assert_eq!(limit, Limit::Deadline);
+            assert_eq!(known.limit, Limit::Deadline);
             for at in path.sampled_points() {
                 let distance = || least_distance(&cell, &path.at(at));
                 assert!(
@@ -247,7 +248,7 @@ fn a_deadline_leaves_a_free_start() {
                 );
             }
             if nanos == 0 {
-                assert_eq!(solver.closest_approach(&path).unwrap().lower, 0.0);
+                assert_eq!(solver.closest_approach(&path).unwrap().outcome.lower(), 0.0);
                 assert!(solver.is_free(&path).is_err());
             }
         }
@@ -268,27 +269,21 @@ fn a_budget_leaves_a_free_start() {
         };
         let path = TestPath::random(&mut random, cell.robot());
         let mut solver = cell.solver().with_settings(settings);
-        let end = match solver.first_contact(&path).unwrap() {
-            PathOutcome::Free => None,
-            PathOutcome::Contact(contact) => Some(contact.at),
-            PathOutcome::Unresolved { free_until, limit } => {
-                unresolved += 1;
-                assert_eq!(limit, Limit::Budget);
-                Some(free_until)
-            }
-        };
+        let answer = solver.first_contact(&path).unwrap();
+        let is_free = matches!(answer.outcome, PathOutcome::Free);
+        let end = (!is_free).then_some(answer.free_until);
+        if let Some(limit) = answer.outcome.limit() {
+            unresolved += 1;
+            assert_eq!(limit, Limit::Budget);
+        }
         for at in path.sampled_points() {
             let distance = || least_distance(&cell, &path.at(at));
             let is_before = end.is_none_or(|end| at < end);
             assert!(!is_before || distance() > 0.0, "{at:?} {end:?}");
         }
-        let closest = solver.closest_approach(&path).unwrap();
-        let start = PathPoint {
-            segment: 0,
-            share: 0.0,
-        };
-        let least = least_distance(&cell, &path.at(start));
-        assert!(closest.lower <= least && closest.lower <= closest.upper);
+        let closest = solver.closest_approach(&path).unwrap().outcome;
+        let least = least_distance(&cell, &path.at(PathPoint::START));
+        assert!(closest.lower() <= least && closest.lower() <= closest.upper());
     }
     assert!(unresolved > 5, "{unresolved}");
 }
@@ -301,10 +296,10 @@ fn a_configuration_is_a_path() {
         let cell = random_cell(&mut random);
         let configuration = random_configuration(&mut random, cell.robot());
         let mut solver = cell.solver();
-        let found = solver.closest_approach(&[&configuration]).unwrap();
+        let found = solver.closest_approach(&[&configuration]).unwrap().outcome;
         let least = least_distance(&cell, &configuration);
         assert!(
-            found.lower <= least + 1e-9 && found.upper >= least - 1e-9,
+            found.lower() <= least + 1e-9 && found.upper() >= least - 1e-9,
             "{found:?} {least}"
         );
         assert!(matches!(
@@ -349,8 +344,8 @@ fn bounds_hold_for_the_shapes_that_bodies_enclose() {
             for path in [&[[-0.9], [0.0]][..], &[[0.0]], &[[-1.1], [0.7]]] {
                 let nearest = at.x.clamp(path[0][0], path[path.len() - 1][0]);
                 let exact = (at.x - nearest).hypot(at.y) - 0.15;
-                let found = solver.closest_approach(path).unwrap();
-                let is_bracketed = found.lower <= exact + 1e-12 && found.upper >= exact - 1e-12;
+                let found = solver.closest_approach(path).unwrap().outcome;
+                let is_bracketed = found.lower() <= exact + 1e-12 && found.upper() >= exact - 1e-12;
                 assert!(exact < 1e-3 || is_bracketed, "{found:?} {exact}");
             }
         }

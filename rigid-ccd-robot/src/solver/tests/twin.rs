@@ -257,7 +257,7 @@ fn compare(both: &Both, [from, to]: [&[f64]; 2], settings: &Settings, counts: &m
     assert_eq!(compared, pairs.iter().filter(|pair| moves(pair)).count());
     let mut solver = both.cell.solver().with_settings(settings.clone());
     let found = match solver.first_contact(&[from, to]) {
-        Ok(found) => found,
+        Ok(answer) => answer.outcome,
         Err(PathError::NothingCompared(_)) => {
             counts.nothing += 1;
             return assert_eq!(compared, 0);
@@ -271,7 +271,7 @@ fn compare(both: &Both, [from, to]: [&[f64]; 2], settings: &Settings, counts: &m
     let until = match &found {
         PathOutcome::Free => f64::INFINITY,
         PathOutcome::Contact(contact) => contact.at.share,
-        PathOutcome::Unresolved { .. } => panic!("{found:?}"),
+        _ => panic!("{found:?}"),
     };
     let mut is_confirmed = false;
     for pair in pairs {
@@ -319,7 +319,7 @@ fn compare(both: &Both, [from, to]: [&[f64]; 2], settings: &Settings, counts: &m
             // The twin finds it as well, unless it is within the tolerance.
             assert!(is_confirmed || upper > settings.margin, "{contact:?}");
         }
-        PathOutcome::Unresolved { .. } => {}
+        _ => {}
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::columns::{Column, LAST_TIME_COLUMN};
 use super::status::Status;
-use crate::batch::question::Question;
+use ccd_core::Question;
 
 /// The answers that a question may have. The help of the command and the test of its documentation are made of it.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +29,7 @@ pub const ANSWERS: [QuestionAnswers; 5] = [
         more_columns: &[],
     },
     QuestionAnswers {
-        question: Question::IsFree,
+        question: Question::AnyContact,
         words: "Do they touch at all? The time is that of any contact",
         statuses: &[Status::Contact, Status::Free, Status::Overlapping],
         compared_statuses: &[],

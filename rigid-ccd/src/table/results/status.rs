@@ -1,7 +1,6 @@
 //! The status of a row of results: contact, free, touching, overlapping and others, or error.
 
-use crate::batch::question::Question;
-use ccd_core::{ClearanceVerdict, HitKind, Outcome};
+use ccd_core::{ClearanceVerdict, HitKind, Outcome, Question};
 use serde::Deserialize;
 
 /// The kind of a row's answer, or `error` for a row that is not a valid query.

@@ -51,7 +51,12 @@ fn planes_are_half_spaces() {
         [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
     ];
-    let contact = solver.any_contact(&path).unwrap().unwrap();
+    let contact = solver
+        .any_contact(&path)
+        .unwrap()
+        .contact()
+        .unwrap()
+        .unwrap();
     let names = contact.items.map(|item| item.name());
     assert!(
         names.contains(&"ball") && names.contains(&"world"),

@@ -1,43 +1,53 @@
-//! Questions about two bodies, chosen at run time.
+//! The questions, chosen at run time.
 
-use crate::table::paths::Grouping;
 use std::fmt;
 
-/// A question about the motions of two bodies.
+/// A question about bodies that move: two bodies, or a robot on a path.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Question {
-    /// When do the bodies first touch?
+    /// When do they first touch?
     #[default]
     FirstContact,
     /// Do they touch at all? The time is that of any contact.
-    IsFree,
+    AnyContact,
     /// When do they first touch, and when last?
     ContactInterval,
     /// How close do they come, and when?
     ClosestApproach,
-    /// How far apart are they at the start; of a path, in each row?
+    /// How far apart are they at the start?
     Distance,
 }
 
 impl Question {
-    /// All questions, in the order of the command's help.
+    /// All questions, in the order in which lists of them are shown.
     pub const ALL: [Question; 5] = [
         Question::FirstContact,
-        Question::IsFree,
+        Question::AnyContact,
         Question::ContactInterval,
         Question::ClosestApproach,
         Question::Distance,
     ];
 
-    /// Returns the question's name on the command line.
+    /// Returns the question's name in commands and tables. A program asks whether there is any contact to know whether a motion is
+    /// free: that is the name of this question.
+    ///
+    /// ```
+    /// assert_eq!(ccd_core::Question::AnyContact.name(), "is-free");
+    /// ```
     pub const fn name(self) -> &'static str {
         match self {
             Question::FirstContact => "first-contact",
-            Question::IsFree => "is-free",
+            Question::AnyContact => "is-free",
             Question::ContactInterval => "contact-interval",
             Question::ClosestApproach => "closest-approach",
             Question::Distance => "distance",
         }
+    }
+
+    /// Returns the question with a name; `None` if there is none.
+    pub fn from_name(name: &str) -> Option<Self> {
+        let mut all = Question::ALL.into_iter();
+        all.find(|question| question.name() == name)
     }
 
     /// Returns whether the answer is a distance rather than a time of contact.
@@ -47,15 +57,7 @@ impl Question {
 
     /// Returns whether the answer has a single time at which all contacts can be listed.
     pub fn has_single_contact_time(self) -> bool {
-        matches!(self, Question::FirstContact | Question::IsFree)
-    }
-
-    /// Returns which rows of a table of paths this question treats as one path.
-    pub fn path_grouping(self) -> Grouping {
-        match self {
-            Question::Distance => Grouping::QueryPerRow,
-            _ => Grouping::ById,
-        }
+        matches!(self, Question::FirstContact | Question::AnyContact)
     }
 }
 
