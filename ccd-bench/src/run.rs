@@ -4,3 +4,4 @@ pub mod contest;
 pub mod evaluation;
 pub mod export;
 pub mod measured;
+pub mod verdict;

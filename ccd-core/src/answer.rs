@@ -1,15 +1,16 @@
 //! The answer to a query: the outcome, the accuracy of its numbers, and the work that the query took.
 
 mod contact;
+mod effort;
 mod hit;
 mod unresolved;
 
 use crate::body::excess::ExcessSum;
-use crate::distance::oracle::Effort;
 use crate::math::order::{greater, lesser};
 use crate::tuning::EVALUATIONS_WORTH_A_VISIT;
 
 pub use contact::{Contact, Overlap, Separation};
+pub use effort::Effort;
 pub use hit::{Hit, HitKind};
 pub use unresolved::{Limit, Unresolved};
 

@@ -3,10 +3,8 @@
 mod boxes;
 mod candidate;
 mod closest;
-pub(crate) mod given;
 mod manifold;
 mod measure;
-mod meeting;
 mod near;
 mod skin;
 mod surface;

@@ -4,17 +4,23 @@
 //! f64). `search.rs` has the steps of every search: the next waiting pair is proven apart for longer, or split.
 //! `best_first.rs` takes the pair of least clock from `queue.rs`. `proven.rs` keeps what is proven on the way.
 //! `start.rs` measures bodies in contact at the start, `nearest.rs` the bodies at one clock. `answer.rs` runs a search
-//! under the query's policy for the start, within the limits of `meter.rs`.
+//! under the query's policy for the start, within the limits of `meter.rs`. `given_bodies.rs` translates its answer to the
+//! bodies that the caller gave. What `shortcuts/` holds proves at once what a search would prove in many steps.
 
 pub(crate) mod answer;
 pub(crate) mod best_first;
 pub(crate) mod capacity;
+pub(crate) mod closer_look;
+pub(crate) mod given_bodies;
 pub(crate) mod meter;
 pub(crate) mod nearest;
 pub(crate) mod nodes;
 pub(crate) mod pieces;
 pub(crate) mod proven;
 pub(crate) mod queue;
+pub(crate) mod rounds;
 pub(crate) mod scratch;
 pub(crate) mod search;
+pub(crate) mod search_buffers;
+pub(crate) mod shortcuts;
 pub(crate) mod start;

@@ -57,8 +57,7 @@
 //! | `body/` | convex pieces, the wide tree over them `[FAST06 §5.1]`, trees of hulls `[FAST06 §3.3]`, farthest corners `[FAST06 §4.2]` |
 //! | `motion/` | motions `[FAST06 §4.1]`, bounds of rates `[FAST06 §4.2]`, Δt = d / μ `[FAST06 Eq. 2]`, trajectories of any kind |
 //! | `distance/` | oracles, and the check of their claims |
-//! | `engine/` | the search: the first contact by conservative advancement, best first |
-//! | `shortcuts/` | what makes the search faster and can be left out |
+//! | `engine/` | the search: the first contact by conservative advancement, best first; `engine/shortcuts/` what makes it faster and can be left out |
 //! | `questions/` | any contact, the closest approach, searches in steps, trajectories stretch by stretch |
 //! | `paper/` | all pairs on one clock `[FAST06 Alg. 1]`, hull trees and a front `[FAST06 Alg. 2, §5.1]` |
 //! | `contacts/` | the features of all contacts at a time `[FAST06 §5.2]` |
@@ -96,7 +95,6 @@ mod questions;
 pub mod rounding;
 pub mod schedule;
 mod settings;
-mod shortcuts;
 mod swept_box;
 #[cfg(test)]
 mod tests;
@@ -104,8 +102,8 @@ mod touching_plane;
 pub mod tuning;
 
 pub use answer::{
-    Answer, ClearanceVerdict, Contact, Hit, HitKind, Limit, Outcome, Overlap, Separation, Stats,
-    Unresolved,
+    Answer, ClearanceVerdict, Contact, Effort, Hit, HitKind, Limit, Outcome, Overlap, Separation,
+    Stats, Unresolved,
 };
 pub use body::facets::{Facets, fan_triangles};
 pub use body::feature::Feature;
@@ -125,7 +123,7 @@ pub use body::support::{
 };
 pub use body::{Body, Solidity};
 pub use contacts::ContactsError;
-pub use distance::oracle::{Claim, DistanceOracle, Effort, GiveUpReason, OrElse, PiecePair};
+pub use distance::oracle::{Claim, DistanceOracle, GiveUpReason, OrElse, PiecePair};
 pub use error::InputError;
 #[doc(hidden)]
 pub use fearless_simd;
@@ -142,5 +140,7 @@ pub use motion::trajectory::{
 pub use query::{Movement, MovingBody, Query};
 pub use question::Question;
 pub use schedule::Schedule;
-pub use settings::{ContactNormals, Settings, StartPolicy, VectorInstructions};
+pub use settings::{
+    ContactNormals, Setting, SettingField, Settings, StartPolicy, VectorInstructions,
+};
 pub use swept_box::SweptBox;

@@ -10,6 +10,7 @@ pub(crate) mod path;
 pub(crate) mod period;
 pub(crate) mod pose;
 pub(crate) mod relative;
+pub(crate) mod span;
 pub(crate) mod track;
 pub(crate) mod trajectory;
 

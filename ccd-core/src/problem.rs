@@ -11,7 +11,7 @@ use crate::motion::Motion;
 use crate::motion::path::Path;
 use crate::rounding::{self, NODE_GAP_TOLERANCE_SHARE};
 use crate::settings::{ContactNormals, QuerySettings, StartPolicy};
-use crate::shortcuts::{Shortcut, Shortcuts};
+use crate::settings::{Shortcut, Shortcuts};
 use crate::touching_plane::TouchingPlane;
 use fearless_simd::Level;
 use glam::DVec3;

@@ -1,7 +1,5 @@
 //! Queries: two moving bodies, a duration and settings.
 
-pub(crate) mod span;
-
 use crate::answer::Contact;
 use crate::body::Body;
 use crate::body::excess::ExcessSum;

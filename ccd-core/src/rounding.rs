@@ -334,7 +334,7 @@ pub const SCREW_VELOCITY_ERROR_F64: f64 = 32.0 * UNIT_ROUNDOFF_F64;
 pub const TURN_COUNT_WIDENING: f64 = 1e-9;
 
 /// Returns a bound of the rounding of the values of `f = a r + b ζ` over a node, computed in f64.
-/// `shortcuts/screw/profile.rs` explains `f`. The values `n` are `|a|` and `|b|`; `arm` is the distance of the node's
+/// `engine/shortcuts/screw/profile.rs` explains `f`. The values `n` are `|a|` and `|b|`; `arm` is the distance of the node's
 /// centre from the rotation's centre, and `radius` that of its points from it; `tilt` is the advance per radian,
 /// divided by the distance from the axis.
 ///

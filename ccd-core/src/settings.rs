@@ -1,8 +1,13 @@
 //! The settings of queries: contact distance, accuracy, and limits of the work.
 
+mod named;
+mod shortcuts;
+
+pub use named::{Setting, SettingField};
+pub use shortcuts::{Shortcut, Shortcuts};
+
 use crate::error::{InputError, check};
 use crate::limits::{self, LEAST_TOLERANCE, MAX_COORDINATE};
-use crate::shortcuts::Shortcuts;
 use fearless_simd::Level;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;

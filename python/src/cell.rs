@@ -6,13 +6,13 @@ use crate::cell_state::{CellState, read_body};
 use crate::errors::wrong_type_error;
 use crate::motion::{GivenPose, read_given_pose};
 use crate::numbers::read_number;
-use crate::path_answers::{allowed_setting_names, approach_object, check_resolved, contact_object};
+use crate::path_answers::{approach_object, check_resolved, contact_object};
 use crate::path_array::GivenPaths;
 use crate::path_questions::{ask_path, path_ranges};
 use crate::path_tables::{GivenQuestion, answer_paths};
 use crate::proofs::prove_path;
 use crate::robot::PyRobot;
-use crate::settings::{CONTACT_SETTING_NAMES, read};
+use crate::settings::{REPORTING_START, names, read};
 use crate::table::PyTable;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
@@ -212,7 +212,7 @@ impl PyCell {
         progress: Option<&Bound<'py, PyAny>>,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        let settings = read(settings, CONTACT_SETTING_NAMES)?;
+        let settings = read(settings, &names(Question::FirstContact, REPORTING_START))?;
         prove_path(py, &self.state.solvers.cell(), path, progress, settings)
     }
 
@@ -225,7 +225,7 @@ impl PyCell {
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let question = Question::ClosestApproach;
-        let settings = read(settings, allowed_setting_names(question))?;
+        let settings = read(settings, &names(question, &[]))?;
         let clearance = settings.clearance;
         let answer = ask_path(py, &self.state.solvers, question, path, settings)?;
         approach_object(py, &answer, clearance)
@@ -254,7 +254,7 @@ impl PyCell {
         #[pyo3(from_py_with = read_number)] max_pose_error: f64,
         settings: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
-        let settings = read(settings, CONTACT_SETTING_NAMES)?;
+        let settings = read(settings, &names(Question::FirstContact, REPORTING_START))?;
         let how = RangeSettings {
             resolution,
             max_pose_error,
@@ -357,7 +357,7 @@ impl PyCell {
         path: &Bound<'_, PyAny>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PathRow> {
-        let settings = read(settings, allowed_setting_names(question))?;
+        let settings = read(settings, &names(question, &[]))?;
         ask_path(py, &self.state.solvers, question, path, settings)
     }
 

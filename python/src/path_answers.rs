@@ -1,7 +1,6 @@
 //! Questions about paths by their names, and their answers as objects of Python.
 
 use crate::errors::{Unresolved, input_error, with_attribute};
-use crate::settings::{APPROACH_SETTING_NAMES, PATH_CONTACT_SETTING_NAMES};
 use pyo3::prelude::*;
 use rigid_ccd::Question;
 use rigid_ccd::answer::Limit;
@@ -17,15 +16,6 @@ pub(crate) fn question_named(name: &str) -> PyResult<Question> {
             "ask: '{name}' is not is-free, first-contact or closest-approach"
         ))
     })
-}
-
-/// Returns the names of the settings of a question about many paths.
-pub(crate) fn allowed_setting_names(question: Question) -> &'static [&'static str] {
-    if question.is_for_a_distance() {
-        APPROACH_SETTING_NAMES
-    } else {
-        PATH_CONTACT_SETTING_NAMES
-    }
 }
 
 /// Returns the pair of an answer as an object of Python; `None` without one.

@@ -3,10 +3,10 @@
 use crate::cell_remarks::{Asked, warn_of_question};
 use crate::cell_solver::CellWithCachedSolvers;
 use crate::errors::input_error;
-use crate::path_answers::{allowed_setting_names, question_named};
+use crate::path_answers::question_named;
 use crate::path_array::GivenPaths;
 use crate::progress::{GivenProgress, results_or_interruption, run_with_progress};
-use crate::settings::{read, read_thread_count};
+use crate::settings::{names, read, read_thread_count};
 use crate::table::{PyTable, path_batch};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -32,7 +32,7 @@ pub(crate) fn answer_paths(
     read_paths: impl FnOnce() -> PyResult<GivenPaths>,
 ) -> PyResult<PyTable> {
     let question = question_named(given.ask)?;
-    let mut settings = read(given.settings, allowed_setting_names(question))?;
+    let mut settings = read(given.settings, &names(question, &[]))?;
     settings.check().map_err(input_error)?;
     let asked = PathQuestion {
         question,

@@ -12,7 +12,7 @@ use crate::numbers::read_optional_number;
 use crate::path_array::GivenPath;
 use crate::progress::{GivenProgress, run_with_progress};
 use crate::queries::ask;
-use crate::settings::{CONTACT_SETTING_NAMES, read};
+use crate::settings::{REPORTING_START, names, read};
 use ccd_prove::{
     Body, CellNotProvable, NoMesh, NotProven, PathNotProven, Proof, ProvenCell, ProvenPair,
     Statement,
@@ -67,7 +67,7 @@ pub(crate) fn prove<'py>(
     #[pyo3(from_py_with = read_optional_number)] duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let settings = read(settings, CONTACT_SETTING_NAMES)?;
+    let settings = read(settings, &names(Question::FirstContact, REPORTING_START))?;
     let motions = [
         constant_motion((a, motion_a), "motion_a")?,
         constant_motion((b, motion_b), "motion_b")?,

@@ -10,9 +10,7 @@ use crate::interruptible::run_interruptibly;
 use crate::motion::read_pose;
 use crate::movement::{GivenBodyAndMotion, Pair};
 use crate::numbers::read_optional_number;
-use crate::settings::{
-    APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES, DISTANCE_QUERY_SETTING_NAMES, read,
-};
+use crate::settings::{REPORTING_START, names, read};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::Question;
@@ -206,7 +204,7 @@ pub(crate) fn first_contact<'py>(
     #[pyo3(from_py_with = read_optional_number)] duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Bound<'py, PyAny>>> {
-    let settings = read(settings, CONTACT_SETTING_NAMES)?;
+    let settings = read(settings, &names(Question::FirstContact, REPORTING_START))?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::FirstContact, bodies, duration, &settings)?;
     let hit = hit_of_answer(py, answer)?;
@@ -228,7 +226,7 @@ pub(crate) fn is_free(
     #[pyo3(from_py_with = read_optional_number)] duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<bool> {
-    let settings = read(settings, CONTACT_SETTING_NAMES)?;
+    let settings = read(settings, &names(Question::AnyContact, REPORTING_START))?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::AnyContact, bodies, duration, &settings)?;
     Ok(hit_of_answer(py, answer)?.is_none())
@@ -259,7 +257,7 @@ pub(crate) fn closest_approach<'py>(
     #[pyo3(from_py_with = read_optional_number)] duration: Option<f64>,
     settings: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let settings = read(settings, APPROACH_SETTING_NAMES)?;
+    let settings = read(settings, &names(Question::ClosestApproach, &[]))?;
     let bodies = [(a, motion_a), (b, motion_b)];
     let answer = ask(py, Question::ClosestApproach, bodies, duration, &settings)?;
     distance_of_answer(py, &answer, &settings)
@@ -286,7 +284,7 @@ pub(crate) fn distance<'py>(
         None => Ok(rigid_ccd::Pose::IDENTITY),
     };
     let (pose_a, pose_b) = (pose(pose_a, "pose_a")?, pose(pose_b, "pose_b")?);
-    let settings = read(settings, DISTANCE_QUERY_SETTING_NAMES)?;
+    let settings = read(settings, &names(Question::Distance, &["clearance"]))?;
     warn_of_large_tolerance([a, b], settings.tolerance, 1)?;
     let (a, b) = (extract_body(a, "a")?, extract_body(b, "b")?);
     let asked = PairQuestion {

@@ -5,22 +5,17 @@ use crate::numbers::{refuse_truth, whole_number};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rigid_ccd::{Settings, StartPolicy};
+use rigid_ccd::{Question, Setting, SettingField, Settings, StartPolicy};
 use std::time::Duration;
 
-/// The names of the settings of a query about contacts.
-pub(crate) const CONTACT_SETTING_NAMES: &[&str] = &["tolerance", "margin", "budget", "deadline"];
+/// What questions about two bodies, proofs and ranges do not take: pairs in contact at their start are always reported.
+pub(crate) const REPORTING_START: &[&str] = &["start"];
 
-/// The names of the settings of a query about the contacts on a path.
-pub(crate) const PATH_CONTACT_SETTING_NAMES: &[&str] =
-    &["tolerance", "margin", "budget", "deadline", "start"];
-
-/// The names of the settings of a query about the distance of bodies at rest.
-pub(crate) const DISTANCE_QUERY_SETTING_NAMES: &[&str] = &["tolerance", "budget", "deadline"];
-
-/// The names of the settings of a query about the least distance of moving bodies.
-pub(crate) const APPROACH_SETTING_NAMES: &[&str] =
-    &["tolerance", "clearance", "budget", "deadline"];
+/// Returns the names of the settings of a question, but for some.
+pub(crate) fn names(question: Question, left_out: &[&str]) -> Vec<&'static str> {
+    let names = Setting::taken_by(question).map(|setting| setting.name);
+    names.filter(|name| !left_out.contains(name)).collect()
+}
 
 /// The names of the settings that only a table query has, which are parameters of its function.
 pub(crate) const TABLE_SETTING_NAMES: &[&str] = &["threads", "progress", "micros"];
@@ -36,23 +31,24 @@ pub(crate) fn read(
     let mut settings = Settings::DEFAULT;
     for (name, value) in given.into_iter().flatten() {
         let name: String = name.extract()?;
-        match name.as_str() {
-            _ if !known.contains(&name.as_str()) => {
-                return Err(unknown_setting_error(&name, known));
+        let setting = Setting::from_name(&name).filter(|setting| known.contains(&setting.name));
+        let setting = setting.ok_or_else(|| unknown_setting_error(&name, known))?;
+        match setting.field {
+            SettingField::Length(of) => *of(&mut settings) = extract_setting(&name, &value)?,
+            SettingField::OptionalLength(of) => {
+                *of(&mut settings) = extract_setting(&name, &value)?;
             }
-            "tolerance" => settings.tolerance = extract_setting(&name, &value)?,
-            "margin" => settings.margin = extract_setting(&name, &value)?,
-            "clearance" => settings.clearance = extract_setting(&name, &value)?,
-            "budget" => {
+            SettingField::Work(of) => {
                 if !value.is_none() {
-                    settings.budget = whole_number(&value, "budget", 0..=u64::MAX)?;
+                    *of(&mut settings) = whole_number(&value, &name, 0..=u64::MAX)?;
                 }
             }
-            "start" => {
-                settings.start_policy = start_policy(&extract_setting::<String>(&name, &value)?)?
+            SettingField::Time(of) => {
+                *of(&mut settings) = deadline(extract_setting(&name, &value)?)?;
             }
-            "deadline" => settings.deadline = deadline(extract_setting(&name, &value)?)?,
-            _ => return Err(unknown_setting_error(&name, known)),
+            SettingField::StartPolicy(of) => {
+                *of(&mut settings) = start_policy(&extract_setting::<String>(&name, &value)?)?;
+            }
         }
     }
     Ok(settings)
@@ -81,13 +77,8 @@ where
 
 /// Reads what happens to pairs in contact at the start.
 fn start_policy(name: &str) -> PyResult<StartPolicy> {
-    match name {
-        "report" => Ok(StartPolicy::Report),
-        "leave" => Ok(StartPolicy::Leave),
-        _ => Err(input_error(format!(
-            "start: '{name}' is not report or leave"
-        ))),
-    }
+    StartPolicy::from_name(name)
+        .ok_or_else(|| input_error(format!("start: '{name}' is not report or leave")))
 }
 
 /// Reads a time limit in seconds; infinity gives `None`, which is no limit.

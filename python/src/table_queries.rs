@@ -6,7 +6,7 @@ use crate::errors::{
 };
 use crate::numbers::read_optional_number;
 use crate::progress::{GivenProgress, run_with_progress};
-use crate::settings::{self, APPROACH_SETTING_NAMES, CONTACT_SETTING_NAMES, TABLE_SETTING_NAMES};
+use crate::settings::{self, REPORTING_START, TABLE_SETTING_NAMES};
 use crate::table::answering::{TableAnswers, TableQuestion, answer};
 use crate::table::{PyTable, input};
 use pyo3::exceptions::PyKeyboardInterrupt;
@@ -84,22 +84,16 @@ pub(crate) fn answer_table(
 const STACK_FRAMES_TO_CALLER: i32 = 3;
 
 fn question_named(name: &str) -> PyResult<Question> {
-    let found = Question::ALL
-        .into_iter()
-        .find(|question| question.name() == name);
-    found.ok_or_else(|| {
+    Question::from_name(name).ok_or_else(|| {
         let names = Question::ALL.map(|question| format!("{:?}", question.name()));
         refuse(format!("ask: {name:?} is none of {}", names.join(", ")))
     })
 }
 
 fn allowed_setting_names(question: Question) -> Vec<&'static str> {
-    let of_query = if question.is_for_a_distance() {
-        APPROACH_SETTING_NAMES
-    } else {
-        CONTACT_SETTING_NAMES
-    };
-    [of_query, TABLE_SETTING_NAMES].concat()
+    let mut names = settings::names(question, REPORTING_START);
+    names.extend(TABLE_SETTING_NAMES);
+    names
 }
 
 /// Returns an error for settings that would be invalid for every row of the table.

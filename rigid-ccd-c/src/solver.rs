@@ -9,7 +9,7 @@ use crate::settings::RccdSettings;
 use crate::status::{Failure, RccdStatus, status_of};
 use crate::trajectory::RccdTrajectory;
 use ccd_core::MovingBody;
-use rigid_ccd::{Answer, InputError, Motion, Settings, Solver};
+use rigid_ccd::{Answer, InputError, Motion, Question, Settings, Solver};
 
 /// A solver: settings, and memory that it reuses from query to query. Each thread needs its own.
 pub struct RccdSolver {
@@ -93,12 +93,7 @@ pub unsafe extern "C" fn rccd_first_contact(
     answer: *mut RccdAnswer,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe {
-        let to_answer = |found: &Answer| RccdAnswer::new(found, duration);
-        ask(solver, [a, b], answer, to_answer, |s, a, b| {
-            s.solver.first_contact(a, b, duration)
-        })
-    }
+    unsafe { ask(Question::FirstContact, solver, [a, b], duration, answer) }
 }
 
 /// Finds some contact of two moving bodies, perhaps not the first one, or proves that there is none. For bodies that touch
@@ -115,12 +110,7 @@ pub unsafe extern "C" fn rccd_any_contact(
     answer: *mut RccdAnswer,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe {
-        let to_answer = |found: &Answer| RccdAnswer::new(found, duration);
-        ask(solver, [a, b], answer, to_answer, |s, a, b| {
-            s.solver.any_contact(a, b, duration)
-        })
-    }
+    unsafe { ask(Question::AnyContact, solver, [a, b], duration, answer) }
 }
 
 /// Finds when two moving bodies first and last touch. They do not touch before the first time nor after the last.
@@ -136,12 +126,7 @@ pub unsafe extern "C" fn rccd_contact_interval(
     answer: *mut RccdAnswer,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe {
-        let to_answer = |found: &Answer| RccdAnswer::new(found, duration);
-        ask(solver, [a, b], answer, to_answer, |s, a, b| {
-            s.solver.contact_interval(a, b, duration)
-        })
-    }
+    unsafe { ask(Question::ContactInterval, solver, [a, b], duration, answer) }
 }
 
 /// Brackets the least distance of two moving bodies to within the tolerance. With a duration of 0 it is the distance at the
@@ -158,12 +143,7 @@ pub unsafe extern "C" fn rccd_closest_approach(
     answer: *mut RccdAnswer,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe {
-        let to_answer = |found: &Answer| RccdAnswer::new(found, duration);
-        ask(solver, [a, b], answer, to_answer, |s, a, b| {
-            s.solver.closest_approach(a, b, duration)
-        })
-    }
+    unsafe { ask(Question::ClosestApproach, solver, [a, b], duration, answer) }
 }
 
 /// Decides whether two moving bodies keep a distance: the outcome is free if they do, and a contact, at a time at which they are
@@ -192,7 +172,7 @@ pub unsafe extern "C" fn rccd_keeps_clearance(
     };
     let to_answer = |found: &Answer| RccdAnswer::about_clearance(found, duration, clearance);
     // SAFETY: the contract of this function.
-    unsafe { ask(solver, [a, b], answer, to_answer, question) }
+    unsafe { ask_with(solver, [a, b], answer, to_answer, question) }
 }
 
 /// Asks a question, and stores the answer.
@@ -200,6 +180,26 @@ pub unsafe extern "C" fn rccd_keeps_clearance(
 /// # Safety
 /// That of [`rccd_first_contact`].
 unsafe fn ask(
+    question: Question,
+    solver: *mut RccdSolver,
+    bodies: [*const RccdMovingBody; 2],
+    duration: f64,
+    out: *mut RccdAnswer,
+) -> RccdStatus {
+    let to_answer = |found: &Answer| RccdAnswer::new(found, duration);
+    // SAFETY: the contract of this function.
+    unsafe {
+        ask_with(solver, bodies, out, to_answer, |s, a, b| {
+            s.solver.answer(question, a, b, duration)
+        })
+    }
+}
+
+/// Asks a question by a function, and stores what another one makes of its answer.
+///
+/// # Safety
+/// That of [`rccd_first_contact`].
+unsafe fn ask_with(
     solver: *mut RccdSolver,
     bodies: [*const RccdMovingBody; 2],
     out: *mut RccdAnswer,

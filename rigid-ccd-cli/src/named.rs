@@ -81,12 +81,12 @@ const fn named_question(number: usize) -> (&'static str, Question, &'static str)
 /// The treatments of bodies in contact at the start, for `--start`.
 pub(crate) const START_POLICIES: &Named<StartPolicy> = &[
     (
-        "report",
+        StartPolicy::Report.name(),
         StartPolicy::Report,
         "Report the contact at time 0",
     ),
     (
-        "leave",
+        StartPolicy::Leave.name(),
         StartPolicy::Leave,
         "Ignore the contact as long as the bodies do not approach",
     ),

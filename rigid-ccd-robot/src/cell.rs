@@ -6,11 +6,12 @@ mod margins;
 pub(crate) mod part;
 mod planes;
 mod remarks;
+pub(crate) mod rounding;
 
 use crate::error::RobotError;
+use crate::kinematics::Kinematics;
 use crate::pairs::LinkPairs;
 use crate::robot::Robot;
-use crate::solver::kinematics::Kinematics;
 use crate::tuning::{MAX_LINK_PARTS, MAX_OBSTACLE_PARTS};
 use crate::units::SizeScale;
 use compared::AllowedPairs;

@@ -2,6 +2,7 @@
 
 mod digest;
 mod replay;
+mod start_policy;
 
 pub use replay::{EvidenceError, Replay, Verdict};
 
@@ -75,45 +76,12 @@ pub struct RecordedSettings {
     /// The deadline in seconds, if there was one.
     pub deadline: Option<f64>,
     /// The policy for pairs in contact at the start; a record without one is of a question that reported them.
-    #[serde(default, skip_serializing_if = "RecordedStart::is_report")]
-    pub start: RecordedStart,
-}
-
-/// The policy for pairs in contact at the start of a path.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RecordedStart {
-    /// They are the answer.
-    #[default]
-    Report,
-    /// They are let go.
-    Leave,
-}
-
-impl RecordedStart {
-    // The signature is that of serde.
-    #[allow(clippy::trivially_copy_pass_by_ref)]
-    fn is_report(&self) -> bool {
-        *self == RecordedStart::Report
-    }
-}
-
-impl From<StartPolicy> for RecordedStart {
-    fn from(policy: StartPolicy) -> Self {
-        match policy {
-            StartPolicy::Report => RecordedStart::Report,
-            StartPolicy::Leave => RecordedStart::Leave,
-        }
-    }
-}
-
-impl From<RecordedStart> for StartPolicy {
-    fn from(start: RecordedStart) -> Self {
-        match start {
-            RecordedStart::Report => StartPolicy::Report,
-            RecordedStart::Leave => StartPolicy::Leave,
-        }
-    }
+    #[serde(
+        default,
+        with = "start_policy",
+        skip_serializing_if = "start_policy::is_default"
+    )]
+    pub start: StartPolicy,
 }
 
 /// A path, with all its numbers.
@@ -240,7 +208,7 @@ impl Evidence {
                 margin: settings.margin,
                 budget: settings.budget,
                 deadline: settings.deadline.map(|deadline| deadline.as_secs_f64()),
-                start: settings.start_policy.into(),
+                start: settings.start_policy,
             },
             bodies: bodies_at_start(cell, &path)?,
             path,

@@ -25,7 +25,8 @@
 //! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another |
 //! | `combine` | several robots as one, on bases that may move: [`Robot::combine`] |
 //! | `cell` | a robot among obstacles: [`Cell`]; `cell/compared` which bodies are compared, `cell/margins` at which distances |
-//! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/kinematics` the frames of links, `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/start` contacts at the start that may part, `solver/clearance_ranges` where a distance is kept, `solver/distance_curve` the distance over a path |
+//! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/start` contacts at the start that may part, `solver/clearance_ranges` where a distance is kept, `solver/distance_curve` the distance over a path |
+//! | `kinematics` | the frames of all links in a configuration |
 //! | `path`, `joint_curve`, `polynomial`, `path_point` | what a question is about: a [`Path`] through configurations, or a [`JointCurve`] of polynomials |
 //! | `path_answer` | what was found: [`PathAnswer`], for all questions |
 //! | `link_contacts` | whether two links can ever touch, by branch and bound over their joints: [`Robot::classify_link_contacts`] |
@@ -47,6 +48,7 @@ pub mod evidence;
 #[doc(hidden)]
 pub mod joint_columns;
 mod joint_curve;
+mod kinematics;
 mod link_contacts;
 mod pairs;
 mod path;

@@ -1,10 +1,13 @@
 //! What a question can be about: paths through configurations, and curves.
 
+pub(crate) mod joint_path;
+pub(crate) mod stretch;
+
 use crate::cell::Cell;
 use crate::error::PathError;
 use crate::joint_curve::JointCurve;
 use crate::path_point::PathPoint;
-use crate::solver::joint_path::JointPath;
+use joint_path::JointPath;
 
 /// A path of a robot: a slice, an array or a vector of configurations, between two of which all joints move at constant rates,
 /// or a [`JointCurve`].

@@ -119,8 +119,8 @@ pub mod trajectory;
 pub use ccd_core::glam;
 pub use ccd_core::schedule;
 pub use ccd_core::{
-    Answer, Body, ContactNormals, Hit, InputError, Motion, Outcome, Pose, Query, Question,
-    Settings, StartPolicy, VectorInstructions,
+    Answer, Body, ContactNormals, Hit, InputError, Motion, Outcome, Pose, Query, Question, Setting,
+    SettingField, Settings, StartPolicy, VectorInstructions,
 };
 /// Meshes, and bodies made from them.
 #[cfg(feature = "meshes")]

@@ -24,6 +24,7 @@ mod monotone;
 mod motions;
 mod near_misses;
 mod never_late;
+mod pages;
 mod patch_liars;
 mod proven_bounds;
 mod published_bound;

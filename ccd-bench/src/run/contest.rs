@@ -4,17 +4,16 @@ mod journal;
 mod session;
 #[cfg(test)]
 mod tests;
-pub(crate) mod verdict;
 
 use ccd_core::order::greater;
 pub use journal::{Journal, program_fingerprint};
 pub use session::Session;
-pub use verdict::{Judgement, Verdict, judge, judge_outcome};
 
 use crate::method::guarded::QueryOutcome;
 use crate::method::rival::to_screw_motions;
 use crate::method::solver::ContactClaim;
 use crate::run::measured::{MeasurementCell, Trial};
+pub use crate::run::verdict::{Judgement, Verdict, judge, judge_outcome};
 use crate::scene::Scene;
 use crate::truth::{Surface, Truth, TruthSolver};
 use anyhow::{Context, Result};

@@ -2,7 +2,7 @@
 //! summarise.
 
 use crate::method::guarded::QueryOutcome;
-use crate::run::contest::verdict::Judgement;
+use crate::run::verdict::Judgement;
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
 use std::io::Write;

@@ -4,12 +4,12 @@ use super::meter::Meter;
 use super::scratch::Scratch;
 use super::start::search_contact_at_start;
 use crate::answer::{Answer, Outcome, Stats};
-use crate::contacts::given::{convert_contact_to_given_bodies, outcome_on_original_bodies};
 use crate::distance::oracle::DistanceOracle;
+use crate::engine::given_bodies::{convert_contact_to_given_bodies, outcome_on_original_bodies};
+use crate::engine::rounds::PeriodicSearch;
 use crate::math::order::greater;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
-use crate::shortcuts::rounds::PeriodicSearch;
 use crate::touching_plane::TouchingPlane;
 
 /// Runs a search that examines pairs in order of time, under the query's policy for contacts at the start.

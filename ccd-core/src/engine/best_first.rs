@@ -8,8 +8,8 @@ use super::scratch::Scratch;
 use super::search::{AdvanceResult, Search, SearchHandler, WaitingItem};
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
+use crate::engine::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
 use crate::problem::Problem;
-use crate::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
 use std::ops::ControlFlow;
 
 /// The default schedule: a best-first search in order of time.

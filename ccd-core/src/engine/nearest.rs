@@ -1,7 +1,5 @@
 //! Computes the distance of two bodies at one clock, by a search that examines the nearest pairs first.
 
-pub(crate) mod lists;
-
 use super::meter::Meter;
 use super::nodes::common::NodeContext;
 use super::nodes::expand::bound_child_distances;
@@ -9,13 +7,13 @@ use super::nodes::siblings::{NextStep, Siblings};
 use super::pieces::pair::contact;
 use super::pieces::snapshot::Snapshot;
 use super::queue::{QueueFull, Rank, Worklist};
+use super::search_buffers::SearchBuffers;
 use crate::answer::{Contact, Limit};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::overlap::{self, Intersection};
 use crate::math::order::{greater, lesser};
 use crate::problem::Problem;
 use crate::rounding::SKIPPED_PAIR_ALLOWANCE;
-use lists::SearchBuffers;
 use std::ops::ControlFlow;
 
 /// A search for the two nearest pieces of two bodies at one clock. It splits the pair of nodes with the least lower

@@ -1,10 +1,10 @@
 //! Scratch memory that is reused from query to query, so that queries allocate nothing.
 
-use super::nearest::lists::SearchBuffers;
+use super::search_buffers::SearchBuffers;
 use crate::distance::common_normals::CommonNormals;
 use crate::distance::overlap::ExpandingPolytope;
-use crate::query::span::Span;
-use crate::shortcuts::screw::ProfileCache;
+use crate::engine::shortcuts::screw::ProfileCache;
+use crate::motion::span::Span;
 
 /// The scratch memory of a solver, created when first needed.
 pub(crate) type Scratch = Option<Box<ScratchMemory>>;

@@ -8,8 +8,8 @@ use super::pieces::pair::{Pair, PairStep};
 use super::queue::{QueueFull, Rank, Worklist};
 use crate::answer::Limit;
 use crate::distance::oracle::DistanceOracle;
+use crate::engine::closer_look::BoundTightener;
 use crate::problem::Problem;
-use crate::shortcuts::closer_look::BoundTightener;
 use std::ops::ControlFlow;
 
 /// A waiting item: the children of a split node, or a pair of pieces.

@@ -7,13 +7,13 @@ use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::PairStep;
 use crate::engine::proven::ProvenFacts;
 use crate::engine::search::{AdvanceResult, Search, SearchHandler};
+use crate::engine::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
 use crate::engine::start::overlap_outcome;
 use crate::error::InputError;
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::query::Query;
 use crate::questions::depth_first::DepthFirst;
-use crate::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
 use std::ops::ControlFlow;
 
 impl<O: DistanceOracle> DepthFirst<O> {

@@ -2,20 +2,20 @@
 
 use super::along::contacts::first_contact;
 use crate::answer::{Answer, Limit, Outcome};
-use crate::contacts::given::outcome_on_original_bodies;
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::{achieved_tolerance, problem_ignoring_start_contact};
 use crate::engine::best_first::BestFirst;
+use crate::engine::closer_look::BoundTightener;
+use crate::engine::given_bodies::outcome_on_original_bodies;
 use crate::engine::meter::Meter;
 use crate::engine::proven::ProvenFacts;
+use crate::engine::rounds::PeriodicSearch;
 use crate::engine::search::{Search, SearchHandler};
+use crate::engine::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
 use crate::error::InputError;
 use crate::problem::Problem;
 use crate::query::Query;
 use crate::settings::StartPolicy;
-use crate::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
-use crate::shortcuts::closer_look::BoundTightener;
-use crate::shortcuts::rounds::PeriodicSearch;
 use std::ops::ControlFlow;
 
 /// A search for the first contact that can stop at any time and continue later.

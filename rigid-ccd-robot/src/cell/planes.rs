@@ -5,9 +5,9 @@
 
 use super::part::PlacedBody;
 use super::{Cell, RobotBodyPlacement};
+use crate::cell::rounding::largest_arm;
 use crate::error::{PathError, RobotError};
-use crate::solver::magnitude::Magnitude;
-use crate::solver::rounding::largest_arm;
+use crate::kinematics::magnitude::Magnitude;
 use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Body, Facet, FacetOrigin, Polytope};

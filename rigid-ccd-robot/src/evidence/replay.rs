@@ -88,7 +88,7 @@ impl Evidence {
             tolerance: self.settings.tolerance,
             margin: self.settings.margin,
             budget: self.settings.budget,
-            start_policy: self.settings.start.into(),
+            start_policy: self.settings.start,
             ..Settings::DEFAULT
         };
         let answer = RecordedAnswer::try_from(&self.ask(cell, &settings)?)?;

@@ -13,9 +13,9 @@
 //!   distance of `x` from the axis of `j`. Both factors are bounded over the box by what the joints displace.
 
 use crate::cell::part::HullPart;
+use crate::cell::rounding::PoseRounding;
+use crate::kinematics::Kinematics;
 use crate::solver::displacement::{ROUNDING_FACTOR, chord_upper_bound};
-use crate::solver::kinematics::Kinematics;
-use crate::solver::rounding::PoseRounding;
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::oracle::Frame;

@@ -2,7 +2,7 @@
 
 use super::joint_box::JointBox;
 use crate::cell::Cell;
-use crate::solver::rounding::{PoseRounding, pose_rounding};
+use crate::cell::rounding::{PoseRounding, pose_rounding};
 use ccd_core::order::greater;
 use std::f64::consts::PI;
 

@@ -1,9 +1,9 @@
 //! The ranges of a path in which all pairs keep their distance, and those in which one of them certainly does not.
 
-use super::stretch::Stretch;
 use super::{CellSolver, Goal};
 use crate::error::PathError;
 use crate::path::Path;
+use crate::path::stretch::Stretch;
 use crate::path_point::PathPoint;
 use rigid_ccd::Error;
 use rigid_ccd::answer::ClearanceVerdict;

@@ -1,7 +1,7 @@
 //! The trajectory of a link whose joints follow a curve.
 
-use super::joint_path::JointPath;
 use super::pair_chain::PairChain;
+use crate::path::joint_path::JointPath;
 use rigid_ccd::InputError;
 use rigid_ccd::trajectory::{Stretch, Trajectory};
 use smallvec::SmallVec;

@@ -5,8 +5,8 @@
 //! place in the middle of the stretch by the joint alone: a chord about the joint's axis, or a distance along it. Only
 //! distances from axes in the middle of the stretch are needed.
 
-use super::kinematics::Kinematics;
 use crate::cell::part::HullPart;
+use crate::kinematics::Kinematics;
 use rigid_ccd::oracle::Frame;
 
 /// The factor by which bounds are raised, to allow for rounding. A bound takes a few sums and products for each joint;

@@ -1,9 +1,9 @@
 //! The least distance over each of many ranges of a path.
 
-use super::stretch::Stretch;
 use super::{CellSolver, Goal};
 use crate::error::PathError;
 use crate::path::Path;
+use crate::path::stretch::Stretch;
 use crate::path_answer::PathOutcome;
 use crate::path_point::PathPoint;
 

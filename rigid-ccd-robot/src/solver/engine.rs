@@ -5,7 +5,7 @@ use super::curved_link::PathSection;
 use super::open_pairs::OpenPair;
 use super::part_pairs::{PartPair, sort_by_proof_distance};
 use super::search::Search;
-use super::stretch::{StepResult, Stretch};
+use crate::path::stretch::{StepResult, Stretch};
 use crate::tuning::MAX_BUDGET_SPLITS;
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::answer::{ClearanceVerdict, Limit};

@@ -1,6 +1,6 @@
 //! The limits that end a search: its work, a time, and the flag that stops it.
 
-use super::stretch::Stretch;
+use crate::path::stretch::Stretch;
 use crate::tuning::BUDGETS_PER_SEGMENT;
 use rigid_ccd::Settings;
 use rigid_ccd::answer::Limit;

@@ -2,7 +2,7 @@
 
 use super::Goal;
 use super::part_pairs::PartPair;
-use super::stretch::Stretch;
+use crate::path::stretch::Stretch;
 use ccd_core::order::{greater, lesser};
 
 /// A pair that is open in a stretch of one segment.

@@ -6,9 +6,9 @@
 //! it, with `ρ` its largest distance from a joint's axis. What a pair keeps in one period, less this drift, it keeps in all of them.
 //! One period of the pair is searched then, and the rest of the segment is left out.
 
-use super::joint_path::JointPath;
-use super::kinematics::Kinematics;
-use super::rounding::U;
+use crate::cell::rounding::U;
+use crate::kinematics::Kinematics;
+use crate::path::joint_path::JointPath;
 use crate::tuning::MAX_TURNS_IN_PERIOD;
 use ccd_core::order::lesser;
 use std::f64::consts::TAU;

@@ -1,10 +1,10 @@
 //! A stretch of a path as the search sees it: the frames of all links in its middle, and how far parts move from there.
 
 use super::displacement::DisplacementBounds;
-use super::joint_path::JointPath;
-use super::rounding::point_error_bound;
-use super::stretch::Stretch;
 use crate::cell::Cell;
+use crate::cell::rounding::point_error_bound;
+use crate::path::joint_path::JointPath;
+use crate::path::stretch::Stretch;
 use rigid_ccd::glam::DQuat;
 use rigid_ccd::oracle::Frame;
 use rigid_ccd::{Body, Error, Pose};

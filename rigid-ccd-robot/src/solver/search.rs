@@ -8,18 +8,18 @@ mod start;
 
 use super::Goal;
 use super::exact::PairChains;
-use super::joint_path::JointPath;
 use super::limits::StopCondition;
 use super::measure::{DistanceVerdict, Thresholds, bounding_volume_gap, measure};
 use super::open_pairs::{OpenPair, UndecidedPairs};
 use super::part_pairs::{PartPair, PartPairs, sort_by_proof_distance};
 use super::periods::{DriftLimit, Period, Periods};
 use super::placement::Placement;
-use super::rounding::{UNSTATED_TOLERANCE_SHARE, largest_arm};
-use super::stretch::{StepResult, Stretch};
 use crate::cell::Cell;
+use crate::cell::rounding::{UNSTATED_TOLERANCE_SHARE, largest_arm};
 use crate::error::{NothingCompared, PathError};
 use crate::path::Path;
+use crate::path::joint_path::JointPath;
+use crate::path::stretch::{StepResult, Stretch};
 use crate::path_point::PathPoint;
 use crate::tuning::{
     MAX_APPROACH_STRETCH_LENGTH, MAX_DRIFT_SHARE, MAX_ENGINE_DISPLACEMENT,

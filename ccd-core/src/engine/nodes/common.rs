@@ -6,7 +6,7 @@ use crate::math::vector::{distance, length};
 use crate::motion::relative::RelativePath;
 use crate::problem::{BodyWithPath, Problem, WhichBody};
 use crate::rounding::{ARM_INCREASE_PER_DISTANCE, LEAST_GAP_F32, RATE_ERROR_F32};
-use crate::shortcuts::Shortcut;
+use crate::settings::Shortcut;
 use crate::tuning::{CLOSED_GAP_TOLERANCE_SHARE, MIN_TURNING_PLANE_RADIUS_RATIO};
 use glam::Vec3;
 use std::cell::OnceCell;

@@ -6,6 +6,7 @@ use crate::body::piece::Piece;
 use crate::distance::oracle::{DistanceOracle, PiecePair};
 use crate::distance::separation::{self, CheckedClaim};
 use crate::engine::meter::Meter;
+use crate::engine::shortcuts::turning_pieces::{MovingPiece, PieceMotionToTurningPlane};
 use crate::math::order::lesser;
 use crate::math::vector::{length, unit};
 use crate::motion::bound::{VelocityBound, published_bound, sound_bound};
@@ -14,8 +15,7 @@ use crate::motion::gap::{Gap, first_possible_crossing};
 use crate::motion::pose::Frame;
 use crate::problem::Problem;
 use crate::rounding::{MIN_APPROACH_PER_ROUNDING, RATE_ERROR_F64};
-use crate::shortcuts::Shortcut;
-use crate::shortcuts::turning_pieces::{MovingPiece, PieceMotionToTurningPlane};
+use crate::settings::Shortcut;
 use crate::tuning::{
     ASSUMED_ORACLE_STEPS, MAX_NEWTON_STEPS, MIN_ROTATION_GAP_SHARE, RESTING_SLACK_PER_ROUNDING,
     SUFFICIENT_FIRST_FREE_TIME,

@@ -10,9 +10,9 @@ use crate::engine::answer::EngineSchedule;
 use crate::engine::scratch::Scratch;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
+use crate::motion::span::Span;
 use crate::problem::Problem;
 use crate::query::Query;
-use crate::query::span::Span;
 use crate::questions::any::touching_as_contact;
 use std::ops::ControlFlow;
 

@@ -6,9 +6,9 @@ use crate::answer::{Answer, Limit};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::scratch::Scratch;
 use crate::error::InputError;
+use crate::motion::span::Span;
 use crate::problem::Problem;
 use crate::query::Query;
-use crate::query::span::Span;
 use std::ops::ControlFlow;
 
 /// A question about bodies on trajectories, which is answered by searching one stretch of time after the other.

@@ -8,8 +8,8 @@ use crate::engine::scratch::{Scratch, SpanLists};
 use crate::engine::start::search_contact_at_start;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
+use crate::motion::span::Span;
 use crate::motion::trajectory::Trajectory;
-use crate::query::span::Span;
 use crate::query::{MovingBody, Query};
 use crate::settings::QuerySettings;
 use crate::tuning::{

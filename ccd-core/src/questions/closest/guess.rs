@@ -6,10 +6,10 @@ use crate::answer::{Limit, Outcome, Unresolved};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
 use crate::engine::nearest::{EarlyEndReason, NearestSearch};
+use crate::engine::shortcuts::bounding_volumes::{clock_of_nearest_balls, least_distance};
 use crate::engine::start::overlap_outcome;
 use crate::math::order::greater;
 use crate::problem::Problem;
-use crate::shortcuts::bounding_volumes::{clock_of_nearest_balls, least_distance};
 use crate::tuning::{FOLLOW_TOLERANCE_SHARE, MAX_INITIAL_MEASUREMENTS};
 use std::ops::ControlFlow;
 

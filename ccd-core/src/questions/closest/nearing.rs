@@ -5,6 +5,7 @@ use super::ladder::{LowerBoundAttempts, MAX_FINAL_ATTEMPTS, MarginQuery};
 use super::{FartherThanCutoff, NearestPair};
 use crate::answer::{Limit, Outcome, Unresolved};
 use crate::distance::oracle::DistanceOracle;
+use crate::engine::closer_look::BoundTightener;
 use crate::engine::meter::Meter;
 use crate::engine::nodes::common::NodeContext;
 use crate::engine::pieces::pair::PairStep;
@@ -14,7 +15,6 @@ use crate::engine::start::overlap_outcome;
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::questions::depth_first::Stack;
-use crate::shortcuts::closer_look::BoundTightener;
 use std::ops::ControlFlow;
 
 /// A search for the least distance, which proves that each pair stays at least as far apart as the least distance found

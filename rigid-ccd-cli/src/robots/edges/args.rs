@@ -74,14 +74,18 @@ pub(crate) const DEFAULT_PATH_TOLERANCE: f64 = 1e-4;
 
 /// The questions of `--ask`.
 const QUESTIONS: &Named<Question> = &[
-    ("is-free", Question::AnyContact, "Does nothing touch?"),
     (
-        "first-contact",
+        Question::AnyContact.name(),
+        Question::AnyContact,
+        "Does nothing touch?",
+    ),
+    (
+        Question::FirstContact.name(),
         Question::FirstContact,
         "What touches first, and where?",
     ),
     (
-        "closest-approach",
+        Question::ClosestApproach.name(),
         Question::ClosestApproach,
         "How near does any pair come?",
     ),

@@ -5,12 +5,12 @@
 //! stretch there is a gap, or the next stretch follows.
 
 use super::Search;
+use crate::path::stretch::{StepResult, Stretch};
 use crate::solver::Goal;
 use crate::solver::constant_step::ConstantStep;
 use crate::solver::curved_link::PathSection;
 use crate::solver::measure::{DistanceVerdict, Thresholds, measure};
 use crate::solver::part_pairs::PartPair;
-use crate::solver::stretch::{StepResult, Stretch};
 use crate::tuning::MAX_START_STRETCHES;
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::answer::Limit;

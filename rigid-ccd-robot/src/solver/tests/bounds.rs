@@ -1,10 +1,10 @@
 //! Tests the bounds on which the search relies: rounding of frames, and displacements of parts.
 
 use super::*;
+use crate::cell::rounding::point_error_bound;
+use crate::kinematics::Kinematics;
+use crate::kinematics::magnitude::Magnitude;
 use crate::solver::displacement::DisplacementBounds;
-use crate::solver::kinematics::Kinematics;
-use crate::solver::magnitude::Magnitude;
-use crate::solver::rounding::point_error_bound;
 use rigid_ccd::oracle::Frame;
 
 /// Tests that frames are as near to the poses of links as the bound on rounding says, and that the bound is not a million

@@ -3,7 +3,7 @@
 use super::*;
 use crate::joint_curve::JointCurve;
 use crate::path::PathSource;
-use crate::solver::joint_path::JointPath;
+use crate::path::joint_path::JointPath;
 use rigid_ccd::answer::Limit;
 use std::time::Duration;
 

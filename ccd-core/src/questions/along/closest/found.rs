@@ -1,14 +1,14 @@
 //! The results so far of a search for the closest approach along trajectories.
 
 use crate::answer::{Answer, Contact, Limit, Outcome, Overlap, Unresolved};
+use crate::engine::shortcuts::bounding_volumes::least_distance;
 use crate::error::InputError;
 use crate::math::order::{greater, lesser};
+use crate::motion::span::Span;
 use crate::query::Query;
-use crate::query::span::Span;
 use crate::questions::along::motions::StretchMotions;
 use crate::questions::along::stretches::WaitingStretches;
 use crate::questions::closest::ladder::{LowerBoundAttempts, MarginQuery};
-use crate::shortcuts::bounding_volumes::least_distance;
 use crate::tuning::MIN_CUT_LENGTH_SHARE;
 
 impl Query<'_> {

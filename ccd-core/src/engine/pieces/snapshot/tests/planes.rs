@@ -1,10 +1,11 @@
 //! Tests which planes give the free time of two pieces, and how the work is counted.
 
 use super::super::*;
+use crate::answer::Effort;
 use crate::body::Body;
 #[cfg(feature = "hull-tree")]
 use crate::body::polytope::Polytope;
-use crate::distance::oracle::{Claim, Effort, GiveUpReason};
+use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;

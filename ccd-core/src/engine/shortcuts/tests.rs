@@ -1,6 +1,5 @@
 //! Tests that answers with and without each shortcut agree, and that each shortcut saves work in its scene.
 
-use super::*;
 use crate::answer::{Answer, Outcome};
 use crate::body::Body;
 use crate::engine::answer::EngineSchedule;
@@ -9,6 +8,7 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::schedule::BestFirst;
 use crate::settings::Settings;
+use crate::settings::{Shortcut, Shortcuts};
 use crate::tests::nearest::Triangle;
 use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{SceneKind, body, distance, rng, scene, sheet};
@@ -181,7 +181,7 @@ fn each_shortcut_saves_the_work_that_is_documented() {
         .fold(Shortcuts::ALL, |left, &each| left.without(each));
     let measured = Shortcut::ALL.map(|shortcut| {
         let ([a, b], [of_a, of_b], tolerance) = scene_of(shortcut);
-        [none, Shortcuts(1 << shortcut as u8)].map(|shortcuts| {
+        [none, Shortcuts::only(shortcut)].map(|shortcuts| {
             let settings = Settings {
                 tolerance,
                 shortcuts,

@@ -1,6 +1,7 @@
 //! Compares the intervals of profiles with exact values at the corners of a triangle.
 
 use super::{NodeScrewBounds, ScrewAxis};
+use crate::engine::shortcuts::placed::PlacedNode;
 use crate::math::order::greater;
 use crate::math::vector::{length, unit};
 use crate::motion::Motion;
@@ -8,7 +9,6 @@ use crate::motion::pose::Pose;
 use crate::problem::Problem;
 use crate::rounding::profile_rounding;
 use crate::settings::Settings;
-use crate::shortcuts::placed::PlacedNode;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::body;
 use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};

@@ -1,8 +1,8 @@
 //! The rounding of poses that are computed along an edge.
 
-use super::kinematics::Kinematics;
-use super::magnitude::Magnitude;
-use crate::cell::part::HullPart;
+use super::part::HullPart;
+use crate::kinematics::Kinematics;
+use crate::kinematics::magnitude::Magnitude;
 use ccd_core::order::greater;
 
 /// Half the distance of 1 to the next number.

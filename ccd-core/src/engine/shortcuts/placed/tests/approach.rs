@@ -1,12 +1,12 @@
 //! Compares rates and second derivatives of two triangles with double-double arithmetic.
 
+use crate::engine::shortcuts::placed::{ApproachRateBounds, PlacedNode};
 use crate::math::vector::{length, unit};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::RATE_ERROR_F64;
 use crate::settings::Settings;
-use crate::shortcuts::placed::{ApproachRateBounds, PlacedNode};
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{body, random_rotation};
 use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};

@@ -1,7 +1,9 @@
 //! The frames of all moving links at one configuration.
 
-use super::magnitude::Magnitude;
+pub(crate) mod magnitude;
+
 use crate::robot::{PositionSource, Robot};
+use magnitude::Magnitude;
 use rigid_ccd::Pose;
 use rigid_ccd::glam::{DMat3, DVec3};
 use rigid_ccd::oracle::Frame;

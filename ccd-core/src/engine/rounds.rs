@@ -7,16 +7,15 @@
 //! differ by too much, some are searched in full, ever more of them in a row. The work therefore depends on how much
 //! the distances change, and not on the number of turns.
 
-use super::Shortcut;
 use crate::answer::{Contact, Limit, Outcome, Separation};
 use crate::engine::meter::Meter;
+use crate::engine::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::length;
 use crate::motion::period::{PathWithRadius, Period};
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::{TURN_COUNT_WIDENING, least_tolerance, position_rounding};
-use crate::settings::StartPolicy;
-use crate::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
+use crate::settings::{Shortcut, StartPolicy};
 use crate::tuning::{
     MAX_PERIOD_DISTANCE_CHANGE_SHARE, MAX_SCREW_DRIFT, MAX_SEARCHED_DURATION_SHARE,
 };

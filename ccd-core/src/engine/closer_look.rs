@@ -2,13 +2,14 @@
 //!
 //! These bounds are computed only where splits would prove little.
 
-use super::screw::Screw;
-use super::{Shortcut, flat_nodes};
 use crate::engine::meter::Meter;
 use crate::engine::nodes::siblings::Siblings;
 use crate::engine::nodes::split::Split;
+use crate::engine::shortcuts::flat_nodes;
+use crate::engine::shortcuts::screw::Screw;
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::GAP_ERROR_PER_RADIUS_F32;
+use crate::settings::Shortcut;
 use crate::tuning::{F64_FALLBACK_THRESHOLD, MAX_NEWTON_STEPS, SPLITS_BEFORE_SCREW};
 
 /// Computes tighter bounds for single pairs of nodes of a query, where splitting nodes would prove little.

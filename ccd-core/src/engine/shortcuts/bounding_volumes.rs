@@ -4,13 +4,13 @@
 //! A path with a constant acceleration is within an eighth of that acceleration from the straight path between its
 //! ends.
 
-use super::Shortcut;
 use super::placed::{ApproachRateBounds, PlacedNode, centre_approach_rate};
 use crate::answer::Outcome;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
 use crate::problem::{BodyWithPath, Problem};
 use crate::rounding::RATE_ERROR_F64;
+use crate::settings::Shortcut;
 use crate::tuning::ALTERNATING_PROJECTION_COUNT;
 use glam::DVec3;
 

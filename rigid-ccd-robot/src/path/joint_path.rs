@@ -3,11 +3,11 @@
 //! Between two configurations of a path all joints move at constant rates: the polynomials are of degree 1. A
 //! [`JointCurve`] has polynomials of a higher degree.
 
-use super::kinematics::{Kinematics, MovingJoint};
-use super::magnitude::Magnitude;
-use super::rounding::U;
 use super::stretch::Stretch;
+use crate::cell::rounding::U;
 use crate::joint_curve::JointCurve;
+use crate::kinematics::magnitude::Magnitude;
+use crate::kinematics::{Kinematics, MovingJoint};
 use crate::path_point::PathPoint;
 use crate::polynomial::{EXTENDED_PRECISION_ERROR, Polynomial};
 use ccd_core::double_double::DoubleDouble;

@@ -1,16 +1,4 @@
-//! Optional shortcuts of the search. In a certain kind of scene, each proves at once what the search would prove in
-//! many steps. No answer depends on them.
-//!
-//! The README of this folder has the scene that needs each of them, and what it saves there.
-
-pub(crate) mod bounding_volumes;
-pub(crate) mod closer_look;
-mod flat_nodes;
-mod placed;
-pub(crate) mod rounds;
-pub(crate) mod screw;
-pub(crate) mod turning_nodes;
-pub(crate) mod turning_pieces;
+//! Which shortcuts of the search a query uses.
 
 /// A shortcut of the search, which can be turned off to measure its benefit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,6 +57,12 @@ impl Shortcuts {
         Shortcuts(self.0 & !(1 << shortcut as u8))
     }
 
+    /// Returns the set of one shortcut.
+    #[cfg(test)]
+    pub(crate) fn only(shortcut: Shortcut) -> Self {
+        Shortcuts(1 << shortcut as u8)
+    }
+
     /// Returns whether the set contains a shortcut.
     #[inline]
     pub const fn contains(self, shortcut: Shortcut) -> bool {
@@ -81,6 +75,3 @@ impl Default for Shortcuts {
         Shortcuts::ALL
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,6 +1,7 @@
 //! Translates answers about the triangulated surfaces of convex bodies to the bodies that the caller gave.
 
-use super::meeting::common_normal;
+mod common_normal;
+
 use crate::answer::{Contact, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::support_gap;
@@ -12,6 +13,7 @@ use crate::math::vector::{distance, unit};
 use crate::problem::Problem;
 use crate::rounding::{MIN_APPROACH_PER_ROUNDING, is_direction_uncertain};
 use crate::settings::ContactNormals;
+use common_normal::common_normal;
 
 /// Translates the contacts of an outcome from triangulated surfaces to the bodies that the caller gave. The normal, the
 /// nearest points and the bounds of a contact are those of the pieces that it names.
