@@ -161,7 +161,8 @@ impl<'a> Query<'a> {
         Query::with_query_settings(a.into(), b.into(), duration, settings.to_query_settings())
     }
 
-    /// Returns the query about the bodies at rest, where they are at the start.
+    /// Returns the query about the bodies at rest, where they are at the start. Along trajectories the bodies are at
+    /// [`Trajectory::pose`]; the deviation of that pose is not included.
     ///
     /// # Errors
     /// Those of trajectories, and those of [`Query::new`] for the poses at the start.
@@ -215,6 +216,11 @@ impl<'a> Query<'a> {
             problem.deadline = deadline;
         }
         self
+    }
+
+    /// Returns the duration.
+    pub fn duration(&self) -> f64 {
+        self.duration
     }
 
     /// Returns the tolerance of the answer: the requested one, or the least that can be certified in f64 at the

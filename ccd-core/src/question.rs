@@ -19,7 +19,7 @@ pub enum Question {
 }
 
 impl Question {
-    /// All questions, in the order in which lists of them are shown.
+    /// All questions about two bodies. Those about a path are fewer.
     pub const ALL: [Question; 5] = [
         Question::FirstContact,
         Question::AnyContact,
@@ -28,8 +28,8 @@ impl Question {
         Question::Distance,
     ];
 
-    /// Returns the question's name in commands and tables. A program asks whether there is any contact to know whether a motion is
-    /// free: that is the name of this question.
+    /// Returns the question's name in commands and tables. [`AnyContact`](Question::AnyContact) is named after what programs ask it
+    /// for.
     ///
     /// ```
     /// assert_eq!(ccd_core::Question::AnyContact.name(), "is-free");

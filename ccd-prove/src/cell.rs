@@ -182,6 +182,8 @@ impl<'c> ProvenCell<'c> {
     /// first contact, and two points that are near each other there. A segment at whose start bodies touch, or one is in another, is
     /// left out, unless their surfaces are apart there by less than the tolerance.
     ///
+    /// `answer` is that about the first contact.
+    ///
     /// # Errors
     /// [`PathNotProven`].
     pub fn prove_path<C: AsRef<[f64]>>(
@@ -201,6 +203,8 @@ impl<'c> ProvenCell<'c> {
         answer: &'p PathAnswer<'_>,
         settings: &'p Settings,
     ) -> impl Iterator<Item = Result<Proof, PathNotProven>> + 'p {
+        let is_of_first_contact = answer.is_free_until_contact();
+        let refused = (!is_of_first_contact).then_some(Err(PathNotProven::NoFirstContact));
         let is_free = matches!(answer.outcome, PathOutcome::Free);
         let end = (!is_free).then_some(answer.free_until);
         let last = end.map_or(usize::MAX, |end| end.segment);
@@ -215,6 +219,7 @@ impl<'c> ProvenCell<'c> {
                     .transpose()
             });
         let mut has_failed = false;
+        let proofs = refused.into_iter().chain(proofs);
         proofs.take_while(move |proof| !std::mem::replace(&mut has_failed, proof.is_err()))
     }
 

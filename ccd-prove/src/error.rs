@@ -82,6 +82,9 @@ pub enum PathNotProven {
     /// The path does not fit the robot.
     #[error(transparent)]
     Robot(#[from] RobotError),
+    /// The answer is to another question than that about the first contact.
+    #[error("the answer is not one about the first contact: only such are proven")]
+    NoFirstContact,
     /// A segment of the path cannot be proven.
     #[error("segment {segment}: {reason}")]
     Segment {

@@ -9,7 +9,7 @@ use crate::status::Failure;
 use rigid_ccd::Question;
 use rigid_ccd::glam::DVec3;
 use rigid_ccd_robot::evidence::RecordedAnswer;
-use rigid_ccd_robot::{PathAnswer, PathContact, PathOutcome};
+use rigid_ccd_robot::{PathAnswer, PathContact, PathOutcome, PathPoint};
 
 /// An answer about a path. Numbers that the outcome does not have are NaN, and names are null.
 #[repr(C)]
@@ -88,16 +88,20 @@ impl RccdPathAnswer {
                 ..found
             };
         }
-        let (segment, share) = match outcome {
-            PathOutcome::Contact(contact) => (contact.at.segment, contact.at.share),
+        let PathPoint { segment, share } = answer.free_until;
+        match outcome {
+            PathOutcome::Contact(_) => found,
             // All of the last segment, also if the robot rests and passes no share of any.
-            PathOutcome::Free => (answer.free_until.segment, 1.0),
-            _ => (answer.free_until.segment, answer.free_until.share),
-        };
-        RccdPathAnswer {
-            segment,
-            share,
-            ..found
+            PathOutcome::Free => RccdPathAnswer {
+                segment,
+                share: 1.0,
+                ..found
+            },
+            _ => RccdPathAnswer {
+                segment,
+                share,
+                ..found
+            },
         }
     }
 
@@ -130,12 +134,14 @@ impl RccdPathAnswer {
     /// `answer` is null or points to an answer of this library, whose solver lives.
     pub(crate) unsafe fn record(answer: *const RccdPathAnswer) -> Result<RecordedAnswer, Failure> {
         // SAFETY: the contract of this function. Outcome and limit are read as numbers, for the caller may have set any.
-        let (segment, share, outcome, limit, [a, b]) = unsafe {
+        // Only an answer about a distance has bounds without a contact.
+        let (segment, share, lower, outcome, limit, [a, b]) = unsafe {
             check_place("answer", answer.cast_mut())?;
             growing::size_of_place("answer", answer.cast_mut())?;
             (
                 (*answer).segment,
                 (*answer).share,
+                (*answer).lower,
                 (&raw const (*answer).outcome).cast::<i32>().read(),
                 (&raw const (*answer).limit).cast::<i32>().read(),
                 [(*answer).item_a, (*answer).item_b],
@@ -151,7 +157,7 @@ impl RccdPathAnswer {
                 share,
                 items,
             })
-        } else if outcome == RccdOutcome::Unresolved as i32 {
+        } else if outcome == RccdOutcome::Unresolved as i32 && lower.is_nan() {
             let limit = RccdLimit::name_of(limit);
             Ok(RecordedAnswer::Unresolved {
                 limit,

@@ -259,6 +259,9 @@ pub enum PathError {
         /// The setting, and which questions take it.
         setting: &'static str,
     },
+    /// An answer about a distance was asked for its contact.
+    #[error("the answer is a distance, which knows no margin: ask for a contact")]
+    NoContactAsked,
     /// A question is none about paths.
     #[error("{question} is no question about a path")]
     UnsupportedQuestion {

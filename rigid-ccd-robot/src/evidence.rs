@@ -154,24 +154,23 @@ impl TryFrom<&PathAnswer<'_>> for RecordedAnswer {
     type Error = EvidenceError;
 
     fn try_from(answer: &PathAnswer<'_>) -> Result<Self, EvidenceError> {
+        if !answer.is_free_until_contact() {
+            return Err(EvidenceError::NoFirstContact);
+        }
         let PathPoint { segment, share } = answer.free_until;
         match &answer.outcome {
             PathOutcome::Free => Ok(RecordedAnswer::Free),
-            PathOutcome::Contact(contact) if contact.at == answer.free_until => {
-                Ok(RecordedAnswer::Contact {
-                    segment,
-                    share,
-                    items: contact.items.map(|item| item.name().to_owned()),
-                })
-            }
+            PathOutcome::Contact(contact) => Ok(RecordedAnswer::Contact {
+                segment,
+                share,
+                items: contact.items.map(|item| item.name().to_owned()),
+            }),
             PathOutcome::Unresolved(known) => Ok(RecordedAnswer::Unresolved {
                 limit: known.limit.to_string(),
                 segment,
                 share,
             }),
-            PathOutcome::Contact(_) | PathOutcome::LeastDistance { .. } => {
-                Err(EvidenceError::NoFirstContact)
-            }
+            PathOutcome::LeastDistance { .. } => Err(EvidenceError::NoFirstContact),
         }
     }
 }

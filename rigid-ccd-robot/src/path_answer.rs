@@ -1,6 +1,7 @@
 //! The answer to a question about a path: one type for all questions.
 
 use crate::cell::Item;
+use crate::error::PathError;
 use crate::path_point::PathPoint;
 use rigid_ccd::Error;
 use rigid_ccd::answer::{ClearanceVerdict, Feature, Limit, Unresolved};
@@ -12,14 +13,14 @@ pub struct PathAnswer<'c> {
     /// Free, a contact, a distance, or the limit that ended the search.
     pub outcome: PathOutcome<'c>,
     /// Nothing touches before this point: the end of a free path, the point of a first contact, or what was proven when a limit was
-    /// reached. It is the start of the path if another contact or a distance was asked for, unless the whole path is free.
+    /// reached. It is the start of the path for any other contact, and for a distance, which knows no margin.
     pub free_until: PathPoint,
     /// The tolerance that the answer meets. It is that of the settings, unless the rounding of positions allows only a larger one:
     /// far from the base, or after thousands of turns.
     ///
     /// A contact is within this distance beyond the margin. The bounds of a least distance differ by at most as much, and by what
-    /// the nearest bodies [exceed](rigid_ccd::Body::excess) their shapes by. Both hold to within a thousandth of the tolerance. That
-    /// nothing touches holds without any tolerance.
+    /// the nearest bodies [exceed](rigid_ccd::Body::excess) their shapes by, unless a limit is reached. Both hold to within a
+    /// thousandth of the tolerance. That nothing touches holds without any tolerance.
     pub tolerance: f64,
 }
 
@@ -28,7 +29,7 @@ pub struct PathAnswer<'c> {
 /// | question | outcomes |
 /// |---|---|
 /// | first contact, any contact | free, contact, unresolved |
-/// | closest approach, distance | least distance, unresolved |
+/// | closest approach | least distance, unresolved |
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum PathOutcome<'c> {
@@ -80,19 +81,28 @@ pub struct PathContact<'c> {
 }
 
 impl<'c> PathAnswer<'c> {
+    /// Returns whether nothing touches before what was found: that is so for the answer about the first contact, and for no answer
+    /// about a distance.
+    pub fn is_free_until_contact(&self) -> bool {
+        match &self.outcome {
+            PathOutcome::Free | PathOutcome::Unresolved(_) => true,
+            PathOutcome::Contact(contact) => contact.at == self.free_until,
+            PathOutcome::LeastDistance { .. } => false,
+        }
+    }
+
     /// Returns the contact; `None` if the path is free.
     ///
     /// # Errors
-    /// [`Error::Unresolved`] if a limit was reached first.
-    pub fn contact(&self) -> Result<Option<PathContact<'c>>, Error> {
+    /// [`Error::Unresolved`] if a limit was reached first, and [`PathError::NoContactAsked`] for a distance.
+    pub fn contact(&self) -> Result<Option<PathContact<'c>>, PathError> {
         match self.outcome {
             PathOutcome::Free => Ok(None),
             PathOutcome::Contact(contact) => Ok(Some(contact)),
-            // A lower bound that is NaN excludes no contact.
-            PathOutcome::LeastDistance { lower, .. } if lower > 0.0 => Ok(None),
-            PathOutcome::LeastDistance { nearest, .. } => Ok(nearest),
+            PathOutcome::LeastDistance { .. } => Err(PathError::NoContactAsked),
             PathOutcome::Unresolved(known) => {
-                Err(Unresolved::from_safe_until(self.free_until.time(), known.limit).into())
+                let known = Unresolved::from_safe_until(self.free_until.time(), known.limit);
+                Err(Error::from(known).into())
             }
         }
     }
@@ -153,3 +163,6 @@ impl<'c> PathOutcome<'c> {
         ClearanceVerdict::from_bounds([self.lower(), self.upper()], required)
     }
 }
+
+#[cfg(test)]
+mod tests;

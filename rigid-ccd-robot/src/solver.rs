@@ -196,15 +196,7 @@ impl<'c> CellSolver<'c> {
         let end = PathPoint::from_path_position(segments as f64, segments);
         let limit = found.limit_reached;
         let (outcome, free_until) = match (goal, limit, found.nearest) {
-            (Goal::LeastDistance, ..) => {
-                let outcome = self.measured_distance()?;
-                let free_until = if outcome.lower() > 0.0 {
-                    end
-                } else {
-                    PathPoint::START
-                };
-                (outcome, free_until)
-            }
+            (Goal::LeastDistance, ..) => (self.measured_distance()?, PathPoint::START),
             (Goal::FirstContact, Some((limit, until)), _) => {
                 let free_until = PathPoint::from_path_position(until, segments);
                 (PathOutcome::unresolved_contact(limit), free_until)

@@ -248,7 +248,7 @@ impl<O: DistanceOracle> Solver<O> {
         self.closest_approach(a, b, 0.0)
     }
 
-    /// Answers a question that is chosen at run time, as the method of that question does.
+    /// Answers a question that is chosen at run time, as the method of that question does. A distance is that at the start.
     ///
     /// # Errors
     /// Those of [`Solver::first_contact`].
@@ -278,7 +278,7 @@ impl<O: DistanceOracle> Solver<O> {
     /// Answers a question about the bodies of a query, with the settings of the query instead of the solver's.
     ///
     /// # Errors
-    /// Those of trajectories.
+    /// Those of trajectories, and for a distance those of [`Query::at_start`].
     pub fn answer_query(
         &mut self,
         question: Question,

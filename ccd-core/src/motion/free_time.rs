@@ -15,7 +15,7 @@ impl FreeTime {
     /// Nothing is proven.
     pub(crate) const NONE: FreeTime = FreeTime::AtLeast(0.0);
 
-    /// Makes the free time of a time; it is up to the end if that is not beyond it.
+    /// Makes a free time of a time; it is up to the end if the time reaches that.
     #[inline]
     pub(crate) fn up_to(time: f64, end: f64) -> Self {
         // Written so that NaN is not up to the end.

@@ -127,7 +127,7 @@ fn write_vector(vector: DVec3, numbers: &mut [f64]) {
 }
 
 /// Returns the kind of a feature, in the order in which [`Feature`] lists them, and its numbers.
-pub(crate) fn feature_numbers(feature: Feature) -> [f64; 3] {
+fn feature_numbers(feature: Feature) -> [f64; 3] {
     let [kind, one, other] = match feature {
         Feature::Vertex(vertex) => [0, vertex, 0],
         Feature::Edge(one, other) => [1, one, other],

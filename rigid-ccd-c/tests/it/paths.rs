@@ -284,6 +284,9 @@ fn records_of_answers_are_replayed_in_rust() {
     answer.outcome = RccdOutcome::Unresolved;
     answer.limit = RccdLimit::Deadline;
     answer.share *= 0.5;
+    // With bounds it would be an answer about a distance.
+    assert_eq!(write(&through(&edge), &answer), RccdStatus::InvalidArgument);
+    [answer.lower, answer.upper] = [f64::NAN; 2];
     ok(write(&through(&edge), &answer));
     let expected = RecordedAnswer::Unresolved {
         limit: "deadline".to_owned(),

@@ -5,6 +5,7 @@ use crate::cell::Cell;
 use crate::joint_curve::JointCurve;
 use crate::pairs::LinkPairs;
 use crate::path::Path;
+use crate::path_point::PathPoint;
 use crate::robot::{Joint, Link, PositionRule, Robot};
 use rigid_ccd::{Body, Pose, Settings, trajectory};
 use std::time::Duration;
@@ -199,4 +200,13 @@ fn only_first_contacts_are_recorded() {
         let recorded = RecordedAnswer::try_from(&answer);
         assert!(matches!(recorded, Err(EvidenceError::NoFirstContact)));
     }
+    // What a limit left of a distance says nothing of contacts.
+    let mut spent = cell.solver().with_settings(Settings {
+        deadline: Some(Duration::ZERO),
+        ..Settings::DEFAULT
+    });
+    let unresolved = spent.closest_approach(&path).unwrap();
+    assert!(unresolved.outcome.limit().is_some());
+    let recorded = RecordedAnswer::try_from(&unresolved).unwrap();
+    assert_eq!(recorded.free_until(), Some(PathPoint::START));
 }

@@ -140,9 +140,12 @@ impl Search<'_> {
         match outcome.hit() {
             Ok(None) => Continue(()),
             Ok(Some(hit)) => {
-                self.result.limit_reached = None;
+                let at = open.point(hit.time);
+                if at <= self.result.end {
+                    self.result.limit_reached = None;
+                }
                 let beyond = self.distance_beyond_margin(&open.pair, outcome);
-                self.keep_contact(&open.pair, open.point(hit.time), beyond)
+                self.keep_contact(&open.pair, at, beyond)
             }
             Err(known) => {
                 let until = match self.goal {

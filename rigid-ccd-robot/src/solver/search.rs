@@ -467,15 +467,17 @@ impl<'c> Search<'c> {
     }
 
     /// Keeps a contact of a pair at a point, at a distance of at most the margin and the tolerance, or a distance beyond the
-    /// margin. The search ends unless an earlier contact is looked for.
+    /// margin, unless an earlier contact is known. The search ends unless an earlier one is looked for.
     pub(super) fn keep_contact(
         &mut self,
         pair: &PartPair,
         at: f64,
         distance_beyond_margin: f64,
     ) -> ControlFlow<()> {
-        // Nothing behind the earliest contact is searched.
-        debug_assert!(at <= self.result.end, "{at} is behind {}", self.result.end);
+        // A pair that was let go may have touched earlier, at a point that is no middle of a stretch.
+        if at > self.result.end {
+            return Continue(());
+        }
         self.result.distance_beyond_margin = distance_beyond_margin;
         self.result.nearest = Some((at, *pair));
         let parts = self.cell.parts();

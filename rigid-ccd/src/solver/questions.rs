@@ -58,6 +58,9 @@ impl<O: DistanceOracle> Engine<O> {
             Question::AnyContact => (ask.any_contact)(depth_first, query, oracle),
             Question::ContactInterval => (ask.contact_interval)(best_first, query, oracle),
             Question::ClosestApproach => (ask.closest_approach)(depth_first, query, oracle),
+            Question::Distance if query.duration() == 0.0 => {
+                (ask.closest_approach)(depth_first, query, oracle)
+            }
             Question::Distance => (ask.closest_approach)(depth_first, &query.at_start()?, oracle),
         }
     }

@@ -256,7 +256,7 @@ impl<C: Default + Clone> Pair<C> {
         PairStep::Contact(contact(snapshot, self.pieces(), checked))
     }
 
-    /// Returns the goal of a pair that is in contact at the start, if that contact is to be ignored; `None` if it
+    /// Returns the rule for a pair that is in contact at the start, if that contact is to be ignored; `None` if it
     /// counts.
     fn rule_ignoring_start_contact<O: DistanceOracle<Cache = C>>(
         &self,

@@ -233,7 +233,10 @@ impl<'p> Snapshot<'p> {
             (Facing::Unclear, _) | (_, Facing::Unclear) => FreeTime::NONE,
             (Facing::OutwardNormal(n), Facing::OutwardNormal(m)) => match -(turn * m) {
                 // The solids are on the same side of the plane: their faces slide, and cannot meet.
-                into_b if n.dot(into_b) < 0.0 => along(n).or_longer(|_| along(into_b)),
+                into_b if n.dot(into_b) < 0.0 => {
+                    let other = along(into_b);
+                    along(n).or_longer(|_| other)
+                }
                 _ => along(n),
             },
             (Facing::OutwardNormal(n), Facing::NoOutwardSide) => along(n),
@@ -286,7 +289,7 @@ impl<'p> Snapshot<'p> {
         })
     }
 
-    /// Like [`Snapshot::fixed_plane_free_time`], with planes that turn with one of the bodies. Returns 0 if such a plane is
+    /// Like [`Snapshot::fixed_plane_free_time`], with planes that turn with one of the bodies. Returns [`FreeTime::NONE`] if such a plane is
     /// not worth trying: the rotation of that body does not use up the slack within `free`.
     pub(crate) fn turning_plane_free_time(
         &self,

@@ -471,6 +471,75 @@ fn limits_leave_a_start_that_is_free() {
     }
 }
 
+/// Returns a can on slides along x and z, on a table, with a wall from x = `from` to `to`.
+fn can_before_wall(from: f64, to: f64) -> Cell {
+    let slides = [
+        ("x", "base", "cart", [1.0, 0.0, 0.0]),
+        ("z", "cart", "can", [0.0, 0.0, 1.0]),
+    ];
+    let joints = slides.map(|(name, parent, child, axis)| Joint {
+        name: name.into(),
+        parent: parent.into(),
+        child: child.into(),
+        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, axis).unwrap(),
+        position_rule: PositionRule::Independent,
+    });
+    let can = Body::cuboid([0.05, 0.05, 0.05]).unwrap();
+    let links = vec![
+        Link::named("base"),
+        Link::named("cart"),
+        Link::named("can").with_body(can, Pose::IDENTITY),
+    ];
+    let robot = Robot::new(links, joints.into()).unwrap();
+    let pairs = LinkPairs::from_robot(&robot);
+    let mut cell = Cell::new(robot, pairs);
+    let half = [0.5 * (to - from), 1.0, 1.0];
+    for (name, half, at) in [
+        ("table", [9.0, 9.0, 1.0], [0.0, 0.0, -1.05]),
+        ("wall", half, [0.5 * (from + to), 0.0, 1.2]),
+    ] {
+        let (body, pose) = (Body::cuboid(half).unwrap(), Pose::at(at).unwrap());
+        cell.add_obstacle(name, body, pose).unwrap();
+    }
+    cell
+}
+
+/// Tests that a pair that was let go and a pair that was not are told in the order of their contacts. The search for one of them
+/// meets, in the middle of a stretch, a contact behind that of the other.
+#[test]
+fn of_a_pair_let_go_and_another_one_the_first_contact_is_told() {
+    let (high, low) = (0.3, -0.05);
+    // It hits a thin wall on its way down into the table; it sinks into the table before a thick wall.
+    for (wall, path, item, expected) in [
+        (
+            [0.5, 0.51],
+            vec![
+                [0.0, 0.0],
+                [0.0, high],
+                [0.0, high],
+                [1.0, -0.01],
+                [1.0, -0.01],
+            ],
+            "wall",
+            2.45,
+        ),
+        (
+            [0.5, 3.0],
+            vec![[0.0, 0.0], [0.1, 0.0], [1.0, low], [1.0, low], [1.0, low]],
+            "table",
+            1.0,
+        ),
+    ] {
+        let cell = can_before_wall(wall[0], wall[1]);
+        let mut solver = cell.solver().with_settings(leave());
+        let answer = solver.first_contact(&path).unwrap();
+        let contact = answer.contact().unwrap().unwrap();
+        assert_eq!(contact.items.map(Item::name), ["can", item], "{answer:?}");
+        assert!((contact.at.time() - expected).abs() < 0.02, "{answer:?}");
+        assert!(!solver.is_free(&path).unwrap());
+    }
+}
+
 /// Tests that letting go allocates nothing once a solver has answered the like.
 #[test]
 fn letting_go_keeps_its_memory() {

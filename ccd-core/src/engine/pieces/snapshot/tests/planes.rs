@@ -81,7 +81,7 @@ fn looks_of_an_oracle_are_its_steps_or_else_points() {
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (2, 1));
 }
 
-/// Converts a free time to a number; `None`, an unbounded time, becomes infinity.
+/// Converts a free time to a number; up to the end, an unbounded time, becomes infinity.
 fn free_time_or_infinity(free: FreeTime) -> f64 {
     free.bounded().unwrap_or(f64::INFINITY)
 }
