@@ -37,11 +37,10 @@ pub(crate) struct ClaimedFiles {
 impl ClaimedFiles {
     /// Reserves the files of the table of results and, if `--contacts` is given, of the table of contacts.
     pub(crate) fn claim(files: &RunFiles<'_>) -> Result<Self> {
-        let contacts = files.contacts.map(Output::claim_table);
-        let places = ClaimedFiles {
-            results: Output::claim(files.out)?,
-            contacts: contacts.transpose()?,
-        };
+        // One after the other, and none after one that another run has: else two runs could refuse each other.
+        let results = Output::claim(files.out)?;
+        let contacts = files.contacts.map(Output::claim_table).transpose()?;
+        let places = ClaimedFiles { results, contacts };
         let streams = [Some(&places.results), places.contacts.as_ref()];
         if files.resume && streams.into_iter().flatten().any(Output::is_stream) {
             bail!("--resume needs files; give --out (and --contacts) a file name");
