@@ -94,6 +94,21 @@ fn a_proof_ends_when_it_is_stopped() {
     assert_eq!(prove(true).unwrap_err(), stopped);
 }
 
+/// Only the answer about the first contact says until where the path is free.
+#[test]
+fn answers_to_other_questions_are_not_proven() {
+    let cell = cell(block(0.1), (block(0.1), 2.0), None);
+    let path = [[0.0, 0.0], [4.0, 0.0]];
+    let proven = ProvenCell::new(&cell).unwrap();
+    let mut solver = cell.solver();
+    let any = solver.any_contact(&path).unwrap();
+    let closest = solver.closest_approach(&path).unwrap();
+    for answer in [any, closest] {
+        let refused = proven.prove_path(&path, &answer, &Settings::DEFAULT);
+        assert_eq!(refused.unwrap_err(), PathNotProven::NoFirstContact);
+    }
+}
+
 /// A pair that is let go with a gap has a proof; one that touches has none, and that is said.
 #[test]
 fn a_pair_that_is_let_go_is_proven_if_it_has_a_gap() {

@@ -1,6 +1,7 @@
 use crate::trajectory::{Ballistic, Curve, OrientationCurve, Poses, Spline};
-use crate::{Body, Motion, Pose, Settings, Solver};
+use crate::{Body, Motion, Pose, Question, Settings, Solver};
 use ccd_core::ClearanceVerdict;
+use ccd_core::MovingBody;
 use ccd_core::Outcome;
 use ccd_core::Unresolved;
 use ccd_core::glam::{DQuat, DVec3};
@@ -190,4 +191,36 @@ fn round_bodies_are_touched_when_the_true_shapes_are() {
             );
         }
     }
+}
+
+/// Tests that a distance is that at the start, whatever moves the bodies, and not the least one of the motion.
+#[test]
+fn a_distance_is_that_at_the_start() {
+    let ball = ball(0.5);
+    let (start, velocity) = ([-3.0, 0.0, 0.0], [6.0, 0.0, 0.0]);
+    let flies = Motion::new(Pose::at(start).unwrap(), velocity, [0.0; 3]).unwrap();
+    let thrown = ballistic_trajectory(start, velocity, [0.0, 0.0, -1.0]);
+    let mut solver = Solver::new();
+    let mut measure = |question, moving: MovingBody<'_>| {
+        let answer = solver.answer(question, moving, (&ball, Motion::STILL), 1.0);
+        let outcome = answer.unwrap().outcome;
+        [outcome.lower(), outcome.upper()]
+    };
+    for moving in [(&ball, flies).into(), (&ball, &thrown).into()] {
+        let [lower, upper] = measure(Question::Distance, moving);
+        assert!(
+            lower <= 2.0 && 2.0 <= upper && upper - lower < 1e-3,
+            "{lower} {upper}"
+        );
+        let [_, upper] = measure(Question::ClosestApproach, moving);
+        assert!(upper < 0.5, "{upper}");
+    }
+}
+
+#[test]
+fn questions_are_found_by_their_names() {
+    for question in Question::ALL {
+        assert_eq!(Question::from_name(question.name()), Some(question));
+    }
+    assert_eq!(Question::from_name("any-contact"), None);
 }
