@@ -13,24 +13,23 @@ type Module = Vec<String>;
 /// The modules of the same crate that each module of a crate imports.
 type Imports = BTreeMap<Module, BTreeSet<Module>>;
 
-const CRATES: [&str; 17] = [
+const CRATES: [&str; 16] = [
     "ccd-core",
     "ccd-distance-gjk",
     "ccd-distance-vmarch",
     "ccd-decomp",
-    "ccd-prove",
-    "ccd-check",
-    "ccd-file",
-    "ccd-view",
-    "ccd-web",
+    "proofs/ccd-prove",
+    "proofs/ccd-check",
+    "files/ccd-file",
+    "files/ccd-view",
     "ccd-bench",
     "rigid-ccd",
-    "rigid-ccd-cli",
-    "rigid-ccd-parry",
+    "doors/rigid-ccd-cli",
+    "doors/rigid-ccd-parry",
     "rigid-ccd-robot",
-    "rigid-ccd-c",
-    "js",
-    "python",
+    "doors/rigid-ccd-c",
+    "doors/js",
+    "doors/python",
 ];
 
 #[test]

@@ -1,18 +1,16 @@
 //! Tests that each source file that a page names exists, and each file that it links.
 
+use crate::project_files::{has_extension, project_files, project_root};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
-
-/// Folders that hold no sources of this workspace.
-const FOREIGN: [&str; 4] = ["target", "node_modules", ".git", "__pycache__"];
 
 /// A name of a source file is found if it is the end of a path below the page's folder, or of any path if the page is at the top or in
 /// `docs`. A name alone is not that of a file of tests.
 #[test]
 fn pages_name_files_that_exist() {
-    let root = fs::canonicalize(Path::new(env!("CARGO_MANIFEST_DIR")).join("..")).unwrap();
-    let files = files_below(&root, &root);
+    let root = project_root();
+    let files = project_files(&root);
     let mut names = 0;
     for page in files.iter().filter(|file| has_extension(file, "md")) {
         let text = fs::read_to_string(root.join(page)).unwrap();
@@ -49,28 +47,6 @@ fn a_missing_file_is_found() {
         "`a/b.rs` and `c.rs`, not `d.rs f` nor\n```\n`e.rs`\n```\n[x](y.md#z) [u](https://v)";
     assert_eq!(source_names(text).collect::<Vec<_>>(), ["a/b.rs", "c.rs"]);
     assert_eq!(links(text).collect::<Vec<_>>(), ["y.md"]);
-}
-
-/// Returns the files below a folder, relative to the root.
-fn files_below(root: &Path, folder: &Path) -> BTreeSet<PathBuf> {
-    let mut files = BTreeSet::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap_or_default();
-        if FOREIGN.iter().any(|foreign| name == *foreign) {
-            continue;
-        }
-        if path.is_dir() {
-            files.extend(files_below(root, &path));
-        } else {
-            files.insert(path.strip_prefix(root).unwrap().to_owned());
-        }
-    }
-    files
-}
-
-fn has_extension(file: &Path, extension: &str) -> bool {
-    file.extension().is_some_and(|found| found == extension)
 }
 
 fn is_known(files: &BTreeSet<PathBuf>, page: &Path, name: &Path) -> bool {

@@ -1,7 +1,7 @@
 //! Tests the `ccd-bench` program by running its commands and reading their output.
 
 mod chart;
-#[path = "../../../rigid-ccd-cli/tests/cli/command.rs"]
+#[path = "../../../doors/rigid-ccd-cli/tests/cli/command.rs"]
 mod command;
 mod judge;
 mod peer;

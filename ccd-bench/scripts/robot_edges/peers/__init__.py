@@ -1,7 +1,7 @@
 """One module for each program: TITLE, VERSION, and `checks`, the ways to check an edge."""
 
 INSTALL = {
-    "ours": "pip install ./python",
+    "ours": "pip install ./doors/python",
     "mujoco": "pip install 'mujoco>=4'",
     "coal": "pip install coal pin",
     "drake": "pip install drake, whose versions depend on that of Python: 1.58 is for 3.12, 1.51 for 3.11",

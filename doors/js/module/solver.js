@@ -1,0 +1,159 @@
+// Questions about two bodies.
+
+import { answerOf } from "./answer.js";
+import { bodyOf } from "./body.js";
+import { Movement } from "./movement.js";
+import { checkNames, choiceOf, settingNumber } from "./numbers.js";
+import { Owned } from "./owned.js";
+import { MOTION_LENGTH, writeMotion, writeRest } from "./places.js";
+import { classes, engine, numbersAt } from "./wasm.js";
+
+/** Places in the memory of the solver; `doors/js/src/wasm/solver.rs` has the same. */
+const TOLERANCE = 0;
+const MARGIN = 1;
+const CLEARANCE = 2;
+const BUDGET = 3;
+const DURATION = 4;
+const MOTIONS = 5;
+const ANSWER = MOTIONS + 2 * MOTION_LENGTH;
+
+/** The names of the options of a question about contacts, of one about a distance, and of one at rest. */
+const OF_CONTACTS = ["motionA", "motionB", "duration", "tolerance", "margin", "budget"];
+const OF_DISTANCES = OF_CONTACTS.filter((name) => name !== "margin");
+const AT_REST = OF_DISTANCES.filter((name) => name !== "duration");
+
+const startOf = choiceOf(["report", "leave"]);
+const PLACES = { tolerance: TOLERANCE, margin: MARGIN, budget: BUDGET, duration: DURATION };
+
+/** The engine that has the solver. */
+let home = null;
+let solver = null;
+let numbers = null;
+let defaults = null;
+
+/** The error of a question that has to be answered by yes or no, and is not. */
+export class UnresolvedError extends Error {
+  constructor(known) {
+    const proven = known.safeUntil === undefined ? `the distance is at least ${known.lower}` : `no contact before ${known.safeUntil}`;
+    super(`unresolved (${known.limit}): ${proven}, not known more; ${known.advice}`);
+    this.name = "UnresolvedError";
+    Object.assign(this, known);
+  }
+}
+
+export function firstContact(a, b, options) {
+  return ask(classes().Question.FirstContact, a, b, options, OF_CONTACTS);
+}
+
+export function anyContact(a, b, options) {
+  return ask(classes().Question.AnyContact, a, b, options, OF_CONTACTS);
+}
+
+export function isFree(a, b, options) {
+  const answer = anyContact(a, b, options);
+  if (answer.kind === "unresolved") throw unresolvedContact(answer);
+  return answer.kind === "free";
+}
+
+export function contactInterval(a, b, options) {
+  return ask(classes().Question.ContactInterval, a, b, options, OF_CONTACTS);
+}
+
+export function closestApproach(a, b, options) {
+  return ask(classes().Question.ClosestApproach, a, b, options, OF_DISTANCES);
+}
+
+export function distance(a, b, options) {
+  return ask(classes().Question.ClosestApproach, a, b, options, AT_REST);
+}
+
+export function keepsClearance(a, b, clearance, options) {
+  const answer = ask(classes().Question.KeptClearance, a, b, options, OF_DISTANCES, settingNumber(clearance, "clearance"));
+  const [lower, upper] = [numbers[ANSWER + 1], numbers[ANSWER + 2]];
+  if (lower >= clearance && lower > 0) return true;
+  if (upper < clearance || upper <= 0) return false;
+  if (answer.kind === "unresolved") throw new UnresolvedError({ limit: answer.limit, advice: answer.advice, lower, upper });
+  const excess = a.excess + b.excess;
+  const known =
+    upper - excess < clearance
+      ? { limit: "excess", advice: "the bodies exceed their shapes by more than the clearance lacks; a smaller excess may tell" }
+      : { limit: "tolerance", advice: "the distance is the clearance, to within the tolerance; a smaller tolerance may tell, but not of equal ones" };
+  throw new UnresolvedError({ ...known, lower, upper });
+}
+
+/** Returns the settings of a question about a path: tolerance, margin, 1 to leave contacts at the start or 0, and budget. Others are for the caller. */
+export function settingsOf(options, known) {
+  if (options !== undefined) checkNames(options, "options", known);
+  const settings = Float64Array.from(defaultSettings());
+  for (const name of ["tolerance", "margin", "budget"]) {
+    if (known.includes(name) && options?.[name] !== undefined) settings[PLACES[name]] = settingNumber(options[name], name);
+  }
+  settings[CLEARANCE] = options?.start !== undefined && startOf(options.start, "start") === "leave" ? 1 : 0;
+  return settings;
+}
+
+function unresolvedContact({ limit, advice, safeUntil }) {
+  return new UnresolvedError({ limit, advice, safeUntil });
+}
+
+function ask(question, a, b, options, known, clearance = 0) {
+  for (const [body, what] of [[a, "a"], [b, "b"]]) bodyOf(body, what);
+  const { given, moveA, moveB } = readOptions(options, known);
+  given[CLEARANCE] = clearance;
+  // What a getter of the caller's asks or frees is done with here.
+  solverNumbers().set(given);
+  const moves = [moveA, moveB].map((move) => move && Owned.inner(move));
+  const [bodyA, bodyB] = [bodyOf(a, "a"), bodyOf(b, "b")];
+  moves.forEach((move, k) => move && solver.move_by(k, move));
+  const kind = solver.ask(question, bodyA, bodyB);
+  return answerOf(kind, solverNumbers(), ANSWER);
+}
+
+/** Reads the options of a question about two bodies: what the solver has before its answer, and the movements of the bodies. */
+function readOptions(options, known) {
+  const given = new Float64Array(ANSWER);
+  given.set(defaultSettings());
+  given[DURATION] = NaN;
+  if (options !== undefined) checkNames(options, "options", known);
+  for (const name of known) {
+    const place = PLACES[name];
+    const value = place === undefined ? undefined : options?.[name];
+    if (value !== undefined) given[place] = settingNumber(value, name);
+  }
+  const moveA = movementOf(options?.motionA, "motionA", given, MOTIONS);
+  const moveB = movementOf(options?.motionB, "motionB", given, MOTIONS + MOTION_LENGTH);
+  if (known === AT_REST) given[DURATION] = 0;
+  else if (Number.isNaN(given[DURATION])) given[DURATION] = endOf(moveA, moveB);
+  return { given, moveA, moveB };
+}
+
+/** Returns the movement of a body; null if it has a motion, whose numbers are written. */
+function movementOf(moved, what, given, at) {
+  if (moved instanceof Movement) return moved;
+  if (moved === undefined) writeRest(given, at);
+  else writeMotion(moved, what, given, at);
+  return null;
+}
+
+/** Returns the end of paths and links; 1 if neither body moves by one. */
+function endOf(moveA, moveB) {
+  const a = moveA?.end ?? null;
+  const b = moveB?.end ?? null;
+  if (a !== null && b !== null && a !== b) throw new Error("duration: the two bodies' motions end at different times; give one");
+  return a ?? b ?? 1;
+}
+
+/** Returns the numbers of the solver. They are taken anew after the memory has grown, which empties them. */
+function solverNumbers() {
+  if (home !== engine()) {
+    solver = new (classes().Solver)();
+    [home, numbers] = [engine(), null];
+  }
+  if (numbers === null || numbers.length === 0) numbers = numbersAt(solver.numbers_address(), solver.number_count());
+  return numbers;
+}
+
+function defaultSettings() {
+  defaults ??= solverNumbers().slice(0, DURATION);
+  return defaults;
+}

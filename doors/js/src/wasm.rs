@@ -1,0 +1,36 @@
+//! The classes that the modules in `doors/js/module` wrap.
+//!
+//! Those modules check what a caller passes, and make the plain objects of answers. Numbers go through the memory of [`Solver`],
+//! because an object or an array costs more to pass than a short query takes.
+//!
+//! | file | what |
+//! |---|---|
+//! | `body` | bodies from shapes, arrays and files |
+//! | `movement`, `poses` | what moves a body: constant velocities, poses, a throw, the link of a robot |
+//! | `solver`, `answer` | questions about two bodies, and their answers as numbers |
+//! | `robot`, `cell`, `path_answer` | robots and mechanisms, and questions about their paths |
+//! | `fault` | errors as JavaScript has them |
+//! | `limits` | reasons why a question is not answered |
+//! | `host` | what JavaScript is told beside answers: remarks, and the text of a fault |
+
+mod answer;
+mod body;
+mod cell;
+mod fault;
+mod host;
+mod limits;
+mod movement;
+mod path_answer;
+mod poses;
+mod robot;
+mod solver;
+
+pub use answer::AnswerKind;
+pub use body::{Body, Mesh};
+pub use cell::Cell;
+pub use host::start;
+pub use limits::{limit_advice, limit_name};
+pub use movement::Movement;
+pub use path_answer::PathAnswer;
+pub use robot::{Robot, RobotBuilder};
+pub use solver::{Question, Solver};

@@ -1,0 +1,238 @@
+//! Bodies from shapes, arrays and files.
+
+use super::fault::Fault;
+use super::host::tell;
+use rigid_ccd::body::{SolidOfRevolution, Solidity};
+use rigid_ccd::mesh::{
+    AffineMap, Detail, Format, MeshError, MeshFault, MeshFile, TriangleMesh, Unit, body_from_mesh,
+};
+use rigid_ccd::text::Number;
+use rigid_ccd::{InputError, Pose, Remark};
+use std::sync::Arc;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// A rigid body, shared with the robots and cells that hold it.
+#[wasm_bindgen]
+#[derive(Clone, Debug)]
+pub struct Body {
+    pub(crate) body: Arc<rigid_ccd::Body>,
+    /// The largest side of its bounding box.
+    pub(crate) size: f64,
+    report: String,
+}
+
+/// A mesh that was read from a file.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Mesh {
+    mesh: TriangleMesh,
+    /// The unit of the coordinates, if it is asked for or the file states one.
+    unit: Option<Unit>,
+}
+
+#[wasm_bindgen]
+impl Mesh {
+    /// Reads a mesh in the format of its file name, converts it to a unit if it states another one, and multiplies its coordinates
+    /// by a factor.
+    ///
+    /// # Errors
+    /// What is wrong with the file, with its line or element.
+    pub fn read(name: &str, bytes: &[u8], scale: f64, unit: Option<String>) -> Result<Self, Fault> {
+        let in_file = |fault: MeshFault| Fault::plain(format!("{name}: {fault}"));
+        let asked = unit.map(|unit| unit.parse::<Unit>()).transpose()?;
+        let format = Format::from_path(name).map_err(in_file)?;
+        let read = || {
+            let file = MeshFile::from_reader(format, bytes)?;
+            let file = match asked {
+                Some(unit) => file.converted_to_unit(unit),
+                None => file,
+            };
+            let (unit, mesh) = (file.unit(), file.into_mesh()?);
+            let is_scaled = scale != 1.0;
+            let map = AffineMap::from_scale_and_pose(scale, Pose::IDENTITY);
+            let mesh = if is_scaled {
+                mesh.transformed(map)?
+            } else {
+                mesh
+            };
+            // Of other numbers the unit is the caller's.
+            Ok(Mesh {
+                mesh,
+                unit: unit.filter(|_| !is_scaled),
+            })
+        };
+        let made = read().map_err(|error: MeshError| in_file(error.fault))?;
+        if asked.is_none() {
+            tell(Remark::remark_on_unit(made.unit));
+        }
+        Ok(made)
+    }
+
+    /// Returns the unit of the coordinates; `None` if the file states none.
+    pub fn unit(&self) -> Option<String> {
+        self.unit.map(|unit| unit.to_string())
+    }
+
+    /// Returns the vertices, three numbers each.
+    pub fn positions(&self) -> Vec<f64> {
+        let vertices = self.mesh.vertices().iter();
+        vertices.flat_map(|vertex| vertex.to_array()).collect()
+    }
+
+    /// Returns the triangles, three vertex numbers each.
+    pub fn indices(&self) -> Vec<u32> {
+        self.mesh.faces().concat()
+    }
+}
+
+#[wasm_bindgen]
+impl Body {
+    /// Makes a body of vertices, three numbers each, and of triangles, three vertex numbers each.
+    ///
+    /// # Errors
+    /// The first vertex or triangle that is not valid.
+    pub fn from_mesh(
+        positions: &[f64],
+        indices: &[u32],
+        pieces: &str,
+        is_surface: bool,
+    ) -> Result<Self, Fault> {
+        let vertices = positions.as_chunks::<3>().0.to_vec();
+        let mesh = TriangleMesh::new(vertices, indices.as_chunks::<3>().0)?;
+        Body::from_triangles(&mesh, detail(pieces, is_surface)?)
+    }
+
+    /// Makes a body of a mesh that was read.
+    ///
+    /// # Errors
+    /// A mesh that has no pieces of the kind.
+    pub fn from_read_mesh(mesh: &Mesh, pieces: &str, is_surface: bool) -> Result<Self, Fault> {
+        Body::from_triangles(&mesh.mesh, detail(pieces, is_surface)?)
+    }
+
+    /// Makes a box about its origin, of half extents.
+    ///
+    /// # Errors
+    /// An extent that is not positive and finite.
+    pub fn cuboid(x: f64, y: f64, z: f64) -> Result<Self, Fault> {
+        let body = rigid_ccd::Body::cuboid([x, y, z]);
+        let [x, y, z] = [x, y, z].map(Number);
+        Body::from_shape(body, format!("box of half extents {x}, {y}, {z}"))
+    }
+
+    /// Makes a ball about its origin.
+    ///
+    /// # Errors
+    /// A radius that is not positive and finite.
+    pub fn sphere(radius: f64) -> Result<Self, Fault> {
+        Body::from_shape(
+            rigid_ccd::Body::sphere(radius),
+            format!("ball of radius {}", Number(radius)),
+        )
+    }
+
+    /// Makes a capsule along z.
+    ///
+    /// # Errors
+    /// A length that is not positive and finite.
+    pub fn capsule(radius: f64, half_height: f64) -> Result<Self, Fault> {
+        let report = round_report("capsule", [radius, half_height]);
+        Body::from_shape(rigid_ccd::Body::capsule(radius, half_height), report)
+    }
+
+    /// Makes a polytope around a cylinder along z.
+    ///
+    /// # Errors
+    /// A length that is not positive and finite, or an excess out of range.
+    pub fn cylinder(radius: f64, half_height: f64, excess: Option<f64>) -> Result<Self, Fault> {
+        let shape = SolidOfRevolution::cylinder(radius, half_height)?;
+        Body::solid_of_revolution("cylinder", &shape, [radius, half_height], excess)
+    }
+
+    /// Makes a polytope around a cone along z with its apex up.
+    ///
+    /// # Errors
+    /// A length that is not positive and finite, or an excess out of range.
+    pub fn cone(radius: f64, half_height: f64, excess: Option<f64>) -> Result<Self, Fault> {
+        let shape = SolidOfRevolution::cone(radius, half_height)?;
+        Body::solid_of_revolution("cone", &shape, [radius, half_height], excess)
+    }
+
+    /// Returns whether the body fills its inside.
+    pub fn is_solid(&self) -> bool {
+        self.body.solidity() == Solidity::Solid
+    }
+
+    /// Returns how far the body may exceed its shape.
+    pub fn excess(&self) -> f64 {
+        self.body.excess()
+    }
+
+    /// Returns the number of convex pieces.
+    pub fn piece_count(&self) -> usize {
+        self.body.pieces().len()
+    }
+
+    /// Returns a description in words.
+    pub fn report(&self) -> String {
+        self.report.clone()
+    }
+}
+
+impl Body {
+    fn from_triangles(mesh: &TriangleMesh, detail: Detail) -> Result<Self, Fault> {
+        let prepared = body_from_mesh(mesh, detail)?;
+        tell(Remark::remark_on_mesh(detail, mesh, &prepared.report));
+        let report = prepared.report.to_string();
+        Ok(Body::new(prepared.body, report))
+    }
+
+    fn from_shape(
+        body: Result<rigid_ccd::Body, InputError>,
+        report: String,
+    ) -> Result<Self, Fault> {
+        Ok(Body::new(body?, report))
+    }
+
+    fn new(body: rigid_ccd::Body, report: String) -> Self {
+        Body {
+            size: Remark::body_size(&body),
+            body: Arc::new(body),
+            report,
+        }
+    }
+
+    fn solid_of_revolution(
+        name: &str,
+        shape: &SolidOfRevolution,
+        [radius, half_height]: [f64; 2],
+        excess: Option<f64>,
+    ) -> Result<Self, Fault> {
+        let polytope = shape.enclosing_polytope(excess.unwrap_or(shape.default_excess()))?;
+        let excess = polytope.excess();
+        let round = round_report(name, [radius, half_height]);
+        let report = format!("{round}, exceeded by up to {excess:.3e}");
+        Body::from_shape(polytope.body(), report)
+    }
+}
+
+fn round_report(name: &str, lengths: [f64; 2]) -> String {
+    let [radius, half_height] = lengths.map(Number);
+    format!("{name} of radius {radius} and half height {half_height}")
+}
+
+fn detail(pieces: &str, is_surface: bool) -> Result<Detail, Fault> {
+    match pieces {
+        "auto" | "triangles" if is_surface => Ok(Detail::Surface),
+        "patches" | "hull" | "outer-hull" if is_surface => Err(Fault::plain(format!(
+            "surface: {pieces} fill a solid; a hollow surface has pieces: \"triangles\""
+        ))),
+        "auto" => Ok(Detail::Auto),
+        "triangles" => Ok(Detail::Triangles),
+        "patches" => Ok(Detail::Patches(Default::default())),
+        "hull" => Ok(Detail::Hull),
+        "outer-hull" => Ok(Detail::OuterHull),
+        // `doors/js/module/body.js` refuses it by its name.
+        _ => Err(Fault::plain(format!("pieces: {pieces:?}"))),
+    }
+}

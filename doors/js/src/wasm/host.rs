@@ -1,0 +1,57 @@
+//! What JavaScript is told beside answers: remarks on what is probably a mistake, and the text of a fault that ends the engine.
+
+use rigid_ccd::Remark;
+use rigid_ccd::text::Number;
+use rigid_ccd_robot::CellRemark;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+// `doors/js/module/wasm.js` has this object.
+#[wasm_bindgen(js_namespace = host)]
+extern "C" {
+    fn remark(kind: &str, text: &str);
+    fn fault(text: &str);
+}
+
+/// Tells JavaScript the text of a fault, after which nothing in the memory can be relied on.
+#[wasm_bindgen(start)]
+pub fn start() {
+    std::panic::set_hook(Box::new(|info| fault(&info.to_string())));
+}
+
+/// Tells JavaScript remarks, each with its text without numbers, which names its kind.
+pub(crate) fn tell(remarks: impl IntoIterator<Item = Remark>) {
+    for told in remarks {
+        let kind = told.general_text();
+        match told {
+            // A quaternion has w last here.
+            Remark::NonUnitQuaternion {
+                quaternion_components: [w, x, y, z],
+                ..
+            } => {
+                let kind = kind.replace("w, x, y, z", "x, y, z, w");
+                let told = told.to_string();
+                let length = told.rsplit(") ").next().unwrap_or_default();
+                let [x, y, z, w] = [x, y, z, w].map(Number);
+                remark(&kind, &format!("{kind}: ({x}, {y}, {z}, {w}) {length}"));
+            }
+            Remark::OpenSeam { .. } => remark(
+                kind,
+                &format!(
+                    "{told}; coordinates that are rounded are the same, and BufferGeometryUtils.mergeVertices of three.js joins vertices once normal and uv are deleted"
+                ),
+            ),
+            _ => remark(kind, &told.to_string()),
+        }
+    }
+}
+
+/// Tells JavaScript the warnings among the remarks on a robot or a cell. Those on input are one of each kind.
+pub(crate) fn tell_warnings(remarks: impl IntoIterator<Item = CellRemark>) {
+    for told in remarks.into_iter().filter(CellRemark::is_warning) {
+        let text = told.to_string();
+        match told {
+            CellRemark::Input { remark: input, .. } => remark(input.general_text(), &text),
+            _ => remark(&text, &text),
+        }
+    }
+}

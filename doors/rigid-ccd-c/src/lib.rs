@@ -1,0 +1,71 @@
+//! The C interface of `rigid-ccd`. Programs include `include/rigid_ccd.h`, which is written from this crate.
+//!
+//! | to … | file |
+//! |---|---|
+//! | see whether a call has worked, and why not | `status.rs` |
+//! | follow the pointers that C passes | `arguments.rs`, `growing.rs` |
+//! | make bodies, from shapes, arrays and files | `body.rs` |
+//! | move them at constant velocities | `motion.rs` |
+//! | move them along trajectories | `trajectory.rs` |
+//! | set tolerances and limits | `settings.rs` |
+//! | ask about two bodies | `solver.rs` |
+//! | stop a query from another thread | `stop.rs` |
+//! | read answers | `answer.rs`, `feature.rs` |
+//! | put a robot among obstacles | `cell.rs` |
+//! | ask about its paths | `cell_solver.rs`, `path.rs`, `joint_curve.rs`, `path_answer.rs` |
+//! | record an answer, to be asked again later | `evidence.rs` |
+//!
+//! # Contract of all functions
+//! A function never panics into C, never calls back, and keeps no pointer to its arguments, except that a query borrows
+//! bodies and trajectories while it runs. A pointer is null or points to a value of its type, which lives during the call;
+//! a handle comes from this library and has not been freed. Null where it is not allowed is an error, not undefined. Handles
+//! may be shared between threads as `const` pointers; a solver belongs to one thread at a time.
+
+#![allow(unsafe_code, reason = "pointers from C are followed here")]
+
+mod answer;
+mod arguments;
+mod body;
+mod cell;
+mod cell_solver;
+mod evidence;
+mod feature;
+mod growing;
+mod joint_curve;
+mod motion;
+mod path;
+mod path_answer;
+mod settings;
+mod solver;
+mod status;
+mod stop;
+mod trajectory;
+
+pub use answer::{RccdAnswer, RccdLimit, RccdOutcome};
+pub use body::*;
+pub use cell::*;
+pub use cell_solver::*;
+pub use evidence::rccd_evidence_write;
+pub use feature::{RccdFeature, RccdFeatureKind};
+pub use joint_curve::*;
+pub use motion::{RccdMotion, RccdPose, rccd_motion_at_rest, rccd_motion_between};
+pub use path::RccdPath;
+pub use path_answer::RccdPathAnswer;
+pub use settings::{RccdContactNormals, RccdSettings, RccdStartPolicy, rccd_settings_default};
+pub use solver::*;
+pub use status::{RccdStatus, rccd_last_error};
+pub use stop::*;
+pub use trajectory::*;
+
+/// Handles that threads share, and solvers, which may go from one thread to another.
+const _: () = {
+    const fn shared<T: Send + Sync>() {}
+    const fn sent<T: Send>() {}
+    shared::<RccdBody>();
+    shared::<RccdTrajectory>();
+    shared::<RccdJointCurve>();
+    shared::<RccdCell>();
+    shared::<RccdStop>();
+    sent::<RccdSolver>();
+    sent::<rigid_ccd_robot::CellSolver<'static>>();
+};
