@@ -16,10 +16,10 @@ use crate::scene::PieceKind;
 use ccd_core::Answer;
 use ccd_core::{InputError, Outcome, Settings, VectorInstructions};
 use ccd_decomp::TriangleMesh;
+use ccd_tables::batch::BodyPair;
+use ccd_tables::motions::Motions;
 use clap::ValueEnum;
 use rigid_ccd::Question;
-use rigid_ccd::batch::BodyPair;
-use rigid_ccd::table::motions::Motions;
 use rigid_ccd_cli::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
 use std::fmt;
 

@@ -28,7 +28,7 @@ mod triangle;
 pub use surface::Surface;
 pub use table::{TRUTH_COLUMNS, TRUTH_STATUSES, TruthRow};
 
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 use search::Search;
 
 /// What is proven about the first contact of a query; times are from 0 to the duration.

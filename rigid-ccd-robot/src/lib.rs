@@ -35,7 +35,6 @@
 //! | `check_summary` | what of a robot is checked, in numbers: [`CheckSummary`] |
 //! | `robot_file` | a robot from a URDF or MJCF file with its meshes: [`RobotFile`] |
 //! | `srdf` | pairs that are not checked, from an SRDF file |
-//! | `path_rows`, `joint_columns` | answers as rows of tables, and columns of joints, for the command and the Python package |
 //! | `evidence` | records of answers, to be asked again later: [`evidence::Evidence`] |
 //! | `tuning` | numbers that only cost time |
 
@@ -44,9 +43,6 @@ mod check_summary;
 mod combine;
 mod error;
 pub mod evidence;
-#[cfg(feature = "tables")]
-#[doc(hidden)]
-pub mod joint_columns;
 mod joint_curve;
 mod kinematics;
 mod link_contacts;
@@ -54,9 +50,6 @@ mod pairs;
 mod path;
 mod path_answer;
 mod path_point;
-#[cfg(feature = "tables")]
-#[doc(hidden)]
-pub mod path_rows;
 mod polynomial;
 #[cfg(test)]
 #[allow(dead_code)]

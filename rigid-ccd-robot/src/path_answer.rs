@@ -30,8 +30,9 @@ pub struct PathAnswer<'c> {
 /// |---|---|
 /// | first contact, any contact | free, contact, unresolved |
 /// | closest approach | least distance, unresolved |
+///
+/// It is exhaustive, so that no program takes an outcome that it does not know for another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub enum PathOutcome<'c> {
     /// Nothing touches on the whole path.
     Free,

@@ -59,8 +59,6 @@
 //! # Features
 //! - `meshes` (default): [`load`], and [`mesh`] for everything that `ccd-decomp` does with meshes.
 //! - `gltf`: meshes from files of this format, too.
-//! - `tables`: what the command and the Python package share; no stable interface, and not in this documentation.
-//! - `parquet`: these tables from Parquet, too. `zstd`: from Parquet that is compressed with zstd.
 //! - `scenes` (default): [`Scene`], many moving bodies.
 //! - `vmarch`: the distance backend [`oracle::Vmarch`].
 //! - `nalgebra`: conversions between [`Pose`] and `nalgebra::Isometry3<f64>`.
@@ -96,9 +94,6 @@
 #![cfg_attr(not(feature = "vmarch"), doc = "[`oracle::Vmarch`]: #features")]
 
 pub mod answer;
-#[cfg(feature = "tables")]
-#[doc(hidden)]
-pub mod batch;
 pub mod body;
 mod error;
 #[cfg(feature = "meshes")]
@@ -109,10 +104,6 @@ mod remark;
 #[cfg(feature = "scenes")]
 pub mod scene;
 mod solver;
-#[cfg(feature = "tables")]
-#[doc(hidden)]
-pub mod table;
-#[doc(hidden)]
 pub mod text;
 pub mod trajectory;
 

@@ -213,8 +213,7 @@ impl Remark {
 
     /// Returns whether a body rotates by more than four turns in the duration, as if its angular velocity were in
     /// degrees.
-    #[cfg(feature = "tables")]
-    pub(crate) fn is_fast_rotation(spin: DVec3, duration: f64) -> bool {
+    pub fn is_fast_rotation(spin: DVec3, duration: f64) -> bool {
         length(spin) * duration > MIN_SUSPICIOUS_ROTATION
     }
 }

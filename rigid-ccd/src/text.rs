@@ -1,4 +1,4 @@
-//! Formats numbers and quotes texts for messages.
+//! Displays numbers in messages with few digits.
 
 use std::fmt;
 
@@ -26,23 +26,6 @@ impl fmt::Display for RoundedToFourDigits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounded: f64 = format!("{:.3e}", self.0).parse().unwrap_or(self.0);
         write!(f, "{}", Number(rounded))
-    }
-}
-
-/// Displays the beginning of a text from a file, with its length if that is not all.
-#[derive(Clone, Copy)]
-pub struct Excerpt<'a>(pub &'a str);
-
-/// The greatest number of characters of a text that a message quotes.
-const MAX_QUOTED_CHARS: usize = 60;
-
-impl fmt::Display for Excerpt<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Excerpt(text) = *self;
-        match text.char_indices().nth(MAX_QUOTED_CHARS) {
-            Some((end, _)) => write!(f, "{}… ({} bytes)", &text[..end], text.len()),
-            None => f.write_str(text),
-        }
     }
 }
 

@@ -13,7 +13,7 @@ type Module = Vec<String>;
 /// The modules of the same crate that each module of a crate imports.
 type Imports = BTreeMap<Module, BTreeSet<Module>>;
 
-const CRATES: [&str; 16] = [
+const CRATES: [&str; 17] = [
     "ccd-core",
     "ccd-distance-gjk",
     "ccd-distance-vmarch",
@@ -21,6 +21,7 @@ const CRATES: [&str; 16] = [
     "proofs/ccd-prove",
     "proofs/ccd-check",
     "files/ccd-file",
+    "files/ccd-tables",
     "files/ccd-view",
     "ccd-bench",
     "rigid-ccd",

@@ -1,7 +1,7 @@
 //! A robot, the cells around it, and configurations, from a folder; through the interface and in Rust.
 
 use anyhow::{Context, Result, ensure};
-use rigid_ccd::table::motions::{MotionTable, Motions};
+use ccd_tables::motions::{MotionTable, Motions};
 use rigid_ccd::{Body, Motion, Pose, Settings, load};
 use rigid_ccd_c::*;
 use rigid_ccd_robot::{Cell, RobotFile};

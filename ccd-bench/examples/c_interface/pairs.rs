@@ -5,7 +5,7 @@ use crate::folder::{
 };
 use crate::tally::{Answered, Tally, report};
 use anyhow::Result;
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 use rigid_ccd::{Body, Solver};
 use rigid_ccd_c::*;
 use std::path::PathBuf;

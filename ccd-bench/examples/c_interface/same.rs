@@ -6,7 +6,7 @@ use crate::folder::{
     numbers_of, read_numbers, rust_settings, scene,
 };
 use anyhow::{Context, Result, ensure};
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 use rigid_ccd::{Body, Outcome, Solver};
 use rigid_ccd_c::*;
 use rigid_ccd_robot::{CellSolver, PathOutcome};

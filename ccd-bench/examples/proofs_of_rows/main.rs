@@ -7,9 +7,9 @@ mod tally;
 
 use anyhow::Result;
 use ccd_prove::ProvenPair;
+use ccd_tables::motions::MotionTable;
 use clap::Parser;
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
-use rigid_ccd::table::motions::MotionTable;
 use rigid_ccd::{Outcome, Settings, Solver};
 use std::fs::{File, write};
 use std::path::PathBuf;

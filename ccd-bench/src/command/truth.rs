@@ -5,9 +5,9 @@ use super::inputs::QueryTableArgs;
 use crate::truth::{Surface, TRUTH_COLUMNS, TRUTH_STATUSES, TruthRow, TruthSolver};
 use anyhow::{Context, Result};
 use ccd_core::order::greater;
+use ccd_tables::motions::MotionRow;
 use clap::Args;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
-use rigid_ccd::table::motions::MotionRow;
 use rigid_ccd_cli::{
     BadRowCounter, Progress, RunOutcome, TableWriter, input_name, open_motions, print_error,
     refuse_overwriting_input,

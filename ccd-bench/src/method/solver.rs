@@ -1,8 +1,8 @@
 //! The interface of all solvers: this project's methods, published rivals built here, and peer libraries.
 
 use ccd_core::order::greater;
-use rigid_ccd::batch::median;
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::batch::median;
+use ccd_tables::motions::Motions;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 

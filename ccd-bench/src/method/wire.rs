@@ -4,7 +4,7 @@
 use super::solver::{Solver, answer_timed};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 use serde_json::json;
 use std::io::{self, BufRead, Write};
 

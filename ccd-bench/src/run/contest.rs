@@ -18,9 +18,9 @@ use crate::scene::Scene;
 use crate::truth::{Surface, Truth, TruthSolver};
 use anyhow::{Context, Result};
 use ccd_core::InputError;
+use ccd_tables::batch::median;
+use ccd_tables::motions::Motions;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
-use rigid_ccd::batch::median;
-use rigid_ccd::table::motions::Motions;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 

@@ -3,7 +3,7 @@
 use crate::scene::{ModelBodyCache, SceneDescription};
 use anyhow::{Context, Result};
 use ccd_decomp::write_obj;
-use rigid_ccd::table::motions;
+use ccd_tables::motions;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 

@@ -5,8 +5,8 @@ use crate::method::solver::{ContactClaim, Reply};
 use crate::names::name_of;
 use crate::truth::{Truth, TruthSolver};
 use ccd_core::order::greater;
+use ccd_tables::motions::Motions;
 use clap::ValueEnum;
-use rigid_ccd::table::motions::Motions;
 use std::fmt;
 
 /// The judgement of a claim about a query, from good to bad.

@@ -3,8 +3,8 @@
 use super::{ModelBodyCache, Scene};
 use crate::scene::model::Model;
 use anyhow::{Context, Result, anyhow, bail};
+use ccd_tables::motions::{MotionTable, Motions};
 use clap::ValueEnum;
-use rigid_ccd::table::motions::{MotionTable, Motions};
 use serde::Deserialize;
 use std::ops::Range;
 

@@ -3,7 +3,7 @@ pub(crate) mod shots;
 use super::*;
 use ccd_core::Pose;
 use ccd_core::glam::DVec3;
-use rigid_ccd::table::motions::write;
+use ccd_tables::motions::write;
 use shots::{ShotGenerator, drops_onto_or_past_board};
 
 fn shot_generator() -> ShotGenerator {

@@ -4,7 +4,7 @@
 //! reference that was asked more, times the median ratio of both over the rows that both were asked.
 
 use crate::run::measured::{MeasurementCell, Trial};
-use rigid_ccd::batch::median;
+use ccd_tables::batch::median;
 use std::collections::HashMap;
 
 /// The key of a row in a table of trials: scene, bits of the tolerance, index of the row.

@@ -6,9 +6,9 @@ pub(crate) mod tests;
 use crate::method::Method;
 use crate::run::contest::Verdict;
 use crate::run::measured::{MeasurementCell, Trial};
+use ccd_tables::batch::median;
 use comfy_table::presets::ASCII_MARKDOWN;
 use comfy_table::{CellAlignment, Table};
-use rigid_ccd::batch::median;
 use std::collections::{HashMap, HashSet};
 use std::fmt;
 

@@ -4,10 +4,10 @@ use crate::method::first_contact;
 use crate::scene::Scene;
 use anyhow::Result;
 use ccd_core::{Outcome, Settings, VectorInstructions};
+use ccd_tables::courses::Movements;
+use ccd_tables::results::ResultRow;
 use ccd_view::{Animation, AnimationGroup, Meshes};
 use rigid_ccd::Question;
-use rigid_ccd::table::courses::Movements;
-use rigid_ccd::table::results::ResultRow;
 use rigid_ccd_cli::SolverKind;
 use rigid_ccd_cli::picture::{Painter, QueryContext, TimeMeaning, drawn_mesh};
 

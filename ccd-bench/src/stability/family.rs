@@ -5,7 +5,7 @@ use anyhow::Result;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 
 /// A set of scenes of one kind, made from a parameter whose later values make the scene harder.
 #[derive(Clone, Debug)]

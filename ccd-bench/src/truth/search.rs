@@ -7,7 +7,7 @@ use super::track::EnclosedMotion;
 use super::triangle::{gap_along, nearest_points, separating_axis_candidates};
 use super::{Truth, TruthSolver};
 use ccd_core::order::{greater, lesser};
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 use std::rc::Rc;
 
 /// A pair of nodes: an index in A's tree, and an index in B's tree.

@@ -10,8 +10,8 @@ use crate::scene::model;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
+use ccd_tables::motions::Motions;
 use rand::{Rng, RngExt};
-use rigid_ccd::table::motions::Motions;
 
 /// Returns the surface of a box about the origin with the given half extents.
 fn cuboid(x: f64, y: f64, z: f64) -> Surface {

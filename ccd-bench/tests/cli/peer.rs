@@ -8,7 +8,7 @@ use ccd_bench::scene::model::cuboid;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 use std::io::ErrorKind;
 #[cfg(unix)]
 use std::path::Path;

@@ -5,7 +5,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 use rigid_ccd::Question;
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::table::results::Status;
+use ccd_tables::results::Status;
 use rigid_ccd::{Hit, Outcome};
 
 /// Makes a Python `Contact` from a hit.

@@ -16,9 +16,9 @@ use crate::settings::{REPORTING_START, names, read};
 use crate::table::PyTable;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
-use rigid_ccd::table::results::Status;
+use ccd_tables::results::Status;
 use rigid_ccd::{Body, Question};
-use rigid_ccd_robot::path_rows::PathRow;
+use ccd_tables::path_rows::PathRow;
 use rigid_ccd_robot::{Cell, CellRemark, RangeSettings};
 
 /// A robot among obstacles that rest in the frame of its base.

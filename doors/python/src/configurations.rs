@@ -5,7 +5,7 @@ use crate::errors::input_error;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList, PyString, PyTuple};
 use rigid_ccd_robot::Robot;
-use rigid_ccd_robot::joint_columns::{AngleUnit, joint_column};
+use ccd_tables::joint_columns::{AngleUnit, joint_column};
 
 /// Reads configurations of a robot, the last index that of the joint, from anything that NumPy can convert to an array of numbers.
 ///

@@ -4,8 +4,8 @@ use crate::errors::{Unresolved, input_error, with_attribute};
 use pyo3::prelude::*;
 use rigid_ccd::Question;
 use rigid_ccd::answer::Limit;
-use rigid_ccd::table::results::Status;
-use rigid_ccd_robot::path_rows::PathRow;
+use ccd_tables::results::Status;
+use ccd_tables::path_rows::PathRow;
 use rigid_ccd_robot::{CellSolver, PathError};
 
 /// Returns the question about paths that has a name.

@@ -9,7 +9,7 @@ use crate::path_array::GivenPath;
 use pyo3::prelude::*;
 use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd::{Question, Settings};
-use rigid_ccd_robot::path_rows::{PathQuestion, PathRow};
+use ccd_tables::path_rows::{PathQuestion, PathRow};
 use rigid_ccd_robot::{ClearanceRange, PathError, RangeSettings};
 use std::sync::Arc;
 use std::time::Duration;

@@ -11,8 +11,8 @@ use crate::table::{PyTable, path_batch};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::Settings;
-use rigid_ccd::table::results::ResultRow;
-use rigid_ccd_robot::path_rows::PathQuestion;
+use ccd_tables::results::ResultRow;
+use ccd_tables::path_rows::PathQuestion;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 

@@ -17,7 +17,7 @@ use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyType};
 use rigid_ccd::text::RoundedToFourDigits;
-use rigid_ccd_robot::joint_columns::{AngleUnit, joint_column};
+use ccd_tables::joint_columns::{AngleUnit, joint_column};
 use rigid_ccd_robot::{CellRemark, Joint, LinkPairs, PlacedRobot, Robot, RobotFile, SkipReason};
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -14,8 +14,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::Question;
 use rigid_ccd::Settings;
-use rigid_ccd::batch::BodyPair;
-use rigid_ccd::table::motions::TableError;
+use ccd_tables::batch::BodyPair;
+use ccd_tables::motions::TableError;
 
 /// Answers a question about each row of a table of motions; called by `rigid_ccd.first_contacts` and its siblings.
 #[pyfunction]

@@ -2,7 +2,7 @@
 
 use super::print_error;
 use crate::progress::Progress;
-use rigid_ccd::table::motions::RowPosition;
+use ccd_tables::motions::RowPosition;
 use std::fmt::Display;
 
 /// A counter of rows that cannot be read or answered; it prints the first few as they occur.

@@ -4,10 +4,10 @@
 mod tests;
 
 use ccd_core::{Answer, Contact, ContactsError, InputError, Outcome, Settings};
+use ccd_tables::batch::BodyPair;
+use ccd_tables::courses::Movements;
+use ccd_tables::results::{Column, ResultRow, reordered_columns};
 use rigid_ccd::Question;
-use rigid_ccd::batch::BodyPair;
-use rigid_ccd::table::courses::Movements;
-use rigid_ccd::table::results::{Column, ResultRow, reordered_columns};
 
 /// Returns the columns of the table of contacts, in order.
 pub(crate) fn columns() -> Vec<Column> {

@@ -1,6 +1,6 @@
 //! Counts of rows by status.
 
-use rigid_ccd::table::results::Status;
+use ccd_tables::results::Status;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 

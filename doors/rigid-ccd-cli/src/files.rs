@@ -3,10 +3,10 @@
 use super::output::{JOURNAL_EXTENSION, is_dash, is_standard_output};
 use anyhow::{Context, Result, anyhow, bail};
 use ccd_file::{PARTIAL_EXTENSION, resolve_links};
-use rigid_ccd::table::courses::MovementRows;
-use rigid_ccd::table::motions::MotionRows;
-use rigid_ccd::table::paths::Grouping;
-use rigid_ccd::table::table_records::TableRecords;
+use ccd_tables::courses::MovementRows;
+use ccd_tables::motions::MotionRows;
+use ccd_tables::paths::Grouping;
+use ccd_tables::table_records::TableRecords;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};

@@ -3,9 +3,9 @@
 use ccd_core::schedule::Shortcut;
 use ccd_core::{StartPolicy, VectorInstructions};
 use ccd_decomp::{Axis, PatchOrder, Unit};
+use ccd_tables::results::{ANSWERS, QuestionAnswers};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use rigid_ccd::Question;
-use rigid_ccd::table::results::{ANSWERS, QuestionAnswers};
 
 /// The values of an option, each with its name on the command line and its help.
 pub(super) type Named<T> = [(&'static str, T, &'static str)];

@@ -9,9 +9,9 @@ use crate::{print_error, print_escaped_to_stderr, print_remarks};
 use anyhow::{Context, Error, Result};
 use ccd_core::Body;
 use ccd_decomp::{BodySource, PreparedBody, Unit, build_hull_tree};
+use ccd_tables::batch::BodyPair;
 use clap::Args;
 use rigid_ccd::Remark;
-use rigid_ccd::batch::BodyPair;
 use std::path::PathBuf;
 
 /// The options that name both bodies.

@@ -19,12 +19,12 @@ pub use verdict::{QueryContext, TimeMeaning};
 
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, InputError, Pose};
+use ccd_tables::batch::BodyPair;
+use ccd_tables::courses::Movements;
+use ccd_tables::results::{ResultRow, Status};
 use ccd_view::{Animation, Meshes, ShownBody, ShownContact};
 use drawn::feature_corners;
 use rigid_ccd::Solver;
-use rigid_ccd::batch::BodyPair;
-use rigid_ccd::table::courses::Movements;
-use rigid_ccd::table::results::{ResultRow, Status};
 
 /// The colours of body A and body B, in CSS.
 pub const BODY_COLORS: [&str; 2] = ["#3a9d6e", "#e6c229"];

@@ -10,10 +10,10 @@ use crate::picture::scene_verdict;
 use anyhow::Result;
 use ccd_core::Settings;
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
+use ccd_tables::results::{Line, ResultRow, Status, names, reordered_columns};
 use clap::Args;
 use rigid_ccd::Error;
 use rigid_ccd::scene::{Impact, PairError};
-use rigid_ccd::table::results::{Line, ResultRow, Status, names, reordered_columns};
 use std::path::PathBuf;
 
 /// List which bodies of a scene touch: when, where, with which features

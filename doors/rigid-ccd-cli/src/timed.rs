@@ -2,10 +2,10 @@
 
 use crate::solver_kind::{Solve, SolverKind};
 use ccd_core::Settings;
+use ccd_tables::batch::{BodyPair, TimedAnswer, median};
+use ccd_tables::courses::Movements;
+use ccd_tables::motions::RowProblem;
 use rigid_ccd::Question;
-use rigid_ccd::batch::{BodyPair, TimedAnswer, median};
-use rigid_ccd::table::courses::Movements;
-use rigid_ccd::table::motions::RowProblem;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 

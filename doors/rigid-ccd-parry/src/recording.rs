@@ -2,8 +2,8 @@
 
 use crate::scene::Scene;
 use ccd_core::{Body, Motion, Settings, StartPolicy};
+use ccd_tables::motions::{Motions, write};
 use rigid_ccd::mesh::{PrepareError, StoreError, StoredBodyContent};
-use rigid_ccd::table::motions::{Motions, write};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 

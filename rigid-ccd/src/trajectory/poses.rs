@@ -157,8 +157,6 @@ impl Poses {
     }
 
     /// Returns the point of the body that moves straight from each pose to the next.
-    #[cfg(feature = "tables")]
-    #[doc(hidden)]
     pub fn centre(&self) -> DVec3 {
         self.centre
     }
@@ -169,8 +167,9 @@ impl Poses {
     }
 
     /// Returns the approximate rotation vector from each pose to the next; zero for the last pose.
-    #[cfg(feature = "tables")]
-    #[doc(hidden)]
+    ///
+    /// # Errors
+    /// [`InputError`]: a segment has no motion in range.
     pub fn rotation_vectors(&self) -> impl Iterator<Item = Result<DVec3, InputError>> {
         let ends = self.poses.windows(2).map(|two| [two[0], two[1]]);
         let turns = ends.enumerate().map(|(k, [(begin, from), (end, to)])| {

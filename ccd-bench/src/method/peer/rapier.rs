@@ -7,11 +7,11 @@ use anyhow::Result;
 use ccd_core::Motion;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_decomp::TriangleMesh;
+use ccd_tables::motions::Motions;
 use rapier3d_f64::prelude::{
     ColliderBuilder, MassProperties, PhysicsWorld, Pose, RigidBodyBuilder, RigidBodyHandle,
     SharedShape, Vector,
 };
-use rigid_ccd::table::motions::Motions;
 
 /// A rapier world in which A moves and B is fixed; the contact is where one step of the simulation stops A.
 ///

@@ -9,8 +9,8 @@ use crate::scene::model;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
+use ccd_tables::motions::Motions;
 use clap::ValueEnum;
-use rigid_ccd::table::motions::Motions;
 use rstest::rstest;
 use std::f64::consts::{FRAC_PI_4, PI, SQRT_2};
 

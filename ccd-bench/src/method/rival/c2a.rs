@@ -6,8 +6,8 @@ use super::{Placement, RivalMotion};
 use crate::method::solver::{ContactClaim, Reply, Solver};
 use ccd_core::order::lesser;
 use ccd_decomp::TriangleMesh;
+use ccd_tables::motions::Motions;
 use closing::ClosingSpeedBounder;
-use rigid_ccd::table::motions::Motions;
 
 mod closing;
 #[cfg(test)]

@@ -18,11 +18,11 @@ use crate::method::solver::{ContactClaim, Reply, Solver};
 use boxes::motion_spread_unless_separated;
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
+use ccd_tables::motions::Motions;
 use clock::{HalvedInterval, MotionEncloser};
 use elementary::{TrianglePair, TriangleWithNormals};
 use leaf::{FirstTouch, first_touch};
 use relative::RelativeMotion;
-use rigid_ccd::table::motions::Motions;
 
 /// The ratio of the motion's spread to the larger box's half length above which an interval of time is halved. The
 /// spread is the radius of the enclosure of a corner's position over the interval. Otherwise the boxes are opened.

@@ -8,7 +8,7 @@ use crate::method::solver::{ContactClaim, Reply, Solver};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 
 #[cfg(test)]
 mod tests;

@@ -2,7 +2,7 @@
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion};
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 
 /// The least |sin(angle / 2)| for which the screw axis is computed; rotations near a multiple of 2π have no stable
 /// axis.

@@ -5,7 +5,7 @@ use super::obb_tree::{ObbTree, trees_intersect};
 use super::resolution::resolution;
 use crate::method::solver::{ContactClaim, Reply, Solver};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 
 /// The maximum number of samples of one query, which take some seconds.
 const MAX_SAMPLES: u64 = 1 << 20;

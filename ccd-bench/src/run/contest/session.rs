@@ -6,7 +6,7 @@ use crate::method::solver::{Solver, answer_timed};
 use crate::method::{Method, PAPER_TOLERANCE, ProjectSolver};
 use crate::scene::Scene;
 use ccd_core::Settings;
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 use rigid_ccd_cli::ScheduleKind;
 use std::io;
 use std::time::{Duration, Instant};

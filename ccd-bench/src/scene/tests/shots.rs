@@ -2,9 +2,9 @@
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{InputError, Motion, Pose};
+use ccd_tables::motions::Motions;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rigid_ccd::table::motions::Motions;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::Range;
 

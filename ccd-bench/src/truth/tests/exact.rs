@@ -4,7 +4,7 @@ use super::super::{DistanceBounds, Surface, Truth, TruthSolver};
 use super::{cuboid, judge, pose_at, query, still_motion};
 use ccd_core::Motion;
 use ccd_core::glam::{DQuat, DVec3};
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 use std::f64::consts::{FRAC_PI_4, PI};
 
 /// The allowed change of a contact time due to the rounding of a scene's numbers, as a fraction of the duration.

@@ -6,8 +6,8 @@ use arrow_cast::cast;
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use arrow_select::concat::concat_batches;
 use rigid_ccd::Question;
-use rigid_ccd::table::results::{self, CellGetter, Column, ResultRow};
-use rigid_ccd_robot::path_rows;
+use ccd_tables::results::{self, CellGetter, Column, ResultRow};
+use ccd_tables::path_rows;
 use std::sync::Arc;
 
 /// Returns the columns of the results of a question, as in the command, for a given column of ids.

@@ -10,11 +10,11 @@ use crate::resumable::RowRange;
 use crate::robots::{GivenJoints, PathTable};
 use anyhow::{Context, Result, bail};
 use ccd_prove::{Statement, Subject as Stated};
+use ccd_tables::Excerpt;
+use ccd_tables::courses::Movements;
+use ccd_tables::motions::{RowError, RowPosition};
+use ccd_tables::paths::Grouping;
 use rigid_ccd::Question;
-use rigid_ccd::table::courses::Movements;
-use rigid_ccd::table::motions::{RowError, RowPosition};
-use rigid_ccd::table::paths::Grouping;
-use rigid_ccd::text::Excerpt;
 use std::collections::BTreeMap;
 use std::path::Path;
 

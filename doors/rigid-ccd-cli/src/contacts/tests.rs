@@ -3,8 +3,8 @@ use ccd_core::Separation;
 use ccd_core::Unresolved;
 use ccd_core::glam::DVec3;
 use ccd_core::{Feature, Limit, Stats};
-use rigid_ccd::table::motions::Motions;
-use rigid_ccd::table::results::{Line, names};
+use ccd_tables::motions::Motions;
+use ccd_tables::results::{Line, names};
 
 fn pair() -> Contact {
     Contact {

@@ -1,8 +1,8 @@
 //! Converts the motions or paths of a row to the motions that a page shows.
 
 use ccd_core::{InputError, Trajectory};
+use ccd_tables::courses::Movements;
 use ccd_view::{Keyframe, ShownMotion};
-use rigid_ccd::table::courses::Movements;
 
 /// Returns the motions of both bodies in the form for a page: a path becomes keyframes, one for each pose.
 ///

@@ -2,10 +2,10 @@
 
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Body, InputError, Settings, Stretch};
+use ccd_tables::batch::BodyPair;
+use ccd_tables::courses::Movements;
 use ccd_view::{GapCurve, GapSample};
 use rigid_ccd::Solver;
-use rigid_ccd::batch::BodyPair;
-use rigid_ccd::table::courses::Movements;
 use std::time::{Duration, Instant};
 
 /// The maximum number of poses, besides the start, at which a query's bodies are also drawn as translucent ghosts.

@@ -2,10 +2,10 @@ use super::*;
 use ccd_core::Outcome;
 use ccd_core::glam::DQuat;
 use ccd_core::{Motion, Settings};
+use ccd_tables::motions::Motions;
+use ccd_tables::paths::PathPair;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use rigid_ccd::table::motions::Motions;
-use rigid_ccd::table::paths::PathPair;
 use rigid_ccd::trajectory::Poses;
 
 fn random_vector(random: &mut impl Rng, size: f64) -> DVec3 {

@@ -1,6 +1,6 @@
 //! Describes rows of results in words.
 
-use rigid_ccd::table::results::{ResultRow, Status};
+use ccd_tables::results::{ResultRow, Status};
 
 /// The facts about a query that the description of its answer needs: the meaning of times, the margin, the clearance.
 #[derive(Clone, Copy, Debug)]

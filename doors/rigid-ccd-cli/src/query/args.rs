@@ -11,9 +11,9 @@ use crate::solver_kind::{BoundKind, OracleKind, ScheduleKind};
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
 use ccd_core::schedule::Shortcut;
 use ccd_core::{StartPolicy, VectorInstructions};
+use ccd_tables::results::{self, Column};
 use clap::Args;
 use rigid_ccd::Question;
-use rigid_ccd::table::results::{self, Column};
 use std::path::PathBuf;
 use std::time::Duration;
 

@@ -1,6 +1,6 @@
 //! The texts that follow the options in the help of `ccd query`.
 
-use rigid_ccd::table::results::{ANSWERS, QuestionAnswers, Status, names};
+use ccd_tables::results::{ANSWERS, QuestionAnswers, Status, names};
 
 /// The text at the end of `ccd query -h`.
 pub(super) const AFTER_HELP: &str = "\

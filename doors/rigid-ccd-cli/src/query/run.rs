@@ -12,11 +12,11 @@ use crate::resumable::{Batches, Checkpoint, Outputs};
 use crate::solver_kind::Solve;
 use crate::timed::{TimedQuestion, answer_timed};
 use crate::view::ChosenRows;
+use ccd_tables::batch::{BatchSize, BodyPair, TimedAnswer};
+use ccd_tables::courses::{CourseRow, Movements};
+use ccd_tables::motions::{RowPosition, RowProblem};
+use ccd_tables::results::{Line, ResultRow, Status};
 use rigid_ccd::ParallelSolver;
-use rigid_ccd::batch::{BatchSize, BodyPair, TimedAnswer};
-use rigid_ccd::table::courses::{CourseRow, Movements};
-use rigid_ccd::table::motions::{RowPosition, RowProblem};
-use rigid_ccd::table::results::{Line, ResultRow, Status};
 use std::time::Instant;
 
 /// The state of `ccd query` while it answers rows.

@@ -7,8 +7,8 @@ use super::limits::LIMIT_ADVICE;
 use crate::counts::StatusCounts;
 use crate::raised_tolerances::RaisedTolerances;
 use crate::time_histogram::TimeHistogram;
-use rigid_ccd::batch::TimedAnswer;
-use rigid_ccd::table::results::Status;
+use ccd_tables::batch::TimedAnswer;
+use ccd_tables::results::Status;
 use std::fmt;
 
 /// The counts of rows, the times and the counters of work that a run's summary prints. Its size does not depend on the

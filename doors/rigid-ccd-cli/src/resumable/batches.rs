@@ -6,8 +6,8 @@ use crate::counts::StatusCounts;
 use crate::files::{Rows, input_name};
 use crate::output::OutputError;
 use anyhow::{Context, Result};
-use rigid_ccd::table::courses::{CourseRow, MovementRows};
-use rigid_ccd::table::motions::TableError;
+use ccd_tables::courses::{CourseRow, MovementRows};
+use ccd_tables::motions::TableError;
 
 /// A table of queries, read row by row.
 pub(crate) trait RowSource: Iterator<Item = Result<Self::Row, TableError>> {

@@ -9,7 +9,7 @@ use crate::contacts;
 use crate::output::{JOURNAL_EXTENSION, Output, OutputError};
 use crate::table::{LengthAndChecksum, TableWriter, measure_beginning};
 use anyhow::{Context, Result, bail};
-use rigid_ccd::table::results::names;
+use ccd_tables::results::names;
 use std::fs::File;
 use std::path::PathBuf;
 

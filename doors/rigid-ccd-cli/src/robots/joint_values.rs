@@ -3,10 +3,10 @@
 use crate::numbers::{parse_finite, tolerance};
 use anyhow::{Result, bail};
 use ccd_core::limits::MAX_COORDINATE;
+use ccd_tables::joint_columns::AngleUnit;
 use clap::Args;
 use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::Robot;
-use rigid_ccd_robot::joint_columns::AngleUnit;
 use std::str::FromStr;
 
 /// The options that say where joints are that a table has no columns for.

@@ -1,7 +1,7 @@
 //! Chooses the rows to draw on a page.
 
-use rigid_ccd::table::courses::Movements;
-use rigid_ccd::table::results::{ResultRow, Status};
+use ccd_tables::courses::Movements;
+use ccd_tables::results::{ResultRow, Status};
 
 /// The maximum number of rows of each status on a page, if no ids are given.
 const MAX_ROWS_PER_STATUS: usize = 4;

@@ -9,6 +9,7 @@ mod manual;
 mod messages;
 mod outputs;
 #[cfg(feature = "parquet")]
+#[cfg(feature = "zstd")]
 mod parquet_tables;
 mod questions;
 mod readers;

@@ -2,7 +2,7 @@
 
 use crate::command::{CommandCall, Row, Scene, assert_contains, parse, stderr};
 use crate::{CUBE_AND_SLAB_OPTIONS, DROP_CONTACT_TIME, FALLING_CUBE_MOTION};
-use rigid_ccd::table::results::{ANSWERS, Status, names};
+use ccd_tables::results::{ANSWERS, Status, names};
 use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_4, TAU};
 use std::fmt::Write;

@@ -3,12 +3,12 @@
 use crate::RecordError;
 use crate::f64::Caster;
 use ccd_core::{Settings, StartPolicy};
+use ccd_tables::motions::MotionTable;
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::{NonlinearRigidMotion, ShapeCastHit};
 use parry3d_f64::shape::SharedShape;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use rigid_ccd::table::motions::MotionTable;
 use rigid_ccd::{Solver, load};
 use std::fs::File;
 use std::path::{Path, PathBuf};

@@ -1,7 +1,7 @@
 //! The fuzz target that reads tables of motions.
 
 use crate::memory;
-use rigid_ccd::table::motions::{MotionRows, MotionTable, Motions, RowPosition, write};
+use ccd_tables::motions::{MotionRows, MotionTable, Motions, RowPosition, write};
 use std::io::{self, Read};
 
 /// The maximum size of the input, in bytes.

@@ -1,9 +1,9 @@
 //! The fuzz target that reads tables of paths.
 
 use super::motions::{OneByteReader, run_within_memory_limit};
-use rigid_ccd::table::courses::{CourseRow, MovementRows, Movements};
-use rigid_ccd::table::motions::{RowPosition, TableError};
-use rigid_ccd::table::paths::Grouping;
+use ccd_tables::courses::{CourseRow, MovementRows, Movements};
+use ccd_tables::motions::{RowPosition, TableError};
+use ccd_tables::paths::Grouping;
 use std::io::Read;
 
 pub(super) fn run(bytes: &[u8]) {

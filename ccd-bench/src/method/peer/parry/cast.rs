@@ -24,7 +24,7 @@ use crate::method::peer::contact_claim_at;
 use crate::method::solver::{ContactClaim, Reply, Solver};
 use anyhow::Result;
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 
 /// Two meshes as parry's shapes, to be cast against each other. It does not report steps.
 #[derive(Clone, Debug)]

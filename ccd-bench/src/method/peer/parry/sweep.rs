@@ -32,7 +32,7 @@ use ccd_core::Motion;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_decomp::TriangleMesh;
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 use std::f64::consts::FRAC_PI_4;
 
 /// Two meshes whose triangles are swept against each other. Steps are the segments examined.

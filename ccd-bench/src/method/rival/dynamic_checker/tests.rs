@@ -7,7 +7,7 @@ use crate::method::solver::{ContactClaim, Solver};
 use crate::scene::model::cuboid;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Motion, Pose};
-use rigid_ccd::table::motions::Motions;
+use ccd_tables::motions::Motions;
 
 #[test]
 fn exact_times_are_met() {

@@ -5,9 +5,9 @@ use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::lesser;
 use ccd_core::{Motion, Pose};
 use ccd_decomp::TriangleMesh;
+use ccd_tables::motions::Motions;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
-use rigid_ccd::table::motions::Motions;
 
 /// A generator of random vectors, rotations and motions.
 pub(in crate::method::rival) struct RandomSource(Pcg64);

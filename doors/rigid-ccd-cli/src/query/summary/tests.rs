@@ -1,6 +1,6 @@
 use super::*;
 use ccd_core::{Answer, Effort, Outcome, Stats};
-use rigid_ccd::batch::median;
+use ccd_tables::batch::median;
 
 fn sum<'t>(answers: impl IntoIterator<Item = &'t TimedAnswer>, tolerance: f64) -> Summary {
     let mut summary = Summary::new(tolerance);

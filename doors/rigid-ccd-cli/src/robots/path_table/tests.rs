@@ -1,8 +1,8 @@
 use super::*;
 use crate::causes::message_with_causes;
 use crate::robots::joint_values::JointRange;
+use ccd_tables::joint_columns::AngleUnit;
 use rigid_ccd::{Body, Pose, trajectory};
-use rigid_ccd_robot::joint_columns::AngleUnit;
 use rigid_ccd_robot::{Joint, Link, PositionRule};
 use std::fs;
 

@@ -1,0 +1,116 @@
+//! Reads a table in any format that this build knows, which it recognises by the first bytes.
+
+use crate::csv_records::CsvRecords;
+use crate::error::TableError;
+use crate::foreign::PARQUET_SIGNATURE;
+#[cfg(feature = "parquet")]
+use crate::parquet_records::ParquetRecords;
+use crate::position::RowPosition;
+use crate::records::Records;
+use std::fs::File;
+use std::io::{self, Cursor, Read};
+
+/// The rows of a table in CSV or, with the feature `parquet`, in Parquet.
+pub struct TableRecords(Format);
+
+enum Format {
+    Csv(Box<CsvRecords<Box<dyn Read>>>),
+    #[cfg(feature = "parquet")]
+    Parquet(Box<ParquetRecords<File>>),
+}
+
+impl TableRecords {
+    /// Opens a table from a file. Parquet needs a regular file, not a pipe.
+    ///
+    /// The first Parquet file replaces the hook that the process calls for panics, by one that calls it for all but those of the
+    /// Parquet library, which become errors.
+    ///
+    /// # Errors
+    /// Those of [`TableRecords::from_stream`], [`TableError::Parquet`], [`TableError::ColumnType`].
+    pub fn from_file(mut file: File) -> Result<Self, TableError> {
+        let start = first_bytes(&mut file)?;
+        #[cfg(feature = "parquet")]
+        if start == PARQUET_SIGNATURE && file.metadata().map_err(unreadable)?.is_file() {
+            let records = ParquetRecords::new(file)?;
+            return Ok(TableRecords(Format::Parquet(Box::new(records))));
+        }
+        TableRecords::from_text(start, file)
+    }
+
+    /// Opens a table from a stream, which cannot be Parquet: there, the last bytes say where the others are.
+    ///
+    /// # Errors
+    /// Those of [`CsvRecords::new`], [`TableError::ParquetStream`].
+    pub fn from_stream(mut input: impl Read + 'static) -> Result<Self, TableError> {
+        let start = first_bytes(&mut input)?;
+        TableRecords::from_text(start, input)
+    }
+
+    /// Opens a table in CSV, whose first bytes have been read.
+    fn from_text(start: Vec<u8>, rest: impl Read + 'static) -> Result<Self, TableError> {
+        // Without the feature, the CSV reader says that this is no CSV.
+        if cfg!(feature = "parquet") && start == PARQUET_SIGNATURE {
+            return Err(TableError::ParquetStream);
+        }
+        let input: Box<dyn Read> = Box::new(Cursor::new(start).chain(rest));
+        let records = CsvRecords::new(input)?;
+        Ok(TableRecords(Format::Csv(Box::new(records))))
+    }
+}
+
+/// Reads as many bytes as tell Parquet from text; fewer if the table is shorter.
+fn first_bytes(input: &mut impl Read) -> Result<Vec<u8>, TableError> {
+    let mut start = Vec::new();
+    let most = PARQUET_SIGNATURE.len() as u64;
+    let read = input.by_ref().take(most).read_to_end(&mut start);
+    read.map_err(unreadable)?;
+    Ok(start)
+}
+
+fn unreadable(error: io::Error) -> TableError {
+    csv::Error::from(error).into()
+}
+
+impl Records for TableRecords {
+    type Record = csv::ByteRecord;
+
+    fn header(&self) -> Result<Vec<String>, TableError> {
+        match &self.0 {
+            Format::Csv(records) => records.header(),
+            #[cfg(feature = "parquet")]
+            Format::Parquet(records) => records.header(),
+        }
+    }
+
+    fn current(&self) -> &csv::ByteRecord {
+        match &self.0 {
+            Format::Csv(records) => records.current(),
+            #[cfg(feature = "parquet")]
+            Format::Parquet(records) => records.current(),
+        }
+    }
+
+    fn advance(&mut self) -> Result<Option<RowPosition>, TableError> {
+        match &mut self.0 {
+            Format::Csv(records) => records.advance(),
+            #[cfg(feature = "parquet")]
+            Format::Parquet(records) => records.advance(),
+        }
+    }
+
+    fn checksum(&self) -> u32 {
+        match &self.0 {
+            Format::Csv(records) => records.checksum(),
+            #[cfg(feature = "parquet")]
+            Format::Parquet(records) => records.checksum(),
+        }
+    }
+
+    fn consumed_bytes(&self) -> u64 {
+        match &self.0 {
+            Format::Csv(records) => records.consumed_bytes(),
+            #[cfg(feature = "parquet")]
+            Format::Parquet(records) => records.consumed_bytes(),
+        }
+    }
+}
