@@ -9,7 +9,8 @@
 //! | make a body of a mesh | [`body_from_mesh`], [`Detail`], [`Report`] |
 //! | decompose its surface exactly | [`decompose`], [`Decomposition`] |
 //! | store a prepared body, and load it | [`prepare`](fn@prepare), [`StoredBodyContent::save`], [`StoredBodyContent::load`] |
-//! | take a body from a command line | [`parse_body`], [`BodySource`] |
+//! | load a body from a file, or a part of one | [`load_body`], [`MeshSource`] |
+//! | take a body from a command line | [`BodySource`] |
 //! | build a hierarchy, or a tree of hulls, over pieces of any kind | [`build_hierarchy`], [`build_hull_tree`] |
 //!
 //! # Example
@@ -47,7 +48,8 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | `source` | bodies by their description on a command line, [`BodyError`] |
+//! | `load` | bodies from files |
+//! | `source` | bodies by their description on a command line |
 //! | `file` | stored bodies, the OBJ writers, [`StoreError`] |
 //! | `prepare` | the model of a mesh: choice of pieces, report, [`PrepareError`] |
 //! | `tree` | hierarchies and hull trees over pieces, [`HullTreeBuildError`] |
@@ -67,6 +69,7 @@ mod exact;
 mod file;
 mod half_edges;
 mod hull;
+mod load;
 mod mesh;
 mod messages;
 mod pieces;
@@ -95,6 +98,9 @@ pub use file::STORED_BODY_EXTENSION;
 pub use file::error::{StoreError, StoreFault};
 pub use file::obj::{write_obj, write_obj_pieces};
 pub use hull::{HullError, hull as convex_hull};
+pub use load::error::{AdjustedStoredBody, BodyError};
+pub use load::load_body;
+pub use load::mesh_source::MeshSource;
 pub use mesh::TriangleMesh;
 pub use mesh::adjustments::{Adjustments, Axis, UnknownAdjustment};
 pub use mesh::affine::AffineMap;
@@ -112,9 +118,8 @@ pub use prepare::report::{EstimatedQueryTimes, PieceReason, PiecesKind, Report};
 pub use prepare::{Detail, body_from_mesh, prepare};
 pub use solid::error::{Crossing, DecomposeError};
 pub use solid::topology::{Edge, TopologyDefects};
-pub use source::error::{BodyError, SourceError};
-pub use source::mesh_source::MeshSource;
-pub use source::{BodySource, parse_body};
+pub use source::BodySource;
+pub use source::error::SourceError;
 pub use tally::CountWithExamples;
 pub use tree::hierarchy::build_hierarchy;
 pub use tree::hull_tree::{HullTreeBuildError, build_hull_tree};

@@ -1,21 +1,22 @@
 //! Parses the descriptions of bodies on a command line.
 
 pub(crate) mod error;
-pub(crate) mod mesh_source;
+mod mesh_source;
 
 use crate::file::has_stored_body_extension;
+use crate::load::error::{AdjustedStoredBody, BodyError};
+use crate::load::load_body;
+use crate::load::mesh_source::MeshSource;
 use crate::mesh::adjustments::Adjustments;
 use crate::mesh::mesh_file::source_paths;
 use crate::mesh::unit::Unit;
-use crate::prepare::error::PrepareError;
-use crate::prepare::model::{PreparedBody, StoredBodyContent};
-use crate::prepare::{Detail, body_from_mesh};
+use crate::prepare::Detail;
+use crate::prepare::model::PreparedBody;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
 use ccd_core::{Body, SolidOfRevolution};
-use error::{BodyError, SourceError};
-use mesh_source::MeshSource;
-use std::path::{Path, PathBuf};
+use error::SourceError;
+use std::path::PathBuf;
 use std::str::FromStr;
 
 /// The description of a body: a shape, or a file. All lengths are from 0 to [`MAX_COORDINATE`], in the
@@ -76,14 +77,6 @@ pub enum BodySource {
     Mesh(MeshSource),
 }
 
-/// Creates the body that a text describes.
-///
-/// # Errors
-/// [`BodyError`]: it names the file and the element, or shows examples.
-pub fn parse_body(text: &str, detail: Detail) -> Result<PreparedBody, BodyError> {
-    text.parse::<BodySource>()?.load(detail)
-}
-
 impl BodySource {
     /// Creates the body that the source describes. The detail applies to meshes only. Shapes are single pieces, and a
     /// stored body keeps its pieces.
@@ -109,7 +102,7 @@ impl BodySource {
     /// description. Shapes do not change.
     ///
     /// # Errors
-    /// Those of [`BodySource::load`]; [`SourceError::AdjustedStoredBody`] for a stored body, unless only the unit is given.
+    /// Those of [`BodySource::load`]; [`BodyError::AdjustedStoredBody`] for a stored body, unless only the unit is given.
     pub fn load_adjusted(
         &self,
         adjustments: &Adjustments,
@@ -140,34 +133,18 @@ impl BodySource {
                 &SolidOfRevolution::cone(radius, half_height)?,
                 excess,
             )?,
-            BodySource::StoredBody(ref path) if adjustments.has_mesh_only_adjustment() => {
-                return Err(SourceError::AdjustedStoredBody { file: path.clone() }.into());
-            }
-            BodySource::StoredBody(ref path) => {
-                add_file_path_to_error(path, StoredBodyContent::load(path)?.into_prepared_body())?
-            }
+            BodySource::StoredBody(ref file) => return load_body(file, adjustments, detail),
             BodySource::Mesh(ref source) => {
+                let adjustments = source.adjustments.combined_with(adjustments)?;
                 let source = MeshSource {
-                    adjustments: source.adjustments.combined_with(adjustments)?,
+                    adjustments,
                     ..source.clone()
                 };
-                let (mesh, unit) = source.read()?;
-                let made = body_from_mesh(&mesh, source.detail(detail));
-                let prepared = add_file_path_to_error(source.to_string().as_ref(), made)?;
-                return Ok(PreparedBody { unit, ..prepared });
+                return source.load(detail);
             }
         };
         let unit = adjustments.target_unit;
         Ok(PreparedBody { unit, ..prepared })
-    }
-
-    /// Returns the description of the body in a file: a stored body or a mesh, depending on the extension.
-    pub fn from_path(path: PathBuf) -> Self {
-        if has_stored_body_extension(&path) {
-            BodySource::StoredBody(path)
-        } else {
-            BodySource::Mesh(path.into())
-        }
     }
 
     /// Returns the paths of all files that the body is read from, including buffer files of a glTF.
@@ -181,13 +158,6 @@ impl BodySource {
             _ => Vec::new(),
         })
     }
-}
-
-fn add_file_path_to_error<T>(path: &Path, made: Result<T, PrepareError>) -> Result<T, BodyError> {
-    made.map_err(|error| BodyError::FileContent {
-        file: path.into(),
-        error,
-    })
 }
 
 impl FromStr for BodySource {
@@ -222,7 +192,7 @@ impl FromStr for BodySource {
                 } else if source.adjustments == Adjustments::NONE {
                     Ok(BodySource::StoredBody(source.file))
                 } else {
-                    Err(SourceError::AdjustedStoredBody { file: source.file })
+                    Err(AdjustedStoredBody { file: source.file }.into())
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use ccd_core::Body;
 use ccd_decomp::{
-    Adjustments, BodyError, BodySource, Detail, MeshFile, NamedMesh, Unit, body_from_mesh,
+    Adjustments, BodyError, Detail, MeshFile, NamedMesh, Unit, body_from_mesh, load_body,
 };
 use std::path::Path;
 
@@ -22,8 +22,7 @@ use std::path::Path;
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
-    let source = BodySource::from_path(path.as_ref().into());
-    Ok(source.load(Detail::Auto)?.body)
+    load_adjusted(path, &Adjustments::NONE)
 }
 
 /// Loads a body as [`load`] does, with coordinates converted to a unit. A file that [states its
@@ -39,8 +38,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Body, BodyError> {
 /// # Ok::<(), rigid_ccd::Error>(())
 /// ```
 pub fn load_in_unit(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyError> {
-    let source = BodySource::from_path(path.as_ref().into());
-    Ok(source.load_in_unit(unit, Detail::Auto)?.body)
+    load_adjusted(path, &Adjustments::NONE.with_target_unit(unit))
 }
 
 /// Loads a body as [`load`] does, with adjustments of its mesh: unit, scale factor, mirror, or a closed mesh taken as a
@@ -58,8 +56,7 @@ pub fn load_in_unit(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyErro
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn load_adjusted(path: impl AsRef<Path>, adjustments: &Adjustments) -> Result<Body, BodyError> {
-    let source = BodySource::from_path(path.as_ref().into());
-    Ok(source.load_adjusted(adjustments, Detail::Auto)?.body)
+    Ok(load_body(path, adjustments, Detail::Auto)?.body)
 }
 
 /// Loads each part of a mesh file as a body, with its name or, without one, its number from 0. Parts are the nodes with

@@ -1,41 +1,8 @@
-//! Errors of describing and loading bodies.
+//! Errors of descriptions of bodies.
 
-use crate::file::error::StoreError;
+use crate::load::error::AdjustedStoredBody;
 use crate::mesh::adjustments::UnknownAdjustment;
-use crate::mesh::error::MeshError;
-use crate::prepare::error::PrepareError;
-use ccd_core::InputError;
 use ccd_core::limits::MAX_COORDINATE;
-use std::path::PathBuf;
-
-/// The reason why a body cannot be created from a description.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum BodyError {
-    /// The text is not a description of a body.
-    #[error(transparent)]
-    Source(#[from] SourceError),
-    /// The mesh file cannot be read.
-    #[error(transparent)]
-    Mesh(#[from] MeshError),
-    /// The file of the stored body cannot be loaded.
-    #[error(transparent)]
-    UnloadableStoredBody(#[from] StoreError),
-    /// The constructors of `ccd_core` reject the shape.
-    #[error(transparent)]
-    InvalidShape(#[from] InputError),
-    /// No body can be made of the mesh.
-    #[error(transparent)]
-    Prepare(#[from] PrepareError),
-    /// No body can be made of the content of a file.
-    #[error("{}: {error}", .file.display())]
-    FileContent {
-        /// The path of the file whose content is at fault.
-        file: PathBuf,
-        /// The reason why no body can be made.
-        error: PrepareError,
-    },
-}
 
 /// The error for a text that does not describe a body.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -66,12 +33,9 @@ pub enum SourceError {
     /// A word after the file name is not an adjustment.
     #[error(transparent)]
     UnknownAdjustment(#[from] UnknownAdjustment),
-    /// A stored body has adjustments, which apply only to meshes.
-    #[error("{}: {PREPARED_BODY_ADVICE}", .file.display())]
-    AdjustedStoredBody {
-        /// The path of the file of the stored body.
-        file: PathBuf,
-    },
+    /// A stored body has adjustments.
+    #[error(transparent)]
+    AdjustedStoredBody(#[from] AdjustedStoredBody),
     /// A length exceeds the largest supported coordinate.
     #[error(
         "{length:?} is too large a length of {shape:?}: lengths are from 0 to {MAX_COORDINATE:e}; use a larger unit of length"
@@ -93,9 +57,6 @@ pub enum SourceError {
         length: String,
     },
 }
-
-const PREPARED_BODY_ADVICE: &str = "a prepared body has its unit, size and pieces already; use the mesh it was made from, or \
-                        prepare it with the adjustments";
 
 const USAGE_EXAMPLES: &str = "use box:1,2,3 (half extents), sphere:0.5 (radius), capsule:0.2,1 (radius, \
                         half height), cylinder:0.2,1 or cone:0.2,1 (the same), a file such as part.obj, a part \

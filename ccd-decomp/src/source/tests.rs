@@ -1,6 +1,6 @@
-use super::error::{BodyError, SourceError};
-use super::{BodySource, parse_body};
-use crate::{Adjustments, Axis, Detail, MeshFault, MeshSource, PreparedBody, Unit};
+use super::BodySource;
+use super::error::SourceError;
+use crate::{Adjustments, Axis, BodyError, Detail, MeshFault, MeshSource, PreparedBody, Unit};
 use ccd_core::Solidity;
 use ccd_core::glam::dvec3;
 use rstest::rstest;
@@ -68,14 +68,19 @@ impl TetrahedronFile {
         TetrahedronFile(path)
     }
 
-    /// Loads the body that the file's path followed by `words` describes.
-    fn load_with_words(&self, words: &str) -> PreparedBody {
-        self.try_load_with_words(words).unwrap()
+    /// Returns the description that is the file's path followed by `words`.
+    fn with_words(&self, words: &str) -> String {
+        format!("{}{words}", self.0.display())
     }
 
-    fn try_load_with_words(&self, words: &str) -> Result<PreparedBody, BodyError> {
-        parse_body(&format!("{}{words}", self.0.display()), Detail::Auto)
+    fn load_with_words(&self, words: &str) -> PreparedBody {
+        load(&self.with_words(words)).unwrap()
     }
+}
+
+/// Loads the body that a valid text describes.
+fn load(text: &str) -> Result<PreparedBody, BodyError> {
+    text.parse::<BodySource>().unwrap().load(Detail::Auto)
 }
 
 impl Drop for TetrahedronFile {
@@ -148,9 +153,10 @@ fn a_file_with_the_whole_text_as_its_name_is_that_file() {
     );
     assert_eq!(x_range(&at.load_with_words("")), [1.0, 3.0]);
     drop(at);
+    let text = plain.with_words("@scale=2.obj");
     assert!(matches!(
-        plain.try_load_with_words("@scale=2.obj"),
-        Err(BodyError::Source(_))
+        text.parse::<BodySource>(),
+        Err(SourceError::UnknownAdjustment(_))
     ));
 }
 
@@ -159,13 +165,7 @@ fn a_stored_body_stays_as_it_is() {
     let scaled = Adjustments::NONE.scaled(2.0).unwrap();
     let stored = BodySource::StoredBody("part.ccd".into());
     let error = stored.load_adjusted(&scaled, Detail::Auto).unwrap_err();
-    assert!(
-        matches!(
-            error,
-            BodyError::Source(SourceError::AdjustedStoredBody { .. })
-        ),
-        "{error}"
-    );
+    assert!(matches!(error, BodyError::AdjustedStoredBody(_)), "{error}");
     let shape = BodySource::Sphere { radius: 1.0 };
     let ball = shape.load_adjusted(&scaled, Detail::Auto).unwrap();
     assert_eq!(ball.body.pieces().get(0).radius, 1.0);
@@ -211,14 +211,14 @@ fn lengths_that_are_too_large_are_reported_with_the_range(
 #[test]
 fn the_largest_lengths_are_lengths() {
     for text in ["sphere:1e12", "capsule:1e12,1e12", "box:1e12,1e12,1e12"] {
-        assert!(parse_body(text, Detail::Auto).is_ok(), "{text}");
+        assert!(load(text).is_ok(), "{text}");
     }
 }
 
 #[test]
 fn primitives_are_single_solid_pieces() {
     for text in ["box:1,2,3", "sphere:0.5", "capsule:0.2,1", "box:1,1,0"] {
-        let prepared = parse_body(text, Detail::Auto).unwrap();
+        let prepared = load(text).unwrap();
         assert_eq!(prepared.report.to_string(), "1 primitive, solid", "{text}");
         assert_eq!(prepared.body.solidity(), Solidity::Solid);
     }
@@ -230,17 +230,16 @@ fn primitives_are_single_solid_pieces() {
 #[case("cylinder:2,1", 2.0 / 4096.0)]
 #[case("cone:2,1,1e-5", 1e-5)]
 fn round_shapes_report_their_excess(#[case] text: &str, #[case] most: f64) {
-    let PreparedBody { body, report, .. } = parse_body(text, Detail::Auto).unwrap();
+    let PreparedBody { body, report, .. } = load(text).unwrap();
     assert!((0.5 * most..=most).contains(&report.excess), "{report}");
     assert!(!report.is_exact() && report.to_string().contains("sticking out by up to"));
     assert_eq!((body.pieces().len(), body.solidity()), (1, Solidity::Solid));
-    let error = parse_body(&format!("{text},-1"), Detail::Auto);
-    assert!(matches!(error, Err(BodyError::Source(_))));
+    assert!(format!("{text},-1").parse::<BodySource>().is_err());
 }
 
 #[test]
 fn too_small_an_excess_is_refused() {
-    let error = parse_body("cylinder:1,1,1e-9", Detail::Auto).unwrap_err();
+    let error = load("cylinder:1,1,1e-9").unwrap_err();
     assert!(
         error.to_string().starts_with("excess is 1e-9, but must be"),
         "{error}"
@@ -249,21 +248,13 @@ fn too_small_an_excess_is_refused() {
 
 #[test]
 fn faults_reach_the_caller_typed() {
-    assert!(matches!(
-        parse_body("torus:1", Detail::Auto),
-        Err(BodyError::Source(SourceError::UnknownShape { .. }))
-    ));
-    assert!(matches!(
-        parse_body("sphere:1e300", Detail::Auto),
-        Err(BodyError::Source(SourceError::LengthTooLarge { .. }))
-    ));
     // A length that comes from code was not checked by the parser.
     let source = BodySource::Sphere { radius: 1e300 };
     assert!(matches!(
         source.load(Detail::Auto),
         Err(BodyError::InvalidShape(_))
     ));
-    match parse_body("no/such/file.ply", Detail::Auto) {
+    match load("no/such/file.ply") {
         Err(BodyError::Mesh(error)) => {
             assert!(matches!(error.fault, MeshFault::Unreadable(_)));
             assert!(
@@ -274,17 +265,6 @@ fn faults_reach_the_caller_typed() {
         }
         other => panic!("{other:?}"),
     }
-}
-
-#[test]
-fn a_mesh_that_is_not_what_was_asked_for_is_named_with_its_file() {
-    let file = std::env::temp_dir().join(format!("ccd-open-{}.obj", std::process::id()));
-    std::fs::write(&file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
-    let source = file.display().to_string();
-    let error = parse_body(&source, Detail::Hull).unwrap_err().to_string();
-    std::fs::remove_file(&file).unwrap();
-    let expected = format!("{source}: open; edges with one face: 3 (e0-1, e0-2, e1-2)");
-    assert!(error.starts_with(&expected), "{error}");
 }
 
 /// Tests that the message about a wrong number of lengths says 1 length, but 2 lengths.

@@ -1,11 +1,11 @@
 //! Converts answers to the package's Python classes, which `_answers.py` defines.
 
+use ccd_tables::results::Status;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
 use rigid_ccd::Question;
 use rigid_ccd::glam::DVec3;
-use ccd_tables::results::Status;
 use rigid_ccd::{Hit, Outcome};
 
 /// Makes a Python `Contact` from a hit.

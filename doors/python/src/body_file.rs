@@ -6,8 +6,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyString;
 use rigid_ccd::Remark;
 use rigid_ccd::mesh::{
-    Adjustments, Axis, Detail, MeshSource, STORED_BODY_EXTENSION, SourceError, StoredBodyContent,
-    Unit, prepare,
+    AdjustedStoredBody, Adjustments, Axis, Detail, MeshSource, STORED_BODY_EXTENSION,
+    StoredBodyContent, Unit, prepare,
 };
 use std::path::{Path, PathBuf};
 
@@ -35,7 +35,7 @@ impl BodyFile {
         std::fs::File::open(&path).map_err(|error| file_error(&error, &path))?;
         if is_prepared_body_path(&path) && self.part.is_none() {
             if !self.may_be_prepared {
-                let error = SourceError::AdjustedStoredBody { file: path };
+                let error = AdjustedStoredBody { file: path };
                 return Err(input_error(error));
             }
             let stored = StoredBodyContent::load(&path).map_err(input_error)?;

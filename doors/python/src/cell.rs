@@ -14,11 +14,11 @@ use crate::proofs::prove_path;
 use crate::robot::PyRobot;
 use crate::settings::{REPORTING_START, names, read};
 use crate::table::PyTable;
+use ccd_tables::path_rows::PathRow;
+use ccd_tables::results::Status;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
-use ccd_tables::results::Status;
 use rigid_ccd::{Body, Question};
-use ccd_tables::path_rows::PathRow;
 use rigid_ccd_robot::{Cell, CellRemark, RangeSettings};
 
 /// A robot among obstacles that rest in the frame of its base.

@@ -2,10 +2,10 @@
 
 use crate::arrays::{Elements, numpy_array, visit_parts};
 use crate::errors::input_error;
+use ccd_tables::joint_columns::{AngleUnit, joint_column};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList, PyString, PyTuple};
 use rigid_ccd_robot::Robot;
-use ccd_tables::joint_columns::{AngleUnit, joint_column};
 
 /// Reads configurations of a robot, the last index that of the joint, from anything that NumPy can convert to an array of numbers.
 ///

@@ -1,11 +1,11 @@
 //! Questions about paths by their names, and their answers as objects of Python.
 
 use crate::errors::{Unresolved, input_error, with_attribute};
+use ccd_tables::path_rows::PathRow;
+use ccd_tables::results::Status;
 use pyo3::prelude::*;
 use rigid_ccd::Question;
 use rigid_ccd::answer::Limit;
-use ccd_tables::results::Status;
-use ccd_tables::path_rows::PathRow;
 use rigid_ccd_robot::{CellSolver, PathError};
 
 /// Returns the question about paths that has a name.

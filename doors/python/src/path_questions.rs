@@ -6,10 +6,10 @@ use crate::errors::{bounds_interruption, input_error, interruption_error, time_i
 use crate::interruptible::run_interruptibly;
 use crate::path_answers::ended_by_deadline;
 use crate::path_array::GivenPath;
+use ccd_tables::path_rows::{PathQuestion, PathRow};
 use pyo3::prelude::*;
 use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd::{Question, Settings};
-use ccd_tables::path_rows::{PathQuestion, PathRow};
 use rigid_ccd_robot::{ClearanceRange, PathError, RangeSettings};
 use std::sync::Arc;
 use std::time::Duration;

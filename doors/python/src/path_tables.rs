@@ -8,11 +8,11 @@ use crate::path_array::GivenPaths;
 use crate::progress::{GivenProgress, results_or_interruption, run_with_progress};
 use crate::settings::{names, read, read_thread_count};
 use crate::table::{PyTable, path_batch};
+use ccd_tables::path_rows::PathQuestion;
+use ccd_tables::results::ResultRow;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::Settings;
-use ccd_tables::results::ResultRow;
-use ccd_tables::path_rows::PathQuestion;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 

@@ -9,13 +9,13 @@ use crate::progress::{GivenProgress, run_with_progress};
 use crate::settings::{self, REPORTING_START, TABLE_SETTING_NAMES};
 use crate::table::answering::{TableAnswers, TableQuestion, answer};
 use crate::table::{PyTable, input};
+use ccd_tables::batch::BodyPair;
+use ccd_tables::motions::TableError;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rigid_ccd::Question;
 use rigid_ccd::Settings;
-use ccd_tables::batch::BodyPair;
-use ccd_tables::motions::TableError;
 
 /// Answers a question about each row of a table of motions; called by `rigid_ccd.first_contacts` and its siblings.
 #[pyfunction]

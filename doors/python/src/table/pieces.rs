@@ -6,12 +6,12 @@ use super::batch::{
 };
 use super::input::Reader;
 use arrow_array::ArrayRef;
-use rigid_ccd::Question;
-use rigid_ccd::Remark;
 use ccd_tables::columns::Columns;
 use ccd_tables::courses::{CourseRow, MovementRows, Movements};
 use ccd_tables::motions::{self, RowError, TableError};
 use ccd_tables::paths::Grouping;
+use rigid_ccd::Question;
+use rigid_ccd::Remark;
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};

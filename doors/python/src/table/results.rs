@@ -5,9 +5,9 @@ use arrow_buffer::NullBuffer;
 use arrow_cast::cast;
 use arrow_schema::{ArrowError, DataType, Field, Schema};
 use arrow_select::concat::concat_batches;
-use rigid_ccd::Question;
-use ccd_tables::results::{self, CellGetter, Column, ResultRow};
 use ccd_tables::path_rows;
+use ccd_tables::results::{self, CellGetter, Column, ResultRow};
+use rigid_ccd::Question;
 use std::sync::Arc;
 
 /// Returns the columns of the results of a question, as in the command, for a given column of ids.
