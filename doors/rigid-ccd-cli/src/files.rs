@@ -1,6 +1,10 @@
 //! Opens input tables from files or standard input, and names files in messages.
 
-use super::output::{JOURNAL_EXTENSION, is_dash, is_standard_output};
+pub(crate) mod html;
+pub(crate) mod output;
+pub(crate) mod table;
+
+use crate::files::output::{JOURNAL_EXTENSION, is_dash, is_standard_output};
 use anyhow::{Context, Result, anyhow, bail};
 use ccd_file::{PARTIAL_EXTENSION, resolve_links};
 use ccd_tables::courses::MovementRows;

@@ -1,190 +1,32 @@
 //! The command `ccd`: options, files, progress and exit codes.
 //!
+//! | folder | what |
+//! |---|---|
+//! | `commands` | a subcommand each |
+//! | `options` | values that options take |
+//! | `bodies` | bodies and scenes, as options and tables describe them |
+//! | `robots` | robots, their cells and paths |
+//! | `rows` | rows answered one by one: resumed, counted, certified, timed |
+//! | `picture` | answers drawn as a page |
+//! | `files` | what is read and written |
+//! | `console` | messages, progress, and how a run ends |
+//!
 //! A library only because `ccd-bench` shares it; no stable interface. Depend on `rigid-ccd` instead.
 
-mod bad_rows;
-mod causes;
-mod certificates;
-mod check;
-mod completions;
-mod contacts;
-mod counts;
-mod decompose;
+mod bodies;
+mod commands;
+mod console;
 mod files;
-mod html;
-mod interruption;
-mod man;
-mod meshes;
-mod named;
-mod numbers;
-mod output;
-mod pair;
+mod options;
 pub mod picture;
-mod printable;
-mod progress;
-mod query;
-mod raised_tolerances;
-mod resumable;
 mod robots;
-mod scene;
-mod scene_table;
-mod size;
-mod solver_kind;
-mod standard_output;
-mod table;
-mod time_histogram;
-mod timed;
-mod view;
+mod rows;
 
-pub use bad_rows::BadRowCounter;
+pub use commands::{main, print_error_and_get_exit_code};
+pub use console::{Progress, RunOutcome, TotalWork, print_error};
+pub use files::output::OutputError;
+pub use files::table::TableWriter;
 pub use files::{input_name, is_same_file, open_motions, refuse_overwriting_input};
-pub use numbers::{parse_seconds, tolerance};
-pub use output::OutputError;
-pub use progress::{Progress, TotalWork};
-pub use solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
-pub use table::TableWriter;
-
-use crate::printable::PrintableText;
-use check::CheckArgs;
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use completions::CompletionsArgs;
-use decompose::DecomposeArgs;
-use man::ManArgs;
-use query::QueryArgs;
-use robots::{AcmArgs, ClearanceArgs, EdgesArgs, ReplayArgs};
-use scene::SceneCommandArgs;
-use std::fmt::Display;
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
-use std::process::ExitCode;
-use view::ViewArgs;
-
-/// Certified continuous collision detection: when do two moving rigid bodies first touch, where, and
-/// with which features?
-#[derive(Debug, Parser)]
-#[command(name = "ccd", version, after_help = AFTER_HELP, arg_required_else_help = true)]
-struct Cli {
-    #[command(subcommand)]
-    command: Command,
-}
-
-const AFTER_HELP: &str = "\
-Examples:
-  ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
-  ccd query --a gripper.stl --b shelf.stl --motions edges.csv --check
-  ccd view --a knot.obj --b knot.obj --motions motions.csv --out view.html
-  ccd scene scene.csv --duration 0.5 --out contacts.csv
-  ccd edges arm.urdf --cell cell.toml --edges moves.csv --out results.csv
-  ccd clearance arm.urdf --joint elbow=-30deg:60deg --rest --require 5mm
-  ccd acm arm.urdf --out arm.srdf
-  ccd replay arm.urdf --cell cell.toml --record stop.json
-  ccd query --a knot.obj --b knot.obj --motions motions.csv --certificates proofs
-  ccd check proofs --a knot.obj --b knot.obj --motions motions.csv
-  ccd decompose knot.obj --pieces patches --out knot.ccd
-  ccd completions bash > ~/.local/share/bash-completion/completions/ccd
-
-See `ccd help COMMAND` for the options, tables and exit codes of a command.";
-
-#[derive(Debug, Subcommand)]
-enum Command {
-    /// Find the first contact of two bodies, or their least distance, for each row of a table of motions
-    Query(Box<QueryArgs>),
-    /// Write a page that shows queries, or a scene of many bodies: motions, contacts, the gap over time
-    View(Box<ViewArgs>),
-    /// List which bodies of a scene touch: when, where, with which features
-    Scene(SceneCommandArgs),
-    /// Certify edges or paths of a robot: free, first contact, or least distance
-    Edges(Box<EdgesArgs>),
-    /// Prove where a mechanism keeps a clearance, over a joint or along a path
-    Clearance(Box<ClearanceArgs>),
-    /// Decide which pairs of a robot's links can touch, and write those that need no check as SRDF
-    Acm(Box<AcmArgs>),
-    /// Ask recorded questions about a robot again, and say whether the recorded answers hold
-    Replay(Box<ReplayArgs>),
-    /// Check machine-checkable proofs of `ccd query` or `ccd edges`
-    Check(Box<CheckArgs>),
-    /// Split a mesh into convex pieces; print statistics, write the pieces or the prepared body
-    Decompose(DecomposeArgs),
-    /// Print a completion script for a shell
-    Completions(CompletionsArgs),
-    /// Write man pages for the command and each subcommand to a folder
-    Man(ManArgs),
-}
-
-/// The outcome of a run that wrote all its output; of two, the greater one decides the exit code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum RunOutcome {
-    /// Every row has an answer.
-    AllAnswered,
-    /// Every row has an answer, and some are not proven: to be `free` or `kept` with `--check`, to keep a clearance that is
-    /// required, or by a proof that holds. Or a signal ended the search about pairs of links.
-    SomeRowsUnproven,
-    /// Some rows could not be read, answered or drawn; all others are done.
-    SomeRowsBad,
-}
-
-/// Parses the command line of this process, and runs the subcommand.
-pub fn main() -> ExitCode {
-    let given = Cli::command().get_matches();
-    let cli = Cli::from_arg_matches(&given).unwrap_or_else(|error| error.exit());
-    let of_command = given.subcommand().map_or(&given, |(_, options)| options);
-    print_error_and_get_exit_code(match cli.command {
-        Command::Query(args) => query::run(&args, of_command),
-        Command::View(args) => view::run(&args),
-        Command::Scene(args) => scene::run(&args),
-        Command::Edges(args) => robots::run_edges(&args, of_command),
-        Command::Clearance(args) => robots::run_clearance(&args),
-        Command::Acm(args) => robots::run_acm(&args),
-        Command::Replay(args) => robots::run_replay(&args),
-        Command::Check(args) => check::run(&args),
-        Command::Decompose(args) => decompose::run(&args),
-        Command::Completions(args) => completions::run(&args),
-        Command::Man(args) => man::run(&args),
-    })
-}
-
-/// Returns the exit code of a run, and prints its error, if there is one. The code is 0 for success, 1 for results that
-/// cannot be written, 2 for bad input, and 3 for what is not proven.
-pub fn print_error_and_get_exit_code(outcome: anyhow::Result<RunOutcome>) -> ExitCode {
-    match outcome {
-        Ok(RunOutcome::AllAnswered) => ExitCode::SUCCESS,
-        Ok(RunOutcome::SomeRowsBad) => ExitCode::from(2),
-        Ok(RunOutcome::SomeRowsUnproven) => ExitCode::from(3),
-        Err(error) => match error.downcast_ref::<OutputError>() {
-            // The reader closed the pipe, which is not a failure.
-            Some(failed) if failed.source.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-            failed => {
-                print_error(&causes::message_with_causes(&error));
-                // Another run holds the output, so this run must not start.
-                let busy = |f: &OutputError| f.source.kind() == io::ErrorKind::ResourceBusy;
-                ExitCode::from(if failed.is_none_or(busy) { 2 } else { 1 })
-            }
-        },
-    }
-}
-
-/// Writes a message to standard error, after the program's name.
-pub fn print_error(message: &str) {
-    print_escaped_to_stderr(&format!("{}: {message}", program_name()));
-}
-
-/// Writes a line to standard error, with control characters escaped. So a cell or a file name in the line cannot move
-/// the cursor, change colours or end the line.
-pub(crate) fn print_escaped_to_stderr(line: &str) {
-    // A message that cannot be written is not a failure.
-    let _ = writeln!(io::stderr(), "{}", PrintableText(line));
-}
-
-/// Prints remarks about the input, one line for each.
-fn print_remarks(remarks: impl IntoIterator<Item: Display>) {
-    for remark in remarks {
-        print_error(&remark.to_string());
-    }
-}
-
-/// Returns the name of this program without its folder and extension.
-fn program_name() -> String {
-    let path = std::env::args_os().next().map(PathBuf::from);
-    let name = path.as_deref().and_then(Path::file_stem);
-    name.map_or("ccd".into(), |name| name.to_string_lossy().into_owned())
-}
+pub use options::numbers::{parse_seconds, tolerance};
+pub use options::solver_kind::{BoundKind, OracleKind, ScheduleKind, Solve, SolverKind};
+pub use rows::bad_rows::BadRowCounter;

@@ -1,22 +1,17 @@
-//! The commands about robots and mechanisms.
+//! Robots, their cells and paths, as files, options and tables describe them.
 
-mod acm;
 mod cell_file;
-mod clearance;
-mod edges;
-mod joint_values;
-mod loading;
-mod page;
-mod path_table;
-mod replay;
-mod robot_paths;
+pub(crate) mod joint_values;
+pub(crate) mod loading;
+pub(crate) mod page;
+pub(crate) mod path_table;
+pub(crate) mod robot_paths;
 
-pub(super) use acm::{AcmArgs, run as run_acm};
-pub(super) use clearance::{ClearanceArgs, run as run_clearance};
-pub(super) use edges::{DEFAULT_PATH_TOLERANCE, EdgesArgs, run as run_edges};
-pub(super) use joint_values::{GivenJoints, JointsArgs, length};
-pub(super) use loading::CellArgs;
-pub(super) use page::RobotPainter;
-pub(super) use path_table::PathTable;
-pub(super) use replay::{ReplayArgs, run as run_replay};
-pub(super) use robot_paths::{FoundPaths, RobotPaths};
+pub(crate) use joint_values::{GivenJoints, JointsArgs, length};
+pub(crate) use loading::CellArgs;
+pub(crate) use page::RobotPainter;
+pub(crate) use path_table::PathTable;
+pub(crate) use robot_paths::{FoundPaths, RobotPaths};
+
+/// The default tolerance of questions about robots, in metres.
+pub(crate) const DEFAULT_PATH_TOLERANCE: f64 = 1e-4;

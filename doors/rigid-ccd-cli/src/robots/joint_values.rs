@@ -1,6 +1,6 @@
 //! Positions of joints on the command line: `knee=-90deg:40deg` for a range, `hip=0.3` for one position.
 
-use crate::numbers::{parse_finite, tolerance};
+use crate::options::numbers::{parse_finite, tolerance};
 use anyhow::{Result, bail};
 use ccd_core::limits::MAX_COORDINATE;
 use ccd_tables::joint_columns::AngleUnit;
@@ -29,15 +29,15 @@ pub(crate) struct JointsArgs {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GivenJoints<'a> {
     /// The positions and ranges of the joints that are named.
-    pub(super) named: &'a [JointRange],
-    pub(super) others: OtherJoints,
+    pub(crate) named: &'a [JointRange],
+    pub(crate) others: OtherJoints,
     /// The unit of the positions of joints that turn, in columns that say none.
-    pub(super) unit: AngleUnit,
+    pub(crate) unit: AngleUnit,
 }
 
 /// What joints do that have neither columns nor a position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum OtherJoints {
+pub(crate) enum OtherJoints {
     /// They are an error.
     Refused,
     /// They rest at 0, or at their limit nearest to 0.
@@ -162,7 +162,7 @@ pub(crate) fn length(text: &str) -> std::result::Result<f64, String> {
 }
 
 /// Parses the value of `--tolerance`, a length in the range of the library.
-pub(super) fn tolerance_length(text: &str) -> std::result::Result<f64, String> {
+pub(crate) fn tolerance_length(text: &str) -> std::result::Result<f64, String> {
     tolerance(&length(text)?.to_string())
 }
 

@@ -1,10 +1,10 @@
 //! Loads a robot from URDF or MJCF and from SRDF, and the cell around it.
 
 use super::cell_file::CellSource;
+use crate::console::print_escaped_to_stderr;
+use crate::console::print_remarks;
+use crate::console::progress::Progress;
 use crate::files::refuse_overwriting_input;
-use crate::print_escaped_to_stderr;
-use crate::print_remarks;
-use crate::progress::Progress;
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use rigid_ccd_robot::{

@@ -13,7 +13,7 @@ use rigid_ccd_robot::{Cell, CellSolver, Item, PathAnswer, PathContact, PathOutco
 use std::collections::HashMap;
 
 /// The greatest number of poses of a path that are drawn, and of ranges in which the distance is measured.
-pub(super) const MAX_RANGES: usize = 512;
+pub(crate) const MAX_RANGES: usize = 512;
 /// The greatest number of halvings of a segment.
 const MAX_HALVINGS: u32 = 6;
 /// The step in hue from one body to the next, in degrees: the golden angle.
@@ -182,7 +182,7 @@ fn size_without_planes(cell: &Cell, bodies: &[(Item<'_>, &Body, Pose)]) -> f64 {
 }
 
 /// Returns the number of halvings of each segment of a path for the curve of its distances.
-pub(super) fn halvings(segments: usize) -> u32 {
+pub(crate) fn halvings(segments: usize) -> u32 {
     let mut halvings = 0;
     while halvings < MAX_HALVINGS && segments << (halvings + 1) <= MAX_RANGES {
         halvings += 1;

@@ -2,7 +2,7 @@
 
 use super::joint_values::{GivenJoints, OtherJoints, check_joints};
 use crate::files::open_table;
-use crate::resumable::RowSource;
+use crate::rows::resumable::RowSource;
 use anyhow::{Result, anyhow, bail};
 use ccd_core::order::{greater, lesser};
 use ccd_tables::Excerpt;
@@ -22,7 +22,7 @@ pub(crate) struct TablePath {
     pub(crate) id: String,
     pub(crate) configurations: Vec<Vec<f64>>,
     /// The times of the configurations, if the table has any.
-    pub(super) times: Option<Vec<f64>>,
+    pub(crate) times: Option<Vec<f64>>,
 }
 
 /// The paths of a table, read one after another.
@@ -357,7 +357,7 @@ impl PathColumns {
 
 impl TablePath {
     /// Returns an edge that is in no table; an edge without motion is one configuration.
-    pub(super) fn between([from, to]: [Vec<f64>; 2]) -> Self {
+    pub(crate) fn between([from, to]: [Vec<f64>; 2]) -> Self {
         let rests = from == to;
         let mut configurations = vec![from];
         if !rests {
@@ -372,19 +372,19 @@ impl TablePath {
     }
 
     /// Returns a remark on the first position that seems to be in degrees where radians are meant.
-    pub(super) fn remark(&self, robot: &Robot) -> Option<CellRemark> {
+    pub(crate) fn remark(&self, robot: &Robot) -> Option<CellRemark> {
         let mut configurations = self.configurations.iter();
         configurations.find_map(|at| robot.remark_on_configuration(at))
     }
 
     /// Converts the time of a path whose segments take one unit of time each to the time of the table, rounded down; without
     /// times, it stays as it is.
-    pub(super) fn table_time_rounded_down(&self, time: f64) -> f64 {
+    pub(crate) fn table_time_rounded_down(&self, time: f64) -> f64 {
         self.table_time(time, -1.0)
     }
 
     /// As [`TablePath::table_time_rounded_down`], rounded up.
-    pub(super) fn table_time_rounded_up(&self, time: f64) -> f64 {
+    pub(crate) fn table_time_rounded_up(&self, time: f64) -> f64 {
         self.table_time(time, 1.0)
     }
 

@@ -2,8 +2,8 @@
 
 use super::joint_values::{GivenJoints, OtherJoints, check_joints};
 use super::path_table::{PathTable, TablePath};
+use crate::console::print_remarks;
 use crate::files::input_name;
-use crate::print_remarks;
 use anyhow::{Context, Result, bail};
 use rigid_ccd_robot::{Cell, Robot};
 use std::path::Path;

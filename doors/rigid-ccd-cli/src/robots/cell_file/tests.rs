@@ -99,7 +99,7 @@ fn errors_name_their_own_table() {
         ),
     ] {
         let error = read(&format!("{allowed}{text}")).unwrap_err();
-        let message = crate::causes::message_with_causes(&error);
+        let message = crate::console::causes::message_with_causes(&error);
         assert!(message.contains(expected), "{text}: {message}");
     }
 }
@@ -150,7 +150,7 @@ fn errors_name_what_is_wrong() {
         ),
     ] {
         let error = read(text).map(|_| ()).unwrap_err();
-        let message = crate::causes::message_with_causes(&error);
+        let message = crate::console::causes::message_with_causes(&error);
         assert!(message.contains(expected), "{message}");
     }
 }
@@ -188,7 +188,7 @@ fn a_pair_says_one_thing() {
     ] {
         for text in [format!("{things}{text}"), format!("{text}\n{things}")] {
             let error = read(&text).map(|_| ()).unwrap_err();
-            let message = crate::causes::message_with_causes(&error);
+            let message = crate::console::causes::message_with_causes(&error);
             let reversed = "clearance between arm, wall: this pair has another clearance";
             assert!(
                 message.contains(expected) || message.contains(reversed),
@@ -260,7 +260,7 @@ fn surplus_and_missing_values_are_refused() {
     ] {
         let text = format!("{ball}\n[[obstacle]]\nname = 'wall'\nbody = 'sphere:1'\n{text}");
         let error = read(&text).map(|_| ()).unwrap_err();
-        let message = crate::causes::message_with_causes(&error);
+        let message = crate::console::causes::message_with_causes(&error);
         assert!(message.contains(expected), "{text}: {message}");
     }
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::causes::message_with_causes;
+use crate::console::causes::message_with_causes;
 use crate::robots::joint_values::JointRange;
 use ccd_tables::joint_columns::AngleUnit;
 use rigid_ccd::{Body, Pose, trajectory};

@@ -1,0 +1,228 @@
+//! `ccd acm`: decides which pairs of a robot's links can touch.
+
+use crate::console::RunOutcome;
+use crate::console::interruption;
+use crate::console::print_error;
+use crate::console::print_escaped_to_stderr;
+use crate::console::progress::Progress;
+use crate::files::output::{Output, is_standard_output};
+use crate::files::refuse_overwriting_input;
+use crate::files::table::TableWriter;
+use crate::options::numbers::parse_seconds;
+use crate::robots::loading::{RobotArgs, refuse_overwriting_any};
+use anyhow::{Result, bail};
+use clap::Args;
+use rigid_ccd_robot::{LinkContactClass, LinkContactSettings, Robot};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// Decide which pairs of a robot's links can touch, and write those that need no check as SRDF
+#[derive(Clone, Debug, Args)]
+#[command(mut_arg("urdf", |urdf| urdf.required(true)), after_help = AFTER_HELP)]
+pub(crate) struct AcmArgs {
+    #[command(flatten)]
+    robot: RobotArgs,
+    /// Examine at most N boxes of configurations for a pair in the mean; a larger number decides more pairs, but none that touch
+    /// without depth, as parts that slide on each other
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1..))]
+    boxes: u32,
+    /// Leave the pairs undecided that are not decided after this time, in seconds [default: none]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_hyphen_values = true)]
+    deadline: Option<Duration>,
+    /// Write the pairs that need no check to this file, SRDF; - writes to standard output
+    #[arg(long, value_name = "SRDF", default_value = "-")]
+    out: PathBuf,
+    /// Write a table of all pairs to this file, CSV
+    #[arg(long, value_name = "CSV")]
+    report: Option<PathBuf>,
+    /// Print only warnings and errors on standard error
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+const AFTER_HELP: &str = "\
+The SRDF disables neighbours, unless the robot's file has them checked as MJCF does beside the world, and pairs that are
+proven to touch never or always, over all configurations within the limits of the joints. Pairs that never touch may come
+near each other: with a clearance they are to be checked. MoveIt's own file samples configurations.
+
+Table of pairs (--report):
+  link1, link2       the links
+  class              never, always, always-as-enclosed, sometimes or undecided; as enclosed if the bodies always touch, but
+                     it is not proven of the shapes that they exceed: such a pair is not disabled
+  apart_share        share of the configurations that are proven apart
+  undecided_share, least_distance
+                     share of the configurations for which nothing is proven, and the least distance that was found; both
+                     for undecided pairs alone
+  touching_JOINT, apart_JOINT
+                     a configuration that touches, and one that does not
+
+Ctrl-C ends the search as --deadline does: what is decided by then is written. A second one ends the command.
+
+Exit code: 0 if the pairs are examined, also if some stay undecided; 3 if Ctrl-C ended that; 2 for bad input, 1 if nothing
+can be written.
+
+Examples:
+  ccd acm arm.urdf --out arm.srdf
+  ccd acm arm.urdf --boxes 1000 --out arm.srdf --report pairs.csv";
+
+/// Runs `ccd acm`.
+pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
+    let mut outputs = vec![("--out", args.out.as_path())];
+    outputs.extend(args.report.iter().map(|path| ("--report", path.as_path())));
+    refuse_overwriting_any(args.robot.files(), &outputs)?;
+    if let Some(report) = &args.report {
+        if is_standard_output(&args.out) && is_standard_output(report) {
+            bail!("--out - and --report - are both standard output; give one of them a file");
+        }
+        refuse_overwriting_input(("--out", &args.out), ("--report", report))?;
+        refuse_overwriting_input(("--report", report), ("--out", &args.out))?;
+    }
+    let out = Output::claim(&args.out)?;
+    let report = args
+        .report
+        .as_deref()
+        .map(Output::claim_table)
+        .transpose()?;
+    let robot = args.robot.load(args.quiet)?;
+    let stop = interruption::flag()?;
+    let pairs = args.robot.link_pairs_printed(&robot, args.quiet)?;
+    let classes = classify(&robot, args, &stop)?;
+    let srdf = robot.to_srdf(&pairs, &classes);
+    out.write(|writer| writer.write_all(srdf.as_bytes()))?;
+    if let Some(report) = report {
+        write_report(&robot, &classes, report)?;
+    }
+    if !args.quiet {
+        print_escaped_to_stderr(&summary(&classes));
+    }
+    let is_whole = classes.iter().all(|(_, class)| class.is_decided());
+    Ok(if stop.load(Ordering::Relaxed) && !is_whole {
+        print_error("interrupted: what was decided by then is written");
+        RunOutcome::SomeRowsUnproven
+    } else {
+        RunOutcome::AllAnswered
+    })
+}
+
+/// Decides about all pairs, and shows how many are examined.
+fn classify(
+    robot: &Robot,
+    args: &AcmArgs,
+    stop: &Arc<AtomicBool>,
+) -> Result<Vec<([usize; 2], LinkContactClass)>> {
+    let settings = LinkContactSettings {
+        max_boxes: args.boxes as usize,
+        deadline: args.deadline,
+        stop: Some(Arc::clone(stop)),
+    };
+    let progress = Progress::start_single_step("examining pairs of links", args.quiet);
+    let show = |decided: usize, all: usize| {
+        progress.set_message(&format!(
+            "{decided} of {all} pairs of links are decided; Ctrl-C, --deadline or fewer --boxes leave the others undecided"
+        ));
+    };
+    Ok(robot.classify_link_contacts(&settings, show)?)
+}
+
+fn class_name(class: &LinkContactClass) -> &'static str {
+    match class {
+        LinkContactClass::Never => "never",
+        LinkContactClass::Always => "always",
+        LinkContactClass::AlwaysAsEnclosed => "always-as-enclosed",
+        LinkContactClass::Sometimes { .. } => "sometimes",
+        LinkContactClass::Undecided { .. } => "undecided",
+    }
+}
+
+fn summary(classes: &[([usize; 2], LinkContactClass)]) -> String {
+    let kinds = [
+        "never",
+        "sometimes",
+        "always",
+        "always-as-enclosed",
+        "undecided",
+    ];
+    let counts = kinds.map(|name| {
+        let found = classes
+            .iter()
+            .filter(|(_, class)| class_name(class) == name);
+        match (name, found.count()) {
+            ("undecided", count) => format!("{count} are undecided"),
+            ("always-as-enclosed", count) => {
+                format!("{count} always touch as enclosures, their shapes perhaps not")
+            }
+            (_, count) => format!("{count} {name} touch"),
+        }
+    });
+    format!("{} pairs of links: {}", classes.len(), counts.join(", "))
+}
+
+/// Writes a row for each pair.
+fn write_report(
+    robot: &Robot,
+    classes: &[([usize; 2], LinkContactClass)],
+    report: Output,
+) -> Result<()> {
+    let joints: Vec<&str> = robot.free_joint_names().collect();
+    let mut header = [
+        "link1",
+        "link2",
+        "class",
+        "apart_share",
+        "undecided_share",
+        "least_distance",
+    ]
+    .map(str::to_owned)
+    .to_vec();
+    for prefix in ["touching", "apart"] {
+        header.extend(joints.iter().map(|joint| format!("{prefix}_{joint}")));
+    }
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    let mut table = TableWriter::start(report, &header)?;
+    for (links, class) in classes {
+        let (numbers, configurations) = match class {
+            LinkContactClass::Never => ([Some(1.0), None, None], [None, None]),
+            LinkContactClass::Always | LinkContactClass::AlwaysAsEnclosed => {
+                ([Some(0.0), None, None], [None, None])
+            }
+            LinkContactClass::Sometimes {
+                touching_configuration,
+                apart_configuration,
+            } => (
+                [None; 3],
+                [Some(touching_configuration), Some(apart_configuration)],
+            ),
+            LinkContactClass::Undecided {
+                proven_apart_share,
+                undecided_share,
+                least_distance,
+                touching_configuration,
+                apart_configuration,
+            } => (
+                [
+                    Some(*proven_apart_share),
+                    Some(*undecided_share),
+                    Some(*least_distance),
+                ],
+                [
+                    touching_configuration.as_ref(),
+                    apart_configuration.as_ref(),
+                ],
+            ),
+        };
+        let names = links.map(|link| robot.links()[link].name.clone());
+        let mut cells = names.to_vec();
+        cells.push(class_name(class).to_owned());
+        let text = |number: Option<f64>| number.map_or(String::new(), |number| number.to_string());
+        cells.extend(numbers.map(text));
+        for configuration in configurations {
+            cells.extend((0..joints.len()).map(|joint| {
+                configuration.map_or(String::new(), |positions| positions[joint].to_string())
+            }));
+        }
+        table.add_row(&cells)?;
+    }
+    Ok(table.finish()?)
+}

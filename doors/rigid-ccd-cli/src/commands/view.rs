@@ -1,0 +1,262 @@
+//! `ccd view`: writes a page that shows queries, or a scene of many bodies.
+
+mod args;
+mod chosen;
+
+pub(crate) use args::ViewArgs;
+pub(crate) use chosen::ChosenRows;
+
+use crate::bodies::pair::BodiesArgs;
+use crate::bodies::scene_table;
+use crate::console::RunOutcome;
+use crate::console::print_error;
+use crate::console::print_remarks;
+use crate::files::html::write_page;
+use crate::files::output::Output;
+use crate::files::{input_name, open_movement_rows, refuse_overwriting_input};
+use crate::options::solver_kind::SolverKind;
+use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
+use crate::robots::{CellArgs, FoundPaths, RobotPainter, RobotPaths};
+use crate::rows::timed::{TimedQuestion, answer_timed};
+use anyhow::{Context, Result, bail};
+use ccd_core::{Settings, VectorInstructions};
+use ccd_tables::paths::Grouping;
+use ccd_tables::results::{self, ResultRow};
+use ccd_view::{AnimationGroup, Page};
+use rigid_ccd::Question;
+use std::collections::{HashMap, VecDeque};
+use std::ffi::OsStr;
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+/// The maximum number of paths of a robot that cannot be shown and are printed one by one.
+const MAX_PRINTED_PROBLEMS: usize = 5;
+
+/// The maximum number of rows that are read to choose a few of them for the page.
+const MAX_ROWS_READ: usize = 10_000;
+
+/// Runs `ccd view`: writes the page of a table of motions or of a scene.
+pub(crate) fn run(args: &ViewArgs) -> Result<RunOutcome> {
+    if args.cell.robot.is_given() {
+        return view_robot(args, &args.cell);
+    }
+    match (&args.scene, args.bodies_and_motions()) {
+        (Some(scene), _) => view_scene(args, scene),
+        (None, Some((bodies, motions))) => view_rows(args, &bodies, motions),
+        // The parser prevents this.
+        (None, None) => bail!("give --a, --b and --motions, or --scene, or a URDF"),
+    }
+}
+
+fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<RunOutcome> {
+    let mut read = bodies.files_with_options()?;
+    read.push(("--motions", motions.to_owned()));
+    read.extend(args.results.iter().map(|path| ("--results", path.clone())));
+    for (option, path) in &read {
+        refuse_overwriting_input((option, path), ("--out", &args.out))?;
+    }
+    let (mut rows, _) = open_movement_rows(motions, Grouping::of_question(Question::FirstContact))?;
+    let out = Output::claim(&args.out)?;
+    let pair = bodies.load(SolverKind::default(), args.quiet)?;
+    let mut known = args.results.as_deref().map(read_results).transpose()?;
+    let mut chosen = ChosenRows::new(args.ids.clone());
+    let timing = TimedQuestion {
+        question: Question::FirstContact,
+        method: SolverKind::default(),
+        settings: settings(args),
+        repetitions: NonZeroUsize::MIN,
+    };
+    let asked = QueryContext {
+        time_meaning: known
+            .as_ref()
+            .map_or(TimeMeaning::FirstContact, |_| TimeMeaning::TableTime),
+        query_margin: args.margin,
+        clearance: None,
+    };
+    let mut solver = timing.method.solver(VectorInstructions::Best);
+    for row in rows.by_ref().take(MAX_ROWS_READ) {
+        let course = match row.with_context(|| input_name(motions))? {
+            Ok((_, course)) => course,
+            Err(fault) => {
+                chosen.note_undrawable_row(fault.to_string());
+                continue;
+            }
+        };
+        if chosen.is_requested(course.id()) == Some(false) {
+            continue;
+        }
+        let row = match &mut known {
+            Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
+            None => {
+                let answer = answer_timed(pair.bodies(), &course, &timing, solver.as_mut());
+                let (question, settings) = (timing.question, &timing.settings);
+                Some(
+                    pair.bodies()
+                        .result_row(question, settings, &course, &answer),
+                )
+            }
+        };
+        if let Some(row) = row {
+            chosen.add_if_wanted(&course, &row);
+        }
+        if chosen.needs_no_more_rows() {
+            break;
+        }
+    }
+    if args.results.is_none() && !args.quiet {
+        pair.print_remarks(args.tolerance(), &rows);
+    }
+    if let (Some(results), true) = (&args.results, chosen.is_empty()) {
+        let (motions, results) = (input_name(motions), results.display());
+        bail!("no row of {motions} is in {results}");
+    }
+    let painter = Painter::new(pair.bodies(), asked);
+    write_rows_page((&title(bodies), painter), chosen, out, args.quiet)
+}
+
+/// Returns the title of a page about two bodies: their names without folders, and the unit.
+pub(crate) fn title(bodies: &BodiesArgs) -> String {
+    let [a, b] = [&bodies.a, &bodies.b].map(|text| {
+        let name = Path::new(text).file_name();
+        name.map_or(text.into(), OsStr::to_string_lossy)
+    });
+    let unit = bodies.meshes.unit();
+    let unit = unit.map_or_else(String::new, |unit| format!(", lengths in {unit}"));
+    format!("{a} and {b}{unit}")
+}
+
+/// Writes the page of the chosen rows under a title. If no row can be shown, writes no page and prints a message.
+pub(crate) fn write_rows_page(
+    (title, mut painter): (&str, Painter<'_>),
+    mut chosen: ChosenRows,
+    out: Output,
+    quiet: bool,
+) -> Result<RunOutcome> {
+    let all_found = chosen.ids_without_row().next().is_none();
+    for id in chosen.ids_without_row() {
+        print_error(&format!("no row has the id {id:?}"));
+    }
+    let mut views = Vec::new();
+    for (course, row) in chosen.take_rows() {
+        match painter.animate_row(&course, &row) {
+            Ok(view) => views.push(view),
+            Err(error) => chosen.note_undrawable_row(format!("row {}: {error}", row.id)),
+        }
+    }
+    if let Some(faults) = chosen.describe_faults() {
+        print_error(&faults);
+    }
+    if views.is_empty() {
+        print_error("there is no row to show, and no page");
+        return Ok(RunOutcome::SomeRowsBad);
+    }
+    write_page(&painter.page(title, views), out, quiet)?;
+    Ok(if all_found && chosen.are_all_rows_drawable() {
+        RunOutcome::AllAnswered
+    } else {
+        RunOutcome::SomeRowsBad
+    })
+}
+
+/// Reads a table of results into lists by id; rows with the same id stay in their order.
+fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
+    let name = || path.display().to_string();
+    let file = ccd_file::open(path).with_context(name)?;
+    let rows = results::read(file).with_context(name)?;
+    let mut known: HashMap<String, VecDeque<ResultRow>> = HashMap::new();
+    for row in rows {
+        known.entry(row.id.clone()).or_default().push_back(row);
+    }
+    Ok(known)
+}
+
+fn settings(args: &ViewArgs) -> Settings {
+    Settings {
+        tolerance: args.tolerance(),
+        margin: args.margin,
+        ..Settings::DEFAULT
+    }
+}
+
+fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
+    if !args.meshes_are_default() {
+        bail!(
+            "the options of mesh files are for --a, --b and --scene; --geometry and --meshes say what a robot's links are"
+        );
+    }
+    robot.refuse_overwriting(&[("--out", &args.out)])?;
+    let asked = RobotPaths {
+        table: args.path.as_deref(),
+        joints: args.joints.given(),
+        ids: &args.ids,
+    };
+    if let Some(path) = asked.table {
+        refuse_overwriting_input(("--path", path), ("--out", &args.out))?;
+    }
+    let out = Output::claim(&args.out)?;
+    let cell = robot.load(args.quiet)?;
+    if !args.quiet {
+        print_remarks(cell.remark_on_tolerance(args.tolerance()));
+    }
+    let mut solver = cell.solver().with_settings(Settings {
+        margin: args.clearance,
+        ..settings(args)
+    });
+    let painter = RobotPainter::new(&cell)?;
+    let FoundPaths {
+        paths,
+        mut problems,
+    } = asked.read(&cell)?;
+    let mut views = Vec::new();
+    for path in &paths {
+        match painter.animation(&mut solver, path, args.clearance) {
+            Ok(view) => views.push(view),
+            Err(error) => problems.push(format!("path {:?}: {error}", path.id)),
+        }
+    }
+    for problem in problems.iter().take(MAX_PRINTED_PROBLEMS) {
+        print_error(&format!("not shown: {problem}"));
+    }
+    if problems.len() > MAX_PRINTED_PROBLEMS {
+        print_error(&format!("{} paths are not shown in all", problems.len()));
+    }
+    if views.is_empty() {
+        print_error("there is no row to show, and no page");
+        return Ok(RunOutcome::SomeRowsBad);
+    }
+    if let ([view], false) = (&views[..], args.quiet) {
+        print_error(&view.verdict);
+    }
+    let title = input_name(robot.robot.path());
+    write_page(&painter.page(&title, views), out, args.quiet)?;
+    Ok(if problems.is_empty() {
+        RunOutcome::AllAnswered
+    } else {
+        RunOutcome::SomeRowsBad
+    })
+}
+
+fn view_scene(args: &ViewArgs, path: &Path) -> Result<RunOutcome> {
+    let table = scene_table::read(("--scene", path), args.scene_args(), &args.out)?;
+    if !args.quiet {
+        table.print_load_report(args.tolerance());
+    }
+    let out = Output::claim(&args.out)?;
+    let shown = table.bodies_to_draw();
+    let contacts = table.contacts(settings(args));
+    let title = input_name(path);
+    let (meshes, view) = scene_view(&title, &shown, &contacts, table.duration);
+    if !args.quiet {
+        print_error(&view.verdict);
+    }
+    let page = Page {
+        title: &title,
+        meshes,
+        groups: vec![AnimationGroup {
+            name: String::new(),
+            views: vec![view],
+        }],
+    };
+    write_page(&page, out, args.quiet)?;
+    Ok(RunOutcome::AllAnswered)
+}

@@ -1,0 +1,142 @@
+//! Parses options whose values are named values of a library type.
+
+use ccd_core::schedule::Shortcut;
+use ccd_core::{StartPolicy, VectorInstructions};
+use ccd_decomp::{Axis, PatchOrder, Unit};
+use ccd_tables::results::{ANSWERS, QuestionAnswers};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use rigid_ccd::Question;
+
+/// The values of an option, each with its name on the command line and its help.
+pub(crate) type Named<T> = [(&'static str, T, &'static str)];
+
+/// Returns a parser that maps the names in `all` to their values.
+pub(crate) fn named_value_parser<T>(all: &'static Named<T>) -> impl TypedValueParser<Value = T>
+where
+    T: Copy + Send + Sync + 'static,
+{
+    let values = all
+        .iter()
+        .map(|&(name, _, help)| PossibleValue::new(name).help(help));
+    PossibleValuesParser::new(values).try_map(|given| {
+        let found = all.iter().find(|(name, ..)| *name == given);
+        found
+            .map(|&(_, value, _)| value)
+            .ok_or("there is no such value")
+    })
+}
+
+/// The coordinate axes of `--mirror`.
+pub(crate) const AXES: &Named<Axis> = &[
+    ("x", Axis::X, "Change the signs of x"),
+    ("y", Axis::Y, "Change the signs of y"),
+    ("z", Axis::Z, "Change the signs of z"),
+];
+
+/// The units of length of `--unit`, by their symbols.
+pub(crate) const UNITS: &Named<Unit> = &[
+    ("um", Unit::Micrometre, "Micrometre"),
+    ("mm", Unit::Millimetre, "Millimetre"),
+    ("cm", Unit::Centimetre, "Centimetre"),
+    ("m", Unit::Metre, "Metre"),
+    ("in", Unit::Inch, "Inch, 25.4 mm"),
+    ("ft", Unit::Foot, "Foot, 12 inches"),
+];
+
+/// The orders in which patches grow, for `--order`.
+pub(crate) const PATCH_ORDERS: &Named<PatchOrder> = &[
+    (
+        "cresting",
+        PatchOrder::Cresting,
+        "From the crests of the surface outward",
+    ),
+    (
+        "breadth-first",
+        PatchOrder::BreadthFirst,
+        "Breadth first, in the order of the faces of the mesh",
+    ),
+    (
+        "depth-first",
+        PatchOrder::DepthFirst,
+        "Depth first, in the order of the faces of the mesh",
+    ),
+];
+
+/// The questions of `--ask`.
+pub(crate) const QUESTIONS: &Named<Question> = &[
+    named_question(0),
+    named_question(1),
+    named_question(2),
+    named_question(3),
+    named_question(4),
+];
+
+const fn named_question(number: usize) -> (&'static str, Question, &'static str) {
+    let QuestionAnswers {
+        question, words, ..
+    } = ANSWERS[number];
+    (question.name(), question, words)
+}
+
+/// The treatments of bodies in contact at the start, for `--start`.
+pub(crate) const START_POLICIES: &Named<StartPolicy> = &[
+    (
+        StartPolicy::Report.name(),
+        StartPolicy::Report,
+        "Report the contact at time 0",
+    ),
+    (
+        StartPolicy::Leave.name(),
+        StartPolicy::Leave,
+        "Ignore the contact as long as the bodies do not approach",
+    ),
+];
+
+/// The shortcuts of the search that `--without` can disable.
+pub(crate) const SHORTCUTS: &Named<Shortcut> = &[
+    (
+        "balls",
+        Shortcut::Balls,
+        "Two balls on straight paths, for bodies that are far from each other",
+    ),
+    (
+        "boxes",
+        Shortcut::Boxes,
+        "One plane between the boxes of both bodies",
+    ),
+    (
+        "rounds",
+        Shortcut::Rounds,
+        "One period for all, for bodies that turn many times",
+    ),
+    (
+        "screw",
+        Shortcut::Screw,
+        "Surfaces along a screw, for a bolt in its nut and a shaft in its sleeve",
+    ),
+    (
+        "flat-nodes",
+        Shortcut::FlatNodes,
+        "Gaps in double precision, for faces that approach each other flat",
+    ),
+    (
+        "turning-nodes",
+        Shortcut::TurningNodes,
+        "Planes that turn with large parts, beside much smaller ones",
+    ),
+    (
+        "turning-pieces",
+        Shortcut::TurningPieces,
+        "Planes that turn with a triangle or convex piece",
+    ),
+];
+
+/// The sets of vector instructions of `--instructions`.
+pub(crate) const SIMD_INSTRUCTION_SETS: &Named<VectorInstructions> = &[
+    ("best", VectorInstructions::Best, "The best of this machine"),
+    (
+        "baseline",
+        VectorInstructions::Baseline,
+        "Those that every machine of this kind has",
+    ),
+];
