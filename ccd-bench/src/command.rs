@@ -2,6 +2,7 @@
 
 mod answer;
 mod chart;
+mod cost;
 mod inputs;
 mod judge;
 mod stability;
@@ -10,6 +11,7 @@ mod truth;
 use answer::AnswerArgs;
 use chart::ChartArgs;
 use clap::{Parser, Subcommand};
+use cost::CostArgs;
 use judge::JudgeArgs;
 use rigid_ccd_cli::{OutputError, print_error_and_get_exit_code};
 use stability::StabilityArgs;
@@ -46,6 +48,8 @@ enum Command {
     Stability(StabilityArgs),
     /// Ask one method about a table of motions, and judge its answers by the exact ones
     Judge(JudgeArgs),
+    /// Measure what a query costs: visits, microseconds, nanoseconds a visit
+    Cost(CostArgs),
     #[command(hide = true)]
     Answer(AnswerArgs),
 }
@@ -61,6 +65,7 @@ pub fn main() -> ExitCode {
         Command::Truth(args) => truth::run(&args),
         Command::Stability(args) => stability::run(&args),
         Command::Judge(args) => judge::run(&args),
+        Command::Cost(args) => cost::run(&args),
         Command::Answer(args) => answer::run(&args),
     })
 }

@@ -14,7 +14,7 @@ use crate::method::solver::{ContactClaim, Reply, Solver};
 use crate::names::name_of;
 use crate::scene::PieceKind;
 use ccd_core::Answer;
-use ccd_core::{InputError, Outcome, Settings, VectorInstructions};
+use ccd_core::{InputError, Outcome, Settings};
 use ccd_decomp::TriangleMesh;
 use ccd_tables::batch::BodyPair;
 use ccd_tables::motions::Motions;
@@ -185,7 +185,7 @@ impl<'s> ProjectSolver<'s> {
         ProjectSolver {
             bodies,
             solver_kind: kind,
-            solver: kind.solver(VectorInstructions::Best),
+            solver: kind.solver(),
             margin,
         }
     }

@@ -140,7 +140,5 @@ pub use motion::trajectory::{
 pub use query::{Movement, MovingBody, Query};
 pub use question::Question;
 pub use schedule::Schedule;
-pub use settings::{
-    ContactNormals, Setting, SettingField, Settings, StartPolicy, VectorInstructions,
-};
+pub use settings::{ContactNormals, Setting, SettingField, Settings, StartPolicy};
 pub use swept_box::SweptBox;

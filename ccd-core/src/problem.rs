@@ -147,8 +147,8 @@ impl<'a> Problem<'a> {
             contact_normals: terms.contact_normals,
             stop_flag: terms.stop,
             rounding,
-            simd_level: terms.simd_level,
-            shortcuts: terms.shortcuts,
+            simd_level: terms.engine_options.vector_instructions.simd_level(),
+            shortcuts: terms.engine_options.shortcuts,
         })
     }
 

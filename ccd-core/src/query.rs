@@ -10,7 +10,7 @@ use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::motion::trajectory::{Stretch, Trajectory};
 use crate::problem::Problem;
-use crate::settings::{QuerySettings, Settings};
+use crate::settings::{EngineOptions, QuerySettings, Settings};
 use std::fmt;
 use std::time::Duration;
 
@@ -214,6 +214,17 @@ impl<'a> Query<'a> {
         self.settings.deadline = deadline;
         if let Some(problem) = &mut self.constant_velocity_problem {
             problem.deadline = deadline;
+        }
+        self
+    }
+
+    /// Sets how the engine computes the answer.
+    #[must_use]
+    pub fn with_engine_options(mut self, options: EngineOptions) -> Self {
+        self.settings.engine_options = options;
+        if let Some(problem) = &mut self.constant_velocity_problem {
+            problem.simd_level = options.vector_instructions.simd_level();
+            problem.shortcuts = options.shortcuts;
         }
         self
     }

@@ -12,7 +12,7 @@ use crate::query::Query;
 use crate::questions::along::contacts::first_contact;
 pub use crate::questions::depth_first::DepthFirst;
 pub use crate::questions::steps::{FirstContactSearch, Progress};
-pub use crate::settings::{Shortcut, Shortcuts};
+pub use crate::settings::{EngineOptions, Shortcut, Shortcuts, VectorInstructions};
 
 /// An algorithm that answers queries, by choosing the order in which the pairs of nodes of two bodies are advanced.
 ///

@@ -1,14 +1,13 @@
 //! The settings of queries: contact distance, accuracy, and limits of the work.
 
+mod engine_options;
 mod named;
-mod shortcuts;
 
+pub use engine_options::{EngineOptions, Shortcut, Shortcuts, VectorInstructions};
 pub use named::{Setting, SettingField};
-pub use shortcuts::{Shortcut, Shortcuts};
 
 use crate::error::{InputError, check};
 use crate::limits::{self, LEAST_TOLERANCE, MAX_COORDINATE};
-use fearless_simd::Level;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -54,10 +53,6 @@ pub struct Settings {
     pub deadline: Option<Duration>,
     /// How the normals of contacts are found.
     pub contact_normals: ContactNormals,
-    /// The vector instructions that are used; answers are the same with any, to the last bit.
-    pub vector_instructions: VectorInstructions,
-    /// The shortcuts that the search uses; answers have the same guarantee with any of them.
-    pub shortcuts: Shortcuts,
     /// A flag that another thread sets to stop the query; `None` if nothing stops it. Soon after it is set, a query
     /// ends as [`Limit::Stopped`](crate::Limit::Stopped), with a certified time. It is read as often as the clock is
     /// for a deadline.
@@ -81,8 +76,6 @@ impl Settings {
         budget: limits::DEFAULT_BUDGET,
         deadline: None,
         contact_normals: ContactNormals::Refined,
-        vector_instructions: VectorInstructions::Best,
-        shortcuts: Shortcuts::ALL,
         stop: None,
     };
 
@@ -110,8 +103,7 @@ impl Settings {
             budget: self.budget,
             deadline: self.deadline,
             contact_normals: self.contact_normals,
-            simd_level: self.vector_instructions.simd_level(),
-            shortcuts: self.shortcuts,
+            engine_options: EngineOptions::DEFAULT,
             stop: self.stop.as_deref(),
         }
     }
@@ -133,8 +125,7 @@ pub(crate) struct QuerySettings<'a> {
     pub(crate) budget: u64,
     pub(crate) deadline: Option<Duration>,
     pub(crate) contact_normals: ContactNormals,
-    pub(crate) simd_level: Level,
-    pub(crate) shortcuts: Shortcuts,
+    pub(crate) engine_options: EngineOptions,
     pub(crate) stop: Option<&'a AtomicBool>,
 }
 
@@ -158,18 +149,6 @@ impl QuerySettings<'_> {
         }
         Ok(())
     }
-}
-
-/// The choice of vector instructions for the bounds of nodes.
-///
-/// On x86 these are AVX2 or SSE2. Other targets have one set each, NEON for instance.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum VectorInstructions {
-    /// The best instructions of the machine, detected at run time.
-    #[default]
-    Best,
-    /// The instructions of the target that the program was built for, which every such machine has.
-    Baseline,
 }
 
 /// How the normals of contacts are found.

@@ -10,9 +10,9 @@ use crate::tolerance::{INTERSECTION_TEST_GAP_RATIO, MIN_CERTIFIED_SHARE};
 use axis::best_separating_axis;
 use ccd_core::fearless_simd::Level;
 use ccd_core::glam::DVec3;
+use ccd_core::schedule::VectorInstructions;
 use ccd_core::{
-    Claim, ConvexCombination, DistanceOracle, GiveUpReason, Piece, PiecePair, VectorInstructions,
-    vectorize,
+    Claim, ConvexCombination, DistanceOracle, GiveUpReason, Piece, PiecePair, vectorize,
 };
 use nearest::{Corners, NearestPoints, nearest_points, support_gap};
 

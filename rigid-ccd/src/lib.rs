@@ -111,7 +111,7 @@ pub use ccd_core::glam;
 pub use ccd_core::schedule;
 pub use ccd_core::{
     Answer, Body, ContactNormals, Hit, InputError, Motion, Outcome, Pose, Query, Question, Setting,
-    SettingField, Settings, StartPolicy, VectorInstructions,
+    SettingField, Settings, StartPolicy,
 };
 /// Meshes, and bodies made from them.
 #[cfg(feature = "meshes")]

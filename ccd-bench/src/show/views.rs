@@ -3,7 +3,7 @@
 use crate::method::first_contact;
 use crate::scene::Scene;
 use anyhow::Result;
-use ccd_core::{Outcome, Settings, VectorInstructions};
+use ccd_core::{Outcome, Settings};
 use ccd_tables::courses::Movements;
 use ccd_tables::results::ResultRow;
 use ccd_view::{Animation, AnimationGroup, Meshes};
@@ -50,7 +50,7 @@ impl SceneAnimations {
         let mut painter = Painter::new(bodies, asked);
         // The painter numbers the meshes of one pair; the page has those of all.
         let meshes = [bodies.a, bodies.b].map(|body| self.meshes.add(&drawn_mesh(body)));
-        let mut solver = SolverKind::default().solver(VectorInstructions::Best);
+        let mut solver = SolverKind::default().solver();
         let mut found = [const { Vec::new() }; 2];
         for query in &scene.queries {
             let answer = first_contact(bodies, query, &Settings::DEFAULT, solver.as_mut())?;

@@ -3,6 +3,7 @@
 mod chart;
 #[path = "../../../doors/rigid-ccd-cli/tests/cli/command.rs"]
 mod command;
+mod cost;
 mod judge;
 mod peer;
 mod stability;

@@ -4,9 +4,9 @@ use super::minkowski::MinkowskiDifference;
 use super::search::SearchResult;
 use super::simplex::Simplex;
 use crate::closed_form::nearest::{Corners, nearest_points};
-use ccd_core::VectorInstructions;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
+use ccd_core::schedule::VectorInstructions;
 
 /// Computes the nearest points of the two features that a simplex spans by a closed form, and stores them in `found` if
 /// they are nearer.

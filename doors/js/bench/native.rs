@@ -4,7 +4,8 @@
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use rigid_ccd::glam::DQuat;
-use rigid_ccd::{Body, Motion, Outcome, Pose, Settings, Solver, VectorInstructions, load};
+use rigid_ccd::schedule::{EngineOptions, VectorInstructions};
+use rigid_ccd::{Body, Motion, Outcome, Pose, Query, Question, Settings, Solver, load};
 use serde_json::{Value, json};
 use std::error::Error;
 use std::io::Write;
@@ -59,11 +60,11 @@ fn family(name: &str, (body, kind): (Body, &str), far: f64) -> Result<Value, Box
     });
     let motions: Vec<Motion> = motions.collect::<Result<_, _>>()?;
     let ask = |instructions| -> Result<_, Box<dyn Error>> {
-        let settings = Settings {
+        let options = EngineOptions {
             vector_instructions: instructions,
-            ..Settings::DEFAULT
+            ..EngineOptions::DEFAULT
         };
-        let mut solver = Solver::new().with_settings(settings);
+        let mut solver = Solver::new();
         let mut answers = Vec::new();
         // The least of all rounds: what else the machine does only adds to them.
         let mut micros = Vec::new();
@@ -71,8 +72,10 @@ fn family(name: &str, (body, kind): (Body, &str), far: f64) -> Result<Value, Box
             answers.clear();
             let begun = Instant::now();
             for &motion in &motions {
-                let answer =
-                    solver.first_contact((&body, motion), (&target, Motion::STILL), 1.0)?;
+                let at_rest = (&target, Motion::STILL);
+                let query = Query::new((&body, motion), at_rest, 1.0, &Settings::DEFAULT)?;
+                let query = query.with_engine_options(options);
+                let answer = solver.answer_query(Question::FirstContact, &query)?;
                 answers.push(answer.outcome);
             }
             micros.push(1e6 * begun.elapsed().as_secs_f64() / QUERY_COUNT as f64);

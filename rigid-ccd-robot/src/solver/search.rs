@@ -27,6 +27,7 @@ use crate::tuning::{
     PREPARED_HALVINGS,
 };
 use ccd_core::order::{greater, lesser};
+use ccd_core::schedule::VectorInstructions;
 use ccd_core::vectorize;
 use rigid_ccd::answer::Limit;
 use rigid_ccd::{Error, Settings, Solver};
@@ -265,7 +266,7 @@ impl<'c> Search<'c> {
             return Ok(Break(()));
         }
         let base = self.candidates.len();
-        let level = self.settings.vector_instructions.simd_level();
+        let level = VectorInstructions::Best.simd_level();
         let Continue(first) = vectorize!(level, _token => self.measure_candidates(stretch, among))
         else {
             return Ok(Break(()));

@@ -27,7 +27,6 @@ use crate::rows::resumable::{
 };
 use crate::rows::timed::TimedQuestion;
 use anyhow::{Result, bail};
-use ccd_core::schedule::Shortcuts;
 use ccd_core::{Settings, StartPolicy};
 use ccd_tables::batch::{BatchSize, parallel_solver};
 use ccd_tables::paths::Grouping;
@@ -84,7 +83,7 @@ pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     if timing.method.motion_bound == BoundKind::Published {
         print_error("--bound published: times are not certified, contacts may be late or missed");
     }
-    let solver = parallel_solver(args.threads, || timing.method.solver(args.instructions));
+    let solver = parallel_solver(args.threads, || timing.method.solver());
     let mut run = QueryRun {
         args,
         bodies: pair.bodies(),
@@ -292,8 +291,6 @@ fn timed_question_from_args(args: &QueryArgs) -> TimedQuestion {
             start_policy: args.start,
             budget: args.budget,
             deadline: args.deadline,
-            vector_instructions: args.instructions,
-            shortcuts: (args.without.iter()).fold(Shortcuts::ALL, |left, &each| left.without(each)),
             ..Settings::DEFAULT
         },
         repetitions: NonZeroUsize::new(args.repeat as usize).unwrap_or(NonZeroUsize::MIN),

@@ -19,7 +19,7 @@ use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
 use crate::robots::{CellArgs, FoundPaths, RobotPainter, RobotPaths};
 use crate::rows::timed::{TimedQuestion, answer_timed};
 use anyhow::{Context, Result, bail};
-use ccd_core::{Settings, VectorInstructions};
+use ccd_core::Settings;
 use ccd_tables::paths::Grouping;
 use ccd_tables::results::{self, ResultRow};
 use ccd_view::{AnimationGroup, Page};
@@ -73,7 +73,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
         query_margin: args.margin,
         clearance: None,
     };
-    let mut solver = timing.method.solver(VectorInstructions::Best);
+    let mut solver = timing.method.solver();
     for row in rows.by_ref().take(MAX_ROWS_READ) {
         let course = match row.with_context(|| input_name(motions))? {
             Ok((_, course)) => course,

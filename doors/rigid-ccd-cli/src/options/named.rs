@@ -1,7 +1,6 @@
 //! Parses options whose values are named values of a library type.
 
-use ccd_core::schedule::Shortcut;
-use ccd_core::{StartPolicy, VectorInstructions};
+use ccd_core::StartPolicy;
 use ccd_decomp::{Axis, PatchOrder, Unit};
 use ccd_tables::results::{ANSWERS, QuestionAnswers};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -89,54 +88,5 @@ pub(crate) const START_POLICIES: &Named<StartPolicy> = &[
         StartPolicy::Leave.name(),
         StartPolicy::Leave,
         "Ignore the contact as long as the bodies do not approach",
-    ),
-];
-
-/// The shortcuts of the search that `--without` can disable.
-pub(crate) const SHORTCUTS: &Named<Shortcut> = &[
-    (
-        "balls",
-        Shortcut::Balls,
-        "Two balls on straight paths, for bodies that are far from each other",
-    ),
-    (
-        "boxes",
-        Shortcut::Boxes,
-        "One plane between the boxes of both bodies",
-    ),
-    (
-        "rounds",
-        Shortcut::Rounds,
-        "One period for all, for bodies that turn many times",
-    ),
-    (
-        "screw",
-        Shortcut::Screw,
-        "Surfaces along a screw, for a bolt in its nut and a shaft in its sleeve",
-    ),
-    (
-        "flat-nodes",
-        Shortcut::FlatNodes,
-        "Gaps in double precision, for faces that approach each other flat",
-    ),
-    (
-        "turning-nodes",
-        Shortcut::TurningNodes,
-        "Planes that turn with large parts, beside much smaller ones",
-    ),
-    (
-        "turning-pieces",
-        Shortcut::TurningPieces,
-        "Planes that turn with a triangle or convex piece",
-    ),
-];
-
-/// The sets of vector instructions of `--instructions`.
-pub(crate) const SIMD_INSTRUCTION_SETS: &Named<VectorInstructions> = &[
-    ("best", VectorInstructions::Best, "The best of this machine"),
-    (
-        "baseline",
-        VectorInstructions::Baseline,
-        "Those that every machine of this kind has",
     ),
 ];

@@ -1,11 +1,8 @@
 //! Solvers whose schedule, distance backend and motion bound are chosen at run time.
 
 use ccd_core::schedule::{Fast, Naive};
-use ccd_core::{
-    Answer, Body, DistanceOracle, InputError, OrElse, Query, Schedule, VectorInstructions,
-    VelocityBound,
-};
-use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
+use ccd_core::{Answer, Body, DistanceOracle, InputError, OrElse, Query, Schedule, VelocityBound};
+use ccd_distance_gjk::{Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use clap::ValueEnum;
 use rigid_ccd::CachePadded;
@@ -105,12 +102,10 @@ impl SolverKind {
         })
     }
 
-    /// Creates a solver whose backend uses the given instruction set.
-    pub fn solver(self, instructions: VectorInstructions) -> Box<dyn Solve> {
+    /// Creates a solver of this kind.
+    pub fn solver(self) -> Box<dyn Solve> {
         match self.oracle {
-            OracleKind::Direct => {
-                self.solver_with_oracle(ClosedForm::new(instructions).or_else(Gjk))
-            }
+            OracleKind::Direct => self.solver_with_oracle(Direct::default()),
             OracleKind::Gjk => self.solver_with_oracle(Gjk),
             OracleKind::Vmarch => self.solver_with_oracle(Vmarch::default().or_else(Gjk)),
         }

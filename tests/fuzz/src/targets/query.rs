@@ -7,7 +7,8 @@ mod source;
 use crate::case::Case;
 use crate::engine::{Bodies, HullTrees, Method, PieceKind};
 use crate::trial::run_and_judge;
-use ccd_core::{ContactsError, Outcome, Settings, VectorInstructions};
+use ccd_core::schedule::{EngineOptions, VectorInstructions};
+use ccd_core::{ContactsError, Outcome};
 pub use encode::encode;
 
 /// A query, and the methods that answer it.
@@ -39,11 +40,12 @@ fn run_extra_checks(case: &Case) {
         return;
     };
     let answer = |instructions| {
-        let config = Settings {
+        let options = EngineOptions {
             vector_instructions: instructions,
-            ..case.config.clone()
+            ..EngineOptions::DEFAULT
         };
-        let problem = bodies.problem(case, &config).ok()?;
+        let problem = bodies.problem(case, &case.config).ok()?;
+        let problem = problem.with_engine_options(options);
         let answer = Method::Direct.solve(&problem);
         if let Outcome::Contact { time, .. } = answer.outcome {
             let contacts = problem.contacts_at(time);

@@ -2,15 +2,12 @@
 
 use super::help::{AFTER_HELP, after_long_help};
 use crate::bodies::pair::BodiesArgs;
-use crate::options::named::{
-    QUESTIONS, SHORTCUTS, SIMD_INSTRUCTION_SETS, START_POLICIES, named_value_parser,
-};
+use crate::options::named::{QUESTIONS, START_POLICIES, named_value_parser};
 use crate::options::numbers::{parse_nonnegative, parse_seconds, tolerance};
 use crate::options::solver_kind::{BoundKind, OracleKind, ScheduleKind};
 use crate::rows::resumable::RowRange;
+use ccd_core::StartPolicy;
 use ccd_core::limits::{DEFAULT_BUDGET, DEFAULT_TOLERANCE};
-use ccd_core::schedule::Shortcut;
-use ccd_core::{StartPolicy, VectorInstructions};
 use ccd_tables::results::{self, Column};
 use clap::Args;
 use rigid_ccd::Question;
@@ -63,12 +60,6 @@ pub(crate) struct QueryArgs {
     /// cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
-    /// Vector instructions to compute with; they change the speed, not the answers
-    #[arg(long, value_parser = named_value_parser(SIMD_INSTRUCTION_SETS), default_value = "best")]
-    pub(super) instructions: VectorInstructions,
-    /// Search without these shortcuts, to see what they save; times stay certified
-    #[arg(long, value_name = "SHORTCUT,...", value_delimiter = ',', value_parser = named_value_parser(SHORTCUTS))]
-    pub(super) without: Vec<Shortcut>,
     /// Answer only these rows, numbered from 0, TO excluded; either end may be omitted
     #[arg(
         long,
@@ -130,15 +121,6 @@ impl QueryArgs {
 /// The ids of the options that the journal does not record as they are given. Most of them change no byte of the
 /// tables. The journal has a checksum of the motions instead of their path, and one form of `--rows` instead of
 /// several.
-pub(super) const UNRECORDED_OPTIONS: [&str; 10] = [
-    "motions",
-    "threads",
-    "instructions",
-    "out",
-    "html",
-    "html_ids",
-    "resume",
-    "check",
-    "quiet",
-    "rows",
+pub(super) const UNRECORDED_OPTIONS: [&str; 9] = [
+    "motions", "threads", "out", "html", "html_ids", "resume", "check", "quiet", "rows",
 ];

@@ -17,7 +17,7 @@ fn knot() -> Body {
 }
 
 fn first_contact(kind: SolverKind, query: &Query<'_>) -> Answer {
-    let mut solver = kind.solver(VectorInstructions::Best);
+    let mut solver = kind.solver();
     let answer = solver.answer(Question::FirstContact, query);
     answer
         .expect("all schedules find it")
