@@ -1,17 +1,24 @@
 #!/bin/sh
 # Opens a page in a headless browser and takes a screenshot. The console must stay empty, and the page has
-# to draw all its parts: the view in three dimensions, or those that are named.
+# to draw all its parts: the view in three dimensions, or those that are named. A page with modules of its own
+# has an address, because browsers load none from files.
 #
-#   check_page.sh PAGE.html SHOT.png [WIDTH,HEIGHT [PART...]]
+#   check_page.sh PAGE.html|ADDRESS SHOT.png [WIDTH,HEIGHT [PART...]]
 #
 # Exit code 0: success; 1: the page is wrong; 2: wrong arguments; 3: no browser found.
 set -eu
 
-if [ $# -lt 2 ] || [ ! -f "$1" ]; then
-    echo "usage: $0 PAGE.html SHOT.png [WIDTH,HEIGHT [PART...]]" >&2
+address=
+if [ $# -ge 2 ]; then
+    case $1 in
+    http://* | https://*) address=$1 ;;
+    *) [ ! -f "$1" ] || address=file://$(realpath "$1") ;;
+    esac
+fi
+if [ -z "$address" ]; then
+    echo "usage: $0 PAGE.html|ADDRESS SHOT.png [WIDTH,HEIGHT [PART...]]" >&2
     exit 2
 fi
-page=$(realpath "$1")
 shot=$(realpath -m "$2")
 size=${3:-1200,1800}
 if [ $# -gt 3 ]; then
@@ -42,7 +49,7 @@ browse() {
         --disable-background-networking --disable-component-update --disable-sync \
         --use-angle=swiftshader --enable-unsafe-swiftshader \
         --user-data-dir="$(mktemp -d -p "$work")" --enable-logging=stderr --v=0 \
-        --virtual-time-budget=30000 --window-size="$size" "$@" "file://$page"
+        --virtual-time-budget=30000 --window-size="$size" "$@" "$address"
 }
 
 browse --dump-dom >"$work/dom" 2>"$work/log" || {
