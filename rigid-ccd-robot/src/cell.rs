@@ -145,7 +145,7 @@ impl Cell {
     /// # Errors
     /// [`RobotError::NoSuchObstacle`], [`RobotError::TooFar`].
     pub fn move_obstacle(&mut self, name: &str, pose: Pose) -> Result<(), RobotError> {
-        let number = self.robot_body_placements.len() + self.obstacle_number(name)?;
+        let number = self.robot_body_placements.len() + self.obstacle_index(name)?;
         RobotError::check_pose("obstacle", name, &pose)?;
         let moved = self.bodies[number].moved_to(pose);
         self.replace(number, moved);
@@ -157,7 +157,7 @@ impl Cell {
     /// # Errors
     /// [`RobotError::NoSuchObstacle`].
     pub fn remove_obstacle(&mut self, name: &str) -> Result<(), RobotError> {
-        let obstacle = self.obstacle_number(name)?;
+        let obstacle = self.obstacle_index(name)?;
         self.obstacle_names.remove(obstacle);
         self.remove(self.robot_body_placements.len() + obstacle);
         Ok(())
@@ -183,13 +183,13 @@ impl Cell {
         let name = name.into();
         self.check_new_name(&name)?;
         RobotError::check_pose("attached body", &name, &pose)?;
-        let held = RobotBodyPlacement {
+        let placement = RobotBodyPlacement {
             link,
             pose_in_link: pose,
             attached_name: Some(name),
         };
         let number = self.robot_body_placements.len();
-        self.add_robot_body(body.into(), held);
+        self.add_robot_body(body.into(), placement);
         self.allow_contacts_of_attached(number, &may_touch);
         Ok(())
     }
@@ -199,7 +199,7 @@ impl Cell {
     /// # Errors
     /// [`RobotError::NoSuchAttachedBody`].
     pub fn detach(&mut self, name: &str) -> Result<(), RobotError> {
-        let number = self.attached_body_number(name)?;
+        let number = self.attached_body_index(name)?;
         self.robot_body_placements.remove(number);
         let parts = self.parts.iter().filter(|part| part.owner == number);
         self.robot_part_count -= parts.count();
@@ -224,8 +224,8 @@ impl Cell {
 
     /// Returns the names of the bodies that are attached to links, in the order in which they were attached.
     pub fn attached_names(&self) -> impl Iterator<Item = &str> {
-        let held = self.robot_body_placements.iter();
-        held.filter_map(|held| held.attached_name.as_deref())
+        let placement = self.robot_body_placements.iter();
+        placement.filter_map(|placement| placement.attached_name.as_deref())
     }
 
     /// Returns the link, the attached body or the obstacle that has a name.
@@ -235,9 +235,9 @@ impl Cell {
     pub fn item_named<'c>(&self, name: &'c str) -> Result<Item<'c>, RobotError> {
         if self.robot.link_number(name).is_ok() {
             Ok(Item::Link(name))
-        } else if self.attached_body_number(name).is_ok() {
+        } else if self.attached_body_index(name).is_ok() {
             Ok(Item::Attached(name))
-        } else if self.obstacle_number(name).is_ok() {
+        } else if self.obstacle_index(name).is_ok() {
             Ok(Item::Obstacle(name))
         } else {
             Err(RobotError::NoSuchItem { name: name.into() })
@@ -252,11 +252,11 @@ impl Cell {
         &self,
         configuration: &[f64],
     ) -> Result<Vec<(Item<'_>, &Body, Pose)>, RobotError> {
-        let robot_bodies = self.robot_body_placements.iter().map(|held| {
+        let robot_bodies = self.robot_body_placements.iter().map(|placement| {
             let link = self
                 .robot
-                .pose(&self.robot.links()[held.link].name, configuration)?;
-            Ok::<Pose, RobotError>(link.compose(&held.pose_in_link))
+                .pose(&self.robot.links()[placement.link].name, configuration)?;
+            Ok::<Pose, RobotError>(link.compose(&placement.pose_in_link))
         });
         let obstacles = self.bodies[self.robot_body_count()..]
             .iter()
@@ -273,9 +273,11 @@ impl Cell {
     pub fn carried_bodies(&self) -> impl ExactSizeIterator<Item = CarriedBody<'_>> {
         let bodies = self.bodies.iter().enumerate();
         bodies.map(|(number, placed)| {
-            let held = self.robot_body_placements.get(number);
+            let placement = self.robot_body_placements.get(number);
             let on_base = (self.robot.base(), placed.pose);
-            let (link, pose) = held.map_or(on_base, |held| (held.link, held.pose_in_link));
+            let (link, pose) = placement.map_or(on_base, |placement| {
+                (placement.link, placement.pose_in_link)
+            });
             CarriedBody {
                 item: self.item_of_body(number),
                 body: &placed.body,
@@ -326,17 +328,17 @@ impl Cell {
                 attached_name: Some(name),
                 ..
             }) => Item::Attached(name),
-            Some(held) => Item::Link(&self.robot.links()[held.link].name),
+            Some(placement) => Item::Link(&self.robot.links()[placement.link].name),
         }
     }
 
     /// Adds a body that the robot holds.
-    fn add_robot_body(&mut self, body: Arc<Body>, held: RobotBodyPlacement) {
-        let (frame, link_pose) = self.kinematics.link_frame_and_pose(held.link);
-        let pose = link_pose.compose(&held.pose_in_link);
+    fn add_robot_body(&mut self, body: Arc<Body>, placement: RobotBodyPlacement) {
+        let (frame, link_pose) = self.kinematics.link_frame_and_pose(placement.link);
+        let pose = link_pose.compose(&placement.pose_in_link);
         let placed = PlacedBody::new(body, pose, frame, MAX_LINK_PARTS);
         let number = self.robot_body_placements.len();
-        self.robot_body_placements.push(held);
+        self.robot_body_placements.push(placement);
         self.robot_part_count += self.insert(number, placed);
         self.fit_planes();
     }
@@ -349,7 +351,7 @@ impl Cell {
         }
         self.margins.insert_body(number);
         self.allowed
-            .renumber(|body| Some(if body < number { body } else { body + 1 }));
+            .reindex(|body| Some(if body < number { body } else { body + 1 }));
         let parts = placed.parts(number);
         let count = parts.len();
         self.parts.splice(first..first, parts);
@@ -375,7 +377,7 @@ impl Cell {
             Ordering::Greater => Some(body - 1),
         };
         self.margins.remove_body(number, after_removal);
-        self.allowed.renumber(after_removal);
+        self.allowed.reindex(after_removal);
         self.parts.retain(|part| part.owner != number);
         for part in &mut self.parts {
             if part.owner > number {
@@ -394,13 +396,14 @@ impl Cell {
         }
     }
 
-    fn obstacle_number(&self, name: &str) -> Result<usize, RobotError> {
+    fn obstacle_index(&self, name: &str) -> Result<usize, RobotError> {
         let number = self.obstacle_names.iter().position(|other| other == name);
         number.ok_or_else(|| RobotError::NoSuchObstacle { name: name.into() })
     }
 
-    fn attached_body_number(&self, name: &str) -> Result<usize, RobotError> {
-        let has_name = |held: &RobotBodyPlacement| held.attached_name.as_deref() == Some(name);
+    fn attached_body_index(&self, name: &str) -> Result<usize, RobotError> {
+        let has_name =
+            |placement: &RobotBodyPlacement| placement.attached_name.as_deref() == Some(name);
         let number = self.robot_body_placements.iter().position(has_name);
         number.ok_or_else(|| RobotError::NoSuchAttachedBody { name: name.into() })
     }

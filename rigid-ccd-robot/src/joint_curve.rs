@@ -341,7 +341,7 @@ impl JointCurve {
             }
             for (joint, [low, high]) in robot.limits().enumerate() {
                 let polynomial = self.polynomial(segment, joint);
-                let Some((share, position)) = find_outside(&polynomial, [low, high]) else {
+                let Some((share, position)) = find_limit_violation(&polynomial, [low, high]) else {
                     continue;
                 };
                 let error = InputError::JointOutOfLimits {
@@ -367,7 +367,7 @@ fn time_rounding([from, to]: [f64; 2]) -> f64 {
 
 /// Finds a share at which a polynomial is outside of limits, by more than it is rounded, and its value there. It looks at both
 /// ends, and at middles of ranges that may leave the limits, down to a millionth of the segment; no proof depends on it.
-fn find_outside(polynomial: &Polynomial, [low, high]: [f64; 2]) -> Option<(f64, f64)> {
+fn find_limit_violation(polynomial: &Polynomial, [low, high]: [f64; 2]) -> Option<(f64, f64)> {
     let rounding = polynomial.rounding_of_coefficients();
     let [low, high] = [low - rounding, high + rounding];
     for share in [0.0, 1.0] {
@@ -381,8 +381,11 @@ fn find_outside(polynomial: &Polynomial, [low, high]: [f64; 2]) -> Option<(f64, 
     open.push((0.0, 1.0, 0));
     while let Some((from, to, halvings)) = open.pop() {
         let middle = 0.5 * (from + to);
-        let about = polynomial.about(middle);
-        let (value, deviation) = (about.constant(), about.deviation_bound(0.5 * (to - from)));
+        let expanded = polynomial.expanded_about(middle);
+        let (value, deviation) = (
+            expanded.constant(),
+            expanded.deviation_bound(0.5 * (to - from)),
+        );
         // Written so that NaN is outside.
         if !(low <= value && value <= high) {
             return Some((middle, value));

@@ -17,7 +17,7 @@ pub(crate) struct Kinematics {
     /// For each link, the frame in which it rests, and its pose there.
     links: Vec<(usize, Pose)>,
     /// For each joint of the robot, its number among those that move; `None` for a fixed one.
-    moving_joint_numbers: Vec<Option<usize>>,
+    moving_joint_indices: Vec<Option<usize>>,
     /// The sum of the distances of all joints from the frames that hold them.
     pub(crate) arm_length_sum: f64,
     /// The number of all joints, fixed ones included.
@@ -55,8 +55,8 @@ impl Kinematics {
                 .origin()
                 .translation()
                 .length();
-            let (frame, held) = links[parent];
-            let origin = held.compose(robot.joints()[joint].axis_and_limits.origin());
+            let (frame, parent_pose) = links[parent];
+            let origin = parent_pose.compose(robot.joints()[joint].axis_and_limits.origin());
             let kind = robot.joints()[joint].axis_and_limits.kind();
             let (axis, is_prismatic, source) = match (kind, robot.source(joint)) {
                 (JointKind::Revolute(axis), Some(source)) => (axis, false, source),
@@ -73,7 +73,7 @@ impl Kinematics {
         Kinematics {
             joints,
             links,
-            moving_joint_numbers: numbers,
+            moving_joint_indices: numbers,
             arm_length_sum: arms,
             total_joint_count: robot.joints().len(),
         }
@@ -101,7 +101,7 @@ impl Kinematics {
 
     /// Returns the number of a joint of the robot among those that move; `None` for a fixed one.
     pub(crate) fn moving_joint_index(&self, joint: usize) -> Option<usize> {
-        self.moving_joint_numbers[joint]
+        self.moving_joint_indices[joint]
     }
 
     /// Returns the nearest frame from which two frames move.

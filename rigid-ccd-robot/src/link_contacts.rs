@@ -15,7 +15,7 @@ use crate::robot::Robot;
 use crate::tuning::{FIRST_ROUND_BOXES, ROUND_FACTOR};
 use ccd_core::order::lesser;
 use rigid_ccd::{Error, ParallelSolver};
-use search::{PairRecord, PairSearch};
+use search::{LinkPairRecord, LinkPairSearch};
 use search_end::SearchEnd;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -112,10 +112,11 @@ impl Robot {
         progress: impl Fn(usize, usize) + Sync,
     ) -> Result<Vec<([usize; 2], LinkContactClass)>, Error> {
         let link_pairs = LinkPairs::from_robot(self);
-        let mut records: Vec<PairRecord> = link_pairs.all_pairs().map(PairRecord::new).collect();
+        let mut records: Vec<LinkPairRecord> =
+            link_pairs.all_pairs().map(LinkPairRecord::new).collect();
         let cell = Cell::new(self.clone(), link_pairs);
         let end = SearchEnd::starting_now(settings);
-        let mut searches = ParallelSolver::new(|| PairSearch::new(&cell, end.clone()));
+        let mut searches = ParallelSolver::new(|| LinkPairSearch::new(&cell, end.clone()));
         let (all, decided) = (records.len(), AtomicUsize::new(0));
         let mut left = settings.max_boxes.saturating_mul(all);
         let mut boxes = lesser(FIRST_ROUND_BOXES, settings.max_boxes);
@@ -127,7 +128,11 @@ impl Robot {
                 // What was examined before is examined again.
                 .filter(|&pair| quota_of(pair) > records[pair].boxes)
                 .collect();
-            open.sort_by(|&a, &b| records[a].open_share.total_cmp(&records[b].open_share));
+            open.sort_by(|&a, &b| {
+                records[a]
+                    .undecided_share
+                    .total_cmp(&records[b].undecided_share)
+            });
             let quotas = open.iter().map_while(|&pair| {
                 let quota = lesser(quota_of(pair), left);
                 left -= quota;

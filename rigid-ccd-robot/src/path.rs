@@ -1,7 +1,7 @@
 //! What a question can be about: paths through configurations, and curves.
 
+pub(crate) mod interval;
 pub(crate) mod joint_path;
-pub(crate) mod stretch;
 
 use crate::cell::Cell;
 use crate::error::PathError;

@@ -50,7 +50,7 @@ impl Polynomial {
     }
 
     /// Returns the same polynomial about another share: its Taylor series there, by Horner's scheme.
-    pub(crate) fn about(mut self, share: f64) -> Self {
+    pub(crate) fn expanded_about(mut self, share: f64) -> Self {
         let share = DoubleDouble::from(share);
         for lowest in 0..self.degree {
             for power in (lowest..self.degree).rev() {
@@ -76,11 +76,11 @@ impl Polynomial {
 
     /// Bounds how far values are from those of the polynomial that is meant, if each coefficient was rounded a few times.
     pub(crate) fn rounding_of_coefficients(&self) -> f64 {
-        16.0 * f64::EPSILON * (self.degree + 1) as f64 * self.size()
+        16.0 * f64::EPSILON * (self.degree + 1) as f64 * self.coefficient_magnitude_sum()
     }
 
     /// Returns the sum of the absolute values of all coefficients.
-    pub(crate) fn size(&self) -> f64 {
+    pub(crate) fn coefficient_magnitude_sum(&self) -> f64 {
         let all = self.coefficients.iter();
         all.map(|own| own.value().abs()).sum()
     }
@@ -93,9 +93,9 @@ impl Polynomial {
     /// Bounds the values within a share of a middle to both sides. It halves the range as long as the bound is much wider than
     /// the values that are seen.
     fn range_within(&self, middle: f64, half: f64, halvings: u32) -> [f64; 2] {
-        let about = self.about(middle);
-        let (value, deviation) = (about.constant(), about.deviation_bound(half));
-        let ends = [-half, half].map(|offset| about.value(offset));
+        let expanded = self.expanded_about(middle);
+        let (value, deviation) = (expanded.constant(), expanded.deviation_bound(half));
+        let ends = [-half, half].map(|offset| expanded.value(offset));
         let seen = greater((ends[0] - value).abs(), (ends[1] - value).abs());
         if halvings == 0 || deviation <= MAX_RANGE_WIDTH_RATIO * seen {
             return [value - deviation, value + deviation];

@@ -75,7 +75,7 @@ pub enum CellRemark {
     /// Pairs of links are not checked. This is a note.
     PairsLeftOut(LeftOutPairs),
     /// Links and attached bodies that no joint moves are not compared with obstacles. This is a note.
-    RestingBesideObstacles {
+    StaticItemsUnchecked {
         /// The names of the links and the attached bodies.
         items: Vec<String>,
     },
@@ -111,7 +111,7 @@ impl CellRemark {
             self,
             CellRemark::LinksWithoutBodies { .. }
                 | CellRemark::PairsLeftOut(_)
-                | CellRemark::RestingBesideObstacles { .. }
+                | CellRemark::StaticItemsUnchecked { .. }
                 | CellRemark::ContactsAllowed { .. }
                 | CellRemark::ExactMeshes { .. }
                 | CellRemark::MeshContent { .. }
@@ -150,7 +150,7 @@ impl CellRemark {
             | CellRemark::MostLinksUnchecked { links, .. }
             | CellRemark::LinksWithoutBodies { links }
             | CellRemark::UnknownLinks { links }
-            | CellRemark::RestingBesideObstacles { items: links } => links.iter_mut().collect(),
+            | CellRemark::StaticItemsUnchecked { items: links } => links.iter_mut().collect(),
             CellRemark::LeftOut { elements } => elements.iter_mut().collect(),
             CellRemark::EmptyRobot { link: name }
             | CellRemark::UnlikelySize { item: name, .. }
@@ -235,7 +235,7 @@ impl fmt::Display for CellRemark {
                 counted(pairs.len(), "pair"),
                 listed(pairs)
             ),
-            CellRemark::RestingBesideObstacles { items } => write!(
+            CellRemark::StaticItemsUnchecked { items } => write!(
                 f,
                 "not compared with obstacles, since no joint moves it: {}",
                 items.join(", ")

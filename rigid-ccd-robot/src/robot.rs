@@ -220,8 +220,8 @@ impl Robot {
             }
         }
         for link in &links {
-            for held in &link.bodies {
-                RobotError::check_pose("a body of link", &link.name, &held.pose)?;
+            for link_body in &link.bodies {
+                RobotError::check_pose("a body of link", &link.name, &link_body.pose)?;
             }
             for plane in &link.planes {
                 RobotError::check_pose("a plane of link", &link.name, plane)?;

@@ -7,10 +7,10 @@ mod curved_link;
 pub(crate) mod displacement;
 mod distance_curve;
 mod engine;
+mod engine_candidates;
 mod exact;
 mod limits;
 pub(crate) mod measure;
-mod open_pairs;
 pub(crate) mod pair_chain;
 pub(crate) mod part_pairs;
 mod periods;
@@ -30,7 +30,7 @@ use ccd_core::order::greater;
 use part_pairs::PartPair;
 use rigid_ccd::answer::{HitKind, Unresolved};
 use rigid_ccd::{ContactNormals, Error, Hit, Outcome, Question, Settings, Solver, StartPolicy};
-use search::Search;
+use search::PathSearch;
 
 /// Answers questions about paths in a cell, one after another.
 ///
@@ -44,7 +44,7 @@ use search::Search;
 /// the engine. A whole question takes at most 8 budgets for each segment of its path, all pairs together: what one segment does
 /// not need is for the others. That counts the pairs that are measured as well; each takes less than a microsecond. The closest
 /// approach takes up to half as much again. Each range of a [distance curve](Self::distance_curve) counts as a question, and so
-/// does each stretch that is examined for [clearance ranges](Self::clearance_ranges). A budget may end a search at a contact that
+/// does each interval that is examined for [clearance ranges](Self::clearance_ranges). A budget may end a search at a contact that
 /// is later, within the tolerance of what is asked for, than the one that a larger budget finds.
 ///
 /// Under the start policy [`Leave`](StartPolicy::Leave), questions about the first or any contact let go of pairs in contact at the
@@ -54,7 +54,7 @@ use search::Search;
 /// without a gap that slides along other ways than straight ones: [`Cell::allow_contact`] allows that.
 pub struct CellSolver<'c> {
     cell: &'c Cell,
-    search: Search<'c>,
+    search: PathSearch<'c>,
     distance_solver: Solver,
 }
 
@@ -71,7 +71,7 @@ impl Cell {
     pub fn solver(&self) -> CellSolver<'_> {
         CellSolver {
             cell: self,
-            search: Search::new(self),
+            search: PathSearch::new(self),
             distance_solver: Solver::new(),
         }
     }
@@ -253,7 +253,7 @@ impl<'c> CellSolver<'c> {
             return Ok(self.search.answer_leaving_start(goal)?);
         }
         self.set_path_reporting_start(path)?;
-        let whole = self.search.whole_path_stretch();
+        let whole = self.search.whole_path_interval();
         Ok(self.search.answer_question(goal, whole)?)
     }
 
@@ -286,7 +286,7 @@ impl<'c> CellSolver<'c> {
     /// Measures a pair at a point of the path.
     fn measure_contact(&mut self, (at, pair): (f64, PartPair)) -> Result<PathContact<'c>, Error> {
         self.search.add_rounding_of_contact_point((at, pair));
-        let bodies = pair.body_numbers(self.cell.parts());
+        let bodies = pair.body_indices(self.cell.parts());
         let placement = self.search.place_frames(at);
         let rounding = 2.0 * placement.rounding;
         let (a, b) = (

@@ -222,11 +222,7 @@ impl Robot {
     /// assert!(srdf.contains("<robot name=\"stone\">"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn to_srdf(
-        &self,
-        pairs: &LinkPairs,
-        meetings: &[([usize; 2], LinkContactClass)],
-    ) -> String {
+    pub fn to_srdf(&self, pairs: &LinkPairs, classes: &[([usize; 2], LinkContactClass)]) -> String {
         let name = match self.name() {
             "" => "robot",
             name => name,
@@ -235,8 +231,8 @@ impl Robot {
             "<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n",
             escape(name)
         );
-        for ([one, other], meeting) in meetings {
-            let reason = match meeting {
+        for ([one, other], class) in classes {
+            let reason = match class {
                 LinkContactClass::Never => "Never (proven)",
                 LinkContactClass::Always => "Always (proven)",
                 // A file or a caller may check neighbours, such as the world and a body of an MJCF.

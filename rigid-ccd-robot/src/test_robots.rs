@@ -110,7 +110,8 @@ pub(crate) fn least_distance_of_links(robot: &Robot, links: [usize; 2], at: &[f6
         let link = &robot.links()[link];
         let pose = robot.pose(&link.name, at).unwrap();
         let bodies = link.bodies.iter();
-        let placed = bodies.map(|held| (held.body.clone(), pose.compose(&held.pose)));
+        let placed =
+            bodies.map(|link_body| (link_body.body.clone(), pose.compose(&link_body.pose)));
         placed.collect::<Vec<_>>()
     });
     let mut solver = Solver::new();

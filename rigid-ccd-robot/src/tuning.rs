@@ -1,17 +1,17 @@
 //! Tuning constants. They change how long a search takes; its answer is right with any values.
 
-/// The length of a stretch, in segments of the path, at which open pairs go to the engine. Each halving costs the frames of
+/// The length of an interval, in segments of the path, at which open pairs go to the engine. Each halving costs the frames of
 /// all links and a distance for each open pair; the engine costs about ten of these.
-pub(crate) const MAX_ENGINE_STRETCH_LENGTH: f64 = 1.0 / 32.0;
+pub(crate) const MAX_ENGINE_INTERVAL_LENGTH: f64 = 1.0 / 32.0;
 
 /// The same for the closest approach, for which the engine has to measure a distance, and not only to decide.
-pub(crate) const MAX_APPROACH_STRETCH_LENGTH: f64 = 1.0 / 64.0;
+pub(crate) const MAX_APPROACH_INTERVAL_LENGTH: f64 = 1.0 / 64.0;
 
 /// The displacement, in metres, below which a pair goes to the engine at once after this number of halvings.
 pub(crate) const MAX_ENGINE_DISPLACEMENT: f64 = 0.01;
 pub(crate) const MIN_ENGINE_HALVINGS: u32 = 4;
 
-/// The displacement in half a stretch, in metres, beyond which the distance in the middle of the stretch hardly ever
+/// The displacement in half an interval, in metres, beyond which the distance in the middle of the interval hardly ever
 /// proves it free. Pairs are then measured only if their boxes meet there.
 pub(crate) const MIN_BOX_TEST_DISPLACEMENT: f64 = 0.1;
 
@@ -41,7 +41,7 @@ pub(crate) const JOINT_AXIS_REFINEMENTS: u32 = 48;
 /// reading 25 ns.
 pub(crate) const PAIRS_BETWEEN_CLOCK_READS: usize = 8;
 
-/// A solver that is prepared has place for so many pairs, if there are as many, in each of so many stretches that are halved. A
+/// A solver that is prepared has place for so many pairs, if there are as many, in each of so many intervals that are halved. A
 /// pair takes 64 bytes: the place is at most 4 MB.
 pub(crate) const MAX_PREPARED_PAIRS: usize = 4096;
 pub(crate) const PREPARED_HALVINGS: usize = 16;
@@ -49,7 +49,7 @@ pub(crate) const PREPARED_HALVINGS: usize = 16;
 /// The number of budgets that a question about a path takes at most for each segment, all pairs together.
 pub(crate) const BUDGETS_PER_SEGMENT: u64 = 8;
 
-/// The number of times that the stretch of a pair is halved because the budget of a query does not suffice.
+/// The number of times that the interval of a pair is halved because the budget of a query does not suffice.
 pub(crate) const MAX_BUDGET_SPLITS: u32 = 3;
 
 /// The largest drift of a period of two links, as a share of the tolerance, of which the rest is left for the search.
@@ -58,14 +58,14 @@ pub(crate) const MAX_DRIFT_SHARE: f64 = 0.25;
 /// The largest number of turns, of the joint that turns least, in a period of two links.
 pub(crate) const MAX_TURNS_IN_PERIOD: u32 = 128;
 
-/// The largest number of stretches of a segment over which a pair in contact at the start is followed until it has a gap.
-pub(crate) const MAX_START_STRETCHES: u32 = 256;
+/// The largest number of intervals of a segment over which a pair in contact at the start is followed until it has a gap.
+pub(crate) const MAX_START_STEPS: u32 = 256;
 
 /// The number of random positions of the joints between two links at which the links are looked at; the number of the nearest ones
 /// from which the search for a contact goes on, and the largest number of looks of each of these searches.
 pub(crate) const WITNESS_SAMPLES: usize = 256;
 pub(crate) const DESCENT_STARTS: usize = 6;
-pub(crate) const DESCENT_LOOKS: usize = 400;
+pub(crate) const MAX_DESCENT_CHECKS: usize = 400;
 
 /// The first step of such a search, as a share of a joint's range, and how often it is halved.
 pub(crate) const FIRST_DESCENT_STEP: f64 = 0.125;

@@ -32,11 +32,11 @@ impl Robot {
     /// # Complexity
     /// Linear in the points of all bodies.
     pub fn size(&self) -> Option<f64> {
-        largest_side(self.frames_at_rest().flat_map(|(link, frame)| {
+        largest_side(self.frames_near_zero().flat_map(|(link, frame)| {
             let bodies = self.links()[link].bodies.iter();
-            bodies.flat_map(move |held| {
-                let pose = frame.compose(&held.pose);
-                held.body.pieces().iter().flat_map(move |piece| {
+            bodies.flat_map(move |link_body| {
+                let pose = frame.compose(&link_body.pose);
+                link_body.body.pieces().iter().flat_map(move |piece| {
                     let radius = DVec3::splat(piece.radius);
                     let points = piece.points.iter();
                     points.flat_map(move |&point| {
@@ -71,13 +71,18 @@ impl Robot {
 
     /// Returns a remark for each link that is far larger than the robot's joints reach.
     pub(crate) fn remarks_on_link_sizes(&self) -> Vec<CellRemark> {
-        let origins = self.frames_at_rest().map(|(_, frame)| frame.translation());
+        let origins = self
+            .frames_near_zero()
+            .map(|(_, frame)| frame.translation());
         let scale = SizeScale {
             size: largest_side(origins),
             travel: self.longest_travel(),
         };
         let links = self.links().iter().filter_map(|link| {
-            let sides = link.bodies.iter().map(|held| Remark::sides(&held.body));
+            let sides = link
+                .bodies
+                .iter()
+                .map(|link_body| Remark::sides(&link_body.body));
             let mut remarks = sides.filter_map(|sides| scale.remark_on_large(&link.name, sides));
             remarks.next()
         });
@@ -85,7 +90,7 @@ impl Robot {
     }
 
     /// Returns the frames of all links, while joints are as near to 0 as their limits allow.
-    fn frames_at_rest(&self) -> impl Iterator<Item = (usize, Pose)> {
+    fn frames_near_zero(&self) -> impl Iterator<Item = (usize, Pose)> {
         let at = self.configuration_nearest_zero();
         let links = self.links().iter().enumerate();
         links.filter_map(move |(number, link)| Some((number, self.pose(&link.name, &at).ok()?)))

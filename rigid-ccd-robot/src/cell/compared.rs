@@ -15,7 +15,7 @@ impl AllowedPairs {
     }
 
     /// Gives each body the number that a function returns, and removes the pairs of bodies that get none.
-    pub(super) fn renumber(&mut self, number: impl Fn(usize) -> Option<usize>) {
+    pub(super) fn reindex(&mut self, number: impl Fn(usize) -> Option<usize>) {
         let pairs = std::mem::take(&mut self.0).into_iter();
         self.0 = pairs
             .filter_map(|[a, b]| Some([number(a)?, number(b)?]))
@@ -217,8 +217,8 @@ impl Cell {
     pub(super) fn check_item(&self, item: Item<'_>) -> Result<(), RobotError> {
         match item {
             Item::Link(name) => self.robot.link_number(name)?,
-            Item::Attached(name) => self.attached_body_number(name)?,
-            Item::Obstacle(name) => self.obstacle_number(name)?,
+            Item::Attached(name) => self.attached_body_index(name)?,
+            Item::Obstacle(name) => self.obstacle_index(name)?,
         };
         Ok(())
     }

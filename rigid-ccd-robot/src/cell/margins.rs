@@ -106,16 +106,16 @@ impl Margins {
     /// Makes place for a body.
     pub(super) fn insert_body(&mut self, number: usize) {
         self.padding_per_body.insert(number, 0.0);
-        self.renumber(|body| Some(if body < number { body } else { body + 1 }));
+        self.reindex(|body| Some(if body < number { body } else { body + 1 }));
     }
 
     /// Removes a body, and gives the others the numbers that a function returns.
     pub(super) fn remove_body(&mut self, number: usize, others: impl Fn(usize) -> Option<usize>) {
         self.padding_per_body.remove(number);
-        self.renumber(others);
+        self.reindex(others);
     }
 
-    fn renumber(&mut self, number: impl Fn(usize) -> Option<usize>) {
+    fn reindex(&mut self, number: impl Fn(usize) -> Option<usize>) {
         let clearances = std::mem::take(&mut self.clearance_per_pair).into_iter();
         let kept = clearances
             .filter_map(|([a, b], clearance)| Some(([number(a)?, number(b)?], clearance)));

@@ -95,7 +95,7 @@ impl PlacedBody {
     /// Returns the body at another pose in its frame.
     pub(super) fn moved_to(&self, pose: Pose) -> Self {
         match self.plane_reach {
-            Some(reach) => PlacedBody::of_plane(pose, reach),
+            Some(reach) => PlacedBody::for_plane(pose, reach),
             None => PlacedBody {
                 pose,
                 ..self.clone()

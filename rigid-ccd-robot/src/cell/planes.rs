@@ -55,18 +55,18 @@ impl Cell {
         self.check_new_name(&name)?;
         RobotError::check_pose("plane", &name, &pose)?;
         self.obstacle_names.push(name);
-        let placed = PlacedBody::of_plane(pose, self.plane_reach());
+        let placed = PlacedBody::for_plane(pose, self.plane_reach());
         self.insert(self.bodies.len(), placed);
         Ok(())
     }
 
     /// Adds a plane of a link that no joint moves.
-    pub(super) fn add_link_plane(&mut self, held: RobotBodyPlacement) {
-        let (_, link_pose) = self.kinematics.link_frame_and_pose(held.link);
-        let pose = link_pose.compose(&held.pose_in_link);
-        let placed = PlacedBody::of_plane(pose, self.plane_reach());
+    pub(super) fn add_link_plane(&mut self, placement: RobotBodyPlacement) {
+        let (_, link_pose) = self.kinematics.link_frame_and_pose(placement.link);
+        let pose = link_pose.compose(&placement.pose_in_link);
+        let placed = PlacedBody::for_plane(pose, self.plane_reach());
         let number = self.robot_body_placements.len();
-        self.robot_body_placements.push(held);
+        self.robot_body_placements.push(placement);
         self.robot_part_count += self.insert(number, placed);
     }
 
@@ -81,7 +81,7 @@ impl Cell {
         for number in 0..self.bodies.len() {
             let placed = &self.bodies[number];
             if placed.plane_reach.is_some() {
-                let placed = PlacedBody::of_plane(placed.pose, reach);
+                let placed = PlacedBody::for_plane(placed.pose, reach);
                 self.replace(number, placed);
             }
         }
@@ -96,7 +96,7 @@ impl Cell {
         let Some(reach) = planes.reduce(lesser) else {
             return Ok(());
         };
-        let distance = self.motion_reach(magnitudes);
+        let distance = self.max_reach(magnitudes);
         // Written so that NaN is refused.
         if distance <= reach {
             Ok(())
@@ -110,13 +110,13 @@ impl Cell {
         let limits = self.robot.limits();
         let farthest = limits.map(|[low, high]| greater(low.abs(), high.abs()));
         let farthest: Vec<f64> = farthest.collect();
-        let most = FREE_TRAVEL * greater(1.0, self.motion_reach(std::iter::empty()));
-        let within_limits = self.motion_reach(self.kinematics.magnitudes(&farthest));
+        let most = FREE_TRAVEL * greater(1.0, self.max_reach(std::iter::empty()));
+        let within_limits = self.max_reach(self.kinematics.magnitudes(&farthest));
         lesser(2.0 * within_limits, most)
     }
 
     /// Returns a bound of how far any point of a body that moves is from the base.
-    fn motion_reach(&self, magnitudes: impl Iterator<Item = Magnitude>) -> f64 {
+    fn max_reach(&self, magnitudes: impl Iterator<Item = Magnitude>) -> f64 {
         largest_arm(&self.kinematics, &self.parts, magnitudes)
     }
 }
@@ -124,7 +124,7 @@ impl Cell {
 impl PlacedBody {
     /// Creates the box that stands for the half-space below the plane `z = 0` of a pose's frame, as far from the base as it is to
     /// reach.
-    pub(super) fn of_plane(pose: Pose, reach: f64) -> Self {
+    pub(super) fn for_plane(pose: Pose, reach: f64) -> Self {
         let base = pose.inverse().transform_point(DVec3::ZERO);
         let most = 0.125 * MAX_COORDINATE;
         // A plane that is too far away has a box that does not reach the base, and all paths are refused.
@@ -133,15 +133,19 @@ impl PlacedBody {
         // Rounding is no matter in a box that is twice as large.
         let half_width = 2.0 * reach;
         let depth = half_width + greater(0.0, -middle.z);
-        let mut placed =
-            PlacedBody::new(Arc::new(box_below(middle, half_width, depth)), pose, 0, 1);
+        let mut placed = PlacedBody::new(
+            Arc::new(box_below_plane(middle, half_width, depth)),
+            pose,
+            0,
+            1,
+        );
         placed.plane_reach = Some(reach - middle.distance(base));
         placed
     }
 }
 
 /// Returns a box below `z = 0`, whose top is a square below or above a point.
-fn box_below(middle: DVec3, half_width: f64, depth: f64) -> Body {
+fn box_below_plane(middle: DVec3, half_width: f64, depth: f64) -> Body {
     // Corner `k` has the greater x, y, z if bit 0, 1, 2 of `k` is set.
     let corner = |k: u32| {
         let sign = |bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };

@@ -19,7 +19,7 @@ impl Cell {
             Item::Link(_) => None,
             item => self.size_scale.remark(item.name(), self.bodies[body].sides),
         }));
-        remarks.extend(self.remark_on_resting());
+        remarks.extend(self.remark_on_static_items());
         let allowed = self.allowed_contacts().into_iter();
         let pairs = allowed.map(|pair| pair.map(|item| item.name().to_owned()));
         let pairs: Vec<[String; 2]> = pairs.collect();
@@ -30,7 +30,7 @@ impl Cell {
     }
 
     /// Returns a remark if there are obstacles, and bodies that no joint moves against them.
-    fn remark_on_resting(&self) -> Option<CellRemark> {
+    fn remark_on_static_items(&self) -> Option<CellRemark> {
         let mut items: Vec<String> = Vec::new();
         for body in (0..self.robot_body_count()).filter(|&body| !self.moves(body)) {
             let name = self.item_of_body(body).name();
@@ -40,7 +40,7 @@ impl Cell {
             }
         }
         let is_apart = !items.is_empty() && self.obstacle_names().len() > 0;
-        is_apart.then_some(CellRemark::RestingBesideObstacles { items })
+        is_apart.then_some(CellRemark::StaticItemsUnchecked { items })
     }
 
     /// Returns a remark if a body that is to be an obstacle, or to be attached to a link, has a size that is unlikely beside the

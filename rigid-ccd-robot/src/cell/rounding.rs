@@ -17,12 +17,12 @@ const ROTATION_ERROR_PER_JOINT: f64 = 64.0;
 /// The rounding error of a joint's position that is interpolated between two configurations, in units of `U` times its
 /// [`Magnitude::rounding`]. Interpolation rounds a difference, a product and a sum. For a joint that follows another one,
 /// the magnitude includes its factor times the followed position, and its offset. That of a polynomial includes what its
-/// degree adds. The difference to the position in the middle of a stretch has the errors of both positions.
+/// degree adds. The difference to the position in the middle of an interval has the errors of both positions.
 const POSITION_ERROR_ULPS: f64 = 16.0;
 
 /// The share of the tolerance by which an answer may exceed it without a word. Near the base, and with the usual tolerances,
 /// positions are rounded by less than a millionth of the tolerance.
-pub(crate) const UNSTATED_TOLERANCE_SHARE: f64 = 1e-3;
+pub(crate) const UNREPORTED_TOLERANCE_SHARE: f64 = 1e-3;
 
 /// Bounds of the errors of what is computed with frames.
 #[derive(Clone, Copy, Debug, Default)]

@@ -13,7 +13,7 @@ use rigid_ccd::Settings;
 const POSE_TOLERANCE: f64 = 1e-9;
 
 /// A replay looks for contacts before the point that the record calls free with the recorded tolerance over this number.
-const FINER: f64 = 1000.0;
+const REPLAY_TOLERANCE_DIVISOR: f64 = 1000.0;
 
 /// The reason why a record cannot be made, read or replayed.
 #[derive(Debug, thiserror::Error)]
@@ -98,7 +98,7 @@ impl Evidence {
             self.judge(&self.ask(
                 cell,
                 &Settings {
-                    tolerance: self.settings.tolerance / FINER,
+                    tolerance: self.settings.tolerance / REPLAY_TOLERANCE_DIVISOR,
                     ..settings
                 },
             )?)

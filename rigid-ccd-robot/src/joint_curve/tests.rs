@@ -10,7 +10,7 @@ use rigid_ccd::{Body, Pose, trajectory};
 fn derivatives(curve: &JointCurve, segment: usize, joint: usize) -> [[f64; 3]; 2] {
     let duration = curve.times[segment + 1] - curve.times[segment];
     [0.0, 1.0].map(|share| {
-        let about = curve.polynomial(segment, joint).about(share);
+        let about = curve.polynomial(segment, joint).expanded_about(share);
         let [position, velocity, half_acceleration] =
             [0, 1, 2].map(|power| about.coefficient(power));
         [

@@ -1,7 +1,7 @@
 //! Links that always touch on the axis of the hinge between them: a point there rests in the frames of both.
 
 use super::measuring::LinkPair;
-use super::search::{PairSearch, Verdict};
+use super::search::{LinkPairSearch, Verdict};
 use crate::tuning::{JOINT_AXIS_INTERVALS, JOINT_AXIS_REFINEMENTS};
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::glam::DVec3;
@@ -18,12 +18,12 @@ struct Axis {
     direction: DVec3,
 }
 
-impl PairSearch<'_> {
+impl LinkPairSearch<'_> {
     /// Returns what follows if one joint that turns is between two links, and both hold the same point of its axis.
     ///
     /// The distance of a point of the axis from a convex body has no local minima: from the best of equally spaced points,
     /// thirds of the interval around it are left out. That finds links that meet in one point of the axis.
-    pub(super) fn meet_on_hinge(
+    pub(super) fn prove_contact_on_hinge_axis(
         &mut self,
         links: [usize; 2],
         pair: &LinkPair,

@@ -32,22 +32,22 @@ impl JointBox {
         self.ranges.iter().map(middle).collect()
     }
 
-    /// Returns how far the position at a place is at most from that in the middle.
-    pub(super) fn max_deviation(&self, place: usize) -> f64 {
-        let ([low, high], middle) = (self.ranges[place], middle(&self.ranges[place]));
+    /// Returns how far the position at a index is at most from that in the middle.
+    pub(super) fn max_deviation(&self, index: usize) -> f64 {
+        let ([low, high], middle) = (self.ranges[index], middle(&self.ranges[index]));
         greater(high - middle, middle - low)
     }
 
-    /// Returns both halves along the position at a place; `None` if its range cannot be halved.
-    pub(super) fn halves(&self, place: usize) -> Option<[Self; 2]> {
-        let [low, high] = *self.ranges.get(place)?;
-        let middle = middle(&self.ranges[place]);
+    /// Returns both halves along the position at a index; `None` if its range cannot be halved.
+    pub(super) fn halves(&self, index: usize) -> Option<[Self; 2]> {
+        let [low, high] = *self.ranges.get(index)?;
+        let middle = middle(&self.ranges[index]);
         if !(low < middle && middle < high) {
             return None;
         }
         Some([[low, middle], [middle, high]].map(|range| {
             let mut half = self.clone();
-            half.ranges[place] = range;
+            half.ranges[index] = range;
             half.volume_share *= 0.5;
             half
         }))

@@ -30,8 +30,8 @@ pub(super) struct JointsBetween {
 pub(super) struct JointBetween {
     /// The number of the joint among those that move.
     pub(super) number: usize,
-    /// The place of its position in a box.
-    pub(super) place: usize,
+    /// The box_index of its position in a box.
+    pub(super) box_index: usize,
     /// By how much it moves for a unit of that position, without the sign.
     pub(super) factor: f64,
 }
@@ -43,19 +43,19 @@ impl JointsBetween {
         let (robot, kinematics) = (cell.robot(), cell.kinematics());
         let between = robot.chain_between(links[0], links[1]);
         let mut position_indices = Vec::new();
-        let numbers = between.joint_numbers().iter();
+        let numbers = between.joint_indices().iter();
         let numbers = numbers.filter_map(|&joint| kinematics.moving_joint_index(joint));
         let joints = numbers.map(|number| {
             let source = kinematics.joints()[number].source;
             let index = source.position_index();
             let known = position_indices.iter().position(|&other| other == index);
-            let place = known.unwrap_or_else(|| {
+            let box_index = known.unwrap_or_else(|| {
                 position_indices.push(index);
                 position_indices.len() - 1
             });
             JointBetween {
                 number,
-                place,
+                box_index,
                 factor: source.factor().abs(),
             }
         });
@@ -99,10 +99,10 @@ fn all_positions(cell: &Cell, joints: &[JointBetween], indices: &[usize]) -> Opt
     let mut ranges: Vec<[f64; 2]> = indices.iter().map(|&index| limits[index]).collect();
     for joint in joints {
         let moving = &cell.kinematics().joints()[joint.number];
-        let [low, high] = limits[indices[joint.place]];
+        let [low, high] = limits[indices[joint.box_index]];
         if !(low.is_finite() && high.is_finite()) {
             let comes_back = !moving.is_prismatic && moving.source.has_integer_multiplier();
-            ranges[joint.place] = comes_back.then_some([-PI, PI])?;
+            ranges[joint.box_index] = comes_back.then_some([-PI, PI])?;
         }
     }
     Some(JointBox::new(ranges))

@@ -50,19 +50,19 @@ pub(super) enum Contact {
 
 /// What is known of two links in a configuration.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Look {
+pub(super) struct ConfigurationCheck {
     pub(super) contact: Contact,
-    /// About how far apart they are, if that is less than what was asked for.
+    /// About how far apart they are, if that is less than what was query for.
     pub(super) distance: f64,
 }
 
 /// What is known of two links over a box of positions.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BoxLook {
+pub(super) struct BoxCheck {
     pub(super) class: BoxClass,
-    pub(super) in_middle: Look,
+    pub(super) in_middle: ConfigurationCheck,
     /// The place of the position that moves the links most.
-    pub(super) main_place: Option<usize>,
+    pub(super) main_position_index: Option<usize>,
 }
 
 /// Whether two links touch in all configurations of a box.
@@ -73,7 +73,7 @@ pub(super) enum BoxClass {
     ShapesTouching,
     /// The bodies touch.
     BodiesTouching,
-    Open,
+    Undecided,
 }
 
 /// Two parts at their places in the middle of a box.
@@ -83,8 +83,8 @@ struct PlacedParts<'a> {
     centres: [DVec3; 2],
 }
 
-/// What is asked about two parts over a box.
-struct Asked<'a> {
+/// What is query about two parts over a box.
+struct PartQuery<'a> {
     part_pair: &'a PairOfParts,
     displacement: Displacement,
     /// The error of a point.
@@ -94,12 +94,12 @@ struct Asked<'a> {
 }
 
 /// What a box of positions proves about two parts.
-enum Proof {
+enum BoxProof {
     Apart,
     ShapesTouching,
     BodiesTouching,
     /// Nothing; their distance is that much too small.
-    Open(f64),
+    Undecided(f64),
 }
 
 impl LinkPair {
@@ -144,55 +144,55 @@ impl<'c> Measurer<'c> {
     }
 
     /// Looks at two links at some positions of the joints between them. Their distance matters if it is less than `limit`.
-    pub(super) fn look(
+    pub(super) fn check(
         &mut self,
         pair: &LinkPair,
         positions: &[f64],
         limit: f64,
-    ) -> Result<Look, Error> {
+    ) -> Result<ConfigurationCheck, Error> {
         let rounding = pair.joints.rounding.of_points;
         self.place(&pair.joints, positions);
-        let mut look = Look {
+        let mut check = ConfigurationCheck {
             contact: Contact::Apart,
             distance: limit,
         };
         for part_pair in &pair.part_pairs {
             let placed = self.placed_parts(part_pair);
             let gap = placed.ball_gap();
-            if gap > 2.0 * rounding && gap >= look.distance {
+            if gap > 2.0 * rounding && gap >= check.distance {
                 continue;
             }
-            let [lower, upper] = placed.hull_distance([look.distance, -rounding]).0;
+            let [lower, upper] = placed.hull_distance([check.distance, -rounding]).0;
             let is_convex = part_pair.pair.is_convex(self.cell.parts());
-            if lower > 2.0 * rounding && (is_convex || lower >= look.distance) {
-                look.distance = lesser(look.distance, upper);
+            if lower > 2.0 * rounding && (is_convex || lower >= check.distance) {
+                check.distance = lesser(check.distance, upper);
                 continue;
             }
-            self.look_at_bodies(part_pair, rounding, &mut look)?;
-            if look.contact == Contact::Touching {
+            self.check_bodies(part_pair, rounding, &mut check)?;
+            if check.contact == Contact::Touching {
                 break;
             }
         }
-        Ok(look)
+        Ok(check)
     }
 
     /// Looks at two links over a box of positions. What is `known` of them at other positions need not be found again in
     /// the middle of the box.
-    pub(super) fn look_over_box(
+    pub(super) fn check_box(
         &mut self,
         pair: &LinkPair,
         joint_box: &JointBox,
         known: Contact,
-    ) -> Result<BoxLook, Error> {
+    ) -> Result<BoxCheck, Error> {
         let rounding = pair.joints.rounding;
         self.place_box(&pair.joints, joint_box);
-        let mut look = BoxLook {
+        let mut check = BoxCheck {
             class: BoxClass::Apart,
-            in_middle: Look {
+            in_middle: ConfigurationCheck {
                 contact: Contact::Apart,
                 distance: f64::INFINITY,
             },
-            main_place: None,
+            main_position_index: None,
         };
         let mut worst = f64::NEG_INFINITY;
         for part_pair in &pair.part_pairs {
@@ -201,50 +201,51 @@ impl<'c> Measurer<'c> {
             if placed.ball_gap() > displacement.bound + 2.0 * rounding.of_points {
                 continue;
             }
-            let asked = Asked {
+            let query = PartQuery {
                 part_pair,
                 displacement,
                 rounding: rounding.of_points,
                 known,
             };
-            match self.prove(&placed, &asked, &mut look.in_middle)? {
-                Proof::Apart => {}
-                Proof::ShapesTouching => {
-                    look.class = BoxClass::ShapesTouching;
-                    return Ok(look);
+            match self.prove(&placed, &query, &mut check.in_middle)? {
+                BoxProof::Apart => {}
+                BoxProof::ShapesTouching => {
+                    check.class = BoxClass::ShapesTouching;
+                    return Ok(check);
                 }
-                Proof::BodiesTouching => {
-                    look.class = BoxClass::BodiesTouching;
-                    return Ok(look);
+                BoxProof::BodiesTouching => {
+                    check.class = BoxClass::BodiesTouching;
+                    return Ok(check);
                 }
-                Proof::Open(missing) => {
-                    look.class = BoxClass::Open;
+                BoxProof::Undecided(missing) => {
+                    check.class = BoxClass::Undecided;
                     // Written so that a distance that is not known comes first.
                     if !(missing <= worst) {
                         worst = missing;
                         let joint = self.motion.main_joint(displacement);
-                        look.main_place = joint.map(|joint| pair.joints.joints[joint].place);
+                        check.main_position_index =
+                            joint.map(|joint| pair.joints.joints[joint].box_index);
                     }
                 }
             }
         }
-        Ok(look)
+        Ok(check)
     }
 
     /// Proves what it can about two parts over the box that is placed.
     fn prove(
         &mut self,
         placed: &PlacedParts<'_>,
-        asked: &Asked<'_>,
-        in_middle: &mut Look,
-    ) -> Result<Proof, Error> {
-        let rounding = asked.rounding;
-        let required = asked.displacement.bound + 2.0 * rounding;
+        query: &PartQuery<'_>,
+        in_middle: &mut ConfigurationCheck,
+    ) -> Result<BoxProof, Error> {
+        let rounding = query.rounding;
+        let required = query.displacement.bound + 2.0 * rounding;
         let ([gap, upper], axis) = placed.hull_distance([required, -rounding]);
         if gap > required {
-            return Ok(Proof::Apart);
+            return Ok(BoxProof::Apart);
         }
-        let is_convex = asked.part_pair.pair.is_convex(self.cell.parts());
+        let is_convex = query.part_pair.pair.is_convex(self.cell.parts());
         let are_hulls_apart = gap > 2.0 * rounding;
         if are_hulls_apart {
             in_middle.distance = lesser(in_middle.distance, upper);
@@ -254,67 +255,67 @@ impl<'c> Measurer<'c> {
                 .motion
                 .gap_lower_bound(direction, placed.parts, frames, gap);
             if lower > 0.0 {
-                return Ok(Proof::Apart);
+                return Ok(BoxProof::Apart);
             }
         }
-        let open = Proof::Open(required - gap);
+        let undecided = BoxProof::Undecided(required - gap);
         if is_convex && are_hulls_apart {
-            return Ok(open);
+            return Ok(undecided);
         }
         // Bodies can't be farther apart than their hulls by more than their sizes.
         let [size_a, size_b] = placed.parts.map(|part| 2.0 * part.ball_radius);
         let may_be_free = !is_convex && required < greater(gap, 0.0) + lesser(size_a, size_b);
-        let mut touching = asked.known == Contact::Touching;
+        let mut touching = query.known == Contact::Touching;
         if may_be_free || !(are_hulls_apart || is_convex && touching) {
-            let lower = self.look_at_bodies(asked.part_pair, rounding, in_middle)?;
+            let lower = self.check_bodies(query.part_pair, rounding, in_middle)?;
             // Written so that NaN is not free.
-            if lower > asked.displacement.bound + 4.0 * rounding {
-                return Ok(Proof::Apart);
+            if lower > query.displacement.bound + 4.0 * rounding {
+                return Ok(BoxProof::Apart);
             }
             touching |= in_middle.contact == Contact::Touching;
         } else if in_middle.contact == Contact::Apart && !are_hulls_apart {
             in_middle.contact = Contact::Unknown;
         }
-        let depth = asked.displacement.bound + 4.0 * rounding;
-        if !(is_convex && touching && asked.known != Contact::Apart) {
-            return Ok(open);
+        let depth = query.displacement.bound + 4.0 * rounding;
+        if !(is_convex && touching && query.known != Contact::Apart) {
+            return Ok(undecided);
         }
-        // The distance that is asked for is one of the shapes.
+        // The distance that is query for is one of the shapes.
         let excess: f64 = placed.parts.iter().map(|part| part.excess_over_shape).sum();
         let nearer = |distance| {
-            are_convex_parts_nearer(self.cell, &self.placement, &asked.part_pair.pair, distance)
+            are_convex_parts_nearer(self.cell, &self.placement, &query.part_pair.pair, distance)
         };
         Ok(if nearer(-depth) {
-            Proof::ShapesTouching
+            BoxProof::ShapesTouching
         } else if excess > 0.0 && nearer(excess - depth) {
-            Proof::BodiesTouching
+            BoxProof::BodiesTouching
         } else {
-            open
+            undecided
         })
     }
 
     /// Measures the bodies of two parts, and returns a lower bound of their distance.
-    fn look_at_bodies(
+    fn check_bodies(
         &mut self,
         part_pair: &PairOfParts,
         rounding: f64,
-        look: &mut Look,
+        check: &mut ConfigurationCheck,
     ) -> Result<f64, Error> {
-        let [a, b] = part_pair.pair.body_numbers(self.cell.parts());
+        let [a, b] = part_pair.pair.body_indices(self.cell.parts());
         let a = self.placement.body(self.cell, a)?;
         let b = self.placement.body(self.cell, b)?;
         let outcome = self.solver.distance(a, b)?.outcome;
         if touch_as_they_are(&outcome, [a.0, b.0]) {
-            *look = Look {
+            *check = ConfigurationCheck {
                 contact: Contact::Touching,
                 distance: 0.0,
             };
         } else {
             // The engine measures the bodies themselves; frames become poses with an error like their own.
-            if !(outcome.lower() > 4.0 * rounding) && look.contact == Contact::Apart {
-                look.contact = Contact::Unknown;
+            if !(outcome.lower() > 4.0 * rounding) && check.contact == Contact::Apart {
+                check.contact = Contact::Unknown;
             }
-            look.distance = lesser(look.distance, outcome.upper());
+            check.distance = lesser(check.distance, outcome.upper());
         }
         Ok(outcome.lower())
     }
@@ -331,7 +332,7 @@ impl<'c> Measurer<'c> {
     fn place_box(&mut self, joints: &JointsBetween, joint_box: &JointBox) {
         self.place(joints, &joint_box.middle());
         let deviations = joints.joints.iter().map(|joint| {
-            let deviation = joint.factor * joint_box.max_deviation(joint.place);
+            let deviation = joint.factor * joint_box.max_deviation(joint.box_index);
             (joint.number, deviation)
         });
         let frames = &self.placement.frames;

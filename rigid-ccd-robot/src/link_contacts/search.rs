@@ -3,7 +3,7 @@
 use super::LinkContactClass;
 use super::joint_box::JointBox;
 use super::joints_between::JointsBetween;
-use super::measuring::{BoxClass, BoxLook, Contact, LinkPair, Measurer};
+use super::measuring::{BoxCheck, BoxClass, Contact, LinkPair, Measurer};
 use super::search_end::SearchEnd;
 use crate::cell::Cell;
 use crate::tuning::MAX_BOXES_WITHOUT_DEPTH;
@@ -14,7 +14,7 @@ use std::collections::BinaryHeap;
 
 /// What is known of a pair of links so far. Positions are those of the joints between them.
 #[derive(Clone, Debug)]
-pub(super) struct PairRecord {
+pub(super) struct LinkPairRecord {
     pub(super) links: [usize; 2],
     pub(super) verdict: Option<Verdict>,
     pub(super) touching: Option<Vec<f64>>,
@@ -23,7 +23,7 @@ pub(super) struct PairRecord {
     pub(super) nearest: Option<(f64, Vec<f64>)>,
     /// The shares of the volume of all positions for which the links are proven apart, and for which nothing is proven.
     pub(super) apart_share: f64,
-    pub(super) open_share: f64,
+    pub(super) undecided_share: f64,
     /// The number of boxes that were examined in the last search.
     pub(super) boxes: usize,
     /// Whether witnesses were sought.
@@ -46,7 +46,7 @@ pub(super) enum Verdict {
 }
 
 /// Memory for searches about pairs of links.
-pub(super) struct PairSearch<'c> {
+pub(super) struct LinkPairSearch<'c> {
     pub(super) measurer: Measurer<'c>,
     end: SearchEnd,
 }
@@ -54,16 +54,16 @@ pub(super) struct PairSearch<'c> {
 /// A box that waits to be examined; the largest comes first.
 struct WaitingBox(JointBox);
 
-impl PairRecord {
+impl LinkPairRecord {
     pub(super) fn new(links: [usize; 2]) -> Self {
-        PairRecord {
+        LinkPairRecord {
             links,
             verdict: None,
             touching: None,
             apart: None,
             nearest: None,
             apart_share: 0.0,
-            open_share: 1.0,
+            undecided_share: 1.0,
             boxes: 0,
             is_sampled: false,
             touches_without_depth: false,
@@ -91,7 +91,7 @@ impl PairRecord {
             }
             (None, touching, apart) => LinkContactClass::Undecided {
                 proven_apart_share: self.apart_share,
-                undecided_share: self.open_share,
+                undecided_share: self.undecided_share,
                 least_distance: if touching.is_some() {
                     0.0
                 } else {
@@ -128,7 +128,7 @@ impl PairRecord {
     }
 
     /// Keeps positions at which the links touch, or are apart.
-    pub(super) fn keep_witness(&mut self, contact: Contact, positions: &[f64]) {
+    pub(super) fn record_witness(&mut self, contact: Contact, positions: &[f64]) {
         let witness = match contact {
             Contact::Touching => &mut self.touching,
             Contact::Apart => &mut self.apart,
@@ -138,7 +138,7 @@ impl PairRecord {
     }
 
     /// Keeps a distance if it is the least so far, and returns whether it is.
-    pub(super) fn keep_distance(&mut self, distance: f64, positions: &[f64]) -> bool {
+    pub(super) fn record_distance(&mut self, distance: f64, positions: &[f64]) -> bool {
         let known = self
             .nearest
             .as_ref()
@@ -151,9 +151,9 @@ impl PairRecord {
     }
 }
 
-impl<'c> PairSearch<'c> {
+impl<'c> LinkPairSearch<'c> {
     pub(super) fn new(cell: &'c Cell, end: SearchEnd) -> Self {
-        PairSearch {
+        LinkPairSearch {
             measurer: Measurer::new(cell, end.stop.clone()),
             end,
         }
@@ -163,7 +163,7 @@ impl<'c> PairSearch<'c> {
     /// box of all positions.
     pub(super) fn search(
         &mut self,
-        record: &mut PairRecord,
+        record: &mut LinkPairRecord,
         max_boxes: usize,
     ) -> Result<(), Error> {
         let cell = self.measurer.cell;
@@ -172,7 +172,7 @@ impl<'c> PairSearch<'c> {
             return Ok(());
         };
         if !record.is_sampled {
-            record.verdict = self.meet_on_hinge(record.links, &pair)?;
+            record.verdict = self.prove_contact_on_hinge_axis(record.links, &pair)?;
             if record.verdict.is_some() {
                 return Ok(());
             }
@@ -203,7 +203,7 @@ impl<'c> PairSearch<'c> {
     fn examine_boxes(
         &mut self,
         pair: &LinkPair,
-        record: &mut PairRecord,
+        record: &mut LinkPairRecord,
         max_boxes: usize,
     ) -> Result<(), Error> {
         let mut waiting = BinaryHeap::from([WaitingBox(pair.joints.all_positions.clone())]);
@@ -220,33 +220,31 @@ impl<'c> PairSearch<'c> {
                 break;
             };
             record.boxes += 1;
-            let look = self
-                .measurer
-                .look_over_box(pair, &joint_box, record.known())?;
+            let check = self.measurer.check_box(pair, &joint_box, record.known())?;
             let middle = joint_box.middle();
-            record.keep_witness(look.in_middle.contact, &middle);
-            let is_nearer = record.keep_distance(look.in_middle.distance, &middle);
+            record.record_witness(check.in_middle.contact, &middle);
+            let is_nearer = record.record_distance(check.in_middle.distance, &middle);
             if is_nearer && record.touching.is_none() {
-                self.descend(pair, record, middle.clone(), look.in_middle.distance)?;
+                self.descend(pair, record, middle.clone(), check.in_middle.distance)?;
             }
             if record.is_decided() {
                 return Ok(());
             }
             let is_asked = !record.touches_without_depth || without_depth + 1 == record.boxes;
-            if is_asked && self.stays_open((pair, record), &look, &middle)? {
+            if is_asked && self.stays_undecided((pair, record), &check, &middle)? {
                 without_depth += 1;
                 record.touches_without_depth = true;
             }
-            match look.class {
+            match check.class {
                 BoxClass::Apart => apart_share += joint_box.volume_share,
                 BoxClass::ShapesTouching => touching_share += joint_box.volume_share,
                 BoxClass::BodiesTouching => {
                     touching_share += joint_box.volume_share;
                     always = Verdict::AlwaysAsEnclosed;
                 }
-                BoxClass::Open => {
-                    let place = look.main_place;
-                    match place.and_then(|place| joint_box.halves(place)) {
+                BoxClass::Undecided => {
+                    let index = check.main_position_index;
+                    match index.and_then(|index| joint_box.halves(index)) {
                         Some(halves) => waiting.extend(halves.map(WaitingBox)),
                         // A box that is a point stays open.
                         None => {
@@ -258,10 +256,10 @@ impl<'c> PairSearch<'c> {
                 }
             }
         }
-        let open_share = greater(1.0 - apart_share - touching_share, 0.0);
+        let undecided_share = greater(1.0 - apart_share - touching_share, 0.0);
         // A search that is stopped may prove less than the one before.
-        if open_share <= record.open_share {
-            (record.apart_share, record.open_share) = (apart_share, open_share);
+        if undecided_share <= record.undecided_share {
+            (record.apart_share, record.undecided_share) = (apart_share, undecided_share);
         }
         if waiting.is_empty() {
             // Boxes of both kinds would have witnesses.
@@ -273,18 +271,18 @@ impl<'c> PairSearch<'c> {
 
     /// Returns whether a box that is not decided would not be, however small it were around its middle: the links touch there,
     /// without depth.
-    fn stays_open(
+    fn stays_undecided(
         &mut self,
-        (pair, record): (&LinkPair, &PairRecord),
-        look: &BoxLook,
+        (pair, record): (&LinkPair, &LinkPairRecord),
+        check: &BoxCheck,
         middle: &[f64],
     ) -> Result<bool, Error> {
-        if look.class != BoxClass::Open || look.in_middle.contact == Contact::Apart {
+        if check.class != BoxClass::Undecided || check.in_middle.contact == Contact::Apart {
             return Ok(false);
         }
         let point = JointBox::at(middle);
-        let look = self.measurer.look_over_box(pair, &point, record.known())?;
-        Ok(look.class == BoxClass::Open)
+        let check = self.measurer.check_box(pair, &point, record.known())?;
+        Ok(check.class == BoxClass::Undecided)
     }
 }
 

@@ -211,8 +211,8 @@ fn a_slide_on_a_rail_takes_no_share_of_others() {
     let search = |robot: &Robot, max_boxes: usize| {
         let cell = Cell::new(robot.clone(), LinkPairs::from_robot(robot));
         let end = SearchEnd::starting_now(&LinkContactSettings::DEFAULT);
-        let mut record = PairRecord::new([0, 1]);
-        let mut search = PairSearch::new(&cell, end);
+        let mut record = LinkPairRecord::new([0, 1]);
+        let mut search = LinkPairSearch::new(&cell, end);
         search.search(&mut record, max_boxes).unwrap();
         assert!(!record.is_decided());
         record
@@ -232,7 +232,7 @@ fn a_slide_on_a_rail_takes_no_share_of_others() {
         [1_000, 500]
     );
     // A pair that is open takes what others leave.
-    assert_eq!(PairRecord::new([0, 1]).quota(9_000, 1_000), 9_000);
+    assert_eq!(LinkPairRecord::new([0, 1]).quota(9_000, 1_000), 9_000);
 }
 
 /// Tests random planar arms of two links, whose last one carries a ball: it touches the ball at the base where the elbow's

@@ -3,7 +3,7 @@
 //! Between two configurations of a path all joints move at constant rates: the polynomials are of degree 1. A
 //! [`JointCurve`] has polynomials of a higher degree.
 
-use super::stretch::Stretch;
+use super::interval::PathInterval;
 use crate::cell::rounding::U;
 use crate::joint_curve::JointCurve;
 use crate::kinematics::magnitude::Magnitude;
@@ -84,7 +84,7 @@ impl JointPath {
                 let position = greater(range[0].abs(), range[1].abs());
                 let moved = position + joint.source.offset().abs();
                 let rounding = joint.source.magnitude_of_product(moved)
-                    + EXTENDED_PRECISION_ERROR / U * polynomial.size();
+                    + EXTENDED_PRECISION_ERROR / U * polynomial.coefficient_magnitude_sum();
                 let magnitude = &mut self.magnitudes[number];
                 *magnitude = magnitude.or_larger(Magnitude { position, rounding });
                 self.ranges.push(range);
@@ -149,35 +149,35 @@ impl JointPath {
         positions.extend(joints.map(|(start, change)| start + share * change));
     }
 
-    /// Computes how far each joint is at most from its position in the middle of a stretch, at any point of the stretch.
+    /// Computes how far each joint is at most from its position in the middle of an interval, at any point of the interval.
     #[inline(always)]
     pub(crate) fn max_joint_deviations_from_middle(
         &self,
-        stretch: &Stretch,
+        interval: &PathInterval,
         positions: &[f64],
         deviations: &mut Vec<f64>,
     ) {
         deviations.clear();
         if self.segment_count == 0 {
             deviations.resize(self.joint_count, 0.0);
-        } else if stretch.is_within_segment() {
+        } else if interval.is_within_segment() {
             // The middle is at the same distance from both ends.
-            let half = 0.5 * (stretch.to - stretch.from);
-            let segment = PathPoint::from_path_position(stretch.from, self.segment_count).segment;
+            let half = 0.5 * (interval.to - interval.from);
+            let segment = PathPoint::from_path_position(interval.from, self.segment_count).segment;
             if self.has_constant_rates() {
                 let changes = self.coefficient_row(segment, 1).iter();
                 deviations.extend(changes.map(|change| half * change.abs()));
             } else {
-                let middle = stretch.middle() - segment as f64;
+                let middle = interval.middle() - segment as f64;
                 let joints = 0..self.joint_count;
                 deviations.extend(joints.map(|joint| {
                     let polynomial = self.polynomial(segment, joint);
-                    polynomial.about(middle).deviation_bound(half)
+                    polynomial.expanded_about(middle).deviation_bound(half)
                 }));
             }
         } else {
             deviations.resize(self.joint_count, 0.0);
-            for segment in stretch.from as usize..stretch.to as usize {
+            for segment in interval.from as usize..interval.to as usize {
                 let ranges = &self.ranges[segment * self.joint_count..][..self.joint_count];
                 for ((largest, range), middle) in deviations.iter_mut().zip(ranges).zip(positions) {
                     for bound in range {
@@ -206,9 +206,10 @@ impl JointPath {
         joint: usize,
     ) -> f64 {
         let (half, rounding) = (0.5 * (to - from), f64::EPSILON);
-        let about = self.polynomial(segment, joint).about(from + half);
+        let expanded = self.polynomial(segment, joint).expanded_about(from + half);
         // The middle is rounded, too.
-        about.chord_deviation_bound(half + rounding) + rounding * about.rate_bound(half + rounding)
+        expanded.chord_deviation_bound(half + rounding)
+            + rounding * expanded.rate_bound(half + rounding)
     }
 
     #[inline(always)]

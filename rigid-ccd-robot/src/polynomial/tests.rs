@@ -52,7 +52,7 @@ fn size_of(exact: &Relaxed) -> f64 {
 
 /// Returns a bound of the rounding of values, and of deviations besides their own.
 fn allowance(polynomial: &Polynomial, exact: &Relaxed) -> f64 {
-    U * size_of(exact) + EXTENDED_PRECISION_ERROR * polynomial.size()
+    U * size_of(exact) + EXTENDED_PRECISION_ERROR * polynomial.coefficient_magnitude_sum()
 }
 
 /// Tests that values are rounded like themselves, and not like the coefficients, also of the polynomial about another share.
@@ -66,8 +66,8 @@ fn worst_values_are_within_their_rounding() {
         let exact = exact_value(&polynomial, share);
         let values = [
             polynomial.value(share),
-            polynomial.about(share).constant(),
-            polynomial.about(other).value(share - other),
+            polynomial.expanded_about(share).constant(),
+            polynomial.expanded_about(other).value(share - other),
         ];
         let errors = values.map(|value| size_of(&(exact_fraction(value) - &exact)));
         let error = errors.into_iter().fold(0.0, greater);
@@ -92,7 +92,7 @@ fn worst_deviations_are_within_their_bounds() {
     let worst = search.search(|case| {
         let polynomial = polynomial_of_case(case);
         let [middle, half, along] = range_and_share(case);
-        let about = polynomial.about(middle);
+        let about = polynomial.expanded_about(middle);
         let at = |share| exact_value(&polynomial, share);
         let moved = at(middle + along * half) - at(middle);
         let bound = about.deviation_bound(half) + allowance(&polynomial, &Relaxed::ZERO);
@@ -108,7 +108,7 @@ fn worst_deviations_from_a_chord_are_within_their_bounds() {
     let worst = search.search(|case| {
         let polynomial = polynomial_of_case(case);
         let [middle, half, along] = range_and_share(case);
-        let about = polynomial.about(middle);
+        let about = polynomial.expanded_about(middle);
         let at = |share| exact_value(&polynomial, share);
         let [first, last] = [middle - half, middle + half].map(at);
         let share = exact_fraction(0.5 + 0.5 * along);
@@ -129,7 +129,7 @@ fn worst_rates_are_within_their_bounds() {
         let [middle, half, along] = range_and_share(case);
         let (from, to) = (middle - half, middle + along * half);
         let change = exact_value(&polynomial, to) - exact_value(&polynomial, from);
-        let rate = polynomial.about(middle).rate_bound(half);
+        let rate = polynomial.expanded_about(middle).rate_bound(half);
         let bound = rate * (to - from) + allowance(&polynomial, &Relaxed::ZERO);
         Some(error_share(size_of(&change), bound))
     });

@@ -44,7 +44,7 @@ impl ChainBetween {
     }
 
     /// Returns the number in the robot of each joint of the chain.
-    pub(crate) fn joint_numbers(&self) -> &[usize] {
+    pub(crate) fn joint_indices(&self) -> &[usize] {
         &self.joints
     }
 

@@ -162,9 +162,9 @@ fn poses_are_products_of_matrices() {
     }
 }
 
-/// Tests that the stretch of a link in another link's frame deviates from the poses by at most its own bound.
+/// Tests that the interval of a link in another link's frame deviates from the poses by at most its own bound.
 #[test]
-fn stretches_between_branches_hold() {
+fn intervals_between_branches_hold() {
     let mut random = Pcg64::seed_from_u64(2);
     let mut nearest = 0.0_f64;
     for _ in 0..200 {
@@ -177,20 +177,20 @@ fn stretches_between_branches_hold() {
         });
         let count = between.chain().joints().len();
         let link = between.chain().link(count, &first, &last, 1.0).unwrap();
-        let stretch = link.stretch_between(0.2, 0.5).unwrap();
+        let interval = link.stretch_between(0.2, 0.5).unwrap();
         for _ in 0..20 {
             let time = random.random_range(0.2..0.5);
-            let (near, there) = (stretch.pose(time - 0.2), link.pose(time).unwrap());
-            let centre = stretch.motion.centre();
+            let (near, there) = (interval.pose(time - 0.2), link.pose(time).unwrap());
+            let centre = interval.motion.centre();
             let apart = near
                 .transform_point(centre)
                 .distance(there.transform_point(centre));
             assert!(
-                apart <= stretch.deviation_bound.centre_deviation,
-                "{apart:e}, {stretch:?}"
+                apart <= interval.deviation_bound.centre_deviation,
+                "{apart:e}, {interval:?}"
             );
-            if stretch.deviation_bound.centre_deviation > 1e-9 {
-                let share = apart / stretch.deviation_bound.centre_deviation;
+            if interval.deviation_bound.centre_deviation > 1e-9 {
+                let share = apart / interval.deviation_bound.centre_deviation;
                 nearest = if share > nearest { share } else { nearest };
             }
         }

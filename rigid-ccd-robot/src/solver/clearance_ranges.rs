@@ -3,7 +3,7 @@
 use super::{CellSolver, Goal};
 use crate::error::PathError;
 use crate::path::Path;
-use crate::path::stretch::Stretch;
+use crate::path::interval::PathInterval;
 use crate::path_point::PathPoint;
 use rigid_ccd::Error;
 use rigid_ccd::answer::ClearanceVerdict;
@@ -65,7 +65,7 @@ impl CellSolver<'_> {
     /// # Guarantee
     /// In a range that is kept all pairs that are checked stay apart by more than their distance, at all configurations. At
     /// each configuration of a range that is violated some pair is nearer than its distance; at a distance of 0 it overlaps.
-    /// Unverified remain about twice the resolution around each border, stretches where the distance is kept or violated by
+    /// Unverified remain about twice the resolution around each border, intervals where the distance is kept or violated by
     /// less than the tolerance or than the error of poses, violations by less than what bodies
     /// [exceed](rigid_ccd::Body::excess) their shapes by, and overlaps of bodies that are not convex at a distance of 0. When
     /// time runs out, or all work together has taken 8 budgets for each segment, the rest of the path is unverified.
@@ -125,7 +125,7 @@ impl CellSolver<'_> {
         resolution: f64,
     ) -> Result<Vec<ClearanceRange>, PathError> {
         self.set_path_reporting_start(path)?;
-        let (whole, mut found) = (self.search.whole_path_stretch(), Vec::new());
+        let (whole, mut found) = (self.search.whole_path_interval(), Vec::new());
         self.search.stop_condition.begin_searches(&whole);
         self.examine(whole, resolution, &mut found)?;
         let segments = self.search.segment_count();
@@ -137,21 +137,23 @@ impl CellSolver<'_> {
         Ok(ranges.collect())
     }
 
-    /// Appends the ranges of a stretch.
+    /// Appends the ranges of an interval.
     fn examine(
         &mut self,
-        stretch: Stretch,
+        interval: PathInterval,
         resolution: f64,
         found: &mut Vec<(f64, f64, ClearanceVerdict)>,
     ) -> Result<(), Error> {
-        let goes_on = !self.search.stop_condition.ends_question();
-        let clearance = if goes_on && self.is_clearance_kept(stretch)? {
+        let goes_on = !self.search.stop_condition.is_question_over();
+        let clearance = if goes_on && self.is_clearance_kept(interval)? {
             ClearanceVerdict::Kept
-        } else if goes_on && self.search.is_margin_violated(&stretch)? {
+        } else if goes_on && self.search.is_margin_violated(&interval)? {
             ClearanceVerdict::Violated
-        } else if goes_on && stretch.to - stretch.from > resolution && self.search.placement.moves()
+        } else if goes_on
+            && interval.to - interval.from > resolution
+            && self.search.placement.moves()
         {
-            for half in stretch.halves() {
+            for half in interval.halves() {
                 self.examine(half, resolution, found)?;
             }
             return Ok(());
@@ -159,14 +161,14 @@ impl CellSolver<'_> {
             ClearanceVerdict::Unverified
         };
         match found.last_mut() {
-            Some((_, to, last)) if *last == clearance => *to = stretch.to,
-            _ => found.push((stretch.from, stretch.to, clearance)),
+            Some((_, to, last)) if *last == clearance => *to = interval.to,
+            _ => found.push((interval.from, interval.to, clearance)),
         }
         Ok(())
     }
 
-    fn is_clearance_kept(&mut self, stretch: Stretch) -> Result<bool, Error> {
-        self.search.answer_question(Goal::AnyContact, stretch)?;
+    fn is_clearance_kept(&mut self, interval: PathInterval) -> Result<bool, Error> {
+        self.search.answer_question(Goal::AnyContact, interval)?;
         let found = &self.search.result;
         Ok(found.nearest.is_none() && found.limit_reached.is_none())
     }

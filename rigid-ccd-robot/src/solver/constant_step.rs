@@ -1,9 +1,9 @@
-//! Short stretches of a path in which a body moves almost as a constant motion does.
+//! Short intervals of a path in which a body moves almost as a constant motion does.
 
 use rigid_ccd::trajectory::Trajectory;
 use rigid_ccd::{Body, Error, Motion};
 
-/// A stretch of a segment in which a body moves almost as a constant motion does.
+/// An interval of a segment in which a body moves almost as a constant motion does.
 pub(super) struct ConstantStep {
     pub(super) from: f64,
     pub(super) to: f64,

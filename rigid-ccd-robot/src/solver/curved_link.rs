@@ -6,7 +6,7 @@ use rigid_ccd::InputError;
 use rigid_ccd::trajectory::{Stretch, Trajectory};
 use smallvec::SmallVec;
 
-/// The number of joints of a chain up to which a stretch allocates nothing.
+/// The number of joints of a chain up to which an interval allocates nothing.
 const INLINE_JOINT_COUNT: usize = 24;
 
 /// A section of one segment of a path.
@@ -42,7 +42,7 @@ impl Trajectory for CurvedLink<'_> {
         let [first, last] = ends.map(positions);
         let deviations = self.values(|joint| path.chord_deviation_bound(segment, ends, joint));
         let time = to - from;
-        // A stretch of no length has no rates.
+        // An interval of no length has no rates.
         let duration = if time > 0.0 { time } else { 1.0 };
         let chain = &self.pair_chain.chain;
         let link = chain.link(first.len(), &first, &last, duration)?;
@@ -54,7 +54,7 @@ impl Trajectory for CurvedLink<'_> {
 impl CurvedLink<'_> {
     /// Returns a value for each joint of the chain, by a function for those that move; fixed joints have 0.
     fn values(&self, of_moving: impl Fn(usize) -> f64) -> SmallVec<[f64; INLINE_JOINT_COUNT]> {
-        let joints = self.pair_chain.moving_joint_numbers.iter();
+        let joints = self.pair_chain.moving_joint_indices.iter();
         joints.map(|joint| joint.map_or(0.0, &of_moving)).collect()
     }
 }

@@ -1,9 +1,9 @@
-//! Bounds of the displacements of all parts over a stretch of an edge.
+//! Bounds of the displacements of all parts over an interval of an edge.
 //!
 //! A part moves with the joints between it and the base. Let a point be displaced by some vector as the frame after a
 //! joint sees it. The frame before the joint sees that vector turned, and in addition the displacement of the point's
-//! place in the middle of the stretch by the joint alone: a chord about the joint's axis, or a distance along it. Only
-//! distances from axes in the middle of the stretch are needed.
+//! place in the middle of the interval by the joint alone: a chord about the joint's axis, or a distance along it. Only
+//! distances from axes in the middle of the interval are needed.
 
 use crate::cell::part::HullPart;
 use crate::kinematics::Kinematics;
@@ -41,7 +41,7 @@ impl DisplacementBounds {
 
     /// Returns the place of the bound for a part as a frame sees it that is nearer to the base; `None` for the part's own
     /// frame.
-    pub(crate) fn slot(
+    pub(crate) fn bound_index_seen_from(
         &self,
         kinematics: &Kinematics,
         part: usize,
@@ -63,11 +63,11 @@ impl DisplacementBounds {
     }
 
     /// Returns the bound at a place; 0 without one.
-    pub(crate) fn bound(&self, slot: Option<u32>) -> f64 {
-        slot.map_or(0.0, |slot| self.bounds[slot as usize])
+    pub(crate) fn bound(&self, index: Option<u32>) -> f64 {
+        index.map_or(0.0, |index| self.bounds[index as usize])
     }
 
-    /// Computes the bounds for a stretch in whose middle the frames are placed. There and at any other point of the stretch
+    /// Computes the bounds for an interval in whose middle the frames are placed. There and at any other point of the interval
     /// the positions of the joints differ by at most `deviations`. Errors of the frames move points by at most `rounding`.
     /// The centre, the joint's origin and its axis have such an error each.
     #[inline(always)]
@@ -82,8 +82,8 @@ impl DisplacementBounds {
         for (part, bounds) in parts.iter().zip(self.joint_start_by_part.windows(2)) {
             let centre = frames[part.frame].transform_point(part.centre);
             let mut displacement = 0.0;
-            for slot in bounds[0]..bounds[1] {
-                let number = self.joints[slot];
+            for index in bounds[0]..bounds[1] {
+                let number = self.joints[index];
                 let joint = &kinematics.joints()[number];
                 displacement += if joint.is_prismatic {
                     deviations[number]
@@ -93,7 +93,7 @@ impl DisplacementBounds {
                     let distance = axis.cross(arm).length() + part.ball_radius + 3.0 * rounding;
                     chord_upper_bound(deviations[number]) * distance
                 };
-                self.bounds[slot] = displacement * ROUNDING_FACTOR;
+                self.bounds[index] = displacement * ROUNDING_FACTOR;
             }
         }
     }

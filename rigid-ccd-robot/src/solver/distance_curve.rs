@@ -3,7 +3,7 @@
 use super::{CellSolver, Goal};
 use crate::error::PathError;
 use crate::path::Path;
-use crate::path::stretch::Stretch;
+use crate::path::interval::PathInterval;
 use crate::path_answer::PathOutcome;
 use crate::path_point::PathPoint;
 
@@ -45,40 +45,40 @@ impl<'c> CellSolver<'c> {
                 allowed: "at most a million",
             });
         }
-        let whole = self.search.whole_path_stretch();
+        let whole = self.search.whole_path_interval();
         if segments == 0 {
             return Ok(vec![self.distance_range(whole)?]);
         }
-        let mut stretches = Vec::new();
+        let mut intervals = Vec::new();
         for segment in 0..segments {
             let (from, to) = (segment as f64, (segment + 1) as f64);
-            push_halves(Stretch { from, to, ..whole }, halvings, &mut stretches);
+            push_halves(PathInterval { from, to, ..whole }, halvings, &mut intervals);
         }
-        let ranges = stretches
+        let ranges = intervals
             .into_iter()
-            .map(|stretch| self.distance_range(stretch));
+            .map(|interval| self.distance_range(interval));
         ranges.collect()
     }
 
-    fn distance_range(&mut self, stretch: Stretch) -> Result<DistanceRange<'c>, PathError> {
-        self.search.answer_question(Goal::LeastDistance, stretch)?;
+    fn distance_range(&mut self, interval: PathInterval) -> Result<DistanceRange<'c>, PathError> {
+        self.search.answer_question(Goal::LeastDistance, interval)?;
         let segments = self.search.segment_count();
         Ok(DistanceRange {
-            from: PathPoint::from_path_position(stretch.from, segments),
-            to: PathPoint::from_path_position(stretch.to, segments),
+            from: PathPoint::from_path_position(interval.from, segments),
+            to: PathPoint::from_path_position(interval.to, segments),
             closest: self.measured_distance()?,
         })
     }
 }
 
-/// Appends the parts of a stretch that is halved a number of times, in their order.
-fn push_halves(stretch: Stretch, halvings: u32, stretches: &mut Vec<Stretch>) {
+/// Appends the parts of an interval that is halved a number of times, in their order.
+fn push_halves(interval: PathInterval, halvings: u32, intervals: &mut Vec<PathInterval>) {
     if halvings == 0 {
-        stretches.push(stretch);
+        intervals.push(interval);
         return;
     }
-    for half in stretch.halves() {
-        push_halves(half, halvings - 1, stretches);
+    for half in interval.halves() {
+        push_halves(half, halvings - 1, intervals);
     }
 }
 

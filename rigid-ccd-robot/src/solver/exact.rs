@@ -43,7 +43,7 @@ impl<'c> PairChains<'c> {
         section: &PathSection<'_>,
     ) -> Result<Answer, Error> {
         self.with_link(solver, pair, section, |solver, link, a, b| {
-            ask_solver(solver, goal, (a, link), b)
+            query_solver(solver, goal, (a, link), b)
         })
     }
 
@@ -68,7 +68,7 @@ impl<'c> PairChains<'c> {
         for (at, in_chain) in section.ends().into_iter().zip(&mut self.ends) {
             let path = section.path;
             path.interpolate_in_segment(section.segment, at, &mut self.positions);
-            let joints = own.moving_joint_numbers.iter();
+            let joints = own.moving_joint_indices.iter();
             in_chain.clear();
             in_chain.extend(joints.map(|joint| joint.map_or(0.0, |joint| self.positions[joint])));
         }
@@ -102,7 +102,7 @@ fn chain<'m>(
     chains.entry(key).or_insert_with(make)
 }
 
-fn ask_solver<'b>(
+fn query_solver<'b>(
     solver: &mut Solver,
     goal: Goal,
     a: impl Into<MovingBody<'b>> + Copy,

@@ -1,6 +1,6 @@
 //! The limits that end a search: its work, a time, and the flag that stops it.
 
-use crate::path::stretch::Stretch;
+use crate::path::interval::PathInterval;
 use crate::tuning::BUDGETS_PER_SEGMENT;
 use rigid_ccd::Settings;
 use rigid_ccd::answer::Limit;
@@ -14,11 +14,11 @@ pub(crate) struct StopCondition {
     /// The budget of a query of two bodies.
     budget: u64,
     /// The largest amount of work for all pairs together, in units of the budget.
-    most_work: u64,
+    max_work: u64,
     /// The work of all pairs so far.
     work: u64,
     /// The work that was left for this search and those that follow, of a question of many searches.
-    left_for_question: u64,
+    work_left_for_question: u64,
     end: Option<Instant>,
     stop: Option<Arc<AtomicBool>>,
 }
@@ -26,9 +26,9 @@ pub(crate) struct StopCondition {
 impl StopCondition {
     pub(crate) const NONE: StopCondition = StopCondition {
         budget: u64::MAX,
-        most_work: u64::MAX,
+        max_work: u64::MAX,
         work: 0,
-        left_for_question: u64::MAX,
+        work_left_for_question: u64::MAX,
         end: None,
         stop: None,
     };
@@ -37,9 +37,9 @@ impl StopCondition {
     pub(crate) fn starting_now(settings: &Settings) -> Self {
         StopCondition {
             budget: settings.budget,
-            most_work: settings.budget,
+            max_work: settings.budget,
             work: 0,
-            left_for_question: u64::MAX,
+            work_left_for_question: u64::MAX,
             // A time beyond the end of the clock is none.
             end: settings
                 .deadline
@@ -48,29 +48,29 @@ impl StopCondition {
         }
     }
 
-    /// Allows work for all searches of a question about a stretch together: some budgets for each segment.
-    pub(crate) fn begin_searches(&mut self, stretch: &Stretch) {
-        self.left_for_question = self.most_work_in(stretch);
+    /// Allows work for all searches of a question about an interval together: some budgets for each segment.
+    pub(crate) fn begin_searches(&mut self, interval: &PathInterval) {
+        self.work_left_for_question = self.max_work_in(interval);
         self.work = 0;
     }
 
-    /// Allows new work for a search of a stretch: some budgets for each segment, or for a part of one, and no more than is left for
+    /// Allows new work for a search of an interval: some budgets for each segment, or for a part of one, and no more than is left for
     /// all searches.
-    pub(crate) fn begin_search(&mut self, stretch: &Stretch) {
-        self.left_for_question = self.left_for_question.saturating_sub(self.work);
-        self.most_work = self.most_work_in(stretch).min(self.left_for_question);
+    pub(crate) fn begin_search(&mut self, interval: &PathInterval) {
+        self.work_left_for_question = self.work_left_for_question.saturating_sub(self.work);
+        self.max_work = self.max_work_in(interval).min(self.work_left_for_question);
         self.work = 0;
     }
 
-    fn most_work_in(&self, stretch: &Stretch) -> u64 {
-        let segments = (stretch.to - stretch.from).ceil() as u64;
+    fn max_work_in(&self, interval: &PathInterval) -> u64 {
+        let segments = (interval.to - interval.from).ceil() as u64;
         let budgets = segments.max(1).saturating_mul(BUDGETS_PER_SEGMENT);
         self.budget.saturating_mul(budgets)
     }
 
     /// Returns whether no further search can begin: all work is spent, the time is over, or the search is stopped.
-    pub(crate) fn ends_question(&self) -> bool {
-        self.work >= self.left_for_question || self.interruption().is_some()
+    pub(crate) fn is_question_over(&self) -> bool {
+        self.work >= self.work_left_for_question || self.interruption().is_some()
     }
 
     /// Counts work, in units of the budget.
@@ -84,7 +84,7 @@ impl StopCondition {
     }
 
     fn work_left(&self) -> u64 {
-        self.most_work.saturating_sub(self.work)
+        self.max_work.saturating_sub(self.work)
     }
 
     /// Returns the work of the present search, in units of the budget.

@@ -1,4 +1,4 @@
-//! What the distance of two parts in the middle of a stretch proves.
+//! What the distance of two parts in the middle of an interval proves.
 
 use super::part_pairs::PartPair;
 use super::placement::Placement;
@@ -9,18 +9,18 @@ use ccd_distance_gjk::{TerminationBounds, Vertex, bound_distance};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::oracle::Frame;
 
-/// The distances that decide about a pair, in the middle of a stretch.
+/// The distances that decide about a pair, in the middle of an interval.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Thresholds {
-    /// The pair is free if it stays farther apart than this over the whole stretch.
+    /// The pair is free if it stays farther apart than this over the whole interval.
     pub(crate) free_distance_threshold: f64,
-    /// The pair is near if its distance in the middle of the stretch is at most this.
+    /// The pair is near if its distance in the middle of the interval is at most this.
     pub(crate) near_distance: f64,
 }
 
-/// What the distance of a pair in the middle of a stretch proves.
+/// What the distance of a pair in the middle of an interval proves.
 pub(crate) enum DistanceVerdict {
-    /// The pair stays farther apart than the threshold over the whole stretch.
+    /// The pair stays farther apart than the threshold over the whole interval.
     Free,
     /// The hulls are near each other in the middle.
     Near,
@@ -88,7 +88,7 @@ pub(crate) fn measure(
     }
 }
 
-/// Returns a lower bound of the distance of a pair in the middle of a stretch by bounding volumes.
+/// Returns a lower bound of the distance of a pair in the middle of an interval by bounding volumes.
 pub(crate) fn bounding_volume_gap(cell: &Cell, placement: &Placement, pair: &PartPair) -> f64 {
     let parts = [pair.a, pair.b].map(|part| &cell.parts()[part as usize]);
     let centres = parts.map(|part| placement.frames[part.frame].transform_point(part.centre));

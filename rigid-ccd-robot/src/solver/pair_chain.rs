@@ -8,7 +8,7 @@ use rigid_ccd::trajectory::{Chain, Joint};
 pub(crate) struct PairChain {
     pub(crate) chain: Chain,
     /// For each joint of the chain, the number of the moving joint; `None` for a fixed one.
-    pub(crate) moving_joint_numbers: Vec<Option<usize>>,
+    pub(crate) moving_joint_indices: Vec<Option<usize>>,
 }
 
 /// Makes the chain from a body of another link, or from the base, to a body of a link.
@@ -25,12 +25,12 @@ pub(crate) fn pair_chain(cell: &Cell, a: usize, b: Option<usize>) -> PairChain {
     // Configurations are checked already; positions within an edge are rounded.
     let unlimited = |joint: &Joint| joint.clone().with_limits(f64::NEG_INFINITY..=f64::INFINITY);
     joints.extend(between.chain().joints().iter().map(unlimited));
-    let numbers = between.joint_numbers().iter();
+    let numbers = between.joint_indices().iter();
     moving.extend(numbers.map(|&joint| kinematics.moving_joint_index(joint)));
     joints.push(Joint::fixed(cell.pose_in_link(a)));
     moving.push(None);
     PairChain {
         chain: Chain::new(Pose::IDENTITY, joints),
-        moving_joint_numbers: moving,
+        moving_joint_indices: moving,
     }
 }

@@ -7,7 +7,7 @@ use crate::cell::Cell;
 use crate::cell::part::HullPart;
 use rigid_ccd::glam::DVec3;
 
-/// A pair of parts that may touch in a stretch of the path, with what is known of it so far.
+/// A pair of parts that may touch in an interval of the path, with what is known of it so far.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PartPair {
     pub(crate) a: u32,
@@ -18,7 +18,7 @@ pub(crate) struct PartPair {
     pub(crate) margin: f64,
     /// The direction from A to B along which they were farthest apart so far; zero if there was none.
     pub(crate) axis: DVec3,
-    /// The distance in the middle of the last stretch, as a share of what would prove it free.
+    /// The distance in the middle of the last interval, as a share of what would prove it free.
     pub(crate) distance_to_proof_ratio: f64,
 }
 
@@ -50,27 +50,28 @@ impl PartPair {
         let rests = |part: usize| cell.parts()[part].frame == 0;
         let parts = if rests(a) { [b, a] } else { [a, b] };
         let frame = kinematics.common_frame(parts.map(|part| cell.parts()[part].frame));
-        let slots = parts.map(|part| displacements.slot(kinematics, part, frame));
-        PartPair::new(parts, slots, 0.0)
+        let indices =
+            parts.map(|part| displacements.bound_index_seen_from(kinematics, part, frame));
+        PartPair::new(parts, indices, 0.0)
     }
 
-    fn new([a, b]: [usize; 2], slots: [Option<u32>; 2], margin: f64) -> Self {
+    fn new([a, b]: [usize; 2], indices: [Option<u32>; 2], margin: f64) -> Self {
         PartPair {
             a: a as u32,
             b: b as u32,
-            displacement_indices: slots,
+            displacement_indices: indices,
             margin,
             axis: DVec3::ZERO,
             distance_to_proof_ratio: 0.0,
         }
     }
 
-    /// Returns a bound of how far both parts move from the middle of the stretch, as seen from the nearest frame above both.
+    /// Returns a bound of how far both parts move from the middle of the interval, as seen from the nearest frame above both.
     #[inline(always)]
     pub(crate) fn displacement(&self, placement: &Placement) -> f64 {
         let [a, b] = self
             .displacement_indices
-            .map(|slot| placement.displacement_bounds.bound(slot));
+            .map(|index| placement.displacement_bounds.bound(index));
         a + b
     }
 
@@ -81,7 +82,7 @@ impl PartPair {
     }
 
     /// Returns the numbers in the cell of the bodies to which the parts belong.
-    pub(crate) fn body_numbers(&self, parts: &[HullPart]) -> [usize; 2] {
+    pub(crate) fn body_indices(&self, parts: &[HullPart]) -> [usize; 2] {
         [self.a, self.b].map(|part| parts[part as usize].owner)
     }
 }
@@ -130,11 +131,11 @@ impl<'c> PartPairs<'c> {
         let (cell, margin, growth) = (self.cell, self.margin, self.margin_increase);
         self.largest_obstacle_margin = cell.largest_obstacle_margin(margin) + growth;
         for pair in &mut self.self_pairs {
-            pair.margin = cell.margin(pair.body_numbers(cell.parts()), margin) + growth;
+            pair.margin = cell.margin(pair.body_indices(cell.parts()), margin) + growth;
         }
     }
 
-    /// Appends all pairs whose bounding boxes may come within their margins and `allowance` in the stretch that is placed.
+    /// Appends all pairs whose bounding boxes may come within their margins and `allowance` in the interval that is placed.
     #[inline(always)]
     pub(crate) fn append_candidates(
         &self,
@@ -148,8 +149,8 @@ impl<'c> PartPairs<'c> {
             if part.frame == 0 {
                 continue;
             }
-            let slot = placement.displacement_bounds.bound_index_seen_from_base(a);
-            let displacement = placement.displacement_bounds.bound(slot);
+            let index = placement.displacement_bounds.bound_index_seen_from_base(a);
+            let displacement = placement.displacement_bounds.bound(index);
             let frame = &placement.frames[part.frame];
             let growth = displacement + self.largest_obstacle_margin + allowance;
             let extents = part.box_half_extents(frame) + DVec3::splat(growth);
@@ -162,7 +163,7 @@ impl<'c> PartPairs<'c> {
                         return;
                     }
                     let margin = cell.margin(bodies, self.margin) + self.margin_increase;
-                    pairs.push(PartPair::new([a, b], [slot, None], margin));
+                    pairs.push(PartPair::new([a, b], [index, None], margin));
                 });
         }
         pairs.extend_from_slice(&self.self_pairs);
@@ -178,7 +179,7 @@ impl<'c> PartPairs<'c> {
     ) {
         let (cell, parts) = (self.cell, self.cell.parts());
         let of_robot = self.self_pairs.iter();
-        let of_robot = of_robot.filter(|pair| pair.body_numbers(parts) == bodies);
+        let of_robot = of_robot.filter(|pair| pair.body_indices(parts) == bodies);
         pairs.extend(of_robot.map(|pair| PartPair { margin, ..*pair }));
         if bodies[1] < cell.robot_body_count() {
             return;
@@ -188,9 +189,9 @@ impl<'c> PartPairs<'c> {
             first..parts.partition_point(|part| part.owner <= body)
         };
         for a in parts_of(bodies[0]) {
-            let slot = placement.displacement_bounds.bound_index_seen_from_base(a);
+            let index = placement.displacement_bounds.bound_index_seen_from_base(a);
             let with_obstacle = parts_of(bodies[1]);
-            pairs.extend(with_obstacle.map(|b| PartPair::new([a, b], [slot, None], margin)));
+            pairs.extend(with_obstacle.map(|b| PartPair::new([a, b], [index, None], margin)));
         }
     }
 }

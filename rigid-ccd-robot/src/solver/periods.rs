@@ -43,7 +43,7 @@ pub(crate) struct DriftLimit {
     /// The error of positions, of which two phases have one each.
     pub(crate) rounding: f64,
     /// The largest drift of a period that is of use.
-    pub(crate) most: f64,
+    pub(crate) max_drift: f64,
 }
 
 impl Periods {
@@ -128,7 +128,7 @@ fn period(
         }
     };
     let mut periods = lengths.map(with_drift);
-    periods.find(|period| period.drift <= limit.most)
+    periods.find(|period| period.drift <= limit.max_drift)
 }
 
 /// Bounds how far an angle is from a whole number of turns. The angle is a product of a change and a share; it and the whole

@@ -1,16 +1,16 @@
-//! A stretch of a path as the search sees it: the frames of all links in its middle, and how far parts move from there.
+//! An interval of a path as the search sees it: the frames of all links in its middle, and how far parts move from there.
 
 use super::displacement::DisplacementBounds;
 use crate::cell::Cell;
 use crate::cell::rounding::point_error_bound;
+use crate::path::interval::PathInterval;
 use crate::path::joint_path::JointPath;
-use crate::path::stretch::Stretch;
 use rigid_ccd::glam::DQuat;
 use rigid_ccd::oracle::Frame;
 use rigid_ccd::{Body, Error, Pose};
 
-/// The frames of all links in the middle of a stretch of the path, and bounds of how far parts move from there within the
-/// stretch.
+/// The frames of all links in the middle of an interval of the path, and bounds of how far parts move from there within the
+/// interval.
 pub(crate) struct Placement {
     pub(crate) frames: Vec<Frame>,
     pub(crate) displacement_bounds: DisplacementBounds,
@@ -31,24 +31,24 @@ impl Placement {
         }
     }
 
-    /// Prepares for the stretches of a path.
+    /// Prepares for the intervals of a path.
     pub(crate) fn begin(&mut self, cell: &Cell, path: &JointPath) {
         self.rounding = point_error_bound(cell.kinematics(), cell.parts(), path.magnitudes());
     }
 
-    /// Computes the frames in the middle of a stretch, and the bounds of displacements.
+    /// Computes the frames in the middle of an interval, and the bounds of displacements.
     #[inline(always)]
-    pub(crate) fn place(&mut self, cell: &Cell, path: &JointPath, stretch: &Stretch) {
-        self.place_frames(cell, path, stretch.middle());
+    pub(crate) fn place(&mut self, cell: &Cell, path: &JointPath, interval: &PathInterval) {
+        self.place_frames(cell, path, interval.middle());
         path.max_joint_deviations_from_middle(
-            stretch,
+            interval,
             &self.positions,
             &mut self.max_deviation_by_joint,
         );
         self.update_displacements(cell);
     }
 
-    /// Returns whether a joint moves in the stretch that is placed.
+    /// Returns whether a joint moves in the interval that is placed.
     pub(crate) fn moves(&self) -> bool {
         self.max_deviation_by_joint
             .iter()

@@ -1,4 +1,4 @@
-//! Whether some pair is nearer than its distance everywhere in a stretch.
+//! Whether some pair is nearer than its distance everywhere in an interval.
 //!
 //! It is if both bodies are nearer in the middle by more than they move from there.
 
@@ -6,30 +6,30 @@ use super::Goal;
 use super::measure::{initial_direction, minkowski_support_vertex};
 use super::part_pairs::PartPair;
 use super::placement::Placement;
-use super::search::Search;
+use super::search::PathSearch;
 use crate::cell::Cell;
-use crate::path::stretch::Stretch;
+use crate::path::interval::PathInterval;
 use ccd_core::fan_triangles;
 use ccd_core::order::{greater, lesser};
 use ccd_distance_gjk::{TerminationBounds, bound_distance};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Error, Settings};
 
-impl Search<'_> {
-    /// Returns whether some pair is certainly nearer than its margin everywhere in a stretch. The margin is that
+impl PathSearch<'_> {
+    /// Returns whether some pair is certainly nearer than its margin everywhere in an interval. The margin is that
     /// without `PartPairs::margin_increase`. The result holds even if the true distance exceeds that of the placed
     /// parts by up to this increase.
-    pub(super) fn is_margin_violated(&mut self, stretch: &Stretch) -> Result<bool, Error> {
+    pub(super) fn is_margin_violated(&mut self, interval: &PathInterval) -> Result<bool, Error> {
         let parts = self.cell.parts();
         self.goal = Goal::AnyContact;
-        self.stop_condition.begin_search(stretch);
-        self.placement.place(self.cell, &self.path, stretch);
+        self.stop_condition.begin_search(interval);
+        self.placement.place(self.cell, &self.path, interval);
         self.candidates.clear();
         self.append_candidates();
         let mut pairs = std::mem::take(&mut self.candidates);
-        pairs.sort_unstable_by_key(|pair| pair.body_numbers(parts));
+        pairs.sort_unstable_by_key(|pair| pair.body_indices(parts));
         let of_bodies =
-            pairs.chunk_by(|one, other| one.body_numbers(parts) == other.body_numbers(parts));
+            pairs.chunk_by(|one, other| one.body_indices(parts) == other.body_indices(parts));
         let mut is_violated = Ok(false);
         for near in of_bodies {
             is_violated = self.are_bodies_nearer(near);
@@ -41,7 +41,7 @@ impl Search<'_> {
         is_violated
     }
 
-    /// Returns the same for two bodies in the stretch that is placed. Parts that are left out are not near each other.
+    /// Returns the same for two bodies in the interval that is placed. Parts that are left out are not near each other.
     fn are_bodies_nearer(&mut self, near: &[PartPair]) -> Result<bool, Error> {
         let pair = &near[0];
         let displacements = near.iter().map(|pair| pair.displacement(&self.placement));
@@ -59,7 +59,7 @@ impl Search<'_> {
         if !(distance > 0.0) {
             return Ok(false);
         }
-        let [a, b] = pair.body_numbers(self.cell.parts());
+        let [a, b] = pair.body_indices(self.cell.parts());
         let a = self.placement.body(self.cell, a)?;
         let b = self.placement.body(self.cell, b)?;
         self.solver.set_settings(Settings {
@@ -74,7 +74,7 @@ impl Search<'_> {
     }
 }
 
-/// Returns whether two convex parts are nearer than a distance in the middle of the stretch. If it is negative, they have
+/// Returns whether two convex parts are nearer than a distance in the middle of the interval. If it is negative, they have
 /// to overlap by so much in each direction.
 pub(crate) fn are_convex_parts_nearer(
     cell: &Cell,

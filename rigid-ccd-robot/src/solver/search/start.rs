@@ -1,17 +1,17 @@
 //! Contacts at the start of a path that are let go: the pairs may part, but not come nearer or sink.
 //!
-//! A pair with a gap at the start keeps half of it from then on. A pair without one is first followed over a short stretch in which
+//! A pair with a gap at the start keeps half of it from then on. A pair without one is first followed over a short interval in which
 //! the joints move it almost as a constant motion does, which the engine decides under [`StartPolicy::Leave`]. At the end of the
-//! stretch there is a gap, or the next stretch follows.
+//! interval there is a gap, or the next interval follows.
 
-use super::Search;
-use crate::path::stretch::{StepResult, Stretch};
+use super::PathSearch;
+use crate::path::interval::{PathInterval, StepResult};
 use crate::solver::Goal;
 use crate::solver::constant_step::ConstantStep;
 use crate::solver::curved_link::PathSection;
 use crate::solver::measure::{DistanceVerdict, Thresholds, measure};
 use crate::solver::part_pairs::PartPair;
-use crate::tuning::MAX_START_STRETCHES;
+use crate::tuning::MAX_START_STEPS;
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::answer::Limit;
 use rigid_ccd::trajectory::Trajectory;
@@ -48,10 +48,10 @@ struct Gap {
     limit: Option<Limit>,
 }
 
-impl Search<'_> {
+impl PathSearch<'_> {
     /// Answers a question about contacts on the whole path; pairs in contact at the start are let go.
     pub(crate) fn answer_leaving_start(&mut self, goal: Goal) -> Result<(), Error> {
-        let whole = self.whole_path_stretch();
+        let whole = self.whole_path_interval();
         self.begin_question(goal, &whole);
         self.start_contacts.clear();
         let leaves = self.find_start_contacts()?;
@@ -67,7 +67,7 @@ impl Search<'_> {
         self.candidates.clear();
         let step = self.search(whole, None)?;
         if step.is_continue() {
-            self.decide_open_pairs()?;
+            self.decide_engine_candidates()?;
         }
         for number in 0..self.start_contacts.len() {
             if self.result.limit_reached.is_some() || self.is_decided() {
@@ -91,8 +91,8 @@ impl Search<'_> {
 
     /// Returns whether a pair is let go from its contact at the start, and is searched by itself.
     #[inline(always)]
-    pub(super) fn is_let_go(&self, pair: &PartPair) -> bool {
-        let bodies = pair.body_numbers(self.cell.parts());
+    pub(super) fn is_start_contact(&self, pair: &PartPair) -> bool {
+        let bodies = pair.body_indices(self.cell.parts());
         self.start_contacts
             .iter()
             .any(|contact| contact.bodies == bodies)
@@ -105,32 +105,32 @@ impl Search<'_> {
 
     /// Finds the pairs in contact at the start. One that overlaps is the answer.
     fn find_start_contacts(&mut self) -> StepResult {
-        let start = Stretch {
+        let start = PathInterval {
             to: 0.0,
-            ..self.whole_path_stretch()
+            ..self.whole_path_interval()
         };
         self.placement.place(self.cell, &self.path, &start);
         self.candidates.clear();
         self.append_candidates();
         let mut pairs = std::mem::take(&mut self.candidates);
-        let step = self.keep_start_contacts(&mut pairs);
+        let step = self.record_start_contacts(&mut pairs);
         self.candidates = pairs;
         step
     }
 
-    fn keep_start_contacts(&mut self, pairs: &mut [PartPair]) -> StepResult {
-        let start = Stretch {
+    fn record_start_contacts(&mut self, pairs: &mut [PartPair]) -> StepResult {
+        let start = PathInterval {
             to: 0.0,
-            ..self.whole_path_stretch()
+            ..self.whole_path_interval()
         };
         for pair in pairs {
-            if self.is_let_go(pair) || self.is_apart_at_start(pair) {
+            if self.is_start_contact(pair) || self.is_apart_at_start(pair) {
                 continue;
             }
             if self.check_limit(&start).is_break() {
                 return Ok(Break(()));
             }
-            let bodies = pair.body_numbers(self.cell.parts());
+            let bodies = pair.body_indices(self.cell.parts());
             let gap = self.gap_at(bodies, 0.0)?;
             // Whether bodies that touch overlap is decided as they move.
             let rests = self.path.segment_count() == 0;
@@ -203,20 +203,20 @@ impl Search<'_> {
             SINKING_PER_ROUNDING * rounding,
         );
         let (mut at, mut steps_of_segment) = (0.0, 0);
-        while at < end && steps_of_segment < MAX_START_STRETCHES {
+        while at < end && steps_of_segment < MAX_START_STEPS {
             steps_of_segment = if at.fract() == 0.0 {
                 1
             } else {
                 steps_of_segment + 1
             };
-            let here = Stretch {
+            let here = PathInterval {
                 from: at,
                 to: at,
                 halvings: 0,
             };
             if self.check_limit(&here).is_break() {
                 // No other pair was searched yet.
-                self.forget_what_was_searched();
+                self.discard_search_progress();
                 return Ok(Break(()));
             }
             let (segment, open_end) = (at as usize, lesser(at.floor() + 1.0, end));
@@ -226,7 +226,7 @@ impl Search<'_> {
                 return Ok(self.end_with_contact(&contact.pair, at));
             };
             sinking -= step.deviation;
-            let answer = self.ask_about_step(contact, &step)?;
+            let answer = self.query_step(contact, &step)?;
             match answer.outcome.hit() {
                 Ok(None) => at = step.to,
                 Ok(Some(hit)) => {
@@ -235,7 +235,7 @@ impl Search<'_> {
                 }
                 Err(known) => {
                     self.result.limit_reached = Some((known.limit, at));
-                    self.forget_what_was_searched();
+                    self.discard_search_progress();
                     return Ok(Break(()));
                 }
             }
@@ -255,12 +255,12 @@ impl Search<'_> {
 
     /// Keeps a contact of a pair that is let go, which is the answer unless an earlier one is looked for.
     fn end_with_contact(&mut self, pair: &PartPair, at: f64) -> ControlFlow<()> {
-        let step = self.keep_contact(pair, at, 0.0);
+        let step = self.record_contact(pair, at, 0.0);
         // Nothing is before the start.
         if at > 0.0 { step } else { Break(()) }
     }
 
-    fn forget_what_was_searched(&mut self) {
+    fn discard_search_progress(&mut self) {
         if let Some((_, until)) = &mut self.result.limit_reached {
             *until = 0.0;
         }
@@ -275,7 +275,7 @@ impl Search<'_> {
     /// Searches the path from where a pair has a gap.
     fn search_after_start(&mut self, contact: &StartContact) -> Result<(), Error> {
         let end = self.path.segment_count() as f64;
-        self.open_pairs.clear();
+        self.engine_candidates.clear();
         let middle = lesser(contact.from.floor() + 1.0, end);
         for (from, to) in [(contact.from, middle), (middle, end)] {
             // Written so that an infinite start is none.
@@ -290,17 +290,17 @@ impl Search<'_> {
                 margin,
                 &mut self.candidates,
             );
-            let stretch = Stretch {
+            let interval = PathInterval {
                 from,
                 to,
                 halvings: 0,
             };
             let all = 0..self.candidates.len();
-            if self.search(stretch, Some(all))?.is_break() {
+            if self.search(interval, Some(all))?.is_break() {
                 return Ok(());
             }
         }
-        self.decide_open_pairs()
+        self.decide_engine_candidates()
     }
 
     /// Returns the distance of two bodies at a point of the path.
@@ -350,11 +350,7 @@ impl Search<'_> {
     }
 
     /// Asks the engine whether a pair that rests comes nearer in a step.
-    fn ask_about_step(
-        &mut self,
-        contact: &StartContact,
-        step: &ConstantStep,
-    ) -> Result<Answer, Error> {
+    fn query_step(&mut self, contact: &StartContact, step: &ConstantStep) -> Result<Answer, Error> {
         self.solver.set_settings(Settings {
             tolerance: self.tolerance,
             margin: contact.margin + 2.0 * self.placement.rounding,

@@ -42,7 +42,7 @@ fn a_budget_is_for_a_whole_question() {
         let path: Vec<_> = (0..count)
             .map(|_| random_configuration(&mut random, cell.robot()))
             .collect();
-        // A stretch ends after its pairs have been measured, and bounds of a distance take half as much again.
+        // An interval ends after its pairs have been measured, and bounds of a distance take half as much again.
         let most = 12 * budget * (count - 1) + solver.search.pairs.count() as u64;
         let check_work = |solver: &CellSolver<'_>| {
             let work = solver.search.stop_condition.work();

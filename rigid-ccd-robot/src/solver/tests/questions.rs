@@ -213,7 +213,7 @@ fn a_solver_keeps_its_memory() {
             is_free
         };
         free += usize::from(ask(&mut solver));
-        engine += usize::from(solver.search.open_pairs.earliest_start() < f64::INFINITY);
+        engine += usize::from(solver.search.engine_candidates.earliest_start() < f64::INFINITY);
         let allocated = allocation_counter::measure(|| {
             ask(&mut solver);
         });

@@ -505,7 +505,7 @@ fn can_before_wall(from: f64, to: f64) -> Cell {
 }
 
 /// Tests that a pair that was let go and a pair that was not are told in the order of their contacts. The search for one of them
-/// meets, in the middle of a stretch, a contact behind that of the other.
+/// meets, in the middle of an interval, a contact behind that of the other.
 #[test]
 fn of_a_pair_let_go_and_another_one_the_first_contact_is_told() {
     let (high, low) = (0.3, -0.05);

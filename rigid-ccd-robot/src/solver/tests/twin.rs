@@ -112,16 +112,16 @@ impl Twin {
         let start = outcome_at(0.0);
         let gap = start.lower() - settings.margin;
         let overlaps = matches!(start, Outcome::Overlapping { .. });
-        let is_let_go =
+        let is_start_contact =
             settings.start_policy == StartPolicy::Leave && !overlaps && gap <= settings.tolerance;
-        if is_let_go && gap < 1e-6 {
+        if is_start_contact && gap < 1e-6 {
             let times = (0..=20).map(|k| f64::from(k) / 20.0);
             return Known::Distances(times.map(|time| (time, outcome_at(time).lower())).collect());
         }
         let settings = Settings {
             start_policy: StartPolicy::Report,
             // A pair with a gap keeps half of it.
-            tolerance: if is_let_go {
+            tolerance: if is_start_contact {
                 0.5 * gap
             } else {
                 settings.tolerance
@@ -130,7 +130,7 @@ impl Twin {
         };
         let mut solver = Solver::new().with_settings(settings);
         let outcome = solver.first_contact((body, &link), (other, Pose::IDENTITY), 1.0);
-        Known::Answer(Box::new(outcome.unwrap().outcome), is_let_go)
+        Known::Answer(Box::new(outcome.unwrap().outcome), is_start_contact)
     }
 }
 
@@ -288,8 +288,8 @@ fn compare(both: &Both, [from, to]: [&[f64]; 2], settings: &Settings, counts: &m
                     assert!(is_kept, "{names:?}: {distance} at {time} of {until}");
                 }
             }
-            Known::Answer(outcome, is_let_go) => {
-                counts.let_go += usize::from(is_let_go);
+            Known::Answer(outcome, is_start_contact) => {
+                counts.let_go += usize::from(is_start_contact);
                 let Some(hit) = outcome.hit().unwrap() else {
                     continue;
                 };

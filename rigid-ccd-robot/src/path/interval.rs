@@ -1,29 +1,29 @@
-//! Stretches of a path.
+//! Intervals of a path.
 
 use rigid_ccd::Error;
 
-/// A stretch of a path. Its ends are measured in segments: 1.5 is the middle of the second one.
+/// An interval of a path. Its ends are measured in segments: 1.5 is the middle of the second one.
 ///
-/// Stretches come from halving: one that is longer than a segment begins and ends at configurations.
+/// Intervals come from halving: one that is longer than a segment begins and ends at configurations.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stretch {
+pub(crate) struct PathInterval {
     pub(crate) from: f64,
     pub(crate) to: f64,
-    /// The number of times that the path was halved to get this stretch.
+    /// The number of times that the path was halved to get this interval.
     pub(crate) halvings: u32,
 }
 
-impl Stretch {
+impl PathInterval {
     /// Returns the whole path of a number of segments.
     pub(crate) fn whole_path(segments: usize) -> Self {
-        Stretch {
+        PathInterval {
             from: 0.0,
             to: segments as f64,
             halvings: 0,
         }
     }
 
-    /// Returns the middle of the stretch, in segments. It is rounded down to a configuration if the stretch is longer
+    /// Returns the middle of the interval, in segments. It is rounded down to a configuration if the interval is longer
     /// than a segment.
     pub(crate) fn middle(&self) -> f64 {
         let middle = 0.5 * (self.from + self.to);
@@ -34,7 +34,7 @@ impl Stretch {
         }
     }
 
-    /// Returns whether the stretch lies within one segment.
+    /// Returns whether the interval lies within one segment.
     pub(crate) fn is_within_segment(&self) -> bool {
         self.to - self.from <= 1.0
     }
@@ -43,7 +43,7 @@ impl Stretch {
     pub(crate) fn halves(&self) -> [Self; 2] {
         let (middle, halvings) = (self.middle(), self.halvings + 1);
         let (from, to) = (self.from, self.to);
-        [(from, middle), (middle, to)].map(|(from, to)| Stretch { from, to, halvings })
+        [(from, middle), (middle, to)].map(|(from, to)| PathInterval { from, to, halvings })
     }
 }
 
