@@ -1,4 +1,4 @@
-//! A robot among obstacles.
+//! The planning scene: a robot among static obstacles.
 
 mod clusters;
 mod compared;
@@ -21,33 +21,34 @@ use rigid_ccd::{Body, Pose};
 use std::cmp::Ordering;
 use std::sync::{Arc, OnceLock};
 
-/// A robot among obstacles that rest in the frame of its base.
+/// A planning scene: a robot among obstacles that are static in the frame of its base.
 ///
-/// Obstacles and bodies that are attached to links go by their names, which no link has.
+/// Links, attached bodies and obstacles are identified by name. A name is unique in the cell.
 #[derive(Clone, Debug)]
 pub struct Cell {
     robot: Robot,
     pairs: LinkPairs,
     kinematics: Kinematics,
-    /// The bodies of the robot's links, then those attached to links, then the obstacles.
+    /// The bodies of the robot's links, then attached bodies, then obstacles. A body's index is its position in this
+    /// list.
     bodies: Vec<PlacedBody>,
-    /// The convex parts of all bodies, in the order of the bodies.
+    /// The convex parts of all bodies, sorted by body.
     parts: Vec<HullPart>,
     robot_part_count: usize,
-    /// Where the robot holds each of its bodies, in the order of the bodies.
+    /// The link and the pose of each body that the robot carries. Same indices as `bodies`.
     robot_body_placements: Vec<RobotBodyPlacement>,
     obstacle_names: Vec<String>,
     margins: Margins,
     allowed: AllowedPairs,
     size_scale: SizeScale,
-    /// A body of the smallest item, and the item's size; `None` in it if nothing has a size. It is found when it is first needed.
+    /// The smallest body of nonzero size: its index and its size. Computed when it is first needed.
     smallest_item: OnceLock<Option<(usize, f64)>>,
 }
 
-/// Where a robot holds a body.
+/// The link that carries a body, and the body's pose on it.
 #[derive(Clone, Debug)]
 struct RobotBodyPlacement {
-    /// The number of the link.
+    /// The index of the link.
     link: usize,
     /// The pose of the body in the link's frame.
     pose_in_link: Pose,
@@ -55,7 +56,7 @@ struct RobotBodyPlacement {
     attached_name: Option<String>,
 }
 
-/// A link of the robot, a body attached to a link, or an obstacle, by its name.
+/// The name of a link, of an attached body or of an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Item<'c> {
     /// A link.
@@ -74,21 +75,21 @@ impl<'c> Item<'c> {
     }
 }
 
-/// A body of a cell, at rest on a link.
+/// A body of a cell, and the link that carries it.
 #[derive(Clone, Copy, Debug)]
 pub struct CarriedBody<'c> {
-    /// What the body belongs to.
+    /// The link, attached body or obstacle that the body belongs to.
     pub item: Item<'c>,
     /// The body.
     pub body: &'c Body,
-    /// The number of the link that carries it: the base for an obstacle.
+    /// The index of the link that carries the body: the base for an obstacle.
     pub link: usize,
     /// The pose of the body in the frame of the link.
     pub pose: Pose,
 }
 
 impl Cell {
-    /// Creates a cell without obstacles. Pairs of links that are not checked may touch.
+    /// Creates a cell without obstacles. `pairs` says which pairs of links are checked against each other.
     pub fn new(robot: Robot, pairs: LinkPairs) -> Self {
         let kinematics = Kinematics::of_robot(&robot);
         let mut cell = Cell {
@@ -152,7 +153,7 @@ impl Cell {
         Ok(())
     }
 
-    /// Removes an obstacle, together with the clearances and the allowed contacts that it had.
+    /// Removes an obstacle. Its clearances and allowed contacts are removed, too.
     ///
     /// # Errors
     /// [`RobotError::NoSuchObstacle`].
@@ -163,13 +164,15 @@ impl Cell {
         Ok(())
     }
 
-    /// Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. It moves with the
-    /// link. It may touch that link, links that no joint moves against it, and the links, attached bodies and obstacles that are
-    /// named; [`Cell::allow_contact`] allows more of them later.
+    /// Attaches a body to a link at a pose in the link's frame, such as an object in a gripper. The body moves with
+    /// the link.
+    ///
+    /// It may touch the link, the links that are fixed to it, and the items named in `may_touch`.
+    /// [`Cell::allow_contact`] allows further contacts later.
     ///
     /// # Errors
     /// [`RobotError::NameTaken`], [`RobotError::EmptyName`], [`RobotError::NoSuchLink`], [`RobotError::TooFar`], and
-    /// [`RobotError::NoSuchItem`] for what it may touch.
+    /// [`RobotError::NoSuchItem`] for an unknown name in `may_touch`.
     pub fn attach(
         &mut self,
         name: impl Into<String>,
@@ -194,7 +197,7 @@ impl Cell {
         Ok(())
     }
 
-    /// Removes a body that is attached to a link, together with the clearances and the allowed contacts that it had.
+    /// Removes an attached body. Its clearances and allowed contacts are removed, too.
     ///
     /// # Errors
     /// [`RobotError::NoSuchAttachedBody`].
@@ -212,23 +215,23 @@ impl Cell {
         &self.robot
     }
 
-    /// Returns which pairs of links are checked.
+    /// Returns the pairs of links that are checked.
     pub fn link_pairs(&self) -> &LinkPairs {
         &self.pairs
     }
 
-    /// Returns the names of the obstacles, in the order in which they were added.
+    /// Returns the names of the obstacles in the order of their addition.
     pub fn obstacle_names(&self) -> impl ExactSizeIterator<Item = &str> {
         self.obstacle_names.iter().map(String::as_str)
     }
 
-    /// Returns the names of the bodies that are attached to links, in the order in which they were attached.
+    /// Returns the names of the attached bodies in the order of their attachment.
     pub fn attached_names(&self) -> impl Iterator<Item = &str> {
         let placement = self.robot_body_placements.iter();
         placement.filter_map(|placement| placement.attached_name.as_deref())
     }
 
-    /// Returns the link, the attached body or the obstacle that has a name.
+    /// Returns the link, attached body or obstacle with this name.
     ///
     /// # Errors
     /// [`RobotError::NoSuchItem`].
@@ -244,7 +247,7 @@ impl Cell {
         }
     }
 
-    /// Returns the bodies of the cell in a configuration, each with what it belongs to and its pose in the frame of the base.
+    /// Returns all bodies at a configuration, each with its item and its pose in the base frame.
     ///
     /// # Errors
     /// [`RobotError::WrongPositionCount`], [`RobotError::InvalidPosition`].
@@ -269,7 +272,7 @@ impl Cell {
         placed.collect()
     }
 
-    /// Returns the bodies of the cell, in the order of [`Cell::placed_bodies`], each with the link that carries it.
+    /// Returns all bodies, each with the link that carries it. The order is that of [`Cell::placed_bodies`].
     pub fn carried_bodies(&self) -> impl ExactSizeIterator<Item = CarriedBody<'_>> {
         let bodies = self.bodies.iter().enumerate();
         bodies.map(|(number, placed)| {
@@ -291,17 +294,17 @@ impl Cell {
         &self.kinematics
     }
 
-    /// Returns the bodies that the robot holds, followed by the obstacles.
+    /// Returns all bodies: those that the robot carries, then the obstacles.
     pub(crate) fn bodies(&self) -> &[PlacedBody] {
         &self.bodies
     }
 
-    /// Returns the number of bodies that the robot holds.
+    /// Returns the number of bodies that the robot carries.
     pub(crate) fn robot_body_count(&self) -> usize {
         self.robot_body_placements.len()
     }
 
-    /// Returns the convex parts of all bodies, in the order of the bodies.
+    /// Returns the convex parts of all bodies, sorted by body.
     pub(crate) fn parts(&self) -> &[HullPart] {
         &self.parts
     }
@@ -310,17 +313,17 @@ impl Cell {
         self.robot_part_count
     }
 
-    /// Returns the number of the link that holds one of the robot's bodies.
+    /// Returns the index of the link that carries a body of the robot.
     pub(crate) fn link_of(&self, body: usize) -> usize {
         self.robot_body_placements[body].link
     }
 
-    /// Returns the pose of one of the robot's bodies in its link.
+    /// Returns the pose of a body of the robot in the frame of its link.
     pub(crate) fn pose_in_link(&self, body: usize) -> Pose {
         self.robot_body_placements[body].pose_in_link
     }
 
-    /// Returns the name of what a body belongs to.
+    /// Returns the item that a body belongs to.
     pub(crate) fn item_of_body(&self, body: usize) -> Item<'_> {
         match self.robot_body_placements.get(body) {
             None => Item::Obstacle(&self.obstacle_names[body - self.robot_body_placements.len()]),
@@ -332,7 +335,7 @@ impl Cell {
         }
     }
 
-    /// Adds a body that the robot holds.
+    /// Adds a body that the robot carries.
     fn add_robot_body(&mut self, body: Arc<Body>, placement: RobotBodyPlacement) {
         let (frame, link_pose) = self.kinematics.link_frame_and_pose(placement.link);
         let pose = link_pose.compose(&placement.pose_in_link);
@@ -343,7 +346,7 @@ impl Cell {
         self.fit_planes();
     }
 
-    /// Inserts a body with its parts, and returns the number of the parts.
+    /// Inserts a body and its parts at a body index. Returns the number of its parts.
     fn insert(&mut self, number: usize, placed: PlacedBody) -> usize {
         let first = self.parts.partition_point(|part| part.owner < number);
         for part in &mut self.parts[first..] {
@@ -360,7 +363,7 @@ impl Cell {
         count
     }
 
-    /// Replaces a body by one with as many parts.
+    /// Replaces a body. The new body must have the same number of parts.
     fn replace(&mut self, number: usize, placed: PlacedBody) {
         let parts = placed.parts(number);
         let first = self.parts.partition_point(|part| part.owner < number);

@@ -1,4 +1,4 @@
-//! Measures two links at configurations, and over boxes of positions.
+//! Measures pairs of links at single configurations and over boxes of joint positions.
 
 use super::box_motion::{BoxMotion, Displacement};
 use super::joint_box::JointBox;
@@ -17,17 +17,17 @@ use rigid_ccd::{Body, Error, Outcome, Pose, Settings, Solver};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// Two links, and what moves them against each other.
+/// Two links, the joints between them, and the pairs of their parts.
 pub(super) struct LinkPair {
     pub(super) joints: JointsBetween,
     part_pairs: Vec<PairOfParts>,
 }
 
-/// A part of either link.
+/// A pair of parts, one of each link.
 struct PairOfParts {
-    /// The numbers of the parts, in the order of the links.
+    /// The indices of the parts, in the order of the links.
     parts: [usize; 2],
-    /// The same parts, the one that rests last.
+    /// The same parts; a static part comes second.
     pair: PartPair,
 }
 
@@ -39,71 +39,71 @@ pub(super) struct Measurer<'c> {
     solver: Solver,
 }
 
-/// Whether two links touch in a configuration.
+/// Whether two links touch at a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Contact {
     Touching,
     Apart,
-    /// Rounding hides it.
+    /// Undecided because of rounding.
     Unknown,
 }
 
-/// What is known of two links in a configuration.
+/// The state of two links at a configuration.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ConfigurationCheck {
     pub(super) contact: Contact,
-    /// About how far apart they are, if that is less than what was query for.
+    /// An approximate distance, if it is below the given limit.
     pub(super) distance: f64,
 }
 
-/// What is known of two links over a box of positions.
+/// The result of checking a box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxCheck {
     pub(super) class: BoxClass,
     pub(super) in_middle: ConfigurationCheck,
-    /// The place of the position that moves the links most.
+    /// The index, in the box, of the position that moves the links most.
     pub(super) main_position_index: Option<usize>,
 }
 
-/// Whether two links touch in all configurations of a box.
+/// Whether two links touch everywhere in a box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BoxClass {
     Apart,
-    /// The shapes touch that the bodies enclose.
+    /// The shapes inside the bodies touch.
     ShapesTouching,
-    /// The bodies touch.
+    /// The bodies touch. Their shapes may not.
     BodiesTouching,
     Undecided,
 }
 
-/// Two parts at their places in the middle of a box.
+/// Two parts at the centre of a box.
 struct PlacedParts<'a> {
     parts: [&'a HullPart; 2],
     frames: [Frame; 2],
     centres: [DVec3; 2],
 }
 
-/// What is query about two parts over a box.
+/// The inputs of a proof about two parts over a box.
 struct PartQuery<'a> {
     part_pair: &'a PairOfParts,
     displacement: Displacement,
-    /// The error of a point.
+    /// The error bound of a point.
     rounding: f64,
-    /// What is known of the links at other positions.
+    /// What other configurations have shown about the links.
     known: Contact,
 }
 
-/// What a box of positions proves about two parts.
+/// What is proven about two parts over a box.
 enum BoxProof {
     Apart,
     ShapesTouching,
     BodiesTouching,
-    /// Nothing; their distance is that much too small.
+    /// Nothing. The distance falls short by this much.
     Undecided(f64),
 }
 
 impl LinkPair {
-    /// Returns `None` if a joint without limits does not come back to where it was after a turn.
+    /// Returns `None` if the joint positions cannot be bounded, see [`JointsBetween::new`].
     pub(super) fn new(cell: &Cell, placement: &Placement, links: [usize; 2]) -> Option<Self> {
         let parts_of = |link: usize| {
             (0..cell.robot_part_count())
@@ -122,7 +122,7 @@ impl LinkPair {
         })
     }
 
-    /// Returns whether a body of a link exceeds the shape that it encloses.
+    /// Returns whether any body of the links exceeds the shape that it encloses.
     pub(super) fn encloses_shapes(&self, cell: &Cell) -> bool {
         let parts = self.part_pairs.iter().flat_map(|pair| pair.parts);
         let mut excess = parts.map(|part| cell.parts()[part].excess_over_shape);
@@ -143,7 +143,7 @@ impl<'c> Measurer<'c> {
         }
     }
 
-    /// Looks at two links at some positions of the joints between them. Their distance matters if it is less than `limit`.
+    /// Checks two links at given joint positions. The distance matters only if it is below `limit`.
     pub(super) fn check(
         &mut self,
         pair: &LinkPair,
@@ -176,8 +176,7 @@ impl<'c> Measurer<'c> {
         Ok(check)
     }
 
-    /// Looks at two links over a box of positions. What is `known` of them at other positions need not be found again in
-    /// the middle of the box.
+    /// Checks two links over a box. If `known` already has a witness, the centre need not provide the same one again.
     pub(super) fn check_box(
         &mut self,
         pair: &LinkPair,
@@ -219,7 +218,7 @@ impl<'c> Measurer<'c> {
                 }
                 BoxProof::Undecided(missing) => {
                     check.class = BoxClass::Undecided;
-                    // Written so that a distance that is not known comes first.
+                    // Written so that an unknown (NaN) distance comes first.
                     if !(missing <= worst) {
                         worst = missing;
                         let joint = self.motion.main_joint(displacement);
@@ -232,7 +231,7 @@ impl<'c> Measurer<'c> {
         Ok(check)
     }
 
-    /// Proves what it can about two parts over the box that is placed.
+    /// Tries to prove something about two parts over the box.
     fn prove(
         &mut self,
         placed: &PlacedParts<'_>,
@@ -262,7 +261,7 @@ impl<'c> Measurer<'c> {
         if is_convex && are_hulls_apart {
             return Ok(undecided);
         }
-        // Bodies can't be farther apart than their hulls by more than their sizes.
+        // A body may lie deep inside its hull, but not deeper than its size.
         let [size_a, size_b] = placed.parts.map(|part| 2.0 * part.ball_radius);
         let may_be_free = !is_convex && required < greater(gap, 0.0) + lesser(size_a, size_b);
         let mut touching = query.known == Contact::Touching;
@@ -280,7 +279,7 @@ impl<'c> Measurer<'c> {
         if !(is_convex && touching && query.known != Contact::Apart) {
             return Ok(undecided);
         }
-        // The distance that is query for is one of the shapes.
+        // `nearer` takes distances of the shapes, not of the bodies.
         let excess: f64 = placed.parts.iter().map(|part| part.excess_over_shape).sum();
         let nearer = |distance| {
             are_convex_parts_nearer(self.cell, &self.placement, &query.part_pair.pair, distance)
@@ -294,7 +293,7 @@ impl<'c> Measurer<'c> {
         })
     }
 
-    /// Measures the bodies of two parts, and returns a lower bound of their distance.
+    /// Measures the distance of the bodies of two parts. Returns its lower bound.
     fn check_bodies(
         &mut self,
         part_pair: &PairOfParts,
@@ -311,7 +310,7 @@ impl<'c> Measurer<'c> {
                 distance: 0.0,
             };
         } else {
-            // The engine measures the bodies themselves; frames become poses with an error like their own.
+            // The engine measures the original bodies. Converting frames to poses doubles the rounding error.
             if !(outcome.lower() > 4.0 * rounding) && check.contact == Contact::Apart {
                 check.contact = Contact::Unknown;
             }
@@ -320,7 +319,7 @@ impl<'c> Measurer<'c> {
         Ok(outcome.lower())
     }
 
-    /// Computes the frames between two links at some positions of their joints.
+    /// Computes the frames between two links for given joint positions.
     pub(super) fn place(&mut self, joints: &JointsBetween, positions: &[f64]) {
         let configuration = joints.configuration(positions);
         let chain = (joints.common_frame, &*joints.parents_first);
@@ -328,7 +327,7 @@ impl<'c> Measurer<'c> {
             .place_joints(self.cell, chain, &configuration);
     }
 
-    /// Computes the frames in the middle of a box, and takes the deviations from there.
+    /// Computes the frames at the centre of a box, and the largest deviations from there.
     fn place_box(&mut self, joints: &JointsBetween, joint_box: &JointBox) {
         self.place(joints, &joint_box.middle());
         let deviations = joints.joints.iter().map(|joint| {
@@ -340,7 +339,7 @@ impl<'c> Measurer<'c> {
             .place(self.cell.kinematics(), frames, joints.rounding, deviations);
     }
 
-    /// Returns upper bounds of the distances of a point from the bodies of a link as they are, and from the shapes that they
+    /// Returns two upper bounds of the distance of a point from a link: from its bodies, and from the shapes that they
     /// enclose.
     pub(super) fn distances_to_link(
         &mut self,
@@ -379,14 +378,14 @@ impl<'c> Measurer<'c> {
 }
 
 impl PlacedParts<'_> {
-    /// Returns a lower bound of the distance of both parts by their balls.
+    /// Returns a lower bound of the distance of both parts, from their bounding balls.
     fn ball_gap(&self) -> f64 {
         let [a, b] = self.parts.map(|part| part.ball_radius);
         self.centres[0].distance(self.centres[1]) - a - b
     }
 
-    /// Returns bounds of the distance of both hulls, with the axis of the lower one. They need not be better than a lower bound
-    /// beyond the first distance, and an upper bound up to the second one.
+    /// Returns lower and upper bounds of the distance of both hulls, and the axis of the lower bound. The computation
+    /// stops once the lower bound exceeds `beyond` or the upper bound falls below `up_to`.
     fn hull_distance(&self, [beyond, up_to]: [f64; 2]) -> ([f64; 2], DVec3) {
         let radii: f64 = self.parts.iter().map(|part| part.radius).sum();
         let until = TerminationBounds {
@@ -400,8 +399,8 @@ impl PlacedParts<'_> {
     }
 }
 
-/// Returns whether two bodies touch, up to rounding. The upper bound of a distance is of the shapes that they enclose: it includes
-/// what they exceed these by.
+/// Returns whether two bodies touch, up to rounding. The upper bound of the outcome is about the enclosed shapes, so
+/// it includes the excess of both bodies.
 fn touch_as_they_are(outcome: &Outcome, bodies: [&Body; 2]) -> bool {
     let excess: f64 = bodies.iter().map(|body| body.excess()).sum();
     outcome.upper() <= excess * (1.0 + 4.0 * f64::EPSILON)

@@ -1,4 +1,4 @@
-//! The search for proofs about pairs of links, one after another.
+//! Searches for proofs about pairs of links by branch and bound.
 
 use super::LinkContactClass;
 use super::joint_box::JointBox;
@@ -12,46 +12,46 @@ use rigid_ccd::Error;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// What is known of a pair of links so far. Positions are those of the joints between them.
+/// The progress of one pair of links. Positions are those of the joints between them.
 #[derive(Clone, Debug)]
 pub(super) struct LinkPairRecord {
     pub(super) links: [usize; 2],
     pub(super) verdict: Option<Verdict>,
     pub(super) touching: Option<Vec<f64>>,
     pub(super) apart: Option<Vec<f64>>,
-    /// The least distance that was found, with its positions.
+    /// The least distance so far, with its positions.
     pub(super) nearest: Option<(f64, Vec<f64>)>,
-    /// The shares of the volume of all positions for which the links are proven apart, and for which nothing is proven.
+    /// The fraction of all positions, by volume, where the links are proven apart. Below: where nothing is proven.
     pub(super) apart_share: f64,
     pub(super) undecided_share: f64,
-    /// The number of boxes that were examined in the last search.
+    /// The number of boxes that the last search examined.
     pub(super) boxes: usize,
-    /// Whether witnesses were sought.
+    /// Whether random sampling for witnesses is finished.
     is_sampled: bool,
-    /// Whether the links touch without depth at some positions: no box around them can be decided, and only positions at which the
-    /// links are apart decide about the pair.
+    /// Whether the links touch without overlapping at some positions. No box around these can be decided, so only a
+    /// configuration where the links are apart can decide the pair.
     pub(super) touches_without_depth: bool,
-    /// Whether more boxes hardly decide: positions have no bounds, a box that is a point stays open, or the links touch without
-    /// depth in the middle of all boxes.
+    /// Whether more boxes are unlikely to decide the pair: positions are unbounded, a box cannot be halved, or the
+    /// links touch without overlapping at the centre of all boxes.
     pub(super) is_exhausted: bool,
 }
 
-/// What is proven of a pair of links.
+/// What is proven about a pair of links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Verdict {
     Never,
     Always,
-    /// The bodies always touch; that the shapes do that they enclose is not proven.
+    /// The bodies always touch. Their shapes may not.
     AlwaysAsEnclosed,
 }
 
-/// Memory for searches about pairs of links.
+/// Searches for proofs about pairs of links, and keeps memory from pair to pair.
 pub(super) struct LinkPairSearch<'c> {
     pub(super) measurer: Measurer<'c>,
     end: SearchEnd,
 }
 
-/// A box that waits to be examined; the largest comes first.
+/// A box in the queue. The largest box comes first.
 struct WaitingBox(JointBox);
 
 impl LinkPairRecord {
@@ -71,7 +71,7 @@ impl LinkPairRecord {
         }
     }
 
-    /// Returns what is known of the links as an answer.
+    /// Converts the record to the public class.
     pub(super) fn class(self, cell: &Cell) -> LinkContactClass {
         let configurations = |positions: [Option<Vec<f64>>; 2]| {
             let joints = JointsBetween::new(cell, self.links);
@@ -103,7 +103,7 @@ impl LinkPairRecord {
         }
     }
 
-    /// Returns what is known of whether the links touch, if there is a witness for one of both alone.
+    /// Returns the kind of witness that was found, if only one kind was.
     fn known(&self) -> Contact {
         match (&self.touching, &self.apart) {
             (Some(_), None) => Contact::Touching,
@@ -112,13 +112,13 @@ impl LinkPairRecord {
         }
     }
 
-    /// Returns whether the question about the links is answered.
+    /// Returns whether the pair is decided.
     pub(super) fn is_decided(&self) -> bool {
         self.verdict.is_some() || (self.touching.is_some() && self.apart.is_some())
     }
 
-    /// Returns the number of boxes that a search is to examine at most, if it may examine `limit`, and `own_share` is what a pair
-    /// has in the mean.
+    /// Returns the number of boxes that a search may examine: `limit`, but for a pair that touches without overlapping
+    /// at most `own_share`, the average for a pair.
     pub(super) fn quota(&self, limit: usize, own_share: usize) -> usize {
         if self.touches_without_depth {
             lesser(limit, own_share)
@@ -127,7 +127,7 @@ impl LinkPairRecord {
         }
     }
 
-    /// Keeps positions at which the links touch, or are apart.
+    /// Records the first positions where the links touch, or where they are apart.
     pub(super) fn record_witness(&mut self, contact: Contact, positions: &[f64]) {
         let witness = match contact {
             Contact::Touching => &mut self.touching,
@@ -137,7 +137,7 @@ impl LinkPairRecord {
         witness.get_or_insert_with(|| positions.to_vec());
     }
 
-    /// Keeps a distance if it is the least so far, and returns whether it is.
+    /// Records a distance if it is the least so far. Returns whether it is.
     pub(super) fn record_distance(&mut self, distance: f64, positions: &[f64]) -> bool {
         let known = self
             .nearest
@@ -159,8 +159,8 @@ impl<'c> LinkPairSearch<'c> {
         }
     }
 
-    /// Goes on with the search about a pair of links: at first for witnesses, then through at most `max_boxes` boxes, from the
-    /// box of all positions.
+    /// Continues the search for a pair of links: first for witnesses, then over at most `max_boxes` boxes, starting at
+    /// the box of all positions.
     pub(super) fn search(
         &mut self,
         record: &mut LinkPairRecord,
@@ -178,7 +178,7 @@ impl<'c> LinkPairSearch<'c> {
             }
             self.find_witnesses(&pair, record)?;
             record.is_sampled = !self.is_over();
-            // What touches once, and never moves, always touches.
+            // Links that do not move relative to each other touch always or never.
             if pair.joints.joints.is_empty() && record.touching.is_some() {
                 self.examine_boxes(&pair, record, 1)?;
                 let fallback = if pair.encloses_shapes(cell) {
@@ -199,7 +199,8 @@ impl<'c> LinkPairSearch<'c> {
         self.end.is_reached()
     }
 
-    /// Proves that the links never or always touch, if at most `max_boxes` boxes suffice, or finds witnesses for both.
+    /// Tries to prove, with at most `max_boxes` boxes, that the links never or always touch. Stops if both kinds of
+    /// witnesses are found.
     fn examine_boxes(
         &mut self,
         pair: &LinkPair,
@@ -246,7 +247,7 @@ impl<'c> LinkPairSearch<'c> {
                     let index = check.main_position_index;
                     match index.and_then(|index| joint_box.halves(index)) {
                         Some(halves) => waiting.extend(halves.map(WaitingBox)),
-                        // A box that is a point stays open.
+                        // A box that cannot be halved stays undecided.
                         None => {
                             record.is_exhausted = true;
                             waiting.push(WaitingBox(joint_box));
@@ -257,20 +258,20 @@ impl<'c> LinkPairSearch<'c> {
             }
         }
         let undecided_share = greater(1.0 - apart_share - touching_share, 0.0);
-        // A search that is stopped may prove less than the one before.
+        // A stopped search may prove less than an earlier one.
         if undecided_share <= record.undecided_share {
             (record.apart_share, record.undecided_share) = (apart_share, undecided_share);
         }
         if waiting.is_empty() {
-            // Boxes of both kinds would have witnesses.
+            // If boxes of both kinds existed, witnesses of both kinds would have decided the pair.
             let is_apart = record.touching.is_none() && touching_share == 0.0;
             record.verdict = Some(if is_apart { Verdict::Never } else { always });
         }
         Ok(())
     }
 
-    /// Returns whether a box that is not decided would not be, however small it were around its middle: the links touch there,
-    /// without depth.
+    /// Returns whether no box around this centre can be decided, however small, because the links touch there without
+    /// overlapping.
     fn stays_undecided(
         &mut self,
         (pair, record): (&LinkPair, &LinkPairRecord),
@@ -280,7 +281,7 @@ impl<'c> LinkPairSearch<'c> {
         if check.class != BoxClass::Undecided || check.in_middle.contact == Contact::Apart {
             return Ok(false);
         }
-        let point = JointBox::at(middle);
+        let point = JointBox::from_point(middle);
         let check = self.measurer.check_box(pair, &point, record.known())?;
         Ok(check.class == BoxClass::Undecided)
     }

@@ -1,7 +1,7 @@
-//! The search for configurations in which two links touch, and in which they are apart.
+//! Searches for witnesses: configurations where two links touch, and where they are apart.
 //!
-//! Positions are drawn at random, limits among them. From those at which the links are nearest, a pattern search goes on to lesser
-//! distances: it tries a step along each position in turn, and halves the steps where none leads nearer.
+//! Samples positions at random, including limits. From the samples with the least distances, a pattern search
+//! descends: it tries a step along each position in turn, and halves the step size when no step lowers the distance.
 
 use super::measuring::{Contact, LinkPair};
 use super::search::{LinkPairRecord, LinkPairSearch};
@@ -11,7 +11,7 @@ use crate::tuning::{
 use rigid_ccd::Error;
 
 impl LinkPairSearch<'_> {
-    /// Searches for positions at which two links touch, and at which they are apart.
+    /// Searches for positions where two links touch, and where they are apart.
     pub(super) fn find_witnesses(
         &mut self,
         pair: &LinkPair,
@@ -19,7 +19,7 @@ impl LinkPairSearch<'_> {
     ) -> Result<(), Error> {
         let ranges = pair.joints.all_positions.ranges();
         let mut random = Random(0);
-        // The nearest positions so far, with their distances, in order.
+        // The samples with the least distances so far, sorted by distance.
         let mut starts: Vec<(f64, Vec<f64>)> = Vec::new();
         for _ in 0..WITNESS_SAMPLES {
             if self.is_over() || record.is_decided() {
@@ -51,7 +51,7 @@ impl LinkPairSearch<'_> {
         Ok(())
     }
 
-    /// Searches from given positions, where two links are apart by a distance, for nearer ones, until the links touch.
+    /// Searches for lower distances from given positions, until the links touch.
     pub(super) fn descend(
         &mut self,
         pair: &LinkPair,
@@ -98,11 +98,11 @@ impl LinkPairSearch<'_> {
     }
 }
 
-/// The generator SplitMix64: the same numbers in each search.
+/// The generator SplitMix64, which gives the same numbers in each search.
 struct Random(u64);
 
 impl Random {
-    /// Returns a number from 0 to 1, 1 excluded.
+    /// Returns a number in [0, 1).
     fn number(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut bits = self.0;
@@ -112,7 +112,7 @@ impl Random {
         (bits >> 11) as f64 * (0.5 * f64::EPSILON)
     }
 
-    /// Returns a position in a range; one of eight is at either limit.
+    /// Returns a random position in a range. One in eight is at a limit.
     fn position(&mut self, [low, high]: [f64; 2]) -> f64 {
         let share = (1.125 * self.number() - 0.0625).clamp(0.0, 1.0);
         (low + share * (high - low)).clamp(low, high)

@@ -2,19 +2,19 @@
 
 use rigid_ccd::Error;
 
-/// An interval of a path. Its ends are measured in segments: 1.5 is the middle of the second one.
+/// An interval of a path. Its ends are measured in segments: 1.5 is the middle of the second segment.
 ///
-/// Intervals come from halving: one that is longer than a segment begins and ends at configurations.
+/// Intervals are created by halving. One that is longer than a segment begins and ends at configurations.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PathInterval {
     pub(crate) from: f64,
     pub(crate) to: f64,
-    /// The number of times that the path was halved to get this interval.
+    /// The number of halvings that led to this interval.
     pub(crate) halvings: u32,
 }
 
 impl PathInterval {
-    /// Returns the whole path of a number of segments.
+    /// Returns the interval of a whole path.
     pub(crate) fn whole_path(segments: usize) -> Self {
         PathInterval {
             from: 0.0,
@@ -23,8 +23,8 @@ impl PathInterval {
         }
     }
 
-    /// Returns the middle of the interval, in segments. It is rounded down to a configuration if the interval is longer
-    /// than a segment.
+    /// Returns the midpoint, in segments. It is rounded down to a configuration if the interval is longer than a
+    /// segment.
     pub(crate) fn middle(&self) -> f64 {
         let middle = 0.5 * (self.from + self.to);
         if self.to - self.from > 1.0 {
@@ -39,7 +39,7 @@ impl PathInterval {
         self.to - self.from <= 1.0
     }
 
-    /// Returns the parts before and after the middle.
+    /// Returns the halves before and after the midpoint.
     pub(crate) fn halves(&self) -> [Self; 2] {
         let (middle, halvings) = (self.middle(), self.halvings + 1);
         let (from, to) = (self.from, self.to);
@@ -47,5 +47,5 @@ impl PathInterval {
     }
 }
 
-/// The result of a step of a search: an error of the engine, or whether the search goes on.
+/// The result of a search step: an error of the engine, or whether the search continues.
 pub(crate) type StepResult = Result<std::ops::ControlFlow<()>, Error>;

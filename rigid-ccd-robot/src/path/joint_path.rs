@@ -1,7 +1,7 @@
-//! The positions of all moving joints along a path: polynomials of the share of each segment.
+//! The positions of all moving joints along a path, as polynomials on each segment.
 //!
-//! Between two configurations of a path all joints move at constant rates: the polynomials are of degree 1. A
-//! [`JointCurve`] has polynomials of a higher degree.
+//! Between two configurations joints move at constant rates: the polynomials have degree 1. A [`JointCurve`] may have
+//! higher degrees. The variable of a polynomial is the elapsed fraction of the segment.
 
 use super::interval::PathInterval;
 use crate::cell::rounding::U;
@@ -19,19 +19,19 @@ pub struct JointPath {
     joint_count: usize,
     segment_count: usize,
     degree: usize,
-    /// The coefficients of each segment; for each power of the share, lowest first, those of all joints. A path without
-    /// segments has the constant ones.
+    /// The coefficients, by segment, then by power (lowest first), then by joint. A path without segments has constant
+    /// terms only.
     coefficients: Vec<f64>,
-    /// What rounding to f64 has left of the coefficients of a curve, which are double-double numbers; empty for other paths.
+    /// The rounding errors of the coefficients of a curve: exact value minus f64. Empty for other paths.
     low_coefficients: Vec<f64>,
-    /// For each segment and joint, bounds of its positions.
+    /// For each segment and joint, lower and upper bounds of its positions.
     ranges: Vec<[f64; 2]>,
     /// For each joint, the magnitude of its positions on the path.
     magnitudes: Vec<Magnitude>,
 }
 
 impl JointPath {
-    /// Replaces the path by one through configurations.
+    /// Replaces the path by a sequence of configurations.
     pub(crate) fn set_configurations<Q: AsRef<[f64]>>(
         &mut self,
         kinematics: &Kinematics,
@@ -59,7 +59,7 @@ impl JointPath {
             }
         }
         if self.segment_count > 0 {
-            // The last configuration is the end of a segment.
+            // The last configuration starts no segment.
             let end = self.segment_count * 2 * self.joint_count;
             self.coefficients.truncate(end);
         }
@@ -113,12 +113,12 @@ impl JointPath {
         self.degree <= 1
     }
 
-    /// Returns the changes of all joints in a segment in which they move at constant rates.
+    /// Returns how far each joint moves in a segment with constant rates.
     pub(crate) fn changes(&self, segment: usize) -> &[f64] {
         self.coefficient_row(segment, 1)
     }
 
-    /// Returns for each joint the magnitude of its positions on the path.
+    /// Returns, for each joint, the magnitude of its positions on the path.
     pub(crate) fn magnitudes(&self) -> impl Iterator<Item = Magnitude> + Clone {
         self.magnitudes.iter().copied()
     }
@@ -130,7 +130,7 @@ impl JointPath {
         self.interpolate_in_segment(segment, at, positions);
     }
 
-    /// Computes the positions of all joints at a point of a segment, its ends included.
+    /// Computes the positions of all joints at a point of a segment, including its ends.
     #[inline(always)]
     pub(crate) fn interpolate_in_segment(&self, segment: usize, at: f64, positions: &mut Vec<f64>) {
         let share = at - segment as f64;
@@ -149,7 +149,7 @@ impl JointPath {
         positions.extend(joints.map(|(start, change)| start + share * change));
     }
 
-    /// Computes how far each joint is at most from its position in the middle of an interval, at any point of the interval.
+    /// Computes, for each joint, the largest deviation within an interval from its position at the midpoint.
     #[inline(always)]
     pub(crate) fn max_joint_deviations_from_middle(
         &self,
@@ -161,7 +161,7 @@ impl JointPath {
         if self.segment_count == 0 {
             deviations.resize(self.joint_count, 0.0);
         } else if interval.is_within_segment() {
-            // The middle is at the same distance from both ends.
+            // The midpoint is equally far from both ends.
             let half = 0.5 * (interval.to - interval.from);
             let segment = PathPoint::from_path_position(interval.from, self.segment_count).segment;
             if self.has_constant_rates() {
@@ -192,13 +192,13 @@ impl JointPath {
         }
     }
 
-    /// Returns the position of a joint of a curve at a share of a segment.
+    /// Returns the position of a joint of a curve at a fraction of a segment.
     pub(crate) fn position(&self, segment: usize, share: f64, joint: usize) -> f64 {
         self.polynomial(segment, joint).value(share)
     }
 
-    /// Bounds how far a joint of a curve is from its position at a constant rate between two shares of a segment, which are
-    /// off by at most a unit in the last place of 1.
+    /// Bounds how far a joint of a curve deviates, between two fractions of a segment, from a motion at a constant
+    /// rate. Allows for an error of one ulp of 1 in the fractions.
     pub(crate) fn chord_deviation_bound(
         &self,
         segment: usize,
@@ -207,7 +207,7 @@ impl JointPath {
     ) -> f64 {
         let (half, rounding) = (0.5 * (to - from), f64::EPSILON);
         let expanded = self.polynomial(segment, joint).expanded_about(from + half);
-        // The middle is rounded, too.
+        // The midpoint is rounded, too.
         expanded.chord_deviation_bound(half + rounding)
             + rounding * expanded.rate_bound(half + rounding)
     }
@@ -218,7 +218,7 @@ impl JointPath {
         &self.coefficients[start..][..self.joint_count]
     }
 
-    /// Returns the position of a joint in a segment of a curve.
+    /// Returns the position of a joint of a curve as a polynomial on a segment.
     fn polynomial(&self, segment: usize, joint: usize) -> Polynomial {
         let first = segment * (self.degree + 1) * self.joint_count + joint;
         Polynomial::new(self.degree, |power| {

@@ -4,7 +4,7 @@ use super::Robot;
 use crate::error::RobotError;
 use rigid_ccd::trajectory::Chain;
 
-/// The chain of joints by which one link of a robot moves in the frame of another link.
+/// The chain of joints that moves one link of a robot in the frame of another link.
 ///
 /// ```
 /// # use rigid_ccd_robot::{Joint, Link, PositionRule, Robot};
@@ -29,7 +29,7 @@ use rigid_ccd::trajectory::Chain;
 #[derive(Clone, Debug)]
 pub struct ChainBetween {
     chain: Chain,
-    /// For each joint of the chain, its number in the robot.
+    /// For each joint of the chain, its index in the robot.
     joints: Vec<usize>,
 }
 
@@ -38,18 +38,18 @@ impl ChainBetween {
         ChainBetween { chain, joints }
     }
 
-    /// Returns the chain, whose last link is the link that moves.
+    /// Returns the chain. Its last link is the link that moves.
     pub fn chain(&self) -> &Chain {
         &self.chain
     }
 
-    /// Returns the number in the robot of each joint of the chain.
+    /// Returns, for each joint of the chain, its index in the robot.
     pub(crate) fn joint_indices(&self) -> &[usize] {
         &self.joints
     }
 
-    /// Returns the positions of the chain's joints in a configuration of the robot. The position of a joint that
-    /// follows another joint is rounded once, and its factor and offset once for each further joint in between.
+    /// Returns the positions of the chain's joints at a configuration of the robot. The position of a mimic joint is
+    /// rounded once; if it follows a mimic joint, its multiplier and offset are rounded once for each of these.
     ///
     /// # Errors
     /// [`RobotError::WrongPositionCount`], [`RobotError::InvalidPosition`].

@@ -1,4 +1,4 @@
-//! The least distance over each of many ranges of a path.
+//! Computes the least distance over each of many ranges of a path.
 
 use super::{CellSolver, Goal};
 use crate::error::PathError;
@@ -7,29 +7,30 @@ use crate::path::interval::PathInterval;
 use crate::path_answer::PathOutcome;
 use crate::path_point::PathPoint;
 
-/// Bounds of the least distance in a range of a path.
+/// Bounds of the least distance over a range of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistanceRange<'c> {
     /// The start of the range.
     pub from: PathPoint,
-    /// The end of the range, where the next one starts.
+    /// The end of the range, where the next range starts.
     pub to: PathPoint,
-    /// How near any pair that is checked comes to touching in the range.
+    /// The least distance of any checked pair in the range.
     pub closest: PathOutcome<'c>,
 }
 
-/// The greatest number of ranges.
+/// The largest number of ranges.
 const MAX_RANGE_COUNT: f64 = 1e6;
 
 impl<'c> CellSolver<'c> {
-    /// Divides each segment of a path into 2^`halvings` equal ranges, and returns how near any pair comes to touching in each. The
-    /// lower bounds together are a curve that the distance is never below. A robot at rest, in one configuration, has one range.
+    /// Divides each segment of a path into 2^`halvings` equal ranges, and returns the least distance of any checked
+    /// pair in each. The lower bounds form a step function below the distance along the path. A path of one
+    /// configuration has one range.
     ///
     /// # Guarantee
-    /// As of [`closest_approach`](Self::closest_approach), for each range. A deadline is for all ranges together.
+    /// For each range that of [`closest_approach`](Self::closest_approach). A deadline applies to all ranges together.
     ///
     /// # Errors
-    /// [`PathError`]; more than a million ranges are refused.
+    /// [`PathError`], also for more than a million ranges.
     pub fn distance_curve<P: Path + ?Sized>(
         &mut self,
         path: &P,
@@ -71,7 +72,7 @@ impl<'c> CellSolver<'c> {
     }
 }
 
-/// Appends the parts of an interval that is halved a number of times, in their order.
+/// Appends the parts of an interval after repeated halving, in order.
 fn push_halves(interval: PathInterval, halvings: u32, intervals: &mut Vec<PathInterval>) {
     if halvings == 0 {
         intervals.push(interval);

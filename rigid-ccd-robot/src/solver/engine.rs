@@ -1,4 +1,4 @@
-//! What the search leaves to the engine: bodies that are not convex, and pairs that are candidate after all halvings.
+//! Queries of the engine: for non-convex bodies, and for candidate pairs that halving does not decide.
 
 use super::Goal;
 use super::curved_link::PathSection;
@@ -13,7 +13,7 @@ use rigid_ccd::{Answer, ContactNormals, Error, Outcome, Settings, StartPolicy};
 use std::ops::ControlFlow::{self, Break, Continue};
 
 impl PathSearch<'_> {
-    /// Asks the engine whether one of the candidates is in contact in the middle of an interval.
+    /// Queries the engine about each non-convex candidate at the midpoint of an interval.
     pub(super) fn check_nonconvex_candidates(&mut self, interval: &PathInterval) -> StepResult {
         let at = interval.middle();
         if self.nonconvex_candidates.is_empty() {
@@ -32,7 +32,7 @@ impl PathSearch<'_> {
                 Break(()) => Ok(Break(())),
                 Continue(()) => self.check_nonconvex_candidate(pair, bodies, at),
             };
-            // An earlier contact than one at this point has another middle.
+            // A contact found earlier than this point makes this midpoint irrelevant.
             if !matches!(step, Ok(Continue(()))) || self.result.end <= at {
                 break;
             }
@@ -56,7 +56,7 @@ impl PathSearch<'_> {
         if goal == Goal::LeastDistance {
             return Ok(self.record_distance(&candidate, &answer.outcome));
         }
-        // A pair that a limit leaves undecided here stays a candidate.
+        // If a limit leaves the pair undecided here, it stays a candidate.
         Ok(match answer.outcome.hit() {
             Ok(Some(_)) => {
                 let beyond = self.distance_beyond_margin(pair, &answer.outcome);
@@ -66,7 +66,7 @@ impl PathSearch<'_> {
         })
     }
 
-    /// Lets the engine decide about each candidate pair.
+    /// Queries the engine about all remaining candidates.
     pub(super) fn decide_engine_candidates(&mut self) -> Result<(), Error> {
         let mut candidate = std::mem::take(&mut self.engine_candidates);
         let result = self.decide(candidate.sorted_for(self.goal));
@@ -80,7 +80,7 @@ impl PathSearch<'_> {
                 continue;
             }
             if let Some(limit) = self.stop_condition.reached_limit() {
-                // For the first contact the pairs are in the order of their starts: all before this one is decided.
+                // For the first contact, candidates are sorted by their starts: all earlier ones are decided.
                 let until = match self.goal {
                     Goal::FirstContact => pair.from,
                     Goal::AnyContact | Goal::LeastDistance => 0.0,
@@ -96,19 +96,19 @@ impl PathSearch<'_> {
         Ok(())
     }
 
-    /// Lets the engine decide about an candidate pair. If the budget of a query does not suffice, its interval is halved, as often as
-    /// `splits` says and as long as budgets are left for the question.
+    /// Decides one candidate with the engine. If the budget of a query does not suffice, its interval is halved, up to
+    /// `splits` times and while the question has budget left.
     fn decide_pair(&mut self, mut pair: EngineCandidate, splits: u32) -> StepResult {
         if pair.from >= self.result.end {
             return Ok(Continue(()));
         }
         pair.to = lesser(pair.to, self.result.end);
-        // Over a period a pair comes near many times: one budget hardly suffices.
+        // A pair may approach many times within a period, so one budget is unlikely to suffice.
         if splits > 0 && self.drift(&pair) > 0.0 {
             return self.decide_halves(&pair, splits - 1);
         }
         if self.goal == Goal::LeastDistance {
-            // Nothing is nearer by more than the tolerance. Written so that NaN is measured.
+            // No pair can be nearer by more than the tolerance. Written so that a NaN is measured.
             if self.result.distance_upper_bound - self.tolerance <= 0.0 {
                 return Ok(Break(()));
             }
@@ -117,8 +117,8 @@ impl PathSearch<'_> {
             }
         }
         let outcome = self.query_engine(self.goal, &pair, None)?.outcome;
-        let is_spent = outcome.limit() == Some(Limit::Budget);
-        if is_spent && splits > 0 && self.stop_condition.reached_limit().is_none() {
+        let is_budget_spent = outcome.limit() == Some(Limit::Budget);
+        if is_budget_spent && splits > 0 && self.stop_condition.reached_limit().is_none() {
             if self.goal == Goal::LeastDistance {
                 self.record_upper_bound(&pair, &outcome);
             }
@@ -130,7 +130,7 @@ impl PathSearch<'_> {
         })
     }
 
-    /// Lets the engine decide about both halves of an candidate pair's interval.
+    /// Decides both halves of a candidate's interval.
     fn decide_halves(&mut self, pair: &EngineCandidate, splits: u32) -> StepResult {
         for half in pair.halves() {
             if self.decide_pair(half, splits)?.is_break() {
@@ -140,7 +140,7 @@ impl PathSearch<'_> {
         Ok(Continue(()))
     }
 
-    /// Keeps an answer about contacts of an candidate pair.
+    /// Records the engine's answer to a question about contacts.
     fn record_contact_answer(
         &mut self,
         candidate: &EngineCandidate,
@@ -170,13 +170,13 @@ impl PathSearch<'_> {
         }
     }
 
-    /// Bounds how far beyond its margin a pair in contact is. The engine gets rounded positions.
+    /// Bounds the distance beyond the margin of a pair in contact. The engine works with rounded positions.
     fn distance_beyond_margin(&self, pair: &PartPair, contact: &Outcome) -> f64 {
         let rounding = 2.0 * self.placement.rounding;
         (contact.upper() + rounding - pair.margin).next_up()
     }
 
-    /// Returns whether an candidate pair stays farther apart than what is found, but for the tolerance.
+    /// Returns whether a candidate certainly stays farther apart than the nearest pair so far, less the tolerance.
     fn is_no_nearer(&mut self, candidate: &EngineCandidate) -> Result<bool, Error> {
         let least = self.result.distance_upper_bound - self.tolerance;
         if !(least < f64::INFINITY) {
@@ -187,7 +187,7 @@ impl PathSearch<'_> {
         Ok(answer.outcome.clearance_verdict(required) == ClearanceVerdict::Kept)
     }
 
-    /// Keeps the distance of an candidate pair, if it is the least.
+    /// Records the bounds of a candidate's distance, if they lower those of the search.
     fn record_distance(
         &mut self,
         candidate: &EngineCandidate,
@@ -196,7 +196,7 @@ impl PathSearch<'_> {
         if let Some(limit) = outcome.limit() {
             self.result.limit_reached = Some((limit, 0.0));
         }
-        // The bounds of bodies that exceed their shapes may differ by more than the tolerance.
+        // For bodies that exceed their shapes, the bounds may differ by more than the tolerance.
         let lower = outcome.lower() - self.allowance(candidate);
         self.result.lower = lesser(self.result.lower, lower);
         self.record_upper_bound(candidate, outcome);
@@ -207,7 +207,7 @@ impl PathSearch<'_> {
         }
     }
 
-    /// Keeps the upper bound of the distance of an candidate pair, if it is the least.
+    /// Records the upper bound of a candidate's distance, if it is the least.
     fn record_upper_bound(&mut self, candidate: &EngineCandidate, outcome: &Outcome) {
         let upper = outcome.upper() + 2.0 * self.placement.rounding;
         if upper < self.result.distance_upper_bound {
@@ -216,13 +216,13 @@ impl PathSearch<'_> {
         }
     }
 
-    /// Bounds how much nearer a pair may be than the engine finds it: the engine gets rounded positions, and a period may stand for
-    /// others.
+    /// Bounds how much nearer a candidate may be than the engine reports: positions are rounded, and a period
+    /// represents later ones.
     fn allowance(&self, candidate: &EngineCandidate) -> f64 {
         2.0 * self.placement.rounding + self.drift(candidate)
     }
 
-    /// Asks the engine about an candidate pair. Its margin or clearance is larger by the allowance.
+    /// Queries the engine about a candidate. Its margin or clearance is enlarged by [`PathSearch::allowance`].
     fn query_engine(
         &mut self,
         goal: Goal,
@@ -231,7 +231,7 @@ impl PathSearch<'_> {
     ) -> Result<Answer, Error> {
         let allowance = self.allowance(candidate);
         self.solver.set_settings(Settings {
-            // A drift is at most a share of the tolerance.
+            // A drift is at most a fraction of the tolerance.
             tolerance: self.tolerance - self.drift(candidate),
             margin: candidate.pair.margin + allowance,
             clearance: clearance.map(|clearance| greater(clearance + allowance, 0.0)),
@@ -249,8 +249,8 @@ impl PathSearch<'_> {
         };
         let answer = self
             .exact_chains
-            .ask(&mut self.solver, goal, candidate.bodies, &section)?;
-        // A query is a step, even if bounding volumes decide it.
+            .query(&mut self.solver, goal, candidate.bodies, &section)?;
+        // Counts each query as work, even if bounding volumes decide it.
         self.stop_condition
             .add_work(1 + answer.stats.budgeted_work());
         Ok(answer)

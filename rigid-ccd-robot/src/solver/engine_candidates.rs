@@ -1,27 +1,27 @@
-//! Pairs of bodies that are candidate in an interval, for the engine.
+//! Candidate pairs of bodies that are left to the engine.
 
 use super::Goal;
 use super::part_pairs::PartPair;
 use crate::path::interval::PathInterval;
 use ccd_core::order::{greater, lesser};
 
-/// A pair that is candidate in an interval of one segment.
+/// A candidate pair over an interval of one segment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EngineCandidate {
     pub(crate) pair: PartPair,
-    /// The numbers of both bodies.
+    /// The indices of both bodies.
     pub(crate) bodies: [usize; 2],
     pub(crate) segment: usize,
     pub(crate) from: f64,
     pub(crate) to: f64,
 }
 
-/// The candidate pairs of a search.
+/// All candidates of a search that are left to the engine.
 #[derive(Debug, Default)]
 pub(crate) struct EngineCandidates(Vec<EngineCandidate>);
 
 impl EngineCandidate {
-    /// Creates a pair that is undecided at one point of the path.
+    /// Creates a candidate at a single point of the path.
     pub(crate) fn new_at_point(pair: PartPair, bodies: [usize; 2], at: f64) -> Self {
         EngineCandidate {
             pair,
@@ -32,7 +32,7 @@ impl EngineCandidate {
         }
     }
 
-    /// Returns the pair in the parts before and after the middle of its interval.
+    /// Returns the candidate over both halves of its interval.
     pub(crate) fn halves(&self) -> [Self; 2] {
         let middle = self.from + 0.5 * (self.to - self.from);
         [(self.from, middle), (middle, self.to)].map(|(from, to)| EngineCandidate {
@@ -42,7 +42,7 @@ impl EngineCandidate {
         })
     }
 
-    /// Returns the point of the path after a share of the interval, 0 at its start and 1 at its end, rounded towards the start.
+    /// Converts a fraction of the interval to a point of the path, rounded down.
     pub(crate) fn point(&self, share: f64) -> f64 {
         let at = self.from + share * (self.to - self.from);
         greater(at.next_down(), self.from)
@@ -58,13 +58,13 @@ impl EngineCandidates {
         self.0.clear();
     }
 
-    /// Returns the start of the earliest interval; infinite without candidate pairs.
+    /// Returns the earliest start of a candidate's interval; infinity if there are no candidates.
     pub(crate) fn earliest_start(&self) -> f64 {
         let starts = self.0.iter().map(|candidate| candidate.from);
         starts.fold(f64::INFINITY, lesser)
     }
 
-    /// Adds a pair of bodies in an interval. Neighbouring intervals of the pair become one.
+    /// Adds a candidate. If the pair has an adjacent interval in the same segment, both are merged.
     pub(crate) fn add_or_merge(
         &mut self,
         pair: PartPair,
@@ -97,8 +97,8 @@ impl EngineCandidates {
         }
     }
 
-    /// Returns the candidate pairs in the order in which the engine is asked: the earliest first for the first contact, the
-    /// nearest first for other questions.
+    /// Sorts the candidates in the order of querying: the earliest first for the first contact, otherwise the nearest
+    /// first.
     pub(crate) fn sorted_for(&mut self, goal: Goal) -> &[EngineCandidate] {
         match goal {
             Goal::FirstContact => self.0.sort_unstable_by(|a, b| a.from.total_cmp(&b.from)),

@@ -1,8 +1,9 @@
-//! The search along a path: whether anything touches, when first, or how near anything comes.
+//! Searches a path: for any contact, the first contact or the least distance.
 //!
-//! The middle of an interval comes first: the frames of all links there, and a bound of how far each part moves from there
-//! within the interval. A pair whose distance in the middle exceeds that is free over the whole interval. For the others the
-//! interval is halved. What is still open after a few halvings goes to the engine, pair by pair.
+//! At the midpoint of an interval the search computes the frames of all links, a displacement bound of each part, and
+//! the distance of each candidate pair. If the distance exceeds the displacements, the pair is free over the whole
+//! interval. The interval is halved for the remaining candidates. Candidates that a few halvings do not decide are
+//! left to the engine, pair by pair.
 
 mod start;
 
@@ -34,51 +35,52 @@ use start::StartContact;
 use std::ops::ControlFlow::{self, Break, Continue};
 use std::ops::Range;
 
-/// Memory for searches along paths, which is kept from one to the next.
+/// Searches paths, and reuses its memory from search to search.
 pub(crate) struct PathSearch<'c> {
     pub(super) cell: &'c Cell,
-    /// Whether any pair of the cell is compared; an error for a question if none is.
+    /// An error if no pair of the cell is checked.
     compares_any: Result<(), NothingCompared>,
     pub(super) pairs: PartPairs<'c>,
     pub(super) exact_chains: PairChains<'c>,
     pub(super) path: JointPath,
     pub(super) placement: Placement,
     pub(super) periods: Periods,
-    /// Pairs that may touch in the intervals from the whole path down to the current one.
+    /// A stack of candidate pairs: those of the whole path, of its half, and so on down to the current interval.
     pub(super) candidates: Vec<PartPair>,
-    /// Pairs of bodies that are not convex, whose hulls are near each other in the middle of the interval, or nearer than
-    /// what was found.
+    /// Candidates with non-convex bodies whose hulls are near at the current midpoint, or nearer than the least
+    /// distance so far.
     pub(super) nonconvex_candidates: Vec<PartPair>,
-    /// Pairs in contact at the start of the path that are let go, of the current question.
+    /// For the current question, the pairs in contact at the start that are ignored while they separate.
     pub(super) start_contacts: Vec<StartContact>,
-    /// What the engine is to decide.
+    /// The candidates that are left to the engine.
     pub(super) engine_candidates: EngineCandidates,
     pub(super) solver: Solver,
     pub(super) settings: Settings,
-    /// The tolerance of the current path: that of the settings, or what the rounding of positions costs.
+    /// The tolerance for the current path: that of the settings, or a larger one that rounding requires.
     pub(super) tolerance: f64,
-    // Of the current question.
+    // For the current question:
     pub(super) goal: Goal,
-    /// The start of the interval that the question is about.
+    /// The start of the question's interval.
     search_start: f64,
     pub(super) stop_condition: StopCondition,
     pub(crate) result: PathSearchResult,
 }
 
-/// What a search has found so far.
+/// The results of a search so far.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PathSearchResult {
-    /// The nearest pair and where it is nearest; for a question about contacts a pair in contact.
+    /// The nearest pair and its point of the path. For a question about contacts, the pair in contact.
     pub(crate) nearest: Option<(f64, PartPair)>,
-    /// An upper bound of the distance of that pair there, for a question about the distance.
+    /// An upper bound of that pair's distance. Used for questions about the distance.
     pub(crate) distance_upper_bound: f64,
-    /// Nothing beyond this point matters: for the first contact the point of the earliest one.
+    /// The search may ignore everything beyond this point. For the first contact, it is the earliest contact so far.
     pub(crate) end: f64,
-    /// The limit that ended the search, and the point up to which everything was searched.
+    /// The limit that ended the search. For the first contact, the point up to which the path is proven free;
+    /// otherwise 0 or the end of the searched part.
     pub(crate) limit_reached: Option<(Limit, f64)>,
-    /// A lower bound of the distance of what the engine measured, and of what a limit left open.
+    /// A lower bound of the distances that the engine measured, or 0 after a limit.
     pub(crate) lower: f64,
-    /// How far beyond its margin the pair in contact may be, if that is more than the tolerance.
+    /// An upper bound of the contact's distance beyond its margin; 0 if it is within the tolerance.
     pub(crate) distance_beyond_margin: f64,
 }
 
@@ -93,10 +95,10 @@ impl PathSearchResult {
     };
 }
 
-/// The first period of a pair in a segment, which stands for the rest of the segment.
+/// The first period of a pair in a segment. It represents all later ones.
 #[derive(Clone, Copy)]
 struct SearchedPeriod {
-    /// The point of the path at which it ends, rounded up.
+    /// The point of the path where the period ends, rounded up.
     end: f64,
     drift: f64,
 }
@@ -130,7 +132,7 @@ impl<'c> PathSearch<'c> {
         }
     }
 
-    /// Makes what questions would make when they need it first, with place for more pairs than most of them leave undecided.
+    /// Allocates memory and creates joint chains in advance, for more pairs than most questions need.
     pub(crate) fn prepare(&mut self) {
         let pairs = self.pairs.count().min(MAX_PREPARED_PAIRS);
         self.nonconvex_candidates.reserve(pairs);
@@ -139,7 +141,7 @@ impl<'c> PathSearch<'c> {
         self.exact_chains.prepare();
     }
 
-    /// Sets the settings of all questions that follow.
+    /// Sets the settings of all following questions.
     pub(crate) fn set_settings(&mut self, settings: Settings) {
         self.pairs.set_margin(settings.margin);
         self.settings = settings;
@@ -149,14 +151,14 @@ impl<'c> PathSearch<'c> {
         &self.settings
     }
 
-    /// Returns bounds of the least distance, after a question about it.
+    /// Returns bounds of the least distance after a search for it.
     pub(crate) fn distance_bounds(&self) -> (f64, f64) {
         let PathSearchResult {
             distance_upper_bound: upper,
             lower,
             ..
         } = self.result;
-        // Pairs are left out that stay farther apart than the upper bound at that time, less the tolerance.
+        // The search drops pairs that stay farther apart than the upper bound, less the tolerance.
         let least = upper - self.tolerance - 4.0 * self.placement.rounding;
         (greater(lesser(least, lower), 0.0), upper)
     }
@@ -164,7 +166,7 @@ impl<'c> PathSearch<'c> {
     /// Returns the tolerance that the last answer meets.
     pub(crate) fn met_tolerance(&self) -> f64 {
         let found = &self.result;
-        let shown = match self.goal {
+        let achieved = match self.goal {
             Goal::AnyContact | Goal::FirstContact => found.distance_beyond_margin,
             Goal::LeastDistance if found.limit_reached.is_some() => 0.0,
             Goal::LeastDistance => {
@@ -173,20 +175,20 @@ impl<'c> PathSearch<'c> {
                     let parts = [pair.a, pair.b].map(|part| &self.cell.parts()[part as usize]);
                     parts[0].excess_over_shape + parts[1].excess_over_shape
                 };
-                // Without a pair there is no upper bound.
+                // If no pair was found, there is no upper bound.
                 found
                     .nearest
                     .map_or(0.0, |(_, pair)| upper - lower - excess(pair))
             }
         };
-        if shown > self.tolerance * (1.0 + UNREPORTED_TOLERANCE_SHARE) {
-            shown
+        if achieved > self.tolerance * (1.0 + UNREPORTED_TOLERANCE_SHARE) {
+            achieved
         } else {
             self.tolerance
         }
     }
 
-    /// Takes into account that a contact is reported at a point that is rounded to a number before it.
+    /// Enlarges the bound of a contact's distance: the contact is reported at a point that is rounded down.
     pub(crate) fn add_rounding_of_contact_point(&mut self, (at, pair): (f64, PartPair)) {
         if self.segment_count() == 0 {
             return;
@@ -205,14 +207,14 @@ impl<'c> PathSearch<'c> {
         self.path.segment_count()
     }
 
-    /// Takes a path, which the questions that follow are about. Their time starts now.
+    /// Sets the path of the following questions. The time of the deadline starts now.
     pub(crate) fn begin<P: Path + ?Sized>(&mut self, path: &P) -> Result<(), PathError> {
         self.stop_condition = StopCondition::starting_now(&self.settings);
         path.write_to(self.cell, &mut self.path)?;
         self.compares_any.clone()?;
         self.cell.check_plane_reach(self.path.magnitudes())?;
         self.placement.begin(self.cell, &self.path);
-        // A margin is raised by half of that, and distances may be off by as much.
+        // Half of this enlarges the margins; measured distances may have errors of the same size.
         let rounding = 4.0 * self.placement.rounding;
         self.tolerance = greater(self.settings.tolerance, rounding);
         let (kinematics, parts) = (self.cell.kinematics(), self.cell.parts());
@@ -225,7 +227,7 @@ impl<'c> PathSearch<'c> {
         Ok(())
     }
 
-    /// Answers a question about an interval of the path; the answer is in `result`.
+    /// Answers a question about an interval of the path. The answer is in `result`.
     pub(crate) fn answer_question(
         &mut self,
         goal: Goal,
@@ -248,19 +250,19 @@ impl<'c> PathSearch<'c> {
         self.engine_candidates.clear();
     }
 
-    /// Returns the whole path as an interval.
+    /// Returns the interval of the whole path.
     pub(crate) fn whole_path_interval(&self) -> PathInterval {
         PathInterval::whole_path(self.path.segment_count())
     }
 
-    /// Places the frames of all links at a point of the path, and returns them.
+    /// Computes the frames of all links at a point of the path, and returns them.
     pub(crate) fn place_frames(&mut self, at: f64) -> &Placement {
         self.placement.place_frames(self.cell, &self.path, at);
         &self.placement
     }
 
-    /// Searches an interval of the path among the given candidate pairs, or among all pairs if there are none. Pairs that
-    /// stay open are left to the engine.
+    /// Searches an interval for the candidates `among`, or for all candidates if it is `None`. Leaves those that stay
+    /// undecided to the engine.
     pub(super) fn search(
         &mut self,
         interval: PathInterval,
@@ -287,7 +289,7 @@ impl<'c> PathSearch<'c> {
             let [earlier, later] = interval.halves();
             let halves = match self.goal {
                 Goal::FirstContact => [earlier, later],
-                // The start of a planner's edge is free as a rule.
+                // The start of a planner's edge is usually free.
                 Goal::AnyContact | Goal::LeastDistance => [later, earlier],
             };
             for half in halves {
@@ -300,7 +302,8 @@ impl<'c> PathSearch<'c> {
         Ok(Continue(()))
     }
 
-    /// Ends the search if a limit is reached: everything before the interval and before open pairs was searched.
+    /// Ends the search if a limit is reached. Everything before the interval and before the engine's candidates has
+    /// been searched.
     pub(super) fn check_limit(&mut self, interval: &PathInterval) -> ControlFlow<()> {
         let Some(limit) = self.stop_condition.reached_limit() else {
             return Continue(());
@@ -311,8 +314,8 @@ impl<'c> PathSearch<'c> {
         Break(())
     }
 
-    /// Measures the candidates in the middle of an interval, and appends those that are undecided. Returns the index of the
-    /// first of these.
+    /// Tests the candidates at the midpoint of an interval, and appends those that stay undecided. Returns the index
+    /// of the first of these.
     #[inline(always)]
     fn measure_candidates(
         &mut self,
@@ -327,7 +330,7 @@ impl<'c> PathSearch<'c> {
         });
         let first = self.candidates.len();
         self.nonconvex_candidates.clear();
-        // The interval, and each pair.
+        // One unit for the interval, and one for each pair.
         self.stop_condition.add_work(1 + among.len() as u64);
         for k in among {
             if k % PAIRS_BETWEEN_CLOCK_READS == 0 {
@@ -373,7 +376,7 @@ impl<'c> PathSearch<'c> {
         Continue(first)
     }
 
-    /// Returns the period of a pair in an interval of a segment in which joints turn many times, if it has one.
+    /// Returns the searched period of a pair in an interval, if joints make many turns in its segment.
     #[inline(always)]
     fn period_of(&self, interval: &PathInterval, pair: &PartPair) -> Option<SearchedPeriod> {
         if self.periods.is_empty() || !interval.is_within_segment() {
@@ -394,7 +397,7 @@ impl<'c> PathSearch<'c> {
         })
     }
 
-    /// Bounds how much the distances of an open pair differ from those at the same phase of other periods, for which it stands.
+    /// Bounds how much a candidate's distances in its searched period differ from those in later periods.
     pub(super) fn drift(&self, candidate: &EngineCandidate) -> f64 {
         if self.periods.is_empty() {
             return 0.0;
@@ -402,7 +405,7 @@ impl<'c> PathSearch<'c> {
         drift(self.searched_period(candidate.from, &candidate.pair))
     }
 
-    /// Returns the distances that decide about a pair, whose distances in other periods are less by at most the drift.
+    /// Returns the thresholds of a pair. `drift` bounds how much nearer the pair may be in later periods.
     #[inline(always)]
     fn thresholds(&self, pair: &PartPair, drift: f64) -> Thresholds {
         let tolerance = self.tolerance;
@@ -411,7 +414,7 @@ impl<'c> PathSearch<'c> {
                 free_distance_threshold: pair.margin + drift,
                 near_distance: pair.margin + tolerance,
             },
-            // Touching hulls end the search; others are measured exactly.
+            // Touching hulls end the search. Other distances have to be measured exactly.
             Goal::LeastDistance => Thresholds {
                 free_distance_threshold: self.result.distance_upper_bound - tolerance + drift,
                 near_distance: 0.0,
@@ -419,7 +422,7 @@ impl<'c> PathSearch<'c> {
         }
     }
 
-    /// Returns whether a pair goes to the engine unless this interval decides about it.
+    /// Returns whether a pair is left to the engine if the test over this interval does not decide it.
     #[inline(always)]
     fn goes_to_engine(&self, interval: &PathInterval, pair: &PartPair) -> bool {
         if !interval.is_within_segment() {
@@ -436,7 +439,7 @@ impl<'c> PathSearch<'c> {
         }
     }
 
-    /// Appends all pairs that may come near each other in the interval that is placed.
+    /// Appends all pairs that may come near each other in the current interval.
     #[inline(always)]
     pub(super) fn append_candidates(&mut self) {
         let first = self.candidates.len();
@@ -448,18 +451,18 @@ impl<'c> PathSearch<'c> {
         self.pairs
             .append_candidates(&self.placement, allowance, &mut self.candidates);
         if !self.start_contacts.is_empty() {
-            let mut kept = first;
+            let mut count = first;
             for k in first..self.candidates.len() {
                 let pair = self.candidates[k];
                 if !self.is_start_contact(&pair) {
-                    self.candidates[kept] = pair;
-                    kept += 1;
+                    self.candidates[count] = pair;
+                    count += 1;
                 }
             }
-            self.candidates.truncate(kept);
+            self.candidates.truncate(count);
         }
         if self.goal == Goal::LeastDistance {
-            // The nearest bodies first: others are then farther apart than these by their bounding volumes.
+            // The nearest pairs come first. Their distances then exclude others by bounding volumes alone.
             for pair in &mut self.candidates[first..] {
                 pair.distance_to_proof_ratio =
                     bounding_volume_gap(self.cell, &self.placement, pair);
@@ -468,27 +471,27 @@ impl<'c> PathSearch<'c> {
         }
     }
 
-    /// Returns whether a distance is of interest and the least so far.
+    /// Returns whether an upper bound is the least so far, in a search for the least distance.
     #[inline(always)]
     fn is_nearest(&self, upper: f64) -> bool {
         self.goal == Goal::LeastDistance && upper < self.result.distance_upper_bound
     }
 
-    /// Keeps a pair as the nearest so far, with an upper bound of its distance.
+    /// Records a pair as the nearest so far, with an upper bound of its distance.
     pub(super) fn record_nearest(&mut self, pair: &PartPair, at: f64, upper: f64) {
         self.result.distance_upper_bound = upper;
         self.result.nearest = Some((at, *pair));
     }
 
-    /// Keeps a contact of a pair at a point, at a distance of at most the margin and the tolerance, or a distance beyond the
-    /// margin, unless an earlier contact is known. The search ends unless an earlier one is looked for.
+    /// Records a contact of a pair, unless an earlier one is known. Its distance is at most margin + tolerance, or
+    /// margin + `distance_beyond_margin` if that is more. Ends the search, unless it looks for the first contact.
     pub(super) fn record_contact(
         &mut self,
         pair: &PartPair,
         at: f64,
         distance_beyond_margin: f64,
     ) -> ControlFlow<()> {
-        // A pair that was let go may have touched earlier, at a point that is no middle of an interval.
+        // A pair in contact at the start may have touched earlier, at a point that is no midpoint.
         if at > self.result.end {
             return Continue(());
         }
