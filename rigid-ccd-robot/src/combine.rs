@@ -149,7 +149,7 @@ impl PlacedRobot<'_> {
             name,
             parent: carrier.to_owned(),
             child: base,
-            axis_and_limits: trajectory::Joint::fixed(self.pose),
+            geometry: trajectory::Joint::fixed(self.pose),
             position_rule: PositionRule::Independent,
         };
         Ok((Vec::new(), vec![fixed]))
@@ -161,7 +161,7 @@ impl PlacedRobot<'_> {
             name: self.prefixed(&joint.name),
             parent: self.prefixed(&joint.parent),
             child: self.prefixed(&joint.child),
-            axis_and_limits: joint.axis_and_limits.clone(),
+            geometry: joint.geometry.clone(),
             position_rule: match &joint.position_rule {
                 PositionRule::Independent => PositionRule::Independent,
                 PositionRule::Follows {

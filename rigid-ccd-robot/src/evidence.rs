@@ -29,7 +29,7 @@ const FORMAT: &str = "rigid-ccd evidence 1";
 /// # let hinge = rigid_ccd::trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 1.0, 0.0])?;
 /// # let joint = Joint {
 /// #     name: "hinge".into(), parent: "base".into(), child: "arm".into(),
-/// #     axis_and_limits: hinge, position_rule: PositionRule::Independent,
+/// #     geometry: hinge, position_rule: PositionRule::Independent,
 /// # };
 /// # let robot = Robot::new(links, vec![joint])?;
 /// # let pairs = LinkPairs::from_robot(&robot);

@@ -80,9 +80,10 @@ pub fn joint_column<N: AsRef<str>>(
     unit: AngleUnit,
 ) -> Result<Option<JointColumn>, JointColumnError> {
     let find = |name: &str| header.iter().position(|column| column.as_ref() == name);
-    let turns = robot.joints().iter().any(|own| {
-        own.name == joint && matches!(own.axis_and_limits.kind(), JointKind::Revolute(_))
-    });
+    let turns = robot
+        .joints()
+        .iter()
+        .any(|own| own.name == joint && matches!(own.geometry.kind(), JointKind::Revolute(_)));
     let in_degrees = format!("{joint}{DEGREES_SUFFIX}");
     let names = [joint, &in_degrees].map(|name| format!("{prefix}{name}"));
     let [plain, degrees] = names.each_ref().map(|name| find(name));

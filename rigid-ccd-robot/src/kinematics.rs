@@ -51,13 +51,13 @@ impl Kinematics {
         let mut arms = 0.0;
         for (link, parent, joint) in robot.joints_parents_first() {
             arms += robot.joints()[joint]
-                .axis_and_limits
+                .geometry
                 .origin()
                 .translation()
                 .length();
             let (frame, parent_pose) = links[parent];
-            let origin = parent_pose.compose(robot.joints()[joint].axis_and_limits.origin());
-            let kind = robot.joints()[joint].axis_and_limits.kind();
+            let origin = parent_pose.compose(robot.joints()[joint].geometry.origin());
+            let kind = robot.joints()[joint].geometry.kind();
             let (axis, is_prismatic, source) = match (kind, robot.source(joint)) {
                 (JointKind::Revolute(axis), Some(source)) => (axis, false, source),
                 (JointKind::Prismatic(axis), Some(source)) => (axis, true, source),
@@ -83,8 +83,8 @@ impl Kinematics {
         &self.joints
     }
 
-    /// Returns, for each moving joint, an upper bound of its positions over all configurations whose positions are at
-    /// most as large in absolute value as those given.
+    /// Returns an upper bound of each moving joint's positions. It covers all configurations whose positions are at
+    /// most as large in absolute value as the given ones.
     pub(crate) fn magnitudes(&self, configuration: &[f64]) -> impl Iterator<Item = Magnitude> {
         self.joints.iter().map(|joint| {
             let rounding = joint.source.magnitude(configuration);

@@ -11,7 +11,7 @@
 //!     name: "hinge".into(),
 //!     parent: "base".into(),
 //!     child: "arm".into(),
-//!     axis_and_limits: hinge,
+//!     geometry: hinge,
 //!     position_rule: PositionRule::Independent,
 //! }];
 //! let robot = Robot::new(links, joints)?;

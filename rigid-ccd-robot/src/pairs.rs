@@ -67,7 +67,7 @@ impl LinkPairs {
         self.skip_reasons.remove(&ordered_pair(one, other));
     }
 
-    /// Returns whether a pair is checked. It is not if both links are the same.
+    /// Returns whether a pair of different links is checked.
     pub fn is_checked(&self, one: usize, other: usize) -> bool {
         one != other
             && [one, other]
@@ -109,8 +109,8 @@ impl LinkPairs {
         groups
     }
 
-    /// Copies the skipped pairs of one robot into those of the combined robot. `links` is the range of its links
-    /// there. Returns whether the pairs fit: whether the same links have bodies.
+    /// Copies the skipped pairs of one robot into those of a combined robot, in which its links have the indices
+    /// `links`. Returns whether the pairs fit: whether the same links have bodies.
     #[must_use]
     pub(crate) fn replace_within(&mut self, links: Range<usize>, own: &LinkPairs) -> bool {
         let with_bodies = self

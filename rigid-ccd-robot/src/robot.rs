@@ -68,7 +68,7 @@ pub struct Joint {
     /// The name of the child link, which the joint moves.
     pub child: String,
     /// The joint's origin in the frame of the parent link, its axis and its limits.
-    pub axis_and_limits: trajectory::Joint,
+    pub geometry: trajectory::Joint,
     /// The source of the joint's position: the configuration, or another joint.
     pub position_rule: PositionRule,
 }
@@ -202,12 +202,12 @@ impl Robot {
     /// tree, a reversed joint, invalid limits, and planes on a moving link.
     pub fn new(links: Vec<Link>, mut joints: Vec<Joint>) -> Result<Self, RobotError> {
         for joint in &mut joints {
-            if joint.axis_and_limits.is_reversed() {
+            if joint.geometry.is_reversed() {
                 let joint = joint.name.clone();
                 return Err(RobotError::ReversedJoint { joint });
             }
-            RobotError::check_pose("joint", &joint.name, joint.axis_and_limits.origin())?;
-            let limits = joint.axis_and_limits.limits();
+            RobotError::check_pose("joint", &joint.name, joint.geometry.origin())?;
+            let limits = joint.geometry.limits();
             let (low, high) = (*limits.start(), *limits.end());
             // Written so that NaN is refused.
             if !(low <= high) {
@@ -215,8 +215,8 @@ impl Robot {
                 return Err(RobotError::InvalidLimits { joint, low, high });
             }
             if joint.position_rule != PositionRule::Independent {
-                joint.axis_and_limits = joint
-                    .axis_and_limits
+                joint.geometry = joint
+                    .geometry
                     .clone()
                     .with_limits(f64::NEG_INFINITY..=f64::INFINITY);
             }
@@ -302,7 +302,7 @@ impl Robot {
     /// Returns the limits of the positions, in the order of a configuration.
     pub fn limits(&self) -> impl ExactSizeIterator<Item = [f64; 2]> {
         self.free_joints.iter().map(|&joint| {
-            let limits = self.joints[joint].axis_and_limits.limits();
+            let limits = self.joints[joint].geometry.limits();
             [*limits.start(), *limits.end()]
         })
     }
@@ -310,7 +310,7 @@ impl Robot {
     /// Returns the configuration with each joint at 0, or at the limit nearest to 0.
     pub fn configuration_nearest_zero(&self) -> Vec<f64> {
         let limits = self.limits();
-        // The lower limit is not above the upper one.
+        // `clamp` requires ordered limits, which `Robot::new` has checked.
         limits.map(|[low, high]| 0f64.clamp(low, high)).collect()
     }
 
@@ -345,7 +345,7 @@ impl Robot {
     pub fn chain_between(&self, from: usize, to: usize) -> ChainBetween {
         let steps = self.tree.path_between(from, to);
         let joints = steps.iter().map(|step| {
-            let joint = self.joints[step.joint].axis_and_limits.clone();
+            let joint = self.joints[step.joint].geometry.clone();
             if step.leads_to_parent {
                 joint.reversed()
             } else {
@@ -387,7 +387,7 @@ impl Robot {
         for (&joint, &position) in self.free_joints.iter().zip(configuration) {
             let Joint {
                 name,
-                axis_and_limits: joint,
+                geometry: joint,
                 ..
             } = &self.joints[joint];
             let is_near = position.abs() <= MAX_COORDINATE;
@@ -448,11 +448,11 @@ fn position_sources_and_free_joints(
     joints: &[Joint],
 ) -> Result<(Vec<Option<PositionSource>>, Vec<usize>), RobotError> {
     let is_free = |joint: &Joint| {
-        joint.position_rule == PositionRule::Independent && !joint.axis_and_limits.is_fixed()
+        joint.position_rule == PositionRule::Independent && !joint.geometry.is_fixed()
     };
     let free_joints: Vec<usize> = (0..joints.len()).filter(|&k| is_free(&joints[k])).collect();
     let sources = joints.iter().map(|joint| {
-        if joint.axis_and_limits.is_fixed() {
+        if joint.geometry.is_fixed() {
             return Ok(None);
         }
         let (mut multiplier, mut offset, mut at) = (1.0, 0.0, joint);

@@ -65,12 +65,12 @@ struct MovingLink {
 /// Returns the moving links with a body, and those without a body that span a distance to another moving joint. A
 /// frame between two joints at the same place needs no shape.
 fn moving_links(robot: &Robot, pairs: &LinkPairs) -> Vec<MovingLink> {
-    let is_moving = |joint: usize| !robot.joints()[joint].axis_and_limits.is_fixed();
+    let is_moving = |joint: usize| !robot.joints()[joint].geometry.is_fixed();
     let all = robot.joints_parents_first();
     let spans = |link: usize| {
         let carried = all.iter().filter(|&&(_, parent, _)| parent == link);
         carried.clone().any(|&(_, _, joint)| {
-            let origin = robot.joints()[joint].axis_and_limits.origin();
+            let origin = robot.joints()[joint].geometry.origin();
             is_moving(joint) && origin.translation().length() > 0.0
         })
     };

@@ -122,8 +122,8 @@ impl<'c> CellSolver<'c> {
     /// [`PathError`], also if a limit is reached.
     pub fn is_free<P: Path + ?Sized>(&mut self, path: &P) -> Result<bool, PathError> {
         self.search(Goal::AnyContact, path)?;
-        let found = &self.search.result;
-        match (found.nearest, found.limit_reached) {
+        let result = &self.search.result;
+        match (result.nearest, result.limit_reached) {
             (Some(_), _) => Ok(false),
             (None, None) => Ok(true),
             (None, Some((limit, _))) => {
@@ -207,11 +207,11 @@ impl<'c> CellSolver<'c> {
 
     /// Converts the result of the last search to an answer. Measures the pair in contact.
     fn measured_answer(&mut self, goal: Goal) -> Result<PathAnswer<'c>, Error> {
-        let found = self.search.result;
+        let result = self.search.result;
         let segments = self.search.segment_count();
         let end = PathPoint::from_path_position(segments as f64, segments);
-        let limit = found.limit_reached;
-        let (outcome, free_until) = match (goal, limit, found.nearest) {
+        let limit = result.limit_reached;
+        let (outcome, free_until) = match (goal, limit, result.nearest) {
             (Goal::LeastDistance, ..) => (self.measured_distance()?, PathPoint::START),
             (Goal::FirstContact, Some((limit, until)), _) => {
                 let free_until = PathPoint::from_path_position(until, segments);
@@ -242,12 +242,12 @@ impl<'c> CellSolver<'c> {
     /// Returns the distance bounds of the last search as an outcome.
     fn measured_distance(&mut self) -> Result<PathOutcome<'c>, Error> {
         let (lower, upper) = self.search.distance_bounds();
-        let found = self.search.result;
-        let nearest = found
+        let result = self.search.result;
+        let nearest = result
             .nearest
             .map(|found| self.measure_contact(found))
             .transpose()?;
-        Ok(match found.limit_reached {
+        Ok(match result.limit_reached {
             None => PathOutcome::LeastDistance {
                 lower,
                 upper,

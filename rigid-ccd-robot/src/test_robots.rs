@@ -49,7 +49,7 @@ pub(crate) fn row_of_links(links: &[&str], with_bodies: &[&str]) -> Robot {
         name: format!("to {}", pair[1]),
         parent: pair[0].into(),
         child: pair[1].into(),
-        axis_and_limits: trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap(),
+        geometry: trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap(),
         position_rule: PositionRule::Independent,
     });
     let joints = joints.collect();
@@ -85,7 +85,7 @@ pub(crate) fn random_robot(random: &mut Pcg64) -> Robot {
             name: format!("joint{k}"),
             parent: format!("link{}", random.random_range(0..k)),
             child: format!("link{k}"),
-            axis_and_limits: joint.unwrap(),
+            geometry: joint.unwrap(),
             position_rule: position,
         }
     });
@@ -97,8 +97,8 @@ pub(crate) fn random_robot(random: &mut Pcg64) -> Robot {
 pub(crate) fn with_symmetric_limits(robot: &Robot, limit: f64) -> Robot {
     let mut joints = robot.joints().to_vec();
     for joint in &mut joints {
-        if !joint.axis_and_limits.is_fixed() {
-            joint.axis_and_limits = joint.axis_and_limits.clone().with_limits(-limit..=limit);
+        if !joint.geometry.is_fixed() {
+            joint.geometry = joint.geometry.clone().with_limits(-limit..=limit);
         }
     }
     Robot::new(robot.links().to_vec(), joints).unwrap()

@@ -55,7 +55,7 @@ pub(crate) const MAX_BUDGET_SPLITS: u32 = 3;
 /// The largest drift of a period, as a fraction of the tolerance. The rest of the tolerance is left to the search.
 pub(crate) const MAX_DRIFT_SHARE: f64 = 0.25;
 
-/// The largest number of turns in a period, of the joint that turns least.
+/// The largest number of turns that the slowest joint makes in a period.
 pub(crate) const MAX_TURNS_IN_PERIOD: u32 = 128;
 
 /// The largest number of steps in a segment for following a pair in contact at the start until it has a gap.

@@ -56,7 +56,7 @@ impl Robot {
             let remark = Remark::remark_on_joint(position)?;
             let mut joints = self.joints().iter();
             let joint = joints.find(|joint| joint.name == name)?;
-            matches!(joint.axis_and_limits.kind(), JointKind::Revolute(_))
+            matches!(joint.geometry.kind(), JointKind::Revolute(_))
                 .then(|| CellRemark::on(format!("joint {name}"), remark))
         });
         remarks.next()
@@ -99,7 +99,7 @@ impl Robot {
 
     /// Returns the longest range of a prismatic joint.
     fn longest_travel(&self) -> f64 {
-        let joints = self.joints().iter().map(|joint| &joint.axis_and_limits);
+        let joints = self.joints().iter().map(|joint| &joint.geometry);
         let slides = joints.filter(|joint| matches!(joint.kind(), JointKind::Prismatic(_)));
         let travel = slides.map(|joint| joint.limits().end() - joint.limits().start());
         travel.fold(0.0, greater)

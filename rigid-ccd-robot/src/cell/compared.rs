@@ -24,8 +24,7 @@ impl AllowedPairs {
 }
 
 impl Cell {
-    /// Allows two items to touch: their pair is no longer checked. The items are two links, or a link or attached body
-    /// and an obstacle or attached body.
+    /// Allows two items to touch: their pair is no longer checked.
     ///
     /// [`Cell::forbid_contact`] and [`Cell::set_clearance`] check the pair again. The last of these calls holds.
     /// Removing an item removes its allowed contacts. A clearance of the pair stays stored, and applies again after
@@ -43,7 +42,7 @@ impl Cell {
     ///     name: "lift".into(),
     ///     parent: "base".into(),
     ///     child: "fork".into(),
-    ///     axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [0.0, 0.0, 1.0])?,
+    ///     geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [0.0, 0.0, 1.0])?,
     ///     position_rule: PositionRule::Independent,
     /// };
     /// let robot = Robot::new(vec![Link::named("base"), Link::named("fork")], vec![lift])?;

@@ -18,11 +18,8 @@ fn cart_cell() -> Cell {
         name: name.into(),
         parent: "base".into(),
         child: child.into(),
-        axis_and_limits: trajectory::Joint::prismatic(
-            Pose::at([0.0, y, 0.0]).unwrap(),
-            [1.0, 0.0, 0.0],
-        )
-        .unwrap(),
+        geometry: trajectory::Joint::prismatic(Pose::at([0.0, y, 0.0]).unwrap(), [1.0, 0.0, 0.0])
+            .unwrap(),
         position_rule: PositionRule::Independent,
     };
     let joints = vec![slide("rail", "cart", 0.0), slide("side", "post", 1.0)];
@@ -148,7 +145,7 @@ fn a_clearance_includes_a_pair_of_neighbours() {
         name: "hinge".into(),
         parent: "frame".into(),
         child: "lever".into(),
-        axis_and_limits: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+        geometry: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
         position_rule: PositionRule::Independent,
     };
     let ball = |x: f64| (Body::sphere(0.1).unwrap(), Pose::at([x, 0.0, 0.0]).unwrap());
@@ -184,7 +181,7 @@ fn coordinates_that_are_too_large_are_named() {
             name: "drive".into(),
             parent: "rail".into(),
             child: "cart".into(),
-            axis_and_limits: joint,
+            geometry: joint,
             position_rule: PositionRule::Independent,
         };
         Robot::new(links, vec![joint])

@@ -131,7 +131,7 @@ fn a_link_carries_a_robot() {
         name: format!("{parent}-{child}"),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+        geometry: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
         position_rule: PositionRule::Independent,
     };
     let arm = vec![ball("foot"), ball("hand")];
@@ -227,7 +227,7 @@ fn pairs_are_of_their_robot_and_names_are_free() {
         name: "base".into(),
         parent: "world".into(),
         child: "tip".into(),
-        axis_and_limits: trajectory::Joint::fixed(Pose::IDENTITY),
+        geometry: trajectory::Joint::fixed(Pose::IDENTITY),
         position_rule: PositionRule::Independent,
     };
     let small = Robot::new(vec![ball, Link::named("tip")], vec![joint]).unwrap();

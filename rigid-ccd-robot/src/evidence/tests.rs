@@ -21,7 +21,7 @@ fn cell() -> Cell {
             name: format!("to {child}"),
             parent: parent.into(),
             child: child.into(),
-            axis_and_limits: trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap(),
+            geometry: trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap(),
             position_rule: PositionRule::Independent,
         }
     });

@@ -128,7 +128,7 @@ fn a_curve_stays_within_the_limits() {
         name: "slider".into(),
         parent: "rail".into(),
         child: "ball".into(),
-        axis_and_limits: slider.with_limits(-1.0..=1.0),
+        geometry: slider.with_limits(-1.0..=1.0),
         position_rule: PositionRule::Independent,
     };
     let ball = Link::named("ball").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
@@ -196,7 +196,7 @@ fn a_jump_counts_for_the_joints_that_follow() {
         name: name.into(),
         parent: "rail".into(),
         child: format!("{name} link"),
-        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
+        geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
         position_rule,
     };
     let follows = PositionRule::Follows {

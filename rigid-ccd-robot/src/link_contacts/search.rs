@@ -21,8 +21,9 @@ pub(super) struct LinkPairRecord {
     pub(super) apart: Option<Vec<f64>>,
     /// The least distance so far, with its positions.
     pub(super) nearest: Option<(f64, Vec<f64>)>,
-    /// The fraction of all positions, by volume, where the links are proven apart. Below: where nothing is proven.
+    /// The fraction of all positions, by volume, where the links are proven apart.
     pub(super) apart_share: f64,
+    /// The fraction of all positions, by volume, where nothing is proven.
     pub(super) undecided_share: f64,
     /// The number of boxes that the last search examined.
     pub(super) boxes: usize,

@@ -86,7 +86,7 @@ fn limits_decide_whether_a_hinge_meets_its_stop() {
             name: "hinge".into(),
             parent: "frame".into(),
             child: "leaf".into(),
-            axis_and_limits: hinge.with_limits(joint_limit..=limit),
+            geometry: hinge.with_limits(joint_limit..=limit),
             position_rule: PositionRule::Independent,
         }];
         let robot = Robot::new(links, joints).unwrap();
@@ -130,7 +130,7 @@ fn links_that_hold_their_hinge_always_touch() {
             name: "hinge".into(),
             parent: "base".into(),
             child: "arm".into(),
-            axis_and_limits: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+            geometry: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
             position_rule: PositionRule::Independent,
         }];
         let robot = Robot::new(links, joints).unwrap();
@@ -203,7 +203,7 @@ fn a_slide_on_a_rail_takes_no_share_of_others() {
             name: "slide".into(),
             parent: "rail".into(),
             child: "carriage".into(),
-            axis_and_limits: slides.with_limits(0.0..=2.0),
+            geometry: slides.with_limits(0.0..=2.0),
             position_rule: PositionRule::Independent,
         }];
         Robot::new(links, joints).unwrap()
@@ -272,11 +272,11 @@ fn planar_arms_touch_where_the_law_of_cosines_says() {
                 let origin = Pose::at([x, 0.0, 0.0]).unwrap();
                 trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap()
             };
-            let joint = |name: &str, parent: &str, child: &str, axis_and_limits| Joint {
+            let joint = |name: &str, parent: &str, child: &str, geometry| Joint {
                 name: name.into(),
                 parent: parent.into(),
                 child: child.into(),
-                axis_and_limits,
+                geometry,
                 position_rule: PositionRule::Independent,
             };
             let joints = vec![
@@ -379,7 +379,7 @@ fn arm_of_prisms() -> Robot {
             name: format!("joint{k}"),
             parent: name(k),
             child: name(k + 1),
-            axis_and_limits: turns.with_limits(-limit..=limit),
+            geometry: turns.with_limits(-limit..=limit),
             position_rule: PositionRule::Independent,
         }
     });

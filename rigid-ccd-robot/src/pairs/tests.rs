@@ -13,7 +13,7 @@ fn robot() -> Robot {
         name: child.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: joint,
+        geometry: joint,
         position_rule: PositionRule::Independent,
     };
     let joints = vec![

@@ -15,7 +15,7 @@ fn cell() -> Cell {
         name: "rail".into(),
         parent: "base".into(),
         child: "ball".into(),
-        axis_and_limits: rail,
+        geometry: rail,
         position_rule: PositionRule::Independent,
     };
     let robot = Robot::new(links, vec![joint]).unwrap();

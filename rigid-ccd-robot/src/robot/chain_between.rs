@@ -11,7 +11,7 @@ use rigid_ccd::trajectory::Chain;
 /// # use rigid_ccd::{Pose, trajectory};
 /// # let finger = |name: &str, y: f64, position_rule| -> Result<Joint, rigid_ccd::InputError> { Ok(Joint {
 /// #     name: name.into(), parent: "hand".into(), child: format!("{name} finger"),
-/// #     axis_and_limits: trajectory::Joint::prismatic(Pose::at([0.0, y, 0.0])?, [0.0, y.signum(), 0.0])?, position_rule }) };
+/// #     geometry: trajectory::Joint::prismatic(Pose::at([0.0, y, 0.0])?, [0.0, y.signum(), 0.0])?, position_rule }) };
 /// # let follows = PositionRule::Follows { joint: "left".into(), multiplier: 1.0, offset: 0.0 };
 /// # let joints = vec![finger("left", 0.1, PositionRule::Independent)?, finger("right", -0.1, follows)?];
 /// # let links = ["hand", "left finger", "right finger"].map(Link::named).to_vec();

@@ -99,7 +99,7 @@ impl CompoundKind {
                 name: names[k].clone(),
                 parent: if k == 0 { parent } else { &names[k - 1] }.to_owned(),
                 child: if k == last { child } else { &names[k] }.to_owned(),
-                axis_and_limits: moving,
+                geometry: moving,
                 position_rule: PositionRule::Independent,
             })
         });

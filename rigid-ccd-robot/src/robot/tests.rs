@@ -15,7 +15,7 @@ fn joint(name: &str, parent: &str, child: &str, joint: trajectory::Joint) -> Joi
         name: name.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: joint,
+        geometry: joint,
         position_rule: PositionRule::Independent,
     }
 }
@@ -241,7 +241,7 @@ fn what_is_no_tree_is_refused() {
     let error = Robot::new(same, Vec::new()).unwrap_err();
     assert!(matches!(error, RobotError::LinkNameTaken { .. }));
     let mut reversed = hinge("a", "link0", "link1");
-    reversed.axis_and_limits = reversed.axis_and_limits.reversed();
+    reversed.geometry = reversed.geometry.reversed();
     let error = refused(2, vec![reversed]);
     assert_eq!(error, RobotError::ReversedJoint { joint: "a".into() });
     // Two links that are each other's parents, beside a base.
@@ -283,7 +283,7 @@ fn joints_that_follow_nothing_are_refused() {
 #[test]
 fn configurations_that_do_not_fit_are_refused() {
     let mut limited = hinge("elbow", "link0", "link1");
-    limited.axis_and_limits = limited.axis_and_limits.with_limits(-1.0..=1.0);
+    limited.geometry = limited.geometry.with_limits(-1.0..=1.0);
     let robot = Robot::new(links(2), vec![limited]).unwrap();
     let message =
         |configuration: &[f64]| robot.pose("link1", configuration).unwrap_err().to_string();
@@ -303,7 +303,7 @@ fn configurations_that_do_not_fit_are_refused() {
 #[test]
 fn limits_of_a_joint_that_follows_do_not_count() {
     let mut follower = hinge("follower", "link0", "link2");
-    follower.axis_and_limits = follower.axis_and_limits.with_limits(0.0..=0.1);
+    follower.geometry = follower.geometry.with_limits(0.0..=0.1);
     follower.position_rule = PositionRule::Follows {
         joint: "leader".into(),
         multiplier: 3.0,

@@ -189,7 +189,7 @@ impl<'r> UrdfReader<'r> {
             name: name.to_owned(),
             parent: parent.to_owned(),
             child: child.to_owned(),
-            axis_and_limits: moved,
+            geometry: moved,
             position_rule: position_rule(mimic)?,
         };
         Ok((Vec::new(), vec![joint]))

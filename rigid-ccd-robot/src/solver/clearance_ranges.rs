@@ -89,7 +89,7 @@ impl CellSolver<'_> {
     ///     name: "slider".into(),
     ///     parent: "rail".into(),
     ///     child: "ball".into(),
-    ///     axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0])?,
+    ///     geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0])?,
     ///     position_rule: PositionRule::Independent,
     /// };
     /// let ball = Link::named("ball").with_body(Body::sphere(0.5)?, Pose::IDENTITY);
@@ -173,8 +173,8 @@ impl CellSolver<'_> {
 
     fn is_clearance_kept(&mut self, interval: PathInterval) -> Result<bool, Error> {
         self.search.answer_question(Goal::AnyContact, interval)?;
-        let found = &self.search.result;
-        Ok(found.nearest.is_none() && found.limit_reached.is_none())
+        let result = &self.search.result;
+        Ok(result.nearest.is_none() && result.limit_reached.is_none())
     }
 }
 

@@ -68,28 +68,31 @@ impl PathSearch<'_> {
 
     /// Queries the engine about all remaining candidates.
     pub(super) fn decide_engine_candidates(&mut self) -> Result<(), Error> {
-        let mut candidate = std::mem::take(&mut self.engine_candidates);
-        let result = self.decide(candidate.sorted_for(self.goal));
-        self.engine_candidates = candidate;
+        let mut candidates = std::mem::take(&mut self.engine_candidates);
+        let result = self.decide(candidates.sorted_for(self.goal));
+        self.engine_candidates = candidates;
         result
     }
 
-    fn decide(&mut self, candidate: &[EngineCandidate]) -> Result<(), Error> {
-        for pair in candidate {
-            if pair.from >= self.result.end {
+    fn decide(&mut self, candidates: &[EngineCandidate]) -> Result<(), Error> {
+        for candidate in candidates {
+            if candidate.from >= self.result.end {
                 continue;
             }
             if let Some(limit) = self.stop_condition.reached_limit() {
                 // For the first contact, candidates are sorted by their starts: all earlier ones are decided.
                 let until = match self.goal {
-                    Goal::FirstContact => pair.from,
+                    Goal::FirstContact => candidate.from,
                     Goal::AnyContact | Goal::LeastDistance => 0.0,
                 };
                 self.result.limit_reached = Some((limit, until));
                 self.result.lower = 0.0;
                 break;
             }
-            if self.decide_pair(*pair, MAX_BUDGET_SPLITS)?.is_break() {
+            if self
+                .decide_candidate(*candidate, MAX_BUDGET_SPLITS)?
+                .is_break()
+            {
                 break;
             }
         }
@@ -98,42 +101,44 @@ impl PathSearch<'_> {
 
     /// Decides one candidate with the engine. If the budget of a query does not suffice, its interval is halved, up to
     /// `splits` times and while the question has budget left.
-    fn decide_pair(&mut self, mut pair: EngineCandidate, splits: u32) -> StepResult {
-        if pair.from >= self.result.end {
+    fn decide_candidate(&mut self, mut candidate: EngineCandidate, splits: u32) -> StepResult {
+        if candidate.from >= self.result.end {
             return Ok(Continue(()));
         }
-        pair.to = lesser(pair.to, self.result.end);
+        candidate.to = lesser(candidate.to, self.result.end);
         // A pair may approach many times within a period, so one budget is unlikely to suffice.
-        if splits > 0 && self.drift(&pair) > 0.0 {
-            return self.decide_halves(&pair, splits - 1);
+        if splits > 0 && self.drift(&candidate) > 0.0 {
+            return self.decide_halves(&candidate, splits - 1);
         }
         if self.goal == Goal::LeastDistance {
             // No pair can be nearer by more than the tolerance. Written so that a NaN is measured.
             if self.result.distance_upper_bound - self.tolerance <= 0.0 {
                 return Ok(Break(()));
             }
-            if self.is_no_nearer(&pair)? {
+            if self.is_no_nearer(&candidate)? {
                 return Ok(Continue(()));
             }
         }
-        let outcome = self.query_engine(self.goal, &pair, None)?.outcome;
+        let outcome = self.query_engine(self.goal, &candidate, None)?.outcome;
         let is_budget_spent = outcome.limit() == Some(Limit::Budget);
         if is_budget_spent && splits > 0 && self.stop_condition.reached_limit().is_none() {
             if self.goal == Goal::LeastDistance {
-                self.record_upper_bound(&pair, &outcome);
+                self.record_upper_bound(&candidate, &outcome);
             }
-            return self.decide_halves(&pair, splits - 1);
+            return self.decide_halves(&candidate, splits - 1);
         }
         Ok(match self.goal {
-            Goal::AnyContact | Goal::FirstContact => self.record_contact_answer(&pair, &outcome),
-            Goal::LeastDistance => self.record_distance(&pair, &outcome),
+            Goal::AnyContact | Goal::FirstContact => {
+                self.record_contact_answer(&candidate, &outcome)
+            }
+            Goal::LeastDistance => self.record_distance(&candidate, &outcome),
         })
     }
 
     /// Decides both halves of a candidate's interval.
-    fn decide_halves(&mut self, pair: &EngineCandidate, splits: u32) -> StepResult {
-        for half in pair.halves() {
-            if self.decide_pair(half, splits)?.is_break() {
+    fn decide_halves(&mut self, candidate: &EngineCandidate, splits: u32) -> StepResult {
+        for half in candidate.halves() {
+            if self.decide_candidate(half, splits)?.is_break() {
                 return Ok(Break(()));
             }
         }

@@ -12,9 +12,9 @@ use std::collections::HashMap;
 pub(crate) struct PairChains<'c> {
     cell: &'c Cell,
     chains: HashMap<[usize; 2], PairChain>,
-    /// Scratch memory: the positions of all joints at one end of a section. Below: the positions of a chain's joints
-    /// at both ends.
+    /// Scratch memory: the positions of all joints at one end of a section.
     positions: Vec<f64>,
+    /// Scratch memory: the positions of a chain's joints at both ends of a section.
     ends: [Vec<f64>; 2],
 }
 

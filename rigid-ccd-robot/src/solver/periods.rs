@@ -1,10 +1,10 @@
 //! Finds periods of segments in which joints make many turns.
 //!
 //! In a segment at constant rates, let a joint turn by the angle `Δ`. After the fraction `p` of the segment it has
-//! nearly its former angle, up to `ε = |p Δ − 2π n|` for the nearest integer `n`; after `k` periods, up to `k ε`. If
-//! this holds for all joints between two links, it displaces no point of one link by more than `Σ k ε ρ` relative to
-//! the other link, where `ρ` is the point's largest distance from the joint's axis. So a distance that a pair keeps in
-//! one period, it keeps in all periods up to this drift. The search then examines only one period of the pair and
+//! nearly its former angle, up to `ε = |p Δ − 2π n|` for the nearest integer `n`; after `k` periods, up to `k ε`. Let
+//! this hold for all joints between two links. Then no point of one link is displaced by more than `Σ k ε ρ` relative
+//! to the other link, where `ρ` is the point's largest distance from a joint's axis. So a distance that a pair keeps
+//! in one period, it keeps in all periods up to this drift. The search then examines only one period of the pair and
 //! skips the rest of the segment.
 
 use crate::cell::rounding::U;

@@ -165,18 +165,18 @@ impl<'c> PathSearch<'c> {
 
     /// Returns the tolerance that the last answer meets.
     pub(crate) fn met_tolerance(&self) -> f64 {
-        let found = &self.result;
+        let result = &self.result;
         let achieved = match self.goal {
-            Goal::AnyContact | Goal::FirstContact => found.distance_beyond_margin,
-            Goal::LeastDistance if found.limit_reached.is_some() => 0.0,
+            Goal::AnyContact | Goal::FirstContact => result.distance_beyond_margin,
+            Goal::LeastDistance if result.limit_reached.is_some() => 0.0,
             Goal::LeastDistance => {
                 let (lower, upper) = self.distance_bounds();
                 let excess = |pair: PartPair| {
                     let parts = [pair.a, pair.b].map(|part| &self.cell.parts()[part as usize]);
                     parts[0].excess_over_shape + parts[1].excess_over_shape
                 };
-                // If no pair was found, there is no upper bound.
-                found
+                // If no pair was result, there is no upper bound.
+                result
                     .nearest
                     .map_or(0.0, |(_, pair)| upper - lower - excess(pair))
             }
@@ -214,7 +214,7 @@ impl<'c> PathSearch<'c> {
         self.compares_any.clone()?;
         self.cell.check_plane_reach(self.path.magnitudes())?;
         self.placement.begin(self.cell, &self.path);
-        // Half of this enlarges the margins; measured distances may have errors of the same size.
+        // Margins are enlarged by half of this, and measured distances have errors of at most the other half.
         let rounding = 4.0 * self.placement.rounding;
         self.tolerance = greater(self.settings.tolerance, rounding);
         let (kinematics, parts) = (self.cell.kinematics(), self.cell.parts());
@@ -275,8 +275,9 @@ impl<'c> PathSearch<'c> {
             return Ok(Break(()));
         }
         let base = self.candidates.len();
-        let level = self.settings.vector_instructions.simd_level();
-        let Continue(first) = vectorize!(level, _token => self.measure_candidates(interval, among))
+        let simd_level = self.settings.vector_instructions.simd_level();
+        let Continue(first) =
+            vectorize!(simd_level, _token => self.measure_candidates(interval, among))
         else {
             return Ok(Break(()));
         };

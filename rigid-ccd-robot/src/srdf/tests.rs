@@ -75,8 +75,7 @@ fn links_are_disabled_as_a_whole() {
         name: child.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: trajectory::Joint::prismatic(rigid_ccd::Pose::IDENTITY, [1.0, 0.0, 0.0])
-            .unwrap(),
+        geometry: trajectory::Joint::prismatic(rigid_ccd::Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
         position_rule: PositionRule::Independent,
     };
     let robot = Robot::new(links.to_vec(), vec![slide("a", "b"), slide("b", "c")]).unwrap();
@@ -136,7 +135,7 @@ fn proven_pairs_are_written_and_read() {
         name: name.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: joint,
+        geometry: joint,
         position_rule: PositionRule::Independent,
     };
     let fixed = || trajectory::Joint::fixed(rigid_ccd::Pose::IDENTITY);
@@ -172,7 +171,7 @@ fn neighbours_that_are_checked_stay_checked() {
         name: "slide".into(),
         parent: "base".into(),
         child: "arm".into(),
-        axis_and_limits: slide.with_limits(0.0..=3.0),
+        geometry: slide.with_limits(0.0..=3.0),
         position_rule: PositionRule::Independent,
     };
     let robot = Robot::new(links.to_vec(), vec![joint]).unwrap();

@@ -89,7 +89,7 @@ fn a_link_inside_a_solid_is_never_free() {
             name: "slider".into(),
             parent: "rail".into(),
             child: "bead".into(),
-            axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
+            geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
             position_rule: PositionRule::Independent,
         };
         let bead = Link::named("bead").with_body(Body::sphere(0.01).unwrap(), Pose::IDENTITY);

@@ -13,7 +13,7 @@ fn cell() -> Cell {
         name: format!("rail {name}"),
         parent: "base".into(),
         child: name.into(),
-        axis_and_limits: trajectory::Joint::prismatic(at([0.0, y, 0.0]), [1.0, 0.0, 0.0]).unwrap(),
+        geometry: trajectory::Joint::prismatic(at([0.0, y, 0.0]), [1.0, 0.0, 0.0]).unwrap(),
         position_rule: PositionRule::Independent,
     };
     let links = vec![Link::named("base"), cart("red"), cart("blue")];

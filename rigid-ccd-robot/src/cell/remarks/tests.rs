@@ -27,14 +27,14 @@ fn slide(size: f64, limits: [f64; 2]) -> Robot {
     two_links(size, slide.with_limits(limits[0]..=limits[1]))
 }
 
-fn two_links(size: f64, axis_and_limits: trajectory::Joint) -> Robot {
+fn two_links(size: f64, geometry: trajectory::Joint) -> Robot {
     let rod = || Body::cuboid([size / 2.0, 0.1 * size, 0.1 * size]).unwrap();
     let links = ["base", "arm"].map(|name| Link::named(name).with_body(rod(), Pose::IDENTITY));
     let joint = Joint {
         name: "joint".into(),
         parent: "base".into(),
         child: "arm".into(),
-        axis_and_limits,
+        geometry,
         position_rule: PositionRule::Independent,
     };
     Robot::new(links.to_vec(), vec![joint]).unwrap()
@@ -224,7 +224,7 @@ fn links_that_never_move_are_named_beside_obstacles() {
         name: "legs".into(),
         parent: "ground".into(),
         child: "bench".into(),
-        axis_and_limits: trajectory::Joint::fixed(Pose::at([0.0, 0.0, 1.0]).unwrap()),
+        geometry: trajectory::Joint::fixed(Pose::at([0.0, 0.0, 1.0]).unwrap()),
         position_rule: PositionRule::Independent,
     };
     let on_ground = Robot::new(vec![ground, bench], vec![bench_joint]).unwrap();

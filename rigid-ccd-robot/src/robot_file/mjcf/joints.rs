@@ -174,7 +174,7 @@ impl Chain<'_> {
             name,
             parent,
             child: self.at.clone(),
-            axis_and_limits: moving,
+            geometry: moving,
             position_rule,
         });
     }

@@ -159,7 +159,7 @@ fn joint(
         name: name.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: joint,
+        geometry: joint,
         position_rule: position,
     }
 }

@@ -44,7 +44,7 @@ fn hinge(name: &str, child: &str, at: f64, position_rule: PositionRule) -> Joint
         name: name.into(),
         parent: "frame".into(),
         child: child.into(),
-        axis_and_limits: trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap(),
+        geometry: trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap(),
         position_rule,
     }
 }
@@ -138,7 +138,7 @@ fn rates_without_a_period_are_searched() {
 #[test]
 fn each_pair_has_its_own_period() {
     let slide = Joint {
-        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+        geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
         ..hinge("slide", "ball", 0.0, PositionRule::Independent)
     };
     let joints = vec![hinge("turn", "arm", 0.0, PositionRule::Independent), slide];

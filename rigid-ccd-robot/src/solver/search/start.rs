@@ -190,7 +190,7 @@ impl PathSearch<'_> {
             if contact.tolerance > 0.0 {
                 continue;
             }
-            if self.follow(&mut contact)?.is_break() {
+            if self.follow_start_contact(&mut contact)?.is_break() {
                 return Ok(Break(()));
             }
             self.start_contacts[number] = contact;
@@ -198,7 +198,7 @@ impl PathSearch<'_> {
         Ok(Continue(()))
     }
 
-    fn follow(&mut self, contact: &mut StartContact) -> StepResult {
+    fn follow_start_contact(&mut self, contact: &mut StartContact) -> StepResult {
         let end = lesser(self.path.segment_count() as f64, self.result.end);
         let rounding = 2.0 * self.placement.rounding;
         let mut sinking = greater(

@@ -36,7 +36,7 @@ fn robot_on_slide(body: Body) -> Robot {
         name: "slide".into(),
         parent: "base".into(),
         child: "tool".into(),
-        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+        geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
         position_rule: PositionRule::Independent,
     };
     Robot::new(links, vec![joint]).unwrap()

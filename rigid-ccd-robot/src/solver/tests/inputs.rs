@@ -60,7 +60,7 @@ fn an_edge_beyond_all_numbers_is_never_free() {
         name: "rail".into(),
         parent: "base".into(),
         child: "cart".into(),
-        axis_and_limits: rail,
+        geometry: rail,
         position_rule: PositionRule::Independent,
     };
     let cart = Link::named("cart").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
@@ -128,7 +128,7 @@ fn numbers_that_cancel_are_rounded_as_what_they_are() {
         name: name.into(),
         parent: "base".into(),
         child: format!("{name} link"),
-        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
+        geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
         position_rule: position,
     };
     let ball = || Body::sphere(0.5).unwrap();

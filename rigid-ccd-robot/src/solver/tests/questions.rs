@@ -323,7 +323,7 @@ fn bounds_hold_for_the_shapes_that_bodies_enclose() {
         name: "rail".into(),
         parent: "base".into(),
         child: "rod".into(),
-        axis_and_limits: slide,
+        geometry: slide,
         position_rule: PositionRule::Independent,
     };
     let robot = Robot::new(links, vec![joint]).unwrap();

@@ -25,7 +25,7 @@ fn robot_of(joints: Vec<trajectory::Joint>) -> Robot {
         name: format!("joint{k}"),
         parent: name(k),
         child: name(k + 1),
-        axis_and_limits: joint,
+        geometry: joint,
         position_rule: PositionRule::Independent,
     });
     Robot::new(links, joints.collect()).unwrap()
@@ -482,7 +482,7 @@ fn can_before_wall(from: f64, to: f64) -> Cell {
         name: name.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, axis).unwrap(),
+        geometry: trajectory::Joint::prismatic(Pose::IDENTITY, axis).unwrap(),
         position_rule: PositionRule::Independent,
     });
     let can = Body::cuboid([0.05, 0.05, 0.05]).unwrap();

@@ -43,7 +43,7 @@ impl BallArm {
                 name: format!("joint{k}"),
                 parent: name(k),
                 child: name(k + 1),
-                axis_and_limits: made.unwrap(),
+                geometry: made.unwrap(),
                 position_rule: PositionRule::Independent,
             }
         });
