@@ -146,10 +146,10 @@ impl Cell {
     /// # Errors
     /// [`RobotError::NoSuchObstacle`], [`RobotError::TooFar`].
     pub fn move_obstacle(&mut self, name: &str, pose: Pose) -> Result<(), RobotError> {
-        let number = self.robot_body_placements.len() + self.obstacle_index(name)?;
+        let index = self.robot_body_placements.len() + self.obstacle_index(name)?;
         RobotError::check_pose("obstacle", name, &pose)?;
-        let moved = self.bodies[number].moved_to(pose);
-        self.replace(number, moved);
+        let moved = self.bodies[index].moved_to(pose);
+        self.replace(index, moved);
         Ok(())
     }
 
@@ -191,9 +191,9 @@ impl Cell {
             pose_in_link: pose,
             attached_name: Some(name),
         };
-        let number = self.robot_body_placements.len();
+        let index = self.robot_body_placements.len();
         self.add_robot_body(body.into(), placement);
-        self.allow_contacts_of_attached(number, &may_touch);
+        self.allow_contacts_of_attached(index, &may_touch);
         Ok(())
     }
 
@@ -202,11 +202,11 @@ impl Cell {
     /// # Errors
     /// [`RobotError::NoSuchAttachedBody`].
     pub fn detach(&mut self, name: &str) -> Result<(), RobotError> {
-        let number = self.attached_body_index(name)?;
-        self.robot_body_placements.remove(number);
-        let parts = self.parts.iter().filter(|part| part.owner == number);
+        let index = self.attached_body_index(name)?;
+        self.robot_body_placements.remove(index);
+        let parts = self.parts.iter().filter(|part| part.owner == index);
         self.robot_part_count -= parts.count();
-        self.remove(number);
+        self.remove(index);
         Ok(())
     }
 
@@ -265,9 +265,9 @@ impl Cell {
             .iter()
             .map(|placed| Ok(placed.pose));
         let poses = robot_bodies.chain(obstacles).enumerate();
-        let placed = poses.map(|(number, pose)| {
-            let body: &Body = &self.bodies[number].body;
-            Ok((self.item_of_body(number), body, pose?))
+        let placed = poses.map(|(index, pose)| {
+            let body: &Body = &self.bodies[index].body;
+            Ok((self.item_of_body(index), body, pose?))
         });
         placed.collect()
     }
@@ -275,14 +275,14 @@ impl Cell {
     /// Returns all bodies, each with the link that carries it. The order is that of [`Cell::placed_bodies`].
     pub fn carried_bodies(&self) -> impl ExactSizeIterator<Item = CarriedBody<'_>> {
         let bodies = self.bodies.iter().enumerate();
-        bodies.map(|(number, placed)| {
-            let placement = self.robot_body_placements.get(number);
+        bodies.map(|(index, placed)| {
+            let placement = self.robot_body_placements.get(index);
             let on_base = (self.robot.base(), placed.pose);
             let (link, pose) = placement.map_or(on_base, |placement| {
                 (placement.link, placement.pose_in_link)
             });
             CarriedBody {
-                item: self.item_of_body(number),
+                item: self.item_of_body(index),
                 body: &placed.body,
                 link,
                 pose,
@@ -340,50 +340,50 @@ impl Cell {
         let (frame, link_pose) = self.kinematics.link_frame_and_pose(placement.link);
         let pose = link_pose.compose(&placement.pose_in_link);
         let placed = PlacedBody::new(body, pose, frame, MAX_LINK_PARTS);
-        let number = self.robot_body_placements.len();
+        let index = self.robot_body_placements.len();
         self.robot_body_placements.push(placement);
-        self.robot_part_count += self.insert(number, placed);
+        self.robot_part_count += self.insert(index, placed);
         self.fit_planes();
     }
 
     /// Inserts a body and its parts at a body index. Returns the number of its parts.
-    fn insert(&mut self, number: usize, placed: PlacedBody) -> usize {
-        let first = self.parts.partition_point(|part| part.owner < number);
+    fn insert(&mut self, index: usize, placed: PlacedBody) -> usize {
+        let first = self.parts.partition_point(|part| part.owner < index);
         for part in &mut self.parts[first..] {
             part.owner += 1;
         }
-        self.margins.insert_body(number);
+        self.margins.insert_body(index);
         self.allowed
-            .reindex(|body| Some(if body < number { body } else { body + 1 }));
-        let parts = placed.parts(number);
+            .reindex(|body| Some(if body < index { body } else { body + 1 }));
+        let parts = placed.parts(index);
         let count = parts.len();
         self.parts.splice(first..first, parts);
-        self.bodies.insert(number, placed);
+        self.bodies.insert(index, placed);
         self.smallest_item = OnceLock::new();
         count
     }
 
     /// Replaces a body. The new body must have the same number of parts.
-    fn replace(&mut self, number: usize, placed: PlacedBody) {
-        let parts = placed.parts(number);
-        let first = self.parts.partition_point(|part| part.owner < number);
+    fn replace(&mut self, index: usize, placed: PlacedBody) {
+        let parts = placed.parts(index);
+        let first = self.parts.partition_point(|part| part.owner < index);
         self.parts.splice(first..first + parts.len(), parts);
-        self.bodies[number] = placed;
+        self.bodies[index] = placed;
     }
 
-    fn remove(&mut self, number: usize) {
-        self.bodies.remove(number);
+    fn remove(&mut self, index: usize) {
+        self.bodies.remove(index);
         self.smallest_item = OnceLock::new();
-        let after_removal = |body: usize| match body.cmp(&number) {
+        let after_removal = |body: usize| match body.cmp(&index) {
             Ordering::Less => Some(body),
             Ordering::Equal => None,
             Ordering::Greater => Some(body - 1),
         };
-        self.margins.remove_body(number, after_removal);
+        self.margins.remove_body(index, after_removal);
         self.allowed.reindex(after_removal);
-        self.parts.retain(|part| part.owner != number);
+        self.parts.retain(|part| part.owner != index);
         for part in &mut self.parts {
-            if part.owner > number {
+            if part.owner > index {
                 part.owner -= 1;
             }
         }
@@ -400,15 +400,15 @@ impl Cell {
     }
 
     fn obstacle_index(&self, name: &str) -> Result<usize, RobotError> {
-        let number = self.obstacle_names.iter().position(|other| other == name);
-        number.ok_or_else(|| RobotError::NoSuchObstacle { name: name.into() })
+        let index = self.obstacle_names.iter().position(|other| other == name);
+        index.ok_or_else(|| RobotError::NoSuchObstacle { name: name.into() })
     }
 
     fn attached_body_index(&self, name: &str) -> Result<usize, RobotError> {
         let has_name =
             |placement: &RobotBodyPlacement| placement.attached_name.as_deref() == Some(name);
-        let number = self.robot_body_placements.iter().position(has_name);
-        number.ok_or_else(|| RobotError::NoSuchAttachedBody { name: name.into() })
+        let index = self.robot_body_placements.iter().position(has_name);
+        index.ok_or_else(|| RobotError::NoSuchAttachedBody { name: name.into() })
     }
 }
 

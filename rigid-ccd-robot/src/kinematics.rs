@@ -155,10 +155,10 @@ impl Kinematics {
     ) {
         frames.resize(self.joints.len() + 1, Frame::IDENTITY);
         frames[seen_from] = Frame::IDENTITY;
-        for &number in joints {
-            let joint = &self.joints[number];
+        for &index in joints {
+            let joint = &self.joints[index];
             let parent = frames[joint.parent];
-            frames[number + 1] = joint.place(&parent, joint.source.position(configuration));
+            frames[index + 1] = joint.place(&parent, joint.source.position(configuration));
         }
     }
 }

@@ -52,7 +52,8 @@
 //!
 //! # Guarantee
 //! On a free path all checked pairs stay farther apart than the margin, at all configurations in between, in floating
-//! point. A limit that is reached is an outcome of its own, never a free path.
+//! point. Reaching a limit is an error or an outcome of its own, never a
+//! free path.
 
 mod cell;
 mod check_summary;

@@ -143,7 +143,7 @@ impl PositionSource {
         self.magnitude_of_product(moved)
     }
 
-    /// The same, given an upper bound of the absolute value of multiplier times position.
+    /// Returns the same from an upper bound of `|multiplier · position|`.
     pub(crate) fn magnitude_of_product(&self, moved: f64) -> f64 {
         (moved + self.offset_magnitude) * f64::from(1 + self.mimic_chain_length)
     }

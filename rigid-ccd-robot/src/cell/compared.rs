@@ -15,10 +15,10 @@ impl AllowedPairs {
     }
 
     /// Replaces each body index by the index that `number` returns. Removes pairs of a body for which it returns `None`.
-    pub(super) fn reindex(&mut self, number: impl Fn(usize) -> Option<usize>) {
+    pub(super) fn reindex(&mut self, index: impl Fn(usize) -> Option<usize>) {
         let pairs = std::mem::take(&mut self.0).into_iter();
         self.0 = pairs
-            .filter_map(|[a, b]| Some([number(a)?, number(b)?]))
+            .filter_map(|[a, b]| Some([index(a)?, index(b)?]))
             .collect();
     }
 }

@@ -106,21 +106,21 @@ impl Cell {
 
 impl Margins {
     /// Inserts a body without padding at a body index.
-    pub(super) fn insert_body(&mut self, number: usize) {
-        self.padding_per_body.insert(number, 0.0);
-        self.reindex(|body| Some(if body < number { body } else { body + 1 }));
+    pub(super) fn insert_body(&mut self, index: usize) {
+        self.padding_per_body.insert(index, 0.0);
+        self.reindex(|body| Some(if body < index { body } else { body + 1 }));
     }
 
     /// Removes a body. `others` maps the old indices of the other bodies to the new ones.
-    pub(super) fn remove_body(&mut self, number: usize, others: impl Fn(usize) -> Option<usize>) {
-        self.padding_per_body.remove(number);
+    pub(super) fn remove_body(&mut self, index: usize, others: impl Fn(usize) -> Option<usize>) {
+        self.padding_per_body.remove(index);
         self.reindex(others);
     }
 
-    fn reindex(&mut self, number: impl Fn(usize) -> Option<usize>) {
+    fn reindex(&mut self, index: impl Fn(usize) -> Option<usize>) {
         let clearances = std::mem::take(&mut self.clearance_per_pair).into_iter();
-        let reindexed = clearances
-            .filter_map(|([a, b], clearance)| Some(([number(a)?, number(b)?], clearance)));
+        let reindexed =
+            clearances.filter_map(|([a, b], clearance)| Some(([index(a)?, index(b)?], clearance)));
         self.clearance_per_pair = reindexed.collect();
     }
 }

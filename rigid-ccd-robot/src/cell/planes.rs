@@ -67,9 +67,9 @@ impl Cell {
         let (_, link_pose) = self.kinematics.link_frame_and_pose(placement.link);
         let pose = link_pose.compose(&placement.pose_in_link);
         let placed = PlacedBody::for_plane(pose, self.plane_reach());
-        let number = self.robot_body_placements.len();
+        let index = self.robot_body_placements.len();
         self.robot_body_placements.push(placement);
-        self.robot_part_count += self.insert(number, placed);
+        self.robot_part_count += self.insert(index, placed);
     }
 
     /// Returns whether the body with this index in [`Cell::carried_bodies`] is the box of a plane.
@@ -80,11 +80,11 @@ impl Cell {
     /// Resizes the boxes of all planes to the present reach of the robot and its attached bodies.
     pub(super) fn fit_planes(&mut self) {
         let reach = self.plane_reach();
-        for number in 0..self.bodies.len() {
-            let placed = &self.bodies[number];
+        for index in 0..self.bodies.len() {
+            let placed = &self.bodies[index];
             if placed.plane_reach.is_some() {
                 let placed = PlacedBody::for_plane(placed.pose, reach);
-                self.replace(number, placed);
+                self.replace(index, placed);
             }
         }
     }

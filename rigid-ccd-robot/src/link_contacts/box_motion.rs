@@ -69,11 +69,11 @@ impl BoxMotion {
     ) {
         self.rounding = rounding;
         self.axes.clear();
-        self.axes.extend(joints.map(|(number, deviation)| {
-            let joint = &kinematics.joints()[number];
+        self.axes.extend(joints.map(|(index, deviation)| {
+            let joint = &kinematics.joints()[index];
             JointAxis {
                 direction: frames[joint.parent].rotation * joint.axis,
-                origin: frames[number + 1].translation,
+                origin: frames[index + 1].translation,
                 deviation,
                 chord: if joint.is_prismatic {
                     0.0
@@ -187,16 +187,16 @@ impl BoxMotion {
         joints: &(impl Iterator<Item = usize> + Clone),
     ) -> f64 {
         let (mut inner, mut total) = (0.0, 0.0);
-        for (number, joint) in joints.clone().enumerate() {
+        for (index, joint) in joints.clone().enumerate() {
             let axis = &self.axes[joint];
             let (reach, tilt) = if axis.is_prismatic {
                 (1.0, 0.0)
             } else {
                 let error = 2.0 * self.rounding.of_directions;
-                let before = joints.clone().take(number).map(|other| &self.axes[other]);
+                let before = joints.clone().take(index).map(|other| &self.axes[other]);
                 let turned: f64 = before.map(|other| other.turns(axis.direction, error)).sum();
                 let tilt = direction.cross(axis.direction).length() + error + turned;
-                let after = joints.clone().skip(number + 1);
+                let after = joints.clone().skip(index + 1);
                 let displaced: f64 = after.map(|other| self.displacements[side][other]).sum();
                 (self.arms[side][joint] + displaced, lesser(tilt, 1.0))
             };

@@ -34,7 +34,7 @@ impl LinkPairSearch<'_> {
         let &[between] = &*pair.joints.joints else {
             return Ok(None);
         };
-        let joint = &cell.kinematics().joints()[between.number];
+        let joint = &cell.kinematics().joints()[between.moving_index];
         if joint.is_prismatic {
             return Ok(None);
         }

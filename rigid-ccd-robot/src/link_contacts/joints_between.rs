@@ -29,7 +29,7 @@ pub(super) struct JointsBetween {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointBetween {
     /// The index among the moving joints.
-    pub(super) number: usize,
+    pub(super) moving_index: usize,
     /// The index of its position in a [`JointBox`].
     pub(super) box_index: usize,
     /// The absolute value of the multiplier from that position to the joint's position.
@@ -45,8 +45,8 @@ impl JointsBetween {
         let mut position_indices = Vec::new();
         let numbers = between.joint_indices().iter();
         let numbers = numbers.filter_map(|&joint| kinematics.moving_joint_index(joint));
-        let joints = numbers.map(|number| {
-            let source = kinematics.joints()[number].source;
+        let joints = numbers.map(|moving_index| {
+            let source = kinematics.joints()[moving_index].source;
             let index = source.position_index();
             let known = position_indices.iter().position(|&other| other == index);
             let box_index = known.unwrap_or_else(|| {
@@ -54,7 +54,7 @@ impl JointsBetween {
                 position_indices.len() - 1
             });
             JointBetween {
-                number,
+                moving_index,
                 box_index,
                 factor: source.factor().abs(),
             }
@@ -67,7 +67,7 @@ impl JointsBetween {
         }
         cell.check_plane_reach(kinematics.magnitudes(&farthest))
             .ok()?;
-        let mut parents_first: Vec<usize> = joints.iter().map(|joint| joint.number).collect();
+        let mut parents_first: Vec<usize> = joints.iter().map(|joint| joint.moving_index).collect();
         parents_first.sort_unstable();
         let magnitudes: Vec<_> = kinematics.magnitudes(&farthest).collect();
         let magnitudes = magnitudes.iter().copied();
@@ -98,7 +98,7 @@ fn all_positions(cell: &Cell, joints: &[JointBetween], indices: &[usize]) -> Opt
     let limits: Vec<[f64; 2]> = cell.robot().limits().collect();
     let mut ranges: Vec<[f64; 2]> = indices.iter().map(|&index| limits[index]).collect();
     for joint in joints {
-        let moving = &cell.kinematics().joints()[joint.number];
+        let moving = &cell.kinematics().joints()[joint.moving_index];
         let [low, high] = limits[indices[joint.box_index]];
         if !(low.is_finite() && high.is_finite()) {
             let comes_back = !moving.is_prismatic && moving.source.has_integer_multiplier();

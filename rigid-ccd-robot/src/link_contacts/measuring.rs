@@ -176,7 +176,8 @@ impl<'c> Measurer<'c> {
         Ok(check)
     }
 
-    /// Checks two links over a box. If `known` already has a witness, the centre need not provide the same one again.
+    /// Checks two links over a box. `known` tells which kind of witness other positions have provided; the centre need
+    /// not provide another one.
     pub(super) fn check_box(
         &mut self,
         pair: &LinkPair,
@@ -332,7 +333,7 @@ impl<'c> Measurer<'c> {
         self.place(joints, &joint_box.middle());
         let deviations = joints.joints.iter().map(|joint| {
             let deviation = joint.factor * joint_box.max_deviation(joint.box_index);
-            (joint.number, deviation)
+            (joint.moving_index, deviation)
         });
         let frames = &self.placement.frames;
         self.motion
@@ -347,9 +348,9 @@ impl<'c> Measurer<'c> {
         point: (&Body, Pose),
     ) -> Result<[f64; 2], Error> {
         let mut least = [f64::INFINITY; 2];
-        for number in 0..self.cell.robot_body_count() {
-            if self.cell.link_of(number) == link {
-                let body = self.placement.body(self.cell, number)?;
+        for index in 0..self.cell.robot_body_count() {
+            if self.cell.link_of(index) == link {
+                let body = self.placement.body(self.cell, index)?;
                 let outcome = self.solver.distance(body, point)?.outcome;
                 let to_body = if touch_as_they_are(&outcome, [body.0, point.0]) {
                     0.0

@@ -84,15 +84,15 @@ impl DisplacementBounds {
             let centre = frames[part.frame].transform_point(part.centre);
             let mut displacement = 0.0;
             for index in bounds[0]..bounds[1] {
-                let number = self.joints[index];
-                let joint = &kinematics.joints()[number];
+                let joint_index = self.joints[index];
+                let joint = &kinematics.joints()[joint_index];
                 displacement += if joint.is_prismatic {
-                    deviations[number]
+                    deviations[joint_index]
                 } else {
                     let axis = frames[joint.parent].rotation * joint.axis;
-                    let arm = centre - frames[number + 1].translation;
+                    let arm = centre - frames[joint_index + 1].translation;
                     let distance = axis.cross(arm).length() + part.ball_radius + 3.0 * rounding;
-                    chord_upper_bound(deviations[number]) * distance
+                    chord_upper_bound(deviations[joint_index]) * distance
                 };
                 self.bounds[index] = displacement * ROUNDING_FACTOR;
             }

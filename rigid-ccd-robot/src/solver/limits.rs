@@ -48,14 +48,14 @@ impl StopCondition {
         }
     }
 
-    /// Allots the work of a question that takes many searches of an interval: some budgets for each segment.
+    /// Sets the work limit of a question that takes many searches of an interval: some budgets for each segment.
     pub(crate) fn begin_searches(&mut self, interval: &PathInterval) {
         self.work_left_for_question = self.max_work_in(interval);
         self.work = 0;
     }
 
-    /// Allots the work of one search of an interval: some budgets for each segment that it touches, but not more than
-    /// is left for the question.
+    /// Sets the work limit of one search of an interval: some budgets for each segment, or what is left for the question
+    /// if that is less.
     pub(crate) fn begin_search(&mut self, interval: &PathInterval) {
         self.work_left_for_question = self.work_left_for_question.saturating_sub(self.work);
         self.max_work = self.max_work_in(interval).min(self.work_left_for_question);

@@ -86,12 +86,8 @@ impl Placement {
     }
 
     /// Returns a body with its pose in the base. The rotation of its frame is rounded to a unit quaternion.
-    pub(crate) fn body<'c>(
-        &self,
-        cell: &'c Cell,
-        number: usize,
-    ) -> Result<(&'c Body, Pose), Error> {
-        let placed = &cell.bodies()[number];
+    pub(crate) fn body<'c>(&self, cell: &'c Cell, index: usize) -> Result<(&'c Body, Pose), Error> {
+        let placed = &cell.bodies()[index];
         let frame = &self.frames[placed.frame];
         let rotation = DQuat::from_mat3(&frame.rotation).normalize();
         let pose = Pose::new(frame.translation, rotation)?;

@@ -48,8 +48,8 @@ impl Attributes {
         let is_own = |name: &&str| self.values.contains_key(*name);
         if let Some(own) = ORIENTATIONS.into_iter().find(is_own) {
             for other in ORIENTATIONS {
-                // MuJoCo lets any rotation replace a quaternion of the class. Of other combinations it uses the
-                // rotation of the class, which may be a mistake of the file.
+                // MuJoCo lets any rotation replace a quaternion of the class. For other combinations it uses
+                // the rotation of the class. That is probably a mistake of the file, and an error here.
                 if other != own && values.remove(other).is_some() && other != "quat" {
                     return Err(self.invalid(own));
                 }

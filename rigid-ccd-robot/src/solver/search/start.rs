@@ -72,16 +72,16 @@ impl PathSearch<'_> {
         if step.is_continue() {
             self.decide_engine_candidates()?;
         }
-        for number in 0..self.start_contacts.len() {
+        for index in 0..self.start_contacts.len() {
             if self.result.limit_reached.is_some() || self.is_decided() {
                 // The remaining pairs are proven up to the points to which they were followed.
-                let until = earliest_start(self, number);
+                let until = earliest_start(self, index);
                 if let Some((_, known)) = &mut self.result.limit_reached {
                     *known = lesser(*known, until);
                 }
                 return Ok(());
             }
-            let contact = self.start_contacts[number];
+            let contact = self.start_contacts[index];
             let (tolerance, periods) = (self.tolerance, std::mem::take(&mut self.periods));
             // The drift of periods may exceed this tolerance.
             self.tolerance = contact.tolerance;
@@ -185,15 +185,15 @@ impl PathSearch<'_> {
         if self.path.segment_count() == 0 {
             return Ok(Continue(()));
         }
-        for number in 0..self.start_contacts.len() {
-            let mut contact = self.start_contacts[number];
+        for index in 0..self.start_contacts.len() {
+            let mut contact = self.start_contacts[index];
             if contact.tolerance > 0.0 {
                 continue;
             }
             if self.follow_start_contact(&mut contact)?.is_break() {
                 return Ok(Break(()));
             }
-            self.start_contacts[number] = contact;
+            self.start_contacts[index] = contact;
         }
         Ok(Continue(()))
     }
