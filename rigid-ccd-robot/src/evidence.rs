@@ -75,8 +75,7 @@ pub struct RecordedSettings {
     pub budget: u64,
     /// The deadline in seconds, if there was one.
     pub deadline: Option<f64>,
-    /// The policy for pairs in contact at the start. A record without it was made before the policy existed, and means
-    /// [`StartPolicy::Report`].
+    /// The policy for pairs in contact at the start. A record without it means [`StartPolicy::Report`].
     #[serde(
         default,
         with = "start_policy",

@@ -12,8 +12,8 @@ use rigid_ccd::InputError;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-/// The largest discontinuity of a joint between segments, in radians or as a length, beyond rounding. Splines are
-/// rounded when they are created; a jump of this size is not an intended motion that checking would miss.
+/// The largest accepted jump of a joint between segments, in radians or as a length, beyond rounding. Splines have
+/// small jumps from rounding when they are created. The motion that is skipped in such a jump need not be checked.
 const MAX_JUMP: f64 = 1e-9;
 
 /// The number of halvings of a segment in the search for a point outside the joint limits.

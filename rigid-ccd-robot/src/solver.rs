@@ -54,7 +54,7 @@ use std::fmt;
 /// the start as long as the bodies separate or slide, as in queries of two bodies:
 ///
 /// - A pair with a gap must keep half of the gap from then on.
-/// - A pair without a gap may approach by rounding errors and by a millionth of the tolerance. If it separates and
+/// - A pair without a gap may come nearer by rounding errors and a millionth of the tolerance. If it separates and
 ///   returns, that is a contact. If it slides along a curved path, it soon counts as a contact; use
 ///   [`Cell::allow_contact`] for such a pair.
 /// - A pair within its margin must not come nearer than at the start.

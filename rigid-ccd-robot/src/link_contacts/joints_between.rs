@@ -101,8 +101,8 @@ fn all_positions(cell: &Cell, joints: &[JointBetween], indices: &[usize]) -> Opt
         let moving = &cell.kinematics().joints()[joint.moving_index];
         let [low, high] = limits[indices[joint.box_index]];
         if !(low.is_finite() && high.is_finite()) {
-            let comes_back = !moving.is_prismatic && moving.source.has_integer_multiplier();
-            ranges[joint.box_index] = comes_back.then_some([-PI, PI])?;
+            let repeats_after_turn = !moving.is_prismatic && moving.source.has_integer_multiplier();
+            ranges[joint.box_index] = repeats_after_turn.then_some([-PI, PI])?;
         }
     }
     Some(JointBox::new(ranges))

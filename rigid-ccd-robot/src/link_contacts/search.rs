@@ -118,8 +118,8 @@ impl LinkPairRecord {
         self.verdict.is_some() || (self.touching.is_some() && self.apart.is_some())
     }
 
-    /// Returns the number of boxes that a search may examine: `limit`, but for a pair that touches without overlapping
-    /// at most `own_share`, the average for a pair.
+    /// Returns the number of boxes that a search may examine. This is `limit`. A pair that touches without overlapping
+    /// may examine no more than `own_share`, the average for each pair.
     pub(super) fn quota(&self, limit: usize, own_share: usize) -> usize {
         if self.touches_without_depth {
             lesser(limit, own_share)

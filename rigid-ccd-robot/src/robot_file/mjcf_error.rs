@@ -55,7 +55,7 @@ pub enum MjcfError {
         /// Their name, or that of the file.
         name: String,
     },
-    /// MuJoCo moves the frame of a body without children to its centre of mass, so that the positions of its free joint are others.
+    /// MuJoCo would move the body's frame to its centre of mass, which changes the positions of its free joint.
     #[error(
         "the frame of body `{body}` is aligned with its inertia, which is not supported; set align=\"false\""
     )]

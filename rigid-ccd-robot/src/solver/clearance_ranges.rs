@@ -26,9 +26,9 @@ pub struct RangeSettings {
     /// The shortest length of a range that is examined, in segments of the path. At least 1e-9. A shorter range
     /// without a proof is unverified.
     pub resolution: f64,
-    /// An upper bound of the deviation of link points from their places on the path. 0 if the robot follows the path
-    /// exactly. For a mechanism with a closed loop, sampled at configurations with the loop closed, it is the error of
-    /// interpolation between these.
+    /// An upper bound of the deviation of link points from their places on the path: 0 if the robot follows the path
+    /// exactly. The loops of a mechanism may be closed at the configurations of the path only; the bound is then the
+    /// error of the interpolation between them.
     pub max_pose_error: f64,
 }
 

@@ -48,7 +48,7 @@ pub(super) fn read_assets(root: &Element, classes: &Classes) -> Result<Assets, M
             "mesh" | "hfield" => {}
             // Images and decorations.
             "material" | "skin" | "texture" => continue,
-            // A model that may be attached. Attaching it is an error elsewhere.
+            // A model that other models may attach. `attach` itself is refused elsewhere.
             "model" => continue,
             _ => return Err(element.unknown_in("asset")),
         }

@@ -21,7 +21,7 @@ pub(super) fn check(root: &Element) -> Result<(), MjcfError> {
 }
 
 fn check_children(element: &Element) -> Result<(), MjcfError> {
-    let Some(known) = known_in(&element.name) else {
+    let Some(known) = allowed_children(&element.name) else {
         return Ok(());
     };
     for child in &element.children {
@@ -51,7 +51,7 @@ fn check_attributes(element: &Element, known: &Attributes) -> Result<(), MjcfErr
 }
 
 /// Returns the elements that an element may contain; `None` if this is not checked here.
-fn known_in(parent: &str) -> Option<Known> {
+fn allowed_children(parent: &str) -> Option<Known> {
     match parent {
         "mujoco" => Some(SECTIONS),
         "compiler" => Some(&[("lengthrange", Attributes::Any)]),

@@ -79,12 +79,12 @@ fn displacements_are_within_their_bounds() {
                 FramesAndRates::new(kinematics, &ends, 0.5 + random.random_range(-half..half));
             for (number, part) in parts.iter().enumerate() {
                 for seen_from in 0..part.frame {
-                    let Some(slot) =
+                    let Some(index) =
                         displacements.bound_index_seen_from(kinematics, number, seen_from)
                     else {
                         continue;
                     };
-                    let bound = displacements.bound(Some(slot));
+                    let bound = displacements.bound(Some(index));
                     for &point in part.points() {
                         let place = |frames: &[Frame]| {
                             frames[seen_from]

@@ -42,7 +42,8 @@ fn a_budget_is_for_a_whole_question() {
         let path: Vec<_> = (0..count)
             .map(|_| random_configuration(&mut random, cell.robot()))
             .collect();
-        // An interval is completed after the limit, and a least distance may use half as much again.
+        // The interval at which the limit is reached is still completed, and a least distance may use half as much
+        // again.
         let most = 12 * budget * (count - 1) + solver.search.pairs.count() as u64;
         let check_work = |solver: &CellSolver<'_>| {
             let work = solver.search.stop_condition.work();

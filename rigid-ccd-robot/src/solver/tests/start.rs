@@ -238,7 +238,7 @@ fn least_height(motion: &Motion, half: DVec3, time: f64) -> f64 {
 /// Tests random boxes on a slab that rise, slide or sink: the answer agrees with the engine, and before a contact no
 /// corner is lower than at the start.
 #[test]
-fn a_pair_that_is_let_go_answers_as_two_bodies_do() {
+fn a_pair_in_contact_at_the_start_answers_as_two_bodies_do() {
     let mut random = Pcg64::seed_from_u64(75);
     let (mut counts, mut later) = ([[0; 2]; 3], 0);
     for round in 0..600 {
@@ -413,7 +413,7 @@ fn a_pair_that_begins_inside_the_margin_may_part() {
 }
 
 #[test]
-fn questions_that_cannot_let_go_refuse_it() {
+fn questions_without_the_start_policy_leave_refuse_it() {
     let robot = robot_of(vec![slide([0.0, 0.0, 1.0])]);
     let obstacles = [("slab", slab(false), Pose::IDENTITY)];
     let cell = cell_with_can(
@@ -508,7 +508,7 @@ fn can_before_wall(from: f64, to: f64) -> Cell {
 /// Tests the order of two contacts, one of a pair in contact at the start and one of another pair. The search for one
 /// of them meets, at a midpoint, a contact that is later than the other one.
 #[test]
-fn of_a_pair_let_go_and_another_one_the_first_contact_is_told() {
+fn of_a_start_contact_and_another_one_the_first_is_reported() {
     let (high, low) = (0.3, -0.05);
     // On its way down, the can either hits a thin wall, or sinks into the table before it reaches a thick wall.
     for (wall, path, item, expected) in [
@@ -543,7 +543,7 @@ fn of_a_pair_let_go_and_another_one_the_first_contact_is_told() {
 
 /// Tests that the start policy allocates no memory after a similar question.
 #[test]
-fn letting_go_keeps_its_memory() {
+fn the_start_policy_leave_keeps_its_memory() {
     for as_mesh in [false, true] {
         let robot = robot_of(vec![slide([0.0, 0.0, 1.0])]);
         let obstacles = [("slab", slab(as_mesh), Pose::IDENTITY)];
