@@ -1,4 +1,4 @@
-//! A robot among obstacles.
+//! The planning scene: a robot among static obstacles.
 
 mod clusters;
 mod compared;
@@ -21,33 +21,34 @@ use rigid_ccd::{Body, Pose};
 use std::cmp::Ordering;
 use std::sync::{Arc, OnceLock};
 
-/// A robot among obstacles that rest in the frame of its base.
+/// A planning scene: a robot among obstacles that are static in the frame of its base.
 ///
-/// Obstacles and bodies that are attached to links go by their names, which no link has.
+/// Links, attached bodies and obstacles are identified by name. A name is unique in the cell.
 #[derive(Clone, Debug)]
 pub struct Cell {
     robot: Robot,
     pairs: LinkPairs,
     kinematics: Kinematics,
-    /// The bodies of the robot's links, then those attached to links, then the obstacles.
+    /// The bodies of the robot's links, then attached bodies, then obstacles. A body's index is its position in this
+    /// list.
     bodies: Vec<PlacedBody>,
-    /// The convex parts of all bodies, in the order of the bodies.
+    /// The convex parts of all bodies, sorted by body.
     parts: Vec<HullPart>,
     robot_part_count: usize,
-    /// Where the robot holds each of its bodies, in the order of the bodies.
+    /// The link and the pose of each body that the robot carries. Same indices as `bodies`.
     robot_body_placements: Vec<RobotBodyPlacement>,
     obstacle_names: Vec<String>,
     margins: Margins,
     allowed: AllowedPairs,
     size_scale: SizeScale,
-    /// A body of the smallest item, and the item's size; `None` in it if nothing has a size. It is found when it is first needed.
+    /// The smallest body of nonzero size: its index and its size. Computed when it is first needed.
     smallest_item: OnceLock<Option<(usize, f64)>>,
 }
 
-/// Where a robot holds a body.
+/// The link that carries a body, and the body's pose on it.
 #[derive(Clone, Debug)]
 struct RobotBodyPlacement {
-    /// The number of the link.
+    /// The index of the link.
     link: usize,
     /// The pose of the body in the link's frame.
     pose_in_link: Pose,
@@ -55,7 +56,7 @@ struct RobotBodyPlacement {
     attached_name: Option<String>,
 }
 
-/// A link of the robot, a body attached to a link, or an obstacle, by its name.
+/// The name of a link, of an attached body or of an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Item<'c> {
     /// A link.
@@ -74,21 +75,21 @@ impl<'c> Item<'c> {
     }
 }
 
-/// A body of a cell, at rest on a link.
+/// A body of a cell, and the link that carries it.
 #[derive(Clone, Copy, Debug)]
 pub struct CarriedBody<'c> {
-    /// What the body belongs to.
+    /// The link, attached body or obstacle that the body belongs to.
     pub item: Item<'c>,
     /// The body.
     pub body: &'c Body,
-    /// The number of the link that carries it: the base for an obstacle.
+    /// The index of the link that carries the body: the base for an obstacle.
     pub link: usize,
     /// The pose of the body in the frame of the link.
     pub pose: Pose,
 }
 
 impl Cell {
-    /// Creates a cell without obstacles. Pairs of links that are not checked may touch.
+    /// Creates a cell without obstacles. `pairs` says which pairs of links are checked against each other.
     pub fn new(robot: Robot, pairs: LinkPairs) -> Self {
         let kinematics = Kinematics::of_robot(&robot);
         let mut cell = Cell {
@@ -145,31 +146,33 @@ impl Cell {
     /// # Errors
     /// [`RobotError::NoSuchObstacle`], [`RobotError::TooFar`].
     pub fn move_obstacle(&mut self, name: &str, pose: Pose) -> Result<(), RobotError> {
-        let number = self.robot_body_placements.len() + self.obstacle_number(name)?;
+        let index = self.robot_body_placements.len() + self.obstacle_index(name)?;
         RobotError::check_pose("obstacle", name, &pose)?;
-        let moved = self.bodies[number].moved_to(pose);
-        self.replace(number, moved);
+        let moved = self.bodies[index].moved_to(pose);
+        self.replace(index, moved);
         Ok(())
     }
 
-    /// Removes an obstacle, together with the clearances and the allowed contacts that it had.
+    /// Removes an obstacle. Its clearances and allowed contacts are removed, too.
     ///
     /// # Errors
     /// [`RobotError::NoSuchObstacle`].
     pub fn remove_obstacle(&mut self, name: &str) -> Result<(), RobotError> {
-        let obstacle = self.obstacle_number(name)?;
+        let obstacle = self.obstacle_index(name)?;
         self.obstacle_names.remove(obstacle);
         self.remove(self.robot_body_placements.len() + obstacle);
         Ok(())
     }
 
-    /// Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. It moves with the
-    /// link. It may touch that link, links that no joint moves against it, and the links, attached bodies and obstacles that are
-    /// named; [`Cell::allow_contact`] allows more of them later.
+    /// Attaches a body to a link at a pose in the link's frame, such as an object in a gripper. The body moves with
+    /// the link.
+    ///
+    /// It may touch the link, the links that are fixed to it, and the items named in `may_touch`.
+    /// [`Cell::allow_contact`] allows further contacts later.
     ///
     /// # Errors
     /// [`RobotError::NameTaken`], [`RobotError::EmptyName`], [`RobotError::NoSuchLink`], [`RobotError::TooFar`], and
-    /// [`RobotError::NoSuchItem`] for what it may touch.
+    /// [`RobotError::NoSuchItem`] for an unknown name in `may_touch`.
     pub fn attach(
         &mut self,
         name: impl Into<String>,
@@ -183,27 +186,27 @@ impl Cell {
         let name = name.into();
         self.check_new_name(&name)?;
         RobotError::check_pose("attached body", &name, &pose)?;
-        let held = RobotBodyPlacement {
+        let placement = RobotBodyPlacement {
             link,
             pose_in_link: pose,
             attached_name: Some(name),
         };
-        let number = self.robot_body_placements.len();
-        self.add_robot_body(body.into(), held);
-        self.allow_contacts_of_attached(number, &may_touch);
+        let index = self.robot_body_placements.len();
+        self.add_robot_body(body.into(), placement);
+        self.allow_contacts_of_attached(index, &may_touch);
         Ok(())
     }
 
-    /// Removes a body that is attached to a link, together with the clearances and the allowed contacts that it had.
+    /// Removes an attached body. Its clearances and allowed contacts are removed, too.
     ///
     /// # Errors
     /// [`RobotError::NoSuchAttachedBody`].
     pub fn detach(&mut self, name: &str) -> Result<(), RobotError> {
-        let number = self.attached_body_number(name)?;
-        self.robot_body_placements.remove(number);
-        let parts = self.parts.iter().filter(|part| part.owner == number);
+        let index = self.attached_body_index(name)?;
+        self.robot_body_placements.remove(index);
+        let parts = self.parts.iter().filter(|part| part.owner == index);
         self.robot_part_count -= parts.count();
-        self.remove(number);
+        self.remove(index);
         Ok(())
     }
 
@@ -212,39 +215,39 @@ impl Cell {
         &self.robot
     }
 
-    /// Returns which pairs of links are checked.
+    /// Returns the pairs of links that are checked.
     pub fn link_pairs(&self) -> &LinkPairs {
         &self.pairs
     }
 
-    /// Returns the names of the obstacles, in the order in which they were added.
+    /// Returns the names of the obstacles in the order of their addition.
     pub fn obstacle_names(&self) -> impl ExactSizeIterator<Item = &str> {
         self.obstacle_names.iter().map(String::as_str)
     }
 
-    /// Returns the names of the bodies that are attached to links, in the order in which they were attached.
+    /// Returns the names of the attached bodies in the order of their attachment.
     pub fn attached_names(&self) -> impl Iterator<Item = &str> {
-        let held = self.robot_body_placements.iter();
-        held.filter_map(|held| held.attached_name.as_deref())
+        let placement = self.robot_body_placements.iter();
+        placement.filter_map(|placement| placement.attached_name.as_deref())
     }
 
-    /// Returns the link, the attached body or the obstacle that has a name.
+    /// Returns the link, attached body or obstacle with this name.
     ///
     /// # Errors
     /// [`RobotError::NoSuchItem`].
     pub fn item_named<'c>(&self, name: &'c str) -> Result<Item<'c>, RobotError> {
         if self.robot.link_number(name).is_ok() {
             Ok(Item::Link(name))
-        } else if self.attached_body_number(name).is_ok() {
+        } else if self.attached_body_index(name).is_ok() {
             Ok(Item::Attached(name))
-        } else if self.obstacle_number(name).is_ok() {
+        } else if self.obstacle_index(name).is_ok() {
             Ok(Item::Obstacle(name))
         } else {
             Err(RobotError::NoSuchItem { name: name.into() })
         }
     }
 
-    /// Returns the bodies of the cell in a configuration, each with what it belongs to and its pose in the frame of the base.
+    /// Returns all bodies at a configuration, each with its item and its pose in the base frame.
     ///
     /// # Errors
     /// [`RobotError::WrongPositionCount`], [`RobotError::InvalidPosition`].
@@ -252,32 +255,34 @@ impl Cell {
         &self,
         configuration: &[f64],
     ) -> Result<Vec<(Item<'_>, &Body, Pose)>, RobotError> {
-        let robot_bodies = self.robot_body_placements.iter().map(|held| {
+        let robot_bodies = self.robot_body_placements.iter().map(|placement| {
             let link = self
                 .robot
-                .pose(&self.robot.links()[held.link].name, configuration)?;
-            Ok::<Pose, RobotError>(link.compose(&held.pose_in_link))
+                .pose(&self.robot.links()[placement.link].name, configuration)?;
+            Ok::<Pose, RobotError>(link.compose(&placement.pose_in_link))
         });
         let obstacles = self.bodies[self.robot_body_count()..]
             .iter()
             .map(|placed| Ok(placed.pose));
         let poses = robot_bodies.chain(obstacles).enumerate();
-        let placed = poses.map(|(number, pose)| {
-            let body: &Body = &self.bodies[number].body;
-            Ok((self.item_of_body(number), body, pose?))
+        let placed = poses.map(|(index, pose)| {
+            let body: &Body = &self.bodies[index].body;
+            Ok((self.item_of_body(index), body, pose?))
         });
         placed.collect()
     }
 
-    /// Returns the bodies of the cell, in the order of [`Cell::placed_bodies`], each with the link that carries it.
+    /// Returns all bodies, each with the link that carries it. The order is that of [`Cell::placed_bodies`].
     pub fn carried_bodies(&self) -> impl ExactSizeIterator<Item = CarriedBody<'_>> {
         let bodies = self.bodies.iter().enumerate();
-        bodies.map(|(number, placed)| {
-            let held = self.robot_body_placements.get(number);
+        bodies.map(|(index, placed)| {
+            let placement = self.robot_body_placements.get(index);
             let on_base = (self.robot.base(), placed.pose);
-            let (link, pose) = held.map_or(on_base, |held| (held.link, held.pose_in_link));
+            let (link, pose) = placement.map_or(on_base, |placement| {
+                (placement.link, placement.pose_in_link)
+            });
             CarriedBody {
-                item: self.item_of_body(number),
+                item: self.item_of_body(index),
                 body: &placed.body,
                 link,
                 pose,
@@ -289,17 +294,17 @@ impl Cell {
         &self.kinematics
     }
 
-    /// Returns the bodies that the robot holds, followed by the obstacles.
+    /// Returns all bodies: those that the robot carries, then the obstacles.
     pub(crate) fn bodies(&self) -> &[PlacedBody] {
         &self.bodies
     }
 
-    /// Returns the number of bodies that the robot holds.
+    /// Returns the number of bodies that the robot carries.
     pub(crate) fn robot_body_count(&self) -> usize {
         self.robot_body_placements.len()
     }
 
-    /// Returns the convex parts of all bodies, in the order of the bodies.
+    /// Returns the convex parts of all bodies, sorted by body.
     pub(crate) fn parts(&self) -> &[HullPart] {
         &self.parts
     }
@@ -308,17 +313,17 @@ impl Cell {
         self.robot_part_count
     }
 
-    /// Returns the number of the link that holds one of the robot's bodies.
+    /// Returns the index of the link that carries a body of the robot.
     pub(crate) fn link_of(&self, body: usize) -> usize {
         self.robot_body_placements[body].link
     }
 
-    /// Returns the pose of one of the robot's bodies in its link.
+    /// Returns the pose of a body of the robot in the frame of its link.
     pub(crate) fn pose_in_link(&self, body: usize) -> Pose {
         self.robot_body_placements[body].pose_in_link
     }
 
-    /// Returns the name of what a body belongs to.
+    /// Returns the item that a body belongs to.
     pub(crate) fn item_of_body(&self, body: usize) -> Item<'_> {
         match self.robot_body_placements.get(body) {
             None => Item::Obstacle(&self.obstacle_names[body - self.robot_body_placements.len()]),
@@ -326,59 +331,59 @@ impl Cell {
                 attached_name: Some(name),
                 ..
             }) => Item::Attached(name),
-            Some(held) => Item::Link(&self.robot.links()[held.link].name),
+            Some(placement) => Item::Link(&self.robot.links()[placement.link].name),
         }
     }
 
-    /// Adds a body that the robot holds.
-    fn add_robot_body(&mut self, body: Arc<Body>, held: RobotBodyPlacement) {
-        let (frame, link_pose) = self.kinematics.link_frame_and_pose(held.link);
-        let pose = link_pose.compose(&held.pose_in_link);
+    /// Adds a body that the robot carries.
+    fn add_robot_body(&mut self, body: Arc<Body>, placement: RobotBodyPlacement) {
+        let (frame, link_pose) = self.kinematics.link_frame_and_pose(placement.link);
+        let pose = link_pose.compose(&placement.pose_in_link);
         let placed = PlacedBody::new(body, pose, frame, MAX_LINK_PARTS);
-        let number = self.robot_body_placements.len();
-        self.robot_body_placements.push(held);
-        self.robot_part_count += self.insert(number, placed);
+        let index = self.robot_body_placements.len();
+        self.robot_body_placements.push(placement);
+        self.robot_part_count += self.insert(index, placed);
         self.fit_planes();
     }
 
-    /// Inserts a body with its parts, and returns the number of the parts.
-    fn insert(&mut self, number: usize, placed: PlacedBody) -> usize {
-        let first = self.parts.partition_point(|part| part.owner < number);
+    /// Inserts a body and its parts at a body index. Returns the number of its parts.
+    fn insert(&mut self, index: usize, placed: PlacedBody) -> usize {
+        let first = self.parts.partition_point(|part| part.owner < index);
         for part in &mut self.parts[first..] {
             part.owner += 1;
         }
-        self.margins.insert_body(number);
+        self.margins.insert_body(index);
         self.allowed
-            .renumber(|body| Some(if body < number { body } else { body + 1 }));
-        let parts = placed.parts(number);
+            .reindex(|body| Some(if body < index { body } else { body + 1 }));
+        let parts = placed.parts(index);
         let count = parts.len();
         self.parts.splice(first..first, parts);
-        self.bodies.insert(number, placed);
+        self.bodies.insert(index, placed);
         self.smallest_item = OnceLock::new();
         count
     }
 
-    /// Replaces a body by one with as many parts.
-    fn replace(&mut self, number: usize, placed: PlacedBody) {
-        let parts = placed.parts(number);
-        let first = self.parts.partition_point(|part| part.owner < number);
+    /// Replaces a body. The new body must have the same number of parts.
+    fn replace(&mut self, index: usize, placed: PlacedBody) {
+        let parts = placed.parts(index);
+        let first = self.parts.partition_point(|part| part.owner < index);
         self.parts.splice(first..first + parts.len(), parts);
-        self.bodies[number] = placed;
+        self.bodies[index] = placed;
     }
 
-    fn remove(&mut self, number: usize) {
-        self.bodies.remove(number);
+    fn remove(&mut self, index: usize) {
+        self.bodies.remove(index);
         self.smallest_item = OnceLock::new();
-        let after_removal = |body: usize| match body.cmp(&number) {
+        let after_removal = |body: usize| match body.cmp(&index) {
             Ordering::Less => Some(body),
             Ordering::Equal => None,
             Ordering::Greater => Some(body - 1),
         };
-        self.margins.remove_body(number, after_removal);
-        self.allowed.renumber(after_removal);
-        self.parts.retain(|part| part.owner != number);
+        self.margins.remove_body(index, after_removal);
+        self.allowed.reindex(after_removal);
+        self.parts.retain(|part| part.owner != index);
         for part in &mut self.parts {
-            if part.owner > number {
+            if part.owner > index {
                 part.owner -= 1;
             }
         }
@@ -394,15 +399,16 @@ impl Cell {
         }
     }
 
-    fn obstacle_number(&self, name: &str) -> Result<usize, RobotError> {
-        let number = self.obstacle_names.iter().position(|other| other == name);
-        number.ok_or_else(|| RobotError::NoSuchObstacle { name: name.into() })
+    fn obstacle_index(&self, name: &str) -> Result<usize, RobotError> {
+        let index = self.obstacle_names.iter().position(|other| other == name);
+        index.ok_or_else(|| RobotError::NoSuchObstacle { name: name.into() })
     }
 
-    fn attached_body_number(&self, name: &str) -> Result<usize, RobotError> {
-        let has_name = |held: &RobotBodyPlacement| held.attached_name.as_deref() == Some(name);
-        let number = self.robot_body_placements.iter().position(has_name);
-        number.ok_or_else(|| RobotError::NoSuchAttachedBody { name: name.into() })
+    fn attached_body_index(&self, name: &str) -> Result<usize, RobotError> {
+        let has_name =
+            |placement: &RobotBodyPlacement| placement.attached_name.as_deref() == Some(name);
+        let index = self.robot_body_placements.iter().position(has_name);
+        index.ok_or_else(|| RobotError::NoSuchAttachedBody { name: name.into() })
     }
 }
 

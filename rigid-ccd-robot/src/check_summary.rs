@@ -1,4 +1,4 @@
-//! What of a robot is checked, in numbers.
+//! Summarises what is checked: counts of links, bodies and pairs.
 
 use crate::cell::Cell;
 use crate::pairs::LinkPairs;
@@ -7,40 +7,40 @@ use crate::robot::Robot;
 use crate::skip_reason::LeftOutPairs;
 use std::fmt;
 
-/// What of a robot, and of the cell around it, is compared with what.
+/// Counts what is checked of a robot or a cell. Its text is one line.
 ///
-/// [`LinkPairs::check_summary`] makes that of a robot, [`Cell::check_summary`] that of a cell. Its text is one line of counts.
+/// [`LinkPairs::check_summary`] creates it for a robot, [`Cell::check_summary`] for a cell.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct CheckSummary {
     /// The number of links.
     pub link_count: usize,
-    /// The number of bodies of links.
+    /// The number of bodies of all links, planes included.
     pub body_count: usize,
-    /// The number of links without bodies, which are compared with nothing.
+    /// The number of links without bodies. They are checked against nothing.
     pub bare_link_count: usize,
     /// The number of pairs of links that are checked.
     pub checked_pair_count: usize,
-    /// The pairs of links with bodies that are not checked, by reason.
+    /// The pairs of links with bodies that are not checked, grouped by reason.
     pub left_out_pairs: Vec<LeftOutPairs>,
-    /// What is around the robot; `None` for a robot alone.
+    /// Counts of the obstacles and attached bodies; `None` for a robot alone.
     pub surroundings: Option<Surroundings>,
 }
 
-/// What is around a robot, in numbers.
+/// Counts of what a cell holds besides its robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Surroundings {
     /// The number of obstacles.
     pub obstacle_count: usize,
-    /// The number of bodies that are attached to links.
+    /// The number of attached bodies.
     pub attached_count: usize,
-    /// The number of pairs that were allowed to touch, other than two links.
+    /// The number of pairs that are allowed to touch, except pairs of two links.
     pub allowed_contact_count: usize,
 }
 
 impl LinkPairs {
-    /// Returns what of a robot is checked; the pairs have to be those of this robot.
+    /// Returns the summary for a robot. The pairs must be those of this robot.
     pub fn check_summary(&self, robot: &Robot) -> CheckSummary {
         let links = robot.links().iter();
         CheckSummary {
@@ -58,7 +58,7 @@ impl LinkPairs {
 }
 
 impl Cell {
-    /// Returns what of the robot and of the cell is compared.
+    /// Returns the summary for the cell.
     pub fn check_summary(&self) -> CheckSummary {
         CheckSummary {
             surroundings: Some(Surroundings {

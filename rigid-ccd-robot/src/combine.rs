@@ -1,42 +1,43 @@
-//! Several robots as one.
+//! Combines several robots into one.
 
 use crate::error::RobotError;
 use crate::pairs::LinkPairs;
 use crate::robot::{CompoundKind, Joint, Link, PositionRule, Robot};
 use rigid_ccd::{Pose, trajectory};
 
-/// The name of the link that holds the bases of all robots that are combined. It gets underscores if a robot has one of that
-/// name.
+/// The name of the common base link. Underscores are appended if a robot already has a link of that name.
 const WORLD: &str = "world";
 
-/// A robot among others, with the place of its base.
+/// A robot, and where to place its base among other robots.
 #[derive(Clone, Copy, Debug)]
 pub struct PlacedRobot<'a> {
-    /// The name that the robot's links and joints have before theirs and a slash. Empty to keep their names.
+    /// The prefix of the robot's link and joint names, which a slash separates from them. Empty to keep the names.
     pub name: &'a str,
     /// The robot.
     pub robot: &'a Robot,
-    /// The pairs of its links that are checked.
+    /// The pairs of the robot's links that are checked.
     pub pairs: &'a LinkPairs,
-    /// The link that carries its base, by the name that it has among all robots, such as `arm/flange`; `None` for the world.
+    /// The link that carries the base, by its combined name, such as `arm/flange`; `None` for the world.
     pub carrier: Option<&'a str>,
-    /// The pose of its base in the world or on the link that carries it; of a base that moves when its positions are 0.
+    /// The pose of the base in the frame of the carrier or the world. For a moving base, the pose at positions 0.
     pub pose: Pose,
-    /// How its base moves there; `None` for one at rest.
+    /// How the base moves relative to its carrier; `None` for a fixed base.
     pub base_motion: Option<CompoundKind>,
 }
 
 impl Robot {
-    /// Combines robots to one, whose base is a link `world`. A configuration has the positions of the first robot, then those
-    /// of the second, and so on.
+    /// Combines robots into one robot, whose base is a link `world`. A configuration lists the positions of the first
+    /// robot, then those of the second, and so on.
     ///
-    /// The robots are checked against each other. Each has its own pairs of links that are checked. A base that moves has its
-    /// positions first, with names such as `cart/base/x`. An obstacle that moves is a robot of one link, with such a base. A gripper
-    /// is a robot that a link of an arm carries; it is not compared with links that never move against its base.
+    /// All robots are checked against each other. Within each robot, the pairs that were given for it are checked. The
+    /// positions of a moving base come first, with names such as `cart/base/x`.
+    ///
+    /// A moving obstacle is a robot of one link with a moving base. A gripper is a robot that a link of the arm
+    /// carries; it is not checked against the links that are fixed to its base.
     ///
     /// # Errors
-    /// [`RobotError`] for names that are not unique, carriers that are no links or that carry each other, a plane without a
-    /// normal, and pairs of another robot.
+    /// [`RobotError`] for repeated names, a carrier that is not a link, carriers that carry each other, a planar base
+    /// without a normal, and pairs of another robot.
     ///
     /// ```
     /// use rigid_ccd::{Body, Pose};
@@ -71,7 +72,7 @@ impl Robot {
         let mut links = vec![Link::named(&world)];
         let mut joints = Vec::new();
         let mut first_links = Vec::new();
-        // Links of moving bases come last, so that those of a robot keep their order.
+        // Links of moving bases come last, so that the order of each robot's links is kept.
         let mut base_links = Vec::new();
         for placed in robots {
             let carrier = placed.carrier.unwrap_or(&world);
@@ -120,7 +121,7 @@ impl PlacedRobot<'_> {
         links.map(|link| self.prefixed(&link.name))
     }
 
-    /// Returns a name with that of the robot before it.
+    /// Prefixes a name with the name of the robot.
     fn prefixed(&self, name: &str) -> String {
         match self.name {
             "" => name.to_owned(),
@@ -128,7 +129,7 @@ impl PlacedRobot<'_> {
         }
     }
 
-    /// Returns the joints between the link that carries the base and the base, with the links between them.
+    /// Returns the joints between the carrier and the base, and the links between them.
     fn base_joints(&self, carrier: &str) -> Result<(Vec<Link>, Vec<Joint>), RobotError> {
         let base = self.prefixed(&self.robot.links()[self.robot.base()].name);
         let mut name = self.prefixed("base");
@@ -148,19 +149,19 @@ impl PlacedRobot<'_> {
             name,
             parent: carrier.to_owned(),
             child: base,
-            axis_and_limits: trajectory::Joint::fixed(self.pose),
+            geometry: trajectory::Joint::fixed(self.pose),
             position_rule: PositionRule::Independent,
         };
         Ok((Vec::new(), vec![fixed]))
     }
 
-    /// Returns a joint of the robot, with its name before all names.
+    /// Returns a joint of the robot with all names prefixed.
     fn joint(&self, joint: &Joint) -> Joint {
         Joint {
             name: self.prefixed(&joint.name),
             parent: self.prefixed(&joint.parent),
             child: self.prefixed(&joint.child),
-            axis_and_limits: joint.axis_and_limits.clone(),
+            geometry: joint.geometry.clone(),
             position_rule: match &joint.position_rule {
                 PositionRule::Independent => PositionRule::Independent,
                 PositionRule::Follows {

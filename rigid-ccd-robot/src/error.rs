@@ -1,55 +1,56 @@
-//! Errors of robots: links and joints that form no tree, and positions that do not fit a robot.
+//! Errors of robots, cells and paths.
 
 use crate::path_point::PathPoint;
 use ccd_core::limits::MAX_COORDINATE;
 use rigid_ccd::{InputError, Pose};
 
-/// The reason why links and joints form no robot, or why a configuration does not fit a robot.
+/// The reason why links and joints do not make a robot, or why an input does not fit a robot or cell.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RobotError {
-    /// A link, an attached body or an obstacle has the name already.
+    /// The name is already in use by a link, an attached body or an obstacle.
     #[error("there is already a link, an attached body or an obstacle named `{name}`")]
     NameTaken {
-        /// The name that is given twice.
+        /// The name.
         name: String,
     },
-    /// Two things in a cell are never compared: both are obstacles, or they are the same.
+    /// Two items of a cell can never be checked: both are obstacles, no joint moves one relative to the other, or they
+    /// are the same.
     #[error("`{a}` and `{b}` are never compared")]
     NeverCompared {
-        /// The name of the first one.
+        /// The name of the first item.
         a: String,
-        /// The name of the second one.
+        /// The name of the second item.
         b: String,
     },
-    /// Pairs of links that are checked are not of the robot with which they are given.
+    /// The given pairs of links belong to another robot.
     #[error("the pairs of links given with robot `{robot}` are of another robot")]
     PairsOfAnotherRobot {
         /// The name of the robot.
         robot: String,
     },
-    /// An attached body or an obstacle has the empty text as its name.
+    /// The name of an attached body or obstacle is empty.
     #[error("an attached body or an obstacle needs a name that is not empty")]
     EmptyName,
-    /// Nothing in the cell has the given name.
+    /// The cell has no item with this name.
     #[error("there is no link, attached body or obstacle `{name}`")]
     NoSuchItem {
-        /// The name that nothing has.
+        /// The unknown name.
         name: String,
     },
-    /// No obstacle of the cell has the given name.
+    /// The cell has no obstacle with this name.
     #[error("there is no obstacle `{name}`")]
     NoSuchObstacle {
-        /// The name that no obstacle has.
+        /// The unknown name.
         name: String,
     },
-    /// No body with the given name is attached to a link.
+    /// The cell has no attached body with this name.
     #[error("there is no attached body `{name}`")]
     NoSuchAttachedBody {
-        /// The name that no attached body has.
+        /// The unknown name.
         name: String,
     },
-    /// The robot has no links; it needs at least its base.
+    /// The robot has no links. It needs at least its base.
     #[error("the robot has no links")]
     NoLinks,
     /// Two links have the same name.
@@ -64,10 +65,10 @@ pub enum RobotError {
         /// The name of both joints.
         joint: String,
     },
-    /// No link of the robot has the given name.
+    /// The robot has no link with this name.
     #[error("there is no link `{link}`")]
     NoSuchLink {
-        /// The name that no link has.
+        /// The unknown name.
         link: String,
     },
     /// A link is the child of two joints.
@@ -78,15 +79,17 @@ pub enum RobotError {
         /// The name of the second joint that has the link as its child.
         joint: String,
     },
-    /// Several links are the child of no joint, so that the tree has several parts.
-    #[error("links `{first_base}` and `{second_base}` both hang on no joint; a robot has one base")]
+    /// Several links are not the child of any joint, so the robot is not one tree.
+    #[error(
+        "links `{first_base}` and `{second_base}` are both children of no joint; a robot has one base"
+    )]
     TwoBases {
-        /// The name of the first base.
+        /// The name of one base.
         first_base: String,
-        /// The name of the second base.
+        /// The name of another base.
         second_base: String,
     },
-    /// A link is the parent and the child of no joint, though the robot has joints.
+    /// A link is neither the parent nor the child of a joint, although the robot has joints.
     #[error(
         "link `{link}` has no joint, and a robot has one base, `{base}`; is it the name of the link that was meant?"
     )]
@@ -96,7 +99,7 @@ pub enum RobotError {
         /// The name of the base.
         base: String,
     },
-    /// The lower limit of a joint is above the upper one, or one of them is not a number.
+    /// The lower limit of a joint is above the upper one, or a limit is NaN.
     #[error("joint `{joint}`: its limits are {low} and {high}; give the lower one first")]
     InvalidLimits {
         /// The name of the joint.
@@ -106,66 +109,69 @@ pub enum RobotError {
         /// The upper limit.
         high: f64,
     },
-    /// A joint is [reversed](rigid_ccd::trajectory::Joint::reversed).
+    /// The joint is [reversed](rigid_ccd::trajectory::Joint::reversed).
     #[error("joint `{joint}` is reversed; exchange its parent and its child instead")]
     ReversedJoint {
         /// The name of the joint.
         joint: String,
     },
-    /// A joint moves a link with a plane. Such a half-space would be everywhere at once.
-    #[error("link `{link}` has a plane, and a joint moves it; only a link at rest has planes")]
+    /// A joint moves a link that has a plane. Planes must be static.
+    #[error("link `{link}` has a plane, and a joint moves it; only a static link may have planes")]
     MovingPlane {
         /// The name of the link with the plane.
         link: String,
     },
-    /// Joints form a loop.
-    #[error("link `{link}` is in a loop of joints; loops are no tree")]
+    /// Joints form a loop, so the robot is not a tree.
+    #[error("link `{link}` is in a loop of joints; a robot is a tree, without loops")]
     Loop {
         /// The name of a link in the loop.
         link: String,
     },
-    /// A joint follows another joint that does not exist.
+    /// A joint follows a joint that does not exist.
     #[error("joint `{joint}` follows `{followed_joint}`, but there is no such joint")]
     NoSuchMimicJoint {
-        /// The name of the joint that was to follow another joint.
+        /// The name of the joint that follows.
         joint: String,
-        /// The name that no joint has.
+        /// The unknown name.
         followed_joint: String,
     },
-    /// A joint follows another joint that has no position, or follows the first joint in turn.
+    /// A joint follows a joint without a position of its own: a fixed joint, or one that directly or indirectly
+    /// follows itself.
     #[error("joint `{joint}` follows `{followed_joint}`, which has no position of its own")]
     InvalidMimicJoint {
-        /// The name of the joint that was to follow another joint.
+        /// The name of the joint that follows.
         joint: String,
-        /// The name of the joint that was to be followed.
+        /// The name of the followed joint.
         followed_joint: String,
     },
-    /// A configuration does not have exactly one position for each joint with a position of its own.
+    /// A configuration has the wrong number of positions. It needs one for each joint with a position of its own.
     #[error("{given_count} positions for {expected_count} joints: {joint_names}")]
     WrongPositionCount {
         /// The number of positions in the configuration.
         given_count: usize,
-        /// The number of joints with a position of their own: those that are neither fixed nor follow another joint.
+        /// The number of joints with a position of their own. Fixed joints and joints that follow another one have
+        /// none.
         expected_count: usize,
         /// The names of the joints with a position of their own, separated by commas.
         joint_names: String,
     },
-    /// A position is outside of its joint's limits or not finite, or the rule of a joint that follows another one is not.
+    /// A position is outside its joint's limits or not finite, or the multiplier or offset of a mimic joint is not
+    /// finite.
     #[error("joint `{joint}`: {error}")]
     InvalidPosition {
-        /// The name of the joint whose position is refused.
+        /// The name of the joint.
         joint: String,
-        /// The reason why the position is refused.
+        /// The reason.
         error: InputError,
     },
-    /// A joint, a body of a link, an attached body or an obstacle is too far from the frame that it is in.
+    /// A joint, body, plane or obstacle is too far from the origin of its frame.
     #[error(
         "{what} `{name}` has a coordinate of {coordinate}; coordinates are within {MAX_COORDINATE:e} of 0"
     )]
     TooFar {
-        /// What it is.
+        /// The kind of the element, such as `joint`.
         what: &'static str,
-        /// The name of the joint, the link, the body or the obstacle.
+        /// The name of the element, or of the link that it belongs to.
         name: String,
         /// The coordinate.
         coordinate: f64,
@@ -176,7 +182,7 @@ pub enum RobotError {
 }
 
 impl RobotError {
-    /// Refuses a pose that is too far from the origin of its frame.
+    /// Checks that a pose is not too far from the origin of its frame.
     pub(crate) fn check_pose(what: &'static str, name: &str, pose: &Pose) -> Result<(), Self> {
         let coordinates = pose.translation().to_array();
         match coordinates
@@ -193,14 +199,14 @@ impl RobotError {
     }
 }
 
-/// The error of a question about a cell of which no pair is compared: whatever its answer, it would be about nothing.
+/// The error of a question about a cell in which no pair is checked. Any answer would say nothing.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "nothing is compared in this cell: {checked}; an obstacle is compared with links that have bodies and move, and a clearance \
      between two links checks them"
 )]
 pub struct NothingCompared {
-    /// What is checked and what is left out, by [`CheckSummary`](crate::CheckSummary).
+    /// The text of the [`CheckSummary`](crate::CheckSummary).
     pub checked: String,
 }
 
@@ -214,91 +220,91 @@ pub enum PathError {
     /// A configuration does not fit the robot.
     #[error("configuration {configuration_index} of the path: {error}")]
     InvalidConfiguration {
-        /// The number of the configuration, from 0.
+        /// The index of the configuration.
         configuration_index: usize,
-        /// The reason why it does not fit.
+        /// The reason.
         error: RobotError,
     },
-    /// A curve has another number of joints than the robot, or a joint leaves its limits on it.
+    /// A curve has the wrong number of joints, or a joint leaves its limits on it.
     #[error("segment {}, after {} of it: {error}", .at.segment, .at.share)]
     InvalidCurvePoint {
-        /// Where on the curve.
+        /// The point of the curve.
         at: PathPoint,
-        /// What is wrong there.
+        /// The reason.
         error: RobotError,
     },
-    /// Joints slide so far that a body may leave the place in which a plane is certain to have no end.
+    /// Prismatic joints may move a body beyond the range in which a plane's box acts as a half-space.
     #[error(
-        "a body may get {distance} from the base, and planes end {reach} from it; give the joints that slide limits"
+        "a body may be up to {distance} from the base, beyond the reach {reach} of the planes; limit the prismatic joints"
     )]
     BeyondPlane {
-        /// A bound of how far any body gets from the base on the path.
+        /// An upper bound of the distance of any body from the base on the path.
         distance: f64,
-        /// How far from the base planes are certain to have no end.
+        /// The distance from the base up to which planes are valid.
         reach: f64,
     },
-    /// A joint that follows another one by a large factor jumps.
+    /// A joint jumps: it follows another one, and its multiplier enlarges a jump of the curve.
     #[error(transparent)]
     Curve(#[from] CurveError),
-    /// A number of the [`RangeSettings`](crate::RangeSettings) is out of its range.
+    /// A range setting is out of its range.
     #[error("{name}: {value} is not {allowed}")]
     InvalidRangeSetting {
-        /// The name of the number.
+        /// The name of the setting.
         name: &'static str,
-        /// The number.
+        /// The value.
         value: f64,
-        /// The values that are allowed.
+        /// The allowed values.
         allowed: &'static str,
     },
-    /// No pair of the cell is compared.
+    /// No pair of the cell is checked.
     #[error(transparent)]
     NothingCompared(#[from] NothingCompared),
-    /// A question does not take a setting.
+    /// The question does not support a setting.
     #[error("this question does not take {setting}")]
     UnsupportedSetting {
-        /// The setting, and which questions take it.
+        /// The setting, and which questions support it.
         setting: &'static str,
     },
-    /// An answer about a distance was asked for its contact.
-    #[error("the answer is a distance, which knows no margin: ask for a contact")]
+    /// The contact of an answer about a distance was requested.
+    #[error("the answer is a distance and has no contact; ask for the first or any contact")]
     NoContactAsked,
-    /// A question is none about paths.
-    #[error("{question} is no question about a path")]
+    /// The question cannot be asked about a path.
+    #[error("{question} cannot be asked about a path")]
     UnsupportedQuestion {
         /// The question.
         question: rigid_ccd::Question,
     },
-    /// A query is invalid, or reached a limit.
+    /// A query is invalid or reached a limit.
     #[error(transparent)]
     Query(#[from] rigid_ccd::Error),
 }
 
-/// The reason why polynomials form no [`JointCurve`](crate::JointCurve).
+/// The reason why polynomials do not make a [`JointCurve`](crate::JointCurve).
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CurveError {
-    /// A curve needs at least two times.
+    /// The curve has fewer than two times.
     #[error("a curve needs at least two times, not {count}")]
     TooFewTimes {
         /// The number of times.
         count: usize,
     },
-    /// The end of a segment is not after its start.
+    /// A segment does not end after its start.
     #[error("the times of segment {segment} do not increase, or are not finite")]
     TimesNotIncreasing {
-        /// The number of the segment.
+        /// The index of the segment.
         segment: usize,
     },
-    /// There are more or fewer segments, configurations or joints than needed.
+    /// The number of segments, configurations or joints does not match.
     #[error("{given} {what} instead of {expected}, at {index}")]
     WrongCount {
-        /// What is counted.
+        /// The kind of what was counted.
         what: &'static str,
-        /// The number of the segment or of the configuration.
+        /// The index of the segment or configuration.
         index: usize,
-        /// The number given.
+        /// The given number.
         given: usize,
-        /// The number needed.
+        /// The expected number.
         expected: usize,
     },
     /// The degree of a polynomial is too high.
@@ -307,22 +313,22 @@ pub enum CurveError {
         /// The degree.
         degree: usize,
     },
-    /// A coefficient of a polynomial is not finite.
+    /// A coefficient is not finite.
     #[error("segment {segment}: a coefficient of joint {joint} is not finite")]
     NotFinite {
-        /// The number of the segment.
+        /// The index of the segment.
         segment: usize,
-        /// The number of the joint in a configuration.
+        /// The index of the joint's position in a configuration.
         joint: usize,
     },
-    /// A joint is elsewhere at the start of a segment than at the end of the one before.
+    /// The position of a joint at the start of a segment differs from that at the end of the previous segment.
     #[error("joint {joint} jumps by {jump} at the start of segment {segment}")]
     Jump {
-        /// The number of the segment.
+        /// The index of the segment.
         segment: usize,
-        /// The number of the joint in a configuration.
+        /// The index of the joint's position in a configuration.
         joint: usize,
-        /// The size of the jump.
+        /// The difference.
         jump: f64,
     },
 }

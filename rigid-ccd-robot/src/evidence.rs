@@ -1,4 +1,4 @@
-//! Records of answers about paths, to be kept where a motion was stopped, and to be asked again later.
+//! Records of answers about paths, for example of a motion that was stopped. A record can be replayed later.
 
 mod digest;
 mod replay;
@@ -14,12 +14,12 @@ use digest::{body_digest, pairs_digest};
 use rigid_ccd::{Pose, Settings, StartPolicy};
 use serde::{Deserialize, Serialize};
 
-/// What the records of this version begin with.
+/// The format name and version at the start of each record.
 const FORMAT: &str = "rigid-ccd evidence 1";
 
-/// A record of the first contact on a path: what was asked, of which bodies, and what the answer was.
+/// A record of the first contact on a path: the question, digests of the bodies, and the answer.
 ///
-/// It holds digests of the bodies, not the bodies: a replay needs the same cell.
+/// The bodies themselves are not stored: a replay needs the same cell.
 ///
 /// ```
 /// # use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, PositionRule, Robot};
@@ -29,7 +29,7 @@ const FORMAT: &str = "rigid-ccd evidence 1";
 /// # let hinge = rigid_ccd::trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 1.0, 0.0])?;
 /// # let joint = Joint {
 /// #     name: "hinge".into(), parent: "base".into(), child: "arm".into(),
-/// #     axis_and_limits: hinge, position_rule: PositionRule::Independent,
+/// #     geometry: hinge, position_rule: PositionRule::Independent,
 /// # };
 /// # let robot = Robot::new(links, vec![joint])?;
 /// # let pairs = LinkPairs::from_robot(&robot);
@@ -57,13 +57,13 @@ pub struct Evidence {
     pub path: RecordedPath,
     /// The answer.
     pub answer: RecordedAnswer,
-    /// All bodies, those of the robot first.
+    /// All bodies: those of the robot, then the obstacles.
     pub bodies: Vec<RecordedBody>,
-    /// The digest of which bodies are compared, and of the distances at which they count as touching.
+    /// The digest of the checked pairs and of the distances at which they count as touching.
     pub pairs_sha256: String,
 }
 
-/// The settings of a question that its answer depends on.
+/// The settings on which an answer depends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordedSettings {
@@ -75,7 +75,7 @@ pub struct RecordedSettings {
     pub budget: u64,
     /// The deadline in seconds, if there was one.
     pub deadline: Option<f64>,
-    /// The policy for pairs in contact at the start; a record without one is of a question that reported them.
+    /// The policy for pairs in contact at the start. A record without it means [`StartPolicy::Report`].
     #[serde(
         default,
         with = "start_policy",
@@ -84,7 +84,7 @@ pub struct RecordedSettings {
     pub start: StartPolicy,
 }
 
-/// A path, with all its numbers.
+/// The path of a record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum RecordedPath {
@@ -94,54 +94,54 @@ pub enum RecordedPath {
     Curve(JointCurve),
 }
 
-/// The answer about a path.
+/// The answer of a record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum RecordedAnswer {
     /// Nothing touches.
     Free,
-    /// Two items touch at a point, and nothing touches before.
+    /// Two items touch at a point, and nothing touches before it.
     Contact {
-        /// The number of the segment.
+        /// The index of the point's segment.
         segment: usize,
-        /// The share of the segment that is passed.
+        /// The fraction of the segment before the point.
         share: f64,
         /// The names of both items.
         items: [String; 2],
     },
-    /// A limit was reached; nothing touches before a point.
+    /// A limit was reached. Nothing touches before a point.
     Unresolved {
         /// The name of the limit.
         limit: String,
-        /// The number of the segment of that point.
+        /// The index of the point's segment.
         segment: usize,
-        /// The share of the segment that is free.
+        /// The fraction of the segment before the point.
         share: f64,
     },
 }
 
-/// A body of the cell.
+/// A body of a record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordedBody {
     /// The link, attached body or obstacle that it belongs to.
     pub item: String,
-    /// The digest of its pieces.
+    /// The digest of its shape.
     pub sha256: String,
     /// Its position at the start of the path, in the frame of the robot's base.
     pub position: [f64; 3],
-    /// Its orientation there, a quaternion in the order x, y, z, w.
+    /// Its orientation there, as a quaternion in the order x, y, z, w.
     pub orientation: [f64; 4],
 }
 
 impl RecordedPath {
-    /// Records configurations.
+    /// Creates a record of a path through configurations.
     pub fn configurations<Q: AsRef<[f64]>>(configurations: &[Q]) -> Self {
         let copies = configurations.iter().map(|own| own.as_ref().to_vec());
         RecordedPath::Configurations(copies.collect())
     }
 
-    /// Returns the configuration at the start; `None` if there is none.
+    /// Returns the first configuration; `None` for an empty path.
     fn start(&self) -> Option<Vec<f64>> {
         match self {
             RecordedPath::Configurations(all) => all.first().cloned(),
@@ -176,7 +176,7 @@ impl TryFrom<&PathAnswer<'_>> for RecordedAnswer {
 }
 
 impl RecordedAnswer {
-    /// Returns the point before which nothing touches; `None` if nothing touches on the whole path.
+    /// Returns the point before which nothing touches; `None` if the whole path is free.
     pub fn free_until(&self) -> Option<PathPoint> {
         match *self {
             RecordedAnswer::Free => None,
@@ -189,7 +189,7 @@ impl RecordedAnswer {
 }
 
 impl Evidence {
-    /// Makes a record of an answer to [`first_contact`](crate::CellSolver::first_contact).
+    /// Creates a record of an answer to [`first_contact`](crate::CellSolver::first_contact).
     ///
     /// # Errors
     /// [`EvidenceError::Path`] for a path that does not fit the robot.
@@ -216,15 +216,15 @@ impl Evidence {
         })
     }
 
-    /// Returns the record as JSON, in which every number reads back as the same number.
+    /// Returns the record as JSON. Every number reads back exactly.
     ///
     /// # Errors
-    /// Never for a record of an answer: its numbers are finite.
+    /// Never for a record of an answer, because its numbers are finite.
     pub fn to_json(&self) -> Result<String, EvidenceError> {
         Ok(serde_json::to_string_pretty(self)?)
     }
 
-    /// Reads a record.
+    /// Reads a record from JSON.
     ///
     /// # Errors
     /// [`EvidenceError::NoRecord`] and [`EvidenceError::OtherFormat`].
@@ -238,7 +238,7 @@ impl Evidence {
     }
 }
 
-/// Returns all bodies of a cell, with their poses at the start of a path.
+/// Returns all bodies of a cell, at their poses at the start of a path.
 fn bodies_at_start(cell: &Cell, path: &RecordedPath) -> Result<Vec<RecordedBody>, EvidenceError> {
     let start = path.start().ok_or(EvidenceError::EmptyPath)?;
     let placed = cell.placed_bodies(&start).map_err(EvidenceError::Path)?;

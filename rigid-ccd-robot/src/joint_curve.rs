@@ -1,4 +1,4 @@
-//! Paths whose joints follow polynomials of the time, as controllers run them.
+//! Paths of polynomials in time, such as controllers execute.
 
 mod b_spline;
 
@@ -12,17 +12,17 @@ use rigid_ccd::InputError;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-/// The largest jump of a joint from one segment to the next, in radians or as a length, beyond what is rounded. Splines are
-/// rounded where they are made; a jump of this size is no motion that a path leaves out.
+/// The largest accepted jump of a joint between segments, in radians or as a length, beyond rounding. Splines have
+/// small jumps from rounding when they are created. The motion that is skipped in such a jump need not be checked.
 const MAX_JUMP: f64 = 1e-9;
 
-/// The number of times that a segment is halved to find out whether a joint leaves its limits.
+/// The number of halvings of a segment in the search for a point outside the joint limits.
 const MAX_LIMIT_HALVINGS: u32 = 20;
 
-/// A path of a robot whose joints follow polynomials of the time, segment by segment.
+/// A path on which each joint follows a piecewise polynomial in time.
 ///
-/// All questions of a [`CellSolver`](crate::CellSolver) take one as a path. Points of it are a segment, and a share of the
-/// segment's time.
+/// A [`CellSolver`](crate::CellSolver) answers all its questions about curves. A [`PathPoint`] on a curve is a segment
+/// index and the elapsed fraction of the segment's duration.
 ///
 /// ```
 /// use rigid_ccd_robot::JointCurve;
@@ -34,18 +34,18 @@ const MAX_LIMIT_HALVINGS: u32 = 20;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "CurveNumbers")]
 pub struct JointCurve {
-    /// The times at which segments begin, and the end of the last one.
+    /// The start time of each segment, and the end time of the last one.
     times: Vec<f64>,
     joint_count: usize,
     degree: usize,
-    /// The coefficients of each segment, of powers of the share of its time; for each power, lowest first, those of all
-    /// joints.
+    /// The coefficients, by segment, then by power (lowest first), then by joint. The variable is the elapsed fraction
+    /// of the segment's duration.
     coefficients: Vec<f64>,
-    /// What rounding to f64 has left of each coefficient.
+    /// The rounding error of each coefficient: its exact value minus the f64 in `coefficients`.
     low_coefficients: Vec<f64>,
 }
 
-/// The numbers of a curve that was stored, which are not checked yet.
+/// The deserialised numbers of a curve, before validation.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct CurveNumbers {
@@ -53,7 +53,7 @@ struct CurveNumbers {
     joint_count: usize,
     degree: usize,
     coefficients: Vec<f64>,
-    /// Curves that were stored without them have none.
+    /// Empty if the curve was stored without them.
     #[serde(default)]
     low_coefficients: Vec<f64>,
 }
@@ -92,19 +92,20 @@ impl TryFrom<CurveNumbers> for JointCurve {
 }
 
 impl JointCurve {
-    /// Creates a curve from polynomials of the time since each segment's start: for each segment and each joint with a position
-    /// of its own its coefficients, that of the lowest power first.
+    /// Creates a curve from polynomials. `segments[i][j]` lists the coefficients of segment `i` and joint `j`, lowest
+    /// power first, where `j` counts the joints with a position of their own. The variable is the time since the start
+    /// of the segment.
     ///
-    /// Where a joint jumps by less than 1e-9 from one segment to the next, what lies between is not checked.
+    /// A joint may jump by up to 1e-9 between segments. The positions skipped by the jump are not checked.
     ///
     /// # Errors
-    /// [`CurveError`] for numbers that are not finite, times that do not increase, numbers of segments, joints or coefficients
-    /// that do not fit, a degree of more than 9, and joints that jump from one segment to the next by more than 1e-9.
+    /// [`CurveError`] for numbers that are not finite, times that do not increase, wrong numbers of segments, joints
+    /// or coefficients, a degree above 9, and jumps of more than 1e-9.
     pub fn from_polynomials(times: &[f64], segments: &[Vec<Vec<f64>>]) -> Result<Self, CurveError> {
         let joint_count = segments.first().map_or(0, Vec::len);
         let joints = segments.iter().flatten();
         let degree = joints.map(|own| own.len().saturating_sub(1)).max();
-        // Constants are straight lines, too.
+        // A constant is stored as a polynomial of degree 1.
         let degree = degree.unwrap_or(0).max(1);
         if degree > MAX_DEGREE {
             return Err(CurveError::DegreeTooHigh { degree });
@@ -119,7 +120,7 @@ impl JointCurve {
             let duration = DoubleDouble::difference(span[1], span[0]);
             let mut scale = DoubleDouble::from(1.0);
             for power in 0..=degree {
-                // A lower degree has zeros above it.
+                // Missing higher coefficients are 0.
                 let own = joints.iter().map(|own| own.get(power).copied());
                 coefficients.extend(own.map(|own| DoubleDouble::from(own.unwrap_or(0.0)) * scale));
                 scale = scale * duration;
@@ -128,10 +129,10 @@ impl JointCurve {
         JointCurve::from_coefficients(times, (joint_count, degree), coefficients)
     }
 
-    /// Creates a curve of cubic polynomials through configurations, with the velocities there.
+    /// Creates a piecewise cubic curve from positions and velocities at given times.
     ///
     /// # Errors
-    /// As of [`JointCurve::from_polynomials`].
+    /// The same as [`JointCurve::from_polynomials`].
     pub fn cubic_hermite<Q: AsRef<[f64]>>(
         times: &[f64],
         positions: &[Q],
@@ -144,10 +145,10 @@ impl JointCurve {
         })
     }
 
-    /// Creates a curve of quintic polynomials through configurations, with the velocities and accelerations there.
+    /// Creates a piecewise quintic curve from positions, velocities and accelerations at given times.
     ///
     /// # Errors
-    /// As of [`JointCurve::from_polynomials`].
+    /// The same as [`JointCurve::from_polynomials`].
     pub fn quintic_hermite<Q: AsRef<[f64]>>(
         times: &[f64],
         positions: &[Q],
@@ -169,8 +170,8 @@ impl JointCurve {
         })
     }
 
-    /// Creates a curve from the derivatives of all joints at the ends of each segment, by a function that returns a joint's
-    /// coefficients from its derivatives by the share at both ends.
+    /// Creates a curve from the derivatives of all joints at given times. `interpolate` computes a joint's
+    /// coefficients from its derivatives at both ends of a segment, taken with respect to the elapsed fraction.
     fn hermite<Q: AsRef<[f64]>, const ORDERS: usize, const COUNT: usize>(
         times: &[f64],
         derivatives: [&[Q]; ORDERS],
@@ -224,7 +225,7 @@ impl JointCurve {
         .checked()
     }
 
-    /// Refuses numbers that are not finite, and jumps.
+    /// Checks that all coefficients are finite and that no joint jumps.
     fn checked(self) -> Result<Self, CurveError> {
         for segment in 0..self.segment_count() {
             for joint in 0..self.joint_count {
@@ -238,7 +239,8 @@ impl JointCurve {
         Ok(self)
     }
 
-    /// Refuses a jump at the start of a segment of a joint that moves by `factor` times the given positions.
+    /// Checks that a joint does not jump at the start of a segment. `factor` is the multiplier from the given joint to
+    /// the joint that moves.
     fn check_jump(&self, segment: usize, joint: usize, factor: f64) -> Result<(), CurveError> {
         let Some(before) = segment.checked_sub(1) else {
             return Ok(());
@@ -264,12 +266,12 @@ impl JointCurve {
         self.times.len() - 1
     }
 
-    /// Returns the times at which segments begin, and the end of the last one.
+    /// Returns the start time of each segment, and the end time of the last one.
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// Returns the time of a point of the curve, rounded down: nothing touches before the time of a first contact.
+    /// Returns the time of a point, rounded down, so that it is not after the point.
     pub fn time(&self, point: PathPoint) -> f64 {
         let [from, to] = self.time_span(point);
         if point.share >= 1.0 {
@@ -281,7 +283,7 @@ impl JointCurve {
         )
     }
 
-    /// Returns the time of a point of the curve, rounded up.
+    /// Returns the time of a point, rounded up.
     pub fn latest_time(&self, point: PathPoint) -> f64 {
         let [from, to] = self.time_span(point);
         if point.share <= 0.0 {
@@ -293,13 +295,13 @@ impl JointCurve {
         )
     }
 
-    /// Returns the start and the end of the segment of a point.
+    /// Returns the start and end times of a point's segment.
     fn time_span(&self, point: PathPoint) -> [f64; 2] {
         let segment = point.segment.min(self.segment_count() - 1);
         [self.times[segment], self.times[segment + 1]]
     }
 
-    /// Returns the positions of all joints at a time; before the start and after the end, those there.
+    /// Returns the positions of all joints at a time. A time outside the curve is clamped to its nearest end.
     pub fn positions(&self, time: f64) -> Vec<f64> {
         let later = &self.times[1..self.segment_count()];
         let segment = later.partition_point(|&start| start <= time);
@@ -315,7 +317,7 @@ impl JointCurve {
         self.degree
     }
 
-    /// Returns the coefficient of a joint for one power of the share of a segment.
+    /// Returns the coefficient of one power for a joint in a segment.
     pub(crate) fn coefficient(&self, segment: usize, power: usize, joint: usize) -> DoubleDouble {
         let number = (segment * (self.degree + 1) + power) * self.joint_count + joint;
         DoubleDouble::from_parts([self.coefficients[number], self.low_coefficients[number]])
@@ -325,7 +327,7 @@ impl JointCurve {
         Polynomial::new(self.degree, |power| self.coefficient(segment, power, joint))
     }
 
-    /// Refuses a curve with a wrong number of joints, or one on which a joint leaves its limits.
+    /// Checks that the curve has the robot's number of joints, and that every joint stays within its limits.
     pub(crate) fn check_for_robot(&self, robot: &Robot) -> Result<(), PathError> {
         let start = PathPoint {
             segment: 0,
@@ -341,7 +343,7 @@ impl JointCurve {
             }
             for (joint, [low, high]) in robot.limits().enumerate() {
                 let polynomial = self.polynomial(segment, joint);
-                let Some((share, position)) = find_outside(&polynomial, [low, high]) else {
+                let Some((share, position)) = find_limit_violation(&polynomial, [low, high]) else {
                     continue;
                 };
                 let error = InputError::JointOutOfLimits {
@@ -359,20 +361,20 @@ impl JointCurve {
     }
 }
 
-/// Bounds the rounding error of a time between two others. A difference, a product and two sums are rounded, relative to at most
-/// twice the larger of both.
+/// Bounds the rounding error of a time between two others. A difference, a product and two sums are rounded, each
+/// relative to at most twice the larger of both.
 fn time_rounding([from, to]: [f64; 2]) -> f64 {
     4.0 * f64::EPSILON * greater(from.abs(), to.abs())
 }
 
-/// Finds a share at which a polynomial is outside of limits, by more than it is rounded, and its value there. It looks at both
-/// ends, and at middles of ranges that may leave the limits, down to a millionth of the segment; no proof depends on it.
-fn find_outside(polynomial: &Polynomial, [low, high]: [f64; 2]) -> Option<(f64, f64)> {
+/// Finds a point where a polynomial exceeds limits by more than its rounding error: returns its share of the segment
+/// and the value there. Searches by halving, down to a millionth of the segment. No proof depends on it.
+fn find_limit_violation(polynomial: &Polynomial, [low, high]: [f64; 2]) -> Option<(f64, f64)> {
     let rounding = polynomial.rounding_of_coefficients();
     let [low, high] = [low - rounding, high + rounding];
     for share in [0.0, 1.0] {
         let value = polynomial.value(share);
-        // Written so that NaN is outside.
+        // Written so that NaN is outside the limits.
         if !(low <= value && value <= high) {
             return Some((share, value));
         }
@@ -381,9 +383,12 @@ fn find_outside(polynomial: &Polynomial, [low, high]: [f64; 2]) -> Option<(f64, 
     open.push((0.0, 1.0, 0));
     while let Some((from, to, halvings)) = open.pop() {
         let middle = 0.5 * (from + to);
-        let about = polynomial.about(middle);
-        let (value, deviation) = (about.constant(), about.deviation_bound(0.5 * (to - from)));
-        // Written so that NaN is outside.
+        let expanded = polynomial.expanded_about(middle);
+        let (value, deviation) = (
+            expanded.constant(),
+            expanded.deviation_bound(0.5 * (to - from)),
+        );
+        // Written so that NaN is outside the limits.
         if !(low <= value && value <= high) {
             return Some((middle, value));
         }

@@ -1,4 +1,4 @@
-//! The frames of all moving links at one configuration.
+//! Forward kinematics: the frames of all moving links at a configuration.
 
 pub(crate) mod magnitude;
 
@@ -9,41 +9,41 @@ use rigid_ccd::glam::{DMat3, DVec3};
 use rigid_ccd::oracle::Frame;
 use rigid_ccd::trajectory::JointKind;
 
-/// The joints of a robot that move, each after those nearer to the base. Joint `k` moves frame `k + 1`; frame 0 is the
-/// base.
+/// The moving joints of a robot, parents first. Joint `k` moves frame `k + 1`; frame 0 is the base.
 #[derive(Clone, Debug)]
 pub(crate) struct Kinematics {
     joints: Vec<MovingJoint>,
-    /// For each link, the frame in which it rests, and its pose there.
+    /// For each link, the frame to which it is fixed, and its pose there.
     links: Vec<(usize, Pose)>,
-    /// For each joint of the robot, its number among those that move; `None` for a fixed one.
-    moving_joint_numbers: Vec<Option<usize>>,
-    /// The sum of the distances of all joints from the frames that hold them.
+    /// For each joint of the robot, its index among the moving joints; `None` for a fixed joint.
+    moving_joint_indices: Vec<Option<usize>>,
+    /// The sum of the distances of all joint origins from their parent frames' origins.
     pub(crate) arm_length_sum: f64,
-    /// The number of all joints, fixed ones included.
+    /// The number of all joints, including fixed ones.
     pub(crate) total_joint_count: usize,
 }
 
-/// A joint that moves, with what does not change.
+/// A moving joint, with precomputed constants.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MovingJoint {
-    /// The number of the frame that holds the joint.
+    /// The index of the parent frame.
     pub(crate) parent: usize,
-    /// How the joint's position comes from a configuration.
+    /// Computes the joint's position from a configuration.
     pub(crate) source: PositionSource,
-    /// The position of the joint's origin in the parent frame.
+    /// The joint's origin in the parent frame.
     pub(crate) origin: DVec3,
-    /// The unit vector along the axis in the parent frame.
+    /// The unit vector along the axis, in the parent frame.
     pub(crate) axis: DVec3,
     pub(crate) is_prismatic: bool,
-    /// The rotation from the joint's frame to the parent's is `fixed + sin(q) sine + cos(q) cosine`.
+    /// Terms of the rotation from the joint's frame to the parent's, at position `q`: `constant_term + sin(q)
+    /// sine_coefficient + cos(q) cosine_coefficient`.
     constant_term: DMat3,
     sine_coefficient: DMat3,
     cosine_coefficient: DMat3,
 }
 
 impl Kinematics {
-    /// Prepares the joints of a robot. Fixed joints become part of the joints after them.
+    /// Precomputes the moving joints of a robot. Fixed joints are merged into the joints that follow them.
     pub(crate) fn of_robot(robot: &Robot) -> Self {
         let mut joints: Vec<MovingJoint> = Vec::new();
         let mut links = vec![(0, Pose::IDENTITY); robot.links().len()];
@@ -51,13 +51,13 @@ impl Kinematics {
         let mut arms = 0.0;
         for (link, parent, joint) in robot.joints_parents_first() {
             arms += robot.joints()[joint]
-                .axis_and_limits
+                .geometry
                 .origin()
                 .translation()
                 .length();
-            let (frame, held) = links[parent];
-            let origin = held.compose(robot.joints()[joint].axis_and_limits.origin());
-            let kind = robot.joints()[joint].axis_and_limits.kind();
+            let (frame, parent_pose) = links[parent];
+            let origin = parent_pose.compose(robot.joints()[joint].geometry.origin());
+            let kind = robot.joints()[joint].geometry.kind();
             let (axis, is_prismatic, source) = match (kind, robot.source(joint)) {
                 (JointKind::Revolute(axis), Some(source)) => (axis, false, source),
                 (JointKind::Prismatic(axis), Some(source)) => (axis, true, source),
@@ -73,7 +73,7 @@ impl Kinematics {
         Kinematics {
             joints,
             links,
-            moving_joint_numbers: numbers,
+            moving_joint_indices: numbers,
             arm_length_sum: arms,
             total_joint_count: robot.joints().len(),
         }
@@ -83,7 +83,8 @@ impl Kinematics {
         &self.joints
     }
 
-    /// Returns bounds of the positions of all joints in a configuration, for all configurations whose positions are no larger.
+    /// Returns an upper bound of each moving joint's positions. It covers all configurations whose positions are at
+    /// most as large in absolute value as the given ones.
     pub(crate) fn magnitudes(&self, configuration: &[f64]) -> impl Iterator<Item = Magnitude> {
         self.joints.iter().map(|joint| {
             let rounding = joint.source.magnitude(configuration);
@@ -94,19 +95,19 @@ impl Kinematics {
         })
     }
 
-    /// Returns the frame in which a link rests, and its pose there.
+    /// Returns the index of the frame to which a link is fixed, and the link's pose there.
     pub(crate) fn link_frame_and_pose(&self, link: usize) -> (usize, Pose) {
         self.links[link]
     }
 
-    /// Returns the number of a joint of the robot among those that move; `None` for a fixed one.
+    /// Returns the index of a joint among the moving joints; `None` for a fixed joint.
     pub(crate) fn moving_joint_index(&self, joint: usize) -> Option<usize> {
-        self.moving_joint_numbers[joint]
+        self.moving_joint_indices[joint]
     }
 
-    /// Returns the nearest frame from which two frames move.
+    /// Returns the nearest common ancestor of two frames.
     pub(crate) fn common_frame(&self, [mut a, mut b]: [usize; 2]) -> usize {
-        // A frame has a greater number than those nearer to the base.
+        // An ancestor has a lower index.
         while a != b {
             if a > b {
                 a = self.joints[a - 1].parent;
@@ -117,7 +118,7 @@ impl Kinematics {
         a
     }
 
-    /// Iterates over the joints by which two frames move, as they see each other.
+    /// Iterates over the joints that move two frames relative to each other.
     pub(crate) fn joints_between(
         &self,
         [mut a, mut b]: [usize; 2],
@@ -126,7 +127,7 @@ impl Kinematics {
             if a == b {
                 return None;
             }
-            // A frame has a greater number than those nearer to the base.
+            // An ancestor has a lower index.
             let farther = if a > b { &mut a } else { &mut b };
             let joint = *farther - 1;
             *farther = self.joints[joint].parent;
@@ -134,7 +135,7 @@ impl Kinematics {
         })
     }
 
-    /// Computes the poses of all frames in the base, for one position for each moving joint.
+    /// Computes all frames in the base, from one position for each moving joint.
     pub(crate) fn place(&self, positions: impl Iterator<Item = f64>, frames: &mut Vec<Frame>) {
         frames.clear();
         frames.push(Frame::IDENTITY);
@@ -144,8 +145,8 @@ impl Kinematics {
         }
     }
 
-    /// Computes the poses of the frames after some joints as the frame `seen_from` sees them. Each joint comes after those nearer to
-    /// the base. Other frames stay as they are.
+    /// Computes the frames that some joints move, relative to the frame `seen_from`. The joints are listed parents
+    /// first. Other frames are left unchanged.
     pub(crate) fn place_joints(
         &self,
         (seen_from, joints): (usize, &[usize]),
@@ -154,10 +155,10 @@ impl Kinematics {
     ) {
         frames.resize(self.joints.len() + 1, Frame::IDENTITY);
         frames[seen_from] = Frame::IDENTITY;
-        for &number in joints {
-            let joint = &self.joints[number];
+        for &index in joints {
+            let joint = &self.joints[index];
             let parent = frames[joint.parent];
-            frames[number + 1] = joint.place(&parent, joint.source.position(configuration));
+            frames[index + 1] = joint.place(&parent, joint.source.position(configuration));
         }
     }
 }
@@ -198,7 +199,7 @@ impl MovingJoint {
         }
     }
 
-    /// Returns the pose of the frame after the joint.
+    /// Returns the frame that the joint moves.
     fn place(&self, parent: &Frame, position: f64) -> Frame {
         if self.is_prismatic {
             return Frame {

@@ -1,4 +1,4 @@
-//! Robots and mechanisms as trees of links and joints, from URDF, MJCF and SRDF or from code, for certified collision checks.
+//! Certified collision checks of robots and mechanisms: trees of links and joints, from URDF, MJCF and SRDF files or from code.
 //!
 //! ```
 //! use rigid_ccd_robot::{Joint, Link, PositionRule, Robot};
@@ -11,7 +11,7 @@
 //!     name: "hinge".into(),
 //!     parent: "base".into(),
 //!     child: "arm".into(),
-//!     axis_and_limits: hinge,
+//!     geometry: hinge,
 //!     position_rule: PositionRule::Independent,
 //! }];
 //! let robot = Robot::new(links, joints)?;
@@ -20,23 +20,40 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! | file | what |
+//! | to … | use |
 //! |---|---|
-//! | `robot` | the tree: [`Robot`], [`Link`], [`Joint`]; [`Robot::chain_between`] for the motion of one link in the frame of another |
-//! | `combine` | several robots as one, on bases that may move: [`Robot::combine`] |
-//! | `cell` | a robot among obstacles: [`Cell`]; `cell/compared` which bodies are compared, `cell/margins` at which distances |
-//! | `solver` | one search for all pairs along a path: [`CellSolver`]; `solver/displacement` how far parts move, `solver/search` the search, `solver/engine` what goes to the engine, `solver/start` contacts at the start that may part, `solver/clearance_ranges` where a distance is kept, `solver/distance_curve` the distance over a path |
-//! | `kinematics` | the frames of all links in a configuration |
-//! | `path`, `joint_curve`, `polynomial`, `path_point` | what a question is about: a [`Path`] through configurations, or a [`JointCurve`] of polynomials |
-//! | `path_answer` | what was found: [`PathAnswer`], for all questions |
-//! | `link_contacts` | whether two links can ever touch, by branch and bound over their joints: [`Robot::classify_link_contacts`] |
-//! | `pairs`, `skip_reason` | which pairs of links are checked, and why others are not: [`LinkPairs`] |
-//! | `remark` | what is probably a mistake in a robot or a cell, and what is not checked: [`CellRemark`]; `robot_remarks`, `cell/remarks` and `units` make the remarks |
-//! | `check_summary` | what of a robot is checked, in numbers: [`CheckSummary`] |
-//! | `robot_file` | a robot from a URDF or MJCF file with its meshes: [`RobotFile`] |
-//! | `srdf` | pairs that are not checked, from an SRDF file |
-//! | `evidence` | records of answers, to be asked again later: [`evidence::Evidence`] |
-//! | `tuning` | numbers that only cost time |
+//! | load a robot from a URDF or MJCF file | [`RobotFile::from_path`], [`RobotFile::read`] |
+//! | build a robot in code | [`Link`], [`Joint`], [`Robot::new`] |
+//! | compute the pose of a link | [`Robot::pose`] |
+//! | combine arms, grippers, moving bases and moving obstacles | [`Robot::combine`] |
+//! | select the pairs of links to check, also from an SRDF file | [`RobotFile::link_pairs`], [`LinkPairs`] |
+//! | find out which links can touch at all, and write an SRDF file | [`Robot::classify_link_contacts`], [`Robot::to_srdf`] |
+//! | set up a planning scene | [`Cell::new`], [`Cell::add_obstacle`], [`Cell::add_plane`] |
+//! | pick up an object and put it down | [`Cell::attach`], [`Cell::detach`], [`Cell::allow_contact`] |
+//! | keep distances | [`Cell::set_padding`], [`Cell::set_clearance`]; the margin of the settings |
+//! | check a configuration, an edge or a path | [`Cell::solver`], [`CellSolver::is_free`] |
+//! | check a trajectory of polynomials or B-splines | [`JointCurve`], then [`CellSolver::is_free`] |
+//! | find the first contact, and its time on a curve | [`CellSolver::first_contact`], [`JointCurve::time`] |
+//! | bound the least distance on a path | [`CellSolver::closest_approach`] |
+//! | bound the distance along a path, range by range | [`CellSolver::distance_curve`] |
+//! | find where clearances are kept or violated | [`CellSolver::clearance_ranges`] |
+//! | check many paths on all cores | [`rigid_ccd::ParallelSolver`] with [`Cell::solver`] |
+//! | move one link in the frame of another in any other query | [`Robot::chain_between`] |
+//! | see what is checked, and probable mistakes | [`Cell::check_summary`], [`Cell::remarks`] |
+//! | record an answer as evidence, and replay it | [`evidence::Evidence`] |
+//!
+//! # Terms
+//! - A *cell* is a planning scene: a robot among static obstacles.
+//! - A *configuration* lists the positions of all joints with a position of their own. Two configurations are an
+//!   *edge*, between which all joints move at constant rates.
+//! - A *pair* is checked unless its links are adjacent, do not move relative to each other, or are allowed to touch:
+//!   [`LinkPairs`] is the allowed collision matrix.
+//! - A contact is a distance of at most margin + *tolerance*. The *margin* is a distance to keep, 0 by default.
+//!
+//! # Guarantee
+//! On a free path all checked pairs stay farther apart than the margin, at all configurations in between, in floating
+//! point. Reaching a limit is an error or an outcome of its own, never a
+//! free path.
 
 mod cell;
 mod check_summary;
@@ -90,7 +107,7 @@ pub use skip_reason::{LeftOutPairs, SkipReason};
 pub use solver::{CellSolver, ClearanceRange, DistanceRange, RangeSettings};
 pub use srdf::SrdfError;
 
-/// The example in the README, run as a doctest.
+/// Runs the README's examples as doctests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadmeDoctests;

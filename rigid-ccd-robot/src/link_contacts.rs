@@ -1,4 +1,4 @@
-//! Which pairs of links can touch at all, within the limits of all joints.
+//! Decides which pairs of links can touch at all, within the joint limits.
 
 mod box_motion;
 mod hinge;
@@ -15,67 +15,71 @@ use crate::robot::Robot;
 use crate::tuning::{FIRST_ROUND_BOXES, ROUND_FACTOR};
 use ccd_core::order::lesser;
 use rigid_ccd::{Error, ParallelSolver};
-use search::{PairRecord, PairSearch};
+use search::{LinkPairRecord, LinkPairSearch};
 use search_end::SearchEnd;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
-/// Whether two links touch, over all configurations within the limits of the joints.
+/// Whether two links touch, over all configurations within the joint limits.
+///
+/// All variants are to be handled, so that no unproven pair passes for a proven one: the enum is exhaustive.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LinkContactClass {
-    /// The links never touch: that is proven for all configurations.
+    /// The links never touch. This is proven for all configurations.
     Never,
-    /// The links touch in every configuration, to within two nanometres: no joint moves one against the other, or both hold a
-    /// point on the axis of the one joint between them, or two of their bodies are convex and overlap in all boxes of
-    /// configurations. So do the shapes that bodies [exceed](rigid_ccd::Body::excess).
+    /// The links touch in every configuration, to within two nanometres. The proof is one of these: no joint moves one
+    /// relative to the other; both contain the same point of the axis of the only joint between them; or the shapes of
+    /// two convex bodies overlap in every box of configurations. The proof is about the shapes inside the bodies, not
+    /// only about the bodies that [enclose](rigid_ccd::Body::excess) them.
     Always,
-    /// The bodies touch in every configuration, as in [`LinkContactClass::Always`]; that the shapes do that they enclose is not
-    /// proven. An SRDF file does not disable such a pair, unless the links are neighbours.
+    /// The bodies touch in every configuration, but the shapes that they enclose are not proven to. An SRDF file does
+    /// not disable such a pair, unless the links are adjacent.
     AlwaysAsEnclosed,
-    /// The links touch in one configuration, and are apart in another.
+    /// The links touch in one configuration and are apart in another.
     Sometimes {
-        /// A configuration in which they touch.
+        /// A configuration where they touch.
         touching_configuration: Vec<f64>,
-        /// A configuration in which they are apart.
+        /// A configuration where they are apart.
         apart_configuration: Vec<f64>,
     },
-    /// The limit of work was reached first.
+    /// A limit was reached before a proof.
     Undecided {
-        /// The share of the configurations, by volume, for which the links are proven apart.
+        /// The fraction of the configuration space, by volume, where the links are proven apart.
         proven_apart_share: f64,
-        /// The share of the configurations for which nothing is proven.
+        /// The fraction of the configuration space where nothing is proven.
         undecided_share: f64,
-        /// The least distance that was found in a configuration: 0 if the links touch in one, infinite if none was measured.
+        /// The least distance that was measured: 0 if the links touch, infinite if nothing was measured.
         least_distance: f64,
-        /// A configuration in which they touch, if one was found.
+        /// A configuration where they touch, if one was found.
         touching_configuration: Option<Vec<f64>>,
-        /// A configuration in which they are apart, if one was found.
+        /// A configuration where they are apart, if one was found.
         apart_configuration: Option<Vec<f64>>,
     },
 }
 
 impl LinkContactClass {
-    /// Returns whether it is known whether the links touch.
+    /// Returns whether the class is proven.
     pub fn is_decided(&self) -> bool {
         !matches!(self, LinkContactClass::Undecided { .. })
     }
 }
 
-/// What ends a search for which links can touch. Pairs that are not decided by then are [`LinkContactClass::Undecided`].
+/// The limits of a classification of link pairs. Pairs without a proof by then are [`LinkContactClass::Undecided`].
 #[derive(Clone, Debug)]
 pub struct LinkContactSettings {
-    /// The number of boxes of configurations that are examined, for a pair in the mean: what one pair does not need is left for the
-    /// others, except those whose links touch without depth, as parts that slide on each other do. No box decides about such.
+    /// The average number of boxes of configurations that are examined for each pair. What one pair does not need is
+    /// left for the others. Pairs that touch without overlapping in some configuration, such as sliding parts, get no
+    /// extra boxes, because no box around such a configuration can be decided.
     pub max_boxes: usize,
-    /// The time for all pairs together; `None` for no limit. With it, answers depend on the machine.
+    /// The time limit for all pairs together; `None` for no limit. With a limit, answers depend on the machine.
     pub deadline: Option<Duration>,
-    /// A flag that another thread sets to stop the search; `None` if nothing stops it.
+    /// A flag with which another thread can stop the search.
     pub stop: Option<Arc<AtomicBool>>,
 }
 
 impl LinkContactSettings {
-    /// The default settings: 100,000 boxes, no deadline.
+    /// The default settings: 100,000 boxes for each pair, no deadline.
     pub const DEFAULT: LinkContactSettings = LinkContactSettings {
         max_boxes: 100_000,
         deadline: None,
@@ -90,44 +94,52 @@ impl Default for LinkContactSettings {
 }
 
 impl Robot {
-    /// Decides for each pair of links with bodies whether they never touch, always, or sometimes.
+    /// Classifies each pair of links with bodies: they touch never, always or sometimes.
     ///
-    /// Configurations in which two links touch, and in which they are apart, are sought at random, and by descent to lesser
-    /// distances. The rest is branch and bound over the joints between the links: the distance in the middle of a box of
-    /// positions, against bounds of how far both links move within it. Boxes that stay open are halved, the largest first.
-    /// Rounds give more and more boxes to each pair that is still open; those of which least is open come first. Pairs are
-    /// shared by all cores. Joints without limits turn once. `progress` is called again and again, from any of the threads,
-    /// with the number of pairs that are decided, and of all pairs.
+    /// First, witness configurations are searched at random and by descent to lower distances. Then a branch and bound
+    /// search covers the positions of the joints between the links with boxes. For each box, the distance at its
+    /// centre is compared with a bound of how far the links move within it. Undecided boxes are halved, the largest
+    /// first.
+    ///
+    /// The search runs in rounds, with more boxes for each pair from round to round. Pairs with the smallest undecided
+    /// volume come first. All cores share the pairs. A revolute joint without limits is searched over one turn.
+    /// `progress` is called from any thread with the number of decided pairs and of all pairs.
     ///
     /// # Guarantee
-    /// [`LinkContactClass::Never`] and [`LinkContactClass::Always`] are proofs, in floating point. The configurations of other answers
-    /// are proofs as well, up to the rounding of positions; bodies that [exceed](rigid_ccd::Body::excess) their shapes count
-    /// as they are. Without a deadline and a stop, the same call gives the same answers on any number of threads.
+    /// [`LinkContactClass::Never`] and [`LinkContactClass::Always`] are proven in floating point. Witness
+    /// configurations are exact up to the rounding of positions; they are about the bodies, not about the shapes that
+    /// these [enclose](rigid_ccd::Body::excess). Without a deadline and a stop flag, the same call gives the same
+    /// answers on any number of threads.
     ///
     /// # Errors
-    /// An error of a query about a distance.
+    /// The error of a distance query.
     pub fn classify_link_contacts(
         &self,
         settings: &LinkContactSettings,
         progress: impl Fn(usize, usize) + Sync,
     ) -> Result<Vec<([usize; 2], LinkContactClass)>, Error> {
         let link_pairs = LinkPairs::from_robot(self);
-        let mut records: Vec<PairRecord> = link_pairs.all_pairs().map(PairRecord::new).collect();
+        let mut records: Vec<LinkPairRecord> =
+            link_pairs.all_pairs().map(LinkPairRecord::new).collect();
         let cell = Cell::new(self.clone(), link_pairs);
         let end = SearchEnd::starting_now(settings);
-        let mut searches = ParallelSolver::new(|| PairSearch::new(&cell, end.clone()));
+        let mut searches = ParallelSolver::new(|| LinkPairSearch::new(&cell, end.clone()));
         let (all, decided) = (records.len(), AtomicUsize::new(0));
         let mut left = settings.max_boxes.saturating_mul(all);
         let mut boxes = lesser(FIRST_ROUND_BOXES, settings.max_boxes);
         while left > 0 && !end.is_reached() {
-            // The sort keeps the order of equal ones.
+            // The sort below is stable.
             let quota_of = |pair: usize| records[pair].quota(boxes, settings.max_boxes);
             let mut open: Vec<usize> = (0..all)
                 .filter(|&pair| !records[pair].is_decided() && !records[pair].is_exhausted)
-                // What was examined before is examined again.
+                // A search starts again from the box of all positions, so only a larger quota helps.
                 .filter(|&pair| quota_of(pair) > records[pair].boxes)
                 .collect();
-            open.sort_by(|&a, &b| records[a].open_share.total_cmp(&records[b].open_share));
+            open.sort_by(|&a, &b| {
+                records[a]
+                    .undecided_share
+                    .total_cmp(&records[b].undecided_share)
+            });
             let quotas = open.iter().map_while(|&pair| {
                 let quota = lesser(quota_of(pair), left);
                 left -= quota;

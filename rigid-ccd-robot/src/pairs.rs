@@ -1,4 +1,5 @@
-//! The pairs of links that are checked for collision, and the reasons why other pairs are not.
+//! The pairs of links that are checked for collision: the allowed collision matrix of a robot, with a reason for each
+//! skipped pair.
 
 use crate::remark::CellRemark;
 use crate::robot::Robot;
@@ -6,22 +7,23 @@ use crate::skip_reason::{LeftOutPairs, SkipReason};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// The pairs of a robot's links that are checked for collision, with the reason for each pair that is not. Links go by
-/// their numbers.
+/// The pairs of a robot's links that are checked for collision, and the reason for each pair that is not. Links are
+/// identified by their indices in [`Robot::links`].
 ///
-/// At first all pairs of links with bodies are checked, except for neighbours and for links that no joint moves against
+/// Initially all pairs of links with bodies are checked, except adjacent links and links that do not move relative to
 /// each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkPairs {
     skip_reasons: BTreeMap<[usize; 2], SkipReason>,
-    /// The numbers of the links that have bodies.
+    /// The indices of the links with bodies.
     links_with_bodies: Vec<usize>,
-    /// The remarks on the file that the pairs are from.
+    /// Remarks on the file from which the pairs were read.
     file_remarks: Vec<CellRemark>,
 }
 
 impl LinkPairs {
-    /// Creates the pairs of a robot; adjacent links, and links that never move relative to each other, are not checked.
+    /// Creates the pairs of a robot. Adjacent links, and links that do not move relative to each other, are not
+    /// checked.
     pub fn from_robot(robot: &Robot) -> Self {
         let has_bodies = |&link: &usize| robot.links()[link].has_shapes();
         let links: Vec<usize> = (0..robot.links().len()).filter(has_bodies).collect();
@@ -44,7 +46,7 @@ impl LinkPairs {
         pairs
     }
 
-    /// Returns the remarks on the file that the pairs are from.
+    /// Returns the remarks on the file from which the pairs were read.
     pub fn file_remarks(&self) -> &[CellRemark] {
         &self.file_remarks
     }
@@ -53,19 +55,19 @@ impl LinkPairs {
         self.file_remarks.extend(remarks);
     }
 
-    /// Excludes a pair from the check for a reason. A pair that is excluded already keeps its reason.
+    /// Excludes a pair, for a reason. If the pair is already excluded, its old reason stays.
     pub fn skip(&mut self, one: usize, other: usize, reason: SkipReason) {
         self.skip_reasons
             .entry(ordered_pair(one, other))
             .or_insert(reason);
     }
 
-    /// Includes a pair in the check again that was excluded before.
+    /// Includes a pair that was excluded.
     pub fn include(&mut self, one: usize, other: usize) {
         self.skip_reasons.remove(&ordered_pair(one, other));
     }
 
-    /// Returns whether a pair is checked; a link and itself are not.
+    /// Returns whether a pair of different links is checked.
     pub fn is_checked(&self, one: usize, other: usize) -> bool {
         one != other
             && [one, other]
@@ -74,7 +76,7 @@ impl LinkPairs {
             && self.skip_reason(one, other).is_none()
     }
 
-    /// Iterates over the pairs that are checked, the lower number first.
+    /// Iterates over the checked pairs, the lower index first.
     pub fn checked_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
         self.all_pairs()
             .filter(|pair| !self.skip_reasons.contains_key(pair))
@@ -85,13 +87,13 @@ impl LinkPairs {
         self.skip_reasons.get(&ordered_pair(one, other))
     }
 
-    /// Iterates over the pairs of links with bodies that are not checked, each with the reason.
+    /// Iterates over the pairs of links with bodies that are not checked, each with its reason.
     pub fn skipped_pairs(&self) -> impl Iterator<Item = ([usize; 2], &SkipReason)> {
         self.all_pairs()
             .filter_map(|pair| Some((pair, self.skip_reasons.get(&pair)?)))
     }
 
-    /// Returns the pairs of links with bodies that are not checked, by reason.
+    /// Returns the pairs of links with bodies that are not checked, grouped by reason.
     pub(crate) fn left_out_pairs(&self, robot: &Robot) -> Vec<LeftOutPairs> {
         let mut groups: Vec<LeftOutPairs> = Vec::new();
         for (pair, reason) in self.skipped_pairs() {
@@ -107,8 +109,8 @@ impl LinkPairs {
         groups
     }
 
-    /// Replaces what is skipped among the links of a range by what is skipped among those of a robot whose links they are.
-    /// Returns whether they are those of such a robot, as far as its links have bodies.
+    /// Copies the skipped pairs of one robot into those of a combined robot, in which its links have the indices
+    /// `links`. Returns whether the pairs fit: whether the same links have bodies.
     #[must_use]
     pub(crate) fn replace_within(&mut self, links: Range<usize>, own: &LinkPairs) -> bool {
         let with_bodies = self

@@ -1,7 +1,7 @@
-//! What a question can be about: paths through configurations, and curves.
+//! The paths that questions are asked about: sequences of configurations, and curves.
 
+pub(crate) mod interval;
 pub(crate) mod joint_path;
-pub(crate) mod stretch;
 
 use crate::cell::Cell;
 use crate::error::PathError;
@@ -9,23 +9,23 @@ use crate::joint_curve::JointCurve;
 use crate::path_point::PathPoint;
 use joint_path::JointPath;
 
-/// A path of a robot: a slice, an array or a vector of configurations, between two of which all joints move at constant rates,
-/// or a [`JointCurve`].
+/// A path of a robot: a slice, array or vector of configurations, or a [`JointCurve`]. Between two configurations all
+/// joints move at constant rates.
 ///
 /// One configuration is a robot at rest, two are an edge.
 pub trait Path: PathSource {
     /// Returns the number of segments.
     fn segment_count(&self) -> usize;
 
-    /// Returns the time of a point: that of a curve; without times each segment takes one unit of time.
+    /// Returns the time of a point. Without a curve, each segment takes one unit of time.
     fn time(&self, point: PathPoint) -> f64 {
         point.time()
     }
 }
 
-/// What writes a path for a search. Only this crate implements it.
+/// Sealed. Writes a path's polynomials into the solver's buffer.
 pub trait PathSource {
-    /// Replaces a path by this one, if it fits the robot.
+    /// Replaces the contents of `path` by this path, if it fits the robot.
     fn write_to(&self, cell: &Cell, path: &mut JointPath) -> Result<(), PathError>;
 }
 

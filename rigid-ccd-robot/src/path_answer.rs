@@ -1,4 +1,4 @@
-//! The answer to a question about a path: one type for all questions.
+//! The answer to a question about a path, of one type for all questions.
 
 use crate::cell::Item;
 use crate::error::PathError;
@@ -7,83 +7,84 @@ use rigid_ccd::Error;
 use rigid_ccd::answer::{ClearanceVerdict, Feature, Limit, Unresolved};
 use rigid_ccd::glam::DVec3;
 
-/// What a question about a path has found, and how accurate it is.
+/// The outcome of a question about a path, and its accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathAnswer<'c> {
-    /// Free, a contact, a distance, or the limit that ended the search.
+    /// The result: free, a contact, a least distance, or a limit that was reached.
     pub outcome: PathOutcome<'c>,
-    /// Nothing touches before this point: the end of a free path, the point of a first contact, or what was proven when a limit was
-    /// reached. It is the start of the path for any other contact, and for a distance, which knows no margin.
+    /// The point before which nothing touches: the end of a free path, the point of a first contact, or the point up
+    /// to which the search proved it before a limit. For any other contact and for a distance, it is the start of the
+    /// path.
     pub free_until: PathPoint,
-    /// The tolerance that the answer meets. It is that of the settings, unless the rounding of positions allows only a larger one:
-    /// far from the base, or after thousands of turns.
+    /// The tolerance that the answer meets. It is the tolerance of the settings, unless rounding of positions makes it
+    /// larger, far from the base or after thousands of turns.
     ///
-    /// A contact is within this distance beyond the margin. The bounds of a least distance differ by at most as much, and by what
-    /// the nearest bodies [exceed](rigid_ccd::Body::excess) their shapes by, unless a limit is reached. Both hold to within a
-    /// thousandth of the tolerance. That nothing touches holds without any tolerance.
+    /// A contact is at most this distance beyond the margin. The bounds of a least distance differ by at most this
+    /// tolerance plus the [excess](rigid_ccd::Body::excess) of both nearest bodies, unless a limit is reached. Both
+    /// hold to within a thousandth of the tolerance. That nothing touches is exact.
     pub tolerance: f64,
 }
 
-/// What was found on a path.
+/// The outcome of a question about a path.
 ///
 /// | question | outcomes |
 /// |---|---|
 /// | first contact, any contact | free, contact, unresolved |
 /// | closest approach | least distance, unresolved |
 ///
-/// It is exhaustive, so that no program takes an outcome that it does not know for another one.
+/// The enum is exhaustive on purpose: a wildcard arm could treat an unresolved path as a free one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PathOutcome<'c> {
     /// Nothing touches on the whole path.
     Free,
-    /// A pair touches.
+    /// A pair touches at a point of the path.
     Contact(PathContact<'c>),
-    /// The least distance of all pairs on the path.
+    /// The least distance of any pair on the path.
     LeastDistance {
-        /// A lower bound of the distance of all pairs at all points of the path.
+        /// A lower bound of the distances of all pairs on the whole path.
         lower: f64,
         /// An upper bound of the least distance; infinite if no distance was measured.
         upper: f64,
-        /// The nearest pair that was found; `None` if no pair was measured.
+        /// The nearest pair; `None` if no pair was measured.
         nearest: Option<PathContact<'c>>,
     },
     /// A limit was reached before the answer was known.
     Unresolved(UnresolvedPath<'c>),
 }
 
-/// What was known about a path when a limit was reached.
+/// The bounds that are proven when a limit is reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnresolvedPath<'c> {
     /// The limit.
     pub limit: Limit,
-    /// A lower bound of the distance, if that was asked for; else 0.
+    /// A lower bound of the least distance; 0 for a question about contacts.
     pub lower: f64,
-    /// An upper bound of the distance, if that was asked for and measured; else infinite.
+    /// An upper bound of the least distance; infinite if it was not asked for or not measured.
     pub upper: f64,
-    /// The nearest pair that was found, if a distance was asked for and measured.
+    /// The nearest pair so far; `None` if no distance was asked for or measured.
     pub nearest: Option<PathContact<'c>>,
 }
 
-/// A pair of a cell at a point of a path, where it is in contact or nearest.
+/// A pair of items at a point of a path, where it touches or is nearest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathContact<'c> {
-    /// Where on the path. Nothing touches before the first contact.
+    /// The point of the path.
     pub at: PathPoint,
-    /// The pair; a link or an attached body comes first.
+    /// The items of the pair. A link or an attached body comes first.
     pub items: [Item<'c>; 2],
-    /// The nearest points of both, in the frame of the base. If both overlap they are points of two pieces that intersect. `None`
-    /// if the deadline passes before they are found.
+    /// The nearest points of both bodies, in the base frame. For overlapping bodies, points of two intersecting
+    /// pieces. `None` if the deadline passed before they were computed.
     pub witnesses: Option<[DVec3; 2]>,
-    /// The vertex, edge or face of each mesh that its witness is on, numbered as in the body. `None` for a convex body, whose
-    /// mesh may be its hull, and if one body is inside the other.
+    /// The feature of each mesh (vertex, edge or face) that contains its witness, with the mesh's index. `None` for a
+    /// convex body, which may be the hull of a mesh, and if one body is inside the other.
     pub features: [Option<Feature>; 2],
-    /// Bounds of the distance of the pair there, the rounding of computed poses included; 0 if both overlap.
+    /// Bounds of the pair's distance at this point, including rounding errors; 0 for overlapping bodies.
     pub distance_bounds: [f64; 2],
 }
 
 impl<'c> PathAnswer<'c> {
-    /// Returns whether nothing touches before what was found: that is so for the answer about the first contact, and for no answer
-    /// about a distance.
+    /// Returns whether nothing touches before the contact or limit. True for answers about the first contact, false
+    /// for answers about a distance.
     pub fn is_free_until_contact(&self) -> bool {
         match &self.outcome {
             PathOutcome::Free | PathOutcome::Unresolved(_) => true,
@@ -95,7 +96,7 @@ impl<'c> PathAnswer<'c> {
     /// Returns the contact; `None` if the path is free.
     ///
     /// # Errors
-    /// [`Error::Unresolved`] if a limit was reached first, and [`PathError::NoContactAsked`] for a distance.
+    /// [`Error::Unresolved`] if a limit was reached, and [`PathError::NoContactAsked`] for a distance.
     pub fn contact(&self) -> Result<Option<PathContact<'c>>, PathError> {
         match self.outcome {
             PathOutcome::Free => Ok(None),
@@ -110,7 +111,7 @@ impl<'c> PathAnswer<'c> {
 }
 
 impl<'c> PathOutcome<'c> {
-    /// Creates the outcome of a question about contacts that a limit ended.
+    /// Creates the outcome of a question about contacts that reached a limit.
     pub(crate) fn unresolved_contact(limit: Limit) -> Self {
         PathOutcome::Unresolved(UnresolvedPath {
             limit,
@@ -120,7 +121,7 @@ impl<'c> PathOutcome<'c> {
         })
     }
 
-    /// Returns a lower bound of the distance on the path; 0 if none is known.
+    /// Returns a lower bound of the least distance on the path; 0 if none is known.
     pub fn lower(&self) -> f64 {
         match *self {
             PathOutcome::LeastDistance { lower, .. } => lower,
@@ -139,7 +140,7 @@ impl<'c> PathOutcome<'c> {
         }
     }
 
-    /// Returns the pair that touches or is nearest, if one was found.
+    /// Returns the pair that touches or is nearest, if any was found.
     pub fn nearest(&self) -> Option<PathContact<'c>> {
         match *self {
             PathOutcome::Free => None,
@@ -157,9 +158,9 @@ impl<'c> PathOutcome<'c> {
         }
     }
 
-    /// Returns whether all pairs stay at least the required distance apart, as far as the bounds of the least distance tell.
+    /// Compares the bounds of the least distance with a required clearance.
     ///
-    /// Pairs that may touch keep no clearance, not even a clearance of 0.
+    /// Bodies that may touch keep no clearance, not even 0.
     pub fn clearance_verdict(&self, required: f64) -> ClearanceVerdict {
         ClearanceVerdict::from_bounds([self.lower(), self.upper()], required)
     }

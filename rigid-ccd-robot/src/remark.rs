@@ -1,4 +1,4 @@
-//! Remarks on robots and cells: what is probably a mistake, and what is not checked.
+//! Remarks on robots and cells: probable mistakes, and what is not checked.
 
 use crate::skip_reason::LeftOutPairs;
 use ccd_decomp::Remarks;
@@ -8,9 +8,9 @@ use std::fmt;
 
 /// A remark on a robot or a cell. It changes no answer.
 ///
-/// A [warning](CellRemark::is_warning) tells what is probably a mistake, or that most of a robot is not checked. A note tells what
-/// is not checked. [`LinkPairs::remarks`](crate::LinkPairs::remarks) lists those on a robot, [`Cell::remarks`](crate::Cell::remarks)
-/// those on a cell.
+/// A [warning](CellRemark::is_warning) reports a probable mistake, or that most of a robot is not checked. A note
+/// reports what is not checked. [`LinkPairs::remarks`](crate::LinkPairs::remarks) lists the remarks on a robot,
+/// [`Cell::remarks`](crate::Cell::remarks) those on a cell.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CellRemark {
@@ -21,48 +21,50 @@ pub enum CellRemark {
         /// The number of moving links.
         moving_count: usize,
     },
-    /// More than half of the moving links are checked against no other link, because a file or a caller leaves their pairs out.
+    /// More than half of the moving links are checked against no other link, because a file or the caller skips their
+    /// pairs.
     MostLinksUnchecked {
         /// The moving links that are checked against no other link.
         links: Vec<String>,
         /// The number of moving links with bodies.
         moving_count: usize,
     },
-    /// The file of a robot has one link, without shapes.
+    /// The robot's file has a single link, without shapes.
     EmptyRobot {
         /// The name of the link.
         link: String,
     },
-    /// Elements of a robot's file are left out, which other programs may take into account.
+    /// Elements of the robot's file are ignored. Other programs may use them.
     LeftOut {
-        /// The elements, each with the name of what it belongs to.
+        /// The elements, each with the element that contains it.
         elements: Vec<String>,
     },
-    /// An SRDF disables or enables pairs of links that the robot does not have, and these pairs are left out.
+    /// An SRDF names links that the robot does not have. Their pairs are ignored.
     UnknownLinks {
         /// The names of the links.
         links: Vec<String>,
     },
-    /// An SRDF is of a robot with another name.
+    /// The SRDF names another robot.
     OtherRobotName {
         /// The name of the robot.
         robot: String,
         /// The name in the SRDF.
         of_srdf: String,
     },
-    /// A link is far larger than the robot's reach, or something else far larger or smaller than the robot: it may be in another
-    /// unit of length.
+    /// The size of an item suggests another unit of length: a link far larger than the robot's reach, or another item
+    /// far larger or smaller than the robot.
     UnlikelySize {
         /// The name of the link, the attached body or the obstacle.
         item: String,
-        /// The largest side of its largest body's bounding box.
+        /// The longest bounding-box side of its largest body.
         size: f64,
-        /// The size of the robot, see [`Robot::size`](crate::Robot::size); for a link, that of its joints.
+        /// The size of the robot, see [`Robot::size`](crate::Robot::size); for a link, the extent of the robot's joint
+        /// origins.
         robot_size: f64,
     },
     /// A number or the tolerance is probably in another unit.
     Input {
-        /// The name of what the remark is on.
+        /// The name of the element with the number.
         item: String,
         /// The remark.
         remark: Remark,
@@ -74,44 +76,44 @@ pub enum CellRemark {
     },
     /// Pairs of links are not checked. This is a note.
     PairsLeftOut(LeftOutPairs),
-    /// Links and attached bodies that no joint moves are not compared with obstacles. This is a note.
-    RestingBesideObstacles {
+    /// Static links and attached bodies are not checked against obstacles. This is a note.
+    StaticItemsUnchecked {
         /// The names of the links and the attached bodies.
         items: Vec<String>,
     },
-    /// Pairs other than two links were allowed to touch. This is a note.
+    /// Pairs other than two links are allowed to touch. This is a note.
     ContactsAllowed {
         /// The pairs.
         pairs: Vec<[String; 2]>,
     },
-    /// Meshes of an MJCF are not convex and are taken as they are, where MuJoCo takes their hulls. This is a note.
+    /// Meshes of an MJCF are not convex and are used as they are. MuJoCo would use their convex hulls. This is a note.
     ExactMeshes {
-        /// The files of the meshes, or their names.
+        /// The files or names of the meshes.
         meshes: Vec<String>,
     },
-    /// The reader of a mesh skipped or changed something. This is a note.
+    /// The reader of a mesh ignored or changed something. This is a note.
     MeshContent {
         /// The file of the mesh.
         mesh: String,
-        /// What was skipped or changed.
+        /// The list of what was ignored or changed.
         content: Remarks,
     },
 }
 
 impl CellRemark {
-    /// Makes a remark on something with a name.
+    /// Creates a remark on a named element.
     pub fn on(item: impl Into<String>, remark: Remark) -> Self {
         let item = item.into();
         CellRemark::Input { item, remark }
     }
 
-    /// Returns whether something is probably a mistake, or most of a robot is not checked, so that an answer says little.
+    /// Returns whether the remark is a warning: a probable mistake, or that most of a robot is not checked.
     pub fn is_warning(&self) -> bool {
         !matches!(
             self,
             CellRemark::LinksWithoutBodies { .. }
                 | CellRemark::PairsLeftOut(_)
-                | CellRemark::RestingBesideObstacles { .. }
+                | CellRemark::StaticItemsUnchecked { .. }
                 | CellRemark::ContactsAllowed { .. }
                 | CellRemark::ExactMeshes { .. }
                 | CellRemark::MeshContent { .. }
@@ -123,7 +125,7 @@ impl CellRemark {
         CellRemark::LeftOut { elements }
     }
 
-    /// Adds the remark to a list, in which one remark names all elements that are left out.
+    /// Adds the remark to a list. All ignored elements are collected in one remark.
     pub(crate) fn add_to(self, remarks: &mut Vec<CellRemark>) {
         if let CellRemark::LeftOut { elements } = &self {
             for other in &mut *remarks {
@@ -136,13 +138,13 @@ impl CellRemark {
         remarks.push(self);
     }
 
-    /// Sorts remarks so that warnings come first.
+    /// Sorts warnings before notes.
     pub(crate) fn warnings_first(mut remarks: Vec<CellRemark>) -> Vec<CellRemark> {
         remarks.sort_by_key(|remark| !remark.is_warning());
         remarks
     }
 
-    /// Returns this remark on a file with a robot's name before the names in it.
+    /// Returns the remark with the names in it prefixed by a robot's name.
     pub(crate) fn with_robot_name(&self, prefixed: impl Fn(&str) -> String) -> Self {
         let mut remark = self.clone();
         let names: Vec<&mut String> = match &mut remark {
@@ -150,7 +152,7 @@ impl CellRemark {
             | CellRemark::MostLinksUnchecked { links, .. }
             | CellRemark::LinksWithoutBodies { links }
             | CellRemark::UnknownLinks { links }
-            | CellRemark::RestingBesideObstacles { items: links } => links.iter_mut().collect(),
+            | CellRemark::StaticItemsUnchecked { items: links } => links.iter_mut().collect(),
             CellRemark::LeftOut { elements } => elements.iter_mut().collect(),
             CellRemark::EmptyRobot { link: name }
             | CellRemark::UnlikelySize { item: name, .. }
@@ -235,7 +237,7 @@ impl fmt::Display for CellRemark {
                 counted(pairs.len(), "pair"),
                 listed(pairs)
             ),
-            CellRemark::RestingBesideObstacles { items } => write!(
+            CellRemark::StaticItemsUnchecked { items } => write!(
                 f,
                 "not compared with obstacles, since no joint moves it: {}",
                 items.join(", ")
@@ -261,7 +263,7 @@ fn listed(pairs: &[[String; 2]]) -> String {
     texts.join(", ")
 }
 
-/// Returns a number of things as text.
+/// Formats a count with its noun.
 pub(crate) fn counted(count: usize, thing: &str) -> String {
     match count {
         1 => format!("1 {thing}"),

@@ -16,58 +16,59 @@ use rigid_ccd::{Body, InputError, Pose};
 use std::sync::Arc;
 use tree::Tree;
 
-/// A tree of links and joints. Each joint holds one link on another.
+/// A robot: a tree of links, connected by joints.
 ///
-/// A *configuration* has one position for each joint that has a position of its own: in radians for joints that turn, a
-/// length for those that slide. Fixed joints have none, and joints that follow another one neither. Positions are in the
-/// order of [`Robot::free_joint_names`], which is that in which joints were given.
+/// A *configuration* has one position for each joint with a position of its own: radians for revolute joints, a length
+/// for prismatic ones. Fixed joints and joints that follow another one have no position of their own. The order is
+/// that of [`Robot::free_joint_names`], which is the order in which the joints were given.
 #[derive(Clone, Debug)]
 pub struct Robot {
     name: String,
     links: Vec<Link>,
     joints: Vec<Joint>,
     tree: Tree,
-    /// For each joint, the rule by which its position is computed from a configuration; `None` for a fixed joint.
+    /// For each joint, how its position is computed from a configuration; `None` for a fixed joint.
     position_sources: Vec<Option<PositionSource>>,
-    /// The numbers of the joints with a position of their own, in the order of a configuration.
+    /// The indices of the joints with a position of their own, in the order of a configuration.
     free_joints: Vec<usize>,
-    /// For each link, the link nearest to the base from which only fixed joints lead to it.
+    /// For each link, the link nearest to the base to which only fixed joints connect it.
     rigid_roots: Vec<usize>,
-    /// The remarks on the file that the robot is from.
+    /// Remarks on the file from which the robot was read.
     file_remarks: Vec<CellRemark>,
 }
 
-/// A link of a robot: a frame, with the bodies that are fixed in it.
+/// A link of a robot: a frame, and the bodies fixed to it.
 #[derive(Clone, Debug)]
 pub struct Link {
-    /// The name of the link, which no other link of the robot has.
+    /// The name, unique among the links of the robot.
     pub name: String,
-    /// The bodies that are fixed in the link's frame.
+    /// The bodies that are fixed to the link.
     pub bodies: Vec<LinkBody>,
-    /// Half-spaces of a link that no joint moves: of each the pose in the link's frame of a frame in which it is below `z = 0`.
+    /// Half-spaces of a static link. Each pose places a frame in the link's frame; the half-space is below its plane
+    /// `z = 0`.
     pub planes: Vec<Pose>,
 }
 
-/// A body that is fixed in the frame of a link.
+/// A body that is fixed to a link.
 #[derive(Clone, Debug)]
 pub struct LinkBody {
-    /// The body, which clones of the link share.
+    /// The body. Clones of the link share it.
     pub body: Arc<Body>,
     /// The pose of the body in the link's frame.
     pub pose: Pose,
 }
 
-/// A joint of a robot, which connects a child link to its parent link.
+/// A joint of a robot, which connects a parent link to a child link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
-    /// The name of the joint, which no other joint of the robot has.
+    /// The name, unique among the joints of the robot.
     pub name: String,
-    /// The name of the link that holds the joint.
+    /// The name of the parent link.
     pub parent: String,
-    /// The name of the link that the joint moves.
+    /// The name of the child link, which the joint moves.
     pub child: String,
-    /// The axis and the limits of the joint, in the frame of the parent.
-    pub axis_and_limits: trajectory::Joint,
+    /// The joint's origin in the frame of the parent link, its axis and its limits.
+    pub geometry: trajectory::Joint,
     /// The source of the joint's position: the configuration, or another joint.
     pub position_rule: PositionRule,
 }
@@ -75,51 +76,51 @@ pub struct Joint {
 /// The source of a joint's position: the configuration, or another joint.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PositionRule {
-    /// The configuration has a position for the joint, unless the joint is fixed.
+    /// The configuration has a position for the joint. A fixed joint has none.
     Independent,
-    /// The joint follows another joint, as `mimic` of URDF. Its position is `multiplier · position + offset`; limits of
-    /// its own do not count.
+    /// The joint follows another joint, like `mimic` in URDF. Its position is `multiplier · position + offset`; its
+    /// own limits are ignored.
     Follows {
         /// The name of the followed joint.
         joint: String,
-        /// The factor on the followed joint's position.
+        /// The multiplier.
         multiplier: f64,
         /// The position of the joint when the followed joint is at 0.
         offset: f64,
     },
 }
 
-/// The rule by which a joint's position is computed from a configuration.
+/// Computes the position of a joint from a configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PositionSource {
-    /// The index of a position in the configuration, from which the joint's position is computed.
+    /// The index in the configuration of the position that the joint depends on.
     position_index: usize,
     multiplier: f64,
     offset: f64,
-    /// The sum of the absolute values of all offsets that add to `offset`.
+    /// The sum of the absolute values of the terms of `offset`.
     offset_magnitude: f64,
-    /// The number of joints from the joint to the one with a position of its own.
+    /// The number of joints that are followed, one after the other, up to a joint with a position of its own.
     mimic_chain_length: u32,
 }
 
 impl PositionSource {
-    /// Returns the index of the position in a configuration.
+    /// Returns the index in the configuration of the position that the joint depends on.
     pub(crate) fn position_index(&self) -> usize {
         self.position_index
     }
 
-    /// Returns the factor from the position in a configuration to that of the joint.
+    /// Returns the multiplier from that position to the joint's position.
     pub(crate) fn factor(&self) -> f64 {
         self.multiplier
     }
 
-    /// Returns the position of the joint when the position in a configuration is 0.
+    /// Returns the joint's position when that position is 0.
     pub(crate) fn offset(&self) -> f64 {
         self.offset
     }
 
-    /// Returns whether the factor is a whole number. While the position in the configuration makes one turn, the joint
-    /// then makes a whole number of turns.
+    /// Returns whether the multiplier is an integer. Then one turn of the followed joint is a whole number of turns of
+    /// this one.
     pub(crate) fn has_integer_multiplier(&self) -> bool {
         self.multiplier.fract() == 0.0
     }
@@ -130,23 +131,24 @@ impl PositionSource {
         if self.offset == 0.0 {
             self.multiplier * followed
         } else {
-            // Rounded once, also if product and offset cancel.
+            // Rounds once, also when product and offset cancel.
             self.multiplier.mul_add(followed, self.offset)
         }
     }
 
-    /// Returns a bound of the numbers of which the position of the joint is computed, more the more often it is rounded.
+    /// Returns a number to which the rounding error of the joint's position is proportional. It grows with the number
+    /// of roundings.
     pub(crate) fn magnitude(&self, configuration: &[f64]) -> f64 {
         let moved = (self.multiplier * configuration[self.position_index]).abs();
         self.magnitude_of_product(moved)
     }
 
-    /// Returns the same for a bound of the absolute value of the product with the factor.
+    /// Returns the same from an upper bound of `|multiplier · position|`.
     pub(crate) fn magnitude_of_product(&self, moved: f64) -> f64 {
         (moved + self.offset_magnitude) * f64::from(1 + self.mimic_chain_length)
     }
 
-    /// Returns one coefficient of the joint's position as a polynomial, from that of the position in the configuration.
+    /// Converts a coefficient of the followed position, as a polynomial, to one of the joint's position.
     pub(crate) fn polynomial_coefficient(
         &self,
         power: usize,
@@ -178,8 +180,8 @@ impl Link {
         self
     }
 
-    /// Adds the half-space below the plane `z = 0` of a frame at a pose in the link's frame. Only a link that no joint moves has
-    /// planes.
+    /// Adds the half-space below the plane `z = 0` of a frame at `pose` in the link's frame. Only static links may
+    /// have planes.
     #[must_use]
     pub fn with_plane(mut self, pose: Pose) -> Self {
         self.planes.push(pose);
@@ -196,16 +198,16 @@ impl Robot {
     /// Creates a robot from its links and joints, in any order.
     ///
     /// # Errors
-    /// [`RobotError`] with the link or the joint, if names are not unique or unknown, the joints form no tree, a
-    /// joint is reversed, or a joint moves a link with planes.
+    /// [`RobotError`] with the name of the link or joint: for repeated or unknown names, joints that do not form a
+    /// tree, a reversed joint, invalid limits, and planes on a moving link.
     pub fn new(links: Vec<Link>, mut joints: Vec<Joint>) -> Result<Self, RobotError> {
         for joint in &mut joints {
-            if joint.axis_and_limits.is_reversed() {
+            if joint.geometry.is_reversed() {
                 let joint = joint.name.clone();
                 return Err(RobotError::ReversedJoint { joint });
             }
-            RobotError::check_pose("joint", &joint.name, joint.axis_and_limits.origin())?;
-            let limits = joint.axis_and_limits.limits();
+            RobotError::check_pose("joint", &joint.name, joint.geometry.origin())?;
+            let limits = joint.geometry.limits();
             let (low, high) = (*limits.start(), *limits.end());
             // Written so that NaN is refused.
             if !(low <= high) {
@@ -213,15 +215,15 @@ impl Robot {
                 return Err(RobotError::InvalidLimits { joint, low, high });
             }
             if joint.position_rule != PositionRule::Independent {
-                joint.axis_and_limits = joint
-                    .axis_and_limits
+                joint.geometry = joint
+                    .geometry
                     .clone()
                     .with_limits(f64::NEG_INFINITY..=f64::INFINITY);
             }
         }
         for link in &links {
-            for held in &link.bodies {
-                RobotError::check_pose("a body of link", &link.name, &held.pose)?;
+            for link_body in &link.bodies {
+                RobotError::check_pose("a body of link", &link.name, &link_body.pose)?;
             }
             for plane in &link.planes {
                 RobotError::check_pose("a plane of link", &link.name, plane)?;
@@ -253,7 +255,7 @@ impl Robot {
         })
     }
 
-    /// Gives the robot a name. A file has one; without a file it is empty.
+    /// Sets the name of the robot. It is empty by default; a file sets it.
     #[must_use]
     pub fn with_name(self, name: impl Into<String>) -> Self {
         let name = name.into();
@@ -265,7 +267,7 @@ impl Robot {
         &self.name
     }
 
-    /// Adds remarks on the file that the robot is from.
+    /// Adds remarks on the file from which the robot was read.
     pub(crate) fn with_file_remarks(
         mut self,
         remarks: impl IntoIterator<Item = CellRemark>,
@@ -276,7 +278,7 @@ impl Robot {
         self
     }
 
-    /// Returns the remarks on the file that the robot is from.
+    /// Returns the remarks on the file from which the robot was read.
     pub fn file_remarks(&self) -> &[CellRemark] {
         &self.file_remarks
     }
@@ -291,7 +293,7 @@ impl Robot {
         &self.joints
     }
 
-    /// Returns the names of the joints that have a position of their own, in the order of a configuration.
+    /// Returns the names of the joints with a position of their own, in the order of a configuration.
     pub fn free_joint_names(&self) -> impl ExactSizeIterator<Item = &str> {
         let free = self.free_joints.iter();
         free.map(|&joint| self.joints[joint].name.as_str())
@@ -300,24 +302,24 @@ impl Robot {
     /// Returns the limits of the positions, in the order of a configuration.
     pub fn limits(&self) -> impl ExactSizeIterator<Item = [f64; 2]> {
         self.free_joints.iter().map(|&joint| {
-            let limits = self.joints[joint].axis_and_limits.limits();
+            let limits = self.joints[joint].geometry.limits();
             [*limits.start(), *limits.end()]
         })
     }
 
-    /// Returns the configuration in which each joint is at 0 or, if that is outside of its limits, at the limit nearest to 0.
+    /// Returns the configuration with each joint at 0, or at the limit nearest to 0.
     pub fn configuration_nearest_zero(&self) -> Vec<f64> {
         let limits = self.limits();
-        // The lower limit is not above the upper one.
+        // `clamp` requires ordered limits, which `Robot::new` has checked.
         limits.map(|[low, high]| 0f64.clamp(low, high)).collect()
     }
 
-    /// Returns the number of the base, which is the link that no joint moves.
+    /// Returns the index of the base, the only link that is no joint's child.
     pub fn base(&self) -> usize {
         self.tree.base()
     }
 
-    /// Returns the number of the link that has the given name.
+    /// Returns the index in [`Robot::links`] of the link with this name.
     ///
     /// # Errors
     /// [`RobotError::NoSuchLink`].
@@ -338,12 +340,12 @@ impl Robot {
             .pose(chain.chain().joints().len(), &positions)?)
     }
 
-    /// Returns the chain of joints by which link number `to` moves in the frame of link number `from`. It leads up to
-    /// their common ancestor, through reversed joints, and down again.
+    /// Returns the chain of joints that moves link `to` in the frame of link `from`. The chain goes up to their
+    /// nearest common ancestor, through reversed joints, and down again.
     pub fn chain_between(&self, from: usize, to: usize) -> ChainBetween {
         let steps = self.tree.path_between(from, to);
         let joints = steps.iter().map(|step| {
-            let joint = self.joints[step.joint].axis_and_limits.clone();
+            let joint = self.joints[step.joint].geometry.clone();
             if step.leads_to_parent {
                 joint.reversed()
             } else {
@@ -354,39 +356,38 @@ impl Robot {
         ChainBetween::new(chain, steps.iter().map(|step| step.joint).collect())
     }
 
-    /// Returns whether only fixed joints are between two links, so that neither moves in the frame of the other.
+    /// Returns whether only fixed joints connect two links.
     pub(crate) fn are_rigidly_connected(&self, one: usize, other: usize) -> bool {
         self.rigid_roots[one] == self.rigid_roots[other]
     }
 
-    /// Returns whether a joint connects two links directly.
+    /// Returns whether one joint connects two links.
     pub(crate) fn are_neighbours(&self, one: usize, other: usize) -> bool {
         self.parent_link(one) == Some(other) || self.parent_link(other) == Some(one)
     }
 
-    /// Returns the number of a link's parent link; `None` for the base.
+    /// Returns the index of a link's parent link; `None` for the base.
     pub(crate) fn parent_link(&self, link: usize) -> Option<usize> {
         self.tree.parent(link)
     }
 
-    /// Returns the numbers of the links that a joint holds, each with those of the link that carries the joint, and of the
-    /// joint. Links come after those nearer to the base.
+    /// Returns the indices (child link, parent link, joint) of all joints. Parents come before children.
     pub fn joints_parents_first(&self) -> Vec<(usize, usize, usize)> {
         self.tree.links_parents_first()
     }
 
-    /// Returns how the position of a joint comes from a configuration; `None` for a fixed one.
+    /// Returns how a joint's position is computed from a configuration; `None` for a fixed joint.
     pub(crate) fn source(&self, joint: usize) -> Option<PositionSource> {
         self.position_sources[joint]
     }
 
-    /// Refuses a configuration with a wrong number of positions, or with a position outside of its joint's limits.
+    /// Checks the number of positions of a configuration, and that each is within its joint's limits.
     pub(crate) fn check_configuration(&self, configuration: &[f64]) -> Result<(), RobotError> {
         self.check_position_count(configuration.len())?;
         for (&joint, &position) in self.free_joints.iter().zip(configuration) {
             let Joint {
                 name,
-                axis_and_limits: joint,
+                geometry: joint,
                 ..
             } = &self.joints[joint];
             let is_near = position.abs() <= MAX_COORDINATE;
@@ -406,12 +407,12 @@ impl Robot {
         Ok(())
     }
 
-    /// Iterates over how the positions of all joints that move come from a configuration.
+    /// Iterates over how the positions of all moving joints are computed.
     pub(crate) fn position_sources(&self) -> impl Iterator<Item = PositionSource> {
         self.position_sources.iter().copied().flatten()
     }
 
-    /// Refuses a number of positions other than that of a configuration.
+    /// Checks the number of positions of a configuration.
     pub(crate) fn check_position_count(&self, count: usize) -> Result<(), RobotError> {
         let expected = self.free_joints.len();
         if count == expected {
@@ -424,7 +425,7 @@ impl Robot {
         })
     }
 
-    /// Returns the position of each joint in a configuration, in the order of [`Robot::joints`]; 0 for a fixed joint.
+    /// Returns the positions of all joints at a configuration, in the order of [`Robot::joints`]; 0 for a fixed joint.
     ///
     /// # Errors
     /// [`RobotError::WrongPositionCount`].
@@ -436,27 +437,27 @@ impl Robot {
             .collect())
     }
 
-    /// Returns the position of a joint in a configuration; 0 for a fixed joint.
+    /// Returns the position of a joint at a configuration; 0 for a fixed joint.
     fn position(&self, joint: usize, configuration: &[f64]) -> f64 {
         self.position_sources[joint].map_or(0.0, |source| source.position(configuration))
     }
 }
 
-/// Finds the rule for the position of each joint, and the joints that have a position of their own.
+/// Computes how each joint's position depends on a configuration, and lists the joints with a position of their own.
 fn position_sources_and_free_joints(
     joints: &[Joint],
 ) -> Result<(Vec<Option<PositionSource>>, Vec<usize>), RobotError> {
     let is_free = |joint: &Joint| {
-        joint.position_rule == PositionRule::Independent && !joint.axis_and_limits.is_fixed()
+        joint.position_rule == PositionRule::Independent && !joint.geometry.is_fixed()
     };
     let free_joints: Vec<usize> = (0..joints.len()).filter(|&k| is_free(&joints[k])).collect();
     let sources = joints.iter().map(|joint| {
-        if joint.axis_and_limits.is_fixed() {
+        if joint.geometry.is_fixed() {
             return Ok(None);
         }
         let (mut multiplier, mut offset, mut at) = (1.0, 0.0, joint);
         let mut offset_magnitude = 0.0;
-        // A joint that follows another one more often than there are joints follows itself.
+        // A chain of followed joints that is longer than the number of joints contains a loop.
         for follow_count in 0..=joints.len() as u32 {
             match &at.position_rule {
                 PositionRule::Independent => {

@@ -28,10 +28,10 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use urdf::UrdfReader;
 
-/// A URDF or MJCF file of a robot to read, with the choice of how its links become bodies.
+/// A URDF or MJCF file of a robot, and how its shapes become bodies.
 ///
-/// A file whose first element is `mujoco` is an MJCF, any other a URDF. The bodies of an MJCF become links, and the world the
-/// link `world`.
+/// A file whose root element is `mujoco` is an MJCF; any other is a URDF. The bodies of an MJCF become links, and its
+/// world becomes the link `world`.
 ///
 /// ```
 /// use rigid_ccd_robot::{MeshConversion, RobotFile};
@@ -52,7 +52,7 @@ use urdf::UrdfReader;
 #[derive(Clone, Debug)]
 pub struct RobotFile {
     path: PathBuf,
-    /// The text of the file, if it is not read from the path.
+    /// The text of the file; `None` to read it from the path.
     text: Option<String>,
     search_folders: SearchFolders,
     body_elements: BodyElements,
@@ -60,8 +60,8 @@ pub struct RobotFile {
 }
 
 impl RobotFile {
-    /// Names the file to read. Its links become exact bodies of their shapes for collision checks. Packages are searched
-    /// for in the folders of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then in the folders above the file.
+    /// Names a file to read. By default its collision shapes become exact bodies. Packages are searched in the folders
+    /// of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then in the folders above the file.
     pub fn from_path(path: impl Into<PathBuf>) -> Self {
         let path = path.into();
         RobotFile {
@@ -73,7 +73,8 @@ impl RobotFile {
         }
     }
 
-    /// Takes the text of a file that is not read. Meshes are found and messages are written as if it were at a path.
+    /// Takes the text of a file instead of reading it. `path` is the assumed path of the file, for finding meshes and
+    /// in messages.
     ///
     /// ```
     /// use rigid_ccd_robot::RobotFile;
@@ -88,14 +89,14 @@ impl RobotFile {
         }
     }
 
-    /// Adds a folder that is searched first for `package://` names. The folder is a package, or holds packages.
+    /// Adds a folder that is searched first for `package://` names. It is a package or contains packages.
     #[must_use]
     pub fn with_package_folder(mut self, folder: impl Into<PathBuf>) -> Self {
         self.search_folders.prepend_folder(folder.into());
         self
     }
 
-    /// Sets whether the shapes for collision checks or those for drawing become bodies.
+    /// Sets whether collision shapes or visual shapes become bodies.
     #[must_use]
     pub fn with_body_element_kind(self, elements: BodyElements) -> Self {
         RobotFile {
@@ -104,7 +105,7 @@ impl RobotFile {
         }
     }
 
-    /// Sets whether a mesh becomes exact pieces or its convex hull.
+    /// Sets whether a mesh becomes exact convex pieces or its convex hull.
     #[must_use]
     pub fn with_mesh_conversion(self, meshes: MeshConversion) -> Self {
         RobotFile {
@@ -115,21 +116,25 @@ impl RobotFile {
 
     /// Reads the file and its meshes, and builds the robot.
     ///
-    /// A cylinder becomes a polytope that encloses it; see [`Body::excess`](rigid_ccd::Body::excess). A floating, planar or
-    /// spherical joint becomes a chain of joints, see [`CompoundKind`](crate::CompoundKind).
+    /// A cylinder becomes an enclosing polytope; see [`Body::excess`](rigid_ccd::Body::excess). A floating, planar or
+    /// spherical joint becomes a chain of joints; see [`CompoundKind`](crate::CompoundKind).
     ///
-    /// Of an MJCF, a joint whose position is a linear function of another joint's, by an element `equality`, follows that one.
-    /// Other constraints, such as those that close loops of bodies, leave joints independent: a path has to keep them. Ranges
-    /// of ball joints and margins of geoms are left out. The positions of a free joint are those of its body in the world, and of
-    /// a `mocap` body as well. An ellipsoid becomes a polytope that encloses it. A shape that is fitted to a mesh, a height field in
-    /// a picture, a mesh that MuJoCo makes, a plane on a body that moves, and an element that is not known are errors. MuJoCo
-    /// collides the convex hull of a mesh: [`MeshConversion::OuterHull`] takes it, and a mesh that is exact is free in its hollows.
+    /// For an MJCF:
     ///
-    /// Elements and attributes that are not known are errors, too, unless they are known to say nothing of shapes, joints and
-    /// pairs. [`Robot::file_remarks`] names what may be a mistake.
+    /// - A joint follows another one if an `equality` makes its position a linear function of the other's. Other
+    ///   constraints, for example those that close loops, are ignored: paths have to satisfy them.
+    /// - The positions of a free joint or a `mocap` body are those of the body in the world.
+    /// - Limits of ball joints and margins of geoms are ignored.
+    /// - An ellipsoid becomes an enclosing polytope.
+    /// - MuJoCo uses the convex hull of a mesh, and so does [`MeshConversion::OuterHull`]. The default uses the exact
+    ///   mesh, in whose hollows nothing touches.
+    /// - Shapes fitted to meshes, height fields from images, built-in meshes and planes on moving bodies are errors.
+    ///
+    /// Unknown elements and attributes are errors, unless they are known to be unrelated to shapes, joints and pairs.
+    /// [`Robot::file_remarks`] lists probable mistakes.
     ///
     /// # Errors
-    /// [`RobotFileError`] with the link or the joint, and with the file of a mesh.
+    /// [`RobotFileError`] with the name of the link, joint or mesh file.
     pub fn read(&self) -> Result<Robot, RobotFileError> {
         let text = self.text()?;
         self.search_folders.check_given_folders()?;
@@ -160,17 +165,17 @@ impl RobotFile {
         Ok(robot.with_name(name).with_file_remarks(remarks))
     }
 
-    /// Returns which pairs of links are checked: all pairs except neighbours, links that never move relative to each
-    /// other, and pairs that the SRDF file disables; those that it enables are checked.
+    /// Returns the pairs of links that are checked. Adjacent links, links that do not move relative to each other, and
+    /// pairs that the SRDF disables are not checked. The SRDF can enable pairs again.
     ///
-    /// Of an MJCF, the pairs are those that MuJoCo checks: neighbours of the world are, and its elements `exclude` and `pair` and
-    /// the attributes `contype` and `conaffinity` count.
+    /// For an MJCF, the pairs are those of MuJoCo: `contype`, `conaffinity`, `exclude` and `pair` apply, and children
+    /// of the world are checked against it.
     ///
-    /// An SRDF may name links that the robot does not have, with a remark. `disable_default_collisions` disables all pairs of
-    /// a link and other links, but no pair of a link and an obstacle.
+    /// Links in the SRDF that the robot does not have give a remark. `disable_default_collisions` disables all pairs
+    /// of a link with other links, but none with obstacles.
     ///
     /// # Errors
-    /// [`RobotFileError`] if a file cannot be read, or if the robot has none of the links that an SRDF names.
+    /// [`RobotFileError`] if a file cannot be read, or if the robot has none of the SRDF's links.
     pub fn link_pairs(
         &self,
         robot: &Robot,
@@ -213,7 +218,7 @@ impl RobotFile {
         }
         let folder = self.path.parent().unwrap_or(Path::new(""));
         let model = MjcfModel::from_text(text, folder).map_err(|error| match error {
-            // The text has no name of its own.
+            // Names the path, which the text itself does not know.
             RobotFileError::Mjcf(MjcfError::Syntax { error }) => self.syntax_error(error),
             other => other,
         })?;
@@ -228,13 +233,13 @@ impl RobotFile {
     }
 }
 
-/// Returns the name of the first element of an XML text; `None` if there is none.
+/// Returns the name of the root element of an XML text; `None` if it is not XML.
 fn root_element(text: &str) -> Option<String> {
     let document = Document::parse(text).ok()?;
     Some(document.root_element().tag_name().name().to_owned())
 }
 
-/// Returns the name of the robot in a URDF or an MJCF; empty if it has none.
+/// Returns the robot's name in a URDF or MJCF; empty if there is none.
 fn robot_name(text: &str) -> String {
     let name = Document::parse(text).ok().and_then(|document| {
         let root = document.root_element();

@@ -1,4 +1,4 @@
-//! The remarks on a robot: on its files, on sizes, and on what is not checked.
+//! Remarks on a robot: on its files, on sizes, and on what is not checked.
 
 use crate::pairs::LinkPairs;
 use crate::remark::CellRemark;
@@ -6,11 +6,11 @@ use crate::robot::Robot;
 use crate::skip_reason::SkipReason;
 
 impl LinkPairs {
-    /// Lists the remarks on a robot whose pairs these are, warnings first: on its files, on links in another unit of length than
-    /// its joints, and on what is not checked.
+    /// Lists the remarks on a robot, warnings first. They concern its files, links that seem to be in another unit of
+    /// length than its joints, and what is not checked. The pairs must be those of this robot.
     ///
     /// # Complexity
-    /// Linear in the points of all bodies, and quadratic in the links.
+    /// Linear in the points of all bodies, quadratic in the number of links.
     pub fn remarks(&self, robot: &Robot) -> Vec<CellRemark> {
         let mut remarks = self.warnings_of_unchecked(robot);
         remarks.extend(robot.file_remarks().iter().cloned());
@@ -26,7 +26,7 @@ impl LinkPairs {
         CellRemark::warnings_first(remarks)
     }
 
-    /// Returns the remarks that most of a robot is not checked.
+    /// Returns warnings if most of the robot is not checked.
     fn warnings_of_unchecked(&self, robot: &Robot) -> Vec<CellRemark> {
         let moving = moving_links(robot, self);
         let names = |is_left: fn(&MovingLink) -> bool| {
@@ -53,23 +53,24 @@ impl LinkPairs {
     }
 }
 
-/// A link that a joint moves, of which a check may be expected.
+/// A moving link that should be checked.
 struct MovingLink {
     name: String,
     has_body: bool,
-    /// Whether it is checked against another link, or every reason why it is not is the robot's structure.
+    /// Whether the link is checked against another link, or all reasons why it is not follow from the robot's
+    /// structure.
     is_checked_as_far_as_possible: bool,
 }
 
-/// Returns the links that a joint moves and that have a body, or that hold another moving joint at a distance from their own: a
-/// frame between two joints at the same place has no shape.
+/// Returns the moving links with a body, and those without a body that span a distance to another moving joint. A
+/// frame between two joints at the same place needs no shape.
 fn moving_links(robot: &Robot, pairs: &LinkPairs) -> Vec<MovingLink> {
-    let is_moving = |joint: usize| !robot.joints()[joint].axis_and_limits.is_fixed();
+    let is_moving = |joint: usize| !robot.joints()[joint].geometry.is_fixed();
     let all = robot.joints_parents_first();
     let spans = |link: usize| {
         let carried = all.iter().filter(|&&(_, parent, _)| parent == link);
         carried.clone().any(|&(_, _, joint)| {
-            let origin = robot.joints()[joint].axis_and_limits.origin();
+            let origin = robot.joints()[joint].geometry.origin();
             is_moving(joint) && origin.translation().length() > 0.0
         })
     };

@@ -1,4 +1,4 @@
-//! Why pairs of links are not checked.
+//! The reasons why pairs of links are not checked.
 
 use std::fmt;
 
@@ -10,17 +10,17 @@ pub enum SkipReason {
     Adjacent,
     /// No joint moves one link relative to the other.
     NoMotion,
-    /// The caller or a file, such as an SRDF, excludes the pair, for the reason given here.
+    /// The caller or a file, such as an SRDF, disables the pair. The text is the reason given.
     Disabled(String),
 }
 
-/// Pairs of links that are not checked, for the same reason.
+/// Pairs of links that are not checked for the same reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct LeftOutPairs {
     /// The reason.
     pub reason: SkipReason,
-    /// The names of the links.
+    /// The names of both links of each pair.
     pub pairs: Vec<[String; 2]>,
 }
 

@@ -1,4 +1,4 @@
-//! Questions about paths: a robot moves through configurations, or along a curve.
+//! Answers questions about paths: a robot moves through configurations, or along a curve.
 
 mod boxes;
 mod clearance_ranges;
@@ -7,10 +7,10 @@ mod curved_link;
 pub(crate) mod displacement;
 mod distance_curve;
 mod engine;
+mod engine_candidates;
 mod exact;
 mod limits;
 pub(crate) mod measure;
-mod open_pairs;
 pub(crate) mod pair_chain;
 pub(crate) mod part_pairs;
 mod periods;
@@ -30,35 +30,42 @@ use ccd_core::order::greater;
 use part_pairs::PartPair;
 use rigid_ccd::answer::{HitKind, Unresolved};
 use rigid_ccd::{ContactNormals, Error, Hit, Outcome, Question, Settings, Solver, StartPolicy};
-use search::Search;
+use search::PathSearch;
+use std::fmt;
 
-/// Answers questions about paths in a cell, one after another.
+/// Answers questions about paths in a cell.
 ///
-/// A [`Path`] is a slice of configurations, between two of which all joints move at constant rates, or a
+/// A [`Path`] is a slice of configurations, between which all joints move at constant rates, or a
 /// [`JointCurve`](crate::JointCurve).
 ///
-/// The margin of the settings is the distance at which bodies count as touching. Normals of contacts play no role, and a clearance in
-/// the settings is refused.
+/// # Settings
+/// The margin is the distance at which bodies count as touching. Settings with a clearance are refused. The kind of
+/// contact normals has no effect.
 ///
-/// A deadline is for a whole question. A [budget](rigid_ccd::Settings::budget) is for each query of two bodies that a path leaves to
-/// the engine. A whole question takes at most 8 budgets for each segment of its path, all pairs together: what one segment does
-/// not need is for the others. That counts the pairs that are measured as well; each takes less than a microsecond. The closest
-/// approach takes up to half as much again. Each range of a [distance curve](Self::distance_curve) counts as a question, and so
-/// does each stretch that is examined for [clearance ranges](Self::clearance_ranges). A budget may end a search at a contact that
-/// is later, within the tolerance of what is asked for, than the one that a larger budget finds.
+/// A deadline applies to a whole question. A [budget](rigid_ccd::Settings::budget) applies to each query of two bodies
+/// that the solver hands to the engine. In total, a question may use 8 budgets for each segment of its path, and a
+/// closest approach up to 12. The total also counts the pairs that the solver measures itself; each takes less than a
+/// microsecond. Each range of a [distance curve](Self::distance_curve) counts as a question, and so does each interval
+/// that [clearance ranges](Self::clearance_ranges) examine. A smaller budget may lead to a slightly later contact,
+/// still within the tolerance.
 ///
-/// Under the start policy [`Leave`](StartPolicy::Leave), questions about the first or any contact let go of pairs in contact at the
-/// start, as two bodies do: such a pair may part or slide, but not come nearer nor sink. One with a gap keeps half of it from then on;
-/// one without may sink by what rounding hides and by a millionth of the tolerance, and touches again when it comes back. A pair that
-/// begins nearer than its margin keeps the distance that it began with. One that overlaps is a contact, and so is one
-/// without a gap that slides along other ways than straight ones: [`Cell::allow_contact`] allows that.
+/// # Contacts at the start
+/// Under the start policy [`Leave`](StartPolicy::Leave), questions about the first or any contact ignore contacts at
+/// the start as long as the bodies separate or slide, as in queries of two bodies:
+///
+/// - A pair with a gap must keep half of the gap from then on.
+/// - A pair without a gap may come nearer by rounding errors and a millionth of the tolerance. If it separates and
+///   returns, that is a contact. If it slides along a curved path, it soon counts as a contact; use
+///   [`Cell::allow_contact`] for such a pair.
+/// - A pair within its margin must not come nearer than at the start.
+/// - A pair that overlaps is a contact.
 pub struct CellSolver<'c> {
     cell: &'c Cell,
-    search: Search<'c>,
+    search: PathSearch<'c>,
     distance_solver: Solver,
 }
 
-/// What a search along a path looks for.
+/// The goal of a search along a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Goal {
     AnyContact,
@@ -66,48 +73,57 @@ pub(crate) enum Goal {
     LeastDistance,
 }
 
+impl fmt::Debug for CellSolver<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("CellSolver")
+            .field("settings", self.search.settings())
+            .finish_non_exhaustive()
+    }
+}
+
 impl Cell {
-    /// Returns a solver for paths in this cell. It keeps memory from one question to the next.
+    /// Returns a solver for paths in this cell. The solver reuses its memory from question to question.
     pub fn solver(&self) -> CellSolver<'_> {
         CellSolver {
             cell: self,
-            search: Search::new(self),
+            search: PathSearch::new(self),
             distance_solver: Solver::new(),
         }
     }
 }
 
 impl<'c> CellSolver<'c> {
-    /// Sets the tolerance, the margin and limits of the questions that follow.
+    /// Sets the settings of the following questions.
     #[must_use]
     pub fn with_settings(mut self, settings: Settings) -> Self {
         self.set_settings(settings);
         self
     }
 
-    /// Makes what questions would make when they need it first: the chains of joints by which pairs move, and place for pairs.
-    /// Answers are the same. A solver that has to keep deadlines, or not to allocate, is prepared, and warmed by some questions.
+    /// Allocates memory and builds joint chains that questions would otherwise create on first use. Answers do not
+    /// change. For predictable times, prepare a solver and let it answer a few questions first.
     pub fn prepare(&mut self) {
         self.search.prepare();
     }
 
-    /// Changes the tolerance, the margin and limits of the questions that follow.
+    /// Changes the settings of the following questions.
     pub fn set_settings(&mut self, settings: Settings) {
         self.search.set_settings(settings);
     }
 
-    /// Returns whether the robot touches nothing on a path, itself included. A pair in contact is not measured.
+    /// Returns whether nothing touches on a path: neither the robot and an obstacle, nor two links. Measures no
+    /// contact.
     ///
     /// # Guarantee
-    /// On a free path all pairs that are checked stay apart by more than the margin. On other paths a pair comes within
+    /// On a free path all checked pairs stay farther apart than the margin. On any other path some pair comes within
     /// margin + [tolerance](PathAnswer::tolerance).
     ///
     /// # Errors
-    /// [`PathError`]; also if a limit is reached.
+    /// [`PathError`], also if a limit is reached.
     pub fn is_free<P: Path + ?Sized>(&mut self, path: &P) -> Result<bool, PathError> {
         self.search(Goal::AnyContact, path)?;
-        let found = &self.search.result;
-        match (found.nearest, found.limit_reached) {
+        let result = &self.search.result;
+        match (result.nearest, result.limit_reached) {
             (Some(_), _) => Ok(false),
             (None, None) => Ok(true),
             (None, Some((limit, _))) => {
@@ -116,7 +132,7 @@ impl<'c> CellSolver<'c> {
         }
     }
 
-    /// Returns any contact on a path, perhaps not the first one. Limits may change which one.
+    /// Returns any contact on a path, not necessarily the first. Which one depends on the limits.
     ///
     /// # Errors
     /// [`PathError`].
@@ -124,11 +140,11 @@ impl<'c> CellSolver<'c> {
         self.answer(Question::AnyContact, path)
     }
 
-    /// Returns the first contact on a path: the last free point, and what touches there.
+    /// Returns the first contact on a path: the touching pair, and the last point before which the path is free.
     ///
     /// # Guarantee
-    /// All pairs that are checked stay apart by more than the margin before that point. There the pair is within
-    /// margin + [tolerance](PathAnswer::tolerance).
+    /// Before that point all checked pairs stay farther apart than the margin. At that point the reported pair is
+    /// within margin + [tolerance](PathAnswer::tolerance).
     ///
     /// # Errors
     /// [`PathError`].
@@ -139,13 +155,12 @@ impl<'c> CellSolver<'c> {
         self.answer(Question::FirstContact, path)
     }
 
-    /// Returns how near any pair that is checked comes to touching on a path. The margin, paddings and clearances play no
-    /// role.
+    /// Returns the least distance of any checked pair on a path. Margins, paddings and clearances have no effect.
     ///
     /// # Guarantee
-    /// No pair is ever nearer than the lower bound, and the nearest one comes at least as near as the upper bound. They
-    /// differ by at most the [tolerance](PathAnswer::tolerance), and by what the nearest bodies
-    /// [exceed](rigid_ccd::Body::excess) their shapes by, unless a limit is reached.
+    /// No checked pair is ever nearer than the lower bound. The nearest pair comes at least as near as the upper
+    /// bound. The bounds differ by at most the [tolerance](PathAnswer::tolerance) plus the
+    /// [excess](rigid_ccd::Body::excess) of both nearest bodies, unless a limit is reached.
     ///
     /// # Errors
     /// [`PathError`].
@@ -156,10 +171,10 @@ impl<'c> CellSolver<'c> {
         self.answer(Question::ClosestApproach, path)
     }
 
-    /// Answers a question that is chosen at run time, one of [`QUESTIONS`](Self::QUESTIONS).
+    /// Answers a question that is chosen at run time. It must be one of [`QUESTIONS`](Self::QUESTIONS).
     ///
     /// # Errors
-    /// [`PathError`]; also for other questions.
+    /// [`PathError`], also for other questions.
     pub fn answer<P: Path + ?Sized>(
         &mut self,
         question: Question,
@@ -177,25 +192,26 @@ impl<'c> CellSolver<'c> {
         Ok(self.measured_answer(goal)?)
     }
 
-    /// The questions about a path.
+    /// The questions that can be asked about a path.
     pub const QUESTIONS: [Question; 3] = [
         Question::AnyContact,
         Question::FirstContact,
         Question::ClosestApproach,
     ];
 
-    /// Returns the tolerance that the last answer meets: [`PathAnswer::tolerance`], also after [`is_free`](Self::is_free).
+    /// Returns the tolerance of the last answer, see [`PathAnswer::tolerance`]. Also available after
+    /// [`is_free`](Self::is_free).
     pub fn met_tolerance(&self) -> f64 {
         self.search.met_tolerance()
     }
 
-    /// Makes an answer of what the last search found, and measures the pair in contact.
+    /// Converts the result of the last search to an answer. Measures the pair in contact.
     fn measured_answer(&mut self, goal: Goal) -> Result<PathAnswer<'c>, Error> {
-        let found = self.search.result;
+        let result = self.search.result;
         let segments = self.search.segment_count();
         let end = PathPoint::from_path_position(segments as f64, segments);
-        let limit = found.limit_reached;
-        let (outcome, free_until) = match (goal, limit, found.nearest) {
+        let limit = result.limit_reached;
+        let (outcome, free_until) = match (goal, limit, result.nearest) {
             (Goal::LeastDistance, ..) => (self.measured_distance()?, PathPoint::START),
             (Goal::FirstContact, Some((limit, until)), _) => {
                 let free_until = PathPoint::from_path_position(until, segments);
@@ -223,15 +239,15 @@ impl<'c> CellSolver<'c> {
         })
     }
 
-    /// Returns the bounds of the distance that the last search found.
+    /// Returns the distance bounds of the last search as an outcome.
     fn measured_distance(&mut self) -> Result<PathOutcome<'c>, Error> {
         let (lower, upper) = self.search.distance_bounds();
-        let found = self.search.result;
-        let nearest = found
+        let result = self.search.result;
+        let nearest = result
             .nearest
             .map(|found| self.measure_contact(found))
             .transpose()?;
-        Ok(match found.limit_reached {
+        Ok(match result.limit_reached {
             None => PathOutcome::LeastDistance {
                 lower,
                 upper,
@@ -246,34 +262,34 @@ impl<'c> CellSolver<'c> {
         })
     }
 
-    /// Searches a path.
+    /// Sets a path, and searches it.
     fn search<P: Path + ?Sized>(&mut self, goal: Goal, path: &P) -> Result<(), PathError> {
         if goal != Goal::LeastDistance && self.leaves_start() {
             self.set_path(path)?;
             return Ok(self.search.answer_leaving_start(goal)?);
         }
         self.set_path_reporting_start(path)?;
-        let whole = self.search.whole_path_stretch();
+        let whole = self.search.whole_path_interval();
         Ok(self.search.answer_question(goal, whole)?)
     }
 
-    /// Takes a path for questions that do not let contacts at the start go.
+    /// Sets the path of questions that do not support the start policy `leave`.
     fn set_path_reporting_start<P: Path + ?Sized>(&mut self, path: &P) -> Result<(), PathError> {
         if self.leaves_start() {
             return Err(PathError::UnsupportedSetting {
-                setting: "the start policy `leave`: questions about the first or any contact do",
+                setting: "the start policy `leave`; only questions about the first or any contact do",
             });
         }
         self.set_path(path)
     }
 
-    /// Takes a path for the questions that follow, if it fits the robot and the settings are valid.
+    /// Sets the path of the following questions, if it fits the robot and the settings are valid.
     fn set_path<P: Path + ?Sized>(&mut self, path: &P) -> Result<(), PathError> {
         let settings = self.search.settings();
         settings.check().map_err(Error::from)?;
         if settings.clearance.is_some() {
             return Err(PathError::UnsupportedSetting {
-                setting: "a clearance in its settings: the verdict of a closest approach takes one, and a cell those of pairs",
+                setting: "a clearance in its settings; set clearances of pairs in the cell, or compare a closest approach with one",
             });
         }
         self.search.begin(path)
@@ -286,14 +302,14 @@ impl<'c> CellSolver<'c> {
     /// Measures a pair at a point of the path.
     fn measure_contact(&mut self, (at, pair): (f64, PartPair)) -> Result<PathContact<'c>, Error> {
         self.search.add_rounding_of_contact_point((at, pair));
-        let bodies = pair.body_numbers(self.cell.parts());
+        let bodies = pair.body_indices(self.cell.parts());
         let placement = self.search.place_frames(at);
         let rounding = 2.0 * placement.rounding;
         let (a, b) = (
             placement.body(self.cell, bodies[0])?,
             placement.body(self.cell, bodies[1])?,
         );
-        // The deadline is for this, too: without witnesses a contact is a contact.
+        // The deadline applies here, too. If it passes, the contact is reported without witnesses.
         self.distance_solver.set_settings(Settings {
             deadline: self.search.stop_condition.remaining(),
             contact_normals: ContactNormals::OfPieces,
@@ -320,7 +336,7 @@ impl<'c> CellSolver<'c> {
     }
 }
 
-/// Returns the nearest points of two bodies as a contact; two pieces that intersect if the bodies overlap.
+/// Returns the nearest points of two bodies as a contact, or the intersecting pieces of overlapping bodies.
 fn hit_of_distance(outcome: &Outcome) -> Option<Hit> {
     let kind = match *outcome {
         Outcome::Overlapping { overlap, .. } => HitKind::Overlapping(overlap),

@@ -1,4 +1,4 @@
-//! Which pairs of links are not checked: reads them from an SRDF file, and writes one with proofs.
+//! Reads the disabled pairs of links from an SRDF file, and writes an SRDF file with proven pairs.
 
 use crate::link_contacts::LinkContactClass;
 use crate::pairs::LinkPairs;
@@ -8,22 +8,23 @@ use crate::skip_reason::SkipReason;
 use roxmltree::{Document, Node};
 use std::fmt::Write;
 
-/// The pairs that an SRDF file disables, and those that it enables again.
+/// The disabled and enabled pairs of an SRDF file.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct Srdf {
     /// The name of the robot; empty if the file has none.
     robot_name: String,
     disabled: Vec<SrdfPair>,
     enabled: Vec<SrdfPair>,
-    /// The links whose pairs with other links are disabled unless they are enabled one by one.
+    /// The links of `disable_default_collisions`: all their pairs with other links are disabled, unless enabled
+    /// explicitly.
     disabled_links: Vec<String>,
 }
 
-/// A pair of links by their names.
+/// A pair of links, by name.
 #[derive(Debug, PartialEq)]
 struct SrdfPair {
     links: [String; 2],
-    /// MoveIt's reason, such as `Never` or `Adjacent`; empty if the file has none.
+    /// The reason that the file gives, such as MoveIt's `Never` or `Adjacent`; empty if it gives none.
     reason: String,
 }
 
@@ -31,13 +32,13 @@ struct SrdfPair {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SrdfError {
-    /// The file is no XML.
+    /// The file is not valid XML.
     #[error("{error}")]
     Syntax {
         /// The parser's message.
         error: String,
     },
-    /// An element is not known.
+    /// An element is unknown.
     #[error("an element `{element}` is not known in an SRDF")]
     UnknownElement {
         /// The name of the element.
@@ -51,7 +52,7 @@ pub enum SrdfError {
         /// The name of the attribute.
         attribute: String,
     },
-    /// An attribute that has to be there is not.
+    /// A required attribute is missing.
     #[error("an element `{element}` needs an attribute `{attribute}`")]
     MissingAttribute {
         /// The name of the element.
@@ -59,15 +60,15 @@ pub enum SrdfError {
         /// The name of the attribute.
         attribute: String,
     },
-    /// The robot has none of the links of the file.
-    #[error("is of another robot: there is no link {}", links.join(", "))]
+    /// The robot has none of the links that the file names.
+    #[error("the file belongs to another robot: there is no link {}", links.join(", "))]
     OtherRobot {
-        /// The names of the links.
+        /// The names of these links.
         links: Vec<String>,
     },
 }
 
-/// The elements of an SRDF that say nothing of pairs of links.
+/// The elements that are unrelated to pairs of links.
 const HARMLESS_ELEMENTS: [&str; 7] = [
     "end_effector",
     "group",
@@ -95,7 +96,7 @@ impl Srdf {
         };
         for element in root.children().filter(Node::is_element) {
             match element.tag_name().name() {
-                // What has a prefix belongs to a program, such as xacro, that makes an SRDF of it.
+                // An element with a namespace prefix belongs to a program, such as xacro, that generates an SRDF.
                 _ if element.tag_name().namespace().is_some() => {
                     return Err(unknown_element(element));
                 }
@@ -112,8 +113,7 @@ impl Srdf {
         Ok(srdf)
     }
 
-    /// Excludes and includes pairs of a robot's links. Adds a remark with the links that the robot does not have, and one if
-    /// its name is another.
+    /// Applies the file to the pairs of a robot. Adds remarks on unknown links and on a robot name that differs.
     pub(crate) fn apply(&self, robot: &Robot, pairs: &mut LinkPairs) -> Result<(), SrdfError> {
         let number = |link: &String| robot.link_number(link).ok();
         let unknown = self.unknown_links(robot)?;
@@ -146,10 +146,10 @@ impl Srdf {
         Ok(())
     }
 
-    /// Returns the links that a robot does not have.
+    /// Returns the links of the file that a robot does not have.
     ///
     /// # Errors
-    /// If it has none of them.
+    /// If the robot has none of the links.
     fn unknown_links(&self, robot: &Robot) -> Result<Vec<String>, SrdfError> {
         let pairs = self.disabled.iter().chain(&self.enabled);
         let mut links: Vec<&String> = pairs.flat_map(|pair| &pair.links).collect();
@@ -204,15 +204,16 @@ fn unknown_element(element: Node<'_, '_>) -> SrdfError {
     }
 }
 
-/// Returns a text as it stands in an attribute of XML.
+/// Escapes a text for an XML attribute.
 fn escape(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;");
     text.replace('>', "&gt;").replace('"', "&quot;")
 }
 
 impl Robot {
-    /// Writes an SRDF file in which all pairs are disabled that need no check: neighbours, unless `pairs` checks them, and pairs
-    /// that are proven to touch never or always. The reason of each says which. A robot without a name is called `robot`.
+    /// Writes an SRDF file that disables all pairs that need no check: adjacent links, unless `pairs` checks them, and
+    /// pairs that are proven to touch never or always. The `reason` attribute says which. A robot without a name is
+    /// called `robot`.
     ///
     /// ```
     /// use rigid_ccd_robot::{Link, LinkContactSettings, LinkPairs, Robot};
@@ -222,11 +223,7 @@ impl Robot {
     /// assert!(srdf.contains("<robot name=\"stone\">"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn to_srdf(
-        &self,
-        pairs: &LinkPairs,
-        meetings: &[([usize; 2], LinkContactClass)],
-    ) -> String {
+    pub fn to_srdf(&self, pairs: &LinkPairs, classes: &[([usize; 2], LinkContactClass)]) -> String {
         let name = match self.name() {
             "" => "robot",
             name => name,
@@ -235,11 +232,11 @@ impl Robot {
             "<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n",
             escape(name)
         );
-        for ([one, other], meeting) in meetings {
-            let reason = match meeting {
+        for ([one, other], class) in classes {
+            let reason = match class {
                 LinkContactClass::Never => "Never (proven)",
                 LinkContactClass::Always => "Always (proven)",
-                // A file or a caller may check neighbours, such as the world and a body of an MJCF.
+                // A file or caller may check adjacent links, such as the world and a body of an MJCF.
                 _ if pairs.skip_reason(*one, *other) == Some(&SkipReason::Adjacent) => "Adjacent",
                 LinkContactClass::AlwaysAsEnclosed
                 | LinkContactClass::Sometimes { .. }

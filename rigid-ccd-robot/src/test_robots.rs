@@ -1,4 +1,4 @@
-//! Random robots for tests, and distances of their links by poses of one link after another.
+//! Random robots for tests, and a simple computation of link distances.
 
 use crate::robot::{Joint, Link, PositionRule, Robot};
 use ccd_core::order::lesser;
@@ -17,7 +17,7 @@ pub(crate) fn random_pose(random: &mut Pcg64, size: f64) -> Pose {
     Pose::new(at, DQuat::from_scaled_axis(random_vector(random, 2.0))).unwrap()
 }
 
-/// Returns a random body of about the size 0.2: a box, a ball, a capsule, or two triangles that are not in one plane.
+/// Returns a random body of a size of about 0.2: a box, a ball, a capsule, or two triangles that are not coplanar.
 pub(crate) fn random_body(random: &mut Pcg64) -> Body {
     match random.random_range(0..4) {
         0 => Body::cuboid([(); 3].map(|()| random.random_range(0.02..0.2))).unwrap(),
@@ -32,10 +32,10 @@ pub(crate) fn random_body(random: &mut Pcg64) -> Body {
     }
 }
 
-/// The links of a [row](row_of_links).
+/// The links of [`row_of_links`].
 pub(crate) const LINKS: [&str; 5] = ["base", "a", "b", "c", "d"];
 
-/// Returns an arm of links in a row, 1 apart, of which those that are named have a body.
+/// Returns a serial arm with links at distances of 1. The links in `with_bodies` have a body.
 pub(crate) fn row_of_links(links: &[&str], with_bodies: &[&str]) -> Robot {
     let link = |name: &&str| {
         if with_bodies.contains(name) {
@@ -49,14 +49,14 @@ pub(crate) fn row_of_links(links: &[&str], with_bodies: &[&str]) -> Robot {
         name: format!("to {}", pair[1]),
         parent: pair[0].into(),
         child: pair[1].into(),
-        axis_and_limits: trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap(),
+        geometry: trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap(),
         position_rule: PositionRule::Independent,
     });
     let joints = joints.collect();
     Robot::new(links.iter().map(link).collect(), joints).unwrap()
 }
 
-/// Returns a random tree of links with joints that turn, slide, are fixed, or follow the first one.
+/// Returns a random tree of links. Its joints are revolute, prismatic, fixed or follow the first joint.
 pub(crate) fn random_robot(random: &mut Pcg64) -> Robot {
     let count = random.random_range(3..8);
     let links = (0..count).map(|k| {
@@ -85,7 +85,7 @@ pub(crate) fn random_robot(random: &mut Pcg64) -> Robot {
             name: format!("joint{k}"),
             parent: format!("link{}", random.random_range(0..k)),
             child: format!("link{k}"),
-            axis_and_limits: joint.unwrap(),
+            geometry: joint.unwrap(),
             position_rule: position,
         }
     });
@@ -93,24 +93,25 @@ pub(crate) fn random_robot(random: &mut Pcg64) -> Robot {
     Robot::new(links, joints).unwrap()
 }
 
-/// Returns a robot whose joints have limits of the same size to both sides.
+/// Returns a robot whose joints all have the limits `-limit` and `limit`.
 pub(crate) fn with_symmetric_limits(robot: &Robot, limit: f64) -> Robot {
     let mut joints = robot.joints().to_vec();
     for joint in &mut joints {
-        if !joint.axis_and_limits.is_fixed() {
-            joint.axis_and_limits = joint.axis_and_limits.clone().with_limits(-limit..=limit);
+        if !joint.geometry.is_fixed() {
+            joint.geometry = joint.geometry.clone().with_limits(-limit..=limit);
         }
     }
     Robot::new(robot.links().to_vec(), joints).unwrap()
 }
 
-/// Returns the least distance of the bodies of two links in a configuration.
+/// Returns the least distance between the bodies of two links at a configuration.
 pub(crate) fn least_distance_of_links(robot: &Robot, links: [usize; 2], at: &[f64]) -> f64 {
     let [one, other] = links.map(|link| {
         let link = &robot.links()[link];
         let pose = robot.pose(&link.name, at).unwrap();
         let bodies = link.bodies.iter();
-        let placed = bodies.map(|held| (held.body.clone(), pose.compose(&held.pose)));
+        let placed =
+            bodies.map(|link_body| (link_body.body.clone(), pose.compose(&link_body.pose)));
         placed.collect::<Vec<_>>()
     });
     let mut solver = Solver::new();

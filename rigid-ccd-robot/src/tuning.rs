@@ -1,79 +1,80 @@
-//! Tuning constants. They change how long a search takes; its answer is right with any values.
+//! Tuning constants. They affect only the running time of a search, not the correctness of its answer.
 
-/// The length of a stretch, in segments of the path, at which open pairs go to the engine. Each halving costs the frames of
-/// all links and a distance for each open pair; the engine costs about ten of these.
-pub(crate) const MAX_ENGINE_STRETCH_LENGTH: f64 = 1.0 / 32.0;
+/// The interval length, in segments, at which undecided candidates are left to the engine. Each halving costs the
+/// frames of all links and a distance query for each candidate. An engine query costs about ten distance queries.
+pub(crate) const MAX_ENGINE_INTERVAL_LENGTH: f64 = 1.0 / 32.0;
 
-/// The same for the closest approach, for which the engine has to measure a distance, and not only to decide.
-pub(crate) const MAX_APPROACH_STRETCH_LENGTH: f64 = 1.0 / 64.0;
+/// The same for the closest approach, for which the engine has to measure distances instead of comparing them.
+pub(crate) const MAX_APPROACH_INTERVAL_LENGTH: f64 = 1.0 / 64.0;
 
-/// The displacement, in metres, below which a pair goes to the engine at once after this number of halvings.
+/// Below this displacement, in metres, a pair is left to the engine after only [`MIN_ENGINE_HALVINGS`] halvings.
 pub(crate) const MAX_ENGINE_DISPLACEMENT: f64 = 0.01;
 pub(crate) const MIN_ENGINE_HALVINGS: u32 = 4;
 
-/// The displacement in half a stretch, in metres, beyond which the distance in the middle of the stretch hardly ever
-/// proves it free. Pairs are then measured only if their boxes meet there.
+/// Above this displacement in half an interval, in metres, a distance at the midpoint rarely proves a pair free. The
+/// pair is then measured only if its bounding boxes intersect there.
 pub(crate) const MIN_BOX_TEST_DISPLACEMENT: f64 = 0.1;
 
-/// The squared length, in square metres, below which the offset from a centre to an obstacle's box is no first direction:
-/// the centre is then nearly in the box.
+/// The squared distance, in square metres, below which a centre counts as inside an obstacle's box. The offset between
+/// the two is then no initial direction.
 pub(crate) const MIN_SQUARED_OFFSET: f64 = 1e-6;
 
-/// The largest number of convex hulls around each connected part of an obstacle that is not convex, and around a link's body.
-/// The hulls of an obstacle are found by their boxes; those of links are all compared. More hulls fit better; each costs a
-/// distance, and the engine decides what they leave.
+/// The largest number of convex hulls around each component of a non-convex obstacle, and around a link's body. A box
+/// test finds the hulls of obstacles, but all hulls of links are compared. More hulls fit better and leave less to the
+/// engine, but each costs distance queries.
 pub(crate) const MAX_OBSTACLE_PARTS: usize = 4;
 pub(crate) const MAX_LINK_PARTS: usize = 1;
 
-/// The largest number of connected parts of an obstacle that have hulls of their own.
+/// The largest number of components of an obstacle that get hulls of their own.
 pub(crate) const MAX_COMPONENTS: usize = 256;
 
-/// The least number of pieces that are split into two hulls.
+/// The smallest number of pieces that are divided between two hulls.
 pub(crate) const MIN_PIECES_FOR_TWO_HULLS: usize = 16;
 
-/// The number of intervals between the points on a joint's axis at which two links are tried.
+/// The number of intervals between the sampled points of a joint axis, in the search for a point that two links share.
 pub(crate) const JOINT_AXIS_INTERVALS: u32 = 128;
 
-/// How often a third of the best interval is left out then.
+/// The number of refinements after the sampling. Each drops a third of the interval.
 pub(crate) const JOINT_AXIS_REFINEMENTS: u32 = 48;
 
-/// The number of pairs that are measured between two readings of the clock, if there is a deadline. A pair takes about 150 ns, a
-/// reading 25 ns.
+/// The number of pairs between two readings of the clock, if there is a deadline. Measuring a pair takes about 150 ns,
+/// reading the clock 25 ns.
 pub(crate) const PAIRS_BETWEEN_CLOCK_READS: usize = 8;
 
-/// A solver that is prepared has place for so many pairs, if there are as many, in each of so many stretches that are halved. A
-/// pair takes 64 bytes: the place is at most 4 MB.
+/// The numbers of pairs and of nested halvings for which a prepared solver allocates memory. A pair takes 64 bytes, so
+/// this is at most 4 MB.
 pub(crate) const MAX_PREPARED_PAIRS: usize = 4096;
 pub(crate) const PREPARED_HALVINGS: usize = 16;
 
-/// The number of budgets that a question about a path takes at most for each segment, all pairs together.
+/// The largest number of budgets that a question about a path uses for each segment.
 pub(crate) const BUDGETS_PER_SEGMENT: u64 = 8;
 
-/// The number of times that the stretch of a pair is halved because the budget of a query does not suffice.
+/// How often the interval of a candidate is halved after the budget of a query did not suffice.
 pub(crate) const MAX_BUDGET_SPLITS: u32 = 3;
 
-/// The largest drift of a period of two links, as a share of the tolerance, of which the rest is left for the search.
+/// The largest drift of a period, as a fraction of the tolerance. The rest of the tolerance is left to the search.
 pub(crate) const MAX_DRIFT_SHARE: f64 = 0.25;
 
-/// The largest number of turns, of the joint that turns least, in a period of two links.
+/// The largest number of turns that the slowest joint makes in a period.
 pub(crate) const MAX_TURNS_IN_PERIOD: u32 = 128;
 
-/// The largest number of stretches of a segment over which a pair in contact at the start is followed until it has a gap.
-pub(crate) const MAX_START_STRETCHES: u32 = 256;
+/// The largest number of steps in a segment for following a pair in contact at the start until it has a gap.
+pub(crate) const MAX_START_STEPS: u32 = 256;
 
-/// The number of random positions of the joints between two links at which the links are looked at; the number of the nearest ones
-/// from which the search for a contact goes on, and the largest number of looks of each of these searches.
+/// The number of random samples in the search for witnesses, the number of the nearest samples from which it descends,
+/// and the largest number of checks in each descent.
 pub(crate) const WITNESS_SAMPLES: usize = 256;
 pub(crate) const DESCENT_STARTS: usize = 6;
-pub(crate) const DESCENT_LOOKS: usize = 400;
+pub(crate) const MAX_DESCENT_CHECKS: usize = 400;
 
-/// The first step of such a search, as a share of a joint's range, and how often it is halved.
+/// The initial step of a descent, as a fraction of a joint's range, and the number of times that it is halved.
 pub(crate) const FIRST_DESCENT_STEP: f64 = 0.125;
 pub(crate) const DESCENT_HALVINGS: i32 = 10;
 
-/// The number of boxes that are examined for each pair of links at first, and the factor from one round to the next.
+/// The number of boxes for each pair of links in the first round, and the factor from round to round.
 pub(crate) const FIRST_ROUND_BOXES: usize = 1000;
 pub(crate) const ROUND_FACTOR: usize = 4;
 
-/// The number of boxes after which the search about a pair of links ends if the links touch without depth in the middle of each.
+/// After this number of boxes, the search for a pair of links ends if they touched without overlapping at every
+/// centre.
 pub(crate) const MAX_BOXES_WITHOUT_DEPTH: usize = 4000;

@@ -1,4 +1,4 @@
-//! Sizes and positions of robots that are probably in another unit.
+//! Detects sizes and positions of robots that are probably in another unit.
 
 use crate::remark::CellRemark;
 use crate::robot::Robot;
@@ -7,36 +7,37 @@ use rigid_ccd::glam::DVec3;
 use rigid_ccd::trajectory::JointKind;
 use rigid_ccd::{Pose, Remark};
 
-/// The ratio of sizes above which a remark is made; millimetres and metres differ by 1000.
+/// Larger ratios of a body's size to the robot's size give a remark. Millimetres and metres differ by a factor of
+/// 1000.
 const MAX_USUAL_SIZE_RATIO: f64 = 100.0;
 
-/// The same for a robot that slides without an end, such as a drone in a building.
+/// The same for a robot with unlimited prismatic joints, such as a drone in a building.
 const MAX_USUAL_SIZE_RATIO_OF_FREE: f64 = 1000.0;
 
-/// The ratio of sizes below which a remark is made. Screws are a few hundredths of a robot.
+/// Smaller ratios give a remark. A screw is a few hundredths of a robot.
 const MIN_USUAL_SIZE_RATIO: f64 = 0.001;
 
-/// What the sizes of bodies are compared with.
+/// The robot's dimensions, with which the sizes of bodies are compared.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SizeScale {
-    /// The size of the robot, or of its joints; `None` without bodies, or without joints.
+    /// The size of the robot, or the extent of its joint origins; `None` if it has no bodies, or no links.
     size: Option<f64>,
-    /// How far joints slide: the longest range with an end, or infinite.
+    /// The longest range of a prismatic joint; infinite if one is unlimited.
     travel: f64,
 }
 
 impl Robot {
-    /// Returns the largest side of a box around the robot's bodies, while its joints are as near to 0 as their limits allow;
+    /// Returns the longest side of the bounding box of all bodies, with each joint at 0 or at its limit nearest to 0;
     /// `None` without bodies.
     ///
     /// # Complexity
     /// Linear in the points of all bodies.
     pub fn size(&self) -> Option<f64> {
-        largest_side(self.frames_at_rest().flat_map(|(link, frame)| {
+        largest_side(self.frames_near_zero().flat_map(|(link, frame)| {
             let bodies = self.links()[link].bodies.iter();
-            bodies.flat_map(move |held| {
-                let pose = frame.compose(&held.pose);
-                held.body.pieces().iter().flat_map(move |piece| {
+            bodies.flat_map(move |link_body| {
+                let pose = frame.compose(&link_body.pose);
+                link_body.body.pieces().iter().flat_map(move |piece| {
                     let radius = DVec3::splat(piece.radius);
                     let points = piece.points.iter();
                     points.flat_map(move |&point| {
@@ -48,20 +49,20 @@ impl Robot {
         }))
     }
 
-    /// Returns a remark if the position of a joint that turns is many turns, and a round number of degrees.
+    /// Returns a remark if a revolute joint's position is many turns and a round number of degrees.
     pub fn remark_on_configuration(&self, configuration: &[f64]) -> Option<CellRemark> {
         let named = self.free_joint_names().zip(configuration);
         let mut remarks = named.filter_map(|(name, &position)| {
             let remark = Remark::remark_on_joint(position)?;
             let mut joints = self.joints().iter();
             let joint = joints.find(|joint| joint.name == name)?;
-            matches!(joint.axis_and_limits.kind(), JointKind::Revolute(_))
+            matches!(joint.geometry.kind(), JointKind::Revolute(_))
                 .then(|| CellRemark::on(format!("joint {name}"), remark))
         });
         remarks.next()
     }
 
-    /// Returns what the sizes of bodies around the robot are compared with.
+    /// Returns the robot's dimensions, for comparison with other bodies.
     pub(crate) fn size_scale(&self) -> SizeScale {
         SizeScale {
             size: self.size(),
@@ -69,31 +70,36 @@ impl Robot {
         }
     }
 
-    /// Returns a remark for each link that is far larger than the robot's joints reach.
+    /// Returns a remark for each link that is far larger than the extent of the robot's joints.
     pub(crate) fn remarks_on_link_sizes(&self) -> Vec<CellRemark> {
-        let origins = self.frames_at_rest().map(|(_, frame)| frame.translation());
+        let origins = self
+            .frames_near_zero()
+            .map(|(_, frame)| frame.translation());
         let scale = SizeScale {
             size: largest_side(origins),
             travel: self.longest_travel(),
         };
         let links = self.links().iter().filter_map(|link| {
-            let sides = link.bodies.iter().map(|held| Remark::sides(&held.body));
+            let sides = link
+                .bodies
+                .iter()
+                .map(|link_body| Remark::sides(&link_body.body));
             let mut remarks = sides.filter_map(|sides| scale.remark_on_large(&link.name, sides));
             remarks.next()
         });
         links.collect()
     }
 
-    /// Returns the frames of all links, while joints are as near to 0 as their limits allow.
-    fn frames_at_rest(&self) -> impl Iterator<Item = (usize, Pose)> {
+    /// Returns the frames of all links, with each joint at 0 or at its limit nearest to 0.
+    fn frames_near_zero(&self) -> impl Iterator<Item = (usize, Pose)> {
         let at = self.configuration_nearest_zero();
         let links = self.links().iter().enumerate();
         links.filter_map(move |(number, link)| Some((number, self.pose(&link.name, &at).ok()?)))
     }
 
-    /// Returns the length of the longest way that a joint slides.
+    /// Returns the longest range of a prismatic joint.
     fn longest_travel(&self) -> f64 {
-        let joints = self.joints().iter().map(|joint| &joint.axis_and_limits);
+        let joints = self.joints().iter().map(|joint| &joint.geometry);
         let slides = joints.filter(|joint| matches!(joint.kind(), JointKind::Prismatic(_)));
         let travel = slides.map(|joint| joint.limits().end() - joint.limits().start());
         travel.fold(0.0, greater)
@@ -101,7 +107,7 @@ impl Robot {
 }
 
 impl SizeScale {
-    /// Returns a remark if something beside the robot has a size that is unlikely, given the sides of a box around it.
+    /// Returns a remark if the bounding-box sides of an item are implausible next to the robot.
     pub(crate) fn remark(&self, item: &str, sides: [f64; 3]) -> Option<CellRemark> {
         let size = sides.into_iter().fold(0.0, greater);
         let robot_size = self.size?;
@@ -111,7 +117,8 @@ impl SizeScale {
             .or_else(|| self.remark_on_large(item, sides))
     }
 
-    /// Returns a remark if something is far too large. What is thinner than the robot may be: floors and walls have any length.
+    /// Returns a remark if an item is far too large. Items thinner than the robot are accepted: floors and walls have
+    /// any length.
     fn remark_on_large(&self, item: &str, sides: [f64; 3]) -> Option<CellRemark> {
         let robot_size = self.size.filter(|&size| size > 0.0)?;
         let [thickness, size] = [
@@ -136,7 +143,7 @@ fn unlikely_size(item: &str, size: f64, robot_size: f64) -> CellRemark {
     }
 }
 
-/// Returns the largest side of a box around points; `None` if there are none.
+/// Returns the longest side of the bounding box of points; `None` if there are none.
 fn largest_side(points: impl IntoIterator<Item = DVec3>) -> Option<f64> {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for point in points {

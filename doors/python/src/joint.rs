@@ -122,7 +122,7 @@ impl PyJoint {
     /// The least and the greatest allowed position of the joint.
     #[getter]
     fn limits(&self) -> (f64, f64) {
-        let limits = self.joint.axis_and_limits.limits();
+        let limits = self.joint.geometry.limits();
         (*limits.start(), *limits.end())
     }
 
@@ -193,7 +193,7 @@ fn build_joint(names: [&str; 3], joint: trajectory::Joint, mimic: Option<Mimic>)
         name,
         parent,
         child,
-        axis_and_limits: joint,
+        geometry: joint,
         position_rule: position,
     }
 }

@@ -93,8 +93,7 @@ impl RccdOutcome {
             PathOutcome::Free => RccdOutcome::Free,
             PathOutcome::Contact(_) => RccdOutcome::Contact,
             PathOutcome::LeastDistance { .. } => RccdOutcome::LeastDistance,
-            // An outcome without a name proves nothing.
-            _ => RccdOutcome::Unresolved,
+            PathOutcome::Unresolved(_) => RccdOutcome::Unresolved,
         }
     }
 }

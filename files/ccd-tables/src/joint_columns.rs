@@ -1,12 +1,13 @@
-//! The columns of tables that have the positions of joints. They are named like the joints, with the end `_deg` for degrees.
+//! Finds the columns of a table that hold joint positions. A column has the name of its joint, with the suffix `_deg`
+//! for degrees.
 
 use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::Robot;
 
-/// The end of the name of a column whose positions are in degrees.
+/// The suffix of columns in degrees.
 const DEGREES_SUFFIX: &str = "_deg";
 
-/// The unit of the positions of a joint that turns.
+/// The unit of angles in a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AngleUnit {
     /// Radians.
@@ -15,19 +16,21 @@ pub enum AngleUnit {
     Degree,
 }
 
-/// The column of a joint.
+/// The column with a joint's positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct JointColumn {
-    /// The number of the column.
+    /// The index of the column.
     pub column: usize,
-    /// The unit of angles in it; of a joint that slides, it has lengths and the unit is that of radians.
+    /// The unit of its angles. For a prismatic joint, whose positions are lengths, it is [`AngleUnit::Radian`], which
+    /// converts nothing.
     pub unit: AngleUnit,
 }
 
-/// Why columns cannot be those of a joint.
+/// The reason why no unique column can be found for a joint.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum JointColumnError {
-    /// The name of a column may be that of two joints.
+    /// The name of a column fits two joints: `a_deg` may be the joint `a_deg`, or the joint `a` in degrees.
     #[error(
         "`{column}` may be the joint {joint}_deg, or {joint} in degrees; rename one of the joints"
     )]
@@ -37,7 +40,7 @@ pub enum JointColumnError {
         /// The name of one of the joints.
         joint: String,
     },
-    /// A joint has two columns.
+    /// Two columns fit one joint.
     #[error("two columns for the joint {joint}, {}", columns.join(" and "))]
     Repeated {
         /// The names of the columns.
@@ -45,7 +48,7 @@ pub enum JointColumnError {
         /// The name of the joint.
         joint: String,
     },
-    /// A joint that slides has no degrees.
+    /// The column of a prismatic joint has the suffix for degrees.
     #[error("`{column}`: the joint {joint} slides, and has no degrees")]
     Slides {
         /// The name of the column.
@@ -56,7 +59,7 @@ pub enum JointColumnError {
 }
 
 impl AngleUnit {
-    /// Returns a position in radians.
+    /// Converts a position to radians.
     pub fn to_radians(self, position: f64) -> f64 {
         match self {
             AngleUnit::Radian => position,
@@ -65,8 +68,8 @@ impl AngleUnit {
     }
 }
 
-/// Returns the column that a joint has, with a prefix before its name; `None` if it has none. A column whose name says no unit has
-/// angles in `unit`.
+/// Finds the column of a joint, whose name follows `prefix` in the header; `None` if there is none. `unit` is the unit
+/// of angles in a column without a suffix.
 ///
 /// # Errors
 /// [`JointColumnError`].
@@ -77,9 +80,10 @@ pub fn joint_column<N: AsRef<str>>(
     unit: AngleUnit,
 ) -> Result<Option<JointColumn>, JointColumnError> {
     let find = |name: &str| header.iter().position(|column| column.as_ref() == name);
-    let turns = robot.joints().iter().any(|own| {
-        own.name == joint && matches!(own.axis_and_limits.kind(), JointKind::Revolute(_))
-    });
+    let turns = robot
+        .joints()
+        .iter()
+        .any(|own| own.name == joint && matches!(own.geometry.kind(), JointKind::Revolute(_)));
     let in_degrees = format!("{joint}{DEGREES_SUFFIX}");
     let names = [joint, &in_degrees].map(|name| format!("{prefix}{name}"));
     let [plain, degrees] = names.each_ref().map(|name| find(name));
@@ -101,7 +105,7 @@ pub fn joint_column<N: AsRef<str>>(
     }
 }
 
-/// Returns whether the name of a column is that of a joint, with a prefix before it, and perhaps with the end for degrees.
+/// Returns whether a column name is a prefix followed by a joint name, with or without the suffix for degrees.
 pub fn names_joint(column: &str, robot: &Robot, prefix: &str) -> bool {
     let Some(name) = column.strip_prefix(prefix) else {
         return false;

@@ -99,7 +99,7 @@ impl<'c> ProvenCell<'c> {
         // The number in the scene of each link of the robot; that of the base is the world.
         let mut numbers = vec![0; robot.links().len()];
         for &(link, parent, number) in &self.links {
-            let joint = &robot.joints()[number].axis_and_limits;
+            let joint = &robot.joints()[number].geometry;
             let positions = [from[number], to[number]];
             scene.links.push(Link {
                 parent: numbers[parent],

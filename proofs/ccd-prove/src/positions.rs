@@ -122,7 +122,7 @@ fn size([from, to]: [f64; 2]) -> f64 {
 }
 
 fn check_limits(joint: &Joint, (position, off): Rounded) -> Result<(), ImpossiblePosition> {
-    let limits = joint.axis_and_limits.limits();
+    let limits = joint.geometry.limits();
     let (low, high) = (*limits.start(), *limits.end());
     // Written so that NaN is refused.
     if position >= low - off && position <= high + off {

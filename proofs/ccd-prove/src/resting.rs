@@ -85,7 +85,7 @@ fn ways_to_roots(robot: &Robot) -> Vec<WayToRoot> {
         .map(|link| (link, Vec::new()))
         .collect();
     for (link, parent, number) in robot.joints_parents_first() {
-        let joint = &robot.joints()[number].axis_and_limits;
+        let joint = &robot.joints()[number].geometry;
         if matches!(joint.kind(), JointKind::Fixed) {
             let (root, poses) = ways[parent].clone();
             ways[link] = (root, [vec![*joint.origin()], poses].concat());
@@ -217,11 +217,11 @@ mod tests {
             Link::named("arm").with_body(rod(), at(0.0, 0.0, 0.8)),
             Link::named("tool").with_body(block(), at(0.1, 0.0, 0.0)),
         ];
-        let joint = |parent: &str, child: &str, axis_and_limits| Joint {
+        let joint = |parent: &str, child: &str, geometry| Joint {
             name: format!("to {child}"),
             parent: parent.into(),
             child: child.into(),
-            axis_and_limits,
+            geometry,
             position_rule: PositionRule::Independent,
         };
         let hinge = trajectory::Joint::revolute(at(0.0, 0.0, 1.0), [0.0, 1.0, 0.0]).unwrap();

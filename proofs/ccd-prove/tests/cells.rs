@@ -8,11 +8,11 @@ use std::sync::atomic::AtomicBool;
 
 /// A car that slides along x towards an obstacle, and beside it a wheel that turns, with a body if one is given.
 fn cell(car: Body, obstacle: (Body, f64), wheel: Option<Body>) -> Cell {
-    let joint = |parent: &str, child: &str, axis_and_limits| Joint {
+    let joint = |parent: &str, child: &str, geometry| Joint {
         name: child.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits,
+        geometry,
         position_rule: PositionRule::Independent,
     };
     let x = [1.0, 0.0, 0.0];

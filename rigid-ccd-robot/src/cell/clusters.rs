@@ -1,14 +1,15 @@
-//! Groups the pieces of a body, for a convex hull around each group.
+//! Clusters the pieces of a body, so that one convex hull can enclose each cluster.
 
 use crate::tuning::{MAX_COMPONENTS, MIN_PIECES_FOR_TWO_HULLS};
 use ccd_core::{Body, Piece, Solidity, connected_part_numbers};
 use rigid_ccd::glam::DVec3;
 
-/// Groups the pieces of a body, so that each point of the body is in the hull of a group.
+/// Clusters the pieces of a body. The hulls of all clusters together cover the body.
 ///
-/// Pieces that are connected are grouped: a scene in one file is many things apart, and the space between them is in no hull.
-/// Each group is halved into at most `max_count` clusters, of a solid at most [`MAX_SOLID_CLUSTERS`]. If there are too many
-/// groups, whole ones share clusters.
+/// Each connected component is clustered by itself: a scene in one file has many components, and no hull should span
+/// the gaps between them. A component is divided into at most `max_count` clusters; a component of a solid into at
+/// most [`MAX_SOLID_CLUSTERS`]. If there are more than [`MAX_COMPONENTS`] components, nearby components share a
+/// cluster.
 pub(super) fn connected_clusters(body: &Body, max_count: usize) -> Vec<Vec<Piece<'_>>> {
     let pieces: Vec<Piece<'_>> = body.pieces().iter().collect();
     if max_count < 2 || pieces.len() < MIN_PIECES_FOR_TWO_HULLS {
@@ -33,13 +34,14 @@ pub(super) fn connected_clusters(body: &Body, max_count: usize) -> Vec<Vec<Piece
     clusters.collect()
 }
 
-/// The largest number of hulls around the surface of a solid that surely enclose the solid, too.
+/// The largest number of hulls that, covering the surface of a solid, certainly cover its interior, too.
 ///
-/// Let a point be in none of two hulls. A plane through it leaves each hull on one side. The line in which both planes meet
-/// leaves both hulls, and so the whole surface: the point is not inside. Between four hulls there may be a gap.
+/// Proof for two hulls: let a point be in neither. Through the point, choose for each hull a plane that has the hull
+/// strictly on one side. A ray along the intersection line of both planes starts at the point and meets neither hull,
+/// so it never meets the surface. Hence the point is outside the solid. Four hulls can leave a gap inside.
 const MAX_SOLID_CLUSTERS: usize = 2;
 
-/// Groups the pieces of a body that are connected.
+/// Groups the pieces of a body into connected components.
 fn components(body: &Body) -> Vec<Vec<Piece<'_>>> {
     let numbers = connected_part_numbers(body.pieces());
     let count = numbers.iter().max().map_or(0, |&last| last as usize + 1);
@@ -54,8 +56,8 @@ fn middle(piece: &Piece<'_>) -> DVec3 {
     piece.points.iter().sum::<DVec3>() / piece.points.len() as f64
 }
 
-/// Groups things into at most `max_count` clusters of nearby ones. It halves them at their median along the longest side of the
-/// bounding box of their middles, then halves each half in the same way.
+/// Groups things into at most `max_count` clusters by position. Splits at the median along the longest side of the
+/// bounding box, then splits each half recursively.
 fn halved<T>(
     mut things: Vec<T>,
     max_count: usize,

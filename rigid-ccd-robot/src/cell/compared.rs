@@ -1,11 +1,11 @@
-//! Which bodies of a cell are compared with each other, and which contacts are allowed.
+//! Selects the pairs of bodies that are checked for collision, and keeps the contacts that are allowed.
 
 use super::{Cell, Item};
 use crate::error::{NothingCompared, RobotError};
 use crate::skip_reason::SkipReason;
 use std::collections::BTreeSet;
 
-/// The pairs of bodies that may touch, besides pairs of links that are not checked. The lower number comes first.
+/// The pairs of bodies that may touch, by body index, the lower one first. Unchecked pairs of links are not in it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct AllowedPairs(BTreeSet<[usize; 2]>);
 
@@ -14,19 +14,21 @@ impl AllowedPairs {
         !self.0.is_empty() && self.0.contains(&ordered_pair(pair))
     }
 
-    /// Gives each body the number that a function returns, and removes the pairs of bodies that get none.
-    pub(super) fn renumber(&mut self, number: impl Fn(usize) -> Option<usize>) {
+    /// Replaces each body index by the index that `number` returns. Removes pairs of a body for which it returns `None`.
+    pub(super) fn reindex(&mut self, index: impl Fn(usize) -> Option<usize>) {
         let pairs = std::mem::take(&mut self.0).into_iter();
         self.0 = pairs
-            .filter_map(|[a, b]| Some([number(a)?, number(b)?]))
+            .filter_map(|[a, b]| Some([index(a)?, index(b)?]))
             .collect();
     }
 }
 
 impl Cell {
-    /// Allows two items to touch: two links, or a link, a body that is attached to one, and an obstacle. They are not compared
-    /// until [`Cell::forbid_contact`] or [`Cell::set_clearance`] names them, or until one is removed: what is said last holds. A
-    /// clearance that they had counts again after [`Cell::forbid_contact`].
+    /// Allows two items to touch: their pair is no longer checked.
+    ///
+    /// [`Cell::forbid_contact`] and [`Cell::set_clearance`] check the pair again. The last of these calls holds.
+    /// Removing an item removes its allowed contacts. A clearance of the pair stays stored, and applies again after
+    /// [`Cell::forbid_contact`].
     ///
     /// # Errors
     /// [`RobotError::NoSuchLink`], [`RobotError::NoSuchAttachedBody`] or [`RobotError::NoSuchObstacle`], and
@@ -40,7 +42,7 @@ impl Cell {
     ///     name: "lift".into(),
     ///     parent: "base".into(),
     ///     child: "fork".into(),
-    ///     axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [0.0, 0.0, 1.0])?,
+    ///     geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [0.0, 0.0, 1.0])?,
     ///     position_rule: PositionRule::Independent,
     /// };
     /// let robot = Robot::new(vec![Link::named("base"), Link::named("fork")], vec![lift])?;
@@ -73,11 +75,11 @@ impl Cell {
         Ok(())
     }
 
-    /// Compares two items again that were allowed to touch. A pair of links that was not checked for another reason, such as
-    /// neighbours, is checked from then on.
+    /// Checks two items again that were allowed to touch. A pair of links that was unchecked for another reason, such
+    /// as adjacent links, is checked from then on.
     ///
     /// # Errors
-    /// Those of [`Cell::allow_contact`].
+    /// The same as [`Cell::allow_contact`].
     pub fn forbid_contact(&mut self, pair: [Item<'_>; 2]) -> Result<(), RobotError> {
         let bodies = self.bodies_of_pair(pair)?;
         match self.checked_links_of(pair)? {
@@ -87,7 +89,7 @@ impl Cell {
         Ok(())
     }
 
-    /// Returns the pairs of items that were allowed to touch, other than two links; those are skipped pairs of
+    /// Returns the pairs of items that are allowed to touch, except pairs of two links: those are skipped pairs of
     /// [`Cell::link_pairs`].
     pub fn allowed_contacts(&self) -> Vec<[Item<'_>; 2]> {
         let pairs = self.allowed.0.iter();
@@ -95,7 +97,7 @@ impl Cell {
         items.collect::<BTreeSet<_>>().into_iter().collect()
     }
 
-    /// Allows a body that was attached as the last one to touch some items.
+    /// Allows the last attached body to touch the given items.
     pub(super) fn allow_contacts_of_attached(&mut self, body: usize, may_touch: &[Item<'_>]) {
         for &item in may_touch {
             let others = self.bodies_of(item).into_iter();
@@ -104,10 +106,10 @@ impl Cell {
         }
     }
 
-    /// Refuses a cell of which no pair of bodies is compared: nothing could ever touch in it, whatever the path.
+    /// Checks that at least one pair of bodies is checked. Otherwise every path would count as free.
     ///
     /// # Errors
-    /// [`NothingCompared`], with what is left out.
+    /// [`NothingCompared`], with a summary of what is left out.
     pub fn check_any_compared(&self) -> Result<(), NothingCompared> {
         match self.compared_pairs(0.0).next() {
             Some(_) => Ok(()),
@@ -117,15 +119,15 @@ impl Cell {
         }
     }
 
-    /// Returns the pairs of bodies that are compared, by their numbers in [`Cell::carried_bodies`], each with the distance at
-    /// which it counts as touching for a margin.
+    /// Returns the pairs of bodies that are checked, by their indices in [`Cell::carried_bodies`]. With each pair
+    /// comes the distance at which it counts as touching if the settings have this margin.
     pub fn compared_pairs(&self, margin: f64) -> impl Iterator<Item = ([usize; 2], f64)> {
         let pairs = (0..self.bodies.len()).flat_map(|a| (0..a).map(move |b| [b, a]));
         let compared = pairs.filter(|&[a, b]| self.is_compared(a, b));
         compared.map(move |pair| (pair, self.margin(pair, margin)))
     }
 
-    /// Iterates over the pairs of the robot's own parts that are checked.
+    /// Iterates over the checked pairs of the robot's own parts.
     pub(crate) fn checked_robot_part_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
         let parts = || self.parts[..self.robot_part_count].iter().enumerate();
         parts().flat_map(move |(a, part_a)| {
@@ -136,19 +138,19 @@ impl Cell {
         })
     }
 
-    /// Returns whether two bodies may touch although both could be compared, but for pairs of links.
+    /// Returns whether a pair of bodies is allowed to touch. Unchecked pairs of links are not considered.
     #[inline(always)]
     pub(crate) fn is_allowed(&self, pair: [usize; 2]) -> bool {
         self.allowed.contains(pair)
     }
 
-    /// Returns whether two bodies are compared with each other.
+    /// Returns whether a pair of bodies is checked.
     fn is_compared(&self, a: usize, b: usize) -> bool {
         self.are_comparable(a, b) && !self.allowed.contains([a, b])
     }
 
-    /// Returns whether two bodies are compared unless they are allowed to touch: two of the robot's that are checked, or one
-    /// that moves and an obstacle.
+    /// Returns whether a pair is checked unless it is allowed to touch: two bodies of the robot whose links are
+    /// checked, or a moving body and an obstacle.
     fn are_comparable(&self, a: usize, b: usize) -> bool {
         let count = self.robot_body_count();
         match (a < count, b < count) {
@@ -159,12 +161,12 @@ impl Cell {
         }
     }
 
-    /// Returns whether a joint moves one of the robot's bodies.
+    /// Returns whether any joint moves a body of the robot.
     pub(super) fn moves(&self, body: usize) -> bool {
         self.kinematics.link_frame_and_pose(self.link_of(body)).0 > 0
     }
 
-    /// Returns whether two of the robot's bodies are checked against each other, unless they are allowed to touch.
+    /// Returns whether two bodies of the robot are checked unless they are allowed to touch.
     fn is_checked(&self, a: usize, b: usize) -> bool {
         let [a, b] = [
             &self.robot_body_placements[a],
@@ -177,7 +179,7 @@ impl Cell {
         }
     }
 
-    /// Returns the numbers of two links that joints move against each other; `None` if one of the items is no link.
+    /// Returns the indices of two links; `None` if one of the items is not a link.
     fn checked_links_of(&self, pair: [Item<'_>; 2]) -> Result<Option<[usize; 2]>, RobotError> {
         let [Item::Link(a), Item::Link(b)] = pair else {
             return Ok(None);
@@ -188,10 +190,10 @@ impl Cell {
         ]))
     }
 
-    /// Returns the pairs of bodies of two items. For two links these need not be checked.
+    /// Returns the pairs of bodies of two items. Pairs of links may be unchecked ones.
     ///
     /// # Errors
-    /// If an item does not exist, or if no body of one could ever be compared with one of the other.
+    /// If an item does not exist, or if no pair of their bodies could ever be checked.
     fn bodies_of_pair(&self, pair: [Item<'_>; 2]) -> Result<Vec<[usize; 2]>, RobotError> {
         for item in pair {
             self.check_item(item)?;
@@ -213,17 +215,17 @@ impl Cell {
         if is_possible { Ok(all) } else { Err(never()) }
     }
 
-    /// Refuses an item that the cell does not have.
+    /// Checks that an item exists in the cell.
     pub(super) fn check_item(&self, item: Item<'_>) -> Result<(), RobotError> {
         match item {
             Item::Link(name) => self.robot.link_number(name)?,
-            Item::Attached(name) => self.attached_body_number(name)?,
-            Item::Obstacle(name) => self.obstacle_number(name)?,
+            Item::Attached(name) => self.attached_body_index(name)?,
+            Item::Obstacle(name) => self.obstacle_index(name)?,
         };
         Ok(())
     }
 
-    /// Returns the numbers of the bodies of a link, of an attached body, or of an obstacle.
+    /// Returns the indices of the bodies of an item.
     pub(super) fn bodies_of(&self, item: Item<'_>) -> Vec<usize> {
         let all = 0..self.bodies.len();
         all.filter(|&body| self.item_of_body(body) == item)

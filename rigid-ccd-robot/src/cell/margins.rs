@@ -7,19 +7,21 @@ use ccd_core::order::greater;
 use rigid_ccd::InputError;
 use std::collections::BTreeMap;
 
-/// The distances that some bodies are to keep, besides the margin of the settings.
+/// Paddings and clearances: distances for some bodies and pairs, in addition to or instead of the margin of the
+/// settings.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Margins {
-    /// For each body, the distance that obstacles have to keep in addition; an obstacle has none.
+    /// For each body, its padding: a distance that is added to the margin against obstacles. 0 for obstacles.
     padding_per_body: Vec<f64>,
-    /// The distance of a pair of bodies, the lower number first.
+    /// The clearance of a pair of bodies, by body index, the lower one first.
     clearance_per_pair: BTreeMap<[usize; 2], f64>,
 }
 
 impl Cell {
-    /// Grows a link as obstacles see it: they are to stay away by this distance in addition to the margin. The robot's own
-    /// links, and bodies attached to the link, are not affected. On a link that no joint moves it has no effect, since that link is
-    /// not compared with obstacles.
+    /// Sets the padding of a link: a distance that is added to its margin against obstacles.
+    ///
+    /// The padding does not apply between the robot's own links, nor to bodies attached to the link. It has no effect
+    /// on a static link, which is never checked against obstacles.
     ///
     /// # Errors
     /// [`RobotError::NoSuchLink`], and [`RobotError::Input`] for a distance that is not from 0 to 1e12.
@@ -32,12 +34,12 @@ impl Cell {
         Ok(())
     }
 
-    /// Sets the distance at which a pair counts as touching, instead of the margin and the padding. A pair of links that is not
-    /// checked, such as neighbours, is checked from then on, and so is a pair that was allowed to touch.
+    /// Sets the clearance of a pair: the distance at which the pair counts as touching, instead of margin and padding.
+    /// The pair is checked from then on, even if it was allowed to touch or its links are adjacent.
     ///
     /// # Errors
-    /// [`RobotError::NoSuchLink`], [`RobotError::NoSuchAttachedBody`] or [`RobotError::NoSuchObstacle`], [`RobotError::NeverCompared`], and
-    /// [`RobotError::Input`] for a distance that is not from 0 to 1e12.
+    /// [`RobotError::NoSuchLink`], [`RobotError::NoSuchAttachedBody`], [`RobotError::NoSuchObstacle`],
+    /// [`RobotError::NeverCompared`], and [`RobotError::Input`] for a distance that is not from 0 to 1e12.
     pub fn set_clearance(&mut self, pair: [Item<'_>; 2], distance: f64) -> Result<(), RobotError> {
         for item in pair {
             self.check_item(item)?;
@@ -55,8 +57,8 @@ impl Cell {
         Ok(())
     }
 
-    /// Removes all paddings and clearances, so that all pairs have the margin of the settings. What a clearance checks stays checked.
-    /// Returns whether there were any.
+    /// Removes all paddings and clearances. All pairs then have the margin of the settings, and pairs that a clearance
+    /// included stay checked. Returns whether there was a padding or clearance.
     pub fn remove_paddings_and_clearances(&mut self) -> bool {
         let Margins {
             padding_per_body: paddings,
@@ -69,7 +71,7 @@ impl Cell {
         had_any
     }
 
-    /// Returns the distance at which a pair of bodies counts as touching.
+    /// Returns the distance at which a pair counts as touching, given the margin of the settings.
     #[inline]
     pub(crate) fn margin(&self, [a, b]: [usize; 2], margin: f64) -> f64 {
         let Margins {
@@ -89,7 +91,7 @@ impl Cell {
         }
     }
 
-    /// Returns a bound of the distance at which an obstacle counts as touching.
+    /// Returns an upper bound of the distance at which any pair with an obstacle counts as touching.
     pub(crate) fn largest_obstacle_margin(&self, margin: f64) -> f64 {
         let largest = self
             .margins
@@ -103,34 +105,34 @@ impl Cell {
 }
 
 impl Margins {
-    /// Makes place for a body.
-    pub(super) fn insert_body(&mut self, number: usize) {
-        self.padding_per_body.insert(number, 0.0);
-        self.renumber(|body| Some(if body < number { body } else { body + 1 }));
+    /// Inserts a body without padding at a body index.
+    pub(super) fn insert_body(&mut self, index: usize) {
+        self.padding_per_body.insert(index, 0.0);
+        self.reindex(|body| Some(if body < index { body } else { body + 1 }));
     }
 
-    /// Removes a body, and gives the others the numbers that a function returns.
-    pub(super) fn remove_body(&mut self, number: usize, others: impl Fn(usize) -> Option<usize>) {
-        self.padding_per_body.remove(number);
-        self.renumber(others);
+    /// Removes a body. `others` maps the old indices of the other bodies to the new ones.
+    pub(super) fn remove_body(&mut self, index: usize, others: impl Fn(usize) -> Option<usize>) {
+        self.padding_per_body.remove(index);
+        self.reindex(others);
     }
 
-    fn renumber(&mut self, number: impl Fn(usize) -> Option<usize>) {
+    fn reindex(&mut self, index: impl Fn(usize) -> Option<usize>) {
         let clearances = std::mem::take(&mut self.clearance_per_pair).into_iter();
-        let kept = clearances
-            .filter_map(|([a, b], clearance)| Some(([number(a)?, number(b)?], clearance)));
-        self.clearance_per_pair = kept.collect();
+        let reindexed =
+            clearances.filter_map(|([a, b], clearance)| Some(([index(a)?, index(b)?], clearance)));
+        self.clearance_per_pair = reindexed.collect();
     }
 }
 
-/// Refuses a distance that no query takes as its margin.
+/// Checks that a distance is valid as the margin of a query.
 fn check_distance(quantity: &'static str, distance: f64) -> Result<(), InputError> {
     if (0.0..=1e12).contains(&distance) {
         return Ok(());
     }
     let allowed = if distance < 0.0 {
-        "at least 0 and at most 1e12; a pair that may touch is allowed to, and one in contact at the start may part under the \
-         start policy `leave`"
+        "at least 0 and at most 1e12; use `allow_contact` for a pair that may touch, and the start policy `leave` for a \
+         pair in contact at the start"
     } else {
         "at least 0 and at most 1e12"
     };

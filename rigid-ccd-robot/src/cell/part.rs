@@ -1,4 +1,4 @@
-//! A convex hull around a body, in the frame in which the body rests.
+//! Bodies in a cell, and the convex hulls that enclose them in the frames that carry them.
 
 mod plane;
 
@@ -12,19 +12,19 @@ use rigid_ccd::oracle::Frame;
 use rigid_ccd::{Pose, Remark};
 use std::sync::Arc;
 
-/// A body in a cell, at rest in a frame: that of the moving joint above its link, or the base for an obstacle.
+/// A body of a cell in its frame: the frame of the moving joint that carries its link, or the base for an obstacle.
 #[derive(Clone, Debug)]
 pub(crate) struct PlacedBody {
     pub(crate) body: Arc<Body>,
     /// The pose of the body in the frame.
     pub(crate) pose: Pose,
-    /// The number of the frame.
+    /// The index of the frame in [`Kinematics`](crate::kinematics::Kinematics).
     pub(crate) frame: usize,
-    /// The sides of the box around the body along its own axes.
+    /// The side lengths of the bounding box along the body's own axes.
     pub(super) sides: [f64; 3],
-    /// How far from the base the body is a half-space; `None` for a body that is no plane.
+    /// For a plane, the distance from the base up to which its box acts as a half-space; `None` for other bodies.
     pub(super) plane_reach: Option<f64>,
-    /// Convex hulls that enclose the body together, in its own coordinates.
+    /// Convex hulls whose union encloses the body, in the body's coordinates.
     hulls: Vec<Arc<Hull>>,
 }
 
@@ -33,43 +33,44 @@ pub(crate) struct PlacedBody {
 pub(crate) struct Hull {
     corners: Vec<DVec3>,
     support_map: SupportMap,
-    /// The radius of the ball by which the hull is grown.
+    /// The radius of the ball with which the hull is rounded (Minkowski sum).
     rounding_radius: f64,
 }
 
-/// A convex hull around some pieces of a body, in the frame in which the body rests.
+/// A convex hull around some pieces of a body, in the frame that carries the body.
 #[derive(Clone, Debug)]
 pub(crate) struct HullPart {
-    /// The number of the body in the cell.
+    /// The index of the body in the cell.
     pub(crate) owner: usize,
-    /// The number of the frame.
+    /// The index of the frame.
     pub(crate) frame: usize,
-    /// The corners of the hull.
+    /// The corners of the hull in the frame.
     points: Vec<DVec3>,
-    /// The hull in the body's coordinates, in which its corners are searched, and the rotation from these to the frame.
+    /// The hull in the body's coordinates, where its extreme corners are searched, and the rotation from there to the
+    /// frame.
     hull: Arc<Hull>,
     rotation: DMat3,
-    /// The radius of the ball by which the hull is grown.
+    /// The radius of the ball with which the hull is rounded (Minkowski sum).
     pub(crate) radius: f64,
-    /// Whether the grown hull is the body itself.
+    /// Whether the rounded hull is exactly the body.
     pub(crate) is_convex: bool,
-    /// The plane below which everything is in the body, as far as it matters; `None` for a body that is no half-space.
+    /// For a half-space, the plane that bounds it; `None` for other bodies.
     pub(crate) plane: Option<Plane>,
-    /// By how much the body exceeds the shape that it encloses.
+    /// The excess of the body: how far it may protrude from the shape that it encloses.
     pub(crate) excess_over_shape: f64,
-    /// The centre and the half extents of the box along the frame's axes around the grown hull.
+    /// The centre and the half extents of the rounded hull's bounding box along the frame's axes.
     pub(crate) centre: DVec3,
     pub(crate) half_extents: DVec3,
-    /// The radius of the ball about `centre` around the grown hull.
+    /// The radius of the bounding ball of the rounded hull, about `centre`.
     pub(crate) ball_radius: f64,
-    /// A bound of the numbers from which the corners were computed, for their rounding: the body's position and its
-    /// largest coordinates. Both may be far larger than the distance of the corners from the frame's origin.
+    /// An upper bound of the numbers that the corners were computed from, for rounding: the length of the body's
+    /// position plus its largest coordinate. It may be far larger than the corners' distance from the frame's origin.
     pub(crate) coordinate_bound: f64,
 }
 
 impl PlacedBody {
-    /// Creates a body in a cell, which hulls enclose: one, or if `max_hulls` is at least 2, up to so many around each connected
-    /// part of it. The engine takes the triangles of a polytope against other bodies of many triangles.
+    /// Creates a body and its enclosing hulls: one hull if `max_hulls` is 1, otherwise up to `max_hulls` for each
+    /// connected component. A polytope gets surface triangles, which the engine uses against bodies of many triangles.
     pub(crate) fn new(body: Arc<Body>, pose: Pose, frame: usize, max_hulls: usize) -> Self {
         let body = match hull_surface_of_polytope(&body) {
             Some(surface) => Body::clone(&body)
@@ -95,7 +96,7 @@ impl PlacedBody {
     /// Returns the body at another pose in its frame.
     pub(super) fn moved_to(&self, pose: Pose) -> Self {
         match self.plane_reach {
-            Some(reach) => PlacedBody::of_plane(pose, reach),
+            Some(reach) => PlacedBody::for_plane(pose, reach),
             None => PlacedBody {
                 pose,
                 ..self.clone()
@@ -103,7 +104,7 @@ impl PlacedBody {
         }
     }
 
-    /// Returns the hulls as parts of a cell in which the body has the number `owner`.
+    /// Returns the hulls as parts of a cell, in which the body has the index `owner`.
     pub(crate) fn parts(&self, owner: usize) -> Vec<HullPart> {
         let hulls = self.hulls.iter();
         hulls.map(|hull| HullPart::new(hull, self, owner)).collect()
@@ -122,19 +123,19 @@ impl Hull {
         }
     }
 
-    /// Returns the number of a corner that is farthest along a direction.
+    /// Returns the index of a corner that is farthest along a direction.
     #[inline(always)]
     fn extremal_corner(&self, direction: DVec3) -> u32 {
         match &self.support_map {
-            // Inlined where vector instructions are chosen.
+            // Called directly, so that it is inlined where vector instructions are chosen.
             SupportMap::Scan(scan) => scan.extremal_point(direction),
             other => other.extremal_point(direction),
         }
     }
 }
 
-/// Returns the triangles of the hull of a body that is one polytope with a volume and has no surface yet; `None` for other
-/// bodies. The hull is computed anew: the facets that a polytope comes with are not checked.
+/// Returns the surface triangles of a body that is one solid polytope without a surface; `None` for other bodies.
+/// Computes the hull again, because the facets of a given polytope are not verified.
 fn hull_surface_of_polytope(body: &Body) -> Option<Body> {
     if body.pieces().len() != 1 || body.solidity() != Solidity::Solid || body.has_surface() {
         return None;
@@ -144,7 +145,7 @@ fn hull_surface_of_polytope(body: &Body) -> Option<Body> {
         return None;
     }
     let hull = ccd_decomp::convex_hull(piece.points).ok()?;
-    // A flat polygon has two facets, and no volume.
+    // A flat polygon has two facets and no volume.
     if hull.facets.iter().count() < 3 {
         return None;
     }
@@ -195,7 +196,7 @@ impl HullPart {
         &self.points
     }
 
-    /// Returns the corner that is farthest along a direction of the frame, and its number.
+    /// Returns the corner that is farthest along a direction of the frame, with its index.
     #[inline(always)]
     pub(crate) fn extremal_corner(&self, direction: DVec3) -> (u32, DVec3) {
         let in_body = self.rotation.transpose() * direction;
@@ -203,7 +204,7 @@ impl HullPart {
         (number, self.points[number as usize])
     }
 
-    /// Returns the half extents of the part's bounding box along the axes of the base, when the part's frame is at `frame`.
+    /// Returns the half extents of the bounding box along the base's axes, for a frame at `frame`.
     #[inline(always)]
     pub(crate) fn box_half_extents(&self, frame: &Frame) -> DVec3 {
         let (rotation, extents) = (&frame.rotation, self.half_extents);
@@ -213,8 +214,8 @@ impl HullPart {
     }
 }
 
-/// Returns the corners of the convex hull of some points, and a support map of them. If the hull cannot be computed,
-/// all points count as corners.
+/// Returns the corners of the convex hull of some points, and their support map. If the hull cannot be computed, all
+/// points count as corners.
 fn corners_of_hull(points: Vec<DVec3>) -> (Vec<DVec3>, SupportMap) {
     let with_facets = ccd_decomp::convex_hull(&points).ok().and_then(|hull| {
         let facets = hull.facets.iter().map(|corners| Facet {

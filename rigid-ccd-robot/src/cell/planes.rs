@@ -1,7 +1,7 @@
-//! Planes: half-spaces, of each of which a cell has a box that no moving body leaves.
+//! Planes: half-spaces, each represented by a large box.
 //!
-//! A body above a plane is as far from the half-space below it as from a box in the half-space whose top is right below the body. So
-//! a box that is wide and deep enough is the half-space, as long as the bodies that move stay within its reach.
+//! A body above the plane is as far from the half-space as from a box directly below the body. So a sufficiently wide
+//! and deep box gives the same distances, as long as all moving bodies stay within its reach.
 
 use super::part::PlacedBody;
 use super::{Cell, RobotBodyPlacement};
@@ -15,16 +15,18 @@ use rigid_ccd::Pose;
 use rigid_ccd::glam::DVec3;
 use std::sync::Arc;
 
-/// How many times farther from the base than all arms are long, and than 1, planes reach if joints slide without limits.
+/// If joints slide without limits, planes reach this many times the length of the stretched arm, or this far if that
+/// is more.
 const FREE_TRAVEL: f64 = 1024.0;
 
 impl Cell {
-    /// Adds an obstacle that is a half-space: all points below the plane `z = 0` of the frame at a pose in the frame of the robot's
-    /// base.
+    /// Adds an obstacle that is a half-space: all points below the plane `z = 0` of a frame at `pose`, in the frame of
+    /// the robot's base.
     ///
-    /// Answers are as if the half-space had no end. A path on which a body that moves may leave the place in which that is certain
-    /// is refused: [`PathError::BeyondPlane`]. Joints within limits never leave it. If a joint slides without limits, it reaches at
-    /// least 1024 lengths of the arm, and at least 1024.
+    /// The half-space is represented by a finite box. Answers are those for the infinite half-space: a path on which a
+    /// moving body may leave the range in which both agree is refused with [`PathError::BeyondPlane`]. Joints within
+    /// finite limits never leave it. If a joint slides without limits, the range is at least 1024 times the length of
+    /// the stretched arm, and at least 1024.
     ///
     /// # Errors
     /// [`RobotError::NameTaken`], [`RobotError::TooFar`].
@@ -55,39 +57,39 @@ impl Cell {
         self.check_new_name(&name)?;
         RobotError::check_pose("plane", &name, &pose)?;
         self.obstacle_names.push(name);
-        let placed = PlacedBody::of_plane(pose, self.plane_reach());
+        let placed = PlacedBody::for_plane(pose, self.plane_reach());
         self.insert(self.bodies.len(), placed);
         Ok(())
     }
 
-    /// Adds a plane of a link that no joint moves.
-    pub(super) fn add_link_plane(&mut self, held: RobotBodyPlacement) {
-        let (_, link_pose) = self.kinematics.link_frame_and_pose(held.link);
-        let pose = link_pose.compose(&held.pose_in_link);
-        let placed = PlacedBody::of_plane(pose, self.plane_reach());
-        let number = self.robot_body_placements.len();
-        self.robot_body_placements.push(held);
-        self.robot_part_count += self.insert(number, placed);
+    /// Adds the plane of a static link.
+    pub(super) fn add_link_plane(&mut self, placement: RobotBodyPlacement) {
+        let (_, link_pose) = self.kinematics.link_frame_and_pose(placement.link);
+        let pose = link_pose.compose(&placement.pose_in_link);
+        let placed = PlacedBody::for_plane(pose, self.plane_reach());
+        let index = self.robot_body_placements.len();
+        self.robot_body_placements.push(placement);
+        self.robot_part_count += self.insert(index, placed);
     }
 
-    /// Returns whether a body, by its number in [`Cell::carried_bodies`], is the box of a plane. It ends where no body gets.
+    /// Returns whether the body with this index in [`Cell::carried_bodies`] is the box of a plane.
     pub fn is_plane(&self, body: usize) -> bool {
         self.bodies[body].plane_reach.is_some()
     }
 
-    /// Makes the planes as large as the robot needs them, with what it holds.
+    /// Resizes the boxes of all planes to the present reach of the robot and its attached bodies.
     pub(super) fn fit_planes(&mut self) {
         let reach = self.plane_reach();
-        for number in 0..self.bodies.len() {
-            let placed = &self.bodies[number];
+        for index in 0..self.bodies.len() {
+            let placed = &self.bodies[index];
             if placed.plane_reach.is_some() {
-                let placed = PlacedBody::of_plane(placed.pose, reach);
-                self.replace(number, placed);
+                let placed = PlacedBody::for_plane(placed.pose, reach);
+                self.replace(index, placed);
             }
         }
     }
 
-    /// Refuses joints that may take a body farther from the base than planes reach.
+    /// Checks that the joints keep all moving bodies within the range of the planes.
     pub(crate) fn check_plane_reach(
         &self,
         magnitudes: impl Iterator<Item = Magnitude>,
@@ -96,7 +98,7 @@ impl Cell {
         let Some(reach) = planes.reduce(lesser) else {
             return Ok(());
         };
-        let distance = self.motion_reach(magnitudes);
+        let distance = self.max_reach(magnitudes);
         // Written so that NaN is refused.
         if distance <= reach {
             Ok(())
@@ -105,44 +107,48 @@ impl Cell {
         }
     }
 
-    /// Returns how far from the base planes are to reach: twice as far as any body gets.
+    /// Returns how far from the base planes must reach: twice as far as any moving body gets.
     fn plane_reach(&self) -> f64 {
         let limits = self.robot.limits();
         let farthest = limits.map(|[low, high]| greater(low.abs(), high.abs()));
         let farthest: Vec<f64> = farthest.collect();
-        let most = FREE_TRAVEL * greater(1.0, self.motion_reach(std::iter::empty()));
-        let within_limits = self.motion_reach(self.kinematics.magnitudes(&farthest));
+        let most = FREE_TRAVEL * greater(1.0, self.max_reach(std::iter::empty()));
+        let within_limits = self.max_reach(self.kinematics.magnitudes(&farthest));
         lesser(2.0 * within_limits, most)
     }
 
-    /// Returns a bound of how far any point of a body that moves is from the base.
-    fn motion_reach(&self, magnitudes: impl Iterator<Item = Magnitude>) -> f64 {
+    /// Returns an upper bound of the distance from the base of any point of a moving body.
+    fn max_reach(&self, magnitudes: impl Iterator<Item = Magnitude>) -> f64 {
         largest_arm(&self.kinematics, &self.parts, magnitudes)
     }
 }
 
 impl PlacedBody {
-    /// Creates the box that stands for the half-space below the plane `z = 0` of a pose's frame, as far from the base as it is to
-    /// reach.
-    pub(super) fn of_plane(pose: Pose, reach: f64) -> Self {
+    /// Creates the box for the half-space below the plane `z = 0` of a frame at `pose`. It is valid up to the distance
+    /// `reach` from the base.
+    pub(super) fn for_plane(pose: Pose, reach: f64) -> Self {
         let base = pose.inverse().transform_point(DVec3::ZERO);
         let most = 0.125 * MAX_COORDINATE;
-        // A plane that is too far away has a box that does not reach the base, and all paths are refused.
+        // If the plane is too far away, its box does not reach the base, and all paths are refused.
         let middle = base.clamp(DVec3::splat(-4.0 * most), DVec3::splat(4.0 * most));
         let reach = lesser(reach, most);
-        // Rounding is no matter in a box that is twice as large.
+        // The factor of two leaves room for rounding.
         let half_width = 2.0 * reach;
         let depth = half_width + greater(0.0, -middle.z);
-        let mut placed =
-            PlacedBody::new(Arc::new(box_below(middle, half_width, depth)), pose, 0, 1);
+        let mut placed = PlacedBody::new(
+            Arc::new(box_below_plane(middle, half_width, depth)),
+            pose,
+            0,
+            1,
+        );
         placed.plane_reach = Some(reach - middle.distance(base));
         placed
     }
 }
 
-/// Returns a box below `z = 0`, whose top is a square below or above a point.
-fn box_below(middle: DVec3, half_width: f64, depth: f64) -> Body {
-    // Corner `k` has the greater x, y, z if bit 0, 1, 2 of `k` is set.
+/// Returns a box directly below `z = 0`. Its top is a square around the projection of `middle`.
+fn box_below_plane(middle: DVec3, half_width: f64, depth: f64) -> Body {
+    // Bit 0, 1, 2 of `k` selects the upper end of x, y, z.
     let corner = |k: u32| {
         let sign = |bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
         let z = if k >> 2 & 1 == 1 { 0.0 } else { -depth };

@@ -1,4 +1,4 @@
-//! The remarks on a cell, and the sizes of what is in it.
+//! Remarks on a cell, and the sizes of its items.
 
 use super::{Cell, Item};
 use crate::remark::CellRemark;
@@ -7,11 +7,11 @@ use rigid_ccd::text::RoundedToFourDigits;
 use rigid_ccd::{Body, Remark};
 
 impl Cell {
-    /// Lists the remarks on the robot and on what is around it, warnings first: on the robot's files, on sizes that differ as
-    /// millimetres and metres do, and on what is not checked.
+    /// Lists the remarks on the cell, warnings first. They concern the robot's files, sizes that may be in another
+    /// unit, such as millimetres instead of metres, and pairs and items that are not checked.
     ///
     /// # Complexity
-    /// Linear in the points of the robot's bodies, and quadratic in its links.
+    /// Linear in the points of the robot's bodies, quadratic in the number of its links.
     pub fn remarks(&self) -> Vec<CellRemark> {
         let mut remarks = self.pairs.remarks(&self.robot);
         let sized = (0..self.bodies.len()).filter(|&body| !self.is_plane(body));
@@ -19,7 +19,7 @@ impl Cell {
             Item::Link(_) => None,
             item => self.size_scale.remark(item.name(), self.bodies[body].sides),
         }));
-        remarks.extend(self.remark_on_resting());
+        remarks.extend(self.remark_on_static_items());
         let allowed = self.allowed_contacts().into_iter();
         let pairs = allowed.map(|pair| pair.map(|item| item.name().to_owned()));
         let pairs: Vec<[String; 2]> = pairs.collect();
@@ -29,22 +29,23 @@ impl Cell {
         CellRemark::warnings_first(remarks)
     }
 
-    /// Returns a remark if there are obstacles, and bodies that no joint moves against them.
-    fn remark_on_resting(&self) -> Option<CellRemark> {
+    /// Returns a remark if the robot has static bodies and the cell has obstacles: these are not checked against each
+    /// other.
+    fn remark_on_static_items(&self) -> Option<CellRemark> {
         let mut items: Vec<String> = Vec::new();
         for body in (0..self.robot_body_count()).filter(|&body| !self.moves(body)) {
             let name = self.item_of_body(body).name();
-            // The planes of a link are not beside its bodies.
+            // Lists an item once, also if it has several bodies.
             if !items.iter().any(|item| item == name) {
                 items.push(name.to_owned());
             }
         }
         let is_apart = !items.is_empty() && self.obstacle_names().len() > 0;
-        is_apart.then_some(CellRemark::RestingBesideObstacles { items })
+        is_apart.then_some(CellRemark::StaticItemsUnchecked { items })
     }
 
-    /// Returns a remark if a body that is to be an obstacle, or to be attached to a link, has a size that is unlikely beside the
-    /// robot.
+    /// Returns a remark if a body has an implausible size next to the robot. Call it before the body becomes an
+    /// obstacle or is attached.
     ///
     /// # Complexity
     /// Linear in the points of the body.
@@ -52,10 +53,10 @@ impl Cell {
         self.size_scale.remark(name, Remark::sides(body))
     }
 
-    /// Returns a remark if a tolerance is large against the smallest link, attached body or obstacle.
+    /// Returns a remark if a tolerance is large compared with the smallest link, attached body or obstacle.
     ///
     /// # Complexity
-    /// Constant, but for the first time after the cell has changed.
+    /// Constant, except for the first call after a change of the cell.
     pub fn remark_on_tolerance(&self, tolerance: f64) -> Option<CellRemark> {
         let find = || {
             let sizes = self.sizes_by_body().filter(|&(_, size)| size > 0.0);
@@ -66,14 +67,14 @@ impl Cell {
         Some(CellRemark::on(self.item_of_body(body).name(), remark))
     }
 
-    /// Returns the size of each link with bodies, attached body and obstacle: the largest side of its largest body's bounding
-    /// box. Planes have none.
+    /// Returns the size of each link with bodies, attached body and obstacle: the longest bounding-box side of its
+    /// largest body. Planes are left out.
     pub fn item_sizes(&self) -> impl Iterator<Item = (Item<'_>, f64)> {
         let sizes = self.sizes_by_body();
         sizes.map(|(body, size)| (self.item_of_body(body), size))
     }
 
-    /// Returns the sizes of the robot, of attached bodies and of obstacles, in one line.
+    /// Returns the sizes of the robot, the attached bodies and the obstacles as one line of text.
     pub fn sizes_text(&self) -> String {
         let robot = RoundedToFourDigits(self.robot.size().unwrap_or(0.0));
         let others = self.item_sizes().filter_map(|(item, size)| {
@@ -83,7 +84,7 @@ impl Cell {
         format!("robot {robot}{}", others.collect::<String>())
     }
 
-    /// Returns the size of each item, with the number of its last body.
+    /// Returns the size of each item, with the index of its last body.
     fn sizes_by_body(&self) -> impl Iterator<Item = (usize, f64)> {
         let sized = (0..self.bodies.len()).filter(|&body| !self.is_plane(body));
         let mut sizes = sized
@@ -94,7 +95,7 @@ impl Cell {
             .peekable();
         std::iter::from_fn(move || {
             let (mut last, mut largest) = sizes.next()?;
-            // The bodies of a link follow each other.
+            // The bodies of one link are consecutive.
             let item = self.item_of_body(last);
             while let Some((body, size)) =
                 sizes.next_if(|&(body, _)| self.item_of_body(body) == item)

@@ -1,4 +1,4 @@
-//! Tests of changes of a cell: obstacles, attached bodies, paddings and clearances.
+//! Tests of changes to a cell: obstacles, attached bodies, paddings and clearances.
 
 use super::*;
 use crate::error::PathError;
@@ -6,7 +6,7 @@ use crate::path_answer::PathOutcome;
 use crate::robot::{Joint, Link, PositionRule};
 use rigid_ccd::trajectory;
 
-/// Returns a slide along x with a ball of radius 0.1, and a second link beside it that holds a ball at (0, 1, 0).
+/// Returns a cart with a ball of radius 0.1 on a rail along x, and a second link with such a ball at (0, 1, 0).
 fn cart_cell() -> Cell {
     let ball = || Body::sphere(0.1).unwrap();
     let links = vec![
@@ -18,11 +18,8 @@ fn cart_cell() -> Cell {
         name: name.into(),
         parent: "base".into(),
         child: child.into(),
-        axis_and_limits: trajectory::Joint::prismatic(
-            Pose::at([0.0, y, 0.0]).unwrap(),
-            [1.0, 0.0, 0.0],
-        )
-        .unwrap(),
+        geometry: trajectory::Joint::prismatic(Pose::at([0.0, y, 0.0]).unwrap(), [1.0, 0.0, 0.0])
+            .unwrap(),
         position_rule: PositionRule::Independent,
     };
     let joints = vec![slide("rail", "cart", 0.0), slide("side", "post", 1.0)];
@@ -31,7 +28,7 @@ fn cart_cell() -> Cell {
     Cell::new(robot, pairs)
 }
 
-/// Returns the position at which the cart first touches something on its way to 10, and what touches.
+/// Returns the position at which the cart first touches something on the way to 10, and the touching pair.
 fn stop(cell: &Cell) -> Option<(f64, [Item<'_>; 2])> {
     match cell
         .solver()
@@ -94,14 +91,14 @@ fn attached_bodies_move_with_their_link() {
     cell.attach("rod", rod, ("cart", upright), &[]).unwrap();
     let [rod, wall] = [Item::Attached("rod"), Item::Obstacle("wall")];
     assert_stops_at(&cell, 4.85, [rod, wall]);
-    // The obstacle keeps its number among all bodies when another one is attached and removed.
+    // Attaching and detaching another body does not change the obstacle's clearances.
     cell.set_clearance([rod, wall], 0.5).unwrap();
     assert_stops_at(&cell, 4.35, [rod, wall]);
     let plate = Body::cuboid([0.1, 1.2, 0.1]).unwrap();
     let ahead = Pose::at([2.0, 0.0, 0.0]).unwrap();
     cell.attach("plate", plate, ("cart", ahead), &[]).unwrap();
     assert_stops_at(&cell, 4.35, [rod, wall]);
-    // The plate runs into the other link, unless it may touch it.
+    // The plate collides with the other link, unless that contact is allowed.
     let back = [[0.0, 0.0], [-4.0, 0.0]];
     assert!(!cell.solver().is_free(&back).unwrap());
     cell.detach("plate").unwrap();
@@ -148,7 +145,7 @@ fn a_clearance_includes_a_pair_of_neighbours() {
         name: "hinge".into(),
         parent: "frame".into(),
         child: "lever".into(),
-        axis_and_limits: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+        geometry: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
         position_rule: PositionRule::Independent,
     };
     let ball = |x: f64| (Body::sphere(0.1).unwrap(), Pose::at([x, 0.0, 0.0]).unwrap());
@@ -169,7 +166,7 @@ fn a_clearance_includes_a_pair_of_neighbours() {
     assert!(cell.solver().is_free(&[[0.0], [1.5]]).unwrap());
 }
 
-/// Tests that a coordinate which is too large is an error with the name of what has it, not one about another number.
+/// Tests that a coordinate that is too large gives an error with the name of its element.
 #[test]
 fn coordinates_that_are_too_large_are_named() {
     let far = Pose::at([0.0, 1e30, 0.0]).unwrap();
@@ -184,7 +181,7 @@ fn coordinates_that_are_too_large_are_named() {
             name: "drive".into(),
             parent: "rail".into(),
             child: "cart".into(),
-            axis_and_limits: joint,
+            geometry: joint,
             position_rule: PositionRule::Independent,
         };
         Robot::new(links, vec![joint])

@@ -1,4 +1,4 @@
-//! Tests of what is counted.
+//! Tests the counts of a summary.
 
 use super::*;
 use crate::skip_reason::SkipReason;

@@ -1,4 +1,4 @@
-//! Tests robots that are combined against the robots alone.
+//! Tests combined robots against the single robots.
 
 use super::*;
 use crate::cell::{Cell, Item};
@@ -18,7 +18,7 @@ const KINDS: [Option<CompoundKind>; 4] = [
     }),
 ];
 
-/// Returns the pose of a base that moves, by the formula for its kind.
+/// Returns the pose of a moving base, by the formula for its kind.
 fn base_pose(placed: &PlacedRobot<'_>, positions: &[f64]) -> Pose {
     let rotation =
         |angles: &[f64]| DQuat::from_euler(EulerRot::ZYX, angles[0], angles[1], angles[2]);
@@ -37,8 +37,8 @@ fn base_pose(placed: &PlacedRobot<'_>, positions: &[f64]) -> Pose {
     placed.pose.compose(&moved)
 }
 
-/// Tests that links of combined robots are where those of the robots alone are, seen from the moved base, and that the
-/// distance of all pairs agrees with the solver.
+/// Tests the link poses of combined robots against those of single robots on moved bases, and the distances of all
+/// pairs against the solver.
 #[test]
 fn links_are_where_the_base_carries_them() {
     let mut random = Pcg64::seed_from_u64(51);
@@ -53,7 +53,7 @@ fn links_are_where_the_base_carries_them() {
                 }
             }
         }
-        // A link of the left robot carries the right one, half of the time.
+        // Half of the time, a link of the left robot carries the right robot.
         let links = robots[0].links();
         let link = &links[random.random_range(0..links.len())].name;
         let carrier = format!("left/{link}");
@@ -119,8 +119,8 @@ fn links_are_where_the_base_carries_them() {
     );
 }
 
-/// Tests that a gripper is compared with the arm that carries it, except for what moves with its base, and that carriers have to
-/// be links that do not carry each other.
+/// Tests that a gripper is checked against the arm that carries it, except for links fixed to its base, and that
+/// invalid carriers are refused.
 #[test]
 fn a_link_carries_a_robot() {
     let ball = |name: &str| {
@@ -131,7 +131,7 @@ fn a_link_carries_a_robot() {
         name: format!("{parent}-{child}"),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+        geometry: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
         position_rule: PositionRule::Independent,
     };
     let arm = vec![ball("foot"), ball("hand")];
@@ -167,7 +167,7 @@ fn a_link_carries_a_robot() {
     assert!(placed([Some("hand"), Some("gripper/palm")]).is_err());
 }
 
-/// Tests that each robot keeps its own pairs, and that names which are not unique are refused.
+/// Tests that each robot keeps its own pairs, and that repeated names are refused.
 #[test]
 fn robots_keep_their_own_pairs() {
     let mut random = Pcg64::seed_from_u64(52);
@@ -205,7 +205,7 @@ fn robots_keep_their_own_pairs() {
             }
         }
     }
-    // Both bases rest in the world.
+    // Both bases are fixed to the world.
     assert!(!combined.is_checked(1, 1 + count));
     assert!(combined.is_checked(2, 1 + count));
     assert_eq!(both.links()[1 + count].name, "two/link0");
@@ -216,7 +216,7 @@ fn robots_keep_their_own_pairs() {
     ));
 }
 
-/// Tests that pairs of another robot are refused, and that links and joints may be named as those that are added.
+/// Tests that pairs of another robot are refused, and that links and joints may have the names of generated ones.
 #[test]
 fn pairs_are_of_their_robot_and_names_are_free() {
     let mut random = Pcg64::seed_from_u64(53);
@@ -227,7 +227,7 @@ fn pairs_are_of_their_robot_and_names_are_free() {
         name: "base".into(),
         parent: "world".into(),
         child: "tip".into(),
-        axis_and_limits: trajectory::Joint::fixed(Pose::IDENTITY),
+        geometry: trajectory::Joint::fixed(Pose::IDENTITY),
         position_rule: PositionRule::Independent,
     };
     let small = Robot::new(vec![ball, Link::named("tip")], vec![joint]).unwrap();

@@ -1,12 +1,12 @@
-//! Digests of bodies, and of what is compared with what.
+//! Digests of bodies and of the pairs that are checked.
 
 use crate::cell::Cell;
 use rigid_ccd::Body;
 use rigid_ccd::body::Solidity;
 use sha2::{Digest, Sha256};
 
-/// Returns the SHA-256 of a body: whether it is solid, by how much it exceeds its shape, and of each piece its radius, the number
-/// of its points, and the points. Numbers are 64 bits each, the lowest byte first.
+/// Returns the SHA-256 digest of a body. It covers whether the body is solid, its excess, and of each piece the
+/// radius, the number of points and the points. Each number is 64 bits, little-endian.
 pub(super) fn body_digest(body: &Body) -> String {
     let mut hash = Sha256::new();
     hash.update([u8::from(body.solidity() == Solidity::Solid)]);
@@ -23,7 +23,7 @@ pub(super) fn body_digest(body: &Body) -> String {
     hexadecimal(hash)
 }
 
-/// Returns the SHA-256 of the pairs of bodies that are compared, by their numbers, each with the distance at which it counts as
+/// Returns the SHA-256 digest of the checked pairs: their body indices, and the distance at which each counts as
 /// touching.
 pub(super) fn pairs_digest(cell: &Cell, margin: f64) -> String {
     let mut hash = Sha256::new();

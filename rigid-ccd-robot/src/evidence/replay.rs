@@ -1,4 +1,4 @@
-//! Asks a recorded question again, and holds the recorded answer against the new one.
+//! Replays a record: asks the same question again and compares the answers.
 
 use super::{Evidence, RecordedAnswer, RecordedBody, RecordedPath, bodies_at_start, pairs_digest};
 use crate::cell::Cell;
@@ -8,25 +8,25 @@ use crate::path_answer::{PathAnswer, PathOutcome};
 use crate::path_point::PathPoint;
 use rigid_ccd::Settings;
 
-/// How far positions and quaternions of the same body may differ, in metres: sines differ in their last digits from machine to
-/// machine, and links add them up.
+/// The tolerance, in metres and in quaternion components, within which a body's pose counts as unchanged. Sines differ
+/// between machines in their last digits, and errors add up from link to link.
 const POSE_TOLERANCE: f64 = 1e-9;
 
-/// A replay looks for contacts before the point that the record calls free with the recorded tolerance over this number.
-const FINER: f64 = 1000.0;
+/// A replay confirms the free part of a recorded path with the recorded tolerance divided by this number.
+const REPLAY_TOLERANCE_DIVISOR: f64 = 1000.0;
 
 /// The reason why a record cannot be made, read or replayed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EvidenceError {
-    /// The text is no record.
-    #[error("no record of an answer: {0}")]
+    /// The text is not a record.
+    #[error("not a record of an answer: {0}")]
     NoRecord(#[from] serde_json::Error),
-    /// The record is of another version of the format.
+    /// The record has another format version.
     #[error("the format is `{0}`, but this version reads `{FORMAT}`", FORMAT = super::FORMAT)]
     OtherFormat(String),
-    /// The answer is none to a question about the first contact.
-    #[error("the answer is not one about the first contact: only such are recorded")]
+    /// The answer is not about the first contact.
+    #[error("the answer is not about the first contact; other answers cannot be recorded")]
     NoFirstContact,
     /// The path has no configuration.
     #[error("the path has no configuration")]
@@ -34,15 +34,15 @@ pub enum EvidenceError {
     /// The path does not fit the robot.
     #[error("the path does not fit the robot: {0}")]
     Path(#[source] RobotError),
-    /// A body differs from the one that was recorded.
+    /// A body differs from the recorded one.
     #[error("{0}")]
     OtherBody(String),
-    /// Other pairs of bodies are compared, or at other distances.
+    /// Other pairs are checked than were recorded, or they count as touching at other distances.
     #[error(
         "other pairs are compared than were recorded, or they count as touching at other distances"
     )]
     OtherPairs,
-    /// The question cannot be asked again.
+    /// The question is invalid for this cell.
     #[error(transparent)]
     Question(#[from] PathError),
 }
@@ -50,35 +50,37 @@ pub enum EvidenceError {
 /// The result of a replay.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replay {
-    /// Whether the record holds.
+    /// Whether the recorded answer still holds.
     pub verdict: Verdict,
-    /// The answer to the recorded question, without a deadline.
+    /// The new answer, computed without a deadline.
     pub answer: RecordedAnswer,
 }
 
-/// Whether a recorded answer holds.
+/// Whether a recorded answer still holds.
+///
+/// All variants are to be handled, so that no refuted record passes for a valid one: the enum is exhaustive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
-    /// The answer is the same in every bit.
+    /// The new answer has the same bits.
     SameAnswer,
-    /// The answer is another one, for the record ended at a limit or is of another machine or version; but nothing touches before
-    /// the point that the record calls free.
+    /// The new answer differs, because the record ended at a limit or came from another machine or version. Nothing
+    /// touches before the point up to which the record calls the path free.
     Holds,
     /// A pair touches before that point.
     Refuted {
         /// The point at which it touches.
         at: PathPoint,
     },
-    /// A limit was reached before it was decided.
+    /// The replay reached a limit before it could confirm or refute the record.
     Undecided,
 }
 
 impl Evidence {
-    /// Asks the recorded question again, without a deadline, in a cell that has to be the recorded one.
+    /// Asks the recorded question again, without a deadline. The cell must be the recorded one.
     ///
     /// # Guarantee
-    /// [`Verdict::SameAnswer`] and [`Verdict::Holds`] prove once more that nothing touches before the point that the record calls
-    /// free, up to a thousandth of the tolerance.
+    /// [`Verdict::SameAnswer`] and [`Verdict::Holds`] prove again that nothing touches before the point up to which
+    /// the record calls the path free, within a thousandth of the tolerance.
     ///
     /// # Errors
     /// [`EvidenceError`], also for a cell with other bodies, other poses at the start or other margins.
@@ -91,14 +93,14 @@ impl Evidence {
             start_policy: self.settings.start,
             ..Settings::DEFAULT
         };
-        let answer = RecordedAnswer::try_from(&self.ask(cell, &settings)?)?;
+        let answer = RecordedAnswer::try_from(&self.first_contact(cell, &settings)?)?;
         let verdict = if answer == self.answer {
             Verdict::SameAnswer
         } else {
-            self.judge(&self.ask(
+            self.compare_with(&self.first_contact(
                 cell,
                 &Settings {
-                    tolerance: self.settings.tolerance / FINER,
+                    tolerance: self.settings.tolerance / REPLAY_TOLERANCE_DIVISOR,
                     ..settings
                 },
             )?)
@@ -106,7 +108,7 @@ impl Evidence {
         Ok(Replay { verdict, answer })
     }
 
-    fn ask<'c>(
+    fn first_contact<'c>(
         &self,
         cell: &'c Cell,
         settings: &Settings,
@@ -119,8 +121,8 @@ impl Evidence {
         Ok(solver.first_contact(path)?)
     }
 
-    /// Holds the recorded answer against one with a finer tolerance.
-    fn judge(&self, finer: &PathAnswer<'_>) -> Verdict {
+    /// Compares the recorded answer with an answer at a finer tolerance.
+    fn compare_with(&self, finer: &PathAnswer<'_>) -> Verdict {
         let free_until = self.answer.free_until();
         // Written so that NaN is not free.
         let is_reached = free_until.is_some_and(|until| until <= finer.free_until);
@@ -132,7 +134,7 @@ impl Evidence {
         }
     }
 
-    /// Refuses a cell that is not the recorded one, and says where it differs.
+    /// Checks that the cell is the recorded one. The error names the difference.
     fn check_cell(&self, cell: &Cell) -> Result<(), EvidenceError> {
         let bodies = bodies_at_start(cell, &self.path)?;
         if bodies.len() != self.bodies.len() {
@@ -155,7 +157,7 @@ impl Evidence {
     }
 }
 
-/// Says how a body differs from the recorded one; `None` if it does not.
+/// Describes how a body differs from the recorded one; `None` if it is the same.
 fn difference(body: &RecordedBody, recorded: &RecordedBody) -> Option<String> {
     let name = &recorded.item;
     if body.item != *name {

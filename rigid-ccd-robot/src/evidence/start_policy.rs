@@ -1,10 +1,10 @@
-//! Writes a start policy by its name, and reads it.
+//! Serialises a start policy by its name.
 
 use rigid_ccd::StartPolicy;
 use serde::de::{Deserialize, Deserializer, Error};
 use serde::ser::Serializer;
 
-// The signatures are those of serde.
+// serde prescribes these signatures.
 #[allow(clippy::trivially_copy_pass_by_ref)]
 pub(super) fn serialize<S: Serializer>(
     policy: &StartPolicy,
@@ -17,7 +17,7 @@ pub(super) fn deserialize<'d, D: Deserializer<'d>>(
     deserializer: D,
 ) -> Result<StartPolicy, D::Error> {
     let name = String::deserialize(deserializer)?;
-    let unknown = || D::Error::custom(format!("`{name}` is no start policy"));
+    let unknown = || D::Error::custom(format!("`{name}` is not a start policy"));
     StartPolicy::from_name(&name).ok_or_else(unknown)
 }
 

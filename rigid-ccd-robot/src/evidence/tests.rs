@@ -1,4 +1,4 @@
-//! Tests that records read back in every bit, that replays tell true records from false ones, and that another cell is refused.
+//! Tests that records read back exactly, that replays refute false records, and that another cell is refused.
 
 use super::{Evidence, EvidenceError, RecordedAnswer, RecordedPath, Verdict};
 use crate::cell::Cell;
@@ -10,7 +10,7 @@ use crate::robot::{Joint, Link, PositionRule, Robot};
 use rigid_ccd::{Body, Pose, Settings, trajectory};
 use std::time::Duration;
 
-/// Returns an arm of two links in the plane z = 0, beside a ball that it reaches when its shoulder turns.
+/// Returns an arm of two links in the plane z = 0, beside a ball that it reaches by turning its shoulder.
 fn cell() -> Cell {
     let link_body = || Body::cuboid([0.35, 0.05, 0.05]).unwrap();
     let links = ["upper", "lower"]
@@ -21,7 +21,7 @@ fn cell() -> Cell {
             name: format!("to {child}"),
             parent: parent.into(),
             child: child.into(),
-            axis_and_limits: trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap(),
+            geometry: trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap(),
             position_rule: PositionRule::Independent,
         }
     });
@@ -200,7 +200,7 @@ fn only_first_contacts_are_recorded() {
         let recorded = RecordedAnswer::try_from(&answer);
         assert!(matches!(recorded, Err(EvidenceError::NoFirstContact)));
     }
-    // What a limit left of a distance says nothing of contacts.
+    // An unresolved distance says nothing about contacts.
     let mut spent = cell.solver().with_settings(Settings {
         deadline: Some(Duration::ZERO),
         ..Settings::DEFAULT

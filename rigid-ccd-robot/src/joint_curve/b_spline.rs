@@ -1,4 +1,4 @@
-//! B-splines as curves: their polynomials, segment by segment, of twice as many digits as the numbers they are made of.
+//! Converts B-splines to curves in double-double precision.
 
 use super::{JointCurve, check_count};
 use crate::error::CurveError;
@@ -9,12 +9,12 @@ use smallvec::SmallVec;
 type Points = SmallVec<[DoubleDouble; MAX_DEGREE + 1]>;
 
 impl JointCurve {
-    /// Creates a curve from a B-spline: its degree, its knots, and for each joint with a position of its own the coefficients of
-    /// all basis functions. It begins at the knot with the number `degree`, and has as many basis functions as knots, less
-    /// `degree + 1`.
+    /// Creates a curve from a B-spline of a degree, with the given knots. `joints` lists the control values of each
+    /// joint with a position of its own: one for each basis function, of which there are `knots.len() - degree - 1`.
+    /// The curve starts at `knots[degree]`.
     ///
     /// # Errors
-    /// As of [`JointCurve::from_polynomials`], and knots that decrease.
+    /// The same as [`JointCurve::from_polynomials`], and decreasing knots.
     pub fn from_b_spline(
         degree: usize,
         knots: &[f64],
@@ -51,8 +51,9 @@ impl JointCurve {
     }
 }
 
-/// Returns the control points of a spline between a knot and the next one, as a Bézier curve. Each is the blossom of as many of
-/// both knots: de Boor's algorithm with a knot of its own in each round `[DEBOOR01]`.
+/// Returns the Bézier control points of the spline between a knot and the next one. Control point `i` is the blossom
+/// of `degree - i` copies of the first knot and `i` copies of the second. De Boor's algorithm computes it, with one
+/// argument for each round `[DEBOOR01]`.
 fn bezier_points(degree: usize, knots: &[f64], coefficients: &[f64], basis: usize) -> Points {
     let ends = [knots[basis], knots[basis + 1]];
     let of_number = |ones: usize| {
@@ -75,7 +76,7 @@ fn bezier_points(degree: usize, knots: &[f64], coefficients: &[f64], basis: usiz
     (0..=degree).map(of_number).collect()
 }
 
-/// Returns a quotient, to 2⁻¹⁰⁰ of itself: what the quotient of f64 leaves over is divided once more, and so is what that leaves.
+/// Returns a quotient with a relative error of about 2⁻¹⁰⁰, by long division in three f64 steps.
 fn quotient(part: DoubleDouble, whole: DoubleDouble) -> DoubleDouble {
     let [divisor, _] = whole.parts();
     let mut left = part;
@@ -88,8 +89,8 @@ fn quotient(part: DoubleDouble, whole: DoubleDouble) -> DoubleDouble {
     sum
 }
 
-/// Returns the coefficients of the powers of a Bézier curve's share: `(n over k) Σ (−1)ᵏ⁻ⁱ (k over i) bᵢ`, which are differences of
-/// neighbouring control points, of differences of these, and so on.
+/// Returns the monomial coefficients of a Bézier polynomial: `(n over k) Σ (−1)ᵏ⁻ⁱ (k over i) bᵢ`. The sums are `k`-th
+/// differences of the control points.
 fn powers(points: &Points) -> Points {
     let degree = points.len() - 1;
     let mut differences = points.clone();

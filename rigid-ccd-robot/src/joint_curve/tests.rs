@@ -1,4 +1,4 @@
-//! Tests curves: that they pass where they are told to, and that wrong ones are refused.
+//! Tests that curves interpolate the given values, and that invalid curves are refused.
 
 use super::*;
 use crate::cell::Cell;
@@ -6,11 +6,11 @@ use crate::pairs::LinkPairs;
 use crate::robot::{Joint, Link, PositionRule};
 use rigid_ccd::{Body, Pose, trajectory};
 
-/// Returns the derivatives of a joint's position at the start and at the end of a segment, by the time.
+/// Returns the time derivatives of a joint's position at both ends of a segment.
 fn derivatives(curve: &JointCurve, segment: usize, joint: usize) -> [[f64; 3]; 2] {
     let duration = curve.times[segment + 1] - curve.times[segment];
     [0.0, 1.0].map(|share| {
-        let about = curve.polynomial(segment, joint).about(share);
+        let about = curve.polynomial(segment, joint).expanded_about(share);
         let [position, velocity, half_acceleration] =
             [0, 1, 2].map(|power| about.coefficient(power));
         [
@@ -50,7 +50,7 @@ fn hermite_curves_have_the_derivatives_that_are_given() {
             }
         }
     }
-    // Polynomials of the time are the same curve.
+    // The polynomials in time give the same curve.
     let polynomials: Vec<Vec<Vec<f64>>> = (0..3)
         .map(|segment| {
             let duration = times[segment + 1] - times[segment];
@@ -119,8 +119,8 @@ fn wrong_curves_are_refused() {
     );
 }
 
-/// Tests that a joint which leaves its limits between the ends of a segment is refused, and that one which touches them is
-/// not.
+/// Tests that a curve is refused if a joint leaves its limits between the ends of a segment, but not if it only
+/// reaches them.
 #[test]
 fn a_curve_stays_within_the_limits() {
     let slider = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
@@ -128,7 +128,7 @@ fn a_curve_stays_within_the_limits() {
         name: "slider".into(),
         parent: "rail".into(),
         child: "ball".into(),
-        axis_and_limits: slider.with_limits(-1.0..=1.0),
+        geometry: slider.with_limits(-1.0..=1.0),
         position_rule: PositionRule::Independent,
     };
     let ball = Link::named("ball").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
@@ -137,7 +137,7 @@ fn a_curve_stays_within_the_limits() {
     let far = Pose::at([0.0, 9.0, 0.0]).unwrap();
     cell.add_obstacle("post", Body::sphere(0.1).unwrap(), far)
         .unwrap();
-    // 4 s (1 - s) h is h in the middle.
+    // 4 s (1 - s) h has the value h at the midpoint.
     let hump = |height: f64| {
         let segments = [vec![vec![0.0, 4.0 * height, -4.0 * height]]];
         JointCurve::from_polynomials(&[0.0, 1.0], &segments).unwrap()
@@ -151,7 +151,7 @@ fn a_curve_stays_within_the_limits() {
     };
     assert!(cell.solver().is_free(&line(1.0)).is_ok());
     assert!(cell.solver().is_free(&line(1.0 + 1e-9)).is_err());
-    // A duration whose quotient and product is not 1.
+    // Dividing by this duration and multiplying by it again does not give 1.
     let still = JointCurve::cubic_hermite(&[0.0, 49.0], &[[1.0], [1.0]], &[[0.0], [0.0]]).unwrap();
     assert!(cell.solver().is_free(&still).is_ok() && still.positions(0.0) == [1.0]);
     for height in [1.001, -2.0] {
@@ -171,7 +171,7 @@ fn a_curve_stays_within_the_limits() {
     );
 }
 
-/// Tests that a constant is a curve, and that the time of a point is never late, far from 0 too.
+/// Tests that constants are curves, and that times of points are rounded down, also far from 0.
 #[test]
 fn constants_are_curves_and_times_are_rounded_down() {
     let constant = JointCurve::from_polynomials(&[0.0, 1.0], &[vec![vec![0.5]]]).unwrap();
@@ -189,14 +189,14 @@ fn constants_are_curves_and_times_are_rounded_down() {
     }
 }
 
-/// Tests that a jump which is small for a joint is refused if another joint follows it by a large factor.
+/// Tests that a small jump is refused if another joint follows with a large multiplier.
 #[test]
 fn a_jump_counts_for_the_joints_that_follow() {
     let slider = |name: &str, position_rule| Joint {
         name: name.into(),
         parent: "rail".into(),
         child: format!("{name} link"),
-        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
+        geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
         position_rule,
     };
     let follows = PositionRule::Follows {
@@ -220,7 +220,7 @@ fn a_jump_counts_for_the_joints_that_follow() {
     );
 }
 
-/// A span that is no power of two scales the coefficients without rounding: the values are those of the given polynomial.
+/// Tests that coefficients are scaled without rounding if a duration is not a power of two.
 #[test]
 fn polynomials_are_taken_as_they_are_given() {
     use crate::rational::exact_fraction;

@@ -1,16 +1,18 @@
-//! How far two links move against each other within a box of positions.
+//! Bounds how far two links move relative to each other within a box of joint positions.
 //!
-//! Let `k` joints lie between two parts A and B. As the link after the first `s` of them sees it, these joints move A, and
-//! the others move B. Each `s` from 0 to `k` gives a bound; the best counts. Where a joint near A turns, A moves less than
-//! B, which is far from its axis.
+//! Let `k` joints lie between two parts A and B. In the frame of the link after the first `s` joints, these joints
+//! move A and the other joints move B. Every `s` from 0 to `k` gives a valid bound, and the best is used. If a joint
+//! near A turns, A moves less than B, which is far from the axis.
 //!
-//! Two bounds, with `δ` how far a joint's position deviates from that in the middle of the box:
-//! - The *displacement* of a part is at most the sum of what each joint displaces its place in the middle: a chord about
-//!   the joint's axis, or a distance along it.
-//! - Along a *fixed direction* `n` a point `x` moves by `Σ δ |n × ω · (x - o)|` to first order, for the joint's axis with the
-//!   direction `ω` through `o`. The rest is at most half of `Σ Σ δ δ |n · ∂²x|`. The second derivative by joint `i`, and by
-//!   `j` which is nearer to the part or the same, is `ω_i × (ω_j × (x - o_j))`: along `n` it is at most `|n × ω_i|` times the
-//!   distance of `x` from the axis of `j`. Both factors are bounded over the box by what the joints displace.
+//! There are two bounds. Let `δ` be the largest deviation of a joint's position from the centre of the box:
+//!
+//! - The *displacement* of a part is at most the sum of the displacements that the joints cause one by one, from the
+//!   position at the centre: a chord about a revolute axis, or a distance along a prismatic one.
+//! - Along a *fixed direction* `n`, a point `x` moves by `Σ δ |n × ω · (x - o)|` to first order, for joint axes with
+//!   directions `ω` through points `o`. The remainder is at most half of `Σ Σ δ δ |n · ∂²x|`. The second derivative by
+//!   joint `i`, and by joint `j` that is nearer to the part or the same, is `ω_i × (ω_j × (x - o_j))`. Along `n` it is
+//!   at most `|n × ω_i|` times the distance of `x` from the axis of `j`. The displacements bound both factors over the
+//!   box.
 
 use crate::cell::part::HullPart;
 use crate::cell::rounding::PoseRounding;
@@ -20,44 +22,44 @@ use ccd_core::order::{greater, lesser};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::oracle::Frame;
 
-/// The joints between two links in the middle of a box of positions, and bounds for two parts of them.
+/// The joints between two links at the centre of a box, and motion bounds for a pair of their parts.
 #[derive(Debug, Default)]
 pub(super) struct BoxMotion {
     axes: Vec<JointAxis>,
     rounding: PoseRounding,
-    /// For either part and each joint, the largest distance from the axis of a point by whose hull the part is described: the ball
-    /// by which it is grown stays a ball. 1 for a joint that slides,
-    /// whose axis is nowhere.
+    /// For either part and each joint, the largest distance of the part's points from the axis. The rounding ball is
+    /// left out, because it stays a ball. 1 for a prismatic joint.
     arms: [Vec<f64>; 2],
-    /// For either part and each joint, the largest displacement of a point by the joint alone.
+    /// For either part and each joint, the largest displacement of a point by this joint alone.
     displacements: [Vec<f64>; 2],
-    /// Scratch memory of [`BoxMotion::gap_lower_bound`]: the least height of B, and the largest of A, for each `s`.
+    /// Scratch memory of [`BoxMotion::gap_lower_bound`]: for each `s`, the lowest height of B and the highest of A.
     heights: [Vec<f64>; 2],
 }
 
-/// A joint in the middle of a box.
+/// The axis of a joint at the centre of a box.
 #[derive(Clone, Copy, Debug)]
 struct JointAxis {
     direction: DVec3,
     /// A point of the axis.
     origin: DVec3,
-    /// How far the position deviates at most from that in the middle.
+    /// The largest deviation of the joint's position from the centre.
     deviation: f64,
-    /// The largest displacement of a point at the distance 1 from the axis; 0 for a joint that slides.
+    /// The largest displacement of a point at distance 1 from the axis; 0 for a prismatic joint.
     chord: f64,
     is_prismatic: bool,
 }
 
-/// A bound of how far two parts are displaced against each other.
+/// A bound of the relative displacement of two parts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Displacement {
     pub(super) bound: f64,
-    /// The number of joints that move the first part, as the bound counts.
+    /// The number `s` of joints that move the first part in this bound.
     split: usize,
 }
 
 impl BoxMotion {
-    /// Takes the joints in the middle of a box, from the link of A to that of B, each with the deviation of its position.
+    /// Sets the joints from the link of A to the link of B, at the centre of a box, each with the largest deviation of
+    /// its position.
     pub(super) fn place(
         &mut self,
         kinematics: &Kinematics,
@@ -67,11 +69,11 @@ impl BoxMotion {
     ) {
         self.rounding = rounding;
         self.axes.clear();
-        self.axes.extend(joints.map(|(number, deviation)| {
-            let joint = &kinematics.joints()[number];
+        self.axes.extend(joints.map(|(index, deviation)| {
+            let joint = &kinematics.joints()[index];
             JointAxis {
                 direction: frames[joint.parent].rotation * joint.axis,
-                origin: frames[number + 1].translation,
+                origin: frames[index + 1].translation,
                 deviation,
                 chord: if joint.is_prismatic {
                     0.0
@@ -83,7 +85,7 @@ impl BoxMotion {
         }));
     }
 
-    /// Bounds how far two parts with the given centres are displaced against each other.
+    /// Bounds the relative displacement of two parts with the given centres.
     pub(super) fn displacement(
         &mut self,
         parts: [&HullPart; 2],
@@ -110,7 +112,7 @@ impl BoxMotion {
         let mut best = Displacement { bound, split: 0 };
         for (joint, (a, b)) in of_a.iter().zip(of_b).enumerate() {
             bound += a - b;
-            // Written so that NaN is no bound that proves anything.
+            // Written so that a NaN replaces the bound: a NaN proves nothing.
             if !(bound >= best.bound) {
                 best = Displacement {
                     bound,
@@ -118,13 +120,13 @@ impl BoxMotion {
                 };
             }
         }
-        // The sum was computed from differences.
+        // Sums again, because the running sum of differences has larger rounding errors.
         let (a, b) = (&of_a[..best.split], &of_b[best.split..]);
         best.bound = a.iter().chain(b).sum::<f64>() * ROUNDING_FACTOR;
         best
     }
 
-    /// Returns the number of the joint that adds most to a displacement; `None` without joints.
+    /// Returns the index of the joint that contributes most to a displacement; `None` without joints.
     pub(super) fn main_joint(&self, displacement: Displacement) -> Option<usize> {
         let [of_a, of_b] = &self.displacements;
         let share = |joint: usize| {
@@ -137,9 +139,9 @@ impl BoxMotion {
         (0..self.axes.len()).max_by(|&a, &b| share(a).total_cmp(&share(b)))
     }
 
-    /// Returns a lower bound of the distance of two parts over the whole box, along a unit direction from A to B: those of
-    /// the last call of [`BoxMotion::displacement`]. Negative infinity if what the first order leaves out exceeds their gap in
-    /// the middle.
+    /// Returns a lower bound of the distance of two parts over the whole box, along a unit direction from A to B. The
+    /// parts must be those of the last call of [`BoxMotion::displacement`]. Returns negative infinity if the
+    /// second-order remainder exceeds the gap at the centre.
     pub(super) fn gap_lower_bound(
         &mut self,
         direction: DVec3,
@@ -162,22 +164,22 @@ impl BoxMotion {
         for split in 0..=count {
             best = greater(best, of_b[split] - of_a[split] - remainders[split]);
         }
-        // Heights have the errors of two points. A term of first order is a deviation times an arm; that of its direction is the
-        // error of two directions.
+        // The heights have the errors of two points. A first-order term is a deviation times an arm; the error of its
+        // direction is that of two unit vectors.
         let terms: f64 = (0..2).map(|side| self.first_order_sum(side)).sum();
         let allowance = 4.0 * (self.rounding.of_points + self.rounding.of_directions * terms);
         best - parts[0].radius - parts[1].radius - allowance
     }
 
-    /// Bounds what the first order leaves out of the motion of both parts along a direction.
+    /// Bounds the second-order remainder of both parts' motions along a direction.
     fn remainder(&self, direction: DVec3, split: usize) -> f64 {
         let to_b = self.side_remainder(direction, 1, &(split..self.axes.len()));
         let to_a = self.side_remainder(direction, 0, &(0..split).rev());
         (to_a + to_b) * ROUNDING_FACTOR
     }
 
-    /// Bounds what the first order leaves out of the motion of a part along a direction. The joints that move the part come in
-    /// the order towards it.
+    /// Bounds the second-order remainder of one part's motion along a direction. `joints` are those that move the
+    /// part, the nearest to the part last.
     fn side_remainder(
         &self,
         direction: DVec3,
@@ -185,16 +187,16 @@ impl BoxMotion {
         joints: &(impl Iterator<Item = usize> + Clone),
     ) -> f64 {
         let (mut inner, mut total) = (0.0, 0.0);
-        for (number, joint) in joints.clone().enumerate() {
+        for (index, joint) in joints.clone().enumerate() {
             let axis = &self.axes[joint];
             let (reach, tilt) = if axis.is_prismatic {
                 (1.0, 0.0)
             } else {
                 let error = 2.0 * self.rounding.of_directions;
-                let before = joints.clone().take(number).map(|other| &self.axes[other]);
+                let before = joints.clone().take(index).map(|other| &self.axes[other]);
                 let turned: f64 = before.map(|other| other.turns(axis.direction, error)).sum();
                 let tilt = direction.cross(axis.direction).length() + error + turned;
-                let after = joints.clone().skip(number + 1);
+                let after = joints.clone().skip(index + 1);
                 let displaced: f64 = after.map(|other| self.displacements[side][other]).sum();
                 (self.arms[side][joint] + displaced, lesser(tilt, 1.0))
             };
@@ -204,13 +206,13 @@ impl BoxMotion {
         total
     }
 
-    /// Bounds how far a point of a part moves along any direction, to first order.
+    /// Bounds how far a point of a part moves, to first order, along any direction.
     fn first_order_sum(&self, side: usize) -> f64 {
         let joints = self.axes.iter().zip(&self.arms[side]);
         joints.map(|(axis, arm)| axis.deviation * arm).sum()
     }
 
-    /// Computes for each `s` the least height of B and the largest of A along a direction, to first order.
+    /// Computes for each `s` the lowest height of B and the highest of A along a direction, to first order.
     fn measure_heights(&mut self, direction: DVec3, parts: [&HullPart; 2], frames: [&Frame; 2]) {
         let count = self.axes.len();
         let first_order_sums = [0, 1].map(|side| self.first_order_sum(side));
@@ -228,7 +230,7 @@ impl BoxMotion {
             let limit = along.dot(lowest) + 2.0 * first_order_sums[side];
             for &point in part.points() {
                 let mut height = along.dot(point);
-                // Other corners stay higher than that one.
+                // This corner cannot become the lowest one.
                 if height > limit {
                     continue;
                 }
@@ -259,7 +261,7 @@ impl BoxMotion {
 }
 
 impl JointAxis {
-    /// Returns the largest displacement of a point at the distance `arm` from the axis.
+    /// Returns the largest displacement of a point at distance `arm` from the axis.
     fn displacement(&self, arm: f64) -> f64 {
         if self.is_prismatic {
             self.deviation
@@ -268,13 +270,13 @@ impl JointAxis {
         }
     }
 
-    /// Bounds how far the joint turns a unit vector, whose angle to the axis has an error.
+    /// Bounds how far the joint turns a unit vector whose angle to the axis has an error.
     fn turns(&self, vector: DVec3, error: f64) -> f64 {
         self.chord * (self.direction.cross(vector).length() + error)
     }
 
-    /// Returns a linear function of a point in a frame, whose absolute value is how far the point moves along a direction to
-    /// first order.
+    /// Returns a linear function of points in a frame. Its absolute value is how far a point moves along a direction,
+    /// to first order.
     fn slope(&self, direction: DVec3, frame: &Frame) -> (DVec3, f64) {
         if self.is_prismatic {
             return (DVec3::ZERO, self.deviation * direction.dot(self.direction));

@@ -1,29 +1,31 @@
-//! Links that always touch on the axis of the hinge between them: a point there rests in the frames of both.
+//! Proves that two links always touch on the axis of the hinge between them. The hinge moves no point of its axis.
 
 use super::measuring::LinkPair;
-use super::search::{PairSearch, Verdict};
+use super::search::{LinkPairSearch, Verdict};
 use crate::tuning::{JOINT_AXIS_INTERVALS, JOINT_AXIS_REFINEMENTS};
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Error, Pose};
 
-/// The distance, in metres, at which a body holds a point of a joint's axis. Two bodies that hold it are at most twice as
-/// far apart.
+/// The distance, in metres, within which a body counts as containing a point of the axis. Two bodies that contain the
+/// same point are at most twice as far apart.
 const AXIS_CONTACT_DISTANCE: f64 = 1e-9;
 
-/// A joint's axis: a point of it, and its direction.
+/// A joint axis: a point on it, and its direction.
 #[derive(Clone, Copy)]
 struct Axis {
     origin: DVec3,
     direction: DVec3,
 }
 
-impl PairSearch<'_> {
-    /// Returns what follows if one joint that turns is between two links, and both hold the same point of its axis.
+impl LinkPairSearch<'_> {
+    /// Proves that two links always touch if the only joint between them is revolute and both contain the same point
+    /// of its axis.
     ///
-    /// The distance of a point of the axis from a convex body has no local minima: from the best of equally spaced points,
-    /// thirds of the interval around it are left out. That finds links that meet in one point of the axis.
-    pub(super) fn meet_on_hinge(
+    /// Samples points of the axis at equal distances, then refines around the best one. The distance of an axis point
+    /// from a convex body has only one local minimum, so the refinement drops a third of the interval in each step.
+    /// It finds links that meet in a single point of the axis.
+    pub(super) fn prove_contact_on_hinge_axis(
         &mut self,
         links: [usize; 2],
         pair: &LinkPair,
@@ -32,7 +34,7 @@ impl PairSearch<'_> {
         let &[between] = &*pair.joints.joints else {
             return Ok(None);
         };
-        let joint = &cell.kinematics().joints()[between.number];
+        let joint = &cell.kinematics().joints()[between.moving_index];
         if joint.is_prismatic {
             return Ok(None);
         }
@@ -81,8 +83,8 @@ impl PairSearch<'_> {
         Ok((least <= 0.0).then_some(Verdict::AlwaysAsEnclosed))
     }
 
-    /// Returns upper bounds of how far a point of an axis is from the farther one of two links: from their bodies as they are,
-    /// and from the shapes that these enclose. The radius at which a body holds the point is subtracted.
+    /// Returns two upper bounds of the distance of an axis point from the farther one of two links: from their bodies,
+    /// and from the shapes that the bodies enclose. [`AXIS_CONTACT_DISTANCE`] is subtracted from both.
     fn distances_on_axis(
         &mut self,
         links: [usize; 2],

@@ -1,12 +1,12 @@
-//! Boxes of joint positions.
+//! Boxes of joint positions: one range for each position.
 
 use ccd_core::order::greater;
 
-/// A range for each position of the joints between two links.
+/// A box of the positions of the joints between two links.
 #[derive(Clone, Debug)]
 pub(super) struct JointBox {
     ranges: Vec<[f64; 2]>,
-    /// The share of the volume of the box that was halved first.
+    /// The volume as a fraction of the volume of the initial box.
     pub(super) volume_share: f64,
 }
 
@@ -18,8 +18,8 @@ impl JointBox {
         }
     }
 
-    /// Returns the box that is a point.
-    pub(super) fn at(positions: &[f64]) -> Self {
+    /// Returns the box that contains a single point.
+    pub(super) fn from_point(positions: &[f64]) -> Self {
         JointBox::new(positions.iter().map(|&own| [own; 2]).collect())
     }
 
@@ -27,27 +27,27 @@ impl JointBox {
         &self.ranges
     }
 
-    /// Returns the positions in the middle.
+    /// Returns the centre.
     pub(super) fn middle(&self) -> Vec<f64> {
         self.ranges.iter().map(middle).collect()
     }
 
-    /// Returns how far the position at a place is at most from that in the middle.
-    pub(super) fn max_deviation(&self, place: usize) -> f64 {
-        let ([low, high], middle) = (self.ranges[place], middle(&self.ranges[place]));
+    /// Returns the largest deviation of a position from the centre.
+    pub(super) fn max_deviation(&self, index: usize) -> f64 {
+        let ([low, high], middle) = (self.ranges[index], middle(&self.ranges[index]));
         greater(high - middle, middle - low)
     }
 
-    /// Returns both halves along the position at a place; `None` if its range cannot be halved.
-    pub(super) fn halves(&self, place: usize) -> Option<[Self; 2]> {
-        let [low, high] = *self.ranges.get(place)?;
-        let middle = middle(&self.ranges[place]);
+    /// Splits the box along a position; `None` if the range is too small to halve.
+    pub(super) fn halves(&self, index: usize) -> Option<[Self; 2]> {
+        let [low, high] = *self.ranges.get(index)?;
+        let middle = middle(&self.ranges[index]);
         if !(low < middle && middle < high) {
             return None;
         }
         Some([[low, middle], [middle, high]].map(|range| {
             let mut half = self.clone();
-            half.ranges[place] = range;
+            half.ranges[index] = range;
             half.volume_share *= 0.5;
             half
         }))

@@ -1,4 +1,4 @@
-//! The joints that move two links against each other.
+//! The joints that move two links relative to each other.
 
 use super::joint_box::JointBox;
 use crate::cell::Cell;
@@ -6,56 +6,56 @@ use crate::cell::rounding::{PoseRounding, pose_rounding};
 use ccd_core::order::greater;
 use std::f64::consts::PI;
 
-/// The moving joints between two links, and the positions of a configuration that move them.
+/// The moving joints between two links, and their positions in a configuration.
 #[derive(Debug)]
 pub(super) struct JointsBetween {
     /// The moving joints, from the first link to the second.
     pub(super) joints: Vec<JointBetween>,
-    /// The numbers of the same joints, each after those nearer to the base.
+    /// The indices of the same joints, parents first.
     pub(super) parents_first: Vec<usize>,
-    /// The nearest frame from which both links move.
+    /// The nearest common ancestor of both links' frames.
     pub(super) common_frame: usize,
-    /// All positions of the joints.
+    /// The box of all positions of these joints within their limits.
     pub(super) all_positions: JointBox,
-    /// The rounding of the frames at any of them.
+    /// The rounding errors of the frames, for any position in the box.
     pub(super) rounding: PoseRounding,
     /// For each position of a box, its index in a configuration.
     position_indices: Vec<usize>,
-    /// A configuration at which joints rest that do not count: at 0, or at the limit nearest to 0.
+    /// A configuration for the joints that are not between the links: each at 0, or at its limit nearest to 0.
     rest: Vec<f64>,
 }
 
 /// A moving joint between two links.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointBetween {
-    /// The number of the joint among those that move.
-    pub(super) number: usize,
-    /// The place of its position in a box.
-    pub(super) place: usize,
-    /// By how much it moves for a unit of that position, without the sign.
+    /// The index among the moving joints.
+    pub(super) moving_index: usize,
+    /// The index of its position in a [`JointBox`].
+    pub(super) box_index: usize,
+    /// The absolute value of the multiplier from that position to the joint's position.
     pub(super) factor: f64,
 }
 
 impl JointsBetween {
-    /// Returns `None` if a joint without limits does not come back to where it was after a turn, or if one slides beyond the
-    /// reach of planes.
+    /// Returns `None` if the positions cannot be bounded: an unlimited joint does not repeat after a turn, or a
+    /// prismatic joint moves a body beyond the planes.
     pub(super) fn new(cell: &Cell, links: [usize; 2]) -> Option<Self> {
         let (robot, kinematics) = (cell.robot(), cell.kinematics());
         let between = robot.chain_between(links[0], links[1]);
         let mut position_indices = Vec::new();
-        let numbers = between.joint_numbers().iter();
+        let numbers = between.joint_indices().iter();
         let numbers = numbers.filter_map(|&joint| kinematics.moving_joint_index(joint));
-        let joints = numbers.map(|number| {
-            let source = kinematics.joints()[number].source;
+        let joints = numbers.map(|moving_index| {
+            let source = kinematics.joints()[moving_index].source;
             let index = source.position_index();
             let known = position_indices.iter().position(|&other| other == index);
-            let place = known.unwrap_or_else(|| {
+            let box_index = known.unwrap_or_else(|| {
                 position_indices.push(index);
                 position_indices.len() - 1
             });
             JointBetween {
-                number,
-                place,
+                moving_index,
+                box_index,
                 factor: source.factor().abs(),
             }
         });
@@ -67,7 +67,7 @@ impl JointsBetween {
         }
         cell.check_plane_reach(kinematics.magnitudes(&farthest))
             .ok()?;
-        let mut parents_first: Vec<usize> = joints.iter().map(|joint| joint.number).collect();
+        let mut parents_first: Vec<usize> = joints.iter().map(|joint| joint.moving_index).collect();
         parents_first.sort_unstable();
         let magnitudes: Vec<_> = kinematics.magnitudes(&farthest).collect();
         let magnitudes = magnitudes.iter().copied();
@@ -83,7 +83,7 @@ impl JointsBetween {
         })
     }
 
-    /// Returns the configuration with given positions of the joints in between.
+    /// Returns the configuration with the given positions of these joints.
     pub(super) fn configuration(&self, positions: &[f64]) -> Vec<f64> {
         let mut configuration = self.rest.clone();
         for (&index, &position) in self.position_indices.iter().zip(positions) {
@@ -93,16 +93,16 @@ impl JointsBetween {
     }
 }
 
-/// Returns the box of all positions of the joints between two links.
+/// Returns the box of all positions of the joints between two links; `None` if it is unbounded.
 fn all_positions(cell: &Cell, joints: &[JointBetween], indices: &[usize]) -> Option<JointBox> {
     let limits: Vec<[f64; 2]> = cell.robot().limits().collect();
     let mut ranges: Vec<[f64; 2]> = indices.iter().map(|&index| limits[index]).collect();
     for joint in joints {
-        let moving = &cell.kinematics().joints()[joint.number];
-        let [low, high] = limits[indices[joint.place]];
+        let moving = &cell.kinematics().joints()[joint.moving_index];
+        let [low, high] = limits[indices[joint.box_index]];
         if !(low.is_finite() && high.is_finite()) {
-            let comes_back = !moving.is_prismatic && moving.source.has_integer_multiplier();
-            ranges[joint.place] = comes_back.then_some([-PI, PI])?;
+            let repeats_after_turn = !moving.is_prismatic && moving.source.has_integer_multiplier();
+            ranges[joint.box_index] = repeats_after_turn.then_some([-PI, PI])?;
         }
     }
     Some(JointBox::new(ranges))

@@ -1,4 +1,4 @@
-//! Measures two links at configurations, and over boxes of positions.
+//! Measures pairs of links at single configurations and over boxes of joint positions.
 
 use super::box_motion::{BoxMotion, Displacement};
 use super::joint_box::JointBox;
@@ -17,17 +17,17 @@ use rigid_ccd::{Body, Error, Outcome, Pose, Settings, Solver};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// Two links, and what moves them against each other.
+/// Two links, the joints between them, and the pairs of their parts.
 pub(super) struct LinkPair {
     pub(super) joints: JointsBetween,
     part_pairs: Vec<PairOfParts>,
 }
 
-/// A part of either link.
+/// A pair of parts, one of each link.
 struct PairOfParts {
-    /// The numbers of the parts, in the order of the links.
+    /// The indices of the parts, in the order of the links.
     parts: [usize; 2],
-    /// The same parts, the one that rests last.
+    /// The same parts; a static part comes second.
     pair: PartPair,
 }
 
@@ -39,71 +39,71 @@ pub(super) struct Measurer<'c> {
     solver: Solver,
 }
 
-/// Whether two links touch in a configuration.
+/// Whether two links touch at a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Contact {
     Touching,
     Apart,
-    /// Rounding hides it.
+    /// Undecided because of rounding.
     Unknown,
 }
 
-/// What is known of two links in a configuration.
+/// The state of two links at a configuration.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Look {
+pub(super) struct ConfigurationCheck {
     pub(super) contact: Contact,
-    /// About how far apart they are, if that is less than what was asked for.
+    /// An approximate distance, if it is below the given limit.
     pub(super) distance: f64,
 }
 
-/// What is known of two links over a box of positions.
+/// The result of checking a box.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BoxLook {
+pub(super) struct BoxCheck {
     pub(super) class: BoxClass,
-    pub(super) in_middle: Look,
-    /// The place of the position that moves the links most.
-    pub(super) main_place: Option<usize>,
+    pub(super) in_middle: ConfigurationCheck,
+    /// The index, in the box, of the position that moves the links most.
+    pub(super) main_position_index: Option<usize>,
 }
 
-/// Whether two links touch in all configurations of a box.
+/// Whether two links touch everywhere in a box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum BoxClass {
     Apart,
-    /// The shapes touch that the bodies enclose.
+    /// The shapes inside the bodies touch.
     ShapesTouching,
-    /// The bodies touch.
+    /// The bodies touch. Their shapes may not.
     BodiesTouching,
-    Open,
+    Undecided,
 }
 
-/// Two parts at their places in the middle of a box.
+/// Two parts at the centre of a box.
 struct PlacedParts<'a> {
     parts: [&'a HullPart; 2],
     frames: [Frame; 2],
     centres: [DVec3; 2],
 }
 
-/// What is asked about two parts over a box.
-struct Asked<'a> {
+/// The inputs of a proof about two parts over a box.
+struct PartQuery<'a> {
     part_pair: &'a PairOfParts,
     displacement: Displacement,
-    /// The error of a point.
+    /// The error bound of a point.
     rounding: f64,
-    /// What is known of the links at other positions.
+    /// What other configurations have shown about the links.
     known: Contact,
 }
 
-/// What a box of positions proves about two parts.
-enum Proof {
+/// What is proven about two parts over a box.
+enum BoxProof {
     Apart,
     ShapesTouching,
     BodiesTouching,
-    /// Nothing; their distance is that much too small.
-    Open(f64),
+    /// Nothing. The distance falls short by this much.
+    Undecided(f64),
 }
 
 impl LinkPair {
-    /// Returns `None` if a joint without limits does not come back to where it was after a turn.
+    /// Returns `None` if the joint positions cannot be bounded, see [`JointsBetween::new`].
     pub(super) fn new(cell: &Cell, placement: &Placement, links: [usize; 2]) -> Option<Self> {
         let parts_of = |link: usize| {
             (0..cell.robot_part_count())
@@ -122,7 +122,7 @@ impl LinkPair {
         })
     }
 
-    /// Returns whether a body of a link exceeds the shape that it encloses.
+    /// Returns whether any body of the links exceeds the shape that it encloses.
     pub(super) fn encloses_shapes(&self, cell: &Cell) -> bool {
         let parts = self.part_pairs.iter().flat_map(|pair| pair.parts);
         let mut excess = parts.map(|part| cell.parts()[part].excess_over_shape);
@@ -143,56 +143,56 @@ impl<'c> Measurer<'c> {
         }
     }
 
-    /// Looks at two links at some positions of the joints between them. Their distance matters if it is less than `limit`.
-    pub(super) fn look(
+    /// Checks two links at given joint positions. The distance matters only if it is below `limit`.
+    pub(super) fn check(
         &mut self,
         pair: &LinkPair,
         positions: &[f64],
         limit: f64,
-    ) -> Result<Look, Error> {
+    ) -> Result<ConfigurationCheck, Error> {
         let rounding = pair.joints.rounding.of_points;
         self.place(&pair.joints, positions);
-        let mut look = Look {
+        let mut check = ConfigurationCheck {
             contact: Contact::Apart,
             distance: limit,
         };
         for part_pair in &pair.part_pairs {
             let placed = self.placed_parts(part_pair);
             let gap = placed.ball_gap();
-            if gap > 2.0 * rounding && gap >= look.distance {
+            if gap > 2.0 * rounding && gap >= check.distance {
                 continue;
             }
-            let [lower, upper] = placed.hull_distance([look.distance, -rounding]).0;
+            let [lower, upper] = placed.hull_distance([check.distance, -rounding]).0;
             let is_convex = part_pair.pair.is_convex(self.cell.parts());
-            if lower > 2.0 * rounding && (is_convex || lower >= look.distance) {
-                look.distance = lesser(look.distance, upper);
+            if lower > 2.0 * rounding && (is_convex || lower >= check.distance) {
+                check.distance = lesser(check.distance, upper);
                 continue;
             }
-            self.look_at_bodies(part_pair, rounding, &mut look)?;
-            if look.contact == Contact::Touching {
+            self.check_bodies(part_pair, rounding, &mut check)?;
+            if check.contact == Contact::Touching {
                 break;
             }
         }
-        Ok(look)
+        Ok(check)
     }
 
-    /// Looks at two links over a box of positions. What is `known` of them at other positions need not be found again in
-    /// the middle of the box.
-    pub(super) fn look_over_box(
+    /// Checks two links over a box. `known` tells which kind of witness other positions have provided; the centre need
+    /// not provide another one.
+    pub(super) fn check_box(
         &mut self,
         pair: &LinkPair,
         joint_box: &JointBox,
         known: Contact,
-    ) -> Result<BoxLook, Error> {
+    ) -> Result<BoxCheck, Error> {
         let rounding = pair.joints.rounding;
         self.place_box(&pair.joints, joint_box);
-        let mut look = BoxLook {
+        let mut check = BoxCheck {
             class: BoxClass::Apart,
-            in_middle: Look {
+            in_middle: ConfigurationCheck {
                 contact: Contact::Apart,
                 distance: f64::INFINITY,
             },
-            main_place: None,
+            main_position_index: None,
         };
         let mut worst = f64::NEG_INFINITY;
         for part_pair in &pair.part_pairs {
@@ -201,50 +201,51 @@ impl<'c> Measurer<'c> {
             if placed.ball_gap() > displacement.bound + 2.0 * rounding.of_points {
                 continue;
             }
-            let asked = Asked {
+            let query = PartQuery {
                 part_pair,
                 displacement,
                 rounding: rounding.of_points,
                 known,
             };
-            match self.prove(&placed, &asked, &mut look.in_middle)? {
-                Proof::Apart => {}
-                Proof::ShapesTouching => {
-                    look.class = BoxClass::ShapesTouching;
-                    return Ok(look);
+            match self.prove(&placed, &query, &mut check.in_middle)? {
+                BoxProof::Apart => {}
+                BoxProof::ShapesTouching => {
+                    check.class = BoxClass::ShapesTouching;
+                    return Ok(check);
                 }
-                Proof::BodiesTouching => {
-                    look.class = BoxClass::BodiesTouching;
-                    return Ok(look);
+                BoxProof::BodiesTouching => {
+                    check.class = BoxClass::BodiesTouching;
+                    return Ok(check);
                 }
-                Proof::Open(missing) => {
-                    look.class = BoxClass::Open;
-                    // Written so that a distance that is not known comes first.
+                BoxProof::Undecided(missing) => {
+                    check.class = BoxClass::Undecided;
+                    // Written so that an unknown (NaN) distance comes first.
                     if !(missing <= worst) {
                         worst = missing;
                         let joint = self.motion.main_joint(displacement);
-                        look.main_place = joint.map(|joint| pair.joints.joints[joint].place);
+                        check.main_position_index =
+                            joint.map(|joint| pair.joints.joints[joint].box_index);
                     }
                 }
             }
         }
-        Ok(look)
+        Ok(check)
     }
 
-    /// Proves what it can about two parts over the box that is placed.
+    /// Tries to prove something about two parts over the box.
     fn prove(
         &mut self,
         placed: &PlacedParts<'_>,
-        asked: &Asked<'_>,
-        in_middle: &mut Look,
-    ) -> Result<Proof, Error> {
-        let rounding = asked.rounding;
-        let required = asked.displacement.bound + 2.0 * rounding;
+        query: &PartQuery<'_>,
+        in_middle: &mut ConfigurationCheck,
+    ) -> Result<BoxProof, Error> {
+        let rounding = query.rounding;
+        let required = query.displacement.bound + 2.0 * rounding;
         let ([gap, upper], axis) = placed.hull_distance([required, -rounding]);
         if gap > required {
-            return Ok(Proof::Apart);
+            return Ok(BoxProof::Apart);
         }
-        let is_convex = asked.part_pair.pair.is_convex(self.cell.parts());
+        let is_convex = query.part_pair.pair.is_convex(self.cell.parts());
         let are_hulls_apart = gap > 2.0 * rounding;
         if are_hulls_apart {
             in_middle.distance = lesser(in_middle.distance, upper);
@@ -254,72 +255,72 @@ impl<'c> Measurer<'c> {
                 .motion
                 .gap_lower_bound(direction, placed.parts, frames, gap);
             if lower > 0.0 {
-                return Ok(Proof::Apart);
+                return Ok(BoxProof::Apart);
             }
         }
-        let open = Proof::Open(required - gap);
+        let undecided = BoxProof::Undecided(required - gap);
         if is_convex && are_hulls_apart {
-            return Ok(open);
+            return Ok(undecided);
         }
-        // Bodies can't be farther apart than their hulls by more than their sizes.
+        // A body may lie deep inside its hull, but not deeper than its size.
         let [size_a, size_b] = placed.parts.map(|part| 2.0 * part.ball_radius);
         let may_be_free = !is_convex && required < greater(gap, 0.0) + lesser(size_a, size_b);
-        let mut touching = asked.known == Contact::Touching;
+        let mut touching = query.known == Contact::Touching;
         if may_be_free || !(are_hulls_apart || is_convex && touching) {
-            let lower = self.look_at_bodies(asked.part_pair, rounding, in_middle)?;
+            let lower = self.check_bodies(query.part_pair, rounding, in_middle)?;
             // Written so that NaN is not free.
-            if lower > asked.displacement.bound + 4.0 * rounding {
-                return Ok(Proof::Apart);
+            if lower > query.displacement.bound + 4.0 * rounding {
+                return Ok(BoxProof::Apart);
             }
             touching |= in_middle.contact == Contact::Touching;
         } else if in_middle.contact == Contact::Apart && !are_hulls_apart {
             in_middle.contact = Contact::Unknown;
         }
-        let depth = asked.displacement.bound + 4.0 * rounding;
-        if !(is_convex && touching && asked.known != Contact::Apart) {
-            return Ok(open);
+        let depth = query.displacement.bound + 4.0 * rounding;
+        if !(is_convex && touching && query.known != Contact::Apart) {
+            return Ok(undecided);
         }
-        // The distance that is asked for is one of the shapes.
+        // `nearer` takes distances of the shapes, not of the bodies.
         let excess: f64 = placed.parts.iter().map(|part| part.excess_over_shape).sum();
         let nearer = |distance| {
-            are_convex_parts_nearer(self.cell, &self.placement, &asked.part_pair.pair, distance)
+            are_convex_parts_nearer(self.cell, &self.placement, &query.part_pair.pair, distance)
         };
         Ok(if nearer(-depth) {
-            Proof::ShapesTouching
+            BoxProof::ShapesTouching
         } else if excess > 0.0 && nearer(excess - depth) {
-            Proof::BodiesTouching
+            BoxProof::BodiesTouching
         } else {
-            open
+            undecided
         })
     }
 
-    /// Measures the bodies of two parts, and returns a lower bound of their distance.
-    fn look_at_bodies(
+    /// Measures the distance of the bodies of two parts. Returns its lower bound.
+    fn check_bodies(
         &mut self,
         part_pair: &PairOfParts,
         rounding: f64,
-        look: &mut Look,
+        check: &mut ConfigurationCheck,
     ) -> Result<f64, Error> {
-        let [a, b] = part_pair.pair.body_numbers(self.cell.parts());
+        let [a, b] = part_pair.pair.body_indices(self.cell.parts());
         let a = self.placement.body(self.cell, a)?;
         let b = self.placement.body(self.cell, b)?;
         let outcome = self.solver.distance(a, b)?.outcome;
         if touch_as_they_are(&outcome, [a.0, b.0]) {
-            *look = Look {
+            *check = ConfigurationCheck {
                 contact: Contact::Touching,
                 distance: 0.0,
             };
         } else {
-            // The engine measures the bodies themselves; frames become poses with an error like their own.
-            if !(outcome.lower() > 4.0 * rounding) && look.contact == Contact::Apart {
-                look.contact = Contact::Unknown;
+            // The engine measures the original bodies. Converting frames to poses doubles the rounding error.
+            if !(outcome.lower() > 4.0 * rounding) && check.contact == Contact::Apart {
+                check.contact = Contact::Unknown;
             }
-            look.distance = lesser(look.distance, outcome.upper());
+            check.distance = lesser(check.distance, outcome.upper());
         }
         Ok(outcome.lower())
     }
 
-    /// Computes the frames between two links at some positions of their joints.
+    /// Computes the frames between two links for given joint positions.
     pub(super) fn place(&mut self, joints: &JointsBetween, positions: &[f64]) {
         let configuration = joints.configuration(positions);
         let chain = (joints.common_frame, &*joints.parents_first);
@@ -327,19 +328,19 @@ impl<'c> Measurer<'c> {
             .place_joints(self.cell, chain, &configuration);
     }
 
-    /// Computes the frames in the middle of a box, and takes the deviations from there.
+    /// Computes the frames at the centre of a box, and the largest deviations from there.
     fn place_box(&mut self, joints: &JointsBetween, joint_box: &JointBox) {
         self.place(joints, &joint_box.middle());
         let deviations = joints.joints.iter().map(|joint| {
-            let deviation = joint.factor * joint_box.max_deviation(joint.place);
-            (joint.number, deviation)
+            let deviation = joint.factor * joint_box.max_deviation(joint.box_index);
+            (joint.moving_index, deviation)
         });
         let frames = &self.placement.frames;
         self.motion
             .place(self.cell.kinematics(), frames, joints.rounding, deviations);
     }
 
-    /// Returns upper bounds of the distances of a point from the bodies of a link as they are, and from the shapes that they
+    /// Returns two upper bounds of the distance of a point from a link: from its bodies, and from the shapes that they
     /// enclose.
     pub(super) fn distances_to_link(
         &mut self,
@@ -347,9 +348,9 @@ impl<'c> Measurer<'c> {
         point: (&Body, Pose),
     ) -> Result<[f64; 2], Error> {
         let mut least = [f64::INFINITY; 2];
-        for number in 0..self.cell.robot_body_count() {
-            if self.cell.link_of(number) == link {
-                let body = self.placement.body(self.cell, number)?;
+        for index in 0..self.cell.robot_body_count() {
+            if self.cell.link_of(index) == link {
+                let body = self.placement.body(self.cell, index)?;
                 let outcome = self.solver.distance(body, point)?.outcome;
                 let to_body = if touch_as_they_are(&outcome, [body.0, point.0]) {
                     0.0
@@ -378,14 +379,14 @@ impl<'c> Measurer<'c> {
 }
 
 impl PlacedParts<'_> {
-    /// Returns a lower bound of the distance of both parts by their balls.
+    /// Returns a lower bound of the distance of both parts, from their bounding balls.
     fn ball_gap(&self) -> f64 {
         let [a, b] = self.parts.map(|part| part.ball_radius);
         self.centres[0].distance(self.centres[1]) - a - b
     }
 
-    /// Returns bounds of the distance of both hulls, with the axis of the lower one. They need not be better than a lower bound
-    /// beyond the first distance, and an upper bound up to the second one.
+    /// Returns lower and upper bounds of the distance of both hulls, and the axis of the lower bound. The computation
+    /// stops once the lower bound exceeds `beyond` or the upper bound falls below `up_to`.
     fn hull_distance(&self, [beyond, up_to]: [f64; 2]) -> ([f64; 2], DVec3) {
         let radii: f64 = self.parts.iter().map(|part| part.radius).sum();
         let until = TerminationBounds {
@@ -399,8 +400,8 @@ impl PlacedParts<'_> {
     }
 }
 
-/// Returns whether two bodies touch, up to rounding. The upper bound of a distance is of the shapes that they enclose: it includes
-/// what they exceed these by.
+/// Returns whether two bodies touch, up to rounding. The upper bound of the outcome is about the enclosed shapes, so
+/// it includes the excess of both bodies.
 fn touch_as_they_are(outcome: &Outcome, bodies: [&Body; 2]) -> bool {
     let excess: f64 = bodies.iter().map(|body| body.excess()).sum();
     outcome.upper() <= excess * (1.0 + 4.0 * f64::EPSILON)

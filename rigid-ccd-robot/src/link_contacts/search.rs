@@ -1,9 +1,9 @@
-//! The search for proofs about pairs of links, one after another.
+//! Searches for proofs about pairs of links by branch and bound.
 
 use super::LinkContactClass;
 use super::joint_box::JointBox;
 use super::joints_between::JointsBetween;
-use super::measuring::{BoxClass, BoxLook, Contact, LinkPair, Measurer};
+use super::measuring::{BoxCheck, BoxClass, Contact, LinkPair, Measurer};
 use super::search_end::SearchEnd;
 use crate::cell::Cell;
 use crate::tuning::MAX_BOXES_WITHOUT_DEPTH;
@@ -12,58 +12,59 @@ use rigid_ccd::Error;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// What is known of a pair of links so far. Positions are those of the joints between them.
+/// The progress of one pair of links. Positions are those of the joints between them.
 #[derive(Clone, Debug)]
-pub(super) struct PairRecord {
+pub(super) struct LinkPairRecord {
     pub(super) links: [usize; 2],
     pub(super) verdict: Option<Verdict>,
     pub(super) touching: Option<Vec<f64>>,
     pub(super) apart: Option<Vec<f64>>,
-    /// The least distance that was found, with its positions.
+    /// The least distance so far, with its positions.
     pub(super) nearest: Option<(f64, Vec<f64>)>,
-    /// The shares of the volume of all positions for which the links are proven apart, and for which nothing is proven.
+    /// The fraction of all positions, by volume, where the links are proven apart.
     pub(super) apart_share: f64,
-    pub(super) open_share: f64,
-    /// The number of boxes that were examined in the last search.
+    /// The fraction of all positions, by volume, where nothing is proven.
+    pub(super) undecided_share: f64,
+    /// The number of boxes that the last search examined.
     pub(super) boxes: usize,
-    /// Whether witnesses were sought.
+    /// Whether random sampling for witnesses is finished.
     is_sampled: bool,
-    /// Whether the links touch without depth at some positions: no box around them can be decided, and only positions at which the
-    /// links are apart decide about the pair.
+    /// Whether the links touch without overlapping at some positions. No box around these can be decided, so only a
+    /// configuration where the links are apart can decide the pair.
     pub(super) touches_without_depth: bool,
-    /// Whether more boxes hardly decide: positions have no bounds, a box that is a point stays open, or the links touch without
-    /// depth in the middle of all boxes.
+    /// Whether more boxes are unlikely to decide the pair: positions are unbounded, a box cannot be halved, or the
+    /// links touch without overlapping at the centre of all boxes.
     pub(super) is_exhausted: bool,
 }
 
-/// What is proven of a pair of links.
+/// What is proven about a pair of links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Verdict {
     Never,
     Always,
-    /// The bodies always touch; that the shapes do that they enclose is not proven.
+    /// The bodies always touch. Their shapes may not.
     AlwaysAsEnclosed,
 }
 
-/// Memory for searches about pairs of links.
-pub(super) struct PairSearch<'c> {
+/// Searches for proofs about pairs of links, and keeps memory from pair to pair.
+pub(super) struct LinkPairSearch<'c> {
     pub(super) measurer: Measurer<'c>,
     end: SearchEnd,
 }
 
-/// A box that waits to be examined; the largest comes first.
+/// A box in the queue. The largest box comes first.
 struct WaitingBox(JointBox);
 
-impl PairRecord {
+impl LinkPairRecord {
     pub(super) fn new(links: [usize; 2]) -> Self {
-        PairRecord {
+        LinkPairRecord {
             links,
             verdict: None,
             touching: None,
             apart: None,
             nearest: None,
             apart_share: 0.0,
-            open_share: 1.0,
+            undecided_share: 1.0,
             boxes: 0,
             is_sampled: false,
             touches_without_depth: false,
@@ -71,7 +72,7 @@ impl PairRecord {
         }
     }
 
-    /// Returns what is known of the links as an answer.
+    /// Converts the record to the public class.
     pub(super) fn class(self, cell: &Cell) -> LinkContactClass {
         let configurations = |positions: [Option<Vec<f64>>; 2]| {
             let joints = JointsBetween::new(cell, self.links);
@@ -91,7 +92,7 @@ impl PairRecord {
             }
             (None, touching, apart) => LinkContactClass::Undecided {
                 proven_apart_share: self.apart_share,
-                undecided_share: self.open_share,
+                undecided_share: self.undecided_share,
                 least_distance: if touching.is_some() {
                     0.0
                 } else {
@@ -103,7 +104,7 @@ impl PairRecord {
         }
     }
 
-    /// Returns what is known of whether the links touch, if there is a witness for one of both alone.
+    /// Returns the kind of witness that was found, if only one kind was.
     fn known(&self) -> Contact {
         match (&self.touching, &self.apart) {
             (Some(_), None) => Contact::Touching,
@@ -112,13 +113,13 @@ impl PairRecord {
         }
     }
 
-    /// Returns whether the question about the links is answered.
+    /// Returns whether the pair is decided.
     pub(super) fn is_decided(&self) -> bool {
         self.verdict.is_some() || (self.touching.is_some() && self.apart.is_some())
     }
 
-    /// Returns the number of boxes that a search is to examine at most, if it may examine `limit`, and `own_share` is what a pair
-    /// has in the mean.
+    /// Returns the number of boxes that a search may examine. This is `limit`. A pair that touches without overlapping
+    /// may examine no more than `own_share`, the average for each pair.
     pub(super) fn quota(&self, limit: usize, own_share: usize) -> usize {
         if self.touches_without_depth {
             lesser(limit, own_share)
@@ -127,8 +128,8 @@ impl PairRecord {
         }
     }
 
-    /// Keeps positions at which the links touch, or are apart.
-    pub(super) fn keep_witness(&mut self, contact: Contact, positions: &[f64]) {
+    /// Records the first positions where the links touch, or where they are apart.
+    pub(super) fn record_witness(&mut self, contact: Contact, positions: &[f64]) {
         let witness = match contact {
             Contact::Touching => &mut self.touching,
             Contact::Apart => &mut self.apart,
@@ -137,8 +138,8 @@ impl PairRecord {
         witness.get_or_insert_with(|| positions.to_vec());
     }
 
-    /// Keeps a distance if it is the least so far, and returns whether it is.
-    pub(super) fn keep_distance(&mut self, distance: f64, positions: &[f64]) -> bool {
+    /// Records a distance if it is the least so far. Returns whether it is.
+    pub(super) fn record_distance(&mut self, distance: f64, positions: &[f64]) -> bool {
         let known = self
             .nearest
             .as_ref()
@@ -151,19 +152,19 @@ impl PairRecord {
     }
 }
 
-impl<'c> PairSearch<'c> {
+impl<'c> LinkPairSearch<'c> {
     pub(super) fn new(cell: &'c Cell, end: SearchEnd) -> Self {
-        PairSearch {
+        LinkPairSearch {
             measurer: Measurer::new(cell, end.stop.clone()),
             end,
         }
     }
 
-    /// Goes on with the search about a pair of links: at first for witnesses, then through at most `max_boxes` boxes, from the
-    /// box of all positions.
+    /// Continues the search for a pair of links: first for witnesses, then over at most `max_boxes` boxes, starting at
+    /// the box of all positions.
     pub(super) fn search(
         &mut self,
-        record: &mut PairRecord,
+        record: &mut LinkPairRecord,
         max_boxes: usize,
     ) -> Result<(), Error> {
         let cell = self.measurer.cell;
@@ -172,13 +173,13 @@ impl<'c> PairSearch<'c> {
             return Ok(());
         };
         if !record.is_sampled {
-            record.verdict = self.meet_on_hinge(record.links, &pair)?;
+            record.verdict = self.prove_contact_on_hinge_axis(record.links, &pair)?;
             if record.verdict.is_some() {
                 return Ok(());
             }
             self.find_witnesses(&pair, record)?;
             record.is_sampled = !self.is_over();
-            // What touches once, and never moves, always touches.
+            // Links that do not move relative to each other touch always or never.
             if pair.joints.joints.is_empty() && record.touching.is_some() {
                 self.examine_boxes(&pair, record, 1)?;
                 let fallback = if pair.encloses_shapes(cell) {
@@ -199,11 +200,12 @@ impl<'c> PairSearch<'c> {
         self.end.is_reached()
     }
 
-    /// Proves that the links never or always touch, if at most `max_boxes` boxes suffice, or finds witnesses for both.
+    /// Tries to prove, with at most `max_boxes` boxes, that the links never or always touch. Stops if both kinds of
+    /// witnesses are found.
     fn examine_boxes(
         &mut self,
         pair: &LinkPair,
-        record: &mut PairRecord,
+        record: &mut LinkPairRecord,
         max_boxes: usize,
     ) -> Result<(), Error> {
         let mut waiting = BinaryHeap::from([WaitingBox(pair.joints.all_positions.clone())]);
@@ -220,35 +222,33 @@ impl<'c> PairSearch<'c> {
                 break;
             };
             record.boxes += 1;
-            let look = self
-                .measurer
-                .look_over_box(pair, &joint_box, record.known())?;
+            let check = self.measurer.check_box(pair, &joint_box, record.known())?;
             let middle = joint_box.middle();
-            record.keep_witness(look.in_middle.contact, &middle);
-            let is_nearer = record.keep_distance(look.in_middle.distance, &middle);
+            record.record_witness(check.in_middle.contact, &middle);
+            let is_nearer = record.record_distance(check.in_middle.distance, &middle);
             if is_nearer && record.touching.is_none() {
-                self.descend(pair, record, middle.clone(), look.in_middle.distance)?;
+                self.descend(pair, record, middle.clone(), check.in_middle.distance)?;
             }
             if record.is_decided() {
                 return Ok(());
             }
             let is_asked = !record.touches_without_depth || without_depth + 1 == record.boxes;
-            if is_asked && self.stays_open((pair, record), &look, &middle)? {
+            if is_asked && self.stays_undecided((pair, record), &check, &middle)? {
                 without_depth += 1;
                 record.touches_without_depth = true;
             }
-            match look.class {
+            match check.class {
                 BoxClass::Apart => apart_share += joint_box.volume_share,
                 BoxClass::ShapesTouching => touching_share += joint_box.volume_share,
                 BoxClass::BodiesTouching => {
                     touching_share += joint_box.volume_share;
                     always = Verdict::AlwaysAsEnclosed;
                 }
-                BoxClass::Open => {
-                    let place = look.main_place;
-                    match place.and_then(|place| joint_box.halves(place)) {
+                BoxClass::Undecided => {
+                    let index = check.main_position_index;
+                    match index.and_then(|index| joint_box.halves(index)) {
                         Some(halves) => waiting.extend(halves.map(WaitingBox)),
-                        // A box that is a point stays open.
+                        // A box that cannot be halved stays undecided.
                         None => {
                             record.is_exhausted = true;
                             waiting.push(WaitingBox(joint_box));
@@ -258,33 +258,33 @@ impl<'c> PairSearch<'c> {
                 }
             }
         }
-        let open_share = greater(1.0 - apart_share - touching_share, 0.0);
-        // A search that is stopped may prove less than the one before.
-        if open_share <= record.open_share {
-            (record.apart_share, record.open_share) = (apart_share, open_share);
+        let undecided_share = greater(1.0 - apart_share - touching_share, 0.0);
+        // A stopped search may prove less than an earlier one.
+        if undecided_share <= record.undecided_share {
+            (record.apart_share, record.undecided_share) = (apart_share, undecided_share);
         }
         if waiting.is_empty() {
-            // Boxes of both kinds would have witnesses.
+            // If boxes of both kinds existed, witnesses of both kinds would have decided the pair.
             let is_apart = record.touching.is_none() && touching_share == 0.0;
             record.verdict = Some(if is_apart { Verdict::Never } else { always });
         }
         Ok(())
     }
 
-    /// Returns whether a box that is not decided would not be, however small it were around its middle: the links touch there,
-    /// without depth.
-    fn stays_open(
+    /// Returns whether no box around this centre can be decided, however small, because the links touch there without
+    /// overlapping.
+    fn stays_undecided(
         &mut self,
-        (pair, record): (&LinkPair, &PairRecord),
-        look: &BoxLook,
+        (pair, record): (&LinkPair, &LinkPairRecord),
+        check: &BoxCheck,
         middle: &[f64],
     ) -> Result<bool, Error> {
-        if look.class != BoxClass::Open || look.in_middle.contact == Contact::Apart {
+        if check.class != BoxClass::Undecided || check.in_middle.contact == Contact::Apart {
             return Ok(false);
         }
-        let point = JointBox::at(middle);
-        let look = self.measurer.look_over_box(pair, &point, record.known())?;
-        Ok(look.class == BoxClass::Open)
+        let point = JointBox::from_point(middle);
+        let check = self.measurer.check_box(pair, &point, record.known())?;
+        Ok(check.class == BoxClass::Undecided)
     }
 }
 

@@ -1,11 +1,11 @@
-//! What ends a search about all pairs of links.
+//! The deadline and the stop flag of a search over all pairs of links.
 
 use super::LinkContactSettings;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// The time at which a search ends, and the flag by which another thread ends it.
+/// The time at which a search ends, and the flag with which another thread ends it.
 #[derive(Clone, Debug)]
 pub(super) struct SearchEnd {
     time: Option<Instant>,
@@ -13,10 +13,10 @@ pub(super) struct SearchEnd {
 }
 
 impl SearchEnd {
-    /// Returns the end of a search that starts now.
+    /// Starts the time of the deadline.
     pub(super) fn starting_now(settings: &LinkContactSettings) -> Self {
         SearchEnd {
-            // A time beyond the end of the clock is none.
+            // A deadline beyond the range of the clock is no deadline.
             time: settings
                 .deadline
                 .and_then(|deadline| Instant::now().checked_add(deadline)),

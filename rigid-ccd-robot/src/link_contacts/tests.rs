@@ -1,4 +1,4 @@
-//! Tests of proofs about pairs of links against random configurations.
+//! Tests proofs about pairs of links against random configurations.
 
 use super::*;
 use crate::robot::{Joint, Link, PositionRule};
@@ -9,8 +9,7 @@ use rand_pcg::Pcg64;
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Pose, trajectory};
 
-/// Tests random robots: no configuration contradicts a proof, and the configurations that are named prove what they are
-/// to.
+/// Tests random robots: no configuration contradicts a proof, and every witness is what it claims to be.
 #[test]
 fn no_configuration_contradicts_a_proof() {
     let mut random = Pcg64::seed_from_u64(21);
@@ -66,11 +65,11 @@ fn no_configuration_contradicts_a_proof() {
     assert!(enough, "{never} {always} {sometimes} {undecided}");
 }
 
-/// Tests a hinge whose leaf touches the frame beyond a known angle, with limits before and beyond it.
+/// Tests a hinge whose leaf touches the frame beyond a known angle, with limits below and above it.
 #[test]
 fn limits_decide_whether_a_hinge_meets_its_stop() {
-    // The rod of half length 0.4 from 0.1 to 0.9, and a post of radius 0.1 at (0, 0.8): they meet at a right angle
-    // less the angle of 0.15 at the distance 0.8.
+    // The rod extends from 0.1 to 0.9, and the post has radius 0.1 at (0, 0.8). They touch at a right angle, less the
+    // angle that 0.15 subtends at distance 0.8.
     let meet = std::f64::consts::FRAC_PI_2 - (0.15f64 / 0.8).asin();
     let capsule = || Body::capsule(0.05, 0.35).unwrap();
     let door_with = |rod: Body, limit: f64, joint_limit: f64| {
@@ -87,7 +86,7 @@ fn limits_decide_whether_a_hinge_meets_its_stop() {
             name: "hinge".into(),
             parent: "frame".into(),
             child: "leaf".into(),
-            axis_and_limits: hinge.with_limits(joint_limit..=limit),
+            geometry: hinge.with_limits(joint_limit..=limit),
             position_rule: PositionRule::Independent,
         }];
         let robot = Robot::new(links, joints).unwrap();
@@ -95,7 +94,7 @@ fn limits_decide_whether_a_hinge_meets_its_stop() {
     };
     let door = |limit: f64, joint_limit: f64| door_with(capsule(), limit, joint_limit);
     assert_eq!(door(meet - 1e-4, 0.0), LinkContactClass::Never);
-    // A body that exceeds its shape counts as it is.
+    // A body that exceeds its shape may give another class than the shape.
     let cylinder = Body::cylinder(0.05, 0.35).unwrap();
     assert!(cylinder.excess() > 0.0);
     assert!(matches!(
@@ -106,9 +105,9 @@ fn limits_decide_whether_a_hinge_meets_its_stop() {
         door(meet + 1e-2, 0.0),
         LinkContactClass::Sometimes { .. }
     ));
-    // A joint that is held at one position.
+    // The limits allow a single position.
     assert_eq!(door(1.0, 1.0), LinkContactClass::Never);
-    // Without limits it turns once.
+    // Without limits the joint is searched over one turn.
     let turning = door(f64::INFINITY, f64::NEG_INFINITY);
     assert!(
         matches!(turning, LinkContactClass::Sometimes { .. }),
@@ -116,8 +115,8 @@ fn limits_decide_whether_a_hinge_meets_its_stop() {
     );
 }
 
-/// Tests that two links which both hold a point of the hinge between them always touch, and that links which overlap in
-/// most configurations, but do not hold the hinge, are not said to.
+/// Tests that two links containing the same point of their hinge's axis always touch, and that links which only
+/// overlap in most configurations do not.
 #[test]
 fn links_that_hold_their_hinge_always_touch() {
     let meeting = |offset: f64| {
@@ -131,18 +130,18 @@ fn links_that_hold_their_hinge_always_touch() {
             name: "hinge".into(),
             parent: "base".into(),
             child: "arm".into(),
-            axis_and_limits: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+            geometry: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
             position_rule: PositionRule::Independent,
         }];
         let robot = Robot::new(links, joints).unwrap();
         classify(&robot, 2_000).remove(0).1
     };
     assert_eq!(meeting(0.29), LinkContactClass::Always);
-    // Half a turn brings the balls 0.62 apart at their centres.
+    // After half a turn the centres of the balls are 0.62 apart.
     assert!(matches!(meeting(0.31), LinkContactClass::Sometimes { .. }));
 }
 
-/// Classifies all pairs of a robot's links, with so many boxes for a pair.
+/// Classifies all pairs of a robot's links, with the given number of boxes for each pair.
 pub(crate) fn classify(robot: &Robot, max_boxes: usize) -> Vec<([usize; 2], LinkContactClass)> {
     let settings = LinkContactSettings {
         max_boxes,
@@ -151,7 +150,8 @@ pub(crate) fn classify(robot: &Robot, max_boxes: usize) -> Vec<([usize; 2], Link
     robot.classify_link_contacts(&settings, |_, _| ()).unwrap()
 }
 
-/// Tests that a set flag ends the search at once with all pairs undecided, and that progress counts those that are decided.
+/// Tests that the stop flag ends the search at once with all pairs undecided, and that progress counts the decided
+/// pairs.
 #[test]
 fn a_search_can_be_stopped_and_watched() {
     let robot = random_robot(&mut Pcg64::seed_from_u64(3));
@@ -183,8 +183,8 @@ fn a_search_can_be_stopped_and_watched() {
     assert_eq!(pairs(found), pairs(stopped));
 }
 
-/// Tests that a slide on a rail, whose least distance is 0 everywhere, ends its search early, and that one which sinks into a block
-/// at an end of the rail takes no box from other pairs.
+/// Tests that the search for a slide that always touches its rail ends early, and that a pair that touches without
+/// overlapping gets no extra boxes.
 #[test]
 fn a_slide_on_a_rail_takes_no_share_of_others() {
     let cuboid =
@@ -203,7 +203,7 @@ fn a_slide_on_a_rail_takes_no_share_of_others() {
             name: "slide".into(),
             parent: "rail".into(),
             child: "carriage".into(),
-            axis_and_limits: slides.with_limits(0.0..=2.0),
+            geometry: slides.with_limits(0.0..=2.0),
             position_rule: PositionRule::Independent,
         }];
         Robot::new(links, joints).unwrap()
@@ -211,8 +211,8 @@ fn a_slide_on_a_rail_takes_no_share_of_others() {
     let search = |robot: &Robot, max_boxes: usize| {
         let cell = Cell::new(robot.clone(), LinkPairs::from_robot(robot));
         let end = SearchEnd::starting_now(&LinkContactSettings::DEFAULT);
-        let mut record = PairRecord::new([0, 1]);
-        let mut search = PairSearch::new(&cell, end);
+        let mut record = LinkPairRecord::new([0, 1]);
+        let mut search = LinkPairSearch::new(&cell, end);
         search.search(&mut record, max_boxes).unwrap();
         assert!(!record.is_decided());
         record
@@ -231,12 +231,12 @@ fn a_slide_on_a_rail_takes_no_share_of_others() {
         [9_000, 500].map(|limit| sinking.quota(limit, 1_000)),
         [1_000, 500]
     );
-    // A pair that is open takes what others leave.
-    assert_eq!(PairRecord::new([0, 1]).quota(9_000, 1_000), 9_000);
+    // An undecided pair gets the boxes that other pairs leave.
+    assert_eq!(LinkPairRecord::new([0, 1]).quota(9_000, 1_000), 9_000);
 }
 
-/// Tests random planar arms of two links, whose last one carries a ball: it touches the ball at the base where the elbow's
-/// angle is beyond a known one.
+/// Tests random planar arms of two links. The ball on the last link touches the ball on the base if the elbow's angle
+/// exceeds a known one.
 #[test]
 fn planar_arms_touch_where_the_law_of_cosines_says() {
     let mut random = Pcg64::seed_from_u64(8);
@@ -272,11 +272,11 @@ fn planar_arms_touch_where_the_law_of_cosines_says() {
                 let origin = Pose::at([x, 0.0, 0.0]).unwrap();
                 trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap()
             };
-            let joint = |name: &str, parent: &str, child: &str, axis_and_limits| Joint {
+            let joint = |name: &str, parent: &str, child: &str, geometry| Joint {
                 name: name.into(),
                 parent: parent.into(),
                 child: child.into(),
-                axis_and_limits,
+                geometry,
                 position_rule: PositionRule::Independent,
             };
             let joints = vec![
@@ -314,13 +314,14 @@ fn planar_arms_touch_where_the_law_of_cosines_says() {
     assert!(never > 30 && always > 30 && sometimes > 30);
 }
 
-/// Tests an arm of seven joints and of links with many corners: a small budget decides about all pairs, and the same in each run.
+/// Tests an arm of seven joints with many corners: a small budget decides all pairs, and each run gives the same
+/// result.
 #[test]
 fn a_small_budget_decides_about_an_arm() {
     let robot = arm_of_prisms();
     let classes = classify(&robot, 1_000);
     assert_eq!(classes.len(), 28);
-    // One pair comes as near as 3 mm, and never touches.
+    // One pair comes as near as 3 mm without touching.
     let decided = classes.iter().filter(|(_, class)| class.is_decided());
     assert!(decided.count() >= 27, "{classes:?}");
     assert_eq!(classes, classify(&robot, 1_000));
@@ -336,7 +337,8 @@ fn a_small_budget_decides_about_an_arm() {
     }
 }
 
-/// Returns an arm of eight prisms of twelve sides, with seven joints that turn about their lengths and across in turns.
+/// Returns an arm of eight twelve-sided prisms. Its seven joints alternate between rotation about the link's length
+/// and across it.
 fn arm_of_prisms() -> Robot {
     let prism = || {
         let corners = (0..24).map(|k| {
@@ -377,7 +379,7 @@ fn arm_of_prisms() -> Robot {
             name: format!("joint{k}"),
             parent: name(k),
             child: name(k + 1),
-            axis_and_limits: turns.with_limits(-limit..=limit),
+            geometry: turns.with_limits(-limit..=limit),
             position_rule: PositionRule::Independent,
         }
     });

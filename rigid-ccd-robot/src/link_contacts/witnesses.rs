@@ -1,25 +1,25 @@
-//! The search for configurations in which two links touch, and in which they are apart.
+//! Searches for witnesses: configurations where two links touch, and where they are apart.
 //!
-//! Positions are drawn at random, limits among them. From those at which the links are nearest, a pattern search goes on to lesser
-//! distances: it tries a step along each position in turn, and halves the steps where none leads nearer.
+//! Samples positions at random, including limits. From the samples with the least distances, a pattern search
+//! descends: it tries a step along each position in turn, and halves the step size when no step lowers the distance.
 
 use super::measuring::{Contact, LinkPair};
-use super::search::{PairRecord, PairSearch};
+use super::search::{LinkPairRecord, LinkPairSearch};
 use crate::tuning::{
-    DESCENT_HALVINGS, DESCENT_LOOKS, DESCENT_STARTS, FIRST_DESCENT_STEP, WITNESS_SAMPLES,
+    DESCENT_HALVINGS, DESCENT_STARTS, FIRST_DESCENT_STEP, MAX_DESCENT_CHECKS, WITNESS_SAMPLES,
 };
 use rigid_ccd::Error;
 
-impl PairSearch<'_> {
-    /// Searches for positions at which two links touch, and at which they are apart.
+impl LinkPairSearch<'_> {
+    /// Searches for positions where two links touch, and where they are apart.
     pub(super) fn find_witnesses(
         &mut self,
         pair: &LinkPair,
-        record: &mut PairRecord,
+        record: &mut LinkPairRecord,
     ) -> Result<(), Error> {
         let ranges = pair.joints.all_positions.ranges();
         let mut random = Random(0);
-        // The nearest positions so far, with their distances, in order.
+        // The samples with the least distances so far, sorted by distance.
         let mut starts: Vec<(f64, Vec<f64>)> = Vec::new();
         for _ in 0..WITNESS_SAMPLES {
             if self.is_over() || record.is_decided() {
@@ -30,11 +30,11 @@ impl PairSearch<'_> {
                 Some(&(distance, _)) => distance,
                 None => f64::INFINITY,
             };
-            let look = self.measurer.look(pair, &positions, limit)?;
-            record.keep_witness(look.contact, &positions);
-            if look.distance < limit {
-                let place = starts.partition_point(|&(distance, _)| distance < look.distance);
-                starts.insert(place, (look.distance, positions));
+            let check = self.measurer.check(pair, &positions, limit)?;
+            record.record_witness(check.contact, &positions);
+            if check.distance < limit {
+                let index = starts.partition_point(|&(distance, _)| distance < check.distance);
+                starts.insert(index, (check.distance, positions));
                 starts.truncate(DESCENT_STARTS);
             }
             if ranges.is_empty() {
@@ -45,44 +45,44 @@ impl PairSearch<'_> {
             if record.touching.is_some() {
                 break;
             }
-            record.keep_distance(distance, &positions);
+            record.record_distance(distance, &positions);
             self.descend(pair, record, positions, distance)?;
         }
         Ok(())
     }
 
-    /// Searches from given positions, where two links are apart by a distance, for nearer ones, until the links touch.
+    /// Searches for lower distances from given positions, until the links touch.
     pub(super) fn descend(
         &mut self,
         pair: &LinkPair,
-        record: &mut PairRecord,
+        record: &mut LinkPairRecord,
         mut positions: Vec<f64>,
         mut distance: f64,
     ) -> Result<(), Error> {
         let ranges = pair.joints.all_positions.ranges();
-        let (mut step, mut looks) = (FIRST_DESCENT_STEP, 0);
-        for _ in 0..DESCENT_LOOKS {
+        let (mut step, mut check_count) = (FIRST_DESCENT_STEP, 0);
+        for _ in 0..MAX_DESCENT_CHECKS {
             let start = distance;
-            for (place, &[low, high]) in ranges.iter().enumerate() {
+            for (index, &[low, high]) in ranges.iter().enumerate() {
                 for step in [step, -step] {
                     let mut trial = positions.clone();
-                    trial[place] = (positions[place] + step * (high - low)).clamp(low, high);
+                    trial[index] = (positions[index] + step * (high - low)).clamp(low, high);
                     if trial == positions {
                         continue;
                     }
-                    if looks >= DESCENT_LOOKS || self.is_over() {
+                    if check_count >= MAX_DESCENT_CHECKS || self.is_over() {
                         return Ok(());
                     }
-                    looks += 1;
-                    let look = self.measurer.look(pair, &trial, distance)?;
-                    if look.contact == Contact::Touching {
-                        record.keep_witness(look.contact, &trial);
-                        record.keep_distance(0.0, &trial);
+                    check_count += 1;
+                    let check = self.measurer.check(pair, &trial, distance)?;
+                    if check.contact == Contact::Touching {
+                        record.record_witness(check.contact, &trial);
+                        record.record_distance(0.0, &trial);
                         return Ok(());
                     }
-                    if look.distance < distance {
-                        (positions, distance) = (trial, look.distance);
-                        record.keep_distance(distance, &positions);
+                    if check.distance < distance {
+                        (positions, distance) = (trial, check.distance);
+                        record.record_distance(distance, &positions);
                         break;
                     }
                 }
@@ -98,11 +98,11 @@ impl PairSearch<'_> {
     }
 }
 
-/// The generator SplitMix64: the same numbers in each search.
+/// The generator SplitMix64, which gives the same numbers in each search.
 struct Random(u64);
 
 impl Random {
-    /// Returns a number from 0 to 1, 1 excluded.
+    /// Returns a number in [0, 1).
     fn number(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut bits = self.0;
@@ -112,7 +112,7 @@ impl Random {
         (bits >> 11) as f64 * (0.5 * f64::EPSILON)
     }
 
-    /// Returns a position in a range; one of eight is at either limit.
+    /// Returns a random position in a range. One in eight is at a limit.
     fn position(&mut self, [low, high]: [f64; 2]) -> f64 {
         let share = (1.125 * self.number() - 0.0625).clamp(0.0, 1.0);
         (low + share * (high - low)).clamp(low, high)

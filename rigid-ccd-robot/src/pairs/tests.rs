@@ -2,7 +2,7 @@ use super::*;
 use crate::robot::{Joint, Link, PositionRule};
 use rigid_ccd::{Body, Pose, trajectory};
 
-/// Returns a robot: a base, an arm of two hinged links, a camera fixed to the base, and a camera at the arm's end.
+/// Returns a base with a camera, and an arm of two hinged links with a camera at its end.
 fn robot() -> Robot {
     let body = || Body::sphere(0.1).unwrap();
     let link = |name| Link::named(name).with_body(body(), Pose::IDENTITY);
@@ -13,7 +13,7 @@ fn robot() -> Robot {
         name: child.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: joint,
+        geometry: joint,
         position_rule: PositionRule::Independent,
     };
     let joints = vec![

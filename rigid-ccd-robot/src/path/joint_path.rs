@@ -1,9 +1,9 @@
-//! The positions of all moving joints along a path: polynomials of the share of each segment.
+//! The positions of all moving joints along a path, as polynomials on each segment.
 //!
-//! Between two configurations of a path all joints move at constant rates: the polynomials are of degree 1. A
-//! [`JointCurve`] has polynomials of a higher degree.
+//! Between two configurations joints move at constant rates: the polynomials have degree 1. A [`JointCurve`] may have
+//! higher degrees. The variable of a polynomial is the elapsed fraction of the segment.
 
-use super::stretch::Stretch;
+use super::interval::PathInterval;
 use crate::cell::rounding::U;
 use crate::joint_curve::JointCurve;
 use crate::kinematics::magnitude::Magnitude;
@@ -19,19 +19,19 @@ pub struct JointPath {
     joint_count: usize,
     segment_count: usize,
     degree: usize,
-    /// The coefficients of each segment; for each power of the share, lowest first, those of all joints. A path without
-    /// segments has the constant ones.
+    /// The coefficients, by segment, then by power (lowest first), then by joint. A path without segments has constant
+    /// terms only.
     coefficients: Vec<f64>,
-    /// What rounding to f64 has left of the coefficients of a curve, which are double-double numbers; empty for other paths.
+    /// The rounding errors of the coefficients of a curve: exact value minus f64. Empty for other paths.
     low_coefficients: Vec<f64>,
-    /// For each segment and joint, bounds of its positions.
+    /// For each segment and joint, lower and upper bounds of its positions.
     ranges: Vec<[f64; 2]>,
     /// For each joint, the magnitude of its positions on the path.
     magnitudes: Vec<Magnitude>,
 }
 
 impl JointPath {
-    /// Replaces the path by one through configurations.
+    /// Replaces the path by a sequence of configurations.
     pub(crate) fn set_configurations<Q: AsRef<[f64]>>(
         &mut self,
         kinematics: &Kinematics,
@@ -59,7 +59,7 @@ impl JointPath {
             }
         }
         if self.segment_count > 0 {
-            // The last configuration is the end of a segment.
+            // The last configuration starts no segment.
             let end = self.segment_count * 2 * self.joint_count;
             self.coefficients.truncate(end);
         }
@@ -84,7 +84,7 @@ impl JointPath {
                 let position = greater(range[0].abs(), range[1].abs());
                 let moved = position + joint.source.offset().abs();
                 let rounding = joint.source.magnitude_of_product(moved)
-                    + EXTENDED_PRECISION_ERROR / U * polynomial.size();
+                    + EXTENDED_PRECISION_ERROR / U * polynomial.coefficient_magnitude_sum();
                 let magnitude = &mut self.magnitudes[number];
                 *magnitude = magnitude.or_larger(Magnitude { position, rounding });
                 self.ranges.push(range);
@@ -113,12 +113,12 @@ impl JointPath {
         self.degree <= 1
     }
 
-    /// Returns the changes of all joints in a segment in which they move at constant rates.
+    /// Returns how far each joint moves in a segment with constant rates.
     pub(crate) fn changes(&self, segment: usize) -> &[f64] {
         self.coefficient_row(segment, 1)
     }
 
-    /// Returns for each joint the magnitude of its positions on the path.
+    /// Returns, for each joint, the magnitude of its positions on the path.
     pub(crate) fn magnitudes(&self) -> impl Iterator<Item = Magnitude> + Clone {
         self.magnitudes.iter().copied()
     }
@@ -130,7 +130,7 @@ impl JointPath {
         self.interpolate_in_segment(segment, at, positions);
     }
 
-    /// Computes the positions of all joints at a point of a segment, its ends included.
+    /// Computes the positions of all joints at a point of a segment, including its ends.
     #[inline(always)]
     pub(crate) fn interpolate_in_segment(&self, segment: usize, at: f64, positions: &mut Vec<f64>) {
         let share = at - segment as f64;
@@ -149,35 +149,35 @@ impl JointPath {
         positions.extend(joints.map(|(start, change)| start + share * change));
     }
 
-    /// Computes how far each joint is at most from its position in the middle of a stretch, at any point of the stretch.
+    /// Computes, for each joint, the largest deviation within an interval from its position at the midpoint.
     #[inline(always)]
     pub(crate) fn max_joint_deviations_from_middle(
         &self,
-        stretch: &Stretch,
+        interval: &PathInterval,
         positions: &[f64],
         deviations: &mut Vec<f64>,
     ) {
         deviations.clear();
         if self.segment_count == 0 {
             deviations.resize(self.joint_count, 0.0);
-        } else if stretch.is_within_segment() {
-            // The middle is at the same distance from both ends.
-            let half = 0.5 * (stretch.to - stretch.from);
-            let segment = PathPoint::from_path_position(stretch.from, self.segment_count).segment;
+        } else if interval.is_within_segment() {
+            // The midpoint is equally far from both ends.
+            let half = 0.5 * (interval.to - interval.from);
+            let segment = PathPoint::from_path_position(interval.from, self.segment_count).segment;
             if self.has_constant_rates() {
                 let changes = self.coefficient_row(segment, 1).iter();
                 deviations.extend(changes.map(|change| half * change.abs()));
             } else {
-                let middle = stretch.middle() - segment as f64;
+                let middle = interval.middle() - segment as f64;
                 let joints = 0..self.joint_count;
                 deviations.extend(joints.map(|joint| {
                     let polynomial = self.polynomial(segment, joint);
-                    polynomial.about(middle).deviation_bound(half)
+                    polynomial.expanded_about(middle).deviation_bound(half)
                 }));
             }
         } else {
             deviations.resize(self.joint_count, 0.0);
-            for segment in stretch.from as usize..stretch.to as usize {
+            for segment in interval.from as usize..interval.to as usize {
                 let ranges = &self.ranges[segment * self.joint_count..][..self.joint_count];
                 for ((largest, range), middle) in deviations.iter_mut().zip(ranges).zip(positions) {
                     for bound in range {
@@ -192,13 +192,13 @@ impl JointPath {
         }
     }
 
-    /// Returns the position of a joint of a curve at a share of a segment.
+    /// Returns the position of a joint of a curve at a fraction of a segment.
     pub(crate) fn position(&self, segment: usize, share: f64, joint: usize) -> f64 {
         self.polynomial(segment, joint).value(share)
     }
 
-    /// Bounds how far a joint of a curve is from its position at a constant rate between two shares of a segment, which are
-    /// off by at most a unit in the last place of 1.
+    /// Bounds how far a joint of a curve deviates, between two fractions of a segment, from a motion at a constant
+    /// rate. Allows for an error of one ulp of 1 in the fractions.
     pub(crate) fn chord_deviation_bound(
         &self,
         segment: usize,
@@ -206,9 +206,10 @@ impl JointPath {
         joint: usize,
     ) -> f64 {
         let (half, rounding) = (0.5 * (to - from), f64::EPSILON);
-        let about = self.polynomial(segment, joint).about(from + half);
-        // The middle is rounded, too.
-        about.chord_deviation_bound(half + rounding) + rounding * about.rate_bound(half + rounding)
+        let expanded = self.polynomial(segment, joint).expanded_about(from + half);
+        // The midpoint is rounded, too.
+        expanded.chord_deviation_bound(half + rounding)
+            + rounding * expanded.rate_bound(half + rounding)
     }
 
     #[inline(always)]
@@ -217,7 +218,7 @@ impl JointPath {
         &self.coefficients[start..][..self.joint_count]
     }
 
-    /// Returns the position of a joint in a segment of a curve.
+    /// Returns the position of a joint of a curve as a polynomial on a segment.
     fn polynomial(&self, segment: usize, joint: usize) -> Polynomial {
         let first = segment * (self.degree + 1) * self.joint_count + joint;
         Polynomial::new(self.degree, |power| {

@@ -4,7 +4,7 @@ use crate::robot::{Joint, Link, PositionRule, Robot};
 use crate::{Cell, CellSolver};
 use rigid_ccd::{Body, Pose, Question, Settings, trajectory};
 
-/// Returns a ball on a rail along x, with a post beside the rail that it passes at a distance of 0.01 at x = 1.
+/// Returns a ball on a rail along x. It passes a post at x = 1 at a distance of 0.01.
 fn cell() -> Cell {
     let rail = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
     let links = vec![
@@ -15,7 +15,7 @@ fn cell() -> Cell {
         name: "rail".into(),
         parent: "base".into(),
         child: "ball".into(),
-        axis_and_limits: rail,
+        geometry: rail,
         position_rule: PositionRule::Independent,
     };
     let robot = Robot::new(links, vec![joint]).unwrap();
@@ -36,7 +36,7 @@ fn solver(cell: &Cell, margin: f64) -> CellSolver<'_> {
 
 const PATH: [[f64; 1]; 3] = [[0.0], [0.5], [2.0]];
 
-/// Nothing touches before the point that each answer names, and of a distance nothing is said of contacts: it knows no margin.
+/// Tests `free_until` of each question: nothing touches before it, and for a distance it is the start.
 #[test]
 fn each_question_says_until_where_the_path_is_free() {
     let cell = cell();

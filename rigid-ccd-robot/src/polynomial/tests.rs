@@ -1,4 +1,5 @@
-//! Tests the bounds of polynomials against exact arithmetic, in the worst cases that a search finds, and against samples.
+//! Tests the bounds of polynomials against exact arithmetic, in the worst cases found by a search, and against
+//! samples.
 
 use super::*;
 use crate::rational::exact_fraction;
@@ -17,7 +18,7 @@ fn random_polynomial(random: &mut Pcg64) -> Polynomial {
     Polynomial::new(degree, |power| coefficients[power].into())
 }
 
-/// Returns a polynomial with coefficients of any size, or one whose coefficients cancel.
+/// Returns a polynomial with random coefficients, or one whose coefficients cancel.
 fn polynomial_of_case(case: &mut RandomCase) -> Polynomial {
     let degree = case.index_below(MAX_DEGREE + 1);
     if case.index_below(2) == 0 {
@@ -35,7 +36,7 @@ fn polynomial_of_case(case: &mut RandomCase) -> Polynomial {
     })
 }
 
-/// Returns the exact value at a share.
+/// Returns the exact value at a fraction of the segment.
 fn exact_value(polynomial: &Polynomial, share: f64) -> Relaxed {
     let share = exact_fraction(share);
     let exact = |own: &DoubleDouble| {
@@ -50,24 +51,25 @@ fn size_of(exact: &Relaxed) -> f64 {
     exact.to_f64().value().abs()
 }
 
-/// Returns a bound of the rounding of values, and of deviations besides their own.
+/// Returns the allowed rounding error of values. Deviations have an additional one.
 fn allowance(polynomial: &Polynomial, exact: &Relaxed) -> f64 {
-    U * size_of(exact) + EXTENDED_PRECISION_ERROR * polynomial.size()
+    U * size_of(exact) + EXTENDED_PRECISION_ERROR * polynomial.coefficient_magnitude_sum()
 }
 
-/// Tests that values are rounded like themselves, and not like the coefficients, also of the polynomial about another share.
+/// Tests that the rounding error of a value is relative to the value, not to the coefficients, also after expansion
+/// about another point.
 #[test]
 fn worst_values_are_within_their_rounding() {
     let search = WorstCaseSearch::new("value of a polynomial", 5_000);
     let worst = search.search(|case| {
         let polynomial = polynomial_of_case(case);
-        // Differences of these shares are exact.
+        // Differences of these fractions are exact.
         let [share, other] = [(); 2].map(|()| (case.next_word() >> 44) as f64 * 0.5f64.powi(20));
         let exact = exact_value(&polynomial, share);
         let values = [
             polynomial.value(share),
-            polynomial.about(share).constant(),
-            polynomial.about(other).value(share - other),
+            polynomial.expanded_about(share).constant(),
+            polynomial.expanded_about(other).value(share - other),
         ];
         let errors = values.map(|value| size_of(&(exact_fraction(value) - &exact)));
         let error = errors.into_iter().fold(0.0, greater);
@@ -76,7 +78,7 @@ fn worst_values_are_within_their_rounding() {
     worst.assert_tight_bound(2.0);
 }
 
-/// The middle of a range of shares, its half, and one share in it, of which sums and differences are exact.
+/// Returns the midpoint of a range, half its length, and a point in it. Their sums and differences are exact.
 fn range_and_share(case: &mut RandomCase) -> [f64; 3] {
     let share = |case: &mut RandomCase| (case.next_word() >> 44) as f64 * 0.5f64.powi(20);
     let [middle, half] = [(); 2].map(|()| share(case));
@@ -85,14 +87,14 @@ fn range_and_share(case: &mut RandomCase) -> [f64; 3] {
     [middle, half, along]
 }
 
-/// Tests that no value is farther from the middle than the bound says, and that straight lines reach it.
+/// Tests that no value deviates from the midpoint's by more than the bound, and that straight lines reach it.
 #[test]
 fn worst_deviations_are_within_their_bounds() {
     let search = WorstCaseSearch::new("deviation of a polynomial", 5_000);
     let worst = search.search(|case| {
         let polynomial = polynomial_of_case(case);
         let [middle, half, along] = range_and_share(case);
-        let about = polynomial.about(middle);
+        let about = polynomial.expanded_about(middle);
         let at = |share| exact_value(&polynomial, share);
         let moved = at(middle + along * half) - at(middle);
         let bound = about.deviation_bound(half) + allowance(&polynomial, &Relaxed::ZERO);
@@ -101,14 +103,14 @@ fn worst_deviations_are_within_their_bounds() {
     worst.assert_tight_bound(1.01);
 }
 
-/// Tests that no value is farther from the chord than the bound says, and that parabolas reach it.
+/// Tests that no value deviates from the chord by more than the bound, and that parabolas reach it.
 #[test]
 fn worst_deviations_from_a_chord_are_within_their_bounds() {
     let search = WorstCaseSearch::new("deviation of a polynomial from a chord", 5_000);
     let worst = search.search(|case| {
         let polynomial = polynomial_of_case(case);
         let [middle, half, along] = range_and_share(case);
-        let about = polynomial.about(middle);
+        let about = polynomial.expanded_about(middle);
         let at = |share| exact_value(&polynomial, share);
         let [first, last] = [middle - half, middle + half].map(at);
         let share = exact_fraction(0.5 + 0.5 * along);
@@ -120,7 +122,7 @@ fn worst_deviations_from_a_chord_are_within_their_bounds() {
     worst.assert_tight_bound(1.01);
 }
 
-/// Tests that no value changes faster than the bound says.
+/// Tests that no derivative exceeds the bound.
 #[test]
 fn worst_rates_are_within_their_bounds() {
     let search = WorstCaseSearch::new("rate of a polynomial", 5_000);
@@ -129,20 +131,20 @@ fn worst_rates_are_within_their_bounds() {
         let [middle, half, along] = range_and_share(case);
         let (from, to) = (middle - half, middle + along * half);
         let change = exact_value(&polynomial, to) - exact_value(&polynomial, from);
-        let rate = polynomial.about(middle).rate_bound(half);
+        let rate = polynomial.expanded_about(middle).rate_bound(half);
         let bound = rate * (to - from) + allowance(&polynomial, &Relaxed::ZERO);
         Some(error_share(size_of(&change), bound))
     });
     worst.assert_tight_bound(1.01);
 }
 
-/// Tests that no value is outside of a range, and that ranges are narrow even if coefficients cancel.
+/// Tests that ranges contain all values, and that they are narrow even if coefficients cancel.
 #[test]
 fn ranges_enclose_all_values_and_fit() {
     let mut random = Pcg64::seed_from_u64(33);
     let mut widest: f64 = 0.0;
     for number in 0..500 {
-        // Half of them are Chebyshev polynomials: values up to 1, coefficients up to a million.
+        // Half of them are Chebyshev polynomials, with values up to 1 and coefficients up to a million.
         let polynomial = if number % 2 == 0 {
             random_polynomial(&mut random)
         } else {
@@ -163,7 +165,7 @@ fn ranges_enclose_all_values_and_fit() {
     assert!(widest > 1.0 && widest < 5.0, "{widest}");
 }
 
-/// Returns the Chebyshev polynomial of a degree on shares from 0 to 1, by its recurrence.
+/// Returns a Chebyshev polynomial on [0, 1], by its recurrence.
 fn chebyshev(degree: usize) -> Polynomial {
     let mut last = [vec![1.0], vec![-1.0, 2.0]];
     for _ in 1..degree {

@@ -4,14 +4,14 @@ use super::Robot;
 use crate::error::RobotError;
 use rigid_ccd::trajectory::Chain;
 
-/// The chain of joints by which one link of a robot moves in the frame of another link.
+/// The chain of joints that moves one link of a robot in the frame of another link.
 ///
 /// ```
 /// # use rigid_ccd_robot::{Joint, Link, PositionRule, Robot};
 /// # use rigid_ccd::{Pose, trajectory};
 /// # let finger = |name: &str, y: f64, position_rule| -> Result<Joint, rigid_ccd::InputError> { Ok(Joint {
 /// #     name: name.into(), parent: "hand".into(), child: format!("{name} finger"),
-/// #     axis_and_limits: trajectory::Joint::prismatic(Pose::at([0.0, y, 0.0])?, [0.0, y.signum(), 0.0])?, position_rule }) };
+/// #     geometry: trajectory::Joint::prismatic(Pose::at([0.0, y, 0.0])?, [0.0, y.signum(), 0.0])?, position_rule }) };
 /// # let follows = PositionRule::Follows { joint: "left".into(), multiplier: 1.0, offset: 0.0 };
 /// # let joints = vec![finger("left", 0.1, PositionRule::Independent)?, finger("right", -0.1, follows)?];
 /// # let links = ["hand", "left finger", "right finger"].map(Link::named).to_vec();
@@ -29,7 +29,7 @@ use rigid_ccd::trajectory::Chain;
 #[derive(Clone, Debug)]
 pub struct ChainBetween {
     chain: Chain,
-    /// For each joint of the chain, its number in the robot.
+    /// For each joint of the chain, its index in the robot.
     joints: Vec<usize>,
 }
 
@@ -38,18 +38,18 @@ impl ChainBetween {
         ChainBetween { chain, joints }
     }
 
-    /// Returns the chain, whose last link is the link that moves.
+    /// Returns the chain. Its last link is the link that moves.
     pub fn chain(&self) -> &Chain {
         &self.chain
     }
 
-    /// Returns the number in the robot of each joint of the chain.
-    pub(crate) fn joint_numbers(&self) -> &[usize] {
+    /// Returns, for each joint of the chain, its index in the robot.
+    pub(crate) fn joint_indices(&self) -> &[usize] {
         &self.joints
     }
 
-    /// Returns the positions of the chain's joints in a configuration of the robot. The position of a joint that
-    /// follows another joint is rounded once, and its factor and offset once for each further joint in between.
+    /// Returns the positions of the chain's joints at a configuration of the robot. The position of a mimic joint is
+    /// rounded once; if it follows a mimic joint, its multiplier and offset are rounded once for each of these.
     ///
     /// # Errors
     /// [`RobotError::WrongPositionCount`], [`RobotError::InvalidPosition`].

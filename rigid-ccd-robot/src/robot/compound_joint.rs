@@ -1,4 +1,4 @@
-//! Joints with several degrees of freedom, as chains of joints with one each.
+//! Expands joints with several degrees of freedom into chains of joints with one each.
 
 use super::{Joint, Link, PositionRule};
 use rigid_ccd::glam::DVec3;
@@ -6,26 +6,27 @@ use rigid_ccd::{InputError, Pose, trajectory};
 
 /// A kind of joint with several degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum CompoundKind {
-    /// Slides in a plane, and rotates about its normal: the positions `x`, `y` and `yaw`.
+    /// Translation in a plane and rotation about its normal: the positions `x`, `y` and `yaw`.
     Planar {
-        /// The normal of the plane, in the joint's frame. For z, `x` and `y` are along the axes of the frame. In a URDF it is the
-        /// joint's axis, which is x if none is given; other programs take z for any axis.
+        /// The normal of the plane, in the joint's frame. If it is z, `x` and `y` are along the frame's axes. In a
+        /// URDF the normal is the joint's axis, x by default. Some other programs always use z.
         normal: [f64; 3],
     },
-    /// Moves freely: the positions `x`, `y`, `z`, `yaw`, `pitch` and `roll`.
+    /// Free motion: the positions `x`, `y`, `z`, `yaw`, `pitch` and `roll`.
     Floating,
-    /// Rotates about a point: the positions `yaw`, `pitch` and `roll`.
+    /// Rotation about a point: the positions `yaw`, `pitch` and `roll`.
     Spherical,
 }
 
 impl CompoundKind {
-    /// Creates the links and joints that together connect a child link to its parent.
+    /// Creates the joints, and the links between them, that connect a child link to its parent.
     ///
-    /// The joint `drive` becomes the joints `drive/x`, `drive/y` and so on, each with a position of its own and without limits.
-    /// Rotations are by yaw about z, then pitch about the new y, then roll about the new x, as in URDF; between two
-    /// configurations each of these angles changes at a constant rate. Links between the joints have the joints' names and no
-    /// bodies, so that parent and child are not neighbours: they are checked.
+    /// A joint `drive` becomes joints `drive/x`, `drive/y` and so on, each with a position of its own and without
+    /// limits. Rotations are by yaw about z, then by pitch about the rotated y, then by roll about the rotated x, as
+    /// in URDF. Between two configurations each angle changes at a constant rate. The links between the joints have
+    /// the joints' names and no bodies. Parent and child are therefore not adjacent, and are checked.
     ///
     /// # Errors
     /// [`InputError`] for a normal that is not finite, or has no length.
@@ -63,12 +64,12 @@ impl CompoundKind {
             CompoundKind::Spherical => rotations.to_vec(),
             CompoundKind::Floating => [slides, rotations].concat(),
             CompoundKind::Planar { normal } => {
-                // The joint checks the axis, and makes it a unit vector.
+                // Normalises the axis and checks it.
                 let axis = match trajectory::Joint::revolute(Pose::IDENTITY, normal)?.kind() {
                     trajectory::JointKind::Revolute(axis) => axis,
                     _ => DVec3::Z,
                 };
-                // For z these are x and y.
+                // For z, the two axes are x and y.
                 let other = if axis.y.abs() < 0.9 {
                     DVec3::Y
                 } else {
@@ -98,7 +99,7 @@ impl CompoundKind {
                 name: names[k].clone(),
                 parent: if k == 0 { parent } else { &names[k - 1] }.to_owned(),
                 child: if k == last { child } else { &names[k] }.to_owned(),
-                axis_and_limits: moving,
+                geometry: moving,
                 position_rule: PositionRule::Independent,
             })
         });

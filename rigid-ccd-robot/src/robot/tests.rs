@@ -15,7 +15,7 @@ fn joint(name: &str, parent: &str, child: &str, joint: trajectory::Joint) -> Joi
         name: name.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: joint,
+        geometry: joint,
         position_rule: PositionRule::Independent,
     }
 }
@@ -36,7 +36,7 @@ fn links(count: usize) -> Vec<Link> {
         .collect()
 }
 
-/// A random robot, and for each joint the data from which a test computes poses by matrices of its own.
+/// A random robot, and the data from which the tests compute poses by matrices.
 struct RandomRobot {
     robot: Robot,
     reference_joints: Vec<ReferenceJoint>,
@@ -47,7 +47,7 @@ struct ReferenceJoint {
     origin: Pose,
     axis: DVec3,
     kind: usize,
-    /// The number of the joint that this joint follows with factor −2 and offset 0.5; its own number if it follows
+    /// The index of the joint that this joint follows with multiplier −2 and offset 0.5; its own index if it follows
     /// none.
     followed_joint: usize,
 }
@@ -85,7 +85,7 @@ fn draw(random: &mut Pcg64) -> RandomRobot {
             followed_joint: follows,
         });
     }
-    // A robot may be given in any order.
+    // Joints may be given in any order.
     joints.rotate_left(3);
     let robot = Robot::new(links(8), joints).unwrap();
     RandomRobot {
@@ -102,7 +102,7 @@ impl RandomRobot {
         }
     }
 
-    /// Computes the transform of a link in the frame of the base by products of matrices.
+    /// Computes the transform of a link in the base frame as a product of matrices.
     fn matrix(&self, link: usize, of: &dyn Fn(usize) -> f64) -> DMat4 {
         let Some(joint) = link.checked_sub(1) else {
             return DMat4::IDENTITY;
@@ -119,7 +119,7 @@ impl RandomRobot {
     }
 }
 
-/// Tests that poses of links, in the frames of the base and of other links, equal products of matrices.
+/// Tests the poses of links in the frames of the base and of other links against products of matrices.
 #[test]
 fn poses_are_products_of_matrices() {
     let mut random = Pcg64::seed_from_u64(1);
@@ -162,9 +162,10 @@ fn poses_are_products_of_matrices() {
     }
 }
 
-/// Tests that the stretch of a link in another link's frame deviates from the poses by at most its own bound.
+/// Tests that the approximate motion of a link in another link's frame deviates from the exact poses by at most its
+/// bound.
 #[test]
-fn stretches_between_branches_hold() {
+fn intervals_between_branches_hold() {
     let mut random = Pcg64::seed_from_u64(2);
     let mut nearest = 0.0_f64;
     for _ in 0..200 {
@@ -177,25 +178,25 @@ fn stretches_between_branches_hold() {
         });
         let count = between.chain().joints().len();
         let link = between.chain().link(count, &first, &last, 1.0).unwrap();
-        let stretch = link.stretch_between(0.2, 0.5).unwrap();
+        let interval = link.stretch_between(0.2, 0.5).unwrap();
         for _ in 0..20 {
             let time = random.random_range(0.2..0.5);
-            let (near, there) = (stretch.pose(time - 0.2), link.pose(time).unwrap());
-            let centre = stretch.motion.centre();
+            let (near, there) = (interval.pose(time - 0.2), link.pose(time).unwrap());
+            let centre = interval.motion.centre();
             let apart = near
                 .transform_point(centre)
                 .distance(there.transform_point(centre));
             assert!(
-                apart <= stretch.deviation_bound.centre_deviation,
-                "{apart:e}, {stretch:?}"
+                apart <= interval.deviation_bound.centre_deviation,
+                "{apart:e}, {interval:?}"
             );
-            if stretch.deviation_bound.centre_deviation > 1e-9 {
-                let share = apart / stretch.deviation_bound.centre_deviation;
+            if interval.deviation_bound.centre_deviation > 1e-9 {
+                let share = apart / interval.deviation_bound.centre_deviation;
                 nearest = if share > nearest { share } else { nearest };
             }
         }
     }
-    // The bound is of the order of the deviation.
+    // The bound is not much larger than the deviation.
     assert!(nearest > 0.2, "{nearest}");
 }
 
@@ -205,7 +206,7 @@ fn what_is_no_tree_is_refused() {
     assert_eq!(refused(0, Vec::new()), RobotError::NoLinks);
     let two_bases = refused(2, Vec::new());
     assert!(matches!(two_bases, RobotError::TwoBases { .. }));
-    // A misspelt link has no joint, wherever it stands.
+    // A link with a misspelt name has no joint.
     for lone in ["link0", "link2"] {
         let held = if lone == "link0" {
             ["link1", "link2"]
@@ -240,10 +241,10 @@ fn what_is_no_tree_is_refused() {
     let error = Robot::new(same, Vec::new()).unwrap_err();
     assert!(matches!(error, RobotError::LinkNameTaken { .. }));
     let mut reversed = hinge("a", "link0", "link1");
-    reversed.axis_and_limits = reversed.axis_and_limits.reversed();
+    reversed.geometry = reversed.geometry.reversed();
     let error = refused(2, vec![reversed]);
     assert_eq!(error, RobotError::ReversedJoint { joint: "a".into() });
-    // Two links that hang on each other, beside a base.
+    // Two links that are each other's parents, beside a base.
     let error = refused(
         3,
         vec![hinge("a", "link1", "link2"), hinge("b", "link2", "link1")],
@@ -282,7 +283,7 @@ fn joints_that_follow_nothing_are_refused() {
 #[test]
 fn configurations_that_do_not_fit_are_refused() {
     let mut limited = hinge("elbow", "link0", "link1");
-    limited.axis_and_limits = limited.axis_and_limits.with_limits(-1.0..=1.0);
+    limited.geometry = limited.geometry.with_limits(-1.0..=1.0);
     let robot = Robot::new(links(2), vec![limited]).unwrap();
     let message =
         |configuration: &[f64]| robot.pose("link1", configuration).unwrap_err().to_string();
@@ -298,11 +299,11 @@ fn configurations_that_do_not_fit_are_refused() {
     assert!(matches!(error, InputError::JointOutOfLimits { .. }));
 }
 
-/// Tests that a joint that follows another joint may go beyond its own limits.
+/// Tests that a joint that follows another joint may exceed its own limits.
 #[test]
 fn limits_of_a_joint_that_follows_do_not_count() {
     let mut follower = hinge("follower", "link0", "link2");
-    follower.axis_and_limits = follower.axis_and_limits.with_limits(0.0..=0.1);
+    follower.geometry = follower.geometry.with_limits(0.0..=0.1);
     follower.position_rule = PositionRule::Follows {
         joint: "leader".into(),
         multiplier: 3.0,

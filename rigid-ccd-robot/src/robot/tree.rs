@@ -1,13 +1,13 @@
-//! The tree of links: the parent of each link, and the path of joints from one link to another.
+//! The tree of links: each link's parent, and the path of joints between two links.
 
 use super::{Joint, Link};
 use crate::error::RobotError;
 use std::collections::HashMap;
 
-/// The tree of links, with the parent joint and the parent link of each link.
+/// The parent joint and the parent link of each link.
 #[derive(Clone, Debug)]
 pub(super) struct Tree {
-    /// For each link, the numbers of the joint that moves it and of its parent link; `None` for the base.
+    /// For each link, its parent joint and link; `None` for the base.
     parents: Vec<Option<Parent>>,
     base: usize,
 }
@@ -22,7 +22,7 @@ struct Parent {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct PathJoint {
     pub(super) joint: usize,
-    /// Whether the path leads up, from the joint's child link to its parent link.
+    /// Whether the path goes from the joint's child link to its parent link.
     pub(super) leads_to_parent: bool,
 }
 
@@ -103,7 +103,7 @@ impl Tree {
         self.parents[link].map(|above| above.link)
     }
 
-    /// Returns all links but the base, each with its parent and the joint between them. Parents come first.
+    /// Returns (link, parent link, joint) for all links except the base. Parents come before children.
     pub(super) fn links_parents_first(&self) -> Vec<(usize, usize, usize)> {
         let mut links: Vec<(usize, usize)> = (0..self.parents.len())
             .map(|link| (self.link_and_ancestors(link).count(), link))
@@ -115,17 +115,18 @@ impl Tree {
         links.iter().filter_map(above).collect()
     }
 
-    /// Iterates over a link and its ancestors, up to the base. A loop ends after more links than there are.
+    /// Iterates over a link and its ancestors, up to the base. Ends in a loop, too, after more steps than there are
+    /// links.
     fn link_and_ancestors(&self, link: usize) -> impl Iterator<Item = usize> {
         let up = |&link: &usize| self.parent(link);
         std::iter::successors(Some(link), up).take(self.parents.len() + 1)
     }
 
-    /// Returns the joints on the path from one link to another, through their nearest common ancestor.
+    /// Returns the joints on the path between two links, through their nearest common ancestor.
     pub(super) fn path_between(&self, from: usize, to: usize) -> Vec<PathJoint> {
         let targets: Vec<usize> = self.link_and_ancestors(to).collect();
         let is_common = |link: &usize| targets.contains(link);
-        // The base is above both.
+        // The base is an ancestor of both.
         let common = self
             .link_and_ancestors(from)
             .find(is_common)

@@ -8,7 +8,7 @@ use ccd_decomp::{MeshError, PrepareError};
 use rigid_ccd::InputError;
 use std::path::PathBuf;
 
-/// The reason why a robot cannot be read, with the file, link or joint in which the error is.
+/// The reason why a robot cannot be read, with the file, link or joint that causes it.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RobotFileError {
@@ -20,7 +20,7 @@ pub enum RobotFileError {
         /// The operating system's message.
         error: String,
     },
-    /// A file is no XML.
+    /// A file is not valid XML.
     #[error("{}: {error}", file.display())]
     Syntax {
         /// The file in which the parser found an error.
@@ -47,7 +47,7 @@ pub enum RobotFileError {
     /// A geom of an MJCF cannot be used.
     #[error("geom `{geom}`: {error}")]
     Geom {
-        /// The name of the geom, or its number in its body.
+        /// The name of the geom, or its index in its body.
         geom: String,
         /// The error of the geom's shape, mesh or pose.
         error: Box<RobotFileError>,
@@ -58,52 +58,52 @@ pub enum RobotFileError {
     /// An element of a URDF cannot be read.
     #[error(transparent)]
     Urdf(#[from] UrdfError),
-    /// An SRDF cannot be read, or is of another robot.
+    /// An SRDF cannot be read, or belongs to another robot.
     #[error("{}: {error}", file.display())]
     Srdf {
         /// The file.
         file: PathBuf,
-        /// What is wrong.
+        /// The reason.
         error: SrdfError,
     },
-    /// A folder of packages is none.
-    #[error("there is no folder {} to look for packages in", folder.display())]
+    /// A package folder does not exist.
+    #[error("there is no folder {} to search for packages", folder.display())]
     NoFolder {
-        /// The path that is given.
+        /// The given path.
         folder: PathBuf,
     },
-    /// A floating, planar or spherical joint follows another one.
+    /// A floating, planar or spherical joint has a `mimic`.
     #[error("only a joint with one degree of freedom can mimic another one")]
     CompoundMimic,
-    /// The file of a mesh was not found at any of the paths that its name may mean.
+    /// A mesh file is not at any of the paths that its name may refer to.
     #[error("`{uri}` is not found; looked for {}", searched_paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", "))]
     MeshNotFound {
-        /// The file name or `package://` name of the mesh, as the robot's file gives it.
+        /// The name of the mesh in the robot's file: a file name, or a `package://` URI.
         uri: String,
-        /// The paths that were searched for the mesh, in order.
+        /// The paths that were searched, in order.
         searched_paths: Vec<PathBuf>,
     },
     /// A mesh cannot be read.
     #[error(transparent)]
     Mesh(#[from] MeshError),
-    /// No body can be made of a mesh.
+    /// A mesh cannot be converted to a body.
     #[error("{}: {error}", file.display())]
     Prepare {
         /// The path of the mesh file.
         file: PathBuf,
-        /// The reason why the mesh cannot become a body.
+        /// The reason.
         error: PrepareError,
     },
     /// A shape, a pose or an axis is not valid.
     #[error(transparent)]
     InvalidElement(#[from] InputError),
-    /// The links and joints do not make a robot, for example because joints form a loop.
+    /// The links and joints do not make a robot, for example because of a loop.
     #[error(transparent)]
     Robot(#[from] RobotError),
 }
 
 impl RobotFileError {
-    /// Returns this error with the name of the link in which it occurred.
+    /// Adds the name of the link in which the error occurred.
     pub(super) fn with_link_name(self, link: &str) -> Self {
         RobotFileError::Link {
             link: link.to_owned(),
@@ -111,7 +111,7 @@ impl RobotFileError {
         }
     }
 
-    /// Returns this error with the name of the geom in which it occurred.
+    /// Adds the name of the geom in which the error occurred.
     pub(super) fn with_geom_name(self, geom: &str) -> Self {
         RobotFileError::Geom {
             geom: geom.to_owned(),
@@ -119,7 +119,7 @@ impl RobotFileError {
         }
     }
 
-    /// Returns this error with the name of the joint in which it occurred.
+    /// Adds the name of the joint in which the error occurred.
     pub(super) fn with_joint_name(self, joint: &str) -> Self {
         RobotFileError::Joint {
             joint: joint.to_owned(),

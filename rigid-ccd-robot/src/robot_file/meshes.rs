@@ -1,4 +1,4 @@
-//! Makes bodies of the mesh files that a robot's file names.
+//! Converts the meshes that a robot's file refers to into bodies.
 
 use super::error::RobotFileError;
 use super::mjcf_error::MjcfError;
@@ -15,38 +15,40 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// How a mesh of a robot becomes a body: exactly, or as its convex hull.
+/// How a mesh becomes a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum MeshConversion {
-    /// The fewest convex pieces that represent the mesh exactly: [`Detail::Auto`].
+    /// The fewest convex pieces that represent the mesh exactly, see [`Detail::Auto`].
     #[default]
     Exact,
-    /// The convex hull, which encloses the mesh and exceeds it by a certified bound: [`Detail::OuterHull`]. It serves links
-    /// that are convex but for the rounding of their file.
+    /// The convex hull, which encloses the mesh with a certified excess, see [`Detail::OuterHull`]. Suitable for
+    /// meshes that are convex except for rounding.
     OuterHull,
 }
 
-/// The kind of file that names meshes, on which it depends what they mean.
+/// The kind of file that refers to meshes, which determines how mesh files are interpreted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum MeshRules {
-    /// A fourth number of a vertex divides the others, as for Coal. Vertices without a face do not count.
+    /// As in Coal: a fourth number of a vertex divides the others, and vertices without a face are ignored.
     Urdf,
-    /// MuJoCo does not read a fourth number of a vertex, and its hulls contain vertices without a face.
+    /// As in MuJoCo: a fourth number of a vertex is an error unless it is 1, and hulls contain vertices without a
+    /// face.
     Mjcf,
 }
 
-/// Makes bodies of meshes; a mesh that occurs several times becomes one shared body.
+/// Converts meshes into bodies. A mesh that occurs several times becomes one shared body.
 pub(super) struct MeshBodies {
     conversion: MeshConversion,
     rules: MeshRules,
     bodies_by_mesh: RefCell<HashMap<MeshKey, Arc<Body>>>,
-    /// The files that were read, with what their reader skipped or changed.
+    /// For each file that was read, what its reader ignored or changed.
     contents: RefCell<BTreeMap<PathBuf, Remarks>>,
-    /// The meshes that are not their hulls although MuJoCo takes these.
+    /// Meshes that are used exactly although MuJoCo would use their hulls.
     exact_meshes: RefCell<BTreeSet<PathBuf>>,
 }
 
-/// The key of a shared body: the file of the mesh, and the bits of the map to which it is subjected.
+/// The key of a shared body: the mesh file, and the bits of the map applied to its vertices.
 type MeshKey = (PathBuf, [u64; 12]);
 
 impl MeshBodies {
@@ -77,7 +79,7 @@ impl MeshBodies {
         remarks
     }
 
-    /// Makes the body of a mesh file, whose vertices are mapped. A map that mirrors turns the triangles as well.
+    /// Converts a mesh file into a body, with a map applied to its vertices. A reflection also reverses the triangles.
     pub(super) fn body(&self, file: PathBuf, map: DAffine3) -> Result<Arc<Body>, RobotFileError> {
         let key = (file.clone(), map.to_cols_array().map(f64::to_bits));
         if let Some(body) = self.bodies_by_mesh.borrow().get(&key) {
@@ -104,7 +106,7 @@ impl MeshBodies {
         Ok(body)
     }
 
-    /// Makes the body of a mesh, whose vertices are mapped. Errors name its file, or itself if it has none.
+    /// Converts a mesh into a body, with a map applied to its vertices. `file` names the mesh in errors.
     pub(super) fn body_of_mesh(
         &self,
         mesh: &TriangleMesh,
@@ -122,7 +124,7 @@ impl MeshBodies {
         Ok(Arc::new(prepared.body))
     }
 
-    /// Makes the body of a height field, of which MuJoCo does not take the hull.
+    /// Converts a height field into a body. MuJoCo does not use the hull of a height field.
     pub(super) fn body_of_height_field(
         &self,
         mesh: &TriangleMesh,
@@ -157,7 +159,7 @@ impl MeshBodies {
     }
 }
 
-/// Returns the hull of points as a mesh.
+/// Returns the convex hull of points as a mesh.
 pub(super) fn hull_mesh(points: &[DVec3]) -> Result<TriangleMesh, RobotFileError> {
     let shape = "a mesh without a hull";
     let hull = convex_hull(points).map_err(|_| MjcfError::UnsupportedShape { shape })?;

@@ -1,6 +1,6 @@
-//! Converts a MuJoCo model, MJCF, to a robot.
+//! Converts a MuJoCo model (MJCF) into a robot.
 //!
-//! What is not known is an error: an element that is passed over may stand for a shape.
+//! Unknown elements are errors, because they may be shapes.
 
 mod assets;
 mod attributes;
@@ -30,11 +30,11 @@ use geoms::GeomReader;
 use joints::JointReader;
 use rigid_ccd::Remark;
 
-/// The first element of an MJCF file.
+/// The root element of an MJCF file.
 pub(super) const ROOT_ELEMENT: &str = "mujoco";
 
 impl MjcfModel {
-    /// Builds the robot: a link for each body, and joints between them.
+    /// Builds the robot. Each body becomes a link.
     pub(super) fn robot(
         &self,
         elements: BodyElements,
@@ -59,7 +59,7 @@ impl MjcfModel {
         Ok(Robot::new(links, joints)?.with_file_remarks(self.remarks()?))
     }
 
-    /// Lists the constraints that leave joints independent, and limits that seem to be in degrees.
+    /// Lists ignored constraints, and joint limits that seem to be in degrees.
     fn remarks(&self) -> Result<Vec<CellRemark>, MjcfError> {
         let mut remarks = Vec::new();
         for kind in ["connect", "weld"] {
@@ -83,7 +83,7 @@ impl MjcfModel {
         Ok(remarks)
     }
 
-    /// Remarks on margins, in which MuJoCo finds contacts of shapes that do not touch.
+    /// Returns a remark on margins, within which MuJoCo reports contacts of shapes that do not touch.
     fn margins(&self) -> Result<Option<CellRemark>, MjcfError> {
         let geoms = self.bodies.iter().flat_map(|body| &body.geoms);
         let solid = geoms.filter(|geom| self.is_solid(geom));

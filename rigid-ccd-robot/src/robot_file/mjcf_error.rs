@@ -4,16 +4,16 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MjcfError {
-    /// The file is no XML.
+    /// The file is not valid XML.
     #[error("{error}")]
     Syntax {
         /// The parser's message.
         error: String,
     },
-    /// Elements are nested too deeply, or there are too many of them.
-    #[error("elements are nested too deeply, or are too many")]
+    /// Elements are nested too deeply, or there are too many.
+    #[error("elements are nested too deeply, or there are too many")]
     TooManyElements,
-    /// An element is not known here. It may stand for a shape or a joint.
+    /// An element is not supported. It may be a shape or a joint.
     #[error("element `{element}` in `{parent}` is not supported")]
     UnknownElement {
         /// The name of the element.
@@ -55,7 +55,7 @@ pub enum MjcfError {
         /// Their name, or that of the file.
         name: String,
     },
-    /// MuJoCo moves the frame of a body without children to its centre of mass, so that the positions of its free joint are others.
+    /// MuJoCo would move the body's frame to its centre of mass, which changes the positions of its free joint.
     #[error(
         "the frame of body `{body}` is aligned with its inertia, which is not supported; set align=\"false\""
     )]

@@ -1,29 +1,29 @@
-//! Finds the files that a URDF names: `package://NAME/…`, `file://…`, or a path.
+//! Finds the files that a URDF refers to by `package://NAME/…`, `file://…` or a path.
 
 use super::error::RobotFileError;
 use std::env;
 use std::path::{Path, PathBuf};
 
-/// The folders that are searched for the packages and files that a URDF names.
+/// The folders to search for packages and files.
 #[derive(Clone, Debug)]
 pub(super) struct SearchFolders {
-    /// The folder of the URDF file, from which relative paths start.
+    /// The folder of the URDF file, to which relative paths refer.
     urdf_folder: PathBuf,
-    /// Folders that are packages, or hold packages, in the order in which they are searched.
+    /// Folders that are packages or contain packages, in search order.
     package_folders: Vec<PathBuf>,
-    /// The number of the first package folders that the caller has given.
+    /// The number of folders from the caller, at the start of `package_folders`.
     given_count: usize,
 }
 
 impl SearchFolders {
-    /// Lists the folders to search: those of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then all folders above a URDF
-    /// file.
+    /// Lists the folders to search: those of `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`, then all folders above the
+    /// URDF file.
     pub(super) fn for_urdf(urdf: &Path) -> Self {
         let beside = urdf.parent().unwrap_or(Path::new("")).to_owned();
         let mut folders = folders_in("ROS_PACKAGE_PATH");
         let prefixes = folders_in("AMENT_PREFIX_PATH");
         folders.extend(prefixes.into_iter().map(|prefix| prefix.join("share")));
-        // A URDF is usually a few folders below its package.
+        // A URDF is usually a few folders below the root of its package.
         let whole = beside.canonicalize().unwrap_or_else(|_| beside.clone());
         folders.extend(whole.ancestors().map(Path::to_owned));
         SearchFolders {
@@ -38,7 +38,7 @@ impl SearchFolders {
         self.given_count += 1;
     }
 
-    /// Refuses a folder that the caller has given and that does not exist, probably because its name is misspelt.
+    /// Checks that the folders from the caller exist. A missing one is probably misspelt.
     pub(super) fn check_given_folders(&self) -> Result<(), RobotFileError> {
         let given = &self.package_folders[..self.given_count];
         match given.iter().find(|folder| !folder.is_dir()) {
@@ -49,7 +49,7 @@ impl SearchFolders {
         }
     }
 
-    /// Returns the path of an existing file, given the name that the URDF has for it.
+    /// Returns the path of an existing file that a name in the URDF refers to.
     pub(super) fn find_file(&self, uri: &str) -> Result<PathBuf, RobotFileError> {
         let mut tried = self.possible_paths(uri);
         if let Some(decoded) = percent_decoded(uri) {
@@ -64,7 +64,7 @@ impl SearchFolders {
         }
     }
 
-    /// Returns the paths that a name in the URDF may mean, in the order in which they are tried.
+    /// Returns the paths that a name in the URDF may refer to, in search order.
     fn possible_paths(&self, uri: &str) -> Vec<PathBuf> {
         let in_package = uri
             .strip_prefix("package://")
@@ -77,7 +77,7 @@ impl SearchFolders {
         let in_folder = |folder: &PathBuf| {
             let is_package = folder.file_name().is_some_and(|name| name == package);
             let itself = is_package.then(|| folder.join(rest));
-            // A package before what is in it.
+            // If the folder is the package, it comes before a package of the same name inside it.
             [itself, Some(folder.join(package).join(rest))]
                 .into_iter()
                 .flatten()
@@ -86,7 +86,7 @@ impl SearchFolders {
     }
 }
 
-/// Returns a URI with bytes in place of escapes such as `%20`; `None` without escapes, and if the bytes are no text.
+/// Decodes escapes such as `%20`; `None` if there are none, or if the result is not UTF-8.
 fn percent_decoded(uri: &str) -> Option<String> {
     let mut parts = uri.split('%');
     let mut bytes = parts.next()?.as_bytes().to_vec();
@@ -100,8 +100,8 @@ fn percent_decoded(uri: &str) -> Option<String> {
     String::from_utf8(bytes).ok().filter(|_| has_escape)
 }
 
-/// Returns the folders that a variable of the environment lists; none if it is not set, as on targets that have no such variables and
-/// cannot split their lists.
+/// Returns the folders listed in an environment variable; none if it is not set. Targets without environment variables
+/// cannot split such lists.
 fn folders_in(variable: &str) -> Vec<PathBuf> {
     let list = env::var_os(variable);
     list.map_or_else(Vec::new, |list| env::split_paths(&list).collect())

@@ -8,8 +8,8 @@ use tempfile::TempDir;
 const TETRAHEDRON_OBJ: &str =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
-/// Writes a mesh and a URDF whose three links have shapes, a mirrored mesh, and a visual larger than the collision
-/// shapes.
+/// Writes a mesh and a URDF with three links: primitive shapes, a mirrored mesh, and a visual larger than the
+/// collision shape.
 fn write_robot_folder(joints: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("part.obj"), TETRAHEDRON_OBJ).unwrap();
@@ -100,8 +100,7 @@ fn visuals_are_a_choice() {
     assert_eq!(counts, [1, 0, 0]);
 }
 
-/// Tests that roll, pitch and yaw apply in this order, and that a joint that mimics another one may exceed its own
-/// limits.
+/// Tests the order of roll, pitch and yaw, and that a mimic joint may exceed its own limits.
 #[test]
 fn joints_are_those_of_the_file() {
     let robot = urdf_in_folder(&write_robot_folder(JOINTS_XML))
@@ -149,7 +148,7 @@ fn pairs_come_from_the_srdf() {
         .unwrap_err()
         .to_string();
     assert!(
-        error.ends_with("arm.srdf: is of another robot: there is no link head, tail"),
+        error.ends_with("arm.srdf: the file belongs to another robot: there is no link head, tail"),
         "{error}"
     );
 }
@@ -170,7 +169,7 @@ fn errors_name_file_link_and_joint() {
     );
     assert_eq!(
         message(""),
-        "links `base` and `upper` both hang on no joint; a robot has one base"
+        "links `base` and `upper` are both children of no joint; a robot has one base"
     );
     let axis = JOINTS_XML.replace("0 0 2", "0 0 0");
     assert!(
@@ -202,7 +201,7 @@ fn errors_name_file_link_and_joint() {
     assert!(error.contains("arm.urdf: "), "{error}");
 }
 
-/// Tests that joints of several degrees of freedom move as URDF says.
+/// Tests that joints with several degrees of freedom move as in URDF.
 #[test]
 fn planar_and_floating_joints_are_chains_of_joints() {
     let tree = |kind: &str, axis: &str| {
@@ -218,13 +217,13 @@ fn planar_and_floating_joints_are_chains_of_joints() {
     let names: Vec<&str> = planar.free_joint_names().collect();
     assert_eq!(names, ["drive/x", "drive/y", "drive/yaw"]);
     let moved = pose(&planar, &[2.0, 3.0, 0.5]);
-    // The frame of the joint is turned by a quarter.
+    // The joint's frame is rotated by a quarter turn.
     let off = moved.translation().distance([-2.0, 2.0, 0.0].into());
     assert!(off < 1e-12, "{moved:?}");
     let upright = tree("planar", "1 0 0");
     let moved = pose(&upright, &[2.0, 3.0, 0.0]);
     let height = moved.translation();
-    // The plane is across the joint's x, which is the floor's y.
+    // The plane is perpendicular to the joint's x axis, which is the floor's y.
     assert!(
         height.y.abs() < 1e-12
             && (height.distance([1.0, 0.0, 0.0].into()) - 13f64.sqrt()).abs() < 1e-12
@@ -239,7 +238,7 @@ fn planar_and_floating_joints_are_chains_of_joints() {
     assert_eq!(spherical.free_joint_names().last(), Some("drive/roll"));
 }
 
-/// Tests that a material which is wrong harms nothing, and that all else stays, comments and entities too.
+/// Tests that an invalid material is ignored, and that everything else is kept, including comments and entities.
 #[test]
 fn materials_are_passed_over() {
     let text = r#"<?xml version="1.0"?><robot name="a&amp;b"><material name="m"><texture/></material><!-- <material> -->
@@ -256,7 +255,7 @@ fn materials_are_passed_over() {
     assert!(error.to_string().starts_with("one.urdf: "), "{error}");
 }
 
-/// Tests that elements within each other to any depth do no harm: a parser's recursion exhausted the stack.
+/// Tests deeply nested elements: a recursive parser would overflow the stack.
 #[test]
 fn deeply_nested_elements_are_read() {
     let nested = |depth: usize| {
@@ -271,7 +270,7 @@ fn deeply_nested_elements_are_read() {
     assert!(nested(60_000).is_ok());
 }
 
-/// Tests that a file of which nothing is left to check is remarked upon, and one part by itself is not.
+/// Tests that a file with nothing to check gives a remark, and a single part does not.
 #[test]
 fn a_file_without_shapes_and_joints_is_remarked_upon() {
     let remarks = |text: &str| {
@@ -300,24 +299,24 @@ fn a_file_without_shapes_and_joints_is_remarked_upon() {
             "one link without shapes, world,",
         ),
     ] {
-        let told = remarks(&text);
+        let message = remarks(&text);
         assert!(
-            told.iter().any(|one| one.contains(expected)),
-            "{text}: {told:?}"
+            message.iter().any(|one| one.contains(expected)),
+            "{text}: {message:?}"
         );
     }
-    let told = remarks(&urdf(left_out));
+    let message = remarks(&urdf(left_out));
     let expected = "drake:joint in robot part, my:arm in robot part";
     assert!(
-        told.len() == 2 && told.iter().any(|one| one.ends_with(expected)),
-        "{told:?}"
+        message.len() == 2 && message.iter().any(|one| one.ends_with(expected)),
+        "{message:?}"
     );
     assert!(remarks(&urdf(&part)).is_empty());
     let scene = "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>";
     assert!(remarks(scene).is_empty());
 }
 
-/// Tests that what the reader of a link's mesh skips or changes is noted.
+/// Tests that a note reports what the mesh reader ignored or changed.
 #[test]
 fn contents_of_meshes_are_noted() {
     let folder = tempfile::tempdir().unwrap();
@@ -332,8 +331,8 @@ fn contents_of_meshes_are_noted() {
         panic!("{:?}", robot.file_remarks());
     };
     assert!(!note.is_warning());
-    let told = note.to_string();
+    let message = note.to_string();
     for expected in ["part.obj", "divided by their fourth number: 1", "foo"] {
-        assert!(told.contains(expected), "{told}");
+        assert!(message.contains(expected), "{message}");
     }
 }

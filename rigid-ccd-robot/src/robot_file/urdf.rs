@@ -1,6 +1,6 @@
-//! Converts the links and joints of a URDF file.
+//! Converts a URDF into a robot.
 //!
-//! What is not known is an error, unless a list says that it is harmless.
+//! Unknown elements and attributes are errors, unless a list marks them as harmless.
 
 mod element;
 mod vocabulary;
@@ -17,7 +17,7 @@ use rigid_ccd::glam::{DAffine3, DQuat, DVec3, EulerRot};
 use rigid_ccd::{Body, Pose, Remark, trajectory};
 use std::sync::Arc;
 
-/// Makes a robot of a URDF.
+/// Converts a URDF into a robot.
 pub(super) struct UrdfReader<'r> {
     elements: BodyElements,
     meshes: &'r MeshBodies,
@@ -32,7 +32,7 @@ enum Version {
     V1_0,
     /// Adds `quat_xyzw`.
     V1_1,
-    /// Asks for both limits.
+    /// Requires both limits.
     V1_2,
 }
 
@@ -51,7 +51,7 @@ impl<'r> UrdfReader<'r> {
         }
     }
 
-    /// Reads the text of a URDF. The outer error is that of the parser.
+    /// Reads the text of a URDF. The outer error is a syntax error.
     pub(super) fn read(mut self, text: &str) -> Result<Result<Robot, RobotFileError>, String> {
         let text = with_declared_prefixes(text)?;
         let document = parse(&text)?;
@@ -61,7 +61,7 @@ impl<'r> UrdfReader<'r> {
     }
 
     fn robot(&mut self, root: &Element<'_>) -> Result<Robot, RobotFileError> {
-        self.version = Version::of(root)?;
+        self.version = Version::of_root(root)?;
         let (mut links, mut joints) = (Vec::new(), Vec::new());
         for element in root.children(&mut self.remarks)? {
             let name = element.required("name")?;
@@ -103,8 +103,7 @@ impl<'r> UrdfReader<'r> {
         })
     }
 
-    /// Makes the body of a box, sphere, capsule, cylinder or mesh. A URDF gives full side lengths and full heights, not
-    /// halves.
+    /// Creates the body of a box, sphere, capsule, cylinder or mesh. URDF gives full side lengths and heights.
     fn body(&mut self, geometry: &Element<'_>) -> Result<Arc<Body>, RobotFileError> {
         let shapes = geometry.children(&mut self.remarks)?;
         let [shape] = &shapes[..] else {
@@ -138,7 +137,7 @@ impl<'r> UrdfReader<'r> {
         Ok(Arc::new(body))
     }
 
-    /// Converts a joint; one with several degrees of freedom becomes several joints with links between them.
+    /// Converts a joint. One with several degrees of freedom becomes several joints with links between them.
     fn joint(
         &mut self,
         element: &Element<'_>,
@@ -190,13 +189,13 @@ impl<'r> UrdfReader<'r> {
             name: name.to_owned(),
             parent: parent.to_owned(),
             child: child.to_owned(),
-            axis_and_limits: moved,
+            geometry: moved,
             position_rule: position_rule(mimic)?,
         };
         Ok((Vec::new(), vec![joint]))
     }
 
-    /// Reads the limits of a joint; those of a joint that follows another one do not count.
+    /// Reads the limits of a joint. Those of a mimic joint are ignored.
     fn limits(&self, parts: &[Element<'_>]) -> Result<[f64; 2], UrdfError> {
         let limit = match only(parts, "limit")? {
             Some(limit) => limit,
@@ -212,7 +211,8 @@ impl<'r> UrdfReader<'r> {
         Ok([low, high])
     }
 
-    /// Reads the pose of a shape or a joint, whose roll, pitch and yaw are rotations about fixed axes: first x, then y, then z.
+    /// Reads the pose of a shape or joint. Roll, pitch and yaw are rotations about fixed axes: first x, then y, then
+    /// z.
     fn pose(&mut self, parts: &[Element<'_>], of: &str) -> Result<Pose, RobotFileError> {
         let Some(origin) = only(parts, "origin")? else {
             return Ok(Pose::IDENTITY);
@@ -259,7 +259,7 @@ fn position_rule(mimic: Option<&Element<'_>>) -> Result<PositionRule, UrdfError>
 }
 
 impl Version {
-    fn of(root: &Element<'_>) -> Result<Self, UrdfError> {
+    fn of_root(root: &Element<'_>) -> Result<Self, UrdfError> {
         match root.get("version") {
             None | Some("1.0") => Ok(Version::V1_0),
             Some("1.1") => Ok(Version::V1_1),

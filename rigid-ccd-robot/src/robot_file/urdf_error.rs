@@ -4,27 +4,25 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum UrdfError {
-    /// The file has elements or expressions that xacro has to replace first.
+    /// The file contains elements or expressions that xacro has to expand first.
     #[error("`{found}` is of xacro, which makes a URDF of it: run `xacro FILE.xacro > FILE.urdf`")]
     Xacro {
         /// The element or the expression.
         found: String,
     },
-    /// The version of URDF is not known.
+    /// The version of URDF is unknown.
     #[error("version=\"{version}\" of URDF is not known; 1.0, 1.1 and 1.2 are")]
     UnknownVersion {
         /// The version that is given.
         version: String,
     },
-    /// The file is of another kind.
-    #[error(
-        "the first element is `{element}`; that of a URDF is `robot`, that of an MJCF `mujoco`"
-    )]
+    /// The root element is not that of a URDF.
+    #[error("the root element is `{element}`; a URDF has `robot`, an MJCF has `mujoco`")]
     NotARobot {
-        /// The name of the first element.
+        /// The name of the root element.
         element: String,
     },
-    /// An element is not known in the one around it.
+    /// An element is unknown in its parent.
     #[error("an element `{element}` in `{parent}` is not known")]
     UnknownElement {
         /// The name of the element.
@@ -40,19 +38,19 @@ pub enum UrdfError {
         /// The name of the attribute.
         attribute: String,
     },
-    /// An element that has to be there is not.
+    /// A required element is missing.
     #[error("an element `{element}` is missing")]
     MissingElement {
-        /// The name of the element, or what it is.
+        /// The name or the kind of the element.
         element: String,
     },
-    /// There are two elements where only one may be.
+    /// An element that may occur only once occurs more often.
     #[error("there is more than one element `{element}`")]
     RepeatedElement {
         /// The name of the elements.
         element: String,
     },
-    /// An attribute that has to be there is not.
+    /// A required attribute is missing.
     #[error("an element `{element}` needs an attribute `{attribute}`")]
     MissingAttribute {
         /// The name of the element.
@@ -60,19 +58,19 @@ pub enum UrdfError {
         /// The name of the attribute.
         attribute: String,
     },
-    /// An attribute does not have a value of its kind.
+    /// An attribute has an invalid value.
     #[error("{attribute}=\"{value}\" of an element `{element}` is not {wanted}")]
     InvalidAttribute {
         /// The name of the element.
         element: String,
         /// The name of the attribute.
         attribute: String,
-        /// The value that is given.
+        /// The given value.
         value: String,
-        /// What it has to be.
+        /// The required kind of value.
         wanted: String,
     },
-    /// An attribute is of a later version of URDF.
+    /// An attribute needs a later version of URDF.
     #[error(
         "{attribute} of an element `{element}` needs version=\"{version}\" of an element `robot`"
     )]
@@ -81,7 +79,7 @@ pub enum UrdfError {
         element: String,
         /// The name of the attribute.
         attribute: String,
-        /// The first version that has it.
+        /// The first version with this attribute.
         version: &'static str,
     },
 }

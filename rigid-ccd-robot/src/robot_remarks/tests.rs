@@ -1,4 +1,4 @@
-//! Tests that most of a robot is not left out without a warning, and that notes name the rest.
+//! Tests that a warning reports a mostly unchecked robot, and that notes name the unchecked parts.
 
 use super::*;
 use crate::test_robots::{LINKS, row_of_links};
@@ -40,7 +40,7 @@ fn a_robot_that_is_mostly_unchecked_is_warned_about() {
         "{warned:?}"
     );
 
-    // Masks of an MJCF leave out what could be checked.
+    // The masks of an MJCF exclude pairs that could be checked.
     let robot = row_of_links(&LINKS, &LINKS);
     let mut pairs = LinkPairs::from_robot(&robot);
     for [a, b] in pairs.all_pairs().collect::<Vec<_>>() {
@@ -53,7 +53,7 @@ fn a_robot_that_is_mostly_unchecked_is_warned_about() {
         "{warned:?}"
     );
 
-    // A hinge has no pair that could be checked.
+    // A single hinge has no pair that could be checked.
     let robot = row_of_links(&["frame", "leaf"], &["frame", "leaf"]);
     assert!(warnings(&LinkPairs::from_robot(&robot), &robot).is_empty());
 }

@@ -1,19 +1,19 @@
-//! The boxes of all obstacles, eight at once.
+//! Box tests against all obstacles, eight at once.
 
 use crate::cell::part::HullPart;
 use rigid_ccd::glam::DVec3;
 
-/// The number of boxes that are compared together.
+/// The number of boxes in a block.
 const LANES: usize = 8;
 
-/// The boxes of obstacles along the base's axes, in a layout for vector instructions.
+/// The axis-aligned bounding boxes of all obstacles, in a layout for vector instructions.
 #[derive(Clone, Debug)]
 pub(crate) struct ObstacleBoxes {
     blocks: Vec<Block>,
     count: usize,
 }
 
-/// Eight boxes, coordinate by coordinate. Empty places have boxes that meet no finite one.
+/// Eight boxes as a structure of arrays. Unused lanes have empty boxes.
 #[derive(Clone, Copy, Debug)]
 struct Block {
     min: [[f64; LANES]; 3],
@@ -44,7 +44,7 @@ impl ObstacleBoxes {
         }
     }
 
-    /// Calls `each` with the index of every obstacle whose box meets the box from `min` to `max`.
+    /// Calls `each` with the index of every obstacle whose box intersects the box from `min` to `max`.
     #[inline(always)]
     pub(crate) fn for_each_meeting(&self, min: DVec3, max: DVec3, mut each: impl FnMut(usize)) {
         for (block, first) in self.blocks.iter().zip((0..self.count).step_by(LANES)) {
@@ -52,7 +52,7 @@ impl ObstacleBoxes {
             for axis in 0..3 {
                 let (mins, maxs) = (&block.min[axis], &block.max[axis]);
                 for ((meets, other_min), other_max) in meets.iter_mut().zip(mins).zip(maxs) {
-                    // Written so that a box whose bounds are NaN meets all others.
+                    // Written so that a box with NaN bounds intersects all others.
                     *meets &= !(*other_min > max[axis] || min[axis] > *other_max);
                 }
             }

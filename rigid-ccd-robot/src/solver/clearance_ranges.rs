@@ -1,39 +1,39 @@
-//! The ranges of a path in which all pairs keep their distance, and those in which one of them certainly does not.
+//! Divides a path into ranges in which all clearances are kept, ranges in which one is violated, and the rest.
 
 use super::{CellSolver, Goal};
 use crate::error::PathError;
 use crate::path::Path;
-use crate::path::stretch::Stretch;
+use crate::path::interval::PathInterval;
 use crate::path_point::PathPoint;
 use rigid_ccd::Error;
 use rigid_ccd::answer::ClearanceVerdict;
 
-/// A range of a path, and whether all pairs keep their distance in it.
+/// A range of a path, and whether all pairs keep their clearances in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClearanceRange {
     /// The start of the range.
     pub from: PathPoint,
-    /// The end of the range, where the next one starts.
+    /// The end of the range, where the next range starts.
     pub to: PathPoint,
-    /// Whether all pairs keep their distance everywhere in the range, or one of them is nearer everywhere in the range, or
-    /// neither is proven.
+    /// Kept if all pairs keep their clearances everywhere in the range. Violated if at every point some pair is too
+    /// near. Unverified if neither is proven.
     pub verdict: ClearanceVerdict,
 }
 
-/// How finely a path is examined, and how far the robot may be from it.
+/// The resolution of clearance ranges, and how accurately the robot follows the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RangeSettings {
-    /// The length, in segments of the path, of the shortest ranges that are examined. What is not proven there is
-    /// unverified. At least 1e-9.
+    /// The shortest length of a range that is examined, in segments of the path. At least 1e-9. A shorter range
+    /// without a proof is unverified.
     pub resolution: f64,
-    /// A bound of how far points of links are from where the path places them. It is 0 for a robot that follows the path
-    /// exactly. A closed loop of joints is a path of configurations in which the loop is closed; between these, points
-    /// differ by the error of the interpolation.
+    /// An upper bound of the deviation of link points from their places on the path: 0 if the robot follows the path
+    /// exactly. The loops of a mechanism may be closed at the configurations of the path only; the bound is then the
+    /// error of the interpolation between them.
     pub max_pose_error: f64,
 }
 
 impl RangeSettings {
-    /// A resolution of 1/4096 of a segment, and no error of poses.
+    /// A resolution of 1/4096 of a segment, and no pose error.
     pub const DEFAULT: Self = RangeSettings {
         resolution: 1.0 / 4096.0,
         max_pose_error: 0.0,
@@ -59,20 +59,24 @@ impl RangeSettings {
 }
 
 impl CellSolver<'_> {
-    /// Divides a path into ranges in which all pairs keep their distance, ranges in which one certainly does not, and the
-    /// rest. The distance of a pair is its clearance, or the margin of the settings with paddings.
+    /// Divides a path into ranges where all pairs keep their clearances, ranges where at least one is violated, and
+    /// unverified ranges. A pair without a clearance has to keep the margin of the settings plus paddings.
     ///
     /// # Guarantee
-    /// In a range that is kept all pairs that are checked stay apart by more than their distance, at all configurations. At
-    /// each configuration of a range that is violated some pair is nearer than its distance; at a distance of 0 it overlaps.
-    /// Unverified remain about twice the resolution around each border, stretches where the distance is kept or violated by
-    /// less than the tolerance or than the error of poses, violations by less than what bodies
-    /// [exceed](rigid_ccd::Body::excess) their shapes by, and overlaps of bodies that are not convex at a distance of 0. When
-    /// time runs out, or all work together has taken 8 budgets for each segment, the rest of the path is unverified.
+    /// In a *kept* range all checked pairs stay farther apart than their clearances. At each configuration of a
+    /// *violated* range some pair is nearer than its clearance, or overlaps if the clearance is 0. The following stays
+    /// *unverified*:
+    ///
+    /// - about twice the resolution around each border between ranges,
+    /// - intervals where the clearance is kept or violated by less than the tolerance or the pose error,
+    /// - violations by less than the [excess](rigid_ccd::Body::excess) of the bodies,
+    /// - overlaps of non-convex bodies, if the clearance is 0,
+    /// - the rest of the path, once the deadline has passed or all searches together have used 8 budgets for each
+    ///   segment.
     ///
     /// # Complexity
-    /// A few searches for each halving around a border. What stays unverified is examined in steps of the resolution, each of
-    /// which takes microseconds to milliseconds.
+    /// A few searches for each halving around a border. Unverified intervals are examined in steps of the resolution.
+    /// A search takes microseconds to milliseconds.
     ///
     /// # Errors
     /// [`PathError`].
@@ -85,7 +89,7 @@ impl CellSolver<'_> {
     ///     name: "slider".into(),
     ///     parent: "rail".into(),
     ///     child: "ball".into(),
-    ///     axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0])?,
+    ///     geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0])?,
     ///     position_rule: PositionRule::Independent,
     /// };
     /// let ball = Link::named("ball").with_body(Body::sphere(0.5)?, Pose::IDENTITY);
@@ -110,7 +114,7 @@ impl CellSolver<'_> {
         ranges: RangeSettings,
     ) -> Result<Vec<ClearanceRange>, PathError> {
         ranges.check()?;
-        // Both bodies of a pair may be away from where they are placed.
+        // Both bodies of a pair may deviate.
         self.search
             .pairs
             .set_margin_increase(2.0 * ranges.max_pose_error);
@@ -125,7 +129,7 @@ impl CellSolver<'_> {
         resolution: f64,
     ) -> Result<Vec<ClearanceRange>, PathError> {
         self.set_path_reporting_start(path)?;
-        let (whole, mut found) = (self.search.whole_path_stretch(), Vec::new());
+        let (whole, mut found) = (self.search.whole_path_interval(), Vec::new());
         self.search.stop_condition.begin_searches(&whole);
         self.examine(whole, resolution, &mut found)?;
         let segments = self.search.segment_count();
@@ -137,21 +141,23 @@ impl CellSolver<'_> {
         Ok(ranges.collect())
     }
 
-    /// Appends the ranges of a stretch.
+    /// Appends the ranges of an interval to `found`.
     fn examine(
         &mut self,
-        stretch: Stretch,
+        interval: PathInterval,
         resolution: f64,
         found: &mut Vec<(f64, f64, ClearanceVerdict)>,
     ) -> Result<(), Error> {
-        let goes_on = !self.search.stop_condition.ends_question();
-        let clearance = if goes_on && self.is_clearance_kept(stretch)? {
+        let goes_on = !self.search.stop_condition.is_question_over();
+        let clearance = if goes_on && self.is_clearance_kept(interval)? {
             ClearanceVerdict::Kept
-        } else if goes_on && self.search.is_margin_violated(&stretch)? {
+        } else if goes_on && self.search.is_margin_violated(&interval)? {
             ClearanceVerdict::Violated
-        } else if goes_on && stretch.to - stretch.from > resolution && self.search.placement.moves()
+        } else if goes_on
+            && interval.to - interval.from > resolution
+            && self.search.placement.moves()
         {
-            for half in stretch.halves() {
+            for half in interval.halves() {
                 self.examine(half, resolution, found)?;
             }
             return Ok(());
@@ -159,16 +165,16 @@ impl CellSolver<'_> {
             ClearanceVerdict::Unverified
         };
         match found.last_mut() {
-            Some((_, to, last)) if *last == clearance => *to = stretch.to,
-            _ => found.push((stretch.from, stretch.to, clearance)),
+            Some((_, to, last)) if *last == clearance => *to = interval.to,
+            _ => found.push((interval.from, interval.to, clearance)),
         }
         Ok(())
     }
 
-    fn is_clearance_kept(&mut self, stretch: Stretch) -> Result<bool, Error> {
-        self.search.answer_question(Goal::AnyContact, stretch)?;
-        let found = &self.search.result;
-        Ok(found.nearest.is_none() && found.limit_reached.is_none())
+    fn is_clearance_kept(&mut self, interval: PathInterval) -> Result<bool, Error> {
+        self.search.answer_question(Goal::AnyContact, interval)?;
+        let result = &self.search.result;
+        Ok(result.nearest.is_none() && result.limit_reached.is_none())
     }
 }
 

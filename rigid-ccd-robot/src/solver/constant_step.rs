@@ -1,23 +1,24 @@
-//! Short stretches of a path in which a body moves almost as a constant motion does.
+//! Approximates short intervals of a path by constant motions.
 
 use rigid_ccd::trajectory::Trajectory;
 use rigid_ccd::{Body, Error, Motion};
 
-/// A stretch of a segment in which a body moves almost as a constant motion does.
+/// An interval of a segment, and a constant motion that approximates a body's motion in it.
 pub(super) struct ConstantStep {
     pub(super) from: f64,
     pub(super) to: f64,
-    /// The motion, which begins where the body is at the start, in segments as the unit of time.
+    /// The constant motion. It starts at the body's pose at the start of the interval. The unit of time is a segment.
     pub(super) motion: Motion,
-    /// A bound of how far points of the body are from where the motion has them.
+    /// An upper bound of the distance between a point of the body and the same point under the constant motion.
     pub(super) deviation: f64,
 }
 
-/// The number of halvings after which no shorter step is tried.
+/// The number of halvings after which the search for a step gives up.
 const MAX_STEP_HALVINGS: u32 = 60;
 
 impl ConstantStep {
-    /// Returns the longest step from the start of a section, of which the trajectory takes one unit of time.
+    /// Returns the longest step, by halving, from the start of a section with a deviation of at most `max_deviation`.
+    /// The section takes one unit of the trajectory's time.
     pub(super) fn longest(
         link: &dyn Trajectory,
         body: &Body,
@@ -31,11 +32,12 @@ impl ConstantStep {
             let near = link.stretch_between(0.0, share)?;
             let (motion, acceleration) = (near.motion, near.acceleration);
             let centre = motion.centre();
-            // The velocity in the middle; the acceleration displaces the centre from that by an eighth at most.
+            // Uses the velocity at the midpoint. The centre deviates from that motion by at most an eighth of the
+            // acceleration times the squared duration.
             let velocity = motion.velocity() + 0.5 * share * acceleration;
             let curved = 0.125 * share * share * acceleration.length();
             let reach = body.bounding_radius() + centre.length();
-            // Once for the motion that is near, once for its start at the pose of the body.
+            // Twice for the approximation over the step, and once for its start at the exact pose.
             let bounds = [
                 near.deviation_bound,
                 near.deviation_bound,
@@ -47,7 +49,7 @@ impl ConstantStep {
                     .iter()
                     .sum::<f64>();
             let deviation = deviation * (1.0 + 1e-12);
-            // Written so that NaN is too much.
+            // Written so that a NaN deviation is too large.
             if deviation <= max_deviation {
                 let [velocity, spin] = [velocity, motion.spin()].map(|rate| rate / length);
                 return Ok(Some(ConstantStep {

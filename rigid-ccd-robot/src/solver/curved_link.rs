@@ -6,7 +6,7 @@ use rigid_ccd::InputError;
 use rigid_ccd::trajectory::{Stretch, Trajectory};
 use smallvec::SmallVec;
 
-/// The number of joints of a chain up to which a stretch allocates nothing.
+/// Up to this number of joints in a chain, evaluating a trajectory allocates no memory.
 const INLINE_JOINT_COUNT: usize = 24;
 
 /// A section of one segment of a path.
@@ -24,9 +24,9 @@ impl PathSection<'_> {
     }
 }
 
-/// The trajectory by which a link moves in a section of a path, which takes one unit of time.
+/// The trajectory of a link over a section of a path, which takes one unit of time.
 ///
-/// Between two times it is that of joints at constant rates, and a bound of how far each joint is from these.
+/// Between two times it is approximated by joints at constant rates, with bounds of the joints' deviations.
 pub(crate) struct CurvedLink<'a> {
     pub(crate) pair_chain: &'a PairChain,
     pub(crate) section: PathSection<'a>,
@@ -35,14 +35,14 @@ pub(crate) struct CurvedLink<'a> {
 impl Trajectory for CurvedLink<'_> {
     fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let PathSection { path, segment, .. } = self.section;
-        // A late segment has a large number, by which a share is not to be rounded.
+        // Subtracts the segment's index first, so that a share of a late segment is not rounded more.
         let [start, end] = self.section.ends().map(|at| at - segment as f64);
         let ends = [from, to].map(|time| start + time * (end - start));
         let positions = |share| self.values(|joint| path.position(segment, share, joint));
         let [first, last] = ends.map(positions);
         let deviations = self.values(|joint| path.chord_deviation_bound(segment, ends, joint));
         let time = to - from;
-        // A stretch of no length has no rates.
+        // An empty interval has no rates.
         let duration = if time > 0.0 { time } else { 1.0 };
         let chain = &self.pair_chain.chain;
         let link = chain.link(first.len(), &first, &last, duration)?;
@@ -52,9 +52,9 @@ impl Trajectory for CurvedLink<'_> {
 }
 
 impl CurvedLink<'_> {
-    /// Returns a value for each joint of the chain, by a function for those that move; fixed joints have 0.
+    /// Returns a value for each joint of the chain: that of `of_moving` for moving joints, 0 for fixed joints.
     fn values(&self, of_moving: impl Fn(usize) -> f64) -> SmallVec<[f64; INLINE_JOINT_COUNT]> {
-        let joints = self.pair_chain.moving_joint_numbers.iter();
+        let joints = self.pair_chain.moving_joint_indices.iter();
         joints.map(|joint| joint.map_or(0.0, &of_moving)).collect()
     }
 }

@@ -1,24 +1,25 @@
-//! Bounds of the displacements of all parts over a stretch of an edge.
+//! Bounds the displacements of all parts over an interval of a path.
 //!
-//! A part moves with the joints between it and the base. Let a point be displaced by some vector as the frame after a
-//! joint sees it. The frame before the joint sees that vector turned, and in addition the displacement of the point's
-//! place in the middle of the stretch by the joint alone: a chord about the joint's axis, or a distance along it. Only
-//! distances from axes in the middle of the stretch are needed.
+//! The joints between the base and a part move it. Consider a point of the part and its displacement relative to the
+//! frame after a joint. Relative to the frame before the joint, this vector is rotated, and the displacement by the
+//! joint itself is added: a chord about a revolute axis, or a distance along a prismatic axis, starting at the point's
+//! position at the interval's midpoint. So a bound only needs distances from joint axes at the midpoint.
 
 use crate::cell::part::HullPart;
 use crate::kinematics::Kinematics;
 use rigid_ccd::oracle::Frame;
 
-/// The factor by which bounds are raised, to allow for rounding. A bound takes a few sums and products for each joint;
-/// the factor suffices for some thousands of joints.
+/// Enlarges bounds to allow for rounding. A bound takes a few sums and products for each joint; the factor suffices
+/// for thousands of joints.
 pub(crate) const ROUNDING_FACTOR: f64 = 1.0 + 1e-11;
 
-/// For each part and each joint that moves it, a bound of its displacement as the frame before that joint sees it.
+/// For each part, and for each joint between the part and the base, an upper bound of the part's displacement relative
+/// to the frame before the joint.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DisplacementBounds {
-    /// The joints that move each part, from the nearest one to the one at the base.
+    /// For each part, the joints between it and the base, the nearest to the part first.
     joints: Vec<usize>,
-    /// For each part, the start of its joints.
+    /// For each part, the index of its first joint in `joints`.
     joint_start_by_part: Vec<usize>,
     bounds: Vec<f64>,
 }
@@ -39,9 +40,9 @@ impl DisplacementBounds {
         all
     }
 
-    /// Returns the place of the bound for a part as a frame sees it that is nearer to the base; `None` for the part's own
-    /// frame.
-    pub(crate) fn slot(
+    /// Returns the index of the bound of a part's displacement relative to an ancestor frame; `None` for the part's
+    /// own frame.
+    pub(crate) fn bound_index_seen_from(
         &self,
         kinematics: &Kinematics,
         part: usize,
@@ -56,20 +57,20 @@ impl DisplacementBounds {
         Some((self.joint_start_by_part[part] + step) as u32)
     }
 
-    /// Returns the place of the bound for a part as the base sees it; `None` for a part that rests there.
+    /// Returns the index of the bound of a part's displacement relative to the base; `None` for a static part.
     pub(crate) fn bound_index_seen_from_base(&self, part: usize) -> Option<u32> {
         let range = self.joint_start_by_part[part]..self.joint_start_by_part[part + 1];
         (!range.is_empty()).then(|| range.end as u32 - 1)
     }
 
-    /// Returns the bound at a place; 0 without one.
-    pub(crate) fn bound(&self, slot: Option<u32>) -> f64 {
-        slot.map_or(0.0, |slot| self.bounds[slot as usize])
+    /// Returns the bound at an index; 0 for `None`.
+    pub(crate) fn bound(&self, index: Option<u32>) -> f64 {
+        index.map_or(0.0, |index| self.bounds[index as usize])
     }
 
-    /// Computes the bounds for a stretch in whose middle the frames are placed. There and at any other point of the stretch
-    /// the positions of the joints differ by at most `deviations`. Errors of the frames move points by at most `rounding`.
-    /// The centre, the joint's origin and its axis have such an error each.
+    /// Computes the bounds for an interval, given the frames at its midpoint. Within the interval, joint positions
+    /// deviate from the midpoint by at most `deviations`. Points computed with the frames have errors of at most
+    /// `rounding`; this applies to the part's centre, to the joint's origin and to its axis.
     #[inline(always)]
     pub(crate) fn update(
         &mut self,
@@ -82,31 +83,31 @@ impl DisplacementBounds {
         for (part, bounds) in parts.iter().zip(self.joint_start_by_part.windows(2)) {
             let centre = frames[part.frame].transform_point(part.centre);
             let mut displacement = 0.0;
-            for slot in bounds[0]..bounds[1] {
-                let number = self.joints[slot];
-                let joint = &kinematics.joints()[number];
+            for index in bounds[0]..bounds[1] {
+                let joint_index = self.joints[index];
+                let joint = &kinematics.joints()[joint_index];
                 displacement += if joint.is_prismatic {
-                    deviations[number]
+                    deviations[joint_index]
                 } else {
                     let axis = frames[joint.parent].rotation * joint.axis;
-                    let arm = centre - frames[number + 1].translation;
+                    let arm = centre - frames[joint_index + 1].translation;
                     let distance = axis.cross(arm).length() + part.ball_radius + 3.0 * rounding;
-                    chord_upper_bound(deviations[number]) * distance
+                    chord_upper_bound(deviations[joint_index]) * distance
                 };
-                self.bounds[slot] = displacement * ROUNDING_FACTOR;
+                self.bounds[index] = displacement * ROUNDING_FACTOR;
             }
         }
     }
 }
 
-/// Returns an upper bound of the chord of an angle on the unit circle: `2 sin(angle/2)`, and 2 beyond half a turn.
+/// Returns an upper bound of the chord of an angle on the unit circle: `2 sin(angle/2)`, or 2 for large angles.
 #[inline(always)]
 pub(crate) fn chord_upper_bound(angle: f64) -> f64 {
-    // Written so that NaN stays.
+    // Written so that a NaN is returned.
     if angle >= 3.0 {
         return 2.0;
     }
-    // The Taylor series alternates, and is exceeded after a positive term.
+    // The Taylor series alternates, so a partial sum that ends with a positive term is an upper bound.
     let square = angle * angle;
     angle * (1.0 - square * (1.0 / 24.0 - square * (1.0 / 1920.0)))
 }

@@ -1,35 +1,36 @@
-//! The least distance over each of many ranges of a path.
+//! Computes the least distance over each of many ranges of a path.
 
 use super::{CellSolver, Goal};
 use crate::error::PathError;
 use crate::path::Path;
-use crate::path::stretch::Stretch;
+use crate::path::interval::PathInterval;
 use crate::path_answer::PathOutcome;
 use crate::path_point::PathPoint;
 
-/// Bounds of the least distance in a range of a path.
+/// Bounds of the least distance over a range of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistanceRange<'c> {
     /// The start of the range.
     pub from: PathPoint,
-    /// The end of the range, where the next one starts.
+    /// The end of the range, where the next range starts.
     pub to: PathPoint,
-    /// How near any pair that is checked comes to touching in the range.
+    /// The least distance of any checked pair in the range.
     pub closest: PathOutcome<'c>,
 }
 
-/// The greatest number of ranges.
+/// The largest number of ranges.
 const MAX_RANGE_COUNT: f64 = 1e6;
 
 impl<'c> CellSolver<'c> {
-    /// Divides each segment of a path into 2^`halvings` equal ranges, and returns how near any pair comes to touching in each. The
-    /// lower bounds together are a curve that the distance is never below. A robot at rest, in one configuration, has one range.
+    /// Divides each segment of a path into 2^`halvings` equal ranges, and returns the least distance of any checked
+    /// pair in each. The lower bounds form a step function below the distance along the path. A path of one
+    /// configuration has one range.
     ///
     /// # Guarantee
-    /// As of [`closest_approach`](Self::closest_approach), for each range. A deadline is for all ranges together.
+    /// For each range that of [`closest_approach`](Self::closest_approach). A deadline applies to all ranges together.
     ///
     /// # Errors
-    /// [`PathError`]; more than a million ranges are refused.
+    /// [`PathError`], also for more than a million ranges.
     pub fn distance_curve<P: Path + ?Sized>(
         &mut self,
         path: &P,
@@ -45,40 +46,40 @@ impl<'c> CellSolver<'c> {
                 allowed: "at most a million",
             });
         }
-        let whole = self.search.whole_path_stretch();
+        let whole = self.search.whole_path_interval();
         if segments == 0 {
             return Ok(vec![self.distance_range(whole)?]);
         }
-        let mut stretches = Vec::new();
+        let mut intervals = Vec::new();
         for segment in 0..segments {
             let (from, to) = (segment as f64, (segment + 1) as f64);
-            push_halves(Stretch { from, to, ..whole }, halvings, &mut stretches);
+            push_halves(PathInterval { from, to, ..whole }, halvings, &mut intervals);
         }
-        let ranges = stretches
+        let ranges = intervals
             .into_iter()
-            .map(|stretch| self.distance_range(stretch));
+            .map(|interval| self.distance_range(interval));
         ranges.collect()
     }
 
-    fn distance_range(&mut self, stretch: Stretch) -> Result<DistanceRange<'c>, PathError> {
-        self.search.answer_question(Goal::LeastDistance, stretch)?;
+    fn distance_range(&mut self, interval: PathInterval) -> Result<DistanceRange<'c>, PathError> {
+        self.search.answer_question(Goal::LeastDistance, interval)?;
         let segments = self.search.segment_count();
         Ok(DistanceRange {
-            from: PathPoint::from_path_position(stretch.from, segments),
-            to: PathPoint::from_path_position(stretch.to, segments),
+            from: PathPoint::from_path_position(interval.from, segments),
+            to: PathPoint::from_path_position(interval.to, segments),
             closest: self.measured_distance()?,
         })
     }
 }
 
-/// Appends the parts of a stretch that is halved a number of times, in their order.
-fn push_halves(stretch: Stretch, halvings: u32, stretches: &mut Vec<Stretch>) {
+/// Appends the parts of an interval after repeated halving, in order.
+fn push_halves(interval: PathInterval, halvings: u32, intervals: &mut Vec<PathInterval>) {
     if halvings == 0 {
-        stretches.push(stretch);
+        intervals.push(interval);
         return;
     }
-    for half in stretch.halves() {
-        push_halves(half, halvings - 1, stretches);
+    for half in interval.halves() {
+        push_halves(half, halvings - 1, intervals);
     }
 }
 

@@ -1,4 +1,4 @@
-//! Pairs of bodies as the engine takes them: a body with the trajectory of its link, against another one at rest.
+//! Presents a pair of bodies to the engine: one body moves on its link's trajectory, the other one is static.
 
 use super::Goal;
 use super::curved_link::{CurvedLink, PathSection};
@@ -8,12 +8,13 @@ use rigid_ccd::trajectory::{MovingBody, Trajectory};
 use rigid_ccd::{Answer, Body, Error, Motion, Pose, Solver};
 use std::collections::HashMap;
 
-/// The chains of joints by which one body moves as another one sees it. Each is made when it is needed first.
+/// The joint chains that move one body relative to another, cached by pair.
 pub(crate) struct PairChains<'c> {
     cell: &'c Cell,
     chains: HashMap<[usize; 2], PairChain>,
-    /// The positions of all joints at one end of a section, and those of a chain's joints at both.
+    /// Scratch memory: the positions of all joints at one end of a section.
     positions: Vec<f64>,
+    /// Scratch memory: the positions of a chain's joints at both ends of a section.
     ends: [Vec<f64>; 2],
 }
 
@@ -27,29 +28,29 @@ impl<'c> PairChains<'c> {
         }
     }
 
-    /// Makes the chains of all pairs that are compared.
+    /// Creates the chains of all checked pairs.
     pub(crate) fn prepare(&mut self) {
         for (pair, _) in self.cell.compared_pairs(0.0) {
             chain(&mut self.chains, self.cell, pair);
         }
     }
 
-    /// Asks a question about two bodies in a section of a path, which takes one unit of time.
-    pub(crate) fn ask(
+    /// Asks a question about two bodies over a section of a path, which takes one unit of time.
+    pub(crate) fn query(
         &mut self,
         solver: &mut Solver,
         goal: Goal,
         pair: [usize; 2],
         section: &PathSection<'_>,
     ) -> Result<Answer, Error> {
-        self.with_link(solver, pair, section, |solver, link, a, b| {
-            ask_solver(solver, goal, (a, link), b)
+        self.with_trajectory(solver, pair, section, |solver, link, a, b| {
+            query_solver(solver, goal, (a, link), b)
         })
     }
 
-    /// Calls a function with the first body of a pair and the trajectory by which it moves in a section of a path, and with the
-    /// second one at rest. The section takes one unit of time.
-    pub(crate) fn with_link<T>(
+    /// Calls a function with the first body and its trajectory over a section of a path, and with the static second
+    /// body. The section takes one unit of time.
+    pub(crate) fn with_trajectory<T>(
         &mut self,
         solver: &mut Solver,
         pair: [usize; 2],
@@ -68,7 +69,7 @@ impl<'c> PairChains<'c> {
         for (at, in_chain) in section.ends().into_iter().zip(&mut self.ends) {
             let path = section.path;
             path.interpolate_in_segment(section.segment, at, &mut self.positions);
-            let joints = own.moving_joint_numbers.iter();
+            let joints = own.moving_joint_indices.iter();
             in_chain.clear();
             in_chain.extend(joints.map(|joint| joint.map_or(0.0, |joint| self.positions[joint])));
         }
@@ -77,32 +78,32 @@ impl<'c> PairChains<'c> {
         then(solver, &link, a, b)
     }
 
-    /// Returns the first body of a pair, and the second one as the first one's chain has it at rest.
+    /// Returns the first body of a pair, and the second body at its static pose in the frame of the first one's chain.
     pub(crate) fn bodies(&self, [a, b]: [usize; 2]) -> (&'c Body, (&'c Body, Motion)) {
         let (cell, bodies) = (self.cell, self.cell.bodies());
-        let rests = Motion::still(if b >= cell.robot_body_count() {
+        let static_pose = Motion::still(if b >= cell.robot_body_count() {
             bodies[b].pose
         } else {
             Pose::IDENTITY
         });
-        (&bodies[a].body, (&bodies[b].body, rests))
+        (&bodies[a].body, (&bodies[b].body, static_pose))
     }
 }
 
-/// Returns the chain of a pair, which is made when it is needed first.
+/// Returns the chain of a pair, creating it on first use.
 fn chain<'m>(
     chains: &'m mut HashMap<[usize; 2], PairChain>,
     cell: &Cell,
     [a, b]: [usize; 2],
 ) -> &'m PairChain {
     let is_obstacle = b >= cell.robot_body_count();
-    // All obstacles see a body move by the same chain.
+    // A body has the same chain relative to all obstacles.
     let key = if is_obstacle { [a, usize::MAX] } else { [a, b] };
     let make = || pair_chain(cell, a, (!is_obstacle).then_some(b));
     chains.entry(key).or_insert_with(make)
 }
 
-fn ask_solver<'b>(
+fn query_solver<'b>(
     solver: &mut Solver,
     goal: Goal,
     a: impl Into<MovingBody<'b>> + Copy,

@@ -1,6 +1,6 @@
-//! The limits that end a search: its work, a time, and the flag that stops it.
+//! The limits of a search: its work, its deadline and its stop flag.
 
-use crate::path::stretch::Stretch;
+use crate::path::interval::PathInterval;
 use crate::tuning::BUDGETS_PER_SEGMENT;
 use rigid_ccd::Settings;
 use rigid_ccd::answer::Limit;
@@ -8,17 +8,17 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// The work that is left for a search, the time after which it ends, and the flag by which another thread stops it.
+/// The remaining work of a search, its deadline, and the flag with which another thread stops it.
 #[derive(Clone, Debug)]
 pub(crate) struct StopCondition {
     /// The budget of a query of two bodies.
     budget: u64,
-    /// The largest amount of work for all pairs together, in units of the budget.
-    most_work: u64,
-    /// The work of all pairs so far.
+    /// The limit of `work` for the current search.
+    max_work: u64,
+    /// The work of the current search so far.
     work: u64,
-    /// The work that was left for this search and those that follow, of a question of many searches.
-    left_for_question: u64,
+    /// For a question of many searches, the work that is left for the current search and those that follow.
+    work_left_for_question: u64,
     end: Option<Instant>,
     stop: Option<Arc<AtomicBool>>,
 }
@@ -26,21 +26,21 @@ pub(crate) struct StopCondition {
 impl StopCondition {
     pub(crate) const NONE: StopCondition = StopCondition {
         budget: u64::MAX,
-        most_work: u64::MAX,
+        max_work: u64::MAX,
         work: 0,
-        left_for_question: u64::MAX,
+        work_left_for_question: u64::MAX,
         end: None,
         stop: None,
     };
 
-    /// Returns the limit of searches of a path whose time starts now.
+    /// Creates the limits of a path's searches. The time of the deadline starts now.
     pub(crate) fn starting_now(settings: &Settings) -> Self {
         StopCondition {
             budget: settings.budget,
-            most_work: settings.budget,
+            max_work: settings.budget,
             work: 0,
-            left_for_question: u64::MAX,
-            // A time beyond the end of the clock is none.
+            work_left_for_question: u64::MAX,
+            // A deadline beyond the range of the clock is no deadline.
             end: settings
                 .deadline
                 .and_then(|deadline| Instant::now().checked_add(deadline)),
@@ -48,59 +48,60 @@ impl StopCondition {
         }
     }
 
-    /// Allows work for all searches of a question about a stretch together: some budgets for each segment.
-    pub(crate) fn begin_searches(&mut self, stretch: &Stretch) {
-        self.left_for_question = self.most_work_in(stretch);
+    /// Sets the work limit of a question that takes many searches of an interval: some budgets for each segment.
+    pub(crate) fn begin_searches(&mut self, interval: &PathInterval) {
+        self.work_left_for_question = self.max_work_in(interval);
         self.work = 0;
     }
 
-    /// Allows new work for a search of a stretch: some budgets for each segment, or for a part of one, and no more than is left for
-    /// all searches.
-    pub(crate) fn begin_search(&mut self, stretch: &Stretch) {
-        self.left_for_question = self.left_for_question.saturating_sub(self.work);
-        self.most_work = self.most_work_in(stretch).min(self.left_for_question);
+    /// Sets the work limit of one search of an interval: some budgets for each segment, or what is left for the question
+    /// if that is less.
+    pub(crate) fn begin_search(&mut self, interval: &PathInterval) {
+        self.work_left_for_question = self.work_left_for_question.saturating_sub(self.work);
+        self.max_work = self.max_work_in(interval).min(self.work_left_for_question);
         self.work = 0;
     }
 
-    fn most_work_in(&self, stretch: &Stretch) -> u64 {
-        let segments = (stretch.to - stretch.from).ceil() as u64;
+    fn max_work_in(&self, interval: &PathInterval) -> u64 {
+        let segments = (interval.to - interval.from).ceil() as u64;
         let budgets = segments.max(1).saturating_mul(BUDGETS_PER_SEGMENT);
         self.budget.saturating_mul(budgets)
     }
 
-    /// Returns whether no further search can begin: all work is spent, the time is over, or the search is stopped.
-    pub(crate) fn ends_question(&self) -> bool {
-        self.work >= self.left_for_question || self.interruption().is_some()
+    /// Returns whether no further search may begin, because the work is used up, the deadline has passed or the flag
+    /// is set.
+    pub(crate) fn is_question_over(&self) -> bool {
+        self.work >= self.work_left_for_question || self.interruption().is_some()
     }
 
-    /// Counts work, in units of the budget.
+    /// Adds work, in units of the budget.
     pub(crate) fn add_work(&mut self, work: u64) {
         self.work = self.work.saturating_add(work);
     }
 
-    /// Returns the budget of a query of two bodies: no more than is left for all.
+    /// Returns the budget of the next query: that of the settings, but not more than is left.
     pub(crate) fn budget_of_query(&self) -> u64 {
         self.budget.min(self.work_left())
     }
 
     fn work_left(&self) -> u64 {
-        self.most_work.saturating_sub(self.work)
+        self.max_work.saturating_sub(self.work)
     }
 
-    /// Returns the work of the present search, in units of the budget.
+    /// Returns the work of the current search, in units of the budget.
     #[cfg(test)]
     pub(crate) fn work(&self) -> u64 {
         self.work
     }
 
-    /// Returns the limit that ends the search now; `None` if it goes on.
+    /// Returns the limit that ends the current search; `None` if it may continue.
     pub(crate) fn reached_limit(&self) -> Option<Limit> {
         let is_spent = self.work_left() == 0;
         self.interruption()
             .or_else(|| is_spent.then_some(Limit::Budget))
     }
 
-    /// Returns the limit that ends all searches of the path now, whatever their work.
+    /// Returns the deadline or stop that ends all searches of the path; `None` if they may continue.
     pub(crate) fn interruption(&self) -> Option<Limit> {
         if self.end.is_some_and(|end| Instant::now() >= end) {
             return Some(Limit::Deadline);
@@ -110,7 +111,7 @@ impl StopCondition {
         is_stopped.then_some(Limit::Stopped)
     }
 
-    /// Returns the time that is left.
+    /// Returns the time until the deadline.
     pub(crate) fn remaining(&self) -> Option<Duration> {
         self.end
             .map(|end| end.saturating_duration_since(Instant::now()))

@@ -1,4 +1,4 @@
-//! What the distance of two parts in the middle of a stretch proves.
+//! Distance tests of two parts at the midpoint of an interval, and what they prove for the whole interval.
 
 use super::part_pairs::PartPair;
 use super::placement::Placement;
@@ -9,27 +9,27 @@ use ccd_distance_gjk::{TerminationBounds, Vertex, bound_distance};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::oracle::Frame;
 
-/// The distances that decide about a pair, in the middle of a stretch.
+/// The distances that decide about a pair, at the midpoint of an interval.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Thresholds {
-    /// The pair is free if it stays farther apart than this over the whole stretch.
+    /// The pair is free if it stays farther apart than this over the whole interval.
     pub(crate) free_distance_threshold: f64,
-    /// The pair is near if its distance in the middle of the stretch is at most this.
+    /// The pair is near if its distance at the midpoint is at most this.
     pub(crate) near_distance: f64,
 }
 
-/// What the distance of a pair in the middle of a stretch proves.
+/// What a distance test proves about a pair.
 pub(crate) enum DistanceVerdict {
-    /// The pair stays farther apart than the threshold over the whole stretch.
+    /// The pair stays farther apart than the threshold over the whole interval.
     Free,
-    /// The hulls are near each other in the middle.
+    /// The hulls are near at the midpoint.
     Near,
-    /// Neither is known. The hulls are at most so far apart in the middle.
+    /// Neither is proven. Holds an upper bound of the distance at the midpoint.
     Undecided(f64),
 }
 
-/// Measures a pair, as exactly as the thresholds require. With `skips_far` a pair that moves far is not measured as long as
-/// its boxes are apart.
+/// Tests a pair, as accurately as the thresholds require. With `skips_far`, a pair with a large displacement is not
+/// measured while its bounding boxes are disjoint.
 #[inline(always)]
 pub(crate) fn measure(
     cell: &Cell,
@@ -79,7 +79,7 @@ pub(crate) fn measure(
     }
     pair.axis = bounds.axis;
     pair.distance_to_proof_ratio = (bounds.lower - radii) / required;
-    // The shapes that both bodies enclose may be farther apart.
+    // The shapes may be farther apart than the bodies that enclose them.
     let upper = bounds.upper - radii + rounding + a.excess_over_shape + b.excess_over_shape;
     if bounds.upper <= until.sufficient_upper_bound {
         DistanceVerdict::Near
@@ -88,15 +88,15 @@ pub(crate) fn measure(
     }
 }
 
-/// Returns a lower bound of the distance of a pair in the middle of a stretch by bounding volumes.
+/// Returns a lower bound of the distance of a pair at the midpoint, from bounding volumes.
 pub(crate) fn bounding_volume_gap(cell: &Cell, placement: &Placement, pair: &PartPair) -> f64 {
     let parts = [pair.a, pair.b].map(|part| &cell.parts()[part as usize]);
     let centres = parts.map(|part| placement.frames[part.frame].transform_point(part.centre));
     volume_gap_at_centres(parts, &placement.frames[parts[0].frame], centres)
 }
 
-/// Returns a lower bound of the distance by bounding volumes: boxes if the second part rests, the first one's box over a
-/// plane, balls if both move.
+/// Returns a lower bound of the distance from bounding volumes: from boxes if the second part is static, from the
+/// first part's box if the second part is a plane, and from balls if both move.
 #[inline(always)]
 fn volume_gap_at_centres([a, b]: [&HullPart; 2], frame_a: &Frame, centres: [DVec3; 2]) -> f64 {
     if let Some(plane) = &b.plane {
@@ -111,8 +111,8 @@ fn volume_gap_at_centres([a, b]: [&HullPart; 2], frame_a: &Frame, centres: [DVec
     }
 }
 
-/// Returns the first direction in which a pair is measured: to the nearest point of the box of a part that rests, or between
-/// centres.
+/// Returns the initial direction of a distance query: to the nearest point of the second part's box if that part is
+/// static, otherwise between the centres.
 #[inline(always)]
 pub(crate) fn initial_direction(b: &HullPart, [centre_a, centre_b]: [DVec3; 2]) -> DVec3 {
     if b.frame == 0 {
@@ -125,7 +125,7 @@ pub(crate) fn initial_direction(b: &HullPart, [centre_a, centre_b]: [DVec3; 2]) 
     centre_b - centre_a
 }
 
-/// Returns the vertex of the Minkowski difference of two hulls with the least height along a direction.
+/// Returns the vertex of the Minkowski difference `b - a` that is lowest along a direction.
 #[inline(always)]
 pub(crate) fn minkowski_support_vertex(
     [a, b]: [&HullPart; 2],

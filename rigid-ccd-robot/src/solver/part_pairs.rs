@@ -1,4 +1,4 @@
-//! Pairs of parts that may touch.
+//! The broad phase: candidate pairs of parts.
 
 use super::boxes::ObstacleBoxes;
 use super::displacement::DisplacementBounds;
@@ -7,81 +7,83 @@ use crate::cell::Cell;
 use crate::cell::part::HullPart;
 use rigid_ccd::glam::DVec3;
 
-/// A pair of parts that may touch in a stretch of the path, with what is known of it so far.
+/// A pair of parts that may touch in an interval, and results of earlier tests.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PartPair {
     pub(crate) a: u32,
     pub(crate) b: u32,
-    /// The places of the bounds of both parts' displacements, as seen from the nearest frame above both.
+    /// The indices of both parts' displacement bounds, relative to their nearest common ancestor frame.
     pub(crate) displacement_indices: [Option<u32>; 2],
     /// The distance at which the pair counts as touching.
     pub(crate) margin: f64,
-    /// The direction from A to B along which they were farthest apart so far; zero if there was none.
+    /// The direction from A to B of the best separation so far; zero if there was none.
     pub(crate) axis: DVec3,
-    /// The distance in the middle of the last stretch, as a share of what would prove it free.
+    /// The distance at the midpoint of the last interval, divided by the distance that would have proved the pair
+    /// free.
     pub(crate) distance_to_proof_ratio: f64,
 }
 
-/// All pairs of a cell's parts that are checked, and what finds those that come near each other.
+/// All checked pairs of a cell's parts, and the search for those that come near each other.
 pub(crate) struct PartPairs<'c> {
     cell: &'c Cell,
     obstacle_boxes: ObstacleBoxes,
     /// The pairs of the robot's own parts.
     self_pairs: Vec<PartPair>,
-    /// The margin of pairs without one of their own.
+    /// The margin of pairs without a clearance.
     margin: f64,
-    /// What is added to the margins of all pairs.
+    /// A distance that is added to the margins of all pairs.
     margin_increase: f64,
-    /// The largest margin of a pair of a part and an obstacle.
+    /// The largest margin of a pair with an obstacle.
     largest_obstacle_margin: f64,
 }
 
 impl PartPair {
-    /// Creates a pair of two of the robot's own parts, whose displacements are measured in the nearest frame that holds
-    /// both.
+    /// Creates a pair of two of the robot's own parts. Displacements are relative to their nearest common ancestor
+    /// frame.
     pub(crate) fn of_robot(
         cell: &Cell,
         displacements: &DisplacementBounds,
         parts: [usize; 2],
     ) -> Self {
         let kinematics = cell.kinematics();
-        // As with an obstacle, the part that rests comes second.
+        // A static part comes second, as an obstacle does.
         let [a, b] = parts;
-        let rests = |part: usize| cell.parts()[part].frame == 0;
-        let parts = if rests(a) { [b, a] } else { [a, b] };
+        let is_static = |part: usize| cell.parts()[part].frame == 0;
+        let parts = if is_static(a) { [b, a] } else { [a, b] };
         let frame = kinematics.common_frame(parts.map(|part| cell.parts()[part].frame));
-        let slots = parts.map(|part| displacements.slot(kinematics, part, frame));
-        PartPair::new(parts, slots, 0.0)
+        let indices =
+            parts.map(|part| displacements.bound_index_seen_from(kinematics, part, frame));
+        PartPair::new(parts, indices, 0.0)
     }
 
-    fn new([a, b]: [usize; 2], slots: [Option<u32>; 2], margin: f64) -> Self {
+    fn new([a, b]: [usize; 2], indices: [Option<u32>; 2], margin: f64) -> Self {
         PartPair {
             a: a as u32,
             b: b as u32,
-            displacement_indices: slots,
+            displacement_indices: indices,
             margin,
             axis: DVec3::ZERO,
             distance_to_proof_ratio: 0.0,
         }
     }
 
-    /// Returns a bound of how far both parts move from the middle of the stretch, as seen from the nearest frame above both.
+    /// Returns an upper bound of the relative displacement of both parts from the interval's midpoint.
     #[inline(always)]
     pub(crate) fn displacement(&self, placement: &Placement) -> f64 {
         let [a, b] = self
             .displacement_indices
-            .map(|slot| placement.displacement_bounds.bound(slot));
+            .map(|index| placement.displacement_bounds.bound(index));
         a + b
     }
 
-    /// Returns whether both parts are the bodies themselves.
+    /// Returns whether both parts are exactly their bodies.
     pub(crate) fn is_convex(&self, parts: &[HullPart]) -> bool {
         let mut both = [self.a, self.b].into_iter();
         both.all(|part| parts[part as usize].is_convex)
     }
 
-    /// Returns the numbers in the cell of the bodies to which the parts belong.
-    pub(crate) fn body_numbers(&self, parts: &[HullPart]) -> [usize; 2] {
+    /// Returns the indices in the cell of the bodies that the parts belong to.
+    pub(crate) fn body_indices(&self, parts: &[HullPart]) -> [usize; 2] {
         [self.a, self.b].map(|part| parts[part as usize].owner)
     }
 }
@@ -103,25 +105,25 @@ impl<'c> PartPairs<'c> {
         pairs
     }
 
-    /// Returns the number of all pairs.
+    /// Returns the number of all pairs, checked or not.
     pub(crate) fn count(&self) -> usize {
         let robot_parts = self.cell.robot_part_count();
         self.self_pairs.len() + robot_parts * (self.cell.parts().len() - robot_parts)
     }
 
-    /// Sets the margin of all pairs that have none of their own.
+    /// Sets the margin of pairs without a clearance.
     pub(crate) fn set_margin(&mut self, margin: f64) {
         self.margin = margin;
         self.update_margins();
     }
 
-    /// Sets the distance that is added to the margins of all pairs; it replaces the previous one.
+    /// Sets the distance that is added to the margins of all pairs, replacing the previous one.
     pub(crate) fn set_margin_increase(&mut self, growth: f64) {
         self.margin_increase = growth;
         self.update_margins();
     }
 
-    /// Returns by how much the margins of all pairs are increased at present, to allow for errors of poses.
+    /// Returns the distance that is added to the margins of all pairs, an allowance for pose errors.
     pub(crate) fn margin_increase(&self) -> f64 {
         self.margin_increase
     }
@@ -130,11 +132,12 @@ impl<'c> PartPairs<'c> {
         let (cell, margin, growth) = (self.cell, self.margin, self.margin_increase);
         self.largest_obstacle_margin = cell.largest_obstacle_margin(margin) + growth;
         for pair in &mut self.self_pairs {
-            pair.margin = cell.margin(pair.body_numbers(cell.parts()), margin) + growth;
+            pair.margin = cell.margin(pair.body_indices(cell.parts()), margin) + growth;
         }
     }
 
-    /// Appends all pairs whose bounding boxes may come within their margins and `allowance` in the stretch that is placed.
+    /// Appends the pairs whose bounding boxes may come within margin + `allowance` in the current interval, and all
+    /// pairs of the robot's own parts.
     #[inline(always)]
     pub(crate) fn append_candidates(
         &self,
@@ -148,8 +151,8 @@ impl<'c> PartPairs<'c> {
             if part.frame == 0 {
                 continue;
             }
-            let slot = placement.displacement_bounds.bound_index_seen_from_base(a);
-            let displacement = placement.displacement_bounds.bound(slot);
+            let index = placement.displacement_bounds.bound_index_seen_from_base(a);
+            let displacement = placement.displacement_bounds.bound(index);
             let frame = &placement.frames[part.frame];
             let growth = displacement + self.largest_obstacle_margin + allowance;
             let extents = part.box_half_extents(frame) + DVec3::splat(growth);
@@ -162,13 +165,13 @@ impl<'c> PartPairs<'c> {
                         return;
                     }
                     let margin = cell.margin(bodies, self.margin) + self.margin_increase;
-                    pairs.push(PartPair::new([a, b], [slot, None], margin));
+                    pairs.push(PartPair::new([a, b], [index, None], margin));
                 });
         }
         pairs.extend_from_slice(&self.self_pairs);
     }
 
-    /// Appends all pairs of parts of two bodies, with a margin of their own.
+    /// Appends all pairs of parts of two bodies, with the given margin.
     pub(crate) fn append_pairs_of_bodies(
         &self,
         placement: &Placement,
@@ -178,7 +181,7 @@ impl<'c> PartPairs<'c> {
     ) {
         let (cell, parts) = (self.cell, self.cell.parts());
         let of_robot = self.self_pairs.iter();
-        let of_robot = of_robot.filter(|pair| pair.body_numbers(parts) == bodies);
+        let of_robot = of_robot.filter(|pair| pair.body_indices(parts) == bodies);
         pairs.extend(of_robot.map(|pair| PartPair { margin, ..*pair }));
         if bodies[1] < cell.robot_body_count() {
             return;
@@ -188,14 +191,14 @@ impl<'c> PartPairs<'c> {
             first..parts.partition_point(|part| part.owner <= body)
         };
         for a in parts_of(bodies[0]) {
-            let slot = placement.displacement_bounds.bound_index_seen_from_base(a);
+            let index = placement.displacement_bounds.bound_index_seen_from_base(a);
             let with_obstacle = parts_of(bodies[1]);
-            pairs.extend(with_obstacle.map(|b| PartPair::new([a, b], [slot, None], margin)));
+            pairs.extend(with_obstacle.map(|b| PartPair::new([a, b], [index, None], margin)));
         }
     }
 }
 
-/// Sorts pairs by their share, that of the nearest first.
+/// Sorts pairs by their distance ratios, the nearest first.
 pub(crate) fn sort_by_proof_distance(pairs: &mut [PartPair]) {
     pairs.sort_unstable_by(|a, b| {
         a.distance_to_proof_ratio

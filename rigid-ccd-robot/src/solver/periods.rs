@@ -1,10 +1,11 @@
-//! Periods of straight segments in which joints turn many times.
+//! Finds periods of segments in which joints make many turns.
 //!
-//! Between two configurations a joint turns at a constant rate `Δ`, by the share of the segment. After a share `p` it has its
-//! former angle, but for `ε = |p Δ − 2π n|` with the nearest whole number of turns `n`; after `k` such shares, but for `k ε`. If
-//! that is so for all joints between two links, no point of one link is displaced by more than `Σ k ε ρ`, as the other one sees
-//! it, with `ρ` its largest distance from a joint's axis. What a pair keeps in one period, less this drift, it keeps in all of them.
-//! One period of the pair is searched then, and the rest of the segment is left out.
+//! In a segment at constant rates, let a joint turn by the angle `Δ`. After the fraction `p` of the segment it has
+//! nearly its former angle, up to `ε = |p Δ − 2π n|` for the nearest integer `n`; after `k` periods, up to `k ε`. Let
+//! this hold for all joints between two links. Then no point of one link is displaced by more than `Σ k ε ρ` relative
+//! to the other link, where `ρ` is the point's largest distance from a joint's axis. So a distance that a pair keeps
+//! in one period, it keeps in all periods up to this drift. The search then examines only one period of the pair and
+//! skips the rest of the segment.
 
 use crate::cell::rounding::U;
 use crate::kinematics::Kinematics;
@@ -13,37 +14,38 @@ use crate::tuning::MAX_TURNS_IN_PERIOD;
 use ccd_core::order::lesser;
 use std::f64::consts::TAU;
 
-/// The number of turns in a segment from which on its periods are computed.
+/// The number of turns of a joint in a segment from which periods are searched.
 const LEAST_TURNS: f64 = 2.0;
 
-/// A period of a pair of frames in a segment.
+/// A period of the relative motion of two frames in a segment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Period {
-    /// The length as a share of the segment, rounded up.
+    /// The length as a fraction of the segment, rounded up.
     pub(crate) length: f64,
-    /// A bound of how much distances of one period differ from those at the same phase of another one.
+    /// An upper bound of the change of a distance between points of the same phase in two periods.
     pub(crate) drift: f64,
 }
 
-/// The periods of all pairs of frames, in the segments of a path in which joints turn many times.
+/// The periods of all pairs of frames, for segments in which joints make many turns.
 #[derive(Debug, Default)]
 pub(crate) struct Periods {
     frame_count: usize,
-    /// For each segment the index of its first period; `None` for a segment without periods. Empty for a path without periods.
+    /// For each segment, the index of its first period; `None` for a segment without periods. Empty if the path has
+    /// none.
     first_by_segment: Vec<Option<usize>>,
-    /// For each pair of frames in such a segment its period, if it has one.
+    /// For each such segment and each pair of frames, their period if there is one.
     periods: Vec<Option<Period>>,
 }
 
-/// What the drift of a period is made of, and how much of it is allowed.
+/// Inputs of the drift of a period, and its limit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DriftLimit {
-    /// A bound of the distance of any point from any joint's axis.
+    /// An upper bound of the distance of any point from any joint axis.
     pub(crate) largest_arm: f64,
-    /// The error of positions, of which two phases have one each.
+    /// The rounding error of points. Each of two phases has one.
     pub(crate) rounding: f64,
-    /// The largest drift of a period that is of use.
-    pub(crate) most: f64,
+    /// The largest acceptable drift.
+    pub(crate) max_drift: f64,
 }
 
 impl Periods {
@@ -82,7 +84,7 @@ impl Periods {
         self.first_by_segment.is_empty()
     }
 
-    /// Returns the period of two frames in a segment, if there is one.
+    /// Returns the period of two frames in a segment; `None` if there is none.
     pub(crate) fn period(&self, segment: usize, [a, b]: [usize; 2]) -> Option<Period> {
         let first = (*self.first_by_segment.get(segment)?)?;
         self.periods[first + a * self.frame_count + b]
@@ -94,7 +96,7 @@ fn turns_often(kinematics: &Kinematics, changes: &[f64]) -> bool {
     joints.any(|(joint, change)| !joint.is_prismatic && change.abs() >= LEAST_TURNS * TAU)
 }
 
-/// Returns the shortest period of two frames that drifts by no more than the limit, and fits twice into the segment.
+/// Returns the shortest period of two frames whose drift is within the limit, and that fits into the segment twice.
 fn period(
     kinematics: &Kinematics,
     changes: &[f64],
@@ -114,7 +116,7 @@ fn period(
     }
     let turns = 1..=MAX_TURNS_IN_PERIOD;
     let lengths = turns.map(|turns| f64::from(turns) * TAU / slowest);
-    // Written so that NaN is no period. Frames that do not move have the length 0.
+    // Written so that NaN is not a length. Frames that do not move have a length of 0.
     let lengths = lengths.take_while(|&length| length > 0.0 && length <= 0.5);
     let with_drift = |length: f64| {
         let joints = kinematics.joints_between(frames);
@@ -128,11 +130,11 @@ fn period(
         }
     };
     let mut periods = lengths.map(with_drift);
-    periods.find(|period| period.drift <= limit.most)
+    periods.find(|period| period.drift <= limit.max_drift)
 }
 
-/// Bounds how far an angle is from a whole number of turns. The angle is a product of a change and a share; it and the whole
-/// number times 2π are rounded thrice each.
+/// Bounds the distance of an angle from a whole number of turns. The angle is the product of a change and a fraction;
+/// the angle and the multiple of 2π have three rounding errors each.
 fn phase_drift(angle: f64) -> f64 {
     (angle - TAU * (angle / TAU).round()).abs() + 8.0 * U * angle.abs()
 }

@@ -1,20 +1,19 @@
-//! A stretch of a path as the search sees it: the frames of all links in its middle, and how far parts move from there.
+//! The link frames at the midpoint of an interval, and bounds of how far parts move within it.
 
 use super::displacement::DisplacementBounds;
 use crate::cell::Cell;
 use crate::cell::rounding::point_error_bound;
+use crate::path::interval::PathInterval;
 use crate::path::joint_path::JointPath;
-use crate::path::stretch::Stretch;
 use rigid_ccd::glam::DQuat;
 use rigid_ccd::oracle::Frame;
 use rigid_ccd::{Body, Error, Pose};
 
-/// The frames of all links in the middle of a stretch of the path, and bounds of how far parts move from there within the
-/// stretch.
+/// The frames of all links at the midpoint of the current interval, and displacement bounds of all parts within it.
 pub(crate) struct Placement {
     pub(crate) frames: Vec<Frame>,
     pub(crate) displacement_bounds: DisplacementBounds,
-    /// The largest error of a point that is computed with the frames.
+    /// An upper bound of the error of a point that is computed with the frames.
     pub(crate) rounding: f64,
     positions: Vec<f64>,
     max_deviation_by_joint: Vec<f64>,
@@ -31,31 +30,32 @@ impl Placement {
         }
     }
 
-    /// Prepares for the stretches of a path.
+    /// Sets the path. Must be called before its intervals are placed.
     pub(crate) fn begin(&mut self, cell: &Cell, path: &JointPath) {
         self.rounding = point_error_bound(cell.kinematics(), cell.parts(), path.magnitudes());
     }
 
-    /// Computes the frames in the middle of a stretch, and the bounds of displacements.
+    /// Computes the frames at the midpoint of an interval, and the displacement bounds.
     #[inline(always)]
-    pub(crate) fn place(&mut self, cell: &Cell, path: &JointPath, stretch: &Stretch) {
-        self.place_frames(cell, path, stretch.middle());
+    pub(crate) fn place(&mut self, cell: &Cell, path: &JointPath, interval: &PathInterval) {
+        self.place_frames(cell, path, interval.middle());
         path.max_joint_deviations_from_middle(
-            stretch,
+            interval,
             &self.positions,
             &mut self.max_deviation_by_joint,
         );
         self.update_displacements(cell);
     }
 
-    /// Returns whether a joint moves in the stretch that is placed.
+    /// Returns whether any joint moves in the current interval.
     pub(crate) fn moves(&self) -> bool {
         self.max_deviation_by_joint
             .iter()
             .any(|&deviation| deviation != 0.0)
     }
 
-    /// Computes the frames after some joints at a configuration, as the frame `seen_from` sees them. No displacements are computed.
+    /// Computes the frames after some joints at a configuration, relative to the frame `seen_from`. Computes no
+    /// displacement bounds.
     pub(crate) fn place_joints(
         &mut self,
         cell: &Cell,
@@ -85,13 +85,9 @@ impl Placement {
         cell.kinematics().place(positions, &mut self.frames);
     }
 
-    /// Returns a body of the cell at its pose in the base. The rotation of its frame is rounded to a unit quaternion.
-    pub(crate) fn body<'c>(
-        &self,
-        cell: &'c Cell,
-        number: usize,
-    ) -> Result<(&'c Body, Pose), Error> {
-        let placed = &cell.bodies()[number];
+    /// Returns a body with its pose in the base. The rotation of its frame is rounded to a unit quaternion.
+    pub(crate) fn body<'c>(&self, cell: &'c Cell, index: usize) -> Result<(&'c Body, Pose), Error> {
+        let placed = &cell.bodies()[index];
         let frame = &self.frames[placed.frame];
         let rotation = DQuat::from_mat3(&frame.rotation).normalize();
         let pose = Pose::new(frame.translation, rotation)?;

@@ -1,29 +1,30 @@
-//! The search along a path: whether anything touches, when first, or how near anything comes.
+//! Searches a path: for any contact, the first contact or the least distance.
 //!
-//! The middle of a stretch comes first: the frames of all links there, and a bound of how far each part moves from there
-//! within the stretch. A pair whose distance in the middle exceeds that is free over the whole stretch. For the others the
-//! stretch is halved. What is still open after a few halvings goes to the engine, pair by pair.
+//! At the midpoint of an interval the search computes the frames of all links, a displacement bound of each part, and
+//! the distance of each candidate pair. If the distance exceeds the displacements, the pair is free over the whole
+//! interval. The interval is halved for the remaining candidates. Candidates that a few halvings do not decide are
+//! left to the engine, pair by pair.
 
 mod start;
 
 use super::Goal;
+use super::engine_candidates::{EngineCandidate, EngineCandidates};
 use super::exact::PairChains;
 use super::limits::StopCondition;
 use super::measure::{DistanceVerdict, Thresholds, bounding_volume_gap, measure};
-use super::open_pairs::{OpenPair, UndecidedPairs};
 use super::part_pairs::{PartPair, PartPairs, sort_by_proof_distance};
 use super::periods::{DriftLimit, Period, Periods};
 use super::placement::Placement;
 use crate::cell::Cell;
-use crate::cell::rounding::{UNSTATED_TOLERANCE_SHARE, largest_arm};
+use crate::cell::rounding::{UNREPORTED_TOLERANCE_SHARE, largest_arm};
 use crate::error::{NothingCompared, PathError};
 use crate::path::Path;
+use crate::path::interval::{PathInterval, StepResult};
 use crate::path::joint_path::JointPath;
-use crate::path::stretch::{StepResult, Stretch};
 use crate::path_point::PathPoint;
 use crate::tuning::{
-    MAX_APPROACH_STRETCH_LENGTH, MAX_DRIFT_SHARE, MAX_ENGINE_DISPLACEMENT,
-    MAX_ENGINE_STRETCH_LENGTH, MAX_PREPARED_PAIRS, MIN_ENGINE_HALVINGS, PAIRS_BETWEEN_CLOCK_READS,
+    MAX_APPROACH_INTERVAL_LENGTH, MAX_DRIFT_SHARE, MAX_ENGINE_DISPLACEMENT,
+    MAX_ENGINE_INTERVAL_LENGTH, MAX_PREPARED_PAIRS, MIN_ENGINE_HALVINGS, PAIRS_BETWEEN_CLOCK_READS,
     PREPARED_HALVINGS,
 };
 use ccd_core::order::{greater, lesser};
@@ -35,56 +36,57 @@ use start::StartContact;
 use std::ops::ControlFlow::{self, Break, Continue};
 use std::ops::Range;
 
-/// Memory for searches along paths, which is kept from one to the next.
-pub(crate) struct Search<'c> {
+/// Searches paths, and reuses its memory from search to search.
+pub(crate) struct PathSearch<'c> {
     pub(super) cell: &'c Cell,
-    /// Whether any pair of the cell is compared; an error for a question if none is.
+    /// An error if no pair of the cell is checked.
     compares_any: Result<(), NothingCompared>,
     pub(super) pairs: PartPairs<'c>,
     pub(super) exact_chains: PairChains<'c>,
     pub(super) path: JointPath,
     pub(super) placement: Placement,
     pub(super) periods: Periods,
-    /// Pairs that may touch in the stretches from the whole path down to the current one.
+    /// A stack of candidate pairs: those of the whole path, of its half, and so on down to the current interval.
     pub(super) candidates: Vec<PartPair>,
-    /// Pairs of bodies that are not convex, whose hulls are near each other in the middle of the stretch, or nearer than
-    /// what was found.
-    pub(super) near_nonconvex_pairs: Vec<PartPair>,
-    /// Pairs in contact at the start of the path that are let go, of the current question.
+    /// Candidates with non-convex bodies whose hulls are near at the current midpoint, or nearer than the least
+    /// distance so far.
+    pub(super) nonconvex_candidates: Vec<PartPair>,
+    /// For the current question, the pairs in contact at the start that are ignored while they separate.
     pub(super) start_contacts: Vec<StartContact>,
-    /// What the engine is to decide.
-    pub(super) open_pairs: UndecidedPairs,
+    /// The candidates that are left to the engine.
+    pub(super) engine_candidates: EngineCandidates,
     pub(super) solver: Solver,
     pub(super) settings: Settings,
-    /// The tolerance of the current path: that of the settings, or what the rounding of positions costs.
+    /// The tolerance for the current path: that of the settings, or a larger one that rounding requires.
     pub(super) tolerance: f64,
-    // Of the current question.
+    // For the current question:
     pub(super) goal: Goal,
-    /// The start of the stretch that the question is about.
+    /// The start of the question's interval.
     search_start: f64,
     pub(super) stop_condition: StopCondition,
-    pub(crate) result: SearchResult,
+    pub(crate) result: PathSearchResult,
 }
 
-/// What a search has found so far.
+/// The results of a search so far.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SearchResult {
-    /// The nearest pair and where it is nearest; for a question about contacts a pair in contact.
+pub(crate) struct PathSearchResult {
+    /// The nearest pair and its point of the path. For a question about contacts, the pair in contact.
     pub(crate) nearest: Option<(f64, PartPair)>,
-    /// An upper bound of the distance of that pair there, for a question about the distance.
+    /// An upper bound of that pair's distance. Used for questions about the distance.
     pub(crate) distance_upper_bound: f64,
-    /// Nothing beyond this point matters: for the first contact the point of the earliest one.
+    /// The search may ignore everything beyond this point. For the first contact, it is the earliest contact so far.
     pub(crate) end: f64,
-    /// The limit that ended the search, and the point up to which everything was searched.
+    /// The limit that ended the search. For the first contact, the point up to which the path is proven free;
+    /// otherwise 0 or the end of the searched part.
     pub(crate) limit_reached: Option<(Limit, f64)>,
-    /// A lower bound of the distance of what the engine measured, and of what a limit left open.
+    /// A lower bound of the distances that the engine measured, or 0 after a limit.
     pub(crate) lower: f64,
-    /// How far beyond its margin the pair in contact may be, if that is more than the tolerance.
+    /// An upper bound of the contact's distance beyond its margin; 0 if it is within the tolerance.
     pub(crate) distance_beyond_margin: f64,
 }
 
-impl SearchResult {
-    const NOTHING_FOUND: SearchResult = SearchResult {
+impl PathSearchResult {
+    const NOTHING_FOUND: PathSearchResult = PathSearchResult {
         nearest: None,
         distance_upper_bound: f64::INFINITY,
         end: f64::INFINITY,
@@ -94,10 +96,10 @@ impl SearchResult {
     };
 }
 
-/// The first period of a pair in a segment, which stands for the rest of the segment.
+/// The first period of a pair in a segment. It represents all later ones.
 #[derive(Clone, Copy)]
 struct SearchedPeriod {
-    /// The point of the path at which it ends, rounded up.
+    /// The point of the path where the period ends, rounded up.
     end: f64,
     drift: f64,
 }
@@ -106,10 +108,10 @@ fn drift(period: Option<SearchedPeriod>) -> f64 {
     period.map_or(0.0, |period| period.drift)
 }
 
-impl<'c> Search<'c> {
+impl<'c> PathSearch<'c> {
     pub(crate) fn new(cell: &'c Cell) -> Self {
         let placement = Placement::new(cell);
-        Search {
+        PathSearch {
             cell,
             compares_any: cell.check_any_compared(),
             pairs: PartPairs::new(cell, &placement.displacement_bounds),
@@ -118,29 +120,29 @@ impl<'c> Search<'c> {
             placement,
             periods: Periods::default(),
             candidates: Vec::new(),
-            near_nonconvex_pairs: Vec::new(),
+            nonconvex_candidates: Vec::new(),
             start_contacts: Vec::new(),
-            open_pairs: UndecidedPairs::default(),
+            engine_candidates: EngineCandidates::default(),
             solver: Solver::new(),
             settings: Settings::DEFAULT,
             tolerance: Settings::DEFAULT.tolerance,
             goal: Goal::AnyContact,
             search_start: 0.0,
             stop_condition: StopCondition::NONE,
-            result: SearchResult::NOTHING_FOUND,
+            result: PathSearchResult::NOTHING_FOUND,
         }
     }
 
-    /// Makes what questions would make when they need it first, with place for more pairs than most of them leave undecided.
+    /// Allocates memory and creates joint chains in advance, for more pairs than most questions need.
     pub(crate) fn prepare(&mut self) {
         let pairs = self.pairs.count().min(MAX_PREPARED_PAIRS);
-        self.near_nonconvex_pairs.reserve(pairs);
+        self.nonconvex_candidates.reserve(pairs);
         self.candidates.reserve(PREPARED_HALVINGS * pairs);
-        self.open_pairs.reserve(pairs);
+        self.engine_candidates.reserve(pairs);
         self.exact_chains.prepare();
     }
 
-    /// Sets the settings of all questions that follow.
+    /// Sets the settings of all following questions.
     pub(crate) fn set_settings(&mut self, settings: Settings) {
         self.pairs.set_margin(settings.margin);
         self.settings = settings;
@@ -150,54 +152,54 @@ impl<'c> Search<'c> {
         &self.settings
     }
 
-    /// Returns bounds of the least distance, after a question about it.
+    /// Returns bounds of the least distance after a search for it.
     pub(crate) fn distance_bounds(&self) -> (f64, f64) {
-        let SearchResult {
+        let PathSearchResult {
             distance_upper_bound: upper,
             lower,
             ..
         } = self.result;
-        // Pairs are left out that stay farther apart than the upper bound at that time, less the tolerance.
+        // The search drops pairs that stay farther apart than the upper bound, less the tolerance.
         let least = upper - self.tolerance - 4.0 * self.placement.rounding;
         (greater(lesser(least, lower), 0.0), upper)
     }
 
     /// Returns the tolerance that the last answer meets.
     pub(crate) fn met_tolerance(&self) -> f64 {
-        let found = &self.result;
-        let shown = match self.goal {
-            Goal::AnyContact | Goal::FirstContact => found.distance_beyond_margin,
-            Goal::LeastDistance if found.limit_reached.is_some() => 0.0,
+        let result = &self.result;
+        let achieved = match self.goal {
+            Goal::AnyContact | Goal::FirstContact => result.distance_beyond_margin,
+            Goal::LeastDistance if result.limit_reached.is_some() => 0.0,
             Goal::LeastDistance => {
                 let (lower, upper) = self.distance_bounds();
                 let excess = |pair: PartPair| {
                     let parts = [pair.a, pair.b].map(|part| &self.cell.parts()[part as usize]);
                     parts[0].excess_over_shape + parts[1].excess_over_shape
                 };
-                // Without a pair there is no upper bound.
-                found
+                // If no pair was result, there is no upper bound.
+                result
                     .nearest
                     .map_or(0.0, |(_, pair)| upper - lower - excess(pair))
             }
         };
-        if shown > self.tolerance * (1.0 + UNSTATED_TOLERANCE_SHARE) {
-            shown
+        if achieved > self.tolerance * (1.0 + UNREPORTED_TOLERANCE_SHARE) {
+            achieved
         } else {
             self.tolerance
         }
     }
 
-    /// Takes into account that a contact is reported at a point that is rounded to a number before it.
+    /// Enlarges the bound of a contact's distance: the contact is reported at a point that is rounded down.
     pub(crate) fn add_rounding_of_contact_point(&mut self, (at, pair): (f64, PartPair)) {
         if self.segment_count() == 0 {
             return;
         }
-        let stretch = Stretch {
+        let interval = PathInterval {
             from: at,
             to: at.next_up().next_up(),
             halvings: 0,
         };
-        self.placement.place(self.cell, &self.path, &stretch);
+        self.placement.place(self.cell, &self.path, &interval);
         self.result.distance_beyond_margin += 2.0 * pair.displacement(&self.placement);
     }
 
@@ -206,81 +208,90 @@ impl<'c> Search<'c> {
         self.path.segment_count()
     }
 
-    /// Takes a path, which the questions that follow are about. Their time starts now.
+    /// Sets the path of the following questions. The time of the deadline starts now.
     pub(crate) fn begin<P: Path + ?Sized>(&mut self, path: &P) -> Result<(), PathError> {
         self.stop_condition = StopCondition::starting_now(&self.settings);
         path.write_to(self.cell, &mut self.path)?;
         self.compares_any.clone()?;
         self.cell.check_plane_reach(self.path.magnitudes())?;
         self.placement.begin(self.cell, &self.path);
-        // A margin is raised by half of that, and distances may be off by as much.
+        // Margins are enlarged by half of this, and measured distances have errors of at most the other half.
         let rounding = 4.0 * self.placement.rounding;
         self.tolerance = greater(self.settings.tolerance, rounding);
         let (kinematics, parts) = (self.cell.kinematics(), self.cell.parts());
         let limit = || DriftLimit {
             largest_arm: largest_arm(kinematics, parts, self.path.magnitudes()),
             rounding: self.placement.rounding,
-            most: MAX_DRIFT_SHARE * self.tolerance,
+            max_drift: MAX_DRIFT_SHARE * self.tolerance,
         };
         self.periods.set_path(kinematics, &self.path, limit);
         Ok(())
     }
 
-    /// Answers a question about a stretch of the path; the answer is in `result`.
-    pub(crate) fn answer_question(&mut self, goal: Goal, stretch: Stretch) -> Result<(), Error> {
-        self.begin_question(goal, &stretch);
+    /// Answers a question about an interval of the path. The answer is in `result`.
+    pub(crate) fn answer_question(
+        &mut self,
+        goal: Goal,
+        interval: PathInterval,
+    ) -> Result<(), Error> {
+        self.begin_question(goal, &interval);
         self.start_contacts.clear();
-        match self.search(stretch, None)? {
+        match self.search(interval, None)? {
             Break(()) => Ok(()),
-            Continue(()) => self.decide_open_pairs(),
+            Continue(()) => self.decide_engine_candidates(),
         }
     }
 
-    pub(super) fn begin_question(&mut self, goal: Goal, stretch: &Stretch) {
+    pub(super) fn begin_question(&mut self, goal: Goal, interval: &PathInterval) {
         self.goal = goal;
-        self.search_start = stretch.from;
-        self.stop_condition.begin_search(stretch);
-        self.result = SearchResult::NOTHING_FOUND;
+        self.search_start = interval.from;
+        self.stop_condition.begin_search(interval);
+        self.result = PathSearchResult::NOTHING_FOUND;
         self.candidates.clear();
-        self.open_pairs.clear();
+        self.engine_candidates.clear();
     }
 
-    /// Returns the whole path as a stretch.
-    pub(crate) fn whole_path_stretch(&self) -> Stretch {
-        Stretch::whole_path(self.path.segment_count())
+    /// Returns the interval of the whole path.
+    pub(crate) fn whole_path_interval(&self) -> PathInterval {
+        PathInterval::whole_path(self.path.segment_count())
     }
 
-    /// Places the frames of all links at a point of the path, and returns them.
+    /// Computes the frames of all links at a point of the path, and returns them.
     pub(crate) fn place_frames(&mut self, at: f64) -> &Placement {
         self.placement.place_frames(self.cell, &self.path, at);
         &self.placement
     }
 
-    /// Searches a stretch of the path among the given candidate pairs, or among all pairs if there are none. Pairs that
-    /// stay open are left to the engine.
-    pub(super) fn search(&mut self, stretch: Stretch, among: Option<Range<usize>>) -> StepResult {
-        if stretch.from >= self.result.end {
+    /// Searches an interval for the candidates `among`, or for all candidates if it is `None`. Leaves those that stay
+    /// undecided to the engine.
+    pub(super) fn search(
+        &mut self,
+        interval: PathInterval,
+        among: Option<Range<usize>>,
+    ) -> StepResult {
+        if interval.from >= self.result.end {
             return Ok(Continue(()));
         }
-        if self.check_limit(&stretch).is_break() {
+        if self.check_limit(&interval).is_break() {
             return Ok(Break(()));
         }
         let base = self.candidates.len();
-        let level = VectorInstructions::Best.simd_level();
-        let Continue(first) = vectorize!(level, _token => self.measure_candidates(stretch, among))
+        let simd_level = VectorInstructions::Best.simd_level();
+        let Continue(first) =
+            vectorize!(simd_level, _token => self.measure_candidates(interval, among))
         else {
             return Ok(Break(()));
         };
-        if self.check_suspects(&stretch)?.is_break() {
+        if self.check_nonconvex_candidates(&interval)?.is_break() {
             return Ok(Break(()));
         }
         let undecided = first..self.candidates.len();
         if !undecided.is_empty() {
             sort_by_proof_distance(&mut self.candidates[first..]);
-            let [earlier, later] = stretch.halves();
+            let [earlier, later] = interval.halves();
             let halves = match self.goal {
                 Goal::FirstContact => [earlier, later],
-                // The start of a planner's edge is free as a rule.
+                // The start of a planner's edge is usually free.
                 Goal::AnyContact | Goal::LeastDistance => [later, earlier],
             };
             for half in halves {
@@ -293,66 +304,73 @@ impl<'c> Search<'c> {
         Ok(Continue(()))
     }
 
-    /// Ends the search if a limit is reached: everything before the stretch and before open pairs was searched.
-    pub(super) fn check_limit(&mut self, stretch: &Stretch) -> ControlFlow<()> {
+    /// Ends the search if a limit is reached. Everything before the interval and before the engine's candidates has
+    /// been searched.
+    pub(super) fn check_limit(&mut self, interval: &PathInterval) -> ControlFlow<()> {
         let Some(limit) = self.stop_condition.reached_limit() else {
             return Continue(());
         };
-        let searched_until = lesser(stretch.from, self.open_pairs.earliest_start());
+        let searched_until = lesser(interval.from, self.engine_candidates.earliest_start());
         self.result.limit_reached = Some((limit, searched_until));
         self.result.lower = 0.0;
         Break(())
     }
 
-    /// Measures the candidates in the middle of a stretch, and appends those that are undecided. Returns the index of the
-    /// first of these.
+    /// Tests the candidates at the midpoint of an interval, and appends those that stay undecided. Returns the index
+    /// of the first of these.
     #[inline(always)]
     fn measure_candidates(
         &mut self,
-        stretch: Stretch,
+        interval: PathInterval,
         among: Option<Range<usize>>,
     ) -> ControlFlow<(), usize> {
-        self.placement.place(self.cell, &self.path, &stretch);
+        self.placement.place(self.cell, &self.path, &interval);
         let among = among.unwrap_or_else(|| {
             let first = self.candidates.len();
             self.append_candidates();
             first..self.candidates.len()
         });
         let first = self.candidates.len();
-        self.near_nonconvex_pairs.clear();
-        // The stretch, and each pair.
+        self.nonconvex_candidates.clear();
+        // One unit for the interval, and one for each pair.
         self.stop_condition.add_work(1 + among.len() as u64);
         for k in among {
             if k % PAIRS_BETWEEN_CLOCK_READS == 0 {
-                self.check_limit(&stretch)?;
+                self.check_limit(&interval)?;
             }
             let mut pair = self.candidates[k];
-            let period = self.period_of(&stretch, &pair);
-            if period.is_some_and(|period| stretch.from >= period.end) {
+            let period = self.period_of(&interval, &pair);
+            if period.is_some_and(|period| interval.from >= period.end) {
                 continue;
             }
-            let is_last = self.goes_to_engine(&stretch, &pair);
+            let is_last = self.goes_to_engine(&interval, &pair);
             let thresholds = self.thresholds(&pair, drift(period));
             match measure(self.cell, &self.placement, &mut pair, thresholds, !is_last) {
                 DistanceVerdict::Free => continue,
                 DistanceVerdict::Near if !pair.is_convex(self.cell.parts()) => {
-                    self.near_nonconvex_pairs.push(pair);
+                    self.nonconvex_candidates.push(pair);
                 }
-                DistanceVerdict::Near => self.keep_contact(&pair, stretch.middle(), 0.0)?,
+                DistanceVerdict::Near => self.record_contact(&pair, interval.middle(), 0.0)?,
                 DistanceVerdict::Undecided(upper) if self.is_nearest(upper) => {
                     if pair.is_convex(self.cell.parts()) {
-                        self.keep_nearest(&pair, stretch.middle(), upper);
+                        self.record_nearest(&pair, interval.middle(), upper);
                     } else {
-                        self.near_nonconvex_pairs.push(pair);
+                        self.nonconvex_candidates.push(pair);
                     }
                 }
                 DistanceVerdict::Undecided(_) => {}
             }
             if is_last {
-                let end = period.map_or(stretch.to, |period| lesser(stretch.to, period.end));
-                let searched = Stretch { to: end, ..stretch };
-                self.open_pairs
-                    .add_or_merge(pair, pair.body_numbers(self.cell.parts()), &searched);
+                let end = period.map_or(interval.to, |period| lesser(interval.to, period.end));
+                let searched = PathInterval {
+                    to: end,
+                    ..interval
+                };
+                self.engine_candidates.add_or_merge(
+                    pair,
+                    pair.body_indices(self.cell.parts()),
+                    &searched,
+                );
             } else {
                 self.candidates.push(pair);
             }
@@ -360,13 +378,13 @@ impl<'c> Search<'c> {
         Continue(first)
     }
 
-    /// Returns the period of a pair in a stretch of a segment in which joints turn many times, if it has one.
+    /// Returns the searched period of a pair in an interval, if joints make many turns in its segment.
     #[inline(always)]
-    fn period_of(&self, stretch: &Stretch, pair: &PartPair) -> Option<SearchedPeriod> {
-        if self.periods.is_empty() || !stretch.is_within_segment() {
+    fn period_of(&self, interval: &PathInterval, pair: &PartPair) -> Option<SearchedPeriod> {
+        if self.periods.is_empty() || !interval.is_within_segment() {
             return None;
         }
-        self.searched_period(stretch.from, pair)
+        self.searched_period(interval.from, pair)
     }
 
     #[cold]
@@ -381,15 +399,15 @@ impl<'c> Search<'c> {
         })
     }
 
-    /// Bounds how much the distances of an open pair differ from those at the same phase of other periods, for which it stands.
-    pub(super) fn drift(&self, open: &OpenPair) -> f64 {
+    /// Bounds how much a candidate's distances in its searched period differ from those in later periods.
+    pub(super) fn drift(&self, candidate: &EngineCandidate) -> f64 {
         if self.periods.is_empty() {
             return 0.0;
         }
-        drift(self.searched_period(open.from, &open.pair))
+        drift(self.searched_period(candidate.from, &candidate.pair))
     }
 
-    /// Returns the distances that decide about a pair, whose distances in other periods are less by at most the drift.
+    /// Returns the thresholds of a pair. `drift` bounds how much nearer the pair may be in later periods.
     #[inline(always)]
     fn thresholds(&self, pair: &PartPair, drift: f64) -> Thresholds {
         let tolerance = self.tolerance;
@@ -398,7 +416,7 @@ impl<'c> Search<'c> {
                 free_distance_threshold: pair.margin + drift,
                 near_distance: pair.margin + tolerance,
             },
-            // Touching hulls end the search; others are measured exactly.
+            // Touching hulls end the search. Other distances have to be measured exactly.
             Goal::LeastDistance => Thresholds {
                 free_distance_threshold: self.result.distance_upper_bound - tolerance + drift,
                 near_distance: 0.0,
@@ -406,24 +424,24 @@ impl<'c> Search<'c> {
         }
     }
 
-    /// Returns whether a pair goes to the engine unless this stretch decides about it.
+    /// Returns whether a pair is left to the engine if the test over this interval does not decide it.
     #[inline(always)]
-    fn goes_to_engine(&self, stretch: &Stretch, pair: &PartPair) -> bool {
-        if !stretch.is_within_segment() {
+    fn goes_to_engine(&self, interval: &PathInterval, pair: &PartPair) -> bool {
+        if !interval.is_within_segment() {
             return false;
         }
-        let length = stretch.to - stretch.from;
+        let length = interval.to - interval.from;
         let is_short = match self.goal {
-            Goal::LeastDistance => length <= MAX_APPROACH_STRETCH_LENGTH,
-            _ => length <= MAX_ENGINE_STRETCH_LENGTH,
+            Goal::LeastDistance => length <= MAX_APPROACH_INTERVAL_LENGTH,
+            _ => length <= MAX_ENGINE_INTERVAL_LENGTH,
         };
         is_short || {
             let displacement = pair.displacement(&self.placement);
-            stretch.halvings >= MIN_ENGINE_HALVINGS && displacement < MAX_ENGINE_DISPLACEMENT
+            interval.halvings >= MIN_ENGINE_HALVINGS && displacement < MAX_ENGINE_DISPLACEMENT
         }
     }
 
-    /// Appends all pairs that may come near each other in the stretch that is placed.
+    /// Appends all pairs that may come near each other in the current interval.
     #[inline(always)]
     pub(super) fn append_candidates(&mut self) {
         let first = self.candidates.len();
@@ -435,18 +453,18 @@ impl<'c> Search<'c> {
         self.pairs
             .append_candidates(&self.placement, allowance, &mut self.candidates);
         if !self.start_contacts.is_empty() {
-            let mut kept = first;
+            let mut count = first;
             for k in first..self.candidates.len() {
                 let pair = self.candidates[k];
-                if !self.is_let_go(&pair) {
-                    self.candidates[kept] = pair;
-                    kept += 1;
+                if !self.is_start_contact(&pair) {
+                    self.candidates[count] = pair;
+                    count += 1;
                 }
             }
-            self.candidates.truncate(kept);
+            self.candidates.truncate(count);
         }
         if self.goal == Goal::LeastDistance {
-            // The nearest bodies first: others are then farther apart than these by their bounding volumes.
+            // The nearest pairs come first. Their distances then exclude others by bounding volumes alone.
             for pair in &mut self.candidates[first..] {
                 pair.distance_to_proof_ratio =
                     bounding_volume_gap(self.cell, &self.placement, pair);
@@ -455,27 +473,27 @@ impl<'c> Search<'c> {
         }
     }
 
-    /// Returns whether a distance is of interest and the least so far.
+    /// Returns whether an upper bound is the least so far, in a search for the least distance.
     #[inline(always)]
     fn is_nearest(&self, upper: f64) -> bool {
         self.goal == Goal::LeastDistance && upper < self.result.distance_upper_bound
     }
 
-    /// Keeps a pair as the nearest so far, with an upper bound of its distance.
-    pub(super) fn keep_nearest(&mut self, pair: &PartPair, at: f64, upper: f64) {
+    /// Records a pair as the nearest so far, with an upper bound of its distance.
+    pub(super) fn record_nearest(&mut self, pair: &PartPair, at: f64, upper: f64) {
         self.result.distance_upper_bound = upper;
         self.result.nearest = Some((at, *pair));
     }
 
-    /// Keeps a contact of a pair at a point, at a distance of at most the margin and the tolerance, or a distance beyond the
-    /// margin, unless an earlier contact is known. The search ends unless an earlier one is looked for.
-    pub(super) fn keep_contact(
+    /// Records a contact of a pair, unless an earlier one is known. Its distance is at most margin + tolerance, or
+    /// margin + `distance_beyond_margin` if that is more. Ends the search, unless it looks for the first contact.
+    pub(super) fn record_contact(
         &mut self,
         pair: &PartPair,
         at: f64,
         distance_beyond_margin: f64,
     ) -> ControlFlow<()> {
-        // A pair that was let go may have touched earlier, at a point that is no middle of a stretch.
+        // A pair in contact at the start may have touched earlier, at a point that is no midpoint.
         if at > self.result.end {
             return Continue(());
         }

@@ -1,4 +1,4 @@
-//! Tests of paths in random cells against sampled configurations.
+//! Tests paths in random cells against sampled configurations.
 
 mod bounds;
 mod budgets;
@@ -40,8 +40,7 @@ pub(crate) fn random_configuration(random: &mut Pcg64, robot: &Robot) -> Vec<f64
     names.map(|_| random.random_range(-1.5..1.5)).collect()
 }
 
-/// Returns the least distance of all pairs that are checked at a configuration, by poses and distances of one pair after
-/// another.
+/// Returns the least distance of all checked pairs at a configuration, from the distances of single pairs.
 pub(crate) fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
     let robot = cell.robot();
     let mut solver = Solver::new();
@@ -56,10 +55,10 @@ pub(crate) fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
     };
     let poses: Vec<Pose> = (0..robot.links().len()).map(pose).collect();
     for (number, link) in robot.links().iter().enumerate() {
-        for held in &link.bodies {
-            let body = (&*held.body, poses[number].compose(&held.pose));
+        for link_body in &link.bodies {
+            let body = (&*link_body.body, poses[number].compose(&link_body.pose));
             for obstacle in &cell.bodies()[cell.robot_body_count()..] {
-                // A body on the base never moves, and is not compared with obstacles.
+                // A static body is not checked against obstacles.
                 if cell.kinematics().link_frame_and_pose(number).0 > 0 {
                     measure(body, (&*obstacle.body, obstacle.pose));
                 }
@@ -82,8 +81,8 @@ pub(crate) fn configuration_between(from: &[f64], to: &[f64], share: f64) -> Vec
     ends.map(|(from, to)| from + share * (to - from)).collect()
 }
 
-/// Tests random cells: on a free edge no sampled configuration is within the margin, and on another edge the pair that is
-/// named is within margin + tolerance at the share that is named.
+/// Tests random cells: no sample of a free edge is within the margin. On any other edge the reported pair is within
+/// margin + tolerance at the reported point.
 #[test]
 fn edges_agree_with_sampled_configurations() {
     let mut random = Pcg64::seed_from_u64(3);
@@ -136,7 +135,7 @@ fn edges_agree_with_sampled_configurations() {
     assert!(closest < 2e-3, "{closest}: no free edge is close");
 }
 
-/// Tests that an edge is free or not whichever way it is passed, and that its parts are free if it is.
+/// Tests that an edge and its reverse have the same answer, and that the halves of a free edge are free.
 #[test]
 fn an_edge_backward_and_its_halves_agree() {
     let mut random = Pcg64::seed_from_u64(4);
@@ -155,7 +154,7 @@ fn an_edge_backward_and_its_halves_agree() {
             );
         }
         if solver.is_free(&[from, to]).unwrap() != solver.is_free(&[to, from]).unwrap() {
-            // Both answers are right only within the tolerance.
+            // Answers may differ within the tolerance.
             let shares = (0..=400).map(|k| f64::from(k) / 400.0);
             let distances =
                 shares.map(|share| least_distance(&cell, &configuration_between(from, to, share)));

@@ -1,35 +1,35 @@
-//! Whether some pair is nearer than its distance everywhere in a stretch.
+//! Proves that some pair is nearer than its margin everywhere in an interval.
 //!
-//! It is if both bodies are nearer in the middle by more than they move from there.
+//! This is so if the bodies are nearer at the midpoint by more than their displacements.
 
 use super::Goal;
 use super::measure::{initial_direction, minkowski_support_vertex};
 use super::part_pairs::PartPair;
 use super::placement::Placement;
-use super::search::Search;
+use super::search::PathSearch;
 use crate::cell::Cell;
-use crate::path::stretch::Stretch;
+use crate::path::interval::PathInterval;
 use ccd_core::fan_triangles;
 use ccd_core::order::{greater, lesser};
 use ccd_distance_gjk::{TerminationBounds, bound_distance};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Error, Settings};
 
-impl Search<'_> {
-    /// Returns whether some pair is certainly nearer than its margin everywhere in a stretch. The margin is that
-    /// without `PartPairs::margin_increase`. The result holds even if the true distance exceeds that of the placed
-    /// parts by up to this increase.
-    pub(super) fn is_margin_violated(&mut self, stretch: &Stretch) -> Result<bool, Error> {
+impl PathSearch<'_> {
+    /// Returns whether some pair is certainly nearer than its margin everywhere in an interval. The margin excludes
+    /// `PartPairs::margin_increase`. The result holds even if the pair's true distance is larger than the computed one
+    /// by up to this increase.
+    pub(super) fn is_margin_violated(&mut self, interval: &PathInterval) -> Result<bool, Error> {
         let parts = self.cell.parts();
         self.goal = Goal::AnyContact;
-        self.stop_condition.begin_search(stretch);
-        self.placement.place(self.cell, &self.path, stretch);
+        self.stop_condition.begin_search(interval);
+        self.placement.place(self.cell, &self.path, interval);
         self.candidates.clear();
         self.append_candidates();
         let mut pairs = std::mem::take(&mut self.candidates);
-        pairs.sort_unstable_by_key(|pair| pair.body_numbers(parts));
+        pairs.sort_unstable_by_key(|pair| pair.body_indices(parts));
         let of_bodies =
-            pairs.chunk_by(|one, other| one.body_numbers(parts) == other.body_numbers(parts));
+            pairs.chunk_by(|one, other| one.body_indices(parts) == other.body_indices(parts));
         let mut is_violated = Ok(false);
         for near in of_bodies {
             is_violated = self.are_bodies_nearer(near);
@@ -41,12 +41,13 @@ impl Search<'_> {
         is_violated
     }
 
-    /// Returns the same for two bodies in the stretch that is placed. Parts that are left out are not near each other.
+    /// Returns the same for the candidate pairs of two bodies. Pairs of parts that are no candidates are not near each
+    /// other.
     fn are_bodies_nearer(&mut self, near: &[PartPair]) -> Result<bool, Error> {
         let pair = &near[0];
         let displacements = near.iter().map(|pair| pair.displacement(&self.placement));
         let displacement = displacements.fold(0.0, greater);
-        // The margin is grown once already.
+        // Subtracts the increase twice, because the margin already includes it once.
         let distance = pair.margin
             - 2.0 * self.pairs.margin_increase()
             - displacement
@@ -59,7 +60,7 @@ impl Search<'_> {
         if !(distance > 0.0) {
             return Ok(false);
         }
-        let [a, b] = pair.body_numbers(self.cell.parts());
+        let [a, b] = pair.body_indices(self.cell.parts());
         let a = self.placement.body(self.cell, a)?;
         let b = self.placement.body(self.cell, b)?;
         self.solver.set_settings(Settings {
@@ -74,8 +75,8 @@ impl Search<'_> {
     }
 }
 
-/// Returns whether two convex parts are nearer than a distance in the middle of the stretch. If it is negative, they have
-/// to overlap by so much in each direction.
+/// Returns whether two convex parts are nearer than a distance at the midpoint. If the distance is negative, they must
+/// overlap by that depth in every direction.
 pub(crate) fn are_convex_parts_nearer(
     cell: &Cell,
     placement: &Placement,
@@ -85,7 +86,7 @@ pub(crate) fn are_convex_parts_nearer(
     let parts = [pair.a, pair.b].map(|part| &cell.parts()[part as usize]);
     let frames = parts.map(|part| placement.frames[part.frame]);
     let [a, b] = parts;
-    // The distance of the points, by whose hulls parts are described, for the shapes that the parts enclose.
+    // The distance of the hulls' corner points that corresponds to this distance of the shapes.
     let distance = distance + a.radius + b.radius - a.excess_over_shape - b.excess_over_shape;
     let centres = [
         frames[0].transform_point(a.centre),
@@ -107,14 +108,14 @@ pub(crate) fn are_convex_parts_nearer(
     }
 }
 
-/// The largest number of points of a convex set that are looked at.
+/// The largest number of points of the growing hull.
 const MAX_HULL_POINTS: usize = 40;
 
-/// Returns whether a convex set certainly contains the ball of a radius about the origin. `support` returns the point of the
-/// set with the least height along a direction.
+/// Returns whether a convex set certainly contains a ball about the origin. `support` returns the point of the set
+/// that is lowest along a direction.
 ///
-/// The hull of some points of the set grows: a point is added beyond the facet that cuts off most of the ball, until no
-/// facet does, or none of the set is beyond.
+/// Grows the hull of some points of the set. Each step adds the farthest point beyond the facet nearest to the origin,
+/// until that facet is outside the ball, or no point of the set is beyond it.
 fn contains_ball(support: impl Fn(DVec3) -> DVec3, radius: f64) -> bool {
     let mut points = Vec::new();
     for direction in first_directions() {
@@ -141,8 +142,8 @@ fn contains_ball(support: impl Fn(DVec3) -> DVec3, radius: f64) -> bool {
     false
 }
 
-/// Returns unit vectors to the faces and to the corners of a cube: a set with a volume has four corners along them that are
-/// in no plane, but for rare cases.
+/// Returns unit vectors to the faces and to the corners of a cube. The support points of a set with a volume along
+/// these directions are almost never all in one plane.
 fn first_directions() -> impl Iterator<Item = DVec3> {
     let signs = || [-1.0, 0.0, 1.0];
     let all = signs().into_iter().flat_map(move |x| {
@@ -154,8 +155,8 @@ fn first_directions() -> impl Iterator<Item = DVec3> {
     all.filter(is_face_or_corner).map(DVec3::normalize)
 }
 
-/// Returns the outer unit normal of the facet of the hull of points that is nearest to the origin, or farthest on the wrong
-/// side, with a lower bound of its height over the origin; `None` for points without a volume.
+/// Returns the facet of the points' hull that is nearest to the origin, or farthest on the wrong side: its outer unit
+/// normal, and a lower bound of its height above the origin. `None` if the points have no volume.
 fn facet_nearest_origin(points: &[DVec3]) -> Option<(DVec3, f64)> {
     let hull = ccd_decomp::convex_hull(points).ok()?;
     if hull.facets.iter().count() < 4 {
@@ -170,7 +171,8 @@ fn facet_nearest_origin(points: &[DVec3]) -> Option<(DVec3, f64)> {
         let normal: DVec3 = triangles.map(|[p, q, r]| (q - p).cross(r - p)).sum();
         let heights = facet.iter().map(|&corner| normal.dot(at(corner)));
         let height = heights.fold(f64::INFINITY, lesser);
-        // A normal and a height are products of two and three lengths; each triangle has fewer than 128 rounding errors.
+        // A normal and a height are products of two and of three lengths; each triangle adds fewer than 128 rounding
+        // errors.
         let rounding = 128.0 * f64::EPSILON * facet.len() as f64 * size.powi(3);
         let length = normal.length();
         let height = (height - rounding) / length;

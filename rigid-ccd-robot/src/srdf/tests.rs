@@ -3,7 +3,7 @@ use crate::link_contacts::tests::classify;
 use crate::robot::{Joint, Link, PositionRule};
 use rigid_ccd::trajectory;
 
-/// An SRDF file with two disabled pairs of links among other elements that MoveIt's setup assistant writes.
+/// An SRDF file with two disabled pairs, and with other elements that MoveIt's setup assistant writes.
 const SRDF: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <!-- A comment. -->
 <robot name="arm">
@@ -31,7 +31,7 @@ fn disabled_pairs_are_read_among_other_elements() {
     assert_eq!(names(&srdf.enabled), [["base", "hand", ""]]);
 }
 
-/// Tests that nothing is passed over that may disable or enable a pair.
+/// Tests that nothing is ignored that may disable or enable a pair.
 #[test]
 fn what_is_not_known_is_refused() {
     for (content, expected) in [
@@ -64,7 +64,7 @@ fn what_is_not_known_is_refused() {
     assert!(error.to_string().contains("`semantics`"), "{error}");
 }
 
-/// Tests that the pairs are those of MoveIt: a link can be disabled as a whole, and single pairs of it enabled again.
+/// Tests that pairs agree with MoveIt: a link can be disabled as a whole, and its pairs enabled one by one.
 #[test]
 fn links_are_disabled_as_a_whole() {
     let links = ["a", "b", "c"].map(|name| {
@@ -75,8 +75,7 @@ fn links_are_disabled_as_a_whole() {
         name: child.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: trajectory::Joint::prismatic(rigid_ccd::Pose::IDENTITY, [1.0, 0.0, 0.0])
-            .unwrap(),
+        geometry: trajectory::Joint::prismatic(rigid_ccd::Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
         position_rule: PositionRule::Independent,
     };
     let robot = Robot::new(links.to_vec(), vec![slide("a", "b"), slide("b", "c")]).unwrap();
@@ -98,7 +97,7 @@ fn links_are_disabled_as_a_whole() {
     assert_eq!(checked(whole), (vec![], 0));
     let enabled = format!(r#"<enable_collisions link1="a" link2="c"/>{whole}"#);
     assert_eq!(checked(&enabled), (vec![[0, 2]], 0));
-    // Links of another variant of the robot are left out, with one remark.
+    // Links of another variant of the robot are ignored, with one remark.
     let variant = r#"<disable_collisions link1="c" link2="tool"/><disable_collisions link1="a" link2="tail"/>"#;
     assert_eq!(checked(variant), (vec![[0, 2]], 1));
     let remark = applied(variant).unwrap().file_remarks()[0].to_string();
@@ -115,11 +114,11 @@ fn links_are_disabled_as_a_whole() {
     let error = applied(other).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "is of another robot: there is no link tail, tool"
+        "the file belongs to another robot: there is no link tail, tool"
     );
 }
 
-/// Tests that what is written is read again, with names that XML has to escape.
+/// Tests that a written file reads back, with names that XML has to escape.
 #[test]
 fn proven_pairs_are_written_and_read() {
     let ball = |name: &str, x: f64| {
@@ -136,7 +135,7 @@ fn proven_pairs_are_written_and_read() {
         name: name.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: joint,
+        geometry: joint,
         position_rule: PositionRule::Independent,
     };
     let fixed = || trajectory::Joint::fixed(rigid_ccd::Pose::IDENTITY);
@@ -160,7 +159,7 @@ fn proven_pairs_are_written_and_read() {
     assert_eq!(names(&read.disabled), expected);
 }
 
-/// Tests that no pair is disabled that a file has checked and that may touch.
+/// Tests that pairs of adjacent links are not disabled if a file includes them and they can touch.
 #[test]
 fn neighbours_that_are_checked_stay_checked() {
     let links = ["base", "arm"].map(|name| {
@@ -172,7 +171,7 @@ fn neighbours_that_are_checked_stay_checked() {
         name: "slide".into(),
         parent: "base".into(),
         child: "arm".into(),
-        axis_and_limits: slide.with_limits(0.0..=3.0),
+        geometry: slide.with_limits(0.0..=3.0),
         position_rule: PositionRule::Independent,
     };
     let robot = Robot::new(links.to_vec(), vec![joint]).unwrap();

@@ -134,7 +134,6 @@ fn kind(outcome: &PathOutcome<'_>) -> AnswerKind {
         PathOutcome::Free => AnswerKind::Free,
         PathOutcome::Contact(_) => AnswerKind::Contact,
         PathOutcome::LeastDistance { .. } => AnswerKind::LeastDistance,
-        // An outcome without a name proves nothing.
-        _ => AnswerKind::Unresolved,
+        PathOutcome::Unresolved(_) => AnswerKind::Unresolved,
     }
 }

@@ -63,7 +63,7 @@ impl RobotBuilder {
             name: name.to_owned(),
             parent: parent.to_owned(),
             child: child.to_owned(),
-            axis_and_limits: joint.with_limits(numbers[10]..=numbers[11]),
+            geometry: joint.with_limits(numbers[10]..=numbers[11]),
             position_rule: PositionRule::Independent,
         });
         self.link(parent);

@@ -127,7 +127,7 @@ pub(crate) fn check_joints(robot: &Robot, given: &[JointRange]) -> Result<()> {
                 "--joint {name}: no joint has this name and a position of its own; there are {names}"
             );
         };
-        let turns = matches!(joint.axis_and_limits.kind(), JointKind::Revolute(_));
+        let turns = matches!(joint.geometry.kind(), JointKind::Revolute(_));
         match range.quantity {
             Some(Quantity::Length) if turns => {
                 bail!("--joint {name}: turns; give an angle, such as 0.3 or 20deg")

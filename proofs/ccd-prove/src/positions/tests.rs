@@ -9,7 +9,7 @@ fn gripper(factor: f64, offset: f64) -> Robot {
         name: name.into(),
         parent: "palm".into(),
         child: format!("{name} finger"),
-        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0])
+        geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0])
             .unwrap()
             .with_limits(0.0..=0.05),
         position_rule: rule,

@@ -1,16 +1,16 @@
-//! Tests that clusters have all pieces, and that things apart are in clusters of their own.
+//! Tests that clusters contain all pieces, and that separate components are in separate clusters.
 
 use super::*;
 use rigid_ccd::Body;
 use rigid_ccd::body::{Pieces, Solidity};
 
-/// Returns strips of triangles, of which each shares an edge with the next, at places along x.
+/// Returns a body of triangle strips at positions along x. Within a strip, each triangle shares an edge with the next.
 fn strips(places: &[f64], length: usize) -> Body {
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     for &place in places {
         let first = vertices.len() as u32;
         vertices.extend((0..length + 2).map(|k| {
-            // One zero of each sign: they are the same place.
+            // 0.0 and -0.0 alternate: they are the same coordinate.
             let side = if k % 2 == 0 { -0.0 } else { 0.1 };
             DVec3::new(place, side, 0.01 * k as f64)
         }));
@@ -43,7 +43,7 @@ fn things_apart_are_clusters_of_their_own() {
     assert!(sizes.len() <= MAX_COMPONENTS && sizes.iter().sum::<usize>() == 1000);
 }
 
-/// Returns solid balls of triangles, of two parts each that share no point with others, at places along x.
+/// Returns solid balls of triangles at positions along x. The surface of each has two components.
 fn solid_balls(count: usize) -> Body {
     let (mut vertices, mut faces) = (Vec::new(), Vec::<[u32; 3]>::new());
     let (rings, sides) = (6, 8);
@@ -77,7 +77,7 @@ fn solid_balls(count: usize) -> Body {
     Body::new(&pieces, Solidity::Solid).unwrap()
 }
 
-/// Tests that a link wholly inside a solid obstacle is in contact, wherever it is inside.
+/// Tests that a link anywhere inside a solid obstacle is in contact.
 #[test]
 fn a_link_inside_a_solid_is_never_free() {
     use crate::cell::Cell;
@@ -89,7 +89,7 @@ fn a_link_inside_a_solid_is_never_free() {
             name: "slider".into(),
             parent: "rail".into(),
             child: "bead".into(),
-            axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
+            geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
             position_rule: PositionRule::Independent,
         };
         let bead = Link::named("bead").with_body(Body::sphere(0.01).unwrap(), Pose::IDENTITY);

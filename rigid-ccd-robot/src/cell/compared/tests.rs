@@ -1,11 +1,11 @@
-//! Tests of allowed contacts: what they allow, how long, and that nothing else is allowed.
+//! Tests which contacts are allowed, for how long, and that no others are.
 
 use super::*;
 use crate::pairs::LinkPairs;
 use crate::robot::{Joint, Link, PositionRule, Robot};
 use rigid_ccd::{Body, Pose, trajectory};
 
-/// Returns two carts on rails along x, 1 apart, and a table and a post around them.
+/// Returns two carts on parallel rails along x, a distance of 1 apart, with a table and a post around them.
 fn cell() -> Cell {
     let cart =
         |name: &str| Link::named(name).with_body(Body::cuboid([0.1; 3]).unwrap(), Pose::IDENTITY);
@@ -13,7 +13,7 @@ fn cell() -> Cell {
         name: format!("rail {name}"),
         parent: "base".into(),
         child: name.into(),
-        axis_and_limits: trajectory::Joint::prismatic(at([0.0, y, 0.0]), [1.0, 0.0, 0.0]).unwrap(),
+        geometry: trajectory::Joint::prismatic(at([0.0, y, 0.0]), [1.0, 0.0, 0.0]).unwrap(),
         position_rule: PositionRule::Independent,
     };
     let links = vec![Link::named("base"), cart("red"), cart("blue")];
@@ -31,7 +31,7 @@ fn at(position: [f64; 3]) -> Pose {
     Pose::at(position).unwrap()
 }
 
-/// Returns the names of all pairs in contact somewhere, as the red cart, then the blue one moves by 2.
+/// Returns the names of all pairs in contact on the path: first the red cart moves by 2, then the blue one.
 fn contacts(cell: &Cell) -> Vec<String> {
     let mut found = Vec::new();
     let mut rest = cell.clone();
@@ -64,7 +64,7 @@ fn an_allowed_contact_is_the_only_one() {
     cell.allow_contact(RED_POST).unwrap();
     assert_eq!(contacts(&cell), ["blue wall"]);
     assert_eq!(cell.allowed_contacts(), [RED_POST]);
-    // Bodies are numbered anew.
+    // Attaching a body changes the indices of the obstacles.
     cell.attach(
         "can",
         Body::sphere(0.05).unwrap(),
@@ -82,7 +82,7 @@ fn an_allowed_contact_is_the_only_one() {
     assert_eq!(contacts(&cell), ["blue wall"]);
     cell.forbid_contact(RED_POST).unwrap();
     assert_eq!(contacts(&cell), ["blue wall", "red post"]);
-    // A clearance forbids it, too.
+    // A clearance forbids the contact as well.
     cell.allow_contact(RED_POST).unwrap();
     cell.set_clearance(RED_POST, 0.0).unwrap();
     assert_eq!(contacts(&cell), ["blue wall", "red post"]);
@@ -115,7 +115,7 @@ fn held_objects_touch_each_other_only_if_they_may() {
     let can = || Body::sphere(0.2).unwrap();
     let beside = |y: f64| at([-0.5, y, 0.0]);
     cell.attach("a", can(), ("red", beside(0.4)), &[]).unwrap();
-    // It may touch the link, not what the link holds.
+    // The body may touch the link, but not a body attached to the link.
     cell.attach("b", can(), ("blue", beside(-0.4)), &["red"])
         .unwrap();
     assert!(
@@ -165,7 +165,7 @@ fn what_is_never_compared_is_not_allowed() {
             );
         }
     }
-    // Links that are not compared anyway may touch, as an SRDF says of neighbours.
+    // Allowing a contact of links that are unchecked anyway is accepted, as in an SRDF that disables adjacent links.
     let before = cell.check_summary().to_string();
     cell.allow_contact([Item::Link("base"), Item::Link("red")])
         .unwrap();

@@ -1,4 +1,4 @@
-//! A half-space, and how far hulls are from it.
+//! A half-space, and the distance of hulls from it.
 
 use super::HullPart;
 use ccd_core::order::greater;
@@ -7,17 +7,17 @@ use rigid_ccd::Pose;
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::oracle::Frame;
 
-/// A plane in the frame of the base, with the half-space below it.
+/// A plane in the frame of the base, and the half-space below it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
-    /// The unit vector away from the half-space.
+    /// The unit normal, which points out of the half-space.
     normal: DVec3,
-    /// The height of the plane along the normal.
+    /// The signed distance of the plane from the origin, along the normal.
     height: f64,
 }
 
 impl Plane {
-    /// Returns the plane `z = 0` of a pose's frame.
+    /// Returns the plane `z = 0` of a frame at `pose`.
     pub(super) fn below(pose: &Pose) -> Self {
         let normal = pose.rotation() * DVec3::Z;
         Plane {
@@ -26,14 +26,14 @@ impl Plane {
         }
     }
 
-    /// Returns the height of the lowest corner of a part over the plane, when the part's frame is at `frame`.
+    /// Returns the height of a part's lowest corner above the plane, for the part's frame at `frame`.
     #[inline(always)]
     pub(crate) fn lowest_corner_height(&self, part: &HullPart, frame: &Frame) -> f64 {
         let (_, corner) = part.extremal_corner(frame.inverse_transform_vector(-self.normal));
         self.normal.dot(frame.transform_point(corner)) - self.height
     }
 
-    /// Returns the distance of the corners of a part from the half-space, when the part's frame is at `frame`.
+    /// Returns the distance of a part's corners from the half-space, for the part's frame at `frame`.
     #[inline(always)]
     pub(crate) fn distance_bounds(&self, part: &HullPart, frame: &Frame) -> DistanceBounds {
         let height = self.lowest_corner_height(part, frame);
@@ -44,8 +44,8 @@ impl Plane {
         }
     }
 
-    /// Returns a lower bound of the height of a part over the plane, when the part's frame is at `frame` and its centre at
-    /// `centre`.
+    /// Returns a lower bound of the height of a part above the plane, from its bounding box. The part's frame is at
+    /// `frame`, and its centre at `centre` in the base.
     #[inline(always)]
     pub(crate) fn height_of(&self, part: &HullPart, frame: &Frame, centre: DVec3) -> f64 {
         let across = frame.inverse_transform_vector(self.normal).abs();

@@ -1,4 +1,4 @@
-//! Tests of planes against the heights of all corners, in arithmetic of their own.
+//! Tests planes against the heights of all corners, computed independently.
 
 use super::super::{Cell, Item};
 use crate::error::{PathError, RobotError};
@@ -19,10 +19,10 @@ use rigid_ccd::{Body, Pose, Settings};
 
 const TOLERANCE: f64 = 1e-4;
 
-/// Returns the least height over some planes of all links that a joint moves, and of a body that a link holds.
+/// Returns the least height, above several planes, of all moving links and of an attached body.
 fn least_height(
     robot: &Robot,
-    held: Option<(&str, &Body, Pose)>,
+    attached: Option<(&str, &Body, Pose)>,
     planes: &[Pose],
     at: &[f64],
 ) -> f64 {
@@ -46,13 +46,13 @@ fn least_height(
             }
         }
     }
-    if let Some((link, body, pose)) = held {
+    if let Some((link, body, pose)) = attached {
         measure(body, robot.pose(link, at).unwrap().compose(&pose));
     }
     least
 }
 
-/// Returns planes that are below most of a robot: a floor, a slope, or a corner of three.
+/// Returns planes that are below most of a robot: a floor, a slope, or three planes that form a corner.
 fn random_planes(random: &mut Pcg64) -> Vec<Pose> {
     let count = random.random_range(1..4);
     let planes = (0..count).map(|_| {
@@ -65,7 +65,7 @@ fn random_planes(random: &mut Pcg64) -> Vec<Pose> {
     planes.collect()
 }
 
-/// Returns a robot without pairs of its own, which is above planes: as obstacles, or as planes of its base.
+/// Returns a robot without checked pairs of its own, above planes that are obstacles or belong to its base.
 fn cell_over(robot: &Robot, planes: &[Pose], of_base: bool) -> Cell {
     let mut links = robot.links().to_vec();
     if of_base {
@@ -91,7 +91,7 @@ fn cell_over(robot: &Robot, planes: &[Pose], of_base: bool) -> Cell {
     cell
 }
 
-/// Returns a robot whose base has no bodies, so that only its planes are compared.
+/// Returns a robot whose base has no bodies, so that only planes on it are checked.
 fn robot_on_bare_base(random: &mut Pcg64) -> Robot {
     let robot = random_robot(random);
     let mut links = robot.links().to_vec();
@@ -99,7 +99,7 @@ fn robot_on_bare_base(random: &mut Pcg64) -> Robot {
     Robot::new(links, robot.joints().to_vec()).unwrap()
 }
 
-/// Tests all questions about paths over planes against the heights of all corners at many points.
+/// Tests all questions about paths over planes against corner heights at many points.
 #[test]
 fn answers_agree_with_the_heights_of_all_corners() {
     let mut random = Pcg64::seed_from_u64(75);
@@ -116,13 +116,13 @@ fn answers_agree_with_the_heights_of_all_corners() {
             .collect();
         let link = names[last];
         let holds = round % 4 == 0 && !robot.are_rigidly_connected(last, robot.base());
-        let held = holds.then(|| {
+        let attached = holds.then(|| {
             let (body, pose) = (random_body(&mut random), random_pose(&mut random, 0.3));
             cell.attach("held", body.clone(), (link, pose), &others)
                 .unwrap();
             (body, pose)
         });
-        let held = held.as_ref().map(|(body, pose)| (link, body, *pose));
+        let attached = attached.as_ref().map(|(body, pose)| (link, body, *pose));
         let margin = [0.0, 0.05][round % 2];
         let mut solver = cell.solver().with_settings(Settings {
             margin,
@@ -137,7 +137,7 @@ fn answers_agree_with_the_heights_of_all_corners() {
             let height = |share: f64| {
                 least_height(
                     &robot,
-                    held,
+                    attached,
                     &planes,
                     &configuration_between(&from, &to, share),
                 )
@@ -205,7 +205,7 @@ fn answers_agree_with_the_heights_of_all_corners() {
     assert!(near < 5e-3, "{near}: no free path is close");
 }
 
-/// Tests that a plane answers as a box whose top is in it and that is larger than all that moves.
+/// Tests that a plane gives the answers of a large box with its top in the plane.
 #[test]
 fn a_plane_is_a_large_box() {
     let mut random = Pcg64::seed_from_u64(76);
@@ -241,7 +241,7 @@ fn a_plane_is_a_large_box() {
     assert!(free > 10 && contacts > 10, "{free} {contacts}");
 }
 
-/// Returns a ball of radius 0.1 that flies.
+/// Returns a free-flying ball of radius 0.1.
 fn flying_ball() -> Cell {
     let ball = Link::named("ball").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
     let robot = Robot::new(vec![ball], vec![]).unwrap();
@@ -261,7 +261,7 @@ fn at([x, y, z]: [f64; 3]) -> [f64; 6] {
     [x, y, z, 0.0, 0.0, 0.0]
 }
 
-/// Tests that far from the base a plane still is where it is, and that a path is refused where that is not certain.
+/// Tests that a plane is exact far from the base, and that a path beyond its reach is refused.
 #[test]
 fn a_plane_has_no_end_or_is_refused() {
     let mut cell = flying_ball();
@@ -297,7 +297,7 @@ fn a_plane_has_no_end_or_is_refused() {
             "{refused:?}"
         );
     }
-    // The origin of such a plane says nothing about where it is near the robot.
+    // The origin of a plane may be far from the robot.
     cell.move_obstacle("floor", Pose::at([1e9, 0.0, -1.0]).unwrap())
         .unwrap();
     let mut solver = cell.solver();
@@ -326,10 +326,10 @@ fn planes_count_like_other_obstacles() {
     cell.set_clearance([Item::Link("ball"), Item::Obstacle("floor")], 0.01)
         .unwrap();
     assert!(is_free(&cell, 0.15) && !is_free(&cell, 0.105));
-    // Larger than the robot was when the plane came.
+    // Larger than the robot when the plane was added.
     let slab = Body::cuboid([3000.0, 1.0, 1.0]).unwrap();
-    let held = Pose::at([3000.0, 0.0, 0.0]).unwrap();
-    cell.attach("slab", slab, ("ball", held), &[]).unwrap();
+    let attached = Pose::at([3000.0, 0.0, 0.0]).unwrap();
+    cell.attach("slab", slab, ("ball", attached), &[]).unwrap();
     assert!(!is_free(&cell, 0.9) && is_free(&cell, 1.1));
     let tilted = [0.0, 0.0, 60.0, 0.0, 0.02, 0.0];
     assert!(!cell.solver().is_free(&[tilted]).unwrap());
@@ -343,7 +343,7 @@ fn planes_count_like_other_obstacles() {
     );
 }
 
-/// Tests that a link at rest may have planes, also where robots are combined, and that one that moves may not.
+/// Tests that static links may have planes, also in combined robots, and that moving links may not.
 #[test]
 fn only_links_at_rest_have_planes() {
     let floor = Link::named("floor").with_plane(Pose::IDENTITY);
@@ -370,7 +370,7 @@ fn only_links_at_rest_have_planes() {
     );
 }
 
-/// Tests which links can touch a floor: one that is too high, one that is in it, and one that dips into it.
+/// Tests the classes of links above, in and partly in a floor.
 #[test]
 fn links_touch_a_floor_never_always_or_sometimes() {
     let text = r#"<mujoco><worldbody><geom type="plane" size="1 1 1"/>

@@ -6,12 +6,12 @@ use crate::robot::{CompoundKind, Joint, Link, PositionRule, Robot};
 use crate::{PlacedRobot, test_robots};
 use rigid_ccd::{Pose, trajectory};
 
-/// An arm of two links of a given size, 0.4 apart.
+/// An arm of two links of the given size, 0.4 apart.
 fn arm(size: f64) -> Robot {
     two_links(size, hinge(0.4))
 }
 
-/// An arm in another unit.
+/// An arm whose unit of length differs by a factor.
 fn scaled_arm(scale: f64) -> Robot {
     two_links(0.4 * scale, hinge(0.4 * scale))
 }
@@ -21,20 +21,20 @@ fn hinge(height: f64) -> trajectory::Joint {
     trajectory::Joint::revolute(origin, [0.0, 1.0, 0.0]).unwrap()
 }
 
-/// A slide of two links of a given size, with limits.
+/// A slide of two links of the given size, with limits.
 fn slide(size: f64, limits: [f64; 2]) -> Robot {
     let slide = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
     two_links(size, slide.with_limits(limits[0]..=limits[1]))
 }
 
-fn two_links(size: f64, axis_and_limits: trajectory::Joint) -> Robot {
+fn two_links(size: f64, geometry: trajectory::Joint) -> Robot {
     let rod = || Body::cuboid([size / 2.0, 0.1 * size, 0.1 * size]).unwrap();
     let links = ["base", "arm"].map(|name| Link::named(name).with_body(rod(), Pose::IDENTITY));
     let joint = Joint {
         name: "joint".into(),
         parent: "base".into(),
         child: "arm".into(),
-        axis_and_limits,
+        geometry,
         position_rule: PositionRule::Independent,
     };
     Robot::new(links.to_vec(), vec![joint]).unwrap()
@@ -48,10 +48,10 @@ fn cell_of(robot: Robot) -> Cell {
 fn cell(robot: Robot, half_sides: [f64; 3]) -> Cell {
     let (mut cell, obstacle) = (cell_of(robot), Body::cuboid(half_sides).unwrap());
     let at = Pose::at([0.0, 0.0, -5.0]).unwrap();
-    let told = cell.remark_on_size("table", &obstacle);
+    let message = cell.remark_on_size("table", &obstacle);
     cell.add_obstacle("table", obstacle, at).unwrap();
     assert_eq!(
-        told.is_some(),
+        message.is_some(),
         warnings(&cell).iter().any(|text| text.contains("table is"))
     );
     cell
@@ -73,7 +73,7 @@ fn sizes_in_another_unit_are_remarked_upon() {
             table,
             "table is 1200",
         ),
-        // A robot whose meshes are in millimetres, while its joints are in metres.
+        // A robot with meshes in millimetres and joints in metres.
         (arm(400.0), table, "arm is 400 long, and the robot 0.4"),
         (arm(400.0), [0.0001; 3], "table is 0.0002"),
     ] {
@@ -85,7 +85,7 @@ fn sizes_in_another_unit_are_remarked_upon() {
     }
 }
 
-/// Tests cells of usual kinds: they have no warning, with a usual tolerance.
+/// Tests that usual cells have no warning at a usual tolerance.
 #[test]
 fn usual_cells_have_no_warnings() {
     let endless = [f64::NEG_INFINITY, f64::INFINITY];
@@ -169,10 +169,10 @@ fn positions_in_degrees_are_remarked_upon() {
         let remark = robot.remark_on_configuration(&[position]);
         remark.map(|remark| remark.to_string())
     };
-    let told = text(&arm(0.4), 90.0).unwrap();
+    let message = text(&arm(0.4), 90.0).unwrap();
     assert!(
-        told.starts_with("joint joint: a joint's position is a round number"),
-        "{told}"
+        message.starts_with("joint joint: a joint's position is a round number"),
+        "{message}"
     );
     for position in [0.0, 1.5, -6.3, 25.0, 91.3] {
         assert_eq!(text(&arm(0.4), position), None, "{position}");
@@ -224,7 +224,7 @@ fn links_that_never_move_are_named_beside_obstacles() {
         name: "legs".into(),
         parent: "ground".into(),
         child: "bench".into(),
-        axis_and_limits: trajectory::Joint::fixed(Pose::at([0.0, 0.0, 1.0]).unwrap()),
+        geometry: trajectory::Joint::fixed(Pose::at([0.0, 0.0, 1.0]).unwrap()),
         position_rule: PositionRule::Independent,
     };
     let on_ground = Robot::new(vec![ground, bench], vec![bench_joint]).unwrap();

@@ -6,7 +6,7 @@ use dashu_ratio::Relaxed;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Returns the value of a basis function by its recursive definition; a quotient of zeros is 0.
+/// Returns the value of a basis function by its recursive definition, with 0/0 = 0.
 fn basis_value(knots: &[Relaxed], degree: usize, number: usize, at: &Relaxed) -> Relaxed {
     if degree == 0 {
         let inside = knots[number] <= *at && *at < knots[number + 1];
@@ -25,7 +25,7 @@ fn basis_value(knots: &[Relaxed], degree: usize, number: usize, at: &Relaxed) ->
     sum
 }
 
-/// Returns the value of a polynomial whose coefficients are sums of two f64, without rounding.
+/// Returns the exact value of a polynomial whose coefficients are double-double numbers.
 fn exact_value(curve: &JointCurve, segment: usize, share: &Relaxed) -> Relaxed {
     let powers = (0..=curve.degree()).rev();
     powers.fold(Relaxed::ZERO, |value, power| {
@@ -34,7 +34,8 @@ fn exact_value(curve: &JointCurve, segment: usize, share: &Relaxed) -> Relaxed {
     })
 }
 
-/// Far from 0, with knots at distances that differ by factors of a hundred, values are right to 25 digits of the coefficients.
+/// Tests that values are accurate to 25 digits of the coefficients, far from 0 and with knot distances that differ by
+/// a factor of a hundred.
 #[test]
 fn splines_are_the_sums_of_their_basis_functions() {
     let mut random = Pcg64::seed_from_u64(9);
@@ -53,7 +54,7 @@ fn splines_are_the_sums_of_their_basis_functions() {
         let Ok(curve) =
             JointCurve::from_b_spline(degree, &knots, std::slice::from_ref(&coefficients))
         else {
-            // A knot that is repeated often is a jump.
+            // A knot of high multiplicity makes a jump.
             assert!(degree < 3, "degree {degree}");
             continue;
         };

@@ -1,4 +1,4 @@
-//! Tests of bounds over boxes of positions against random positions in them.
+//! Tests bounds over boxes of positions against random positions in them.
 
 use super::*;
 use crate::pairs::LinkPairs;
@@ -6,7 +6,7 @@ use crate::test_robots::{least_distance_of_links, random_robot, with_symmetric_l
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Tests that no position in a box contradicts its two bounds, and that the bound of first order is often the better one.
+/// Tests that no position in a box contradicts either bound, and that the first-order bound is often the better one.
 #[test]
 fn no_position_in_a_box_is_nearer_than_its_bounds() {
     let mut random = Pcg64::seed_from_u64(5);
@@ -58,8 +58,8 @@ fn no_position_in_a_box_is_nearer_than_its_bounds() {
 }
 
 impl Measurer<'_> {
-    /// Returns the gap of the first pair of parts in the middle of a box, how far they are displaced, and the bound of first order;
-    /// `None` if their hulls overlap in the middle.
+    /// Returns, for the first pair of parts, the gap at the centre of a box, the displacement bound and the
+    /// first-order bound; `None` if the hulls overlap at the centre.
     fn bounds(&mut self, pair: &LinkPair, joint_box: &JointBox) -> Option<[f64; 3]> {
         self.place_box(&pair.joints, joint_box);
         let placed = self.placed_parts(&pair.part_pairs[0]);

@@ -1,4 +1,4 @@
-//! The meshes and the height fields that an MJCF file names.
+//! The meshes and height fields of an MJCF.
 
 use super::attributes::Attributes;
 use super::classes::Classes;
@@ -10,33 +10,33 @@ use rigid_ccd::glam::{DAffine3, DQuat, DVec3};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// The shapes that geoms name.
+/// The meshes and height fields, by name.
 pub(super) struct Assets {
     pub(super) meshes: HashMap<String, MeshAsset>,
     /// The elements `hfield`.
     pub(super) height_fields: HashMap<String, Attributes>,
 }
 
-/// A mesh that geoms name.
+/// A mesh.
 pub(super) struct MeshAsset {
     pub(super) source: MeshSource,
-    /// MuJoCo moves the vertices from the reference pose to the origin, and then scales them.
+    /// Maps vertices as MuJoCo does: from the reference pose to the origin, then by the scale.
     pub(super) map: DAffine3,
 }
 
-/// Where the triangles of a mesh come from.
+/// The source of a mesh's triangles.
 pub(super) enum MeshSource {
     File(String),
-    /// The vertices and the triangles stand in the model. Without triangles the mesh is the hull of the vertices.
+    /// The vertices and triangles are in the model. Without triangles, the mesh is the hull of the vertices.
     Given {
         vertices: Vec<DVec3>,
         faces: Vec<[u32; 3]>,
     },
-    /// MuJoCo makes the mesh.
+    /// MuJoCo generates the mesh.
     Builtin,
 }
 
-/// Reads the shapes of a model by their names. One without a name has that of its file.
+/// Reads the meshes and height fields of a model. An asset without a name is named after its file.
 pub(super) fn read_assets(root: &Element, classes: &Classes) -> Result<Assets, MjcfError> {
     let mut names = Names::default();
     let mut assets = Assets {
@@ -46,9 +46,9 @@ pub(super) fn read_assets(root: &Element, classes: &Classes) -> Result<Assets, M
     for element in children_of_sections(root, "asset") {
         match element.name.as_str() {
             "mesh" | "hfield" => {}
-            // Pictures, and what is drawn over bodies.
+            // Images and decorations.
             "material" | "skin" | "texture" => continue,
-            // A model that may be attached, which is refused where it is.
+            // A model that other models may attach. `attach` itself is refused elsewhere.
             "model" => continue,
             _ => return Err(element.unknown_in("asset")),
         }

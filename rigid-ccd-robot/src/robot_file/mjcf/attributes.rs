@@ -1,4 +1,4 @@
-//! The attributes of an element of an MJCF file, with those of its class.
+//! The attributes of an MJCF element, merged with those of its class.
 
 use crate::robot_file::mjcf_error::MjcfError;
 use ccd_core::vector::unit;
@@ -7,17 +7,17 @@ use roxmltree::{Attribute, Node};
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-/// The attributes that give a rotation; an element has one of them at most.
+/// The attributes that specify a rotation. An element has at most one of them.
 pub(super) const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
-/// The attributes that are numbers. Like MuJoCo, this reader takes one that is empty as not given.
+/// Numeric attributes. If empty, they count as absent, as in MuJoCo.
 const NUMBERS: &str = "axis axisangle conaffinity contype count elevation euler face fromto group margin ncol nrow o_margin \
     offset polycoef pos quat range ref refpos refquat scale size xyaxes zaxis";
 
-/// The lengths of vectors that have a direction. Shorter and longer ones do not have one in MuJoCo.
+/// The lengths of vectors that MuJoCo accepts as directions.
 const LENGTHS_WITH_DIRECTION: RangeInclusive<f64> = 1e-10..=1e100;
 
-/// The attributes of an element by their names.
+/// The attributes of an element, by name.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Attributes {
     /// The name of the element.
@@ -26,7 +26,7 @@ pub(super) struct Attributes {
 }
 
 impl Attributes {
-    /// Takes the attributes of an element with their texts as they are, except empty numbers.
+    /// Reads the attributes of an element. Empty numeric attributes are left out.
     pub(super) fn read(node: Node<'_, '_>) -> Self {
         let is_given = |own: &Attribute<'_, '_>| {
             let is_empty = own.value().trim_ascii().is_empty();
@@ -41,13 +41,15 @@ impl Attributes {
         }
     }
 
-    /// Returns these attributes with those of a class that they do not give. A size may give only the first of its numbers.
+    /// Merges these attributes over those of a class. A shorter `size` replaces only the first numbers of the class's
+    /// `size`.
     pub(super) fn over(&self, class: &Attributes) -> Result<Self, MjcfError> {
         let mut values = class.values.clone();
         let is_own = |name: &&str| self.values.contains_key(*name);
         if let Some(own) = ORIENTATIONS.into_iter().find(is_own) {
             for other in ORIENTATIONS {
-                // MuJoCo takes any other one in place of a quaternion, and else that of the class.
+                // MuJoCo lets any rotation replace a quaternion of the class. For other combinations it uses
+                // the rotation of the class. That is probably a mistake of the file, and an error here.
                 if other != own && values.remove(other).is_some() && other != "quat" {
                     return Err(self.invalid(own));
                 }
@@ -72,29 +74,29 @@ impl Attributes {
         })
     }
 
-    /// Adds a text to the name, if there is one.
+    /// Appends a suffix to the name, if there is one.
     pub(super) fn add_to_name(&mut self, suffix: &str) {
         if let Some(name) = self.values.get_mut("name") {
             name.push_str(suffix);
         }
     }
 
-    /// Returns the text of an attribute, which may be empty. No keyword is.
+    /// Returns the value of an attribute, which may be empty.
     pub(super) fn get(&self, name: &str) -> Option<&str> {
         self.values.get(name).map(String::as_str)
     }
 
-    /// Returns the name of something or of a file; an empty one counts as none.
+    /// Returns the name in an attribute; `None` if it is absent or empty.
     pub(super) fn name(&self, attribute: &str) -> Option<&str> {
         self.get(attribute).filter(|name| !name.is_empty())
     }
 
-    /// Returns the name of something or of a file that has to be there.
+    /// Returns the name in an attribute, which must not be absent or empty.
     pub(super) fn required_name(&self, attribute: &str) -> Result<&str, MjcfError> {
         self.name(attribute).ok_or_else(|| self.invalid(attribute))
     }
 
-    /// Returns the numbers of an attribute.
+    /// Parses an attribute as a list of numbers; `None` if it is absent.
     pub(super) fn numbers(&self, name: &str) -> Result<Option<Vec<f64>>, MjcfError> {
         let Some(text) = self.get(name) else {
             return Ok(None);
@@ -107,7 +109,7 @@ impl Attributes {
         numbers.map(Some).ok_or_else(|| self.invalid(name))
     }
 
-    /// Returns the numbers of an attribute that has a fixed number of them.
+    /// Parses an attribute as a fixed number of numbers; `None` if it is absent.
     pub(super) fn array<const COUNT: usize>(
         &self,
         name: &str,
@@ -119,14 +121,14 @@ impl Attributes {
         Ok(Some(array))
     }
 
-    /// Returns the unit vector along a vector that an attribute gives.
+    /// Normalises a vector. The error names the attribute that it comes from.
     pub(super) fn direction(&self, name: &str, vector: DVec3) -> Result<DVec3, MjcfError> {
         let has_direction = |_: &DVec3| LENGTHS_WITH_DIRECTION.contains(&vector.length());
         let along = unit(vector).filter(has_direction);
         along.ok_or_else(|| self.invalid(name))
     }
 
-    /// Returns the rotation by a quaternion.
+    /// Parses an attribute as a quaternion; `None` if it is absent.
     pub(super) fn quaternion(&self, name: &str) -> Result<Option<DQuat>, MjcfError> {
         let Some([w, x, y, z]) = self.array(name)? else {
             return Ok(None);
@@ -138,7 +140,7 @@ impl Attributes {
         Ok(Some(quaternion))
     }
 
-    /// Returns a whole number, or another one if there is none.
+    /// Parses an attribute as an integer. Returns `other` if it is absent.
     pub(super) fn integer_or(&self, name: &str, other: i32) -> Result<i32, MjcfError> {
         match self.get(name) {
             Some(text) => text.trim_ascii().parse().map_err(|_| self.invalid(name)),
@@ -146,7 +148,7 @@ impl Attributes {
         }
     }
 
-    /// Returns whether an attribute is `true`, or another value if there is none.
+    /// Parses an attribute as a boolean. Returns `other` if it is absent.
     pub(super) fn truth_or(&self, name: &str, other: bool) -> Result<bool, MjcfError> {
         match self.get(name) {
             Some("true") => Ok(true),
@@ -161,7 +163,7 @@ impl Attributes {
         self.values.keys().map(String::as_str)
     }
 
-    /// Returns the kind of the element, and its name if it has one.
+    /// Returns the element's kind and name for messages.
     pub(super) fn label(&self) -> String {
         match self.name("name") {
             Some(name) => format!("{} {name}", self.element),
@@ -169,7 +171,7 @@ impl Attributes {
         }
     }
 
-    /// Returns the error that there is no attribute with a name.
+    /// Creates the error for an unknown attribute.
     pub(super) fn unknown(&self, name: &str) -> MjcfError {
         MjcfError::UnknownAttribute {
             element: self.label(),
@@ -177,7 +179,7 @@ impl Attributes {
         }
     }
 
-    /// Returns the error of an attribute.
+    /// Creates the error for an attribute with an invalid value.
     pub(super) fn invalid(&self, name: &str) -> MjcfError {
         MjcfError::InvalidAttribute {
             element: self.label(),

@@ -1,4 +1,4 @@
-//! The bodies of an MJCF file, with their joints and geoms.
+//! Reads the bodies of an MJCF with their joints and geoms.
 
 use super::attributes::Attributes;
 use super::classes::Classes;
@@ -9,16 +9,16 @@ use crate::robot_file::mjcf_error::MjcfError;
 use rigid_ccd::Pose;
 use rigid_ccd::glam::DVec3;
 
-/// The number of the body that does not move.
+/// The index of the world, the body that does not move.
 pub(super) const WORLD: usize = 0;
 
-/// A body of a model.
+/// A body of the model.
 pub(super) struct MjcfBody {
-    /// The number of the body, and of its parent; the world has none.
+    /// The indices of the body and of its parent. The world has no parent.
     pub(super) number: usize,
     pub(super) parent: Option<usize>,
     pub(super) name: String,
-    /// The pose in the frame of the parent, while all joints are at their references.
+    /// The pose in the parent's frame, with all joints at their reference positions.
     pub(super) pose: Pose,
     pub(super) joints: Vec<MjcfJoint>,
     pub(super) geoms: Vec<MjcfGeom>,
@@ -26,17 +26,17 @@ pub(super) struct MjcfBody {
 
 /// A joint of a body.
 pub(super) struct MjcfJoint {
-    /// The name, or that of the body with the joint's number.
+    /// The name, or by default the body's name and the joint's index.
     pub(super) name: String,
     pub(super) kind: MjcfJointKind,
-    /// The anchor and the axis, a unit vector, in the body's frame.
+    /// The anchor and the unit axis, in the body's frame.
     pub(super) anchor: DVec3,
     pub(super) axis: DVec3,
-    /// The limits of the position; `None` for a joint without.
+    /// The limits of the position; `None` for an unlimited joint.
     pub(super) limits: Option<[f64; 2]>,
-    /// The position in which the body has its pose.
+    /// The position at which the body has its pose.
     pub(super) reference: f64,
-    /// Whether the frame of a body without children is moved to its centre of mass.
+    /// Whether MuJoCo moves the body's frame to its centre of mass.
     is_aligned: bool,
 }
 
@@ -49,11 +49,11 @@ pub(super) enum MjcfJointKind {
     Free,
 }
 
-/// A geom of a body, with the pose of its frame.
+/// A geom of a body, with its pose in the body's frame.
 pub(super) struct MjcfGeom {
     pub(super) attributes: Attributes,
     pub(super) pose: Pose,
-    /// The pose of the frame around it, in which points are given.
+    /// The pose of the surrounding frame, in which `fromto` is given.
     pub(super) frame: Pose,
     pub(super) contype: i32,
     pub(super) conaffinity: i32,
@@ -65,7 +65,7 @@ impl MjcfGeom {
     }
 }
 
-/// Reads the bodies of a model: the world first, and others after their parents.
+/// Reads the bodies of a model. The world comes first, and parents come before children.
 pub(super) fn read_bodies(
     root: &Element,
     settings: &Settings,
@@ -94,20 +94,20 @@ struct Reader<'r> {
     settings: &'r Settings,
     classes: &'r Classes,
     bodies: Vec<MjcfBody>,
-    /// The number of elements that were added; one that is replicated counts each time.
+    /// The number of elements that were added, replicated ones included.
     added_count: usize,
 }
 
-/// Where elements are added.
+/// The context in which elements are added.
 #[derive(Clone, Copy)]
 struct Place<'r> {
-    /// The number of the body.
+    /// The index of the body.
     body: usize,
-    /// The pose of the elements' frame in the body's.
+    /// The pose of the elements' frame in the body's frame.
     frame: Pose,
-    /// The class of elements that have none.
+    /// The default class.
     class: Option<&'r str>,
-    /// What is added to all names.
+    /// The suffix of all names.
     suffix: &'r str,
 }
 
@@ -123,7 +123,7 @@ impl Place<'_> {
 }
 
 impl Reader<'_> {
-    /// Adds what is in an element to a body.
+    /// Adds the children of an element to a body.
     fn add_children(&mut self, element: &Element, place: &Place<'_>) -> Result<(), MjcfError> {
         for child in &element.children {
             self.added_count += 1;
@@ -154,7 +154,7 @@ impl Reader<'_> {
                     let joint = self.joint(&own, place.body, place.frame)?;
                     self.bodies[place.body].joints.push(joint);
                 }
-                // No shapes and no joints.
+                // These elements contain no shapes and no joints.
                 "camera" | "inertial" | "light" | "plugin" | "site" => {}
                 _ => return Err(child.unknown_in(&element.name)),
             }
@@ -162,7 +162,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Adds what is in an element as often as it says, each time moved further, and with a number after all names.
+    /// Adds the children of a `replicate` element several times. Each copy is moved further, and its names get a
+    /// number.
     fn replicate(
         &mut self,
         element: &Element,
@@ -206,7 +207,7 @@ impl Reader<'_> {
             .map_or_else(|| format!("body{number}"), str::to_owned);
         let pose = place.frame.compose(&read_pose(own, self.settings)?);
         let mut joints = Vec::new();
-        // Whoever steers the simulation moves it freely.
+        // The user of the simulation moves this body freely.
         if own.truth_or("mocap", false)? {
             joints.push(MjcfJoint {
                 name: format!("{name}/mocap"),
@@ -261,7 +262,7 @@ impl Reader<'_> {
             Some("free") => MjcfJointKind::Free,
             Some(_) => return Err(own.invalid("type")),
         };
-        // The world has no joints, and a free body is in the world and has no other joint.
+        // The world has no joints. A free joint is only allowed on a child of the world, as its only joint.
         let is_free = kind == MjcfJointKind::Free
             || body
                 .joints
@@ -292,7 +293,7 @@ impl Reader<'_> {
             anchor: frame.transform_point(anchor),
             axis: frame.rotation() * axis,
             limits: match kind {
-                // Positions of a free joint have no limits, and those of a ball joint are left out.
+                // A free joint has no limits. Those of a ball joint are ignored.
                 MjcfJointKind::Free | MjcfJointKind::Ball => None,
                 MjcfJointKind::Hinge | MjcfJointKind::Slide => {
                     self.limits(own)?.map(|limits| limits.map(scale))
@@ -307,7 +308,7 @@ impl Reader<'_> {
         let range: Option<[f64; 2]> = own.array("range")?;
         let proper = range.filter(|[low, high]| low < high && self.settings.has_limits);
         match own.get("limited") {
-            // A range without a length is none.
+            // An empty range gives no limits.
             None | Some("auto") => Ok(proper.filter(|_| self.settings.limits_follow_ranges)),
             Some(_) if own.truth_or("limited", false)? => {
                 proper.map(Some).ok_or_else(|| own.invalid("range"))

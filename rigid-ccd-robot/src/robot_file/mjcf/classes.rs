@@ -1,26 +1,26 @@
-//! The classes of attributes that elements inherit.
+//! The default classes of an MJCF, from which elements inherit attributes.
 
 use super::attributes::Attributes;
 use super::document::Element;
 use crate::robot_file::mjcf_error::MjcfError;
 use std::collections::BTreeMap;
 
-/// The class of elements without one.
+/// The name of the outermost class, which applies to elements without a class.
 const MAIN: &str = "main";
 
-/// The attributes of one class, by the names of elements.
+/// The attributes of one class, by element kind.
 type ClassAttributes = BTreeMap<String, Attributes>;
 
-/// The classes of a model, each with what it inherits.
+/// The classes of a model by name, with inherited attributes merged in.
 pub(super) struct Classes(BTreeMap<String, ClassAttributes>);
 
 impl Classes {
-    /// Reads the sections `default` of a model.
+    /// Reads the `default` sections of a model.
     pub(super) fn read(root: &Element) -> Result<Self, MjcfError> {
         let mut classes = Classes(BTreeMap::from([(MAIN.to_owned(), ClassAttributes::new())]));
         let mut name_of_main = None;
         for section in root.children.iter().filter(|own| own.name == "default") {
-            // The outermost class counts for all elements, and has one name, whatever it is.
+            // The outermost class applies to all elements. All sections must give it the same name.
             let name = section.attributes.name("class").unwrap_or(MAIN);
             if *name_of_main.get_or_insert(name) != name {
                 return Err(section.attributes.invalid("class"));
@@ -32,7 +32,7 @@ impl Classes {
         Ok(classes)
     }
 
-    /// Adds a class and the classes within it, and returns its attributes.
+    /// Adds a class and its nested classes. Returns its attributes.
     fn add(
         &mut self,
         class: &Element,
@@ -66,7 +66,7 @@ impl Classes {
         Ok(own)
     }
 
-    /// Checks that there is a class with a name.
+    /// Checks that a class exists.
     pub(super) fn check(&self, name: &str) -> Result<(), MjcfError> {
         self.attributes_of(name).map(|_| ())
     }
@@ -76,7 +76,8 @@ impl Classes {
         class.ok_or_else(|| MjcfError::unknown_name("class", name))
     }
 
-    /// Returns the attributes of an element with those of its class: its own one, or else that of the body around it.
+    /// Returns the attributes of an element merged over those of its class: its own class, or else the default class
+    /// of its body.
     pub(super) fn merged(
         &self,
         element: &Element,
@@ -85,7 +86,7 @@ impl Classes {
         self.merged_as(&element.name, element, of_body)
     }
 
-    /// Like [`Classes::merged`], for an element for which classes have another name.
+    /// Like [`Classes::merged`], for elements that classes list under another name.
     pub(super) fn merged_as(
         &self,
         name: &str,

@@ -1,4 +1,4 @@
-//! The elements of an MJCF file, with those of the files that it includes in their places.
+//! Parses an MJCF file. Included files replace the elements that include them.
 
 use super::attributes::Attributes;
 use crate::robot_file::error::RobotFileError;
@@ -7,13 +7,13 @@ use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// The largest depth of elements and of files that include each other. Deeper ones would exhaust the stack.
+/// The largest nesting depth of elements and included files. Deeper nesting could overflow the stack.
 const MAX_DEPTH: usize = 200;
 
 /// The largest number of elements.
 pub(super) const MAX_ELEMENTS: usize = 1 << 20;
 
-/// An element of an MJCF file.
+/// An element of an MJCF.
 pub(super) struct Element {
     pub(super) name: String,
     pub(super) attributes: Attributes,
@@ -21,7 +21,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// Returns the error that this element is not known in one with this name.
+    /// Creates the error that this element is not supported in a parent.
     pub(super) fn unknown_in(&self, parent: &str) -> MjcfError {
         MjcfError::UnknownElement {
             element: self.name.clone(),
@@ -30,7 +30,7 @@ impl Element {
     }
 }
 
-/// Iterates over the children of all sections of a model that have a name.
+/// Iterates over the children of all sections with a name.
 pub(super) fn children_of_sections<'r>(
     root: &'r Element,
     section: &'r str,
@@ -39,7 +39,7 @@ pub(super) fn children_of_sections<'r>(
     sections.flat_map(|section| &section.children)
 }
 
-/// Parses the text of a file, and the files that it includes from a folder. Returns its first element.
+/// Parses a text, and the files that it includes, which are relative to a folder. Returns the root element.
 pub(super) fn parse(text: &str, folder: &Path) -> Result<Element, RobotFileError> {
     let mut reader = Reader {
         folder,
@@ -59,7 +59,7 @@ fn parse_xml(text: &str) -> Result<Document<'_>, String> {
     Document::parse_with_options(text, options).map_err(|error| error.to_string())
 }
 
-/// Refuses names with a prefix, as of `x:geom`, which MJCF does not have.
+/// Rejects names with a namespace prefix, such as `x:geom`. MJCF has none.
 fn refuse_prefixes(node: Node<'_, '_>) -> Result<(), MjcfError> {
     let qualified = |prefix: &str, name: &str| format!("{prefix}:{name}");
     let name = node.tag_name();
@@ -85,12 +85,12 @@ fn refuse_prefixes(node: Node<'_, '_>) -> Result<(), MjcfError> {
 struct Reader<'r> {
     folder: &'r Path,
     element_count: usize,
-    /// The files that were included.
+    /// The files that were already included.
     included: HashSet<PathBuf>,
 }
 
 impl Reader<'_> {
-    /// Converts an element. An `include` becomes what is in the first element of its file.
+    /// Converts an element. An `include` is replaced by the children of the included file's root element.
     fn elements(
         &mut self,
         node: Node<'_, '_>,

@@ -1,4 +1,4 @@
-//! Makes bodies and planes of the geoms of an MJCF.
+//! Converts the geoms of an MJCF into bodies and planes.
 
 use super::assets::MeshSource;
 use super::bodies::{MjcfBody, MjcfGeom};
@@ -16,13 +16,13 @@ use rigid_ccd::{Body, Pose};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The first group of geoms that MuJoCo does not draw.
+/// The first geom group that MuJoCo does not draw by default.
 const FIRST_HIDDEN_GROUP: i32 = 3;
 
-/// The kinds of geoms that may be given by the points between which they are.
+/// The geom types that accept `fromto`.
 const BETWEEN_POINTS: [&str; 4] = ["capsule", "cylinder", "box", "ellipsoid"];
 
-/// Makes bodies and planes of the geoms of a model.
+/// Converts the geoms of a model into bodies and planes.
 pub(super) struct GeomReader<'r> {
     pub(super) mjcf: &'r MjcfModel,
     pub(super) elements: BodyElements,
@@ -43,7 +43,7 @@ impl GeomReader<'_> {
         Ok(())
     }
 
-    /// Adds a geom to its link, if it is one of the elements that become bodies.
+    /// Adds a geom to its link, if it is of the selected kind.
     fn add_geom(&self, link: &mut Link, geom: &MjcfGeom) -> Result<(), RobotFileError> {
         let own = &geom.attributes;
         let is_body = match self.elements {
@@ -105,7 +105,7 @@ impl GeomReader<'_> {
         self.meshes.body_of_height_field(&mesh, name)
     }
 
-    /// Returns the path of a file that a model names.
+    /// Returns the path of a mesh file.
     fn file(&self, uri: &str) -> Result<PathBuf, RobotFileError> {
         let file = self.mjcf.settings.mesh_file(uri);
         if file.is_file() {
@@ -118,7 +118,7 @@ impl GeomReader<'_> {
     }
 }
 
-/// Makes the body of a geom that its sizes describe, and returns it with its pose.
+/// Creates the body of a primitive geom. Returns it with its pose.
 fn primitive(geom: &MjcfGeom, kind: &str) -> Result<(Body, Pose), RobotFileError> {
     let own = &geom.attributes;
     let (pose, sizes) = pose_and_sizes(geom, kind)?;
@@ -137,7 +137,7 @@ fn primitive(geom: &MjcfGeom, kind: &str) -> Result<(Body, Pose), RobotFileError
     Ok((body, pose))
 }
 
-/// Returns the pose of a geom and its sizes, which are halves of lengths. A geom may be given by the points between which it is.
+/// Returns the pose and the sizes of a geom; sizes are half lengths. `fromto` may specify both.
 fn pose_and_sizes(geom: &MjcfGeom, kind: &str) -> Result<(Pose, Vec<f64>), RobotFileError> {
     let own = &geom.attributes;
     let sizes = own.numbers("size")?.unwrap_or_default();

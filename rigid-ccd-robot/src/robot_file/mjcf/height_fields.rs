@@ -1,4 +1,4 @@
-//! The height fields of an MJCF.
+//! Reads the height fields of an MJCF.
 
 use super::attributes::Attributes;
 use crate::robot_file::error::RobotFileError;
@@ -9,21 +9,21 @@ use rigid_ccd::glam::DVec3;
 use std::fs;
 use std::path::Path;
 
-/// The largest number of heights, for which a mesh has eight times as many triangles at most.
+/// The largest number of heights. The mesh has at most eight times as many triangles.
 const MAX_HEIGHTS: usize = 1 << 22;
 
-/// A height field: a grid of heights over a base.
+/// A height field: a grid of heights above a base.
 pub(super) struct HeightField {
-    /// Half the lengths along x and y, the largest height, and the thickness of the base.
+    /// Half the extents along x and y, the largest height, and the thickness of the base.
     size: [f64; 4],
     rows: usize,
     columns: usize,
-    /// The heights from 0 to 1, row by row with growing y.
+    /// The heights from 0 to 1, row by row, with increasing y.
     heights: Vec<f32>,
 }
 
 impl HeightField {
-    /// Reads a height field from its element, or from its file.
+    /// Reads a height field from its element or its file.
     pub(super) fn read(own: &Attributes, file: Option<&Path>) -> Result<Self, RobotFileError> {
         let size: [f64; 4] = own.array("size")?.ok_or_else(|| own.invalid("size"))?;
         if !size.iter().all(|&length| length > 0.0) {
@@ -36,7 +36,7 @@ impl HeightField {
         let all = || heights.iter().map(|&height| f64::from(height));
         let low = all().fold(f64::INFINITY, lesser) as f32;
         let high = all().fold(f64::NEG_INFINITY, greater) as f32;
-        // As MuJoCo does it, in the same precision.
+        // Normalises the heights as MuJoCo does, in the same precision.
         for height in &mut heights {
             *height -= low;
             if f64::from(high - low) > 1e-14 {
@@ -51,8 +51,8 @@ impl HeightField {
         })
     }
 
-    /// Returns the surface of the solid between the heights and the bottom of the base. Each cell of the grid has two triangles, with
-    /// the diagonal from its least to its greatest x and y.
+    /// Returns the surface of the solid between the heights and the bottom of the base. Each grid cell has two
+    /// triangles, split along the diagonal from its lowest to its highest x and y.
     pub(super) fn mesh(&self) -> Result<TriangleMesh, RobotFileError> {
         let (rows, columns) = (self.rows, self.columns);
         let [x, y, most, base] = self.size;
@@ -89,7 +89,8 @@ impl HeightField {
     }
 }
 
-/// Reads the heights that stand in the element: all 0 without them, and the row of the greatest y first.
+/// Reads the heights from the element; all are 0 if there are none. The element lists the row with the largest y
+/// first.
 fn given_heights(own: &Attributes) -> Result<([usize; 2], Vec<f32>), MjcfError> {
     let count =
         |name: &str| usize::try_from(own.integer_or(name, 0)?).map_err(|_| own.invalid(name));
@@ -108,7 +109,7 @@ fn given_heights(own: &Attributes) -> Result<([usize; 2], Vec<f32>), MjcfError> 
     ))
 }
 
-/// Reads a file of MuJoCo's own format: the numbers of rows and columns, then all heights.
+/// Reads a file in MuJoCo's binary format: the numbers of rows and columns, then all heights.
 fn read_file(own: &Attributes, file: &Path) -> Result<([usize; 2], Vec<f32>), RobotFileError> {
     let is_picture = file
         .extension()
@@ -132,7 +133,7 @@ fn read_file(own: &Attributes, file: &Path) -> Result<([usize; 2], Vec<f32>), Ro
     read().ok_or_else(|| own.invalid("file").into())
 }
 
-/// Returns the number of heights; `None` if there are too few for a cell, or too many.
+/// Returns the number of heights; `None` if there are fewer than two rows or columns, or too many heights.
 fn check_counts([rows, columns]: [usize; 2]) -> Option<usize> {
     let heights = rows.checked_mul(columns)?;
     (rows > 1 && columns > 1 && heights <= MAX_HEIGHTS).then_some(heights)

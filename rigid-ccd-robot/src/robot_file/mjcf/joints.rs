@@ -1,4 +1,4 @@
-//! Makes chains of joints of the joints of an MJCF, several of which may move one body.
+//! Converts the joints of an MJCF, where several joints may move one body, into chains of joints.
 
 use super::bodies::{MjcfBody, MjcfJoint, MjcfJointKind};
 use super::model::MjcfModel;
@@ -9,30 +9,30 @@ use rigid_ccd::glam::{DQuat, DVec3};
 use rigid_ccd::{InputError, Pose, trajectory};
 use std::collections::HashMap;
 
-/// Makes chains of joints of those of a model.
+/// Converts the joints of a model.
 pub(super) struct JointReader<'r> {
     mjcf: &'r MjcfModel,
-    /// The rules of the joints that follow others, by their names.
+    /// For each joint that follows another one, by name, the joint that it follows and the function.
     followers: HashMap<&'r str, Follower<'r>>,
 }
 
-/// A linear function by which a joint follows another one.
+/// The linear function by which a joint follows another one.
 struct Follower<'r> {
     leader: &'r str,
     multiplier: f64,
     offset: f64,
 }
 
-/// The joints of a body as far as they are made, from its parent on.
+/// The chain of joints between a body and its parent, while it is built.
 struct Chain<'r> {
     /// The link of the body.
     body: &'r str,
     /// The links between the parent and the body.
     links: Vec<Link>,
     joints: Vec<Joint>,
-    /// The last link.
+    /// The last link of the chain so far.
     at: String,
-    /// The pose of the body's frame in that of the last link, while all joints that follow are at their references.
+    /// The pose of the body's frame in the frame of the last link, with all remaining joints at their references.
     frame: Pose,
 }
 
@@ -79,7 +79,7 @@ impl<'r> JointReader<'r> {
         Ok((chain.links, chain.joints))
     }
 
-    /// Adds one joint, which moves the link `child`, to the chain of its body.
+    /// Adds one joint, which moves the link `child`, to the chain.
     fn add_joint(
         &self,
         chain: &mut Chain<'_>,
@@ -91,7 +91,7 @@ impl<'r> JointReader<'r> {
         let name = &joint.name;
         match joint.kind {
             MjcfJointKind::Hinge => {
-                // The position is 0 where the body has been turned back from its reference.
+                // At position 0 the body is turned back from its reference position.
                 let back = DQuat::from_scaled_axis(-joint.reference * joint.axis);
                 let origin = at_anchor.compose(&Pose::new(DVec3::ZERO, back)?);
                 let moving = trajectory::Joint::revolute(origin, joint.axis)?;
@@ -121,7 +121,7 @@ impl<'r> JointReader<'r> {
                 chain.frame = anchor.inverse();
             }
             MjcfJointKind::Free => {
-                // Its positions are those of the body in the world.
+                // The positions are those of the body in the world.
                 chain.push_compound(CompoundKind::Floating, name, child, Pose::IDENTITY)?;
                 chain.frame = Pose::IDENTITY;
             }
@@ -142,7 +142,7 @@ impl<'r> JointReader<'r> {
 }
 
 impl MjcfJointKind {
-    /// Returns whether a joint turns about its anchor.
+    /// Returns whether the joint rotates about its anchor.
     fn turns(self) -> bool {
         matches!(self, MjcfJointKind::Hinge | MjcfJointKind::Ball)
     }
@@ -174,7 +174,7 @@ impl Chain<'_> {
             name,
             parent,
             child: self.at.clone(),
-            axis_and_limits: moving,
+            geometry: moving,
             position_rule,
         });
     }
@@ -193,7 +193,7 @@ impl Chain<'_> {
         Ok(())
     }
 
-    /// Makes a link the last one, and returns the one before it. The robot has a link for each body already.
+    /// Makes `child` the last link, and returns the previous one. The link of the body itself exists already.
     fn move_on_to(&mut self, child: String) -> String {
         if child != self.body {
             self.links.push(Link::named(&child));
@@ -202,8 +202,8 @@ impl Chain<'_> {
     }
 }
 
-/// Reads the constraints by which a joint is a linear function of another one. The first one of a joint counts, unless it closes
-/// a circle.
+/// Reads the equality constraints that make a joint a linear function of another one. The first valid one of each
+/// joint applies. A constraint that would close a loop is ignored.
 fn read_followers(mjcf: &MjcfModel) -> Result<HashMap<&str, Follower<'_>>, MjcfError> {
     let joints = mjcf.bodies.iter().flat_map(|body| &body.joints);
     let joints: HashMap<&str, &MjcfJoint> = joints.map(|own| (own.name.as_str(), own)).collect();
@@ -217,7 +217,7 @@ fn read_followers(mjcf: &MjcfModel) -> Result<HashMap<&str, Follower<'_>>, MjcfE
         let Some(leader) = own.name("joint2").map(find).transpose()? else {
             continue;
         };
-        // Coefficients that are not given are those of equality.
+        // The default coefficients make both positions equal.
         let mut coefficients = [0.0, 1.0, 0.0, 0.0, 0.0];
         let given = own.numbers("polycoef")?.unwrap_or_default();
         if given.len() > coefficients.len() {
@@ -239,7 +239,7 @@ fn read_followers(mjcf: &MjcfModel) -> Result<HashMap<&str, Follower<'_>>, MjcfE
     Ok(followers)
 }
 
-/// Returns whether a joint is another one, or follows it directly or through others.
+/// Returns whether a joint is `other` or follows it directly or indirectly.
 fn follows(followers: &HashMap<&str, Follower<'_>>, joint: &str, other: &str) -> bool {
     let mut at = joint;
     while at != other {

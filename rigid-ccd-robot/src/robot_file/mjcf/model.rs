@@ -1,4 +1,4 @@
-//! What an MJCF file says of a robot.
+//! The parsed contents of an MJCF file.
 
 use super::assets::{Assets, read_assets};
 use super::attributes::Attributes;
@@ -12,17 +12,17 @@ use crate::robot_file::error::RobotFileError;
 use crate::robot_file::mjcf_error::MjcfError;
 use std::path::Path;
 
-/// What an MJCF file says of a robot.
+/// The parsed contents of an MJCF file.
 pub(in crate::robot_file) struct MjcfModel {
     pub(super) settings: Settings,
-    /// The bodies; the world is first, and others follow their parents.
+    /// The bodies. The world comes first, and parents come before children.
     pub(super) bodies: Vec<MjcfBody>,
     pub(super) assets: Assets,
-    /// The elements of `contact` and `equality`, with the attributes of their classes.
+    /// The elements of `contact` and `equality`, merged with their classes.
     constraints: Vec<Attributes>,
 }
 
-/// Sections of a model that say nothing of shapes, joints or pairs.
+/// Sections that are unrelated to shapes, joints and pairs, or that other modules read.
 const OTHER_SECTIONS: [&str; 12] = [
     "actuator",
     "asset",
@@ -39,7 +39,7 @@ const OTHER_SECTIONS: [&str; 12] = [
 ];
 
 impl MjcfModel {
-    /// Reads the text of a file, which includes files of a folder.
+    /// Parses the text of a file. Included files are relative to a folder.
     pub(in crate::robot_file) fn from_text(
         text: &str,
         folder: &Path,
@@ -59,7 +59,7 @@ impl MjcfModel {
                         constraints.push(own);
                     }
                 }
-                // Classes have one name for all kinds of equalities.
+                // Classes list all kinds of equalities under one name.
                 "equality" => {
                     for element in &section.children {
                         let own = classes.merged_as("equality", element, None)?;
@@ -69,7 +69,7 @@ impl MjcfModel {
                         }
                     }
                 }
-                // A tendon is no shape; it may hold two joints together, which then are independent.
+                // A tendon is not a shape. It may couple two joints; they are treated as independent.
                 "worldbody" | "tendon" => {}
                 other if OTHER_SECTIONS.contains(&other) => {}
                 _ => return Err(section.unknown_in("mujoco").into()),
@@ -93,13 +93,13 @@ impl MjcfModel {
         })
     }
 
-    /// Returns the number of the body that has a name.
+    /// Returns the index of the body with a name.
     pub(super) fn body_named(&self, name: &str) -> Result<usize, MjcfError> {
         let number = self.bodies.iter().position(|body| body.name == name);
         number.ok_or_else(|| MjcfError::unknown_name("body", name))
     }
 
-    /// Iterates over the elements of `contact` and `equality` with a name.
+    /// Iterates over the elements of `contact` and `equality` of one kind.
     pub(super) fn constraints_named(&self, element: &str) -> impl Iterator<Item = &Attributes> {
         self.constraints
             .iter()

@@ -1,4 +1,4 @@
-//! Poses of elements of an MJCF file.
+//! Reads the poses of MJCF elements.
 
 use super::attributes::{Attributes, ORIENTATIONS};
 use super::settings::Settings;
@@ -7,7 +7,7 @@ use ccd_core::vector::unit;
 use rigid_ccd::Pose;
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
 
-/// Returns the pose of an element: its position, and one of the attributes that give a rotation.
+/// Reads the pose of an element from its position and one of the rotation attributes.
 pub(super) fn read_pose(own: &Attributes, settings: &Settings) -> Result<Pose, MjcfError> {
     let position = own.array("pos")?.unwrap_or([0.0; 3]);
     Pose::new(position, read_rotation(own, settings)?).map_err(|_| own.invalid("pos"))
@@ -42,7 +42,7 @@ fn read_rotation(own: &Attributes, settings: &Settings) -> Result<DQuat, MjcfErr
     }
 }
 
-/// Returns the rotation by three angles about the axes of the settings, one after the other.
+/// Returns the rotation by three Euler angles, about the axes that the settings specify.
 pub(super) fn euler_rotation(angles: [f64; 3], settings: &Settings) -> DQuat {
     let mut rotation = DQuat::IDENTITY;
     for (axis, angle) in settings.euler_axes.into_iter().zip(angles) {
@@ -61,7 +61,7 @@ pub(super) fn euler_rotation(angles: [f64; 3], settings: &Settings) -> DQuat {
     rotation
 }
 
-/// Returns the rotation by the least angle that turns the z axis to a unit vector. Like MuJoCo's, it is about the x axis if the
+/// Returns the smallest rotation that maps the z axis to a unit vector. Like MuJoCo's, it is about the x axis if the
 /// two are nearly parallel.
 pub(super) fn rotation_of_z_to(axis: DVec3) -> DQuat {
     let across = DVec3::Z.cross(axis);

@@ -1,4 +1,4 @@
-//! The pairs of bodies that MuJoCo checks.
+//! The pairs of bodies that MuJoCo checks for collision.
 
 use super::attributes::Attributes;
 use super::bodies::{MjcfGeom, WORLD};
@@ -11,7 +11,7 @@ use crate::robot_file::mjcf_error::MjcfError;
 use crate::skip_reason::SkipReason;
 
 impl MjcfModel {
-    /// Returns the pairs of links that MuJoCo checks. A pair of links is checked if some of their geoms are.
+    /// Returns the pairs of links that MuJoCo checks. A pair is checked if any two of its geoms are.
     pub(in crate::robot_file) fn link_pairs(
         &self,
         robot: &Robot,
@@ -54,12 +54,12 @@ impl MjcfModel {
         Ok(pairs)
     }
 
-    /// Returns whether MuJoCo compares a geom with anything.
+    /// Returns whether MuJoCo checks a geom against anything.
     pub(super) fn is_solid(&self, geom: &MjcfGeom) -> bool {
         geom.contype != 0 || geom.conaffinity != 0 || self.is_in_pair(geom)
     }
 
-    /// Returns whether an element `pair` names a geom.
+    /// Returns whether a `pair` element names a geom.
     fn is_in_pair(&self, geom: &MjcfGeom) -> bool {
         let is_named = |pair: &Attributes| {
             let names = [pair.name("geom1"), pair.name("geom2")];
@@ -85,7 +85,7 @@ impl MjcfModel {
             .collect()
     }
 
-    /// Returns why a pair of bodies is not checked, except for elements `exclude`; `None` if it is.
+    /// Returns why a pair of bodies is not checked; `None` if it is. `exclude` elements are not considered here.
     fn skip_reason(&self, bodies: [usize; 2], elements: BodyElements) -> Option<SkipReason> {
         let [a, b] = bodies.map(|body| self.moving_ancestor(body));
         if a == b {
@@ -102,7 +102,7 @@ impl MjcfModel {
             .then(|| SkipReason::Disabled("contype and conaffinity".to_owned()))
     }
 
-    /// Returns the body itself, or the nearest one above it that moves by joints of its own; the world if none does.
+    /// Returns the nearest body with joints, starting at `body` itself and going up; the world if there is none.
     fn moving_ancestor(&self, mut body: usize) -> usize {
         while self.bodies[body].joints.is_empty() {
             match self.bodies[body].parent {
@@ -113,7 +113,7 @@ impl MjcfModel {
         body
     }
 
-    /// Returns whether some geoms of two bodies collide by their masks.
+    /// Returns whether the masks of any two geoms of the bodies allow a collision.
     fn can_collide(&self, [a, b]: [usize; 2]) -> bool {
         let collide = |one: &MjcfGeom, other: &MjcfGeom| {
             one.contype & other.conaffinity != 0 || other.contype & one.conaffinity != 0

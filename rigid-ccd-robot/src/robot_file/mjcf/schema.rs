@@ -1,26 +1,27 @@
-//! The elements and attributes of MJCF that are read here, as in the schema of MuJoCo 4.0 (`mj_printSchema`).
+//! The supported elements and attributes of MJCF, from the schema of MuJoCo 4.0 (`mj_printSchema`).
 
 use super::document::Element;
 use crate::robot_file::mjcf_error::MjcfError;
 
-/// Elements that may stand in another one, with the names of their attributes.
+/// The elements that another element may contain, with the names of their attributes.
 type Known = &'static [(&'static str, Attributes)];
 
 enum Attributes {
-    /// These, in one or more lists.
+    /// The attributes in these space-separated lists.
     Of(&'static [&'static str]),
-    /// Any, because the element says nothing of shapes, joints and pairs, or because it is refused.
+    /// Any attributes: the element is unrelated to shapes, joints and pairs, or rejected elsewhere.
     Any,
 }
 
-/// Refuses elements and attributes that MJCF does not have. What says nothing of shapes, joints and pairs is not looked at.
+/// Rejects elements and attributes that MJCF does not have. Elements that are unrelated to shapes, joints and pairs
+/// are skipped.
 pub(super) fn check(root: &Element) -> Result<(), MjcfError> {
     check_attributes(root, &Attributes::Of(&["model"]))?;
     check_children(root)
 }
 
 fn check_children(element: &Element) -> Result<(), MjcfError> {
-    let Some(known) = known_in(&element.name) else {
+    let Some(known) = allowed_children(&element.name) else {
         return Ok(());
     };
     for child in &element.children {
@@ -49,8 +50,8 @@ fn check_attributes(element: &Element, known: &Attributes) -> Result<(), MjcfErr
     }
 }
 
-/// Returns what may stand in an element; `None` if anything may, because it is not read or its reader says so.
-fn known_in(parent: &str) -> Option<Known> {
+/// Returns the elements that an element may contain; `None` if this is not checked here.
+fn allowed_children(parent: &str) -> Option<Known> {
     match parent {
         "mujoco" => Some(SECTIONS),
         "compiler" => Some(&[("lengthrange", Attributes::Any)]),

@@ -1,28 +1,28 @@
-//! The settings of an MJCF file that change what its numbers and names mean.
+//! The compiler settings and options of an MJCF that affect geometry, joints and names.
 
 use super::attributes::Attributes;
 use super::document::{Element, children_of_sections};
 use crate::robot_file::mjcf_error::MjcfError;
 use std::path::{Path, PathBuf};
 
-/// The settings of a model: of its sections `compiler`, and of the flags in its sections `option`.
+/// The settings from the `compiler` sections and from the flags of the `option` sections.
 pub(super) struct Settings {
     has_degrees: bool,
-    /// The axes about which an attribute `euler` turns; those in lower case turn with the body.
+    /// The axes of Euler angles. Lower-case axes rotate with the body.
     pub(super) euler_axes: [char; 3],
-    /// Whether a joint with a range is limited unless it says otherwise.
+    /// Whether a joint with a range is limited by default.
     pub(super) limits_follow_ranges: bool,
     /// Whether the frame of a free body without children is moved to its centre of mass.
     pub(super) aligns_free_bodies: bool,
-    /// Whether a body is not compared with its parent.
+    /// Whether a body is not checked against its parent.
     pub(super) skips_parents: bool,
     pub(super) has_limits: bool,
     pub(super) has_equalities: bool,
-    /// Whether a margin of the options counts in place of those of geoms and pairs.
+    /// Whether the margin of the options replaces those of geoms and pairs.
     overrides_margins: bool,
     margin: f64,
     mesh_folder: PathBuf,
-    /// Whether meshes are found by their file names alone.
+    /// Whether folders in mesh file names are ignored.
     strips_paths: bool,
 }
 
@@ -46,7 +46,7 @@ impl Settings {
         for compiler in &compilers {
             settings.set(compiler)?;
         }
-        // The last one counts, also an empty one, and of one element that of meshes.
+        // The last folder counts, even if empty. Within one element, `meshdir` takes precedence over `assetdir`.
         let mut folders = compilers
             .iter()
             .filter_map(|own| own.get("meshdir").or(own.get("assetdir")));
@@ -57,7 +57,7 @@ impl Settings {
         Ok(settings)
     }
 
-    /// Sets what the options and their flags say. The last one of a name counts.
+    /// Reads the options and their flags. The last value of a name counts.
     fn set_options(&mut self, root: &Element) -> Result<(), MjcfError> {
         let mut has_constraints = true;
         for flag in children_of_sections(root, "option").filter(|own| own.name == "flag") {
@@ -115,7 +115,7 @@ impl Settings {
         Ok(())
     }
 
-    /// Returns the margin that counts in place of those of geoms and pairs; `None` if theirs count.
+    /// Returns the margin that replaces those of geoms and pairs; `None` if theirs apply.
     pub(super) fn margin(&self) -> Option<f64> {
         self.overrides_margins.then_some(self.margin)
     }
@@ -129,7 +129,7 @@ impl Settings {
         }
     }
 
-    /// Returns the path of the file of a mesh or a height field.
+    /// Returns the path of a mesh or height field file.
     pub(super) fn mesh_file(&self, file: &str) -> PathBuf {
         let path = Path::new(file);
         match path.file_name().filter(|_| self.strips_paths) {

@@ -7,7 +7,7 @@ use rigid_ccd::glam::{DAffine3, DQuat, DVec3};
 use rigid_ccd::{Body, Pose, Solver};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
 
-/// A model whose joints have anchors, references and axes of their own; two of them move one body.
+/// A model whose joints have anchors, references and axes. Two joints move the same body.
 const LEG: &str = r#"<mujoco model="leg">
   <compiler angle="radian"/>
   <default><default class="shown"><geom contype="0" conaffinity="0" group="2"/></default></default>
@@ -41,8 +41,8 @@ fn joint_about(anchor: DVec3, rotation: DQuat) -> DAffine3 {
         * DAffine3::from_translation(-anchor)
 }
 
-/// Returns the frames of hip, shank and stone by the rules of MJCF: each joint moves the body about its anchor by how far it
-/// is from its reference.
+/// Returns the frames of hip, shank and stone by MJCF's rule: each joint moves its body about its anchor, by the
+/// distance from its reference.
 fn expected_frames([turn, tilt, slide]: [f64; 3], stone: [f64; 6]) -> [DAffine3; 3] {
     let hip = DAffine3::from_rotation_translation(DQuat::from_xyzw(0.0, 0.6, 0.0, 0.8), DVec3::Z);
     let hip =
@@ -95,7 +95,7 @@ fn joints_move_bodies_about_their_anchors() {
     }
 }
 
-/// Tests that a joint follows another one, as far from its own reference as the polynomial says.
+/// Tests the position of a joint that follows another one by a polynomial, relative to both references.
 #[test]
 fn a_joint_follows_another_one() {
     let robot = file_of(LEG).read().unwrap();
@@ -136,8 +136,8 @@ fn checked_names(text: &str, elements: BodyElements) -> Vec<String> {
     names
 }
 
-/// Tests that the pairs are those of MuJoCo: a body and its parent are none, nor are bodies that are fixed to these, but the
-/// world is no such parent.
+/// Tests that the pairs are MuJoCo's: a body is not checked against its parent or bodies fixed to it, unless that is
+/// the world.
 #[test]
 fn pairs_are_those_of_mujoco() {
     let known = [
@@ -171,12 +171,12 @@ fn masks_and_pairs_decide() {
     assert_eq!(pairs.skip_reason(a, b), Some(&reason));
 }
 
-/// Returns the distance of a small ball at a point from the only body of a link, in the frame of the link.
+/// Returns the distance of a small ball from the only body of a link, in the link's frame.
 fn distance_from_link(robot: &Robot, link: &str, point: DVec3) -> f64 {
-    let held = &robot.links()[robot.link_number(link).unwrap()].bodies;
+    let link_bodies = &robot.links()[robot.link_number(link).unwrap()].bodies;
     let ball = Body::sphere(1e-9).unwrap();
     let answer = Solver::new().distance(
-        (&*held[0].body, held[0].pose),
+        (&*link_bodies[0].body, link_bodies[0].pose),
         (&ball, Pose::at(point).unwrap()),
     );
     answer.unwrap().outcome.upper()
@@ -192,7 +192,7 @@ fn geoms_have_the_sizes_of_halves_or_lie_between_points() {
             "{link} {point:?} {distance}"
         );
     };
-    // The capsule from 0 to −0.4, without the sphere that is only shown.
+    // The capsule from 0 to −0.4, without the visual sphere.
     near("hip", [0.0, 0.0, 0.5], 0.45);
     near("hip", [0.0, 0.0, -1.0], 0.55);
     near("hip", [0.3, 0.0, -0.2], 0.25);
@@ -211,7 +211,7 @@ fn geoms_have_the_sizes_of_halves_or_lie_between_points() {
     );
 }
 
-/// Tests that a mesh is scaled after it is moved to its reference pose.
+/// Tests that a mesh is moved to its reference pose before it is scaled.
 #[test]
 fn meshes_have_reference_poses_and_scales() {
     let folder = tempfile::tempdir().unwrap();
@@ -224,7 +224,7 @@ fn meshes_have_reference_poses_and_scales() {
     let path = folder.path().join("model.xml");
     std::fs::write(&path, text).unwrap();
     let robot = RobotFile::from_path(&path).read().unwrap();
-    // (1, 0, 0) − (0, 0, 3), turned by −90° about z, scaled, and moved to the pose of the geom.
+    // (1, 0, 0) − (0, 0, 3), rotated by −90° about z, scaled, and moved to the geom's pose.
     for (vertex, expected) in [
         ([1.0, 0.0, 0.0], [0.0, 4.0, 3.0]),
         ([0.0, 1.0, 0.0], [2.0, 5.0, 3.0]),
@@ -247,13 +247,13 @@ fn what_has_no_body_is_an_error_that_names_it() {
     let expected = format!("link `a`: geom `blob`: a signed distance field {advice}");
     assert_eq!(field, expected);
     let moving = error(r#"<joint/><geom type="plane" size="0 0 1"/>"#);
-    let advice = "has a plane, and a joint moves it; only a link at rest has planes";
+    let advice = "has a plane, and a joint moves it; only a static link may have planes";
     assert_eq!(moving, format!("link `a` {advice}"));
     assert!(error(r#"<geom type="ellipsoid" size="1 2 0"/>"#).contains("size"));
     assert!(error(r#"<geom type="hfield" hfield="h"/>"#).contains("there is no hfield `h`"));
     let missing = error(r#"<geom type="mesh" mesh="none"/>"#);
     assert_eq!(missing, "link `a`: geom `0`: there is no mesh `none`");
-    // A sphere needs one number, a box three; none is 0.
+    // A sphere needs one positive size, a box three.
     let size = "link `a`: geom `0`: size=\"1 2\" of an element `geom` is not valid";
     assert_eq!(error(r#"<geom type="box" size="1 2"/>"#), size);
     assert!(error("<geom/>").contains("size=\"\""));
@@ -264,7 +264,7 @@ fn what_has_no_body_is_an_error_that_names_it() {
     assert!(file_of("").read().is_err());
 }
 
-/// Tests that what is not known is refused wherever it may hide a shape, a joint or a pair.
+/// Tests that unknown elements are refused wherever they may be a shape, a joint or a pair.
 #[test]
 fn nothing_is_passed_over() {
     let error = |world: &str, rest: &str| {
@@ -308,7 +308,7 @@ fn nothing_is_passed_over() {
     assert!(error(r#"<geom size="1 nan"/>"#, "").contains("size=\"1 nan\""));
 }
 
-/// Tests that an element has what its class gives, number by number for sizes, and that inner classes inherit from outer ones.
+/// Tests that elements inherit from their class, sizes number by number, and inner classes from outer ones.
 #[test]
 fn classes_give_what_an_element_leaves_out() {
     let text = r#"<mujoco><compiler angle="radian"/>
@@ -320,21 +320,22 @@ fn classes_give_what_an_element_leaves_out() {
                 <default class="inner"><geom euler="0 0 1"/><joint range="0 1"/></default></default></default></mujoco>"#;
     let robot = file_of(text).read().unwrap();
     assert_eq!(robot.limits().collect::<Vec<_>>(), [[0.0, 1.0]]);
-    let held = &robot.links()[robot.link_number("body1").unwrap()].bodies;
-    assert_eq!(held.len(), 3);
-    // A half height of 0.2 with the radius 0.1 of its own, and a position of its class with a rotation of its own.
-    assert!((held[0].body.bounding_radius() - 0.3).abs() < 1e-12);
+    let link_bodies = &robot.links()[robot.link_number("body1").unwrap()].bodies;
+    assert_eq!(link_bodies.len(), 3);
+    // The half height 0.2 is the class's and the radius 0.1 the element's; the position is the class's and the
+    // rotation the element's.
+    assert!((link_bodies[0].body.bounding_radius() - 0.3).abs() < 1e-12);
     let expected = Pose::new([0.0, 0.0, 1.0], DQuat::from_rotation_z(1.0)).unwrap();
-    assert!(largest_difference(held[0].pose, affine(expected)) < 1e-12);
+    assert!(largest_difference(link_bodies[0].pose, affine(expected)) < 1e-12);
     let expected = Pose::new([0.0, 0.0, 3.0], DQuat::from_xyzw(0.8, 0.0, 0.0, 0.6)).unwrap();
-    assert!(largest_difference(held[1].pose, affine(expected)) < 1e-12);
-    assert!((held[2].body.bounding_radius() - 0.05).abs() < 1e-12);
-    // A rotation of another kind than that of the class is ambiguous.
+    assert!(largest_difference(link_bodies[1].pose, affine(expected)) < 1e-12);
+    assert!((link_bodies[2].body.bounding_radius() - 0.05).abs() < 1e-12);
+    // It is ambiguous if an element and its class specify the rotation by different attributes.
     let other = text.replace(r#"<geom size="0.1"/>"#, r#"<geom axisangle="1 0 0 1"/>"#);
     assert!(file_of(&other).read().is_err());
 }
 
-/// Tests that rotations of all kinds, also within frames, are those of their definitions.
+/// Tests all kinds of rotations against their definitions, also within frames.
 #[test]
 fn orientations_are_those_of_their_definitions() {
     let (x, y, z) = (
@@ -385,16 +386,17 @@ fn orientations_are_those_of_their_definitions() {
             largest_difference(found, moved) < 1e-12,
             "{attribute} {found:?}"
         );
-        let held = &robot.links()[robot.link_number("b").unwrap()].bodies[0];
+        let first_body = &robot.links()[robot.link_number("b").unwrap()].bodies[0];
         let expected = frame * DAffine3::from_quat(expected);
         assert!(
-            largest_difference(held.pose, expected) < 1e-12,
+            largest_difference(first_body.pose, expected) < 1e-12,
             "{attribute}"
         );
     }
 }
 
-/// Tests that included elements are where their `include` is, wherever settings and classes stand.
+/// Tests that included elements replace their `include`, and that settings and classes apply wherever they are in the
+/// file.
 #[test]
 fn files_are_included() {
     let folder = tempfile::tempdir().unwrap();
@@ -407,7 +409,7 @@ fn files_are_included() {
     assert_eq!(robot.limits().collect::<Vec<_>>(), [[0.0, 1.0]]);
     let part = &robot.links()[robot.link_number("part").unwrap()];
     assert!((part.bodies[0].body.bounding_radius() - 0.5).abs() < 1e-12);
-    // A file that includes itself ends.
+    // A file that includes itself is an error.
     std::fs::write(
         folder.path().join("loop.xml"),
         "<x><include file='loop.xml'/></x>",
@@ -437,7 +439,7 @@ fn parents_are_checked_if_the_model_says_so_and_mocap_bodies_move() {
     );
 }
 
-/// Tests that the last folder counts, that a range without a length is none, and that classes switch equalities off.
+/// Tests that the last folder counts, that an empty range gives no limits, and that classes can switch equalities off.
 #[test]
 fn settings_are_those_that_mujoco_takes() {
     let folder = tempfile::tempdir().unwrap();
@@ -458,7 +460,7 @@ fn settings_are_those_that_mujoco_takes() {
             .limits()
             .all(|[low, high]| low == f64::NEG_INFINITY && high == f64::INFINITY)
     );
-    // Elements within each other to any depth are an error.
+    // Nesting that is too deep is an error.
     let deep = format!(
         "<mujoco><worldbody>{}</worldbody></mujoco>",
         "<body>".repeat(60_000) + &"</body>".repeat(60_000)
@@ -466,7 +468,8 @@ fn settings_are_those_that_mujoco_takes() {
     assert!(file_of(&deep).read().is_err());
 }
 
-/// Tests that attributes are those of MuJoCo's schema, also in classes and settings, and that messages name the element.
+/// Tests that attributes outside MuJoCo's schema are refused, also in settings and classes, with the name of the
+/// element.
 #[test]
 fn attributes_that_mjcf_does_not_have_are_refused() {
     let error = |text: &str| file_of(text).read().unwrap_err().to_string();
@@ -485,12 +488,12 @@ fn attributes_that_mjcf_does_not_have_are_refused() {
     let zero = world(r#"<geom name="ball" size="1" quat="0 0 0 0"/>"#);
     let expected = "quat=\"0 0 0 0\" of an element `geom ball` is not valid";
     assert!(error(&zero).ends_with(expected), "{}", error(&zero));
-    // What says nothing of shapes, joints and pairs may have any.
+    // Elements that are unrelated to shapes, joints and pairs may have any attributes.
     let harmless = world(r#"<light shine="1"/><body><inertial heavy="1"/><geom size="1"/></body>"#);
     assert!(file_of(&harmless).read().is_ok());
 }
 
-/// Tests that a class may limit all joints, also those that have no range.
+/// Tests that limits of free and ball joints are ignored, for example from a class that limits all joints.
 #[test]
 fn limits_of_free_and_ball_joints_do_not_count() {
     let text = |joint: &str| {

@@ -2,7 +2,7 @@ use super::*;
 use std::fs;
 use tempfile::TempDir;
 
-/// Creates a folder with the package `arm_description`, which has its URDF in the folder `urdf`.
+/// Creates a folder with the package `arm_description`, whose URDF is in the subfolder `urdf`.
 fn create_package() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for file in [
@@ -69,7 +69,7 @@ fn escapes_of_a_uri_are_read() {
         ("left link.stl", "left link.stl"),
         ("100%.stl", "100%.stl"),
         ("100%25.stl", "100%.stl"),
-        // A file of just this name comes first.
+        // A file with the undecoded name takes precedence.
         ("%20.stl", "%20.stl"),
     ] {
         let found = packages.find_file(&format!("package://arm_description/meshes/{escaped}"));
@@ -82,7 +82,7 @@ fn escapes_of_a_uri_are_read() {
     }
 }
 
-/// Tests that a package is not looked for within itself first.
+/// Tests that a package is found before a folder of the same name inside it.
 #[test]
 fn a_package_comes_before_what_is_in_it() {
     let folder = create_package();

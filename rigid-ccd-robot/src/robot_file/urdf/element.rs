@@ -1,24 +1,25 @@
-//! Elements of a URDF, whose attributes and children have to be known.
+//! URDF elements whose attributes and children are validated.
 
 use super::vocabulary::{Vocabulary, vocabulary_of};
 use crate::remark::CellRemark;
 use crate::robot_file::urdf_error::UrdfError;
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
-/// The prefix of elements that a program, xacro, replaces before a file is a URDF.
+/// The namespace prefix of elements that xacro has to expand before the file is a URDF.
 const XACRO: &str = "xacro";
 
-/// The largest number of prefixes that a file may use without a declaration, as some programs' own elements do.
+/// The largest number of undeclared namespace prefixes in a file. Some programs use their own without declaring them.
 const MAX_UNDECLARED_PREFIXES: usize = 16;
 
-/// An element whose name, attributes and children are known.
+/// A validated element.
 #[derive(Clone, Copy)]
 pub(super) struct Element<'t> {
     node: Node<'t, 't>,
     vocabulary: &'static Vocabulary,
 }
 
-/// Returns the text with a declaration of each prefix that it uses without one. Other parsers of URDF know no prefixes.
+/// Declares all namespace prefixes that the text uses without a declaration. Other URDF parsers do not require
+/// declarations.
 pub(super) fn with_declared_prefixes(text: &str) -> Result<String, String> {
     let mut text = text.to_owned();
     for _ in 0..MAX_UNDECLARED_PREFIXES {
@@ -32,13 +33,13 @@ pub(super) fn with_declared_prefixes(text: &str) -> Result<String, String> {
     parse(&text).map(|_| String::new())
 }
 
-/// Parses a text.
+/// Parses an XML text.
 pub(super) fn parse(text: &str) -> Result<Document<'_>, String> {
     Document::parse_with_options(text, ParsingOptions::default()).map_err(|error| error.to_string())
 }
 
 impl<'t> Element<'t> {
-    /// Takes the first element of a document.
+    /// Returns the root element of a document.
     pub(super) fn root(document: &'t Document<'t>) -> Result<Self, UrdfError> {
         let root = document.root_element();
         if let Some(own) = root.descendants().find(|own| is_of_xacro(*own)) {
@@ -53,7 +54,7 @@ impl<'t> Element<'t> {
         Element::new(root, "")
     }
 
-    /// Takes an element, and refuses an attribute that is not known.
+    /// Wraps an element. Rejects unknown elements and attributes.
     fn new(node: Node<'t, 't>, parent: &str) -> Result<Self, UrdfError> {
         let name = node.tag_name().name();
         let Some(vocabulary) = vocabulary_of(parent, name) else {
@@ -70,7 +71,7 @@ impl<'t> Element<'t> {
                     found: value.to_owned(),
                 });
             }
-            // What has a prefix belongs to another program.
+            // Attributes with a prefix belong to other programs.
             let is_known = attribute.namespace().is_some()
                 || vocabulary.attributes.contains(&attribute.name());
             if !is_known {
@@ -87,8 +88,8 @@ impl<'t> Element<'t> {
         self.node.tag_name().name()
     }
 
-    /// Returns all children that are read, in order. Refuses one that is not known, and adds a remark for each that is left
-    /// out although it may matter to other programs.
+    /// Returns the children that are read, in order. Rejects unknown children. Adds a remark for each ignored child
+    /// that other programs may use.
     pub(super) fn children(
         &self,
         remarks: &mut Vec<CellRemark>,
@@ -109,12 +110,12 @@ impl<'t> Element<'t> {
         Ok(read)
     }
 
-    /// Returns the attribute with a name.
+    /// Returns an attribute; `None` if it is absent.
     pub(super) fn get(&self, attribute: &str) -> Option<&'t str> {
         self.node.attribute(attribute)
     }
 
-    /// Returns the attribute with a name, which has to be there.
+    /// Returns an attribute that must be present.
     pub(super) fn required(&self, attribute: &str) -> Result<&'t str, UrdfError> {
         self.get(attribute)
             .ok_or_else(|| UrdfError::MissingAttribute {
@@ -123,7 +124,7 @@ impl<'t> Element<'t> {
             })
     }
 
-    /// Returns the numbers of an attribute; `None` if it is not there.
+    /// Parses an attribute as a fixed number of numbers; `None` if it is absent.
     pub(super) fn numbers<const COUNT: usize>(
         &self,
         attribute: &str,
@@ -145,14 +146,14 @@ impl<'t> Element<'t> {
             .ok_or_else(|| self.invalid(attribute, &wanted))
     }
 
-    /// Returns the number of an attribute that has to be there.
+    /// Parses an attribute that must be present as a number.
     pub(super) fn number(&self, attribute: &str) -> Result<f64, UrdfError> {
         self.required(attribute)?;
         let [number] = self.numbers(attribute)?.unwrap_or([f64::NAN]);
         Ok(number)
     }
 
-    /// Returns the error that an attribute is not what it has to be.
+    /// Creates the error for an attribute with an invalid value.
     pub(super) fn invalid(&self, attribute: &str, wanted: &str) -> UrdfError {
         UrdfError::InvalidAttribute {
             element: self.name().to_owned(),
@@ -162,7 +163,7 @@ impl<'t> Element<'t> {
         }
     }
 
-    /// Returns the element's kind, and its name if it has one.
+    /// Returns the element's kind and name for messages.
     fn label(&self) -> String {
         match self.get("name") {
             Some(name) => format!("{} {name}", self.name()),
@@ -171,7 +172,7 @@ impl<'t> Element<'t> {
     }
 }
 
-/// Returns the only one of some elements that has a name; `None` if none has.
+/// Returns the only element with a name; `None` if there is none.
 pub(super) fn only<'e, 't>(
     elements: &'e [Element<'t>],
     name: &str,
@@ -186,7 +187,7 @@ pub(super) fn only<'e, 't>(
     }
 }
 
-/// Returns the only one of some elements that has a name, which has to be there.
+/// Returns the only element with a name, which must be present.
 pub(super) fn required<'e, 't>(
     elements: &'e [Element<'t>],
     name: &str,
@@ -196,7 +197,7 @@ pub(super) fn required<'e, 't>(
     })
 }
 
-/// Returns whether an element is one of xacro, whatever the prefix that a file declares for it.
+/// Returns whether an element belongs to xacro, whatever prefix the file declares for it.
 fn is_of_xacro(node: Node<'_, '_>) -> bool {
     let namespace = node.tag_name().namespace();
     prefix(node) == Some(XACRO) || namespace.is_some_and(|name| name.ends_with(XACRO))

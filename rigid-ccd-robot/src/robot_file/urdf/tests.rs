@@ -1,10 +1,10 @@
-//! Tests that nothing in a URDF is passed over that may matter, and that messages name what is wrong.
+//! Tests that the URDF reader ignores nothing that may matter, and that messages name the cause.
 
 use crate::robot::Robot;
 use crate::robot_file::{BodyElements, RobotFile};
 use rigid_ccd::glam::DQuat;
 
-/// An arm whose elements are all that URDF 1.0 has, with those that other programs add and that matter to no check.
+/// An arm with all elements of URDF 1.0, and with harmless elements of other programs.
 const ARM: &str = r#"<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
     <material name="grey"><color rgba="0 0 0"/></material>
     <link name="base" type="laser_wall">
@@ -42,8 +42,8 @@ fn all_that_is_known_is_read() {
     assert_eq!(robot.links()[0].bodies.len(), 1);
 }
 
-/// Tests that each element and each attribute that is not known, each value too many and each value that is missing is an
-/// error that names it, with its link or joint.
+/// Tests that unknown elements and attributes, extra values and missing values are errors that name the element and
+/// its link or joint.
 #[test]
 fn what_is_not_known_is_refused() {
     for (given, instead, expected) in [
@@ -210,12 +210,12 @@ fn what_is_not_known_is_refused() {
     let error = read(&no_limit).map(|_| ()).unwrap_err();
     assert_eq!(error, "joint `elbow`: an element `limit` is missing");
     let error = read("<sdf><model/></sdf>").map(|_| ()).unwrap_err();
-    assert!(error.starts_with("the first element is `sdf`"), "{error}");
+    assert!(error.starts_with("the root element is `sdf`"), "{error}");
     let error = read("<!doctype html><html><body>").map(|_| ()).unwrap_err();
     assert!(error.starts_with("arm.urdf: is a page of HTML"), "{error}");
 }
 
-/// Tests that what other programs may take into account is left out with a remark.
+/// Tests that elements which other programs may use are ignored with a remark.
 #[test]
 fn what_is_left_out_is_remarked_upon() {
     for (given, instead, expected) in [

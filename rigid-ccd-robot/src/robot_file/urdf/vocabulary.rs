@@ -1,18 +1,19 @@
-//! The elements and attributes of URDF, and those that programs add to it.
+//! The known elements and attributes of URDF, including extensions by other programs.
 
-/// What may stand in an element of one name.
+/// The attributes and children that an element may have.
 pub(super) struct Vocabulary {
-    /// The names of attributes: those that are read, and those that say nothing of shapes, joints and pairs.
+    /// The known attributes: those that are read, and those that are unrelated to shapes, joints and pairs.
     pub(super) attributes: &'static [&'static str],
-    /// The names of children that are read.
+    /// The children that are read.
     children: &'static [&'static str],
-    /// The names of children that say nothing of shapes, joints and pairs.
+    /// The children that are unrelated to shapes, joints and pairs.
     pub(super) harmless: &'static [&'static str],
-    /// The names of children that other programs may take for shapes, joints or pairs.
+    /// The children that other programs may use for shapes, joints or pairs. They are ignored with a remark.
     pub(super) left_out: &'static [&'static str],
 }
 
-/// Returns what may stand in an element; `None` if it is not known in its parent. A document has the parent ``.
+/// Returns the vocabulary of an element; `None` if it is unknown in its parent. The parent of the root is the empty
+/// string.
 pub(super) fn vocabulary_of(parent: &str, element: &str) -> Option<&'static Vocabulary> {
     let find = |name: &str| VOCABULARY.iter().find(|(own, _)| *own == name);
     let is_child = parent.is_empty() && element == "robot"
@@ -29,7 +30,7 @@ const fn leaf(attributes: &'static [&'static str]) -> Vocabulary {
     }
 }
 
-/// What may stand in elements, by their names: of `urdfdom` 6, and what files of other programs have.
+/// The vocabulary by element name, from `urdfdom` 6 and from files of other programs.
 const VOCABULARY: &[(&str, Vocabulary)] = &[
     (
         "robot",

@@ -1,4 +1,4 @@
-//! Tests ranges of paths against sampled configurations, and against mechanisms with exact answers.
+//! Tests ranges of paths against sampled configurations, and against mechanisms with known answers.
 
 use super::*;
 use crate::solver::tests::{
@@ -20,8 +20,7 @@ fn settings_with_margin(margin: f64) -> Settings {
     }
 }
 
-/// Tests random cells: sampled distances in a range are on the side of the margin that is proven, ranges follow each other
-/// without gaps, and little is unverified.
+/// Tests random cells: sampled distances agree with the verdicts, ranges are contiguous, and little is unverified.
 #[test]
 fn sampled_distances_are_on_the_proven_side() {
     let mut random = Pcg64::seed_from_u64(21);
@@ -73,11 +72,11 @@ fn sampled_distances_are_on_the_proven_side() {
         }
     }
     assert!(kept > 500 && violated > 500, "{kept} {violated}");
-    // Of bodies that are not convex, overlaps at a margin of 0 are not proven.
+    // Overlaps of non-convex bodies at a margin of 0 are not proven.
     assert!(unverified < 0.1 * length, "{unverified} of {length}");
 }
 
-/// Tests that a path is unverified from where time runs out.
+/// Tests that the path is unverified from the deadline on.
 #[test]
 fn without_time_nothing_is_verified() {
     let mut random = Pcg64::seed_from_u64(22);
@@ -104,7 +103,7 @@ fn without_time_nothing_is_verified() {
     assert_eq!(to.share, 1.0);
 }
 
-/// Tests that a budget is for the whole question, however finely it is asked, and that what is told then holds.
+/// Tests that a budget limits the whole question at any resolution, and that its verdicts hold.
 #[test]
 fn a_budget_ends_the_question() {
     let cell = lid_with_stop(1.0);
@@ -131,7 +130,7 @@ fn a_budget_ends_the_question() {
             at(range.to) - at(range.from)
         };
         verified.push(known.map(length).sum::<f64>());
-        // The balls of 0.1 are nearer than 0.1 where the angle between them is below this one.
+        // The balls of radius 0.1 are nearer than 0.1 if the angle between them is below this.
         let near = angle_of_gap(0.1);
         for range in ranges.iter() {
             let angle = |point: PathPoint| 0.5 * (point.segment as f64 + point.share);
@@ -160,7 +159,7 @@ fn joint(
         name: name.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: joint,
+        geometry: joint,
         position_rule: position,
     }
 }
@@ -169,7 +168,7 @@ fn hinge_at(at: [f64; 3]) -> trajectory::Joint {
     trajectory::Joint::revolute(Pose::at(at).unwrap(), [0.0, 0.0, 1.0]).unwrap()
 }
 
-/// A lid of a hinge, whose end is a ball about 1 from the axis, and a stop: a ball of the same distance at an angle.
+/// A hinged lid with a ball at its end, about 1 from the axis, and a stop: a ball at the same distance, at an angle.
 fn lid_with_stop(stop_angle: f64) -> Cell {
     let ball = || Body::sphere(0.1).unwrap();
     let lid = Link::named("lid").with_body(ball(), Pose::at([1.0, 0.0, 0.0]).unwrap());
@@ -187,12 +186,12 @@ fn lid_with_stop(stop_angle: f64) -> Cell {
     cell
 }
 
-/// Returns the angle at which two balls of radius 0.1, each about 1 from a hinge, are so far apart.
+/// Returns the angle at which two balls of radius 0.1, both about 1 from a hinge, have the given gap.
 fn angle_of_gap(gap: f64) -> f64 {
     2.0 * f64::asin(0.5 * (gap + 0.2))
 }
 
-/// Tests the borders of the ranges of a hinge with a stop, and that an overlap without a margin is proven.
+/// Tests the range borders of a hinge with a stop, and that an overlap is proven without a margin.
 #[test]
 fn a_stop_of_a_hinge_limits_it() {
     let cell = lid_with_stop(2.0);
@@ -213,7 +212,7 @@ fn a_stop_of_a_hinge_limits_it() {
     }
 }
 
-/// Tests that overlaps of thin bodies, and of bodies with the same centre, are violations without a margin.
+/// Tests that overlaps of thin bodies and of concentric bodies are violations without a margin.
 #[test]
 fn deep_overlaps_are_violated() {
     let turned = DQuat::from_rotation_z(0.3);
@@ -222,7 +221,7 @@ fn deep_overlaps_are_violated() {
     let turns = hinge_at([0.0; 3]);
     let post = Body::cuboid([0.05, 1.0, 0.05]).unwrap();
     let (shaft, hub) = (Body::cylinder(0.1, 1.0), Body::cylinder(0.5, 0.3));
-    for (moves, held, pose, obstacle, at) in [
+    for (moves, shape, pose, obstacle, at) in [
         (
             slides,
             rod,
@@ -238,7 +237,7 @@ fn deep_overlaps_are_violated() {
             [0.0; 3],
         ),
     ] {
-        let link = Link::named("part").with_body(held, pose.unwrap());
+        let link = Link::named("part").with_body(shape, pose.unwrap());
         let moves = joint("joint", ["frame", "part"], moves, PositionRule::Independent);
         let robot = Robot::new(vec![Link::named("frame"), link], vec![moves]).unwrap();
         let mut cell = Cell::new(robot.clone(), LinkPairs::from_robot(&robot));
@@ -255,7 +254,7 @@ fn deep_overlaps_are_violated() {
     }
 }
 
-/// Tests that an error of poses moves the borders on both sides.
+/// Tests that a pose error moves the borders on both sides.
 #[test]
 fn an_error_of_poses_is_kept_on_both_sides() {
     let cell = lid_with_stop(2.0);
@@ -272,7 +271,7 @@ fn an_error_of_poses_is_kept_on_both_sides() {
         [kept.verdict, violated.verdict],
         [ClearanceVerdict::Kept, ClearanceVerdict::Violated]
     );
-    // Both balls may be away from their places.
+    // Both balls may deviate.
     let [from, to] = [unverified.from, unverified.to].map(|at| 2.0 * at.share);
     assert!(
         (from - (2.0 - angle_of_gap(0.12))).abs() < 1e-3,
@@ -282,7 +281,7 @@ fn an_error_of_poses_is_kept_on_both_sides() {
         (to - (2.0 - angle_of_gap(0.08))).abs() < 1e-3,
         "{unverified:?}"
     );
-    // The questions that follow are about poses without errors.
+    // The following questions assume exact poses.
     assert!(
         solver
             .is_free(&[[0.0], [2.0 - angle_of_gap(0.101)]])
@@ -290,7 +289,7 @@ fn an_error_of_poses_is_kept_on_both_sides() {
     );
 }
 
-/// Tests that settings which make no sense are refused.
+/// Tests that invalid settings are refused.
 #[test]
 fn settings_of_ranges_are_checked() {
     let cell = lid_with_stop(2.0);

@@ -1,4 +1,4 @@
-//! Tests that links on curves deviate from their stretches by no more than the bounds say.
+//! Tests that links on curves deviate from their approximations by at most the bounds.
 
 use super::*;
 use crate::joint_curve::JointCurve;

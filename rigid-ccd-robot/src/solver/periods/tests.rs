@@ -1,4 +1,4 @@
-//! Tests periods: of which pairs they are, and that one period tells as much as all of them.
+//! Tests which pairs have periods, and that searching one period gives the answer for all.
 
 use super::*;
 use crate::cell::Cell;
@@ -9,7 +9,7 @@ use rigid_ccd::body::{Pieces, Solidity};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Body, Pose, Settings, trajectory};
 
-/// Returns a star-shaped plate of triangles that stand upright: a gear with pointed teeth.
+/// Returns a gear with pointed teeth: a star-shaped plate of triangles that stand upright.
 fn gear(radius: f64, teeth: usize, phase: f64) -> Body {
     let tooth = 0.1;
     let corner = |k: usize, z: f64| {
@@ -44,12 +44,12 @@ fn hinge(name: &str, child: &str, at: f64, position_rule: PositionRule) -> Joint
         name: name.into(),
         parent: "frame".into(),
         child: child.into(),
-        axis_and_limits: trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap(),
+        geometry: trajectory::Joint::revolute(origin, [0.0, 0.0, 1.0]).unwrap(),
         position_rule,
     }
 }
 
-/// Returns two gears with 8 and 12 teeth that mesh, at a distance that leaves some play.
+/// Returns two meshing gears with 8 and 12 teeth, with some play.
 fn gears(multiplier: f64, play: f64) -> Cell {
     let wheel = PositionRule::Follows {
         joint: "pinion".into(),
@@ -81,7 +81,7 @@ fn settings() -> Settings {
     }
 }
 
-/// Tests that many turns take hardly more work than one period, and have its distance.
+/// Tests that many turns take little more work than one period and have the same distance.
 #[test]
 fn gears_over_many_turns_are_measured_by_one_period() {
     let cell = gears(-2.0 / 3.0, 0.15);
@@ -115,11 +115,11 @@ fn gears_over_many_turns_are_measured_by_one_period() {
     );
 }
 
-/// Tests that a contact which comes only after many turns, because a wheel turns by a little less than a tooth each time, is
-/// found: rates without a common period are searched on.
+/// Tests that a contact after many turns is found if the rates have no common period: one gear turns slightly less
+/// than a tooth each time.
 #[test]
 fn rates_without_a_period_are_searched() {
-    // From one turn of the pinion to the next the phase shifts by a fiftieth of a tooth.
+    // In each turn of the pinion the phase shifts by a fiftieth of a tooth.
     let cell = gears(-(2.0 + 0.005) / 3.0, 0.02);
     let mut solver = cell.solver().with_settings(settings());
     let outcome = solver.first_contact(&turns(30.0)).unwrap().outcome;
@@ -133,11 +133,12 @@ fn rates_without_a_period_are_searched() {
     );
 }
 
-/// Tests that the first contact of a pair with a period is in its first one, while another pair without one goes on.
+/// Tests that the first contact of a pair is found in its first period, while the search of another pair without a
+/// period continues.
 #[test]
 fn each_pair_has_its_own_period() {
     let slide = Joint {
-        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+        geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
         ..hinge("slide", "ball", 0.0, PositionRule::Independent)
     };
     let joints = vec![hinge("turn", "arm", 0.0, PositionRule::Independent), slide];
@@ -154,7 +155,7 @@ fn each_pair_has_its_own_period() {
     cell.add_obstacle("above", ball(), at(3.0, 1.0)).unwrap();
     let path = [[0.5, 0.0], [0.5 + 40.0 * TAU, 1.0]];
     let mut solver = cell.solver().with_settings(settings());
-    // The slide comes within reach after 0.8 of the segment.
+    // The slide comes near after 0.8 of the segment.
     let PathOutcome::Contact(contact) = solver.first_contact(&path).unwrap().outcome else {
         panic!("the slide reaches the ball above it");
     };

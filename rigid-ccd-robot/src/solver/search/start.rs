@@ -1,17 +1,18 @@
-//! Contacts at the start of a path that are let go: the pairs may part, but not come nearer or sink.
+//! The start policy [`StartPolicy::Leave`]: pairs in contact at the start are ignored as long as they do not come
+//! nearer.
 //!
-//! A pair with a gap at the start keeps half of it from then on. A pair without one is first followed over a short stretch in which
-//! the joints move it almost as a constant motion does, which the engine decides under [`StartPolicy::Leave`]. At the end of the
-//! stretch there is a gap, or the next stretch follows.
+//! A pair with a gap at the start must keep half of it. A pair without a gap is first followed in short steps, in
+//! which the joints move it almost like a constant motion. The engine decides each step under the same policy. As soon
+//! as there is a gap after a step, the pair is searched like the others, from there on.
 
-use super::Search;
-use crate::path::stretch::{StepResult, Stretch};
+use super::PathSearch;
+use crate::path::interval::{PathInterval, StepResult};
 use crate::solver::Goal;
 use crate::solver::constant_step::ConstantStep;
 use crate::solver::curved_link::PathSection;
 use crate::solver::measure::{DistanceVerdict, Thresholds, measure};
 use crate::solver::part_pairs::PartPair;
-use crate::tuning::MAX_START_STRETCHES;
+use crate::tuning::MAX_START_STEPS;
 use ccd_core::order::{greater, lesser};
 use rigid_ccd::answer::Limit;
 use rigid_ccd::trajectory::Trajectory;
@@ -20,67 +21,69 @@ use rigid_ccd::{
 };
 use std::ops::ControlFlow::{self, Break, Continue};
 
-/// How far pairs that touch at the start may sink unseen while the path is taken as constant motions, as a share of the tolerance,
-/// and at least as a multiple of the rounding of poses.
+/// How far pairs without a gap may approach in total, because steps are approximated by constant motions: a fraction
+/// of the tolerance, and at least a multiple of the rounding error of poses.
 const SINKING_PER_TOLERANCE: f64 = 1e-6;
 const SINKING_PER_ROUNDING: f64 = 1024.0;
 
-/// The least gap from which a pair is searched as others are, as a multiple of the rounding of poses.
+/// The smallest usable gap, as a multiple of the rounding error of poses. A pair with a larger gap is searched like
+/// others.
 const LEAST_GAP_PER_ROUNDING: f64 = 64.0;
 
-/// A pair of bodies that is let go from its contact at the start.
+/// A pair of bodies in contact at the start that is ignored while it separates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StartContact {
-    /// A pair of parts of both.
+    /// Any pair of their parts.
     pair: PartPair,
     bodies: [usize; 2],
-    /// The point up to which the pair is known not to come nearer; infinite for the whole path.
+    /// The point up to which the pair is proven not to come nearer; infinity for the whole path.
     from: f64,
-    /// The distance at which the pair counts as touching after that point, and the tolerance of that.
+    /// After that point, the distance at which the pair counts as touching, and its tolerance.
     margin: f64,
     tolerance: f64,
 }
 
-/// The distance of two bodies, whether they overlap, and the limit that left this open.
+/// The result of measuring two bodies: a lower bound of their distance, whether they overlap, and a limit that left
+/// this undecided.
 struct Gap {
     lower: f64,
     overlaps: bool,
     limit: Option<Limit>,
 }
 
-impl Search<'_> {
-    /// Answers a question about contacts on the whole path; pairs in contact at the start are let go.
+impl PathSearch<'_> {
+    /// Answers a question about contacts on the whole path. Ignores pairs in contact at the start while they separate.
     pub(crate) fn answer_leaving_start(&mut self, goal: Goal) -> Result<(), Error> {
-        let whole = self.whole_path_stretch();
+        let whole = self.whole_path_interval();
         self.begin_question(goal, &whole);
         self.start_contacts.clear();
-        let leaves = self.find_start_contacts()?;
-        if leaves.is_break() || self.follow_start_contacts()?.is_break() {
+        let step = self.find_start_contacts()?;
+        if step.is_break() || self.follow_start_contacts()?.is_break() {
             return Ok(());
         }
-        let least_from = |search: &Self, first: usize| {
-            let froms = search.start_contacts[first..].iter();
-            froms
+        let earliest_start = |search: &Self, first: usize| {
+            let starts = search.start_contacts[first..].iter();
+            starts
                 .map(|contact| contact.from)
                 .fold(f64::INFINITY, lesser)
         };
         self.candidates.clear();
         let step = self.search(whole, None)?;
         if step.is_continue() {
-            self.decide_open_pairs()?;
+            self.decide_engine_candidates()?;
         }
-        for number in 0..self.start_contacts.len() {
+        for index in 0..self.start_contacts.len() {
             if self.result.limit_reached.is_some() || self.is_decided() {
-                // The pairs that remain are known as far as they were followed.
-                let until = least_from(self, number);
+                // The remaining pairs are proven up to the points to which they were followed.
+                let until = earliest_start(self, index);
                 if let Some((_, known)) = &mut self.result.limit_reached {
                     *known = lesser(*known, until);
                 }
                 return Ok(());
             }
-            let contact = self.start_contacts[number];
+            let contact = self.start_contacts[index];
             let (tolerance, periods) = (self.tolerance, std::mem::take(&mut self.periods));
-            // A period may drift by more than this tolerance.
+            // The drift of periods may exceed this tolerance.
             self.tolerance = contact.tolerance;
             let searched = self.search_after_start(&contact);
             (self.tolerance, self.periods) = (tolerance, periods);
@@ -89,53 +92,53 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Returns whether a pair is let go from its contact at the start, and is searched by itself.
+    /// Returns whether a pair is in contact at the start and searched separately.
     #[inline(always)]
-    pub(super) fn is_let_go(&self, pair: &PartPair) -> bool {
-        let bodies = pair.body_numbers(self.cell.parts());
+    pub(super) fn is_start_contact(&self, pair: &PartPair) -> bool {
+        let bodies = pair.body_indices(self.cell.parts());
         self.start_contacts
             .iter()
             .any(|contact| contact.bodies == bodies)
     }
 
-    /// Returns whether a question about any contact has its answer.
+    /// Returns whether a question about any contact is answered.
     fn is_decided(&self) -> bool {
         self.goal == Goal::AnyContact && self.result.nearest.is_some()
     }
 
-    /// Finds the pairs in contact at the start. One that overlaps is the answer.
+    /// Finds the pairs in contact at the start. An overlapping pair is the answer.
     fn find_start_contacts(&mut self) -> StepResult {
-        let start = Stretch {
+        let start = PathInterval {
             to: 0.0,
-            ..self.whole_path_stretch()
+            ..self.whole_path_interval()
         };
         self.placement.place(self.cell, &self.path, &start);
         self.candidates.clear();
         self.append_candidates();
         let mut pairs = std::mem::take(&mut self.candidates);
-        let step = self.keep_start_contacts(&mut pairs);
+        let step = self.record_start_contacts(&mut pairs);
         self.candidates = pairs;
         step
     }
 
-    fn keep_start_contacts(&mut self, pairs: &mut [PartPair]) -> StepResult {
-        let start = Stretch {
+    fn record_start_contacts(&mut self, pairs: &mut [PartPair]) -> StepResult {
+        let start = PathInterval {
             to: 0.0,
-            ..self.whole_path_stretch()
+            ..self.whole_path_interval()
         };
         for pair in pairs {
-            if self.is_let_go(pair) || self.is_apart_at_start(pair) {
+            if self.is_start_contact(pair) || self.is_apart_at_start(pair) {
                 continue;
             }
             if self.check_limit(&start).is_break() {
                 return Ok(Break(()));
             }
-            let bodies = pair.body_numbers(self.cell.parts());
+            let bodies = pair.body_indices(self.cell.parts());
             let gap = self.gap_at(bodies, 0.0)?;
-            // Whether bodies that touch overlap is decided as they move.
-            let rests = self.path.segment_count() == 0;
+            // Whether touching bodies overlap may stay undecided here: following them decides it.
+            let is_single_point = self.path.segment_count() == 0;
             if let Some(limit) = gap.limit
-                && (rests || limit != Limit::OverlapUndecided)
+                && (is_single_point || limit != Limit::OverlapUndecided)
             {
                 self.result.limit_reached = Some((limit, 0.0));
                 return Ok(Break(()));
@@ -147,15 +150,15 @@ impl Search<'_> {
             if gap.lower > pair.margin + self.tolerance {
                 continue;
             }
-            let beyond = 0.5 * (gap.lower - pair.margin);
+            let usable_gap = 0.5 * (gap.lower - pair.margin);
             let mut contact = StartContact {
                 pair: *pair,
                 bodies,
                 from: f64::INFINITY,
                 margin: pair.margin,
-                tolerance: lesser(beyond, self.tolerance),
+                tolerance: lesser(usable_gap, self.tolerance),
             };
-            if self.is_useful(beyond) {
+            if self.is_gap_usable(usable_gap) {
                 contact.from = 0.0;
             } else {
                 contact.margin = lesser(pair.margin, gap.lower);
@@ -166,11 +169,11 @@ impl Search<'_> {
         Ok(Continue(()))
     }
 
-    /// Returns whether a pair is farther apart at the start than a contact is, as far as its hulls tell.
+    /// Returns whether the hulls of a pair prove that it is not in contact at the start.
     fn is_apart_at_start(&self, pair: &mut PartPair) -> bool {
-        let beyond = pair.margin + self.tolerance;
+        let usable_gap = pair.margin + self.tolerance;
         let thresholds = Thresholds {
-            free_distance_threshold: beyond,
+            free_distance_threshold: usable_gap,
             near_distance: 0.0,
         };
         let found = measure(self.cell, &self.placement, pair, thresholds, false);
@@ -182,20 +185,20 @@ impl Search<'_> {
         if self.path.segment_count() == 0 {
             return Ok(Continue(()));
         }
-        for number in 0..self.start_contacts.len() {
-            let mut contact = self.start_contacts[number];
+        for index in 0..self.start_contacts.len() {
+            let mut contact = self.start_contacts[index];
             if contact.tolerance > 0.0 {
                 continue;
             }
-            if self.follow(&mut contact)?.is_break() {
+            if self.follow_start_contact(&mut contact)?.is_break() {
                 return Ok(Break(()));
             }
-            self.start_contacts[number] = contact;
+            self.start_contacts[index] = contact;
         }
         Ok(Continue(()))
     }
 
-    fn follow(&mut self, contact: &mut StartContact) -> StepResult {
+    fn follow_start_contact(&mut self, contact: &mut StartContact) -> StepResult {
         let end = lesser(self.path.segment_count() as f64, self.result.end);
         let rounding = 2.0 * self.placement.rounding;
         let mut sinking = greater(
@@ -203,20 +206,20 @@ impl Search<'_> {
             SINKING_PER_ROUNDING * rounding,
         );
         let (mut at, mut steps_of_segment) = (0.0, 0);
-        while at < end && steps_of_segment < MAX_START_STRETCHES {
+        while at < end && steps_of_segment < MAX_START_STEPS {
             steps_of_segment = if at.fract() == 0.0 {
                 1
             } else {
                 steps_of_segment + 1
             };
-            let here = Stretch {
+            let here = PathInterval {
                 from: at,
                 to: at,
                 halvings: 0,
             };
             if self.check_limit(&here).is_break() {
-                // No other pair was searched yet.
-                self.forget_what_was_searched();
+                // No other pair has been searched yet.
+                self.discard_search_progress();
                 return Ok(Break(()));
             }
             let (segment, open_end) = (at as usize, lesser(at.floor() + 1.0, end));
@@ -226,7 +229,7 @@ impl Search<'_> {
                 return Ok(self.end_with_contact(&contact.pair, at));
             };
             sinking -= step.deviation;
-            let answer = self.ask_about_step(contact, &step)?;
+            let answer = self.query_step(contact, &step)?;
             match answer.outcome.hit() {
                 Ok(None) => at = step.to,
                 Ok(Some(hit)) => {
@@ -235,15 +238,15 @@ impl Search<'_> {
                 }
                 Err(known) => {
                     self.result.limit_reached = Some((known.limit, at));
-                    self.forget_what_was_searched();
+                    self.discard_search_progress();
                     return Ok(Break(()));
                 }
             }
             let gap = self.gap_at(contact.bodies, at)?;
-            let beyond = 0.5 * (gap.lower - contact.margin);
-            if !gap.overlaps && self.is_useful(beyond) {
+            let usable_gap = 0.5 * (gap.lower - contact.margin);
+            if !gap.overlaps && self.is_gap_usable(usable_gap) {
                 contact.from = at;
-                contact.tolerance = lesser(beyond, self.tolerance);
+                contact.tolerance = lesser(usable_gap, self.tolerance);
                 return Ok(Continue(()));
             }
         }
@@ -253,32 +256,34 @@ impl Search<'_> {
         Ok(Continue(()))
     }
 
-    /// Keeps a contact of a pair that is let go, which is the answer unless an earlier one is looked for.
+    /// Records a contact of a pair that was in contact at the start. Ends the search, unless an earlier contact is
+    /// possible.
     fn end_with_contact(&mut self, pair: &PartPair, at: f64) -> ControlFlow<()> {
-        let step = self.keep_contact(pair, at, 0.0);
-        // Nothing is before the start.
+        let step = self.record_contact(pair, at, 0.0);
+        // No contact is earlier than the start.
         if at > 0.0 { step } else { Break(()) }
     }
 
-    fn forget_what_was_searched(&mut self) {
+    fn discard_search_progress(&mut self) {
         if let Some((_, until)) = &mut self.result.limit_reached {
             *until = 0.0;
         }
         self.result.nearest = None;
     }
 
-    /// Returns whether a pair with this room beyond its margin can be searched as others are. Written so that NaN cannot.
-    fn is_useful(&self, beyond: f64) -> bool {
-        beyond > LEAST_GAP_PER_ROUNDING * self.placement.rounding
+    /// Returns whether a pair with this distance usable_gap its margin can be searched like others. Written so that NaN
+    /// cannot.
+    fn is_gap_usable(&self, usable_gap: f64) -> bool {
+        usable_gap > LEAST_GAP_PER_ROUNDING * self.placement.rounding
     }
 
-    /// Searches the path from where a pair has a gap.
+    /// Searches the path for a pair, from the point where it has a gap.
     fn search_after_start(&mut self, contact: &StartContact) -> Result<(), Error> {
         let end = self.path.segment_count() as f64;
-        self.open_pairs.clear();
+        self.engine_candidates.clear();
         let middle = lesser(contact.from.floor() + 1.0, end);
         for (from, to) in [(contact.from, middle), (middle, end)] {
-            // Written so that an infinite start is none.
+            // Written so that nothing is searched from infinity.
             if !(from < to) {
                 continue;
             }
@@ -290,20 +295,20 @@ impl Search<'_> {
                 margin,
                 &mut self.candidates,
             );
-            let stretch = Stretch {
+            let interval = PathInterval {
                 from,
                 to,
                 halvings: 0,
             };
             let all = 0..self.candidates.len();
-            if self.search(stretch, Some(all))?.is_break() {
+            if self.search(interval, Some(all))?.is_break() {
                 return Ok(());
             }
         }
-        self.decide_open_pairs()
+        self.decide_engine_candidates()
     }
 
-    /// Returns the distance of two bodies at a point of the path.
+    /// Measures the distance of two bodies at a point of the path.
     fn gap_at(&mut self, bodies: [usize; 2], at: f64) -> Result<Gap, Error> {
         self.placement.place_frames(self.cell, &self.path, at);
         let a = self.placement.body(self.cell, bodies[0])?;
@@ -327,8 +332,8 @@ impl Search<'_> {
         })
     }
 
-    /// Returns the longest step, of halvings of a section of a segment, in which the first body of a pair moves almost as a
-    /// constant motion does; `None` if there is none.
+    /// Returns the longest step, by halving a section of a segment, in which the first body of a pair moves almost
+    /// like a constant motion; `None` if there is none.
     fn constant_step(
         &mut self,
         bodies: [usize; 2],
@@ -341,20 +346,16 @@ impl Search<'_> {
             from,
             to,
         };
-        // At least half of what is left stays for the steps that follow.
+        // Leaves at least half of the remaining approach to the steps that follow.
         let find = |_: &mut Solver, link: &dyn Trajectory, a: &Body, _: (&Body, Motion)| {
             ConstantStep::longest(link, a, (from, to), 0.5 * sinking)
         };
         self.exact_chains
-            .with_link(&mut self.solver, bodies, &section, find)
+            .with_trajectory(&mut self.solver, bodies, &section, find)
     }
 
-    /// Asks the engine whether a pair that rests comes nearer in a step.
-    fn ask_about_step(
-        &mut self,
-        contact: &StartContact,
-        step: &ConstantStep,
-    ) -> Result<Answer, Error> {
+    /// Queries the engine whether a touching pair comes nearer within a step.
+    fn query_step(&mut self, contact: &StartContact, step: &ConstantStep) -> Result<Answer, Error> {
         self.solver.set_settings(Settings {
             tolerance: self.tolerance,
             margin: contact.margin + 2.0 * self.placement.rounding,

@@ -1,4 +1,4 @@
-//! Tests the bounds on which the search relies: rounding of frames, and displacements of parts.
+//! Tests the error bounds of frames and the displacement bounds of parts.
 
 use super::*;
 use crate::cell::rounding::point_error_bound;
@@ -7,8 +7,8 @@ use crate::kinematics::magnitude::Magnitude;
 use crate::solver::displacement::DisplacementBounds;
 use rigid_ccd::oracle::Frame;
 
-/// Tests that frames are as near to the poses of links as the bound on rounding says, and that the bound is not a million
-/// times too large.
+/// Tests that frames agree with link poses within the rounding bound, and that the bound is less than a million times
+/// the error.
 #[test]
 fn frames_are_within_the_bound_on_rounding() {
     let mut random = Pcg64::seed_from_u64(5);
@@ -50,7 +50,7 @@ fn frames_are_within_the_bound_on_rounding() {
     );
 }
 
-/// Tests that no point of a part moves farther, as the base and each frame between see it, than the bound says.
+/// Tests that no point of a part moves farther than the bounds, relative to the base and to each frame in between.
 #[test]
 fn displacements_are_within_their_bounds() {
     let mut random = Pcg64::seed_from_u64(6);
@@ -79,10 +79,12 @@ fn displacements_are_within_their_bounds() {
                 FramesAndRates::new(kinematics, &ends, 0.5 + random.random_range(-half..half));
             for (number, part) in parts.iter().enumerate() {
                 for seen_from in 0..part.frame {
-                    let Some(slot) = displacements.slot(kinematics, number, seen_from) else {
+                    let Some(index) =
+                        displacements.bound_index_seen_from(kinematics, number, seen_from)
+                    else {
                         continue;
                     };
-                    let bound = displacements.bound(Some(slot));
+                    let bound = displacements.bound(Some(index));
                     for &point in part.points() {
                         let place = |frames: &[Frame]| {
                             frames[seen_from]
@@ -101,7 +103,7 @@ fn displacements_are_within_their_bounds() {
     assert!(largest_share > 0.7, "{largest_share}");
 }
 
-/// The frames at a share of an edge, and the rates of its joints.
+/// The frames at a point of an edge, and the rates of its joints.
 struct FramesAndRates {
     frames: Vec<Frame>,
     rates: Vec<f64>,

@@ -1,10 +1,10 @@
-//! Tests that a budget is for a whole question, and that no limit leaves a wrong answer.
+//! Tests that a budget limits a whole question, and that answers at a limit are correct.
 
 use super::*;
 use rigid_ccd::answer::{ClearanceVerdict, Limit};
 use std::time::Duration;
 
-/// A tree of links of many pieces among many obstacles of many pieces: each pair alone may take a budget.
+/// A tree of links among obstacles, all with many pieces. Each pair alone may use a budget.
 fn crowded_cell(random: &mut Pcg64) -> Cell {
     let robot = random_robot(random);
     let pairs = LinkPairs::from_robot(&robot);
@@ -24,7 +24,7 @@ fn crowded_cell(random: &mut Pcg64) -> Cell {
     cell
 }
 
-/// Tests that all pairs together take hardly more than the budget, and that what is told at the limit holds.
+/// Tests that all pairs together use little more than the budget, and that the answer at the limit is correct.
 #[test]
 fn a_budget_is_for_a_whole_question() {
     let mut random = Pcg64::seed_from_u64(31);
@@ -42,7 +42,8 @@ fn a_budget_is_for_a_whole_question() {
         let path: Vec<_> = (0..count)
             .map(|_| random_configuration(&mut random, cell.robot()))
             .collect();
-        // A stretch ends after its pairs have been measured, and bounds of a distance take half as much again.
+        // The interval at which the limit is reached is still completed, and a least distance may use half as much
+        // again.
         let most = 12 * budget * (count - 1) + solver.search.pairs.count() as u64;
         let check_work = |solver: &CellSolver<'_>| {
             let work = solver.search.stop_condition.work();
@@ -86,7 +87,7 @@ fn a_budget_is_for_a_whole_question() {
     );
 }
 
-/// Tests that no question does more than begin once the deadline has passed.
+/// Tests that no question starts a search after the deadline.
 #[test]
 fn a_deadline_of_no_time_ends_all_questions() {
     let mut random = Pcg64::seed_from_u64(32);

@@ -1,4 +1,4 @@
-//! Tests the features of meshes in contact.
+//! Tests the mesh features of contacts.
 
 use super::*;
 use crate::path_answer::PathOutcome;
@@ -26,7 +26,7 @@ fn distance_from_feature(
     }
 }
 
-/// Returns a robot that is a body on a vertical slide.
+/// Returns a robot with one body on a vertical slide.
 fn robot_on_slide(body: Body) -> Robot {
     let links = vec![
         Link::named("base"),
@@ -36,17 +36,17 @@ fn robot_on_slide(body: Body) -> Robot {
         name: "slide".into(),
         parent: "base".into(),
         child: "tool".into(),
-        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+        geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
         position_rule: PositionRule::Independent,
     };
     Robot::new(links, vec![joint]).unwrap()
 }
 
-/// Tests that the witness on a mesh is on the feature that is named, and that a convex link has none.
+/// Tests that the witness on a mesh is on the reported feature, and that a convex link has no feature.
 #[test]
 fn a_contact_names_the_feature_of_the_mesh() {
     let mut random = Pcg64::seed_from_u64(31);
-    // A ridge of two rows of triangles: its surface is not convex from below.
+    // A ridge of two rows of triangles. From below, its surface is not convex.
     let corners: Vec<DVec3> = (0..3)
         .flat_map(|row| {
             (0..5).map(move |column| {

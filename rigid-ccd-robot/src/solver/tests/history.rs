@@ -1,4 +1,4 @@
-//! Tests that what was asked before, and what a limit ended, changes no first contact and no closest approach.
+//! Tests that earlier questions and limits do not change later answers.
 
 use super::*;
 use std::time::Duration;
@@ -23,7 +23,7 @@ fn what_was_asked_before_changes_no_first_contact() {
 
             let (is_timed, budget) = (random.random_range(0..2) == 0, random.random_range(0..300));
             used.set_settings(Settings {
-                // Some have passed at the start, on a machine as fast as may be.
+                // Some deadlines have passed at the start, even on a fast machine.
                 deadline: is_timed.then(|| {
                     let nanos: u64 = random.random_range(0..60_000);
                     Duration::from_nanos(if nanos < 20_000 { 0 } else { nanos })
@@ -31,7 +31,7 @@ fn what_was_asked_before_changes_no_first_contact() {
                 budget,
                 ..Settings::DEFAULT
             });
-            // A contact of a search that stops early may be another one, as early as the tolerance says.
+            // A limit may lead to another contact, equally early within the tolerance.
             let mut limited = cell.solver().with_settings(Settings {
                 budget,
                 ..Settings::DEFAULT
@@ -43,7 +43,7 @@ fn what_was_asked_before_changes_no_first_contact() {
                     assert_same(&answered, &again);
                 }
             }
-            // A limit may end the search at another contact.
+            // With a limit, another contact may be found.
             if let Ok(any) = used.any_contact(&path[..]).unwrap().contact() {
                 assert_eq!(any.is_some(), any_alone.is_some());
                 answered += 1;
@@ -66,7 +66,7 @@ fn what_was_asked_before_changes_no_first_contact() {
     );
 }
 
-/// Asserts that two first contacts are the same. Their points may be missing if a deadline passes.
+/// Asserts that two first contacts are the same. Witnesses may be missing if a deadline passes.
 fn assert_same(one: &PathOutcome<'_>, other: &PathOutcome<'_>) {
     match (one, other) {
         (PathOutcome::Contact(one), PathOutcome::Contact(other)) => {

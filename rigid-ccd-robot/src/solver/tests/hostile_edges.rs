@@ -1,9 +1,10 @@
-//! Tests edges that rotate by thousands of turns, hardly move, are far away, or have many joints, against own arithmetic.
+//! Tests edges with thousands of turns, with tiny motions, far from the base, or with many joints, against independent
+//! arithmetic.
 
 use super::tolerances::{BallArm, BallJoint, random_offset};
 use super::*;
 
-/// Returns a path of a few segments whose joints turn by much, by little, or not at all.
+/// Returns a path of a few segments in which joints turn far, slightly or not at all.
 fn hostile_path(random: &mut Pcg64, joints: &[BallJoint], scale: f64) -> Vec<Vec<f64>> {
     let start = joints.iter().map(|_| random.random_range(-1.0..1.0));
     let mut path: Vec<Vec<f64>> = vec![start.collect()];
@@ -31,8 +32,8 @@ fn position(path: &[Vec<f64>], time: f64) -> Vec<f64> {
     configuration_between(&path[segment], &path[segment + 1], time - segment as f64)
 }
 
-/// Tests that no first contact is late, that each is within the margin and the stated tolerance, and that no sample is nearer
-/// than a closest approach.
+/// Tests that no first contact is late, that each is within the margin and the reported tolerance, and that no sample
+/// is nearer than the least distance.
 #[test]
 fn hostile_edges_keep_the_tolerance_that_they_state() {
     let mut random = Pcg64::seed_from_u64(76);
@@ -63,7 +64,7 @@ fn hostile_edges_keep_the_tolerance_that_they_state() {
         };
         let tolerance = settings.tolerance;
         let mut solver = arm.cell.solver().with_settings(settings);
-        // The referee's own rounding: angles, and lengths of all joints.
+        // The rounding error of the referee: angles, and the lengths of all joints.
         let size = 1.0 + count as f64 * ccd_core::order::greater(scale, 1.0);
         let rounding = 4096.0 * f64::EPSILON * size;
         let answer = solver.first_contact(&path).unwrap();

@@ -1,11 +1,11 @@
-//! Tests unusual and wrong inputs: names, settings, positions that overflow, and facets that are wrong.
+//! Tests unusual and invalid inputs: names, settings, positions that overflow, and wrong facets.
 
 use super::*;
 use crate::cell::part::PlacedBody;
 use rigid_ccd::body::{Facet, FacetOrigin, Polytope};
 use rigid_ccd::glam::DQuat;
 
-/// Tests that names are unique, and that wrong configurations are refused.
+/// Tests that names are unique, and that invalid configurations are refused.
 #[test]
 fn wrong_input_is_refused() {
     let mut random = Pcg64::seed_from_u64(7);
@@ -52,7 +52,7 @@ fn wrong_input_is_refused() {
     }
 }
 
-/// Tests that a link which slides so far that its frame overflows is never free of an obstacle on its way.
+/// Tests that an edge is not free if a link slides through an obstacle so far that its frame overflows.
 #[test]
 fn an_edge_beyond_all_numbers_is_never_free() {
     let rail = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
@@ -60,7 +60,7 @@ fn an_edge_beyond_all_numbers_is_never_free() {
         name: "rail".into(),
         parent: "base".into(),
         child: "cart".into(),
-        axis_and_limits: rail,
+        geometry: rail,
         position_rule: PositionRule::Independent,
     };
     let cart = Link::named("cart").with_body(Body::sphere(0.1).unwrap(), Pose::IDENTITY);
@@ -78,7 +78,7 @@ fn an_edge_beyond_all_numbers_is_never_free() {
     }
 }
 
-/// Tests that a polytope whose facets are wrong is as solid as its hull.
+/// Tests that a polytope with wrong facets is as solid as its hull.
 #[test]
 fn wrong_facets_open_no_hole() {
     let corner = |k: usize| DVec3::from_array([0, 1, 2].map(|axis| (k >> axis & 1) as f64 - 0.5));
@@ -102,15 +102,15 @@ fn wrong_facets_open_no_hole() {
     let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
     let pieces = Pieces::from_triangles(&corners, &faces, &[0, 1, 2, 3]).unwrap();
     let large = Body::new(&pieces, Solidity::Solid).unwrap();
-    // It comes near the upper side, and not the lower one.
+    // The path comes near the upper side, but not the lower one.
     let start = Pose::at([-0.3, -0.3, 3.0]).unwrap();
     let falls = rigid_ccd::Motion::new(start, [0.0, 0.0, -2.6], [0.0; 3]).unwrap();
     let cube = (&*placed.body, rigid_ccd::Motion::STILL);
     assert!(!Solver::new().is_free((&large, falls), cube, 1.0).unwrap());
 }
 
-/// Tests two overlaps by about 1e-10 that rounding hides: of a mesh far from its origin, which its pose brings back, and of a
-/// ball whose joint has a factor and an offset that cancel.
+/// Tests two overlaps by about 1e-10, below rounding: of a mesh far from its origin, whose pose moves it back, and of
+/// a ball whose joint has a multiplier and an offset that cancel.
 #[test]
 fn numbers_that_cancel_are_rounded_as_what_they_are() {
     let far = [
@@ -128,7 +128,7 @@ fn numbers_that_cancel_are_rounded_as_what_they_are() {
         name: name.into(),
         parent: "base".into(),
         child: format!("{name} link"),
-        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
+        geometry: trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap(),
         position_rule: position,
     };
     let ball = || Body::sphere(0.5).unwrap();

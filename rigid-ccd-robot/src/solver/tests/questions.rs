@@ -1,4 +1,4 @@
-//! Tests the questions about paths and curves against sampled configurations.
+//! Tests questions about paths and curves against sampled configurations.
 
 use super::*;
 use crate::joint_curve::JointCurve;
@@ -7,14 +7,14 @@ use crate::path::joint_path::JointPath;
 use rigid_ccd::answer::Limit;
 use std::time::Duration;
 
-/// A path of either kind.
+/// A path through configurations, or a curve.
 enum TestPath {
     Configurations(Vec<Vec<f64>>),
     Curve(JointCurve),
 }
 
 impl TestPath {
-    /// Returns a path of a few configurations, each near the one before, or a cubic or quintic curve through them.
+    /// Returns a path of a few nearby configurations, or a cubic or quintic curve through them.
     fn random(random: &mut Pcg64, robot: &Robot) -> Self {
         let mut path = vec![random_configuration(random, robot)];
         for _ in 0..random.random_range(0..9) {
@@ -82,8 +82,8 @@ impl PathSource for TestPath {
     }
 }
 
-/// Tests that no sampled configuration before a first contact is within the margin, and that the pair which is named is
-/// within margin + tolerance there.
+/// Tests that no sampled configuration before a first contact is within the margin, and that the reported pair is
+/// within margin + tolerance at the contact.
 #[test]
 fn nothing_touches_before_a_first_contact() {
     let mut random = Pcg64::seed_from_u64(11);
@@ -129,8 +129,8 @@ fn nothing_touches_before_a_first_contact() {
     assert!(enough, "{free} {contacts} {late_segments}");
 }
 
-/// Tests that the least distance of sampled configurations is never below the bracket of the closest approach, that the
-/// bracket is as narrow as the tolerance, and that the pair which is named is as near as its upper bound.
+/// Tests that no sampled distance is below the lower bound of the closest approach, that the bounds are within the
+/// tolerance, and that the reported pair is as near as the upper bound.
 #[test]
 fn the_closest_approach_brackets_sampled_distances() {
     let mut random = Pcg64::seed_from_u64(12);
@@ -167,7 +167,7 @@ fn the_closest_approach_brackets_sampled_distances() {
     assert!(enough, "{apart} {touching} {narrowest}");
 }
 
-/// Tests that an edge and the same edge cut into many segments have the same answers.
+/// Tests that dividing an edge into many segments does not change the answers.
 #[test]
 fn a_cut_edge_is_the_same_edge() {
     let mut random = Pcg64::seed_from_u64(13);
@@ -185,7 +185,7 @@ fn a_cut_edge_is_the_same_edge() {
             whole.lower() <= parts.upper() + 1e-9 && parts.lower() <= whole.upper() + 1e-9,
             "{whole:?} {parts:?}"
         );
-        // Within the tolerance both answers are right.
+        // Within the tolerance, both answers are correct.
         if whole.lower() > 0.0 {
             free += 1;
             assert!(solver.is_free(&ends).unwrap() && solver.is_free(&cut).unwrap());
@@ -197,7 +197,7 @@ fn a_cut_edge_is_the_same_edge() {
     assert!(free > 20 && contacts > 10, "{free} {contacts}");
 }
 
-/// Tests that questions about paths allocate nothing once a solver has answered the like of them.
+/// Tests that a solver allocates no memory for questions like those it has answered.
 #[test]
 fn a_solver_keeps_its_memory() {
     let mut random = Pcg64::seed_from_u64(14);
@@ -213,7 +213,7 @@ fn a_solver_keeps_its_memory() {
             is_free
         };
         free += usize::from(ask(&mut solver));
-        engine += usize::from(solver.search.open_pairs.earliest_start() < f64::INFINITY);
+        engine += usize::from(solver.search.engine_candidates.earliest_start() < f64::INFINITY);
         let allocated = allocation_counter::measure(|| {
             ask(&mut solver);
         });
@@ -222,7 +222,7 @@ fn a_solver_keeps_its_memory() {
     assert!(free > 2 && free < 18 && engine > 2, "{free} {engine}");
 }
 
-/// Tests that a path without time is unresolved, and free before the point that is named.
+/// Tests that a path is unresolved if its deadline passes, and free up to the reported point.
 #[test]
 fn a_deadline_leaves_a_free_start() {
     let mut random = Pcg64::seed_from_u64(14);
@@ -256,7 +256,7 @@ fn a_deadline_leaves_a_free_start() {
     assert!(unresolved >= 15, "{unresolved}");
 }
 
-/// Tests that a spent budget is no error, and that the path is free before the point that is named.
+/// Tests that a spent budget is an outcome, not an error, and that the path is free up to the reported point.
 #[test]
 fn a_budget_leaves_a_free_start() {
     let mut random = Pcg64::seed_from_u64(16);
@@ -288,7 +288,7 @@ fn a_budget_leaves_a_free_start() {
     assert!(unresolved > 5, "{unresolved}");
 }
 
-/// Tests a configuration alone, and that a path without any is refused.
+/// Tests a path of one configuration, and that an empty path is refused.
 #[test]
 fn a_configuration_is_a_path() {
     let mut random = Pcg64::seed_from_u64(15);
@@ -309,7 +309,7 @@ fn a_configuration_is_a_path() {
     }
 }
 
-/// Tests that the lower bound holds for a cylinder, which a polytope encloses, and the upper bound as well.
+/// Tests that both bounds hold for a cylinder that a polytope encloses.
 #[test]
 fn bounds_hold_for_the_shapes_that_bodies_enclose() {
     let slide = trajectory::Joint::prismatic(Pose::IDENTITY, [1.0, 0.0, 0.0]).unwrap();
@@ -323,7 +323,7 @@ fn bounds_hold_for_the_shapes_that_bodies_enclose() {
         name: "rail".into(),
         parent: "base".into(),
         child: "rod".into(),
-        axis_and_limits: slide,
+        geometry: slide,
         position_rule: PositionRule::Independent,
     };
     let robot = Robot::new(links, vec![joint]).unwrap();

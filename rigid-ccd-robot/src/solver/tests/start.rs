@@ -1,4 +1,4 @@
-//! Tests of pairs in contact at the start that are let go, against the two-body engine and against heights of corners.
+//! Tests the start policy `leave` against the engine and against corner heights.
 
 use super::*;
 use crate::cell::Item;
@@ -17,7 +17,7 @@ fn at(position: [f64; 3]) -> Pose {
     Pose::at(position).unwrap()
 }
 
-/// Returns a robot of one link without bodies, which joints move one after another.
+/// Returns a robot with one bodiless link at the end of a chain of joints.
 fn robot_of(joints: Vec<trajectory::Joint>) -> Robot {
     let name = |k: usize| format!("link{k}");
     let links = (0..=joints.len()).map(|k| Link::named(name(k))).collect();
@@ -25,13 +25,13 @@ fn robot_of(joints: Vec<trajectory::Joint>) -> Robot {
         name: format!("joint{k}"),
         parent: name(k),
         child: name(k + 1),
-        axis_and_limits: joint,
+        geometry: joint,
         position_rule: PositionRule::Independent,
     });
     Robot::new(links, joints.collect()).unwrap()
 }
 
-/// Returns a cell in which the last link of a robot holds a can, beside obstacles.
+/// Returns a cell with obstacles, in which the last link of a robot carries a can.
 fn cell_with_can(
     robot: Robot,
     (can, pose): (Body, Pose),
@@ -47,7 +47,7 @@ fn cell_with_can(
     cell
 }
 
-/// Returns a large slab, whose top is at height 0, as one polytope or as triangles.
+/// Returns a large slab with its top at height 0, as one polytope or as triangles.
 fn slab(as_mesh: bool) -> Body {
     let [x, z] = [3.0, -0.2];
     let corners: Vec<DVec3> = (0..8)
@@ -84,7 +84,7 @@ fn slide(axis: [f64; 3]) -> trajectory::Joint {
     trajectory::Joint::prismatic(Pose::IDENTITY, axis).unwrap()
 }
 
-/// A can is lifted from a table into a shelf, which it touches at 0.793 of the path.
+/// Tests a can that is lifted from a table and touches a shelf above it at 0.793 of the path.
 #[test]
 fn a_can_that_is_lifted_from_a_table_meets_the_shelf_above() {
     let can = Body::cylinder(0.033, 0.06).unwrap();
@@ -115,7 +115,7 @@ fn a_can_that_is_lifted_from_a_table_meets_the_shelf_above() {
     assert!(!solver.is_free(&path).unwrap());
     assert!(solver.is_free(&[[0.0], [0.79]]).unwrap());
     assert!(solver.is_free(&[[0.0]]).unwrap());
-    // Up and down again it stands on the table, which is a contact once it has left it.
+    // On the way back down, the can touches the table again: a contact, because the two had separated.
     let PathOutcome::Contact(contact) = solver
         .first_contact(&[[0.0], [0.5], [0.0]])
         .unwrap()
@@ -128,10 +128,10 @@ fn a_can_that_is_lifted_from_a_table_meets_the_shelf_above() {
         contact.at.segment == 1 && contact.at.share > 0.999,
         "{contact:?}"
     );
-    // So it does into the table.
+    // Moving down into the table is a contact.
     assert!(!solver.is_free(&[[0.0], [-0.01]]).unwrap());
     assert!(!solver.is_free(&[[0.0], [0.0], [-0.01]]).unwrap());
-    // An overlap is no contact that parts.
+    // Overlapping bodies are in contact, also while they separate.
     cell.move_obstacle("table", at([0.0, 0.0, 0.01])).unwrap();
     let found = cell
         .solver()
@@ -140,7 +140,7 @@ fn a_can_that_is_lifted_from_a_table_meets_the_shelf_above() {
         .unwrap()
         .outcome;
     assert!(matches!(found, PathOutcome::Contact(found) if found.at.share == 0.0));
-    // What is allowed is not compared.
+    // An allowed contact is not checked.
     let pair = [Item::Attached("can"), Item::Obstacle("table")];
     cell.allow_contact(pair).unwrap();
     let found = cell
@@ -154,17 +154,18 @@ fn a_can_that_is_lifted_from_a_table_meets_the_shelf_above() {
     );
 }
 
-/// How a box that stands on a slab moves by one joint, as a joint and as a constant motion.
+/// How one joint moves a box that stands on a slab, as a joint and as a constant motion.
 struct Case {
     joint: trajectory::Joint,
     motion: Motion,
-    /// The position of the joint in the world.
+    /// The joint's origin in the world.
     origin: DVec3,
-    /// The position of the joint at the end.
+    /// The joint's final position.
     end: f64,
 }
 
-/// Draws a joint by which a box with this centre parts, slides or sinks, and returns with it what its first move is: 1, 0 or -1.
+/// Draws a joint by which a box with the given centre rises, slides or sinks. Also returns the initial direction: 1, 0
+/// or -1.
 fn random_case(random: &mut Pcg64, centre: DVec3) -> (Case, i32) {
     let kind = random.random_range(-1..=1);
     if random.random_range(0..2) == 0 {
@@ -201,7 +202,7 @@ fn random_case(random: &mut Pcg64, centre: DVec3) -> (Case, i32) {
             DVec3::Z,
         )
     } else {
-        // About a horizontal axis beside the whole box it rises or sinks.
+        // About a horizontal axis beside the box, it rises or sinks.
         let away = [-1.0f64, 1.0][random.random_range(0..2)] * random.random_range(0.4..1.0);
         let axis = DVec3::Y * away.signum() * f64::from(kind);
         ([centre.x + away, 0.0, random.random_range(-0.1..0.3)], axis)
@@ -220,7 +221,7 @@ fn random_case(random: &mut Pcg64, centre: DVec3) -> (Case, i32) {
     )
 }
 
-/// Returns the least height of the corners of a box in a motion at a time, by arithmetic of its own.
+/// Returns the height of a moving box's lowest corner at a time, computed independently.
 fn least_height(motion: &Motion, half: DVec3, time: f64) -> f64 {
     let turned = DQuat::from_scaled_axis(motion.spin() * time);
     let start = motion.start().translation();
@@ -234,10 +235,10 @@ fn least_height(motion: &Motion, half: DVec3, time: f64) -> f64 {
         .fold(f64::INFINITY, lesser)
 }
 
-/// Tests random boxes on a slab that part, slide or sink: the answer is that of the two-body engine, and no corner is lower than at
-/// the start before a contact.
+/// Tests random boxes on a slab that rise, slide or sink: the answer agrees with the engine, and before a contact no
+/// corner is lower than at the start.
 #[test]
-fn a_pair_that_is_let_go_answers_as_two_bodies_do() {
+fn a_pair_in_contact_at_the_start_answers_as_two_bodies_do() {
     let mut random = Pcg64::seed_from_u64(75);
     let (mut counts, mut later) = ([[0; 2]; 3], 0);
     for round in 0..600 {
@@ -267,7 +268,7 @@ fn a_pair_that_is_let_go_answers_as_two_bodies_do() {
             .first_contact((&body, case.motion), (&ground, resting), 1.0)
             .unwrap()
             .outcome;
-        // The end of what is proven, and the greatest time of a contact of both.
+        // The end of the proven part, and the latest time of both contacts.
         let until = match (found, two_bodies) {
             (PathOutcome::Free, Outcome::Free { .. }) => 1.0,
             (PathOutcome::Contact(contact), Outcome::Contact { time, .. }) => {
@@ -286,7 +287,7 @@ fn a_pair_that_is_let_go_answers_as_two_bodies_do() {
                 time >= until || height >= -2e-9,
                 "{round}: {height} at {time} of {until}"
             );
-            // Half of a gap is kept.
+            // Half of the gap must be kept.
             assert!(
                 time >= until || gap == 0.0 || height > 0.2 * gap,
                 "{round}: {height}"
@@ -302,7 +303,7 @@ fn a_pair_that_is_let_go_answers_as_two_bodies_do() {
     assert!(later > 5, "{counts:?} {later}");
 }
 
-/// Tests arms of three joints that lift a box from a slab, along edges and along curves that begin at rest.
+/// Tests arms of three joints that lift a box from a slab, along edges and along curves that start at rest.
 #[test]
 fn arms_lift_and_press_what_stands_on_a_slab() {
     let mut random = Pcg64::seed_from_u64(76);
@@ -331,7 +332,7 @@ fn arms_lift_and_press_what_stands_on_a_slab() {
         let cell = cell_with_can(robot, (Body::cuboid(half).unwrap(), held), &obstacles);
         let lifts = random.random_range(0..2) == 1;
         let rise = if lifts { -1.0f64 } else { 1.0 } * random.random_range(0.1..0.4);
-        // The elbow turns back as the shoulder turns, so that the box tilts a little.
+        // The elbow turns against the shoulder, so that the box tilts only slightly.
         let end = [
             start[0] + random.random_range(-0.3..0.3),
             start[1] + rise,
@@ -390,7 +391,7 @@ fn arms_lift_and_press_what_stands_on_a_slab() {
     assert!(lifted[1] > 100, "{counts:?}");
 }
 
-/// Tests that a pair which begins inside the margin keeps the distance that it began with.
+/// Tests that a pair within its margin at the start keeps its initial distance.
 #[test]
 fn a_pair_that_begins_inside_the_margin_may_part() {
     let body = Body::cuboid([0.1; 3]).unwrap();
@@ -405,14 +406,14 @@ fn a_pair_that_begins_inside_the_margin_may_part() {
         let mut solver = cell.solver().with_settings(settings);
         assert!(solver.is_free(&[[0.0], [0.3]]).unwrap(), "{gap}");
         assert!(!solver.is_free(&[[0.0], [-0.002]]).unwrap(), "{gap}");
-        // Back to where it was is back at the distance that it had.
+        // Returning to the start restores the initial distance.
         assert!(solver.is_free(&[[0.0], [0.3], [0.001]]).unwrap(), "{gap}");
         assert!(!solver.is_free(&[[0.0], [0.3], [-0.001]]).unwrap(), "{gap}");
     }
 }
 
 #[test]
-fn questions_that_cannot_let_go_refuse_it() {
+fn questions_without_the_start_policy_leave_refuse_it() {
     let robot = robot_of(vec![slide([0.0, 0.0, 1.0])]);
     let obstacles = [("slab", slab(false), Pose::IDENTITY)];
     let cell = cell_with_can(
@@ -438,7 +439,7 @@ fn questions_that_cannot_let_go_refuse_it() {
     assert!(is_refused(solver.is_free(&path).unwrap_err()));
 }
 
-/// Tests that limits are never passed over: what is free until then is free.
+/// Tests that after a limit the reported part of the path is free.
 #[test]
 fn limits_leave_a_start_that_is_free() {
     let robot = robot_of(vec![slide([0.0, 0.0, 1.0])]);
@@ -481,7 +482,7 @@ fn can_before_wall(from: f64, to: f64) -> Cell {
         name: name.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: trajectory::Joint::prismatic(Pose::IDENTITY, axis).unwrap(),
+        geometry: trajectory::Joint::prismatic(Pose::IDENTITY, axis).unwrap(),
         position_rule: PositionRule::Independent,
     });
     let can = Body::cuboid([0.05, 0.05, 0.05]).unwrap();
@@ -504,12 +505,12 @@ fn can_before_wall(from: f64, to: f64) -> Cell {
     cell
 }
 
-/// Tests that a pair that was let go and a pair that was not are told in the order of their contacts. The search for one of them
-/// meets, in the middle of a stretch, a contact behind that of the other.
+/// Tests the order of two contacts, one of a pair in contact at the start and one of another pair. The search for one
+/// of them meets, at a midpoint, a contact that is later than the other one.
 #[test]
-fn of_a_pair_let_go_and_another_one_the_first_contact_is_told() {
+fn of_a_start_contact_and_another_one_the_first_is_reported() {
     let (high, low) = (0.3, -0.05);
-    // It hits a thin wall on its way down into the table; it sinks into the table before a thick wall.
+    // On its way down, the can either hits a thin wall, or sinks into the table before it reaches a thick wall.
     for (wall, path, item, expected) in [
         (
             [0.5, 0.51],
@@ -540,9 +541,9 @@ fn of_a_pair_let_go_and_another_one_the_first_contact_is_told() {
     }
 }
 
-/// Tests that letting go allocates nothing once a solver has answered the like.
+/// Tests that the start policy allocates no memory after a similar question.
 #[test]
-fn letting_go_keeps_its_memory() {
+fn the_start_policy_leave_keeps_its_memory() {
     for as_mesh in [false, true] {
         let robot = robot_of(vec![slide([0.0, 0.0, 1.0])]);
         let obstacles = [("slab", slab(as_mesh), Pose::IDENTITY)];
@@ -562,7 +563,7 @@ fn letting_go_keeps_its_memory() {
     }
 }
 
-/// What stands on a table is turned there by one joint, near and far from its axis.
+/// Tests a body that one joint turns on a table, near its axis and far from it.
 #[test]
 fn what_stands_on_a_table_turns_there() {
     let bodies = [
@@ -583,7 +584,7 @@ fn what_stands_on_a_table_turns_there() {
                 |to: [f64; 2]| solver.first_contact(&[[0.0, 0.0], to]).unwrap().outcome;
             assert_eq!(answer([2.0, 0.0]), PathOutcome::Free, "{body:?}");
             assert_eq!(answer([-3.0, 0.0]), PathOutcome::Free, "{body:?}");
-            // It sinks by a tenth of the tolerance.
+            // The can sinks by a tenth of the tolerance.
             let sinks = answer([2.0, -1e-4]);
             assert!(matches!(sinks, PathOutcome::Contact(_)), "{sinks:?}");
         }

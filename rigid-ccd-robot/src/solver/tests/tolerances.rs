@@ -1,5 +1,5 @@
-//! Tests that answers keep the tolerance that they state, on curves whose coefficients cancel, far from the base, and after
-//! thousands of turns.
+//! Tests that answers meet the tolerance that they report: on curves with cancelling coefficients, far from the base,
+//! and after thousands of turns.
 
 use super::*;
 use crate::joint_curve::JointCurve;
@@ -7,7 +7,7 @@ use ccd_core::double_double::DoubleDouble;
 use rigid_ccd::glam::DQuat;
 use std::f64::consts::TAU;
 
-/// A robot of balls: each joint holds a link with one ball, whose centre is beside the joint's axis.
+/// A chain of links, each with one ball beside its joint's axis.
 pub(super) struct BallArm {
     pub(super) cell: Cell,
     pub(super) joints: Vec<BallJoint>,
@@ -15,7 +15,7 @@ pub(super) struct BallArm {
     radii: f64,
 }
 
-/// A joint along or about an axis of the base's frame, at an offset from the joint before it.
+/// A joint along or about an axis of the base's frame, at an offset from the previous joint.
 #[derive(Clone, Copy)]
 pub(super) struct BallJoint {
     pub(super) offset: DVec3,
@@ -26,7 +26,7 @@ pub(super) struct BallJoint {
 const RADIUS: f64 = 0.1;
 
 impl BallArm {
-    /// Creates a robot of which only the last link has a ball, beside a post with the other one.
+    /// Creates a robot with a ball on its last link only, and a post with a second ball.
     pub(super) fn new(joints: Vec<BallJoint>, post: DVec3) -> Self {
         let name = |k: usize| format!("link{k}");
         let mut links: Vec<Link> = (0..=joints.len()).map(|k| Link::named(name(k))).collect();
@@ -43,7 +43,7 @@ impl BallArm {
                 name: format!("joint{k}"),
                 parent: name(k),
                 child: name(k + 1),
-                axis_and_limits: made.unwrap(),
+                geometry: made.unwrap(),
                 position_rule: PositionRule::Independent,
             }
         });
@@ -60,7 +60,7 @@ impl BallArm {
         }
     }
 
-    /// Returns the centre of the ball at positions of all joints, by rotations about axes.
+    /// Returns the centre of the ball at given joint positions.
     pub(super) fn ball(&self, positions: &[f64]) -> DVec3 {
         let steps = self.joints.iter().zip(positions).rev();
         steps.fold(DVec3::ZERO, |at, (joint, &position)| {
@@ -94,7 +94,7 @@ fn settings(margin: f64, tolerance: f64) -> Settings {
     }
 }
 
-/// The coefficients of the Chebyshev polynomial of a degree on shares from 0 to 1, which are whole numbers.
+/// Returns the integer coefficients of a Chebyshev polynomial on [0, 1].
 fn chebyshev(degree: usize) -> Vec<f64> {
     let mut last = [vec![1.0], vec![-1.0, 2.0]];
     for _ in 1..degree {
@@ -113,8 +113,8 @@ fn chebyshev(degree: usize) -> Vec<f64> {
     if degree == 0 { first } else { second }
 }
 
-/// Tests a joint that swings between -1 and 1, where the ball is 0.3 away from the post: with a margin that is a bit smaller
-/// there is no contact, although the sum of the coefficients' magnitudes is 4 million.
+/// Tests a joint that swings between -1 and 1 with a ball 0.3 away from the post. With a slightly smaller margin there
+/// is no contact, although the absolute values of the coefficients add up to 4 million.
 #[test]
 fn a_curve_whose_coefficients_cancel_keeps_the_tolerance() {
     let arm = BallArm::new(vec![slide()], 1.5 * DVec3::X);
@@ -158,7 +158,7 @@ fn hinges_on_curves_whose_coefficients_cancel_keep_the_tolerance() {
     assert_eq!(solver.met_tolerance(), 1e-6);
 }
 
-/// Tests straight edges whose positions are rounded by more than the tolerance: they state a larger one, and keep it.
+/// Tests straight edges whose rounding exceeds the tolerance: answers report a larger tolerance and meet it.
 #[test]
 fn edges_state_the_tolerance_that_they_meet() {
     let far = |distance: f64| {
@@ -208,7 +208,7 @@ fn edges_state_the_tolerance_that_they_meet() {
     }
 }
 
-/// A random polynomial with values of about 1, in one of three forms, as coefficients of the powers of the share.
+/// Returns the coefficients of a random polynomial with values of about 1, in one of three forms.
 fn random_values(random: &mut Pcg64) -> Vec<f64> {
     let degree = random.random_range(1..=9);
     let weights: Vec<f64> = (0..=degree)
@@ -246,7 +246,7 @@ fn random_values(random: &mut Pcg64) -> Vec<f64> {
     sum
 }
 
-/// Returns the positions of all joints of a curve of one segment at a share, of twice as many digits until they are rounded.
+/// Returns the positions of all joints on a curve of one segment, computed in double-double precision.
 fn referee_positions(curve: &JointCurve, joint_count: usize, share: f64) -> Vec<f64> {
     let joints = (0..joint_count).map(|joint| {
         let powers = (0..=curve.degree()).rev();
@@ -258,8 +258,8 @@ fn referee_positions(curve: &JointCurve, joint_count: usize, share: f64) -> Vec<
     joints.collect()
 }
 
-/// Tests random curves at many scales against samples of their polynomials: no contact is late, and each is within the margin
-/// and the tolerance that is stated.
+/// Tests random curves at many scales against samples: no contact is late, and each is within the margin and the
+/// reported tolerance.
 #[test]
 fn random_curves_keep_the_tolerance_that_they_state() {
     let mut random = Pcg64::seed_from_u64(75);
@@ -291,7 +291,7 @@ fn random_curves_keep_the_tolerance_that_they_state() {
         let aim = random.random_range(0.0..1.0);
         let aimed = referee_positions(&curve, count, aim);
         let mut arm = BallArm::new(joints, DVec3::ZERO);
-        // The post is beside a place where the ball passes.
+        // The post is beside a point where the ball passes.
         let beside = random_offset(&mut random).normalize() * random.random_range(0.0..0.6);
         let at = arm.ball(&aimed) + beside;
         arm = BallArm::new(arm.joints, at);

@@ -1,19 +1,20 @@
-//! A random adversary of cells: allowances, held bodies and obstacles come and go, and each answer is held against a twin that asks
-//! the two-body engine about one pair after another, and keeps its own list of what may touch.
+//! Tests random changes of cells against a twin. The twin queries the engine pair by pair, and keeps its own list of
+//! allowed contacts.
 
 use super::*;
 use rigid_ccd::trajectory::Chain;
 use rigid_ccd::{Outcome, StartPolicy};
 use std::collections::BTreeSet;
 
-/// What a twin knows of a cell.
+/// The twin's own record of a cell.
 struct Twin {
     robot: Robot,
-    /// The bodies, each by the name of its item, with its link and its pose there; the base for an obstacle.
+    /// The bodies: the name of the item, the index of its link (the base for an obstacle), the body, and its pose on
+    /// the link.
     bodies: Vec<(String, usize, Body, Pose)>,
     obstacles: BTreeSet<String>,
-    held: BTreeSet<String>,
-    /// Pairs of names that may touch, in both orders.
+    attached: BTreeSet<String>,
+    /// Pairs of names that are allowed to touch, in both orders.
     allowed: BTreeSet<(String, String)>,
 }
 
@@ -21,13 +22,13 @@ impl Twin {
     fn of_robot(robot: &Robot) -> Self {
         let links = robot.links().iter().enumerate();
         let bodies = links.flat_map(|(number, link)| {
-            let held = link.bodies.iter();
-            held.map(move |held| {
+            let bodies = link.bodies.iter();
+            bodies.map(move |link_body| {
                 (
                     link.name.clone(),
                     number,
-                    Body::clone(&held.body),
-                    held.pose,
+                    Body::clone(&link_body.body),
+                    link_body.pose,
                 )
             })
         });
@@ -35,13 +36,13 @@ impl Twin {
             bodies: bodies.collect(),
             robot: robot.clone(),
             obstacles: BTreeSet::new(),
-            held: BTreeSet::new(),
+            attached: BTreeSet::new(),
             allowed: BTreeSet::new(),
         }
     }
 
     fn is_link(&self, name: &str) -> bool {
-        !self.obstacles.contains(name) && !self.held.contains(name)
+        !self.obstacles.contains(name) && !self.attached.contains(name)
     }
 
     fn set_allowed(&mut self, a: &str, b: &str, is_allowed: bool) {
@@ -59,10 +60,10 @@ impl Twin {
         self.bodies.retain(|(own, ..)| own != name);
         self.allowed.retain(|(a, b)| a != name && b != name);
         self.obstacles.remove(name);
-        self.held.remove(name);
+        self.attached.remove(name);
     }
 
-    /// Returns the pairs of bodies that have to be compared; `clears` are pairs of links that a clearance or a call includes.
+    /// Returns the pairs of bodies to check. `included` are the pairs of links that a clearance or a call includes.
     fn pairs(&self, included: &BTreeSet<(String, String)>) -> Vec<[usize; 2]> {
         let count = self.bodies.len();
         let all = (0..count).flat_map(|a| (0..a).map(move |b| [a, b]));
@@ -77,7 +78,8 @@ impl Twin {
         compared.collect()
     }
 
-    /// Returns the chain by which the first body of a pair moves as the second one sees it, and its positions at both ends.
+    /// Returns the chain that moves the first body of a pair relative to the second one, and its positions at both
+    /// ends.
     fn chain(&self, [a, b]: [usize; 2], ends: [&[f64]; 2]) -> (Chain, [Vec<f64>; 2]) {
         let [(_, link, _, pose), (_, with, _, at)] = [&self.bodies[a], &self.bodies[b]];
         let between = self.robot.chain_between(*with, *link);
@@ -95,8 +97,8 @@ impl Twin {
         (Chain::new(at.inverse(), joints), ends.map(positions))
     }
 
-    /// Returns what of a pair is known: its answer by the two-body engine, or its distances along the edge if it begins nearer than
-    /// its margin and is let go.
+    /// Returns the engine's answer for a pair, or its distances along the edge if it starts within its margin under
+    /// the policy `leave`.
     fn ask(&self, pair: [usize; 2], ends: [&[f64]; 2], settings: &Settings) -> Known {
         let (chain, [from, to]) = self.chain(pair, ends);
         let link = chain.link(from.len(), &from, &to, 1.0).unwrap();
@@ -112,16 +114,16 @@ impl Twin {
         let start = outcome_at(0.0);
         let gap = start.lower() - settings.margin;
         let overlaps = matches!(start, Outcome::Overlapping { .. });
-        let is_let_go =
+        let is_start_contact =
             settings.start_policy == StartPolicy::Leave && !overlaps && gap <= settings.tolerance;
-        if is_let_go && gap < 1e-6 {
+        if is_start_contact && gap < 1e-6 {
             let times = (0..=20).map(|k| f64::from(k) / 20.0);
             return Known::Distances(times.map(|time| (time, outcome_at(time).lower())).collect());
         }
         let settings = Settings {
             start_policy: StartPolicy::Report,
-            // A pair with a gap keeps half of it.
-            tolerance: if is_let_go {
+            // A pair with a gap must keep half of it.
+            tolerance: if is_start_contact {
                 0.5 * gap
             } else {
                 settings.tolerance
@@ -130,19 +132,19 @@ impl Twin {
         };
         let mut solver = Solver::new().with_settings(settings);
         let outcome = solver.first_contact((body, &link), (other, Pose::IDENTITY), 1.0);
-        Known::Answer(Box::new(outcome.unwrap().outcome), is_let_go)
+        Known::Answer(Box::new(outcome.unwrap().outcome), is_start_contact)
     }
 }
 
-/// What a twin knows of a pair on an edge.
+/// The twin's answer for a pair on an edge.
 enum Known {
-    /// The first contact, and whether the pair is let go.
+    /// The first contact, and whether the pair is in contact at the start.
     Answer(Box<Outcome>, bool),
-    /// Times with distances.
+    /// Times, with distances.
     Distances(Vec<(f64, f64)>),
 }
 
-/// A cell with its twin, which change together.
+/// A cell and its twin, which are changed together.
 struct Both {
     cell: Cell,
     twin: Twin,
@@ -168,7 +170,7 @@ impl Both {
         names.into_iter().nth(index).unwrap().clone()
     }
 
-    /// Changes both at random.
+    /// Applies a random change to both.
     fn change(&mut self, random: &mut Pcg64) {
         self.count += 1;
         let name = format!("thing{}", self.count);
@@ -194,7 +196,7 @@ impl Both {
                 for other in &may_touch {
                     self.twin.set_allowed(&name, other, true);
                 }
-                self.twin.held.insert(name.clone());
+                self.twin.attached.insert(name.clone());
                 self.twin.bodies.push((name, link, body, pose));
             }
             5 => {
@@ -202,7 +204,7 @@ impl Both {
                 if self.twin.obstacles.contains(&name) {
                     self.cell.remove_obstacle(&name).unwrap();
                     self.twin.remove(&name);
-                } else if self.twin.held.contains(&name) {
+                } else if self.twin.attached.contains(&name) {
                     self.cell.detach(&name).unwrap();
                     self.twin.remove(&name);
                 }
@@ -236,7 +238,7 @@ impl Both {
     }
 }
 
-/// What the answers of a run were.
+/// Counts of the answers of a run.
 #[derive(Debug, Default)]
 struct Counts {
     free: usize,
@@ -246,7 +248,7 @@ struct Counts {
     nothing: usize,
 }
 
-/// Holds the answer about an edge against the twin's.
+/// Compares the answer about an edge with the twin's.
 fn compare(both: &Both, [from, to]: [&[f64]; 2], settings: &Settings, counts: &mut Counts) {
     let pairs = both.twin.pairs(&both.included);
     let compared = both.cell.compared_pairs(0.0).count();
@@ -288,12 +290,12 @@ fn compare(both: &Both, [from, to]: [&[f64]; 2], settings: &Settings, counts: &m
                     assert!(is_kept, "{names:?}: {distance} at {time} of {until}");
                 }
             }
-            Known::Answer(outcome, is_let_go) => {
-                counts.let_go += usize::from(is_let_go);
+            Known::Answer(outcome, is_start_contact) => {
+                counts.let_go += usize::from(is_start_contact);
                 let Some(hit) = outcome.hit().unwrap() else {
                     continue;
                 };
-                // Both may call a distance between the margin and the tolerance a contact or not.
+                // Between the margin and margin + tolerance, either may report a contact.
                 if hit.time < until - 1e-2 {
                     let distance = hit.witness_a().distance(hit.witness_b());
                     let text = format!("{names:?}: {} before {until}, {distance}", hit.time);
@@ -316,14 +318,14 @@ fn compare(both: &Both, [from, to]: [&[f64]; 2], settings: &Settings, counts: &m
                 lower <= settings.margin + settings.tolerance + 1e-9,
                 "{contact:?}"
             );
-            // The twin finds it as well, unless it is within the tolerance.
+            // The twin must find the contact as well, unless it is only within the tolerance.
             assert!(is_confirmed || upper > settings.margin, "{contact:?}");
         }
         _ => {}
     }
 }
 
-/// Tests random cells after each of many changes, with contacts at the start reported and let go.
+/// Tests random cells after each of many changes, under both start policies.
 #[test]
 fn each_answer_is_that_of_the_pairs_alone() {
     let mut random = Pcg64::seed_from_u64(80);
@@ -338,7 +340,7 @@ fn each_answer_is_that_of_the_pairs_alone() {
             let reach = [0.02, 0.1, 0.4][random.random_range(0..3)];
             let to = configuration_between(&from, &far, reach);
             let start_policy = [StartPolicy::Report, StartPolicy::Leave][random.random_range(0..2)];
-            // Pairs that begin within a large tolerance have gaps.
+            // With a large tolerance, some pairs in contact at the start have gaps.
             let tolerance = match start_policy {
                 StartPolicy::Leave => [1e-3, 0.1][random.random_range(0..2)],
                 StartPolicy::Report => 1e-3,

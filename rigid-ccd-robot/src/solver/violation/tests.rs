@@ -1,4 +1,4 @@
-//! Tests the ball in a convex set against heights along random directions.
+//! Tests the search for a ball inside a convex set against heights along random directions.
 
 use super::contains_ball;
 use crate::test_robots::random_vector;
@@ -18,8 +18,8 @@ fn lowest_point(points: &[DVec3], direction: DVec3) -> DVec3 {
     points.iter().copied().reduce(lower).unwrap()
 }
 
-/// Tests random sets of points about the origin: no height is above that of a ball which their hull contains, and balls are
-/// found unless they are about as large as the largest one.
+/// Tests random sets of points around the origin: the hull contains every ball that is found, and balls are found
+/// unless they are nearly the largest possible.
 #[test]
 fn a_ball_is_found_only_in_the_hull() {
     let mut random = Pcg64::seed_from_u64(31);
@@ -40,13 +40,13 @@ fn a_ball_is_found_only_in_the_hull() {
             found += 1;
             assert!(radius <= depth, "{radius} in {points:?}");
         }
-        // Sampled directions show a depth that is a little too large.
+        // Sampled directions overestimate the depth slightly.
         missed += usize::from(!is_found && radius < 0.8 * depth);
     }
     assert!(found > 300 && 20 * missed < found, "{found} {missed}");
 }
 
-/// Tests sets without a volume, and points that are not numbers.
+/// Tests sets without a volume, and points that are NaN.
 #[test]
 fn a_flat_set_contains_no_ball() {
     let flat = [[1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0]].map(DVec3::from);

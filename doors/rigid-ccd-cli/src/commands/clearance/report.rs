@@ -87,8 +87,8 @@ impl Report<'_> {
             .joints()
             .iter()
             .find(|joint| joint.name == name);
-        let turns = joint
-            .is_some_and(|joint| matches!(joint.axis_and_limits.kind(), JointKind::Revolute(_)));
+        let turns =
+            joint.is_some_and(|joint| matches!(joint.geometry.kind(), JointKind::Revolute(_)));
         let (factor, unit) = if turns {
             (1f64.to_degrees(), "°")
         } else {

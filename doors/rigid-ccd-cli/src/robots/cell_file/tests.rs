@@ -9,7 +9,7 @@ fn empty_cell() -> Cell {
         name: "hinge".into(),
         parent: "base".into(),
         child: "arm".into(),
-        axis_and_limits: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
+        geometry: trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap(),
         position_rule: PositionRule::Independent,
     };
     let robot = Robot::new(vec![Link::named("base"), ball], vec![hinge]).unwrap();

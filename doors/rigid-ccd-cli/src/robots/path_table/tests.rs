@@ -12,7 +12,7 @@ fn robot() -> Robot {
         name: name.into(),
         parent: parent.into(),
         child: child.into(),
-        axis_and_limits: moves,
+        geometry: moves,
         position_rule: PositionRule::Independent,
     };
     let turns = trajectory::Joint::revolute(Pose::IDENTITY, [0.0, 0.0, 1.0]).unwrap();

@@ -29,7 +29,7 @@ fn distances(robot: &Robot, link: &str, radius: f64, at: DVec3) -> Vec<f64> {
     measured.collect()
 }
 
-/// Tests that a ball that flies touches the planes of the world, and of a body without joints, however small they are drawn.
+/// Tests that a flying ball touches planes of the world and of a static body, also outside their drawn size.
 #[test]
 fn planes_are_half_spaces() {
     let text = r#"<mujoco><worldbody><geom name="floor" type="plane" size="1 1 0.1"/>
@@ -79,12 +79,12 @@ fn ellipsoids_are_enclosed() {
             "{farthest}"
         );
     }
-    // The second one reaches from 0 to 2 along x.
+    // The second capsule extends from 0 to 2 along x.
     let beyond = distances(&robot, "world", 1e-3, DVec3::new(-0.01, 0.0, 0.0))[1];
     assert!((beyond - 0.009).abs() < 1.0 / 400.0, "{beyond}");
 }
 
-/// Tests a mesh whose vertices stand in the model, with triangles, without them, and with a scale and a reference pose.
+/// Tests a mesh with vertices in the model: with triangles, without, and with a scale and a reference pose.
 #[test]
 fn meshes_stand_in_the_model() {
     let corners = "0 0 0 1 0 0 0 1 0 0 0 1";
@@ -135,7 +135,7 @@ fn meshes_stand_in_the_model() {
     );
 }
 
-/// Returns the height of a field over a point, by the triangles of its cell.
+/// Returns the height of a height field at a point, from the triangles of its cell.
 fn height_at(heights: &[[f64; 3]; 3], [half_x, half_y]: [f64; 2], x: f64, y: f64) -> f64 {
     let (u, v) = (
         (x / half_x + 1.0).clamp(0.0, 2.0),
@@ -151,8 +151,7 @@ fn height_at(heights: &[[f64; 3]; 3], [half_x, half_y]: [f64; 2], x: f64, y: f64
     }
 }
 
-/// Tests points close above and below a height field from numbers in the model and from a file, in which the rows run the other
-/// way, against the triangles of its cells.
+/// Tests points just above and below a height field, from the model and from a file with the rows in reverse order.
 #[test]
 fn height_fields_are_solid_below_their_triangles() {
     let mut random = Pcg64::seed_from_u64(16);
@@ -240,7 +239,7 @@ fn height_fields_are_checked() {
     assert!(error(r#"size="1 1 0 1" nrow="2" ncol="2""#).contains("size"));
 }
 
-/// Tests the example in MuJoCo's documentation, and a robot that occurs three times around a circle.
+/// Tests the example of MuJoCo's documentation, and a robot replicated three times around a circle.
 #[test]
 fn elements_are_replicated() {
     let text = r#"<mujoco><worldbody><replicate count="2" offset="0 1 0" euler="90 0 0">

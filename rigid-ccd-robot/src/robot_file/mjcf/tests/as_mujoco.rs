@@ -1,4 +1,4 @@
-//! Tests that what MuJoCo 4.0 takes is read as it reads it, or refused, and that what it refuses is refused.
+//! Tests that this reader agrees with MuJoCo 4.0: it accepts the same models or refuses them with a reason.
 
 use super::{checked_names, distance_from_link, file_of, largest_difference};
 use crate::remark::CellRemark;
@@ -15,7 +15,7 @@ fn read(text: &str) -> Robot {
         .unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
-/// Returns why a model is refused, or its pairs.
+/// Returns the error of reading a model or its pairs.
 fn refusal(text: &str) -> String {
     let file = file_of(text);
     let read = file.read().and_then(|robot| file.link_pairs(&robot, None));
@@ -25,7 +25,7 @@ fn refusal(text: &str) -> String {
     }
 }
 
-/// Returns a model with a slide `x` on a body `s` with a geom, and other sections.
+/// Returns a model of a body `s` with a slide joint `x` and a geom, and further sections.
 fn slide(joint: &str, geom: &str, sections: &str) -> String {
     format!(
         r#"<mujoco>{sections}<worldbody><body name="s"><joint name="x" type="slide" {joint}/><geom {geom}/></body></worldbody>
@@ -37,7 +37,7 @@ fn class(content: &str) -> String {
     format!(r#"<default><default class="m">{content}</default></default>"#)
 }
 
-/// Tests that numbers that are not there do not take the place of those of a class, which is the one rule of `Attributes::read`.
+/// Tests that empty numeric attributes do not replace those of a class.
 #[test]
 fn empty_numbers_are_those_of_the_class() {
     let joint = r#"<joint axis="1 0 0" range="0 1" ref=".5"/>"#;
@@ -148,21 +148,21 @@ fn words_are_taken_as_they_are() {
             "mocap=\"1\"",
         ),
     ] {
-        let told = refusal(&text);
-        assert!(told.contains(expected), "{text}: {told}");
+        let message = refusal(&text);
+        assert!(message.contains(expected), "{text}: {message}");
     }
-    // Names that differ by a blank are two.
+    // Names that differ by a space are different.
     let sections = format!(
         r#"<asset><mesh name="m" {TETRAHEDRON} scale="9 9 9"/><mesh name="m " {TETRAHEDRON}/></asset>{}"#,
         r#"<default><default class="c"><geom pos="1 0 0"/></default><default class=" c"/></default>"#
     );
     let robot = read(&slide("", r#"type="mesh" mesh="m " class=" c""#, &sections));
-    let held = &robot.links()[robot.link_number("s").unwrap()].bodies[0];
-    assert!(held.body.bounding_radius() < 1.0);
-    assert_eq!(held.pose.translation(), DVec3::ZERO);
+    let link_body = &robot.links()[robot.link_number("s").unwrap()].bodies[0];
+    assert!(link_body.body.bounding_radius() < 1.0);
+    assert_eq!(link_body.pose.translation(), DVec3::ZERO);
 }
 
-/// Tests that joints whose positions would be those of another frame are refused.
+/// Tests that joints of frames that MuJoCo would move to the centre of mass are refused.
 #[test]
 fn frames_that_are_aligned_with_the_inertia_are_refused() {
     let free = |compiler: &str, joint: &str, child: &str| {
@@ -178,9 +178,9 @@ fn frames_that_are_aligned_with_the_inertia_are_refused() {
         (aligns, r#"<freejoint align="auto"/>"#),
         (aligns, r#"<joint type="free"/>"#),
     ] {
-        let told = refusal(&free(compiler, joint, ""));
-        assert!(told.contains("body `a` is aligned"), "{told}");
-        // Only bodies without children are aligned.
+        let message = refusal(&free(compiler, joint, ""));
+        assert!(message.contains("body `a` is aligned"), "{message}");
+        // MuJoCo moves only frames of bodies without children.
         let child = r#"<frame pos="0 0 1"><body><geom size="1"/></body></frame>"#;
         read(&free(compiler, joint, child));
     }
@@ -194,7 +194,7 @@ fn frames_that_are_aligned_with_the_inertia_are_refused() {
     assert!(refusal(&free("", r#"<freejoint align="yes"/>"#, "")).contains("align=\"yes\""));
 }
 
-/// Tests that a z axis that is turned round, but for a rounding, is turned about x.
+/// Tests that a z axis reversed up to rounding is rotated about x.
 #[test]
 fn half_turns_are_about_the_x_axis() {
     let half_turn = DAffine3::from_rotation_x(PI);
@@ -206,8 +206,8 @@ fn half_turns_are_about_the_x_axis() {
         (r#"fromto="0 0 1 0 0 -1" size="1""#, DAffine3::IDENTITY),
     ] {
         let robot = read(&slide("", &format!(r#"type="box" {own}"#), ""));
-        let held = &robot.links()[robot.link_number("s").unwrap()].bodies[0];
-        assert!(largest_difference(held.pose, expected) < 1e-9, "{own}");
+        let link_body = &robot.links()[robot.link_number("s").unwrap()].bodies[0];
+        assert!(largest_difference(link_body.pose, expected) < 1e-9, "{own}");
     }
 }
 
@@ -227,15 +227,15 @@ fn vectors_without_a_direction_are_refused() {
         (geom(r#"xyaxes="1e-12 0 0 0 1 0""#), "xyaxes"),
         (geom(r#"fromto="0 0 0 0 0 1e-14""#), "fromto"),
     ] {
-        let told = refusal(&text);
+        let message = refusal(&text);
         assert!(
-            told.contains(expected) && told.ends_with("is not valid"),
-            "{told}"
+            message.contains(expected) && message.ends_with("is not valid"),
+            "{message}"
         );
     }
 }
 
-/// Tests that a hull contains vertices without a face, and that exact meshes do not.
+/// Tests that hulls contain vertices without a face, and exact meshes do not.
 #[test]
 fn hulls_contain_all_vertices() {
     let folder = tempfile::tempdir().unwrap();
@@ -333,9 +333,9 @@ fn an_empty_folder_of_meshes_is_that_of_the_model() {
         let text = slide("", r#"type="mesh" mesh="a""#, &sections);
         let file = RobotFile::from_text(text, folder.path().join("model.xml"));
         let robot = file.read().unwrap();
-        let held = &robot.links()[robot.link_number("s").unwrap()].bodies[0];
+        let link_body = &robot.links()[robot.link_number("s").unwrap()].bodies[0];
         assert!(
-            (held.body.bounding_radius() / radius - 1.0).abs() < 0.5,
+            (link_body.body.bounding_radius() / radius - 1.0).abs() < 0.5,
             "{compilers}"
         );
     }
@@ -364,16 +364,16 @@ fn margins_are_remarked_upon() {
         (text("", "", over), Some("margin of geom a and 2 more")),
         (text(margin, "", &over.replace(".1", "0")), None),
     ] {
-        let told: Vec<String> = read(&text)
+        let message: Vec<String> = read(&text)
             .file_remarks()
             .iter()
             .map(ToString::to_string)
             .collect();
         let is_expected = match expected {
-            None => told.is_empty(),
-            Some(expected) => told.len() == 1 && told[0].ends_with(expected),
+            None => message.is_empty(),
+            Some(expected) => message.len() == 1 && message[0].ends_with(expected),
         };
-        assert!(is_expected, "{text}: {told:?}");
+        assert!(is_expected, "{text}: {message:?}");
     }
 }
 
@@ -385,7 +385,7 @@ fn a_pair_of_two_geoms_of_a_body_is_refused() {
     assert_eq!(refusal(text), expected);
 }
 
-/// Tests that elements of one kind have different names, and those of different kinds may have one.
+/// Tests that names of one kind are unique, and that different kinds may share a name.
 #[test]
 fn names_are_not_repeated() {
     let mesh = format!(r#"<mesh name="n" {TETRAHEDRON}/>"#);
@@ -448,13 +448,13 @@ fn names_are_not_repeated() {
             r#"<body><joint name="n"/><joint name="n"/></body>"#,
         ),
     ] {
-        let told = refusal(&text(&sections, world));
+        let message = refusal(&text(&sections, world));
         let expected = format!("there are several elements `{kind}` with the name `n");
-        assert!(told.starts_with(&expected), "{told}");
+        assert!(message.starts_with(&expected), "{message}");
     }
-    // The outermost class has one name, and main is a class.
-    let told = refusal(&text(r#"<default class="a"/><default class="b"/>"#, ""));
-    assert!(told.starts_with("class=\"b\""), "{told}");
+    // The outermost class has one name, and `main` is a class.
+    let message = refusal(&text(r#"<default class="a"/><default class="b"/>"#, ""));
+    assert!(message.starts_with("class=\"b\""), "{message}");
     let inner = r#"<default><default class="main"/></default>"#;
     assert!(refusal(&text(inner, "")).contains("class` with the name `main`"));
     read(&text(
@@ -474,15 +474,15 @@ fn includes_have_nothing_in_them_and_occur_once() {
     };
     let include = "<include file='part.xml'/>";
     assert_eq!(error(include), None);
-    let told = error(&include.repeat(2)).unwrap();
+    let message = error(&include.repeat(2)).unwrap();
     assert_eq!(
-        told,
+        message,
         "there are several elements `include` with the name `part.xml`"
     );
-    let told = error("<include file='part.xml'><geom size='1'/></include>").unwrap();
-    assert_eq!(told, "element `geom` in `include` is not supported");
-    let told = error("<include file='part.xml' prefix='a'/>").unwrap();
-    assert_eq!(told, "an element `include` has no attribute `prefix`");
+    let message = error("<include file='part.xml'><geom size='1'/></include>").unwrap();
+    assert_eq!(message, "element `geom` in `include` is not supported");
+    let message = error("<include file='part.xml' prefix='a'/>").unwrap();
+    assert_eq!(message, "an element `include` has no attribute `prefix`");
 }
 
 #[test]
@@ -493,13 +493,13 @@ fn names_with_prefixes_are_refused() {
         )
     };
     read(&text("", r#"<geom size="1"/>"#));
-    let told = refusal(&text("", r#"<x:geom size="1"/>"#));
-    assert_eq!(told, "element `x:geom` in `body` is not supported");
-    let told = refusal(&text(r#"x:pos="0 0 0""#, ""));
-    assert_eq!(told, "an element `body` has no attribute `x:pos`");
+    let message = refusal(&text("", r#"<x:geom size="1"/>"#));
+    assert_eq!(message, "element `x:geom` in `body` is not supported");
+    let message = refusal(&text(r#"x:pos="0 0 0""#, ""));
+    assert_eq!(message, "an element `body` has no attribute `x:pos`");
 }
 
-/// Tests that a geom is given by its place or by the points between which it is, and has a kind that can be.
+/// Tests that a geom has either a pose or `fromto`, and that its type supports `fromto`.
 #[test]
 fn geoms_between_points_have_no_other_place() {
     let points = r#"size=".1 .1 .1" fromto="0 0 0 0 0 1""#;
@@ -520,15 +520,15 @@ fn geoms_between_points_have_no_other_place() {
         (r#"type="plane""#, "<geom/>", "fromto"),
         (r#"type="mesh" mesh="m""#, "<geom/>", "fromto"),
     ] {
-        let told = refusal(&geom(own, of_class));
+        let message = refusal(&geom(own, of_class));
         assert!(
-            told.contains(expected) && told.ends_with("is not valid"),
-            "{told}"
+            message.contains(expected) && message.ends_with("is not valid"),
+            "{message}"
         );
     }
 }
 
-/// Tests that a note names the meshes in whose hollows MuJoCo finds contacts: no convex ones, and no height fields.
+/// Tests that the note on hollows names only meshes that are not convex, and no height fields.
 #[test]
 fn meshes_with_hollows_are_noted() {
     let convex = format!(r#"<mesh name="m" {TETRAHEDRON}/>"#);
@@ -538,16 +538,17 @@ fn meshes_with_hollows_are_noted() {
     for (mesh, expected) in [(&*convex, 0), (open, 1)] {
         let text = slide("", geom, &format!("<asset>{mesh}{field}</asset>"));
         let exact = read(&text);
-        let told: Vec<String> = exact
+        let message: Vec<String> = exact
             .file_remarks()
             .iter()
             .map(ToString::to_string)
             .collect();
-        assert_eq!(told.len(), expected, "{told:?}");
+        assert_eq!(message.len(), expected, "{message:?}");
         assert!(
-            told.iter()
+            message
+                .iter()
                 .all(|own| own.ends_with("with the convex hull: m")),
-            "{told:?}"
+            "{message:?}"
         );
         assert!(!exact.file_remarks().iter().any(CellRemark::is_warning));
         let hull = file_of(&text)
