@@ -2,8 +2,8 @@
 //! trajectories.
 //!
 //! `any.rs` asks whether bodies touch at all, `closest.rs` how close they come; both search as
-//! `depth_first.rs` does. `steps.rs` searches for a first contact up to a time, and continues later. `along.rs` asks
-//! about bodies that move along trajectories.
+//! `depth_first.rs` does. `steps.rs` has the search for a first contact that stops at a time and continues later. `along.rs`
+//! asks about bodies that move along trajectories.
 
 pub(crate) mod along;
 pub(crate) mod any;

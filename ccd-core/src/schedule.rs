@@ -3,7 +3,7 @@
 use crate::answer::Answer;
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::EngineSchedule;
-pub use crate::engine::best_first::BestFirst;
+pub use crate::engine::best_first::{BestFirst, Progress};
 use crate::error::InputError;
 #[cfg(feature = "hull-tree")]
 pub use crate::paper::fast::Fast;
@@ -11,7 +11,7 @@ pub use crate::paper::naive::Naive;
 use crate::query::Query;
 use crate::questions::along::contacts::first_contact;
 pub use crate::questions::depth_first::DepthFirst;
-pub use crate::questions::steps::{FirstContactSearch, Progress};
+pub use crate::questions::steps::FirstContactSearch;
 pub use crate::settings::{EngineOptions, Shortcut, Shortcuts, VectorInstructions};
 
 /// An algorithm that answers queries, by choosing the order in which the pairs of nodes of two bodies are advanced.

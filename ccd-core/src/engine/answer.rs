@@ -1,22 +1,15 @@
-//! Runs a search, and treats contacts at the start as the query's policy says.
+//! Answers queries by schedules that search a whole problem at once, and counts the work.
 
 use super::meter::Meter;
 use super::scratch::Scratch;
-use super::start::search_contact_at_start;
+use super::subproblems::{OutcomeWithTolerance, Subproblems};
 use crate::answer::{Answer, Outcome, Stats};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::given_bodies::{convert_contact_to_given_bodies, outcome_on_original_bodies};
-use crate::engine::rounds::PeriodicSearch;
-use crate::math::order::greater;
 use crate::problem::Problem;
-use crate::settings::StartPolicy;
-use crate::touching_plane::TouchingPlane;
+use std::borrow::Cow;
+use std::ops::ControlFlow;
 
-/// Runs a search that examines pairs in order of time, under the query's policy for contacts at the start.
-///
-/// Bodies that begin in contact, under the policy `StartPolicy::Leave`, are searched again at half the gap that they
-/// began with. Pairs that part or slide keep more than that gap; pairs that approach do not. If there is no useful
-/// gap, each pair of pieces that rest on each other is let go by itself.
+/// Answers a query by a search that examines pairs in order of time.
 ///
 /// A search adds its work to the meter, which lends it the memory.
 pub(crate) fn answer<O: DistanceOracle>(
@@ -25,94 +18,43 @@ pub(crate) fn answer<O: DistanceOracle>(
     scratch: &mut Scratch,
     search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
-    let as_found = |_: &Problem<'_>, _: &mut O, _: &mut Meter| None;
-    answer_under_start_policy(problem, oracle, scratch, as_found, search)
+    run_metered(problem, oracle, scratch, |oracle, meter| {
+        let subproblems = Subproblems::new(Cow::Borrowed(problem));
+        search_subproblems(subproblems, oracle, meter, search)
+    })
+    .answer()
 }
 
-/// Like [`answer`], for a search that need not examine pairs in order of time. Such a search may pass over a contact at
-/// the start. If contacts at the start are to be ignored, the start is therefore examined first.
+/// Like [`answer`], for a search that need not examine pairs in order of time.
 pub(crate) fn answer_by_unordered_search<O: DistanceOracle>(
     problem: &Problem<'_>,
     oracle: &mut O,
     scratch: &mut Scratch,
     search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
 ) -> Answer {
-    let at_start = |problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter| {
-        let beyond = problem.contact_distance().next_up();
-        search_contact_at_start(problem, beyond, oracle, meter)
-    };
-    answer_under_start_policy(problem, oracle, scratch, at_start, search)
-}
-
-/// Runs a search under the query's policy for contacts at the start; `look` examines the start before the search. It is
-/// called only if contacts at the start are to be ignored, and may return the outcome.
-fn answer_under_start_policy<O: DistanceOracle>(
-    problem: &Problem<'_>,
-    oracle: &mut O,
-    scratch: &mut Scratch,
-    look: impl FnOnce(&Problem<'_>, &mut O, &mut Meter) -> Option<Outcome>,
-    mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
-) -> Answer {
     run_metered(problem, oracle, scratch, |oracle, meter| {
-        let outcome = match problem.start_policy {
-            StartPolicy::Report => search(problem, oracle, meter),
-            StartPolicy::Leave => {
-                let problem = problem.reporting_start_contact();
-                let seen = look(&problem, oracle, meter);
-                seen.unwrap_or_else(|| search(&problem, oracle, meter))
-            }
-        };
-        let parting =
-            problem_ignoring_start_contact(problem, problem.start_policy, &outcome, oracle, meter);
-        let (outcome, tolerance) = match parting {
-            Some(problem) => {
-                let outcome = search(&problem, oracle, meter);
-                (outcome, achieved_tolerance(&problem, &outcome))
-            }
-            None => (outcome, problem.tolerance),
-        };
-        let within = problem.margin + tolerance;
-        (
-            outcome_on_original_bodies(problem, oracle, meter, outcome, |_| within),
-            tolerance,
-        )
+        let mut subproblems = Subproblems::new(Cow::Borrowed(problem));
+        match subproblems.examine_start(oracle, meter) {
+            ControlFlow::Continue(()) => search_subproblems(subproblems, oracle, meter, search),
+            ControlFlow::Break(found) => found,
+        }
     })
     .answer()
 }
 
-/// Runs a search in [`PeriodicSearch`] if the relative motion is periodic, and once over the whole time otherwise.
-#[inline]
-pub(crate) fn search_by_period(
-    problem: &Problem<'_>,
-    meter: &mut Meter,
-    mut search: impl FnMut(&Problem<'_>, &mut Meter) -> Outcome,
-) -> Outcome {
-    match PeriodicSearch::for_problem(problem) {
-        Some(rounds) => rounds.run(meter, search),
-        None => search(problem, meter),
-    }
-}
-
-/// Returns the problem in which the contact at the start is ignored, if the policy asks for that and the bodies touch;
-/// `None` otherwise.
-pub(crate) fn problem_ignoring_start_contact<'a, O: DistanceOracle>(
-    problem: &Problem<'a>,
-    start: StartPolicy,
-    outcome: &Outcome,
+fn search_subproblems<O: DistanceOracle>(
+    mut subproblems: Subproblems<'_, '_>,
     oracle: &mut O,
     meter: &mut Meter,
-) -> Option<Problem<'a>> {
-    match (start, outcome) {
-        (StartPolicy::Leave, Outcome::Touching { contact }) => {
-            let (within, at_start) = (problem.contact_distance(), problem.time_of_clock(0.0));
-            // The normal is needed here. That of two pieces alone may be arbitrary.
-            let contact =
-                convert_contact_to_given_bodies(problem, oracle, meter, *contact, within, at_start);
-            let gap = contact.separation.lower - problem.margin;
-            let plane = TouchingPlane::from_contact(problem, &contact, oracle, meter);
-            Some(problem.ignoring_start_contact(gap, plane))
+    mut search: impl FnMut(&Problem<'_>, &mut O, &mut Meter) -> Outcome,
+) -> OutcomeWithTolerance {
+    loop {
+        let outcome = search(&subproblems.current(), oracle, meter);
+        if let ControlFlow::Break(found) =
+            subproblems.next_problem_or_outcome(outcome, oracle, meter)
+        {
+            return found;
         }
-        _ => None,
     }
 }
 
@@ -152,19 +94,6 @@ pub(crate) fn run_metered<O: DistanceOracle, T>(
             oracle_effort: oracle.effort() - before,
             ..meter.stats
         },
-    }
-}
-
-/// Returns the tolerance that an outcome under `StartPolicy::Leave` achieves. Pieces that rest on each other count as
-/// in contact again once they cannot be proven apart. Their distance may then be known less exactly than the least
-/// tolerance.
-pub(crate) fn achieved_tolerance(problem: &Problem<'_>, outcome: &Outcome) -> f64 {
-    match outcome {
-        Outcome::Contact { contact, .. } => {
-            let shown = (contact.separation.upper - problem.margin).next_up();
-            greater(problem.tolerance, shown)
-        }
-        _ => problem.tolerance,
     }
 }
 

@@ -1,16 +1,20 @@
-//! Best-first search: always examines the pair with the least clock, the time until which the pair is proven apart.
+//! Best-first search: always examines the pair with the least clock, the time until which the pair is proven apart. A
+//! search for the first contact may stop at any time and continue later.
 
-use super::answer::{EngineSchedule, answer, search_by_period};
+use super::answer::EngineSchedule;
+use super::closer_look::BoundTightener;
 use super::meter::Meter;
 use super::proven::ProvenFacts;
 use super::queue::Queue;
 use super::scratch::Scratch;
 use super::search::{AdvanceResult, Search, SearchHandler, WaitingItem};
+use super::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
+use super::subproblems::{OutcomeWithTolerance, Subproblems};
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
 use crate::problem::Problem;
-use std::ops::ControlFlow;
+use std::borrow::Cow;
+use std::ops::ControlFlow::{self, Break, Continue};
 
 /// The default schedule: a best-first search in order of time.
 ///
@@ -66,44 +70,168 @@ impl<O: DistanceOracle> EngineSchedule<O> for BestFirst<O> {
     }
 
     fn answer_first_contact(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
-        let mut scratch = self.scratch.take();
-        let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
-            search_by_period(problem, meter, |problem, meter| {
-                self.queue.clear();
-                let outcome = self.search(problem, oracle, meter);
-                let stats = &mut meter.stats;
-                stats.peak_front = stats.peak_front.max(self.queue.peak_length());
-                outcome
-            })
-        });
-        self.queue.clear();
-        self.scratch = scratch;
-        answer
-    }
-}
-
-impl<O: DistanceOracle> BestFirst<O> {
-    fn search(&mut self, problem: &Problem<'_>, oracle: &mut O, meter: &mut Meter) -> Outcome {
-        if let Some(free) = free_outcome_by_bounding_volumes(problem) {
-            return free;
+        let mut search = BestFirstSearch::new(Cow::Borrowed(problem), std::mem::take(self));
+        let progress = search.advance(oracle, f64::INFINITY);
+        *self = search.into_schedule();
+        match progress {
+            Progress::Answered(answer) => answer,
+            Progress::ApartUntil(_) => unreachable!("no pair waits for an infinite time"),
         }
-        let mut search = Search::new(&mut self.queue, oracle, meter);
-        search.run(problem, &mut ProvenFacts::default())
     }
 }
 
-/// The search for the first contact. All pairs are proven apart until the clock of the next one.
-impl<O: DistanceOracle> SearchHandler<O> for ProvenFacts {
-    type Conclusion = Outcome;
+/// The progress of a search for the first contact: a certified time, or the answer.
+#[allow(clippy::large_enum_variant, reason = "it is returned, not kept")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Progress {
+    /// The bodies are certified apart until this time.
+    ApartUntil(f64),
+    /// The search is finished, with this answer.
+    Answered(Answer),
+}
+
+/// A search for the first contact of two bodies with constant velocities. It stops at any time, and continues later.
+pub(crate) struct BestFirstSearch<'p, 'a, O: DistanceOracle> {
+    subproblems: Subproblems<'p, 'a>,
+    /// The queue of waiting pairs. The meter has the scratch memory.
+    schedule: BestFirst<O>,
+    pub(crate) meter: Meter,
+    /// The state of the search of the current problem; `None` before its first step.
+    state: Option<SearchState>,
+    answer: Option<Answer>,
+}
+
+/// The state of the search of one problem between two steps, except for the waiting pairs.
+#[derive(Debug)]
+struct SearchState {
+    bound_tightener: BoundTightener,
+    first_contact: FirstContact,
+}
+
+impl<'p, 'a, O: DistanceOracle> BestFirstSearch<'p, 'a, O> {
+    pub(crate) fn new(problem: Cow<'p, Problem<'a>>, mut memory: BestFirst<O>) -> Self {
+        let mut meter = Meter::new(&problem);
+        meter.scratch = memory.scratch.take();
+        memory.queue.clear();
+        BestFirstSearch {
+            subproblems: Subproblems::new(problem),
+            schedule: memory,
+            meter,
+            state: None,
+            answer: None,
+        }
+    }
+
+    /// Returns the schedule with its memory, for another search.
+    pub(crate) fn into_schedule(mut self) -> BestFirst<O> {
+        self.schedule.queue.clear();
+        self.schedule.scratch = self.meter.scratch;
+        self.schedule
+    }
+
+    /// Searches until the bodies are proven apart up to the time `until` or later, or there is an answer.
+    pub(crate) fn advance(&mut self, oracle: &mut O, until: f64) -> Progress {
+        if let Some(answer) = self.answer {
+            return Progress::Answered(answer);
+        }
+        let before = oracle.effort();
+        let found = loop {
+            match self.search_problem(oracle, until) {
+                Continue(time) => break Continue(time),
+                Break(outcome) => {
+                    if let Break(found) = self.finish_problem(outcome, oracle) {
+                        break Break(found);
+                    }
+                }
+            }
+        };
+        let stats = &mut self.meter.stats;
+        stats.oracle_effort = stats.oracle_effort + (oracle.effort() - before);
+        match found {
+            Continue(time) => Progress::ApartUntil(time),
+            Break((outcome, tolerance)) => Progress::Answered(*self.answer.insert(Answer {
+                outcome,
+                tolerance,
+                stats: *stats,
+            })),
+        }
+    }
+
+    /// Searches the current problem up to the time `until`. Returns the time that is reached, or the problem's outcome.
+    fn search_problem(&mut self, oracle: &mut O, until: f64) -> ControlFlow<Outcome, f64> {
+        let problem = &*self.subproblems.current();
+        let until = self.subproblems.clock_not_before(problem, until);
+        let mut search = Search::new(&mut self.schedule.queue, oracle, &mut self.meter);
+        let state = match &mut self.state {
+            Some(state) => state,
+            state => {
+                if let Some(free) = free_outcome_by_bounding_volumes(problem) {
+                    return Break(free);
+                }
+                if search.push_roots(problem).is_err() {
+                    return Break(Outcome::unresolved(
+                        problem.time_of_clock(0.0),
+                        Limit::Budget,
+                    ));
+                }
+                state.insert(SearchState {
+                    bound_tightener: BoundTightener::new(problem),
+                    first_contact: FirstContact::default(),
+                })
+            }
+        };
+        state.first_contact.until = until;
+        search
+            .resume(
+                problem,
+                &mut state.bound_tightener,
+                &mut state.first_contact,
+            )
+            .map_continue(|s| problem.time_of_clock(s))
+    }
+
+    /// Turns to the next problem after the outcome of the current one. Breaks with the outcome of the query if there is
+    /// no other.
+    fn finish_problem(
+        &mut self,
+        outcome: Outcome,
+        oracle: &mut O,
+    ) -> ControlFlow<OutcomeWithTolerance> {
+        let (queue, stats) = (&mut self.schedule.queue, &mut self.meter.stats);
+        stats.peak_front = stats.peak_front.max(queue.peak_length());
+        queue.clear();
+        self.state = None;
+        self.subproblems
+            .next_problem_or_outcome(outcome, oracle, &mut self.meter)
+    }
+}
+
+/// The question for the first contact up to a clock. All pairs are proven apart until the clock of the next one.
+#[derive(Debug, Default)]
+struct FirstContact {
+    proven_facts: ProvenFacts,
+    until: f64,
+}
+
+impl<O: DistanceOracle> SearchHandler<O> for FirstContact {
+    /// The outcome, or the clock of the next pair if that is not before the requested clock.
+    type Conclusion = ControlFlow<Outcome, f64>;
 
     #[inline]
-    fn stop_before_clock(&mut self, problem: &Problem<'_>, s: f64) -> ControlFlow<Outcome> {
+    fn stop_before_clock(
+        &mut self,
+        problem: &Problem<'_>,
+        s: f64,
+    ) -> ControlFlow<Self::Conclusion> {
         if s > 0.0
-            && let Some(inside) = self.check_containment_once_apart(problem)
+            && let Some(inside) = self.proven_facts.check_containment_once_apart(problem)
         {
-            return ControlFlow::Break(inside);
+            return Break(Break(inside));
         }
-        ControlFlow::Continue(())
+        if s >= self.until {
+            return Break(Continue(s));
+        }
+        Continue(())
     }
 
     fn on_advance(
@@ -112,21 +240,23 @@ impl<O: DistanceOracle> SearchHandler<O> for ProvenFacts {
         oracle: &mut O,
         meter: &mut Meter,
         advance: AdvanceResult,
-    ) -> ControlFlow<Outcome, f64> {
+    ) -> ControlFlow<Self::Conclusion, f64> {
         let AdvanceResult {
             clock,
             step_outcome: step,
             ..
         } = advance;
-        ProvenFacts::next_clock_or_outcome(self, problem, oracle, meter, step, clock)
+        self.proven_facts
+            .next_clock_or_outcome(problem, oracle, meter, step, clock)
+            .map_break(Break)
     }
 
-    fn on_limit(&mut self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
-        Outcome::unresolved(problem.time_of_clock(s), reason)
+    fn on_limit(&mut self, problem: &Problem<'_>, s: f64, reason: Limit) -> Self::Conclusion {
+        Break(Outcome::unresolved(problem.time_of_clock(s), reason))
     }
 
-    fn on_end(&mut self, problem: &Problem<'_>) -> Outcome {
-        self.final_outcome(problem)
+    fn on_end(&mut self, problem: &Problem<'_>) -> Self::Conclusion {
+        Break(self.proven_facts.final_outcome(problem))
     }
 }
 

@@ -21,10 +21,10 @@ use crate::tuning::{
 };
 use std::ops::ControlFlow;
 
-/// A problem with periodic motions, and the time until which the bodies are proven apart.
+/// The progress of a search over the periods of a problem, the *whole* problem: the time until which the bodies are
+/// proven apart, and the periods that are searched next.
 #[derive(Debug)]
-pub(crate) struct PeriodicSearch<'a> {
-    whole_problem: Problem<'a>,
+pub(crate) struct PeriodicSearch {
     period: Period,
     /// The error of distances in a single period, in addition to the error of distances in the whole problem.
     rounding: f64,
@@ -46,11 +46,11 @@ enum PeriodBatch {
     AllPeriods(f64),
 }
 
-impl<'a> PeriodicSearch<'a> {
+impl PeriodicSearch {
     /// Creates the rounds of a problem; `None` if the motions are not periodic, or the periods are too long to save
     /// work.
     #[inline]
-    pub(crate) fn for_problem(problem: &Problem<'a>) -> Option<Self> {
+    pub(crate) fn for_problem(problem: &Problem<'_>) -> Option<Self> {
         if problem.turns_at_least_twice() && free_outcome_by_bounding_volumes(problem).is_none() {
             PeriodicSearch::for_many_turns(problem)
         } else {
@@ -58,24 +58,8 @@ impl<'a> PeriodicSearch<'a> {
         }
     }
 
-    /// Searches one round after the other, until a round gives the outcome of the problem.
     #[cold]
-    pub(crate) fn run(
-        mut self,
-        meter: &mut Meter,
-        mut search: impl FnMut(&Problem<'_>, &mut Meter) -> Outcome,
-    ) -> Outcome {
-        loop {
-            let outcome = search(&self.problem_of_round(), meter);
-            match self.start_next_round_or_finish(&outcome, meter) {
-                ControlFlow::Continue(()) => {}
-                ControlFlow::Break(outcome) => return outcome,
-            }
-        }
-    }
-
-    #[cold]
-    fn for_many_turns(problem: &Problem<'a>) -> Option<Self> {
+    fn for_many_turns(problem: &Problem<'_>) -> Option<Self> {
         if !problem.uses_shortcut(Shortcut::Rounds) {
             return None;
         }
@@ -100,7 +84,6 @@ impl<'a> PeriodicSearch<'a> {
         let period = period_with_least_work(bodies, known)
             .or_else(|| period_with_least_work(bodies, MAX_SCREW_DRIFT * size))?;
         let mut rounds = PeriodicSearch {
-            whole_problem: problem.clone(),
             period,
             rounding,
             proven_until: 0.0,
@@ -113,8 +96,9 @@ impl<'a> PeriodicSearch<'a> {
     }
 
     /// Returns the problem to search in the present round: its first period or all periods, with a raised margin.
-    pub(crate) fn problem_of_round(&self) -> Problem<'a> {
-        let tolerance = self.whole_problem.tolerance;
+    #[cold]
+    pub(crate) fn problem_of_round<'a>(&self, whole: &Problem<'a>) -> Problem<'a> {
+        let tolerance = whole.tolerance;
         // Both tolerances have the same middle: the gap that is proven. On either side of it, twice the difference of
         // distances is lost.
         let room = (tolerance - 2.0 * self.max_distance_drift()) - 4.0 * self.rounding;
@@ -125,7 +109,7 @@ impl<'a> PeriodicSearch<'a> {
             }
             PeriodBatch::AllPeriods(_) => self.round_end_clock(),
         };
-        self.whole_problem.between_clocks(
+        whole.between_clocks(
             [self.proven_until, to],
             self.margin_increase() + 0.5 * (tolerance - left),
             left,
@@ -135,25 +119,21 @@ impl<'a> PeriodicSearch<'a> {
     /// Processes the outcome of a round: starts the next round, or breaks with the outcome of the whole problem.
     pub(crate) fn start_next_round_or_finish(
         &mut self,
+        whole: &Problem<'_>,
         outcome: &Outcome,
         meter: &mut Meter,
     ) -> ControlFlow<Outcome> {
         let unresolved = |rounds: &Self, reason| {
-            Outcome::unresolved(
-                rounds.whole_problem.time_of_clock(rounds.proven_until),
-                reason,
-            )
+            Outcome::unresolved(whole.time_of_clock(rounds.proven_until), reason)
         };
         match *outcome {
-            Outcome::Free { proven_gap } => self.record_gap(proven_gap)?,
+            Outcome::Free { proven_gap } => self.record_gap(whole, proven_gap)?,
             Outcome::Contact { time, contact } => {
-                self.confirm_contact_or_shorten_round(time, contact)?;
+                self.confirm_contact_or_shorten_round(whole, time, contact)?;
             }
             Outcome::Touching { contact } => {
-                self.confirm_contact_or_shorten_round(
-                    self.whole_problem.time_of_clock(self.proven_until),
-                    contact,
-                )?;
+                let time = whole.time_of_clock(self.proven_until);
+                self.confirm_contact_or_shorten_round(whole, time, contact)?;
             }
             Outcome::Unresolved(_) => return ControlFlow::Break(*outcome),
             Outcome::Interval { .. } | Outcome::LeastDistance { .. } => {
@@ -168,18 +148,18 @@ impl<'a> PeriodicSearch<'a> {
             }
         }
         // A round counts as a visit, even if bounding balls prove the bodies apart at once.
-        match meter.count_visit_and_check_limits(&self.whole_problem) {
+        match meter.count_visit_and_check_limits(whole) {
             Ok(()) => ControlFlow::Continue(()),
             Err(limit) => ControlFlow::Break(unresolved(self, limit)),
         }
     }
 
     /// Records that the bodies keep a gap in the present round, and starts the next round or ends the search.
-    fn record_gap(&mut self, gap: f64) -> ControlFlow<Outcome> {
+    fn record_gap(&mut self, whole: &Problem<'_>, gap: f64) -> ControlFlow<Outcome> {
         self.proven_gap = lesser(self.proven_gap, (gap - self.margin_increase()).next_down());
         self.proven_until = self.round_end_clock();
         if self.proven_until >= 1.0 {
-            let proven_gap = greater(self.proven_gap, self.whole_problem.margin);
+            let proven_gap = greater(self.proven_gap, whole.margin);
             return ControlFlow::Break(Outcome::Free { proven_gap });
         }
         match self.round {
@@ -198,10 +178,11 @@ impl<'a> PeriodicSearch<'a> {
     /// Processes a contact in the present round: returns it if the bodies are in contact, or else shortens the round.
     fn confirm_contact_or_shorten_round(
         &mut self,
+        whole: &Problem<'_>,
         time: f64,
         contact: Contact,
     ) -> ControlFlow<Outcome> {
-        let within = self.whole_problem.contact_distance();
+        let within = whole.contact_distance();
         let contact = widen_distance_bounds(contact, self.rounding);
         let Separation { upper, .. } = contact.separation;
         match self.round {
@@ -287,7 +268,7 @@ impl<'a> RepresentativePeriod<'a> {
             matches!(rounds.round, PeriodBatch::FirstPeriod(_)) && rounds.round_end_clock() >= 1.0;
         (stands_for_all && change <= MAX_PERIOD_DISTANCE_CHANGE_SHARE * problem.tolerance).then(
             || RepresentativePeriod {
-                period_subproblem: rounds.problem_of_round().for_distances(),
+                period_subproblem: rounds.problem_of_round(problem).for_distances(),
                 max_distance_change: change,
                 rounding,
             },

@@ -95,30 +95,21 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
         if self.push_roots(problem).is_err() {
             return question.on_limit(problem, 0.0, Limit::Budget);
         }
-        let common = NodeContext::new(problem);
-        let mut look = BoundTightener::new(problem);
-        loop {
-            if let ControlFlow::Break(found) = self.visit_next_pair(&common, &mut look, question) {
-                return found;
-            }
-        }
+        self.resume(problem, &mut BoundTightener::new(problem), question)
     }
 
-    /// Continues until all pairs are proven apart up to a clock, and returns the clock of the next pair.
-    pub(crate) fn run_until<Q: SearchHandler<O>>(
+    /// Examines one waiting pair after another until the search has a result.
+    pub(crate) fn resume<Q: SearchHandler<O>>(
         &mut self,
         problem: &Problem<'_>,
         look: &mut BoundTightener,
         question: &mut Q,
-        until: f64,
-    ) -> ControlFlow<Q::Conclusion, f64> {
+    ) -> Q::Conclusion {
         let common = NodeContext::new(problem);
         loop {
-            if let Some((s, _)) = self.worklist.peek_next().filter(|&(s, _)| s >= until) {
-                question.stop_before_clock(problem, s)?;
-                return ControlFlow::Continue(s);
+            if let ControlFlow::Break(found) = self.visit_next_pair(&common, look, question) {
+                return found;
             }
-            self.visit_next_pair(&common, look, question)?;
         }
     }
 

@@ -8,7 +8,7 @@ mod traversal_tree;
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{EngineSchedule, answer, search_by_period};
+use crate::engine::answer::{EngineSchedule, answer};
 use crate::engine::best_first::BestFirst;
 use crate::engine::meter::Meter;
 use crate::engine::proven::ProvenFacts;
@@ -92,9 +92,7 @@ impl<O: DistanceOracle> EngineSchedule<O> for Fast<O> {
         self.axis_distance_cache.invalidate();
         let mut scratch = self.scratch.take();
         let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
-            search_by_period(problem, meter, |problem, meter| {
-                self.advance(problem, hulls, oracle, meter)
-            })
+            self.advance(problem, hulls, oracle, meter)
         });
         self.scratch = scratch;
         answer

@@ -13,6 +13,7 @@ use crate::engine::scratch::Scratch;
 use crate::math::order::lesser;
 use crate::motion::bound::VelocityBound;
 use crate::problem::{BodyWithPath, Problem};
+use crate::settings::Shortcut;
 use std::ops::ControlFlow;
 
 /// A schedule that advances all pairs of pieces together by the least of their free times. It is Algorithm 1 of the
@@ -60,7 +61,10 @@ impl<O: DistanceOracle> EngineSchedule<O> for Naive<O> {
 
     fn answer_first_contact(&mut self, problem: &Problem<'_>, oracle: &mut O) -> Answer {
         let mut scratch = self.scratch.take();
-        let answer = answer(problem, oracle, &mut scratch, |problem, oracle, meter| {
+        // The reference searches all periods of repeating motions.
+        let mut problem = problem.clone();
+        problem.shortcuts = problem.shortcuts.without(Shortcut::Rounds);
+        let answer = answer(&problem, oracle, &mut scratch, |problem, oracle, meter| {
             let outcome = self.search(problem, oracle, meter);
             meter.stats.peak_front = self.pairs.len() as u64;
             outcome

@@ -2,7 +2,7 @@
 
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
-use crate::engine::answer::{answer_by_unordered_search, search_by_period};
+use crate::engine::answer::answer_by_unordered_search;
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::PairStep;
 use crate::engine::proven::ProvenFacts;
@@ -41,13 +41,11 @@ impl<O: DistanceOracle> DepthFirst<O> {
         let mut scratch = self.scratch.take();
         let answer =
             answer_by_unordered_search(problem, oracle, &mut scratch, |problem, oracle, meter| {
-                search_by_period(problem, meter, |problem, meter| {
-                    self.stack.clear();
-                    let outcome = self.search_any_contact(problem, oracle, meter);
-                    let stats = &mut meter.stats;
-                    stats.peak_front = stats.peak_front.max(self.stack.peak_length());
-                    outcome
-                })
+                self.stack.clear();
+                let outcome = self.search_any_contact(problem, oracle, meter);
+                let stats = &mut meter.stats;
+                stats.peak_front = stats.peak_front.max(self.stack.peak_length());
+                outcome
             });
         self.stack.clear();
         self.scratch = scratch;

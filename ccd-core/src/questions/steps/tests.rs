@@ -1,12 +1,14 @@
 //! Tests that a search in steps of any length gives the answer of the best-first schedule.
 
 use super::*;
+use crate::answer::Outcome;
 use crate::body::pieces::Pieces;
 use crate::body::{Body, Solidity};
 use crate::engine::answer::EngineSchedule;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
-use crate::settings::Settings;
+use crate::problem::Problem;
+use crate::settings::{Settings, StartPolicy};
 use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{Pcg64, RngExt, Scene, SceneKind, distance, rng, scene};
 use glam::DVec3;
@@ -17,7 +19,7 @@ fn answer_in_steps(
     memory: &mut BestFirst<ExhaustiveOracle>,
     rng: &mut Pcg64,
 ) -> (Answer, u32) {
-    let mut search = IncrementalSearch::new(problem.clone(), std::mem::take(memory));
+    let mut search = BestFirstSearch::new(Cow::Borrowed(problem), std::mem::take(memory));
     let (mut until, mut steps) = (0.0, 0);
     let answer = loop {
         match search.advance(&mut ExhaustiveOracle, until) {
@@ -90,7 +92,7 @@ fn a_search_goes_no_further_than_it_is_asked() {
     for _ in 0..300 {
         let scene = scene(&mut rng, SceneKind::Sliding, 12);
         let problem = scene.problem();
-        let mut search = IncrementalSearch::new(problem.clone(), BestFirst::default());
+        let mut search = BestFirstSearch::new(Cow::Borrowed(&problem), BestFirst::default());
         search.advance(&mut ExhaustiveOracle, 0.05);
         less += search.meter.stats.iterations;
         search.advance(&mut ExhaustiveOracle, 1.0);
@@ -117,7 +119,7 @@ fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
             };
             let problem =
                 Problem::of_moving_bodies(slowed(0), slowed(1), duration, &scene.settings).unwrap();
-            let mut search = IncrementalSearch::new(problem, BestFirst::default());
+            let mut search = BestFirstSearch::new(Cow::Borrowed(&problem), BestFirst::default());
             for exponent in [-320, -17, -9, -3, -1, -1, -1] {
                 let until = duration * rng.random_range(0.5..1.5) * 10f64.powi(exponent);
                 if let Progress::ApartUntil(time) = search.advance(&mut ExhaustiveOracle, until) {
@@ -140,7 +142,7 @@ fn a_body_inside_the_other_is_no_body_apart() {
         let [a, b] = [(&ball, motion), (&room, Motion::STILL)];
         let problem = Problem::of_moving_bodies(a, b, 1.0, &Settings::DEFAULT).unwrap();
         for until in [0.0, 1e-9, 0.1, 2.0] {
-            let mut search = IncrementalSearch::new(problem.clone(), BestFirst::default());
+            let mut search = BestFirstSearch::new(Cow::Borrowed(&problem), BestFirst::default());
             let progress = search.advance(&mut ExhaustiveOracle, until);
             assert!(
                 matches!(
