@@ -19,7 +19,7 @@ fn random_cell(random: &mut Pcg64) -> Cell {
             name: child.into(),
             parent: parent.into(),
             child: child.into(),
-            axis_and_limits: trajectory::Joint::revolute(place, [0.0, 0.0, 1.0]).unwrap(),
+            geometry: trajectory::Joint::revolute(place, [0.0, 0.0, 1.0]).unwrap(),
             position_rule: PositionRule::Independent,
         });
     }
