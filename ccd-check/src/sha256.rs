@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 
 /// Returns the SHA-256 digest of bytes.
 pub fn sha256(bytes: &[u8]) -> [u8; 32] {
-    // The first 32 bits of the fractional parts of the square roots of the first 8 primes, and of the cube roots of the first 64.
+    // The initial state is the first 32 bits of the fractional parts of the square roots of the first 8 primes. The constants
+    // `k` are those of the cube roots of the first 64 primes.
     let mut state = [2u128, 3, 5, 7, 11, 13, 17, 19].map(|prime| (prime << 64).isqrt() as u32);
     let primes = (2u128..).filter(|n| (2..*n).all(|divisor| n % divisor > 0));
     let bits = || (0..35).rev().map(|bit| 1u128 << bit);

@@ -99,8 +99,8 @@ impl Screw {
         rate: 0.0,
     };
 
-    /// Returns the motion of a joint. The checker bounds the parameter of the motion and the length of the axis, so this moves
-    /// powers of two from one to the other. Returns `None` if a number is so small that this loses bits.
+    /// Returns the motion of a joint. The checker has limits for the parameter s and for the length of the axis. To stay within
+    /// them, this scales the one up and the other down by a power of two. Returns `None` if that loses bits of a small number.
     pub(crate) fn of_joint(joint: &Joint, time_unit: i32) -> Option<Screw> {
         let time_unit = 2f64.powi(time_unit);
         match *joint {

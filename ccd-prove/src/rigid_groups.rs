@@ -27,8 +27,8 @@ pub(crate) struct RigidGroup {
 /// the required distance at margins 0 and 1.
 type GroupKey = (usize, Vec<[u64; 3]>);
 
-/// Groups the bodies of a cell that are in at least one pair. No pair is within a group: two bodies of such a pair would have
-/// different keys, as no body is in a pair with itself.
+/// Groups the bodies of a cell that are in at least one pair. Two bodies of one group are never compared with each other. Their
+/// keys would differ, as no body is compared with itself.
 ///
 /// # Errors
 /// [`NoMesh`].
