@@ -1,11 +1,15 @@
-//! The files that a check takes, where what stands in a proof, and how they are written for another checker.
+//! The files for a check, and the positions of the entries of a proof.
 
 use std::io::{self, Write};
 use std::ops::Range;
 
-/// The bytes of a link, where the number of its axes is in it, and the bytes of a witness.
+/// The number of bytes of a link.
 pub(crate) const LINK: usize = 152;
+
+/// The position of the code of the axes in a link.
 pub(crate) const AXES: usize = 84;
+
+/// The number of bytes of a witness.
 pub(crate) const WITNESS: usize = 70;
 
 /// A generator of random numbers.
@@ -32,7 +36,7 @@ impl Random {
     }
 }
 
-/// A proof about two meshes.
+/// A proof about two meshes, with the meshes and the certificates of their trees.
 #[derive(Clone, PartialEq)]
 pub(crate) struct Files {
     pub(crate) proof: Vec<u8>,
@@ -40,9 +44,8 @@ pub(crate) struct Files {
     pub(crate) trees: [Vec<u8>; 2],
 }
 
-/// Where what stands in a proof.
-pub(crate) struct Places {
-    /// Each link, body and pair.
+/// The positions of the entries of a proof, in bytes.
+pub(crate) struct Positions {
     pub(crate) links: Vec<usize>,
     pub(crate) bodies: Vec<usize>,
     pub(crate) pairs: Vec<usize>,
@@ -52,8 +55,8 @@ pub(crate) struct Places {
 }
 
 impl Files {
-    /// Returns where what stands in a proof that is not forged.
-    pub(crate) fn places(&self) -> Places {
+    /// Returns the positions of the entries of a proof that is not forged.
+    pub(crate) fn positions(&self) -> Positions {
         let count = |at: usize| u32::from_le_bytes([0, 1, 2, 3].map(|k| self.proof[at + k]));
         let mut at = 28;
         let mut entries = |count: u32, size: usize| -> Vec<usize> {
@@ -76,7 +79,7 @@ impl Files {
             steps.push(at..at + size);
             at += size;
         }
-        Places {
+        Positions {
             links,
             bodies,
             pairs,
@@ -86,7 +89,7 @@ impl Files {
         }
     }
 
-    /// Returns the first letter of the checker's verdict.
+    /// Returns the first letter of the checker's verdict: `h`, `b` or `u`.
     pub(crate) fn verdict(&self) -> u8 {
         let read = |k: usize| ccd_check::Body::new(&self.meshes[k], &self.trees[k], &self.proof);
         let verdict = read(0).and_then(|a| ccd_check::check(&[a, read(1)?], &self.proof));
@@ -97,7 +100,7 @@ impl Files {
         }
     }
 
-    /// Writes the kind, the verdict, whether the statement is true as far as is seen, and all files.
+    /// Writes a record: the kind of the forgery, the verdict, whether samples show the statement to be false, and all files.
     pub(crate) fn write(
         &self,
         out: &mut impl Write,
@@ -107,8 +110,8 @@ impl Files {
     ) -> io::Result<()> {
         let [a, b] = &self.meshes;
         let [tree_a, tree_b] = &self.trees;
-        let said = [verdict, u8::from(is_true)];
-        for part in [kind.as_bytes(), &said, &self.proof, a, tree_a, b, tree_b] {
+        let result = [verdict, u8::from(is_true)];
+        for part in [kind.as_bytes(), &result, &self.proof, a, tree_a, b, tree_b] {
             out.write_all(&(part.len() as u32).to_le_bytes())?;
             out.write_all(part)?;
         }

@@ -1,6 +1,7 @@
-//! Changes proofs, meshes and trees at random, and writes what the checker says of each, for another checker to be held against.
+//! Changes proofs, meshes and trees at random, and writes the forgeries with the checker's verdicts. Another checker can then be
+//! compared with these verdicts.
 
-#![allow(clippy::print_stdout, reason = "figures are its output")]
+#![allow(clippy::print_stdout, reason = "the example prints figures")]
 
 mod files;
 mod kinds;
@@ -17,12 +18,12 @@ use std::path::PathBuf;
 
 /// Forge proofs at random, check them, and write them with the verdicts
 ///
-/// `proofs/ccd-check/second_opinion/forgeries.py FILE` checks what is written, and counts for each kind where both checkers agree.
+/// `proofs/ccd-check/second_opinion/forgeries.py FILE` checks the forgeries, and counts for each kind where both checkers agree.
 #[derive(Parser)]
 struct Args {
     /// The file to write
     file: PathBuf,
-    /// How many
+    /// The number of forgeries
     #[arg(long, default_value_t = 10_000)]
     count: usize,
     #[arg(long, default_value_t = 1)]
@@ -36,14 +37,14 @@ fn main() -> Result<()> {
     for (number, scene) in scenes.iter().enumerate() {
         ensure!(
             scene.verdict() == b'h' && truth::is_true(scene),
-            "proof {number} is false before it is forged"
+            "proof {number} does not hold, or is false, before it is forged"
         );
     }
     let mut out = BufWriter::new(File::create(&args.file)?);
     let mut counts = [[0usize; 4]; KINDS.len()];
     for number in 0..args.count {
         let kind = number % KINDS.len();
-        // A proof without a witness, for instance, has none to change.
+        // Some changes cannot be made to each proof, for example to the witness of a proof without one.
         let forged = loop {
             let scene = &scenes[random.below(scenes.len())];
             let mut forged = scene.clone();
@@ -63,7 +64,7 @@ fn main() -> Result<()> {
     out.flush()?;
     for ((name, _), [all, held, seen_false, false_held]) in KINDS.iter().zip(counts) {
         println!(
-            "{name}: {all} forged, {held} hold; {seen_false} seen to be false, {false_held} of them hold"
+            "{name}: {all} forged, {held} hold; {seen_false} false by samples, {false_held} of these hold"
         );
     }
     let false_held: usize = counts.iter().map(|[.., false_held]| false_held).sum();

@@ -1,22 +1,23 @@
-//! Proofs of small scenes: two bodies that fly freely, and arms on a turning column.
+//! Proofs of small scenes: two freely moving bodies, and arms on a turning column.
 
 use crate::files::{Files, Random};
 use anyhow::{Context, Result};
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
-use ccd_prove::{AxisKind, Body, Carried, Joint, Link, Pair, Proof, ProvenPair, Scene, prove};
+use ccd_prove::{AxisKind, Body, Joint, Link, Pair, Proof, ProvenPair, Scene, SceneBody, prove};
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
 use rigid_ccd::{Settings, Solver};
 use std::f64::consts::TAU;
 
-/// The number of proofs of each kind of scene: free, to a contact, of arms.
+/// The number of proofs of each kind of scene: two bodies without a contact, two bodies with one, and arms.
 const PROOFS: usize = 6;
 
-/// The vertices of a mesh, and the corners of its triangles.
+/// The vertices of a mesh, and the indices of the corners of its triangles.
 type Mesh = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
+/// Returns the proofs of all scenes.
 pub(crate) fn all(random: &mut Random) -> Result<Vec<Files>> {
-    let rings = [ring(4, 0.3), ring(3, 0.25)];
+    let rings = [torus(4, 0.3), torus(3, 0.25)];
     let mut scenes = Vec::new();
     let [mut free, mut contacts] = [0, 0];
     while free.min(contacts) < PROOFS {
@@ -24,7 +25,7 @@ pub(crate) fn all(random: &mut Random) -> Result<Vec<Files>> {
         let Some(files) = two(&rings, margin, [flight(random)?, flight(random)?])? else {
             continue;
         };
-        let is_contact = files.places().witness.is_some();
+        let is_contact = files.positions().witness.is_some();
         let count = if is_contact { &mut contacts } else { &mut free };
         *count += 1;
         if *count <= PROOFS {
@@ -37,8 +38,8 @@ pub(crate) fn all(random: &mut Random) -> Result<Vec<Files>> {
     Ok(scenes)
 }
 
-/// A ring of triangles about z, which is not convex.
-fn ring(count: usize, radius: f64) -> Mesh {
+/// Returns the mesh of a torus about z.
+fn torus(count: usize, radius: f64) -> Mesh {
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     let number = |i: usize, j: usize| ((i % count) * count + j % count) as u32;
     for i in 0..count {
@@ -53,6 +54,7 @@ fn ring(count: usize, radius: f64) -> Mesh {
     (vertices, faces)
 }
 
+/// Returns a random free motion.
 fn flight(random: &mut Random) -> Result<Motion> {
     let turn = [(); 4].map(|()| random.number());
     let start = Pose::new(random.vector(2.0), turn)?;
@@ -60,7 +62,7 @@ fn flight(random: &mut Random) -> Result<Motion> {
     Ok(Motion::about(start, velocity, spin, centre)?)
 }
 
-/// Asks the engine about two rings, and proves the answer; `None` if they touch at the start.
+/// Computes the first contact of two rings, and proves the answer. Returns `None` for a contact at the start.
 fn two(rings: &[Mesh; 2], margin: f64, motions: [Motion; 2]) -> Result<Option<Files>> {
     let engine = |(vertices, faces): &Mesh| -> Result<_> {
         let mesh = TriangleMesh::new(vertices.clone(), faces)?;
@@ -80,7 +82,7 @@ fn two(rings: &[Mesh; 2], margin: f64, motions: [Motion; 2]) -> Result<Option<Fi
     Ok(proof.map(|proof| files(proof, pair.meshes())))
 }
 
-/// Two arms on one turning column, each with a joint that turns and one that slides, and a body at rest.
+/// Proves a scene of two arms on one turning column and a static body. Each arm has a revolute and a prismatic joint.
 fn arms(rings: &[Mesh; 2], random: &mut Random) -> Result<Files> {
     let [flat, round] = rings;
     let balls = round.0.iter().enumerate();
@@ -100,15 +102,15 @@ fn arms(rings: &[Mesh; 2], random: &mut Random) -> Result<Files> {
         };
         Ok(Link { parent, joint })
     };
-    let (turns, slides) = (AxisKind::Turns, AxisKind::Slides);
+    let (revolute, prismatic) = (AxisKind::Revolute, AxisKind::Prismatic);
     let links = vec![
-        joint(0, turns, 0.0, DVec3::Z, [0.3, 2.0 * random.number()])?,
-        joint(1, turns, 3.0, DVec3::Y, [0.2, 0.7])?,
-        joint(2, slides, 0.5, DVec3::X, [0.0, 0.4])?,
-        joint(1, turns, -3.0, DVec3::Y, [0.1, -0.9])?,
-        joint(4, slides, -0.5, DVec3::X, [-0.1, -0.3])?,
+        joint(0, revolute, 0.0, DVec3::Z, [0.3, 2.0 * random.number()])?,
+        joint(1, revolute, 3.0, DVec3::Y, [0.2, 0.7])?,
+        joint(2, prismatic, 0.5, DVec3::X, [0.0, 0.4])?,
+        joint(1, revolute, -3.0, DVec3::Y, [0.1, -0.9])?,
+        joint(4, prismatic, -0.5, DVec3::X, [-0.1, -0.3])?,
     ];
-    let carried = |k: usize, link| Carried {
+    let on_link = |k: usize, link| SceneBody {
         body: &meshes[k],
         link,
     };
@@ -118,7 +120,7 @@ fn arms(rings: &[Mesh; 2], random: &mut Random) -> Result<Files> {
     };
     let scene = Scene {
         links,
-        bodies: vec![carried(0, 3), carried(1, 5), carried(1, 0)],
+        bodies: vec![on_link(0, 3), on_link(1, 5), on_link(1, 0)],
         pairs: vec![pair([0, 1]), pair([2, 0]), pair([1, 2])],
     };
     Ok(files(prove(&scene, 1.0, None)?, [&meshes[0], &meshes[1]]))

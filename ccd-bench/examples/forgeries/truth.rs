@@ -1,4 +1,4 @@
-//! Whether a statement is true, as far as poses at some times show it: by binary64 and another library's distances.
+//! Tests a statement with poses at sampled times, in binary64, with the distances of another library.
 
 use crate::files::Files;
 use ccd_core::glam::{DQuat, DVec3, DVec4};
@@ -9,14 +9,14 @@ use parry3d_f64::query::distance;
 use parry3d_f64::shape::Triangle;
 use sha2::{Digest, Sha256};
 
-/// The number of times that are looked at.
+/// The number of sampled times.
 const SAMPLES: u32 = 64;
 
-/// What distances may be off by, of corners that are nearer than this to the origin.
+/// The error bound of a distance between corners that are nearer than `FAR` to the origin.
 const ROUNDING: f64 = 1e-9;
 const FAR: f64 = 1e6;
 
-/// Returns whether a statement is not seen to be false. What cannot be read states nothing.
+/// Returns false if a sample refutes the statement. A file that cannot be read states nothing, and counts as true.
 pub(crate) fn is_true(files: &Files) -> bool {
     Statement::read(&files.proof).is_none_or(|statement| {
         let scene = Scene {
@@ -30,7 +30,7 @@ pub(crate) fn is_true(files: &Files) -> bool {
     })
 }
 
-/// The corners of a triangle, each with its radius after its coordinates.
+/// The corners of a triangle. Each has x, y, z and its radius.
 type Corners = [DVec4; 3];
 
 struct Scene {
@@ -44,11 +44,11 @@ impl Scene {
         let until = self.statement.until;
         (0..=SAMPLES).all(|k| {
             let time = until * f64::from(k) / f64::from(SAMPLES);
-            let placed: Vec<_> = (0..self.statement.bodies.len())
+            let bodies_at_time: Vec<_> = (0..self.statement.bodies.len())
                 .map(|body| self.body(body, time))
                 .collect();
             self.statement.pairs.iter().all(|&(bodies, margin)| {
-                let [a, b] = bodies.map(|body| placed.get(body as usize)?.as_ref());
+                let [a, b] = bodies.map(|body| bodies_at_time.get(body as usize)?.as_ref());
                 let (Some(a), Some(b)) = (a, b) else {
                     return true;
                 };
@@ -74,8 +74,8 @@ impl Scene {
         };
         let point = |k: usize| {
             let triangles = self.body(bodies[k] as usize, *time)?;
-            let (place, weights) = points[k];
-            let corners = triangles.get(place as usize)?;
+            let (index, weights) = points[k];
+            let corners = triangles.get(index as usize)?;
             let [a, b, c] = weights.map(|weight| weight as f64 / (1u64 << 55) as f64);
             Some(corners[0] * a + corners[1] * b + corners[2] * c)
         };
@@ -86,13 +86,13 @@ impl Scene {
         !(distance > margin + a.w + b.w + tolerance + ROUNDING)
     }
 
-    /// Returns the triangles of a body in the world at a time; `None` if there is no such body.
+    /// Returns the triangles of a body in the world at a time. Returns `None` if there is no such body.
     fn body(&self, number: usize, time: f64) -> Option<Vec<Corners>> {
         let &(digest, link) = self.statement.bodies.get(number)?;
         let (_, triangles) = self.meshes.iter().find(|(own, _)| *own == digest)?;
         let mut triangles = triangles.clone()?;
         let mut link = link as usize;
-        // A link moves on one before it.
+        // Each parent is an earlier link, so the loop ends at the world.
         for _ in 0..=self.statement.links.len() {
             if link == 0 {
                 return Some(triangles);
@@ -108,14 +108,14 @@ impl Scene {
     }
 }
 
-/// Returns where a point of a link is on its parent.
+/// Transforms a point of a link to the frame of the parent.
 fn on_parent(link: &StatedLink, point: DVec3, time: f64) -> DVec3 {
     let [position, centre, velocity, axis] =
         [link.position, link.centre, link.velocity, link.axis].map(DVec3::from_array);
     let start = DQuat::from_array(link.quaternion).normalize();
     let by = link.start + time * link.rate;
     if link.axes == 1 {
-        // The frame of the joint first, and all that moves in it.
+        // The velocity and the axis are in the frame of the joint, so its rotation is applied last.
         let arm = DQuat::from_scaled_axis(axis * by) * (point - centre);
         return position + start * (centre + velocity * by + arm);
     }
@@ -123,9 +123,9 @@ fn on_parent(link: &StatedLink, point: DVec3, time: f64) -> DVec3 {
     position + start * centre + velocity * by + arm
 }
 
-/// Returns whether two triangles are seen to be farther apart than a distance. Numbers that are none are not seen to be nearer.
+/// Returns false if two triangles are nearer than `least`. Corners outside the range, and NaN, count as apart.
 fn are_apart(a: &Corners, b: &Corners, least: f64) -> bool {
-    // Farther away binary64 rounds by more than is allowed for here.
+    // Farther away, rounding in binary64 exceeds the allowance.
     let is_in_range = a
         .iter()
         .chain(b)
@@ -137,7 +137,7 @@ fn are_apart(a: &Corners, b: &Corners, least: f64) -> bool {
         let [a, b, c] = t.map(|v| Vector::new(v.x, v.y, v.z));
         Triangle::new(a, b, c)
     };
-    // Of different radii the least is seen for all of a triangle, and those of the corners for these.
+    // A triangle with different radii is tested with its least radius, and its corners with their own radii.
     let radius = |t: &Corners| t.iter().map(|corner| corner.w).fold(f64::INFINITY, lesser);
     let here = Pose::IDENTITY;
     let found = distance(&here, &shape(a), &here, &shape(b));
@@ -149,7 +149,7 @@ fn are_apart(a: &Corners, b: &Corners, least: f64) -> bool {
     !found.is_ok_and(|found| found.distance < least_of_flat) && corners_are_apart
 }
 
-/// Returns whether balls around points are farther apart than a distance.
+/// Returns whether the bounding balls of two sets of balls are farther apart than `least`.
 fn balls_are_apart(a: &[DVec4], b: &[DVec4], least: f64) -> bool {
     let [(a, reach_a), (b, reach_b)] = [a, b].map(|points| {
         let middle =
@@ -181,7 +181,7 @@ fn triangles(mesh: &[u8], tree: &[u8]) -> Option<Vec<Corners>> {
         let at = 8 + 32 * vertices + 12 * number;
         Some([corner(at)?, corner(at + 4)?, corner(at + 8)?])
     };
-    // Parts whose nodes are not read yet, by their numbers of triangles.
+    // The number of triangles of each part that is not read yet.
     let (mut parts, mut ordered) = (vec![triangles.min(mesh.len())], Vec::new());
     for at in (40..).step_by(4) {
         let Some(count) = parts.pop() else { break };

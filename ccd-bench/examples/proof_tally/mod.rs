@@ -1,4 +1,4 @@
-//! What proofs took: bytes, leaves, the times to prove and to check them over that to solve.
+//! Figures of proofs: bytes, leaves, and the times for proving and checking divided by the time for solving.
 
 use anyhow::Result;
 use ccd_prove::{Body, Proof};
@@ -9,13 +9,13 @@ use std::fs::write;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// The figures of many proofs, and what has failed.
+/// The figures of many proofs, and the failures.
 #[derive(Default)]
 pub(crate) struct Tally {
-    /// A folder to which the proofs are written.
+    /// The folder to which the proofs are written.
     folder: Option<PathBuf>,
-    /// The meshes, as the checker has read them, for each unit.
-    read: HashMap<i32, Vec<ccd_check::Body>>,
+    /// The meshes as the checker reads them, by the exponent of the unit of length.
+    checker_meshes: HashMap<i32, Vec<ccd_check::Body>>,
     bytes: Vec<f64>,
     leaves: Vec<f64>,
     proving: Vec<f64>,
@@ -24,7 +24,7 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// Makes a tally that writes proofs to a folder, if there is one.
+    /// Creates an empty tally, which writes the proofs to `folder` if there is one.
     pub(crate) fn new(folder: Option<PathBuf>) -> Self {
         Tally {
             folder,
@@ -36,7 +36,7 @@ impl Tally {
         self.failed.push(text);
     }
 
-    /// Proves an answer that took a time to find, and checks the proof.
+    /// Proves an answer and checks the proof. `solved` is the time that the engine took for the answer.
     pub(crate) fn prove_and_check<'b, E: Display>(
         &mut self,
         name: &str,
@@ -49,7 +49,7 @@ impl Tally {
         let proof = match prove() {
             Some(Ok(proof)) => proof,
             None => {
-                self.fail(format!("{name}: touches at the start"));
+                self.fail(format!("{name}: the bodies are in contact at the start"));
                 return Ok(());
             }
             Some(Err(error)) => {
@@ -61,7 +61,7 @@ impl Tally {
         if let Some(folder) = &self.folder {
             write(folder.join(format!("{name}.proof")), &proof.bytes)?;
         }
-        let meshes = match self.read.entry(proof.unit) {
+        let meshes = match self.checker_meshes.entry(proof.unit) {
             Entry::Occupied(read) => read.into_mut(),
             Entry::Vacant(place) => {
                 let read = meshes.into_iter().map(|body| {
@@ -70,7 +70,7 @@ impl Tally {
                 place.insert(read.collect::<Result<_, _>>()?)
             }
         };
-        // The least of two: what comes first has everything to fetch.
+        // Takes the faster of two checks, as the first one fills the processor's caches.
         let mut least = f64::INFINITY;
         for _ in 0..2 {
             let start = Instant::now();

@@ -1,6 +1,6 @@
-//! Proves and checks that edges of a robot are free, or free until they touch, and prints what that takes.
+//! Proves and checks the first contacts on edges of a robot, and prints the sizes and times.
 
-#![allow(clippy::print_stdout, reason = "figures are its output")]
+#![allow(clippy::print_stdout, reason = "the example prints figures")]
 
 #[path = "../proof_tally/mod.rs"]
 mod tally;
@@ -15,26 +15,26 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tally::Tally;
 
-/// Prove and check that edges of a robot are free, or free until they touch
+/// Prove and check the first contacts on edges of a robot
 #[derive(Parser)]
 struct Args {
     /// A folder with a robot (URDF, SRDF), cells and edges
     folder: PathBuf,
-    /// The name of the cell: its obstacles are in NAME.txt
+    /// The name of the cell, whose obstacles are in NAME.txt
     #[arg(long, default_value = "A")]
     cell: String,
-    /// The edges, in edges_NAME_LENGTH.bin
+    /// The length of the edges, which are in edges_NAME_LENGTH.bin
     #[arg(long, default_value = "0.5")]
     length: String,
-    /// A folder of the meshes of the cell
+    /// The folder with the meshes of the cell
     #[arg(long, default_value = ".")]
     meshes: PathBuf,
     #[arg(long, default_value_t = 1e-3)]
     tolerance: f64,
-    /// Every so many-th edge
+    /// Use every STEP-th edge
     #[arg(long, default_value_t = 1)]
     step: usize,
-    /// A folder for meshes, certificates of bodies, and proofs
+    /// Write the meshes, the certificates of bodies and the proofs to this folder
     #[arg(long)]
     write: Option<PathBuf>,
 }
@@ -89,7 +89,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Reads the robot of a folder, and the obstacles of a cell.
+/// Reads the robot and the obstacles of a cell.
 fn read_cell(args: &Args) -> Result<Cell> {
     let file_with = |extension: &str| -> Result<PathBuf> {
         let mut paths = fs::read_dir(&args.folder)?.filter_map(|entry| Some(entry.ok()?.path()));
@@ -107,14 +107,17 @@ fn read_cell(args: &Args) -> Result<Cell> {
     Ok(cell)
 }
 
-/// Adds an obstacle: a shape or a mesh, its sizes or its name, and its pose.
+/// Adds an obstacle from a line of text: its shape, the sizes of the shape or the name of its mesh, and its pose.
 fn add_obstacle(cell: &mut Cell, meshes: &Path, number: usize, line: &str) -> Result<()> {
     let words: Vec<&str> = line.split_whitespace().collect();
     let numbers: Vec<f64> = words.iter().filter_map(|word| word.parse().ok()).collect();
     let [sizes @ .., x, y, z, qw, qx, qy, qz] = &numbers[..] else {
-        anyhow::bail!("a pose is seven numbers");
+        anyhow::bail!("the line needs a pose of seven numbers at its end");
     };
-    ensure!(words.len() > 1, "a shape has a size or a name");
+    ensure!(
+        words.len() > 1,
+        "the shape needs a size or the name of a mesh"
+    );
     let body = match (words[0], sizes) {
         ("box", &[x, y, z]) => Body::cuboid([x, y, z])?,
         ("sphere", &[radius]) => Body::sphere(radius)?,

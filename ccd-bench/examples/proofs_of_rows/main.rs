@@ -1,6 +1,6 @@
-//! Proves and checks the answers to all rows of a folder of scenes, and prints what that takes.
+//! Proves and checks the answers for all rows of a folder of scenes, and prints the sizes and times.
 
-#![allow(clippy::print_stdout, reason = "figures are its output")]
+#![allow(clippy::print_stdout, reason = "the example prints figures")]
 
 #[path = "../proof_tally/mod.rs"]
 mod tally;
@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 use tally::Tally;
 
-/// The pairs of a folder of scenes: body A, body B, motions.
+/// The scenes of the folder: the meshes of A and B, and the table of motions.
 const SCENES: [(&str, &str, &str); 7] = [
     ("knot2880", "knot2880", "knots"),
     ("knot11520", "knot11520", "knots"),
@@ -27,20 +27,20 @@ const SCENES: [(&str, &str, &str); 7] = [
     ("santa", "board", "santa"),
 ];
 
-/// Prove and check the answers to the rows of a folder of scenes
+/// Prove and check the answers for the rows of a folder of scenes
 #[derive(Parser)]
 struct Args {
-    /// A folder of meshes and motions
+    /// The folder with the meshes and motions
     folder: PathBuf,
     #[arg(long, default_value_t = 1e-3)]
     tolerance: f64,
-    /// Every so many-th row
+    /// Use every STEP-th row
     #[arg(long, default_value_t = 1)]
     step: usize,
-    /// Only this mesh
+    /// Use only the scene whose mesh A has this name
     #[arg(long)]
     only: Option<String>,
-    /// A folder for meshes, certificates of bodies, and proofs
+    /// Write the meshes, the certificates of bodies and the proofs to this folder
     #[arg(long)]
     write: Option<PathBuf>,
 }

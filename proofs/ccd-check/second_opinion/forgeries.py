@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks forged proofs with second_opinion.py, and compares its verdicts with those of ccd-check beside them.
+"""Checks forged proofs with second_opinion.py, and compares its verdicts with those of ccd-check in the same file.
 
 `cargo run --release -p ccd-bench --example forgeries -- FILE` writes the file.
 """
@@ -10,7 +10,7 @@ COLUMNS = "forged", "both refuse", "both hold", "only ccd-check holds", "only se
 
 
 def parts(file):
-    """The parts of each record: kind, verdict and truth, proof, and both meshes with their trees."""
+    """Yields each record: the kind, the verdict and the truth, the proof, and both meshes with their trees."""
     while head := file.read(4):
         record = []
         for _ in range(7):
@@ -34,7 +34,7 @@ def verdict(folder, proof, meshes):
         raise so.Fails("broken", "the mesh is not given")
 
     try:
-        # ccd-check reads all meshes, also those that a proof is not about.
+        # ccd-check reads all meshes, including those that the proof does not use.
         for mesh, _ in meshes:
             tree_of(hashlib.sha256(mesh).digest())
         so.check(write("forged.proof", proof), tree_of)
@@ -48,7 +48,7 @@ def verdict(folder, proof, meshes):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("file")
-    parser.add_argument("--share", default="0/1", help="only each record whose number is K modulo N, as K/N; an odd N has all kinds")
+    parser.add_argument("--share", default="0/1", help="only records whose index is K modulo N, as K/N; an odd N includes all kinds")
     arguments = parser.parse_args()
     k, n = map(int, arguments.share.split("/"))
     counts = collections.defaultdict(lambda: [0] * len(COLUMNS))

@@ -1,20 +1,21 @@
 #!/usr/bin/env python3
 """A second checker of proofs that moving meshes stay apart, written from proofs/ccd-check/README.md alone.
 
-Its numbers are intervals of integers in 2^-128 of the units of a proof, of any size. The height of a part is
-the exact least height of the balls of its corners; boxes along the axes of the mesh only say which of them
-need no look. Its distance from a point is that of boxes. A stretch may be as long as the lemmas prove."""
+It computes with intervals of integers of any size, in multiples of 2^-128 of the units of a proof. The height of a
+part is the exact least height of the balls of its corners. Bounding boxes only exclude corners that cannot be the
+lowest. The distance of a part from a point is that of its bounding boxes. The length of an interval of time is only
+limited by the lemmas."""
 import argparse, functools, hashlib, heapq, itertools, operator, pathlib, struct, sys
 from fractions import Fraction
 from math import isfinite, isqrt
 F, ONE, ZERO, ZERO3 = 128, 1 << 128, [Fraction(0)] * 3, [(0, 0)] * 3   # an integer i stands for i / 2^128
-MAX_TURN, MAX_CHAIN, MAX_UNIT = 512, 200, 1200   # radians to the start, and from there to T; links; exponents of units
-# ---- intervals: (lo, hi) is all numbers from lo / 2^128 to hi / 2^128 ----
-def fix(x): return (x.numerator << F) // x.denominator, -((-x.numerator << F) // x.denominator)   # the least around x
+MAX_TURN, MAX_CHAIN, MAX_UNIT = 512, 200, 1200   # radians at the start, and from there; links; exponents of units
+# ---- intervals: (lo, hi) contains all numbers from lo / 2^128 to hi / 2^128 ----
+def fix(x): return (x.numerator << F) // x.denominator, -((-x.numerator << F) // x.denominator)   # smallest around x
 def mul(a, b):
     four = a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]
     return min(four) >> F, -(-max(four) >> F)
-def mul_up(a, b): return -(-a * b >> F)                      # of bounds that are no intervals
+def mul_up(a, b): return -(-a * b >> F)                      # for upper bounds
 def shift_down(x, s): return x >> s if s >= 0 else x << -s   # floor(x / 2^s)
 def shift_up(x, s): return -shift_down(-x, s)
 def add(a, b): return a[0] + b[0], a[1] + b[1]
@@ -26,23 +27,23 @@ def dot(u, v): return functools.reduce(add, map(mul, u, v))
 def matvec(m, v): return [dot(row, v) for row in m]
 def transpose(m): return [list(row) for row in zip(*m)]
 def cross(u, v): return [sub(mul(u[i], v[j]), mul(u[j], v[i])) for i, j in ((1, 2), (2, 0), (0, 1))]
-def root_up(n): return isqrt(n - 1) + 1 if n > 0 else 0      # the least integer with a square >= n
-def length_up(v): return root_up(sum(max(-a[0], a[1]) ** 2 for a in v))   # no vector in the box v is longer
-def plus(u, v, factor=1): return [a + factor * b for a, b in zip(u, v)]   # of fractions
+def root_up(n): return isqrt(n - 1) + 1 if n > 0 else 0      # the least integer whose square is >= n
+def length_up(v): return root_up(sum(max(-a[0], a[1]) ** 2 for a in v))   # the largest length of a vector in the box v
+def plus(u, v, factor=1): return [a + factor * b for a, b in zip(u, v)]   # for fractions
 
 def series(q, k):
-    """An interval around the sum over j of (-q)^j / (2j + k)!; for q = x^2 and k = 1, 2 it is sin x / x and (1 - cos x)
-    / x^2. No term is more than e^x < 2^(2x): so many more bits are kept. Terms get smaller once q is less than d."""
+    """Returns an interval with the sum over j of (-q)^j / (2j + k)!. For q = x^2 it is sin x / x if k = 1, and
+    (1 - cos x) / x^2 if k = 2. A term is at most e^x < 2^(2x), so it takes 2x more bits. Terms decrease once q < d."""
     bits = F + 32 + 2 * root_up(-(-q.numerator // q.denominator))
     q_lo, q_hi = (q.numerator << bits) // q.denominator, -(-(q.numerator << bits) // q.denominator)
-    total, j, d, low, high = (0, 0), 0, 0, *[(1 << bits) // k] * 2   # low and high bound a term without its sign
+    total, j, d, low, high = (0, 0), 0, 0, *[(1 << bits) // k] * 2   # low and high bound the absolute value of a term
     while high > 2 or q_hi >= d << bits:
         total = (sub if j & 1 else add)(total, (low, high))
         j, d = j + 1, (2 * j + k + 1) * (2 * j + k + 2)
         low, high = low * q_lo // (d << bits), -(-high * q_hi // (d << bits))
     return (total[0] - high) >> (bits - F), -(-(total[1] + high) >> (bits - F))
 # ---- files ----
-class Fails(Exception): """Ends a check: (verdict, reason)."""
+class Fails(Exception): """Ends a check with (verdict, reason)."""
 
 class Reader:
     def __init__(self, path, magic=b""):
@@ -51,13 +52,13 @@ class Reader:
     def require(self, condition, pos, reason, verdict="broken"):
         if not condition: raise Fails(verdict, f"byte {pos} of {self.path}: {reason}")
     def take(self, form):
-        """The next values; `form` is in the letters of struct."""
+        """Reads the next values. `form` is a format of the module struct."""
         size = struct.calcsize("<" + form)
         self.require(self.pos + size <= len(self.data), self.pos, "the file ends too early")
         self.pos += size
         return struct.unpack_from("<" + form, self.data, self.pos - size)
     def numbers(self, count):
-        """The next binary64, each as the fraction it is. Python converts them exactly."""
+        """Reads binary64 numbers as exact fractions."""
         out = self.take(f"{count}d")
         self.require(all(map(isfinite, out)), self.pos - 8 * count, "a number is not finite", "unverifiable")
         return [Fraction(x) for x in out]
@@ -71,8 +72,8 @@ class Reader:
         return choices[i]
 
 class Tree:
-    """Vertices of a mesh, each x, y, z and the radius of its ball, as exact integers in 2^-bits, and the corners of
-    triangles in the order of the tree. A part is its number in the file."""
+    """A mesh and its tree. A vertex is x, y, z and its radius, as exact integers in multiples of 2^-bits. The triangles
+    are in the order of the tree. A part is given by its index in the file."""
     def __init__(self, mesh, tree):
         r = Reader(mesh)
         digest, (vertices, count) = hashlib.sha256(r.data).digest(), r.take("II")
@@ -84,7 +85,7 @@ class Tree:
         self.vertices = list(zip(*[(int(x * (1 << self.bits)) for x in flat)] * 4))
         r = Reader(tree, b"CCDBODY1")
         r.require(r.take("32s")[0] == digest, 8, "this is the certificate of another mesh")
-        order, self.spans, self.halves, todo = [], [], [], [count]   # parts that are not read, by numbers of triangles
+        order, self.spans, self.halves, todo = [], [], [], [count]   # the numbers of triangles of parts to read
         while todo:
             size, (number,), part = todo.pop(), r.take("I"), len(self.spans)
             r.require(size == 1 or 0 < number < size, r.pos - 4, "a part has no triangle")
@@ -97,17 +98,18 @@ class Tree:
         r.require(r.pos == len(r.data), r.pos, "bytes follow the end")
 # ---- links and bodies ----
 class Link:
-    """In exact fractions: at time t the centre is at place + t rate from the centre of the parent `up`, in the frame
-    of the parent, where the link is R0, turned by the vector start + t turn."""
-    centre = place = rate = start = turn = ZERO     # of the world
-    columns = [[(ONE * (i == j),) * 2 for i in range(3)] for j in range(3)]   # of R0
+    """A link and its motion on its parent `up`, in exact fractions. In the frame of the parent, at time t, the vector
+    from the centre of the parent to that of the link is place + t rate. The rotation of the link is R0, followed by the
+    rotation vector start + t turn."""
+    centre = place = rate = start = turn = ZERO     # those of the world
+    columns = [[(ONE * (i == j),) * 2 for i in range(3)] for j in range(3)]   # the columns of R0
     def __init__(self, up=None):
         self.up, self.chain = up, (up.chain if up else []) + [self]   # from the world to this link
     def read(self, r, length, time):
         r.require(len(self.chain) <= MAX_CHAIN, r.pos, "the chain is too long", "unverifiable")
         p, q = r.numbers(3), r.numbers(4)
         r.require(abs(sum(c * c for c in q) - 1) <= Fraction(1, 1 << 20), r.pos - 32, "the quaternion is not 1 long")
-        (x, y, z, w), s = q, 2 / sum(c * c for c in q)   # of q / |q|, exactly
+        (x, y, z, w), s = q, 2 / sum(c * c for c in q)   # the rotation of q / |q|, exactly
         rows = [[1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
                 [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)],
                 [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)]]
@@ -122,9 +124,9 @@ class Link:
         return self
     @functools.lru_cache(1 << 14)
     def pose(self, t):
-        """In the coordinates of the world: the columns of the rotation at time t, the arm from the centre of the
-        parent to that of the link, and the rate and the turn of the joint. The columns x of R0 are turned by
-        exp([a]x) x = x + sin|a| / |a| a x x + (1 - cos|a|) / |a|^2 a x (a x x)."""
+        """Returns, in the coordinates of the world, the columns of the rotation at time t, the vector from the centre
+        of the parent to that of the link, and the rate and the turn of the joint. A column v of R0 is rotated to
+        v + sin|a| / |a| a x v + (1 - cos|a|) / |a|^2 a x (a x v) by the rotation vector a."""
         a, up = plus(self.start, self.turn, t), transpose(self.up.pose(t)[0]) if self.up else self.columns
         q, a = sum(x * x for x in a), [fix(x) for x in a]
         s, c = series(q, 1), series(q, 2)
@@ -132,9 +134,9 @@ class Link:
         vectors = plus(self.place, self.rate, t), self.rate, self.turn
         return [matvec(up, x) for x in columns], *[matvec(up, [fix(x) for x in v]) for v in vectors]
 class Body:
-    """Corners as seen from the centre of the link, z = y - c, and radii, exact in 2^-bits. The unit of length,
-    2^exponent, is 2^shift of these, where the shift is not negative. The size of a part is a box, least x y z and
-    greatest x y z, the greatest |z|^2 and the greatest radius."""
+    """A tree on a link. Corners are relative to the centre of the link, z = y - c, as exact integers in multiples of
+    2^-bits. The unit of length, 2^exponent, is 2^shift of these, with a shift >= 0. The size of a part is its least
+    x, y, z, its greatest x, y, z, its greatest |z|^2, and its greatest radius."""
     def __init__(self, tree, link, exponent):
         self.link, self.bits = link, max([tree.bits, -exponent] + [c.denominator.bit_length() - 1 for c in link.centre])
         up, centre = self.bits - tree.bits, [int(c * (1 << self.bits)) for c in (*link.centre, Fraction(0))]
@@ -145,11 +147,11 @@ class Body:
         sizes = [self.size(half) for half in self.halves[part]] or [
             (x, y, z, x, y, z, x * x + y * y + z * z, ball) for x, y, z, ball in self.corners[self.spans[part][0]]]
         return [f(v) for f, v in zip([min] * 3 + [max] * 5, zip(*sizes))]
-    @functools.lru_cache(1)                         # if nothing turns, both ends of a stretch ask for the same
+    @functools.lru_cache(1)                         # without turns both ends of an interval need the same
     def lowest(self, part, mx, my, mz):
-        """The least m . z - |ball| of the corners of the part, exactly in 2^-(128 + bits): n is no longer than 1,
-        so a ball reaches down by at most its radius. The part of the lowest bound is opened, until that is a
-        triangle, whose bound is its height."""
+        """Returns the least m . z - |ball| of the corners of a part, exactly, in multiples of 2^-(128 + bits). The
+        normal n is at most 1 long, so a ball reaches at most its radius below its centre. The search splits the part
+        with the least bound, until that is a single triangle. The bound of a triangle is its exact height."""
         lowest_of_box = operator.itemgetter(*(i if c >= 0 else i + 3 for i, c in enumerate((mx, my, mz))), 7)
         def bound(p):
             corners = [lowest_of_box(self.size(p))] if self.halves[p] else self.corners[self.spans[p][0]]
@@ -160,7 +162,7 @@ class Body:
                 heapq.heappush(heap, bound(p))
         return heap[0][0]
     def is_beyond(self, part, point, limit):
-        """Whether boxes tell that all of the part is farther than the limit from the point, in 2^-(128 + bits)."""
+        """Returns whether all boxes of the part are farther than the limit from the point, in 2^-(128 + bits)."""
         *box, _, ball = self.size(part)
         gaps = [max((low << F) - hi, lo - (high << F), 0) for low, high, (lo, hi) in zip(box, box[3:], point)]
         return sum(gap * gap for gap in gaps) > (limit + (ball << F)) ** 2 or (
@@ -168,14 +170,14 @@ class Body:
 # ---- the lemmas ----
 @functools.lru_cache(1 << 14)
 def motion(frame, link, t, h):
-    """P, P', Omega, K and K' of the lemmas for a link as seen from `frame`, at the middle t of a stretch of time
-    whose half is h. The bounds K and K' are rounded up. What is left on the way has the other sign."""
+    """Returns P, P', Omega, K and K' of the lemmas for a link relative to `frame`. The interval of time has the
+    middle t and the half-length h. The bounds K and K' are rounded up. Links on the way up have the opposite sign."""
     up, down, common = frame.chain, link.chain, sum(a is b for a, b in zip(frame.chain, link.chain))
     place, slope, omega, theta, k = ZERO3, ZERO3, ZERO3, 0, 0
     for move, x in [(vsub, x) for x in up[:common - 1:-1]] + [(vadd, x) for x in down[common:]]:
         _, arm, rate, joint = x.pose(t)
         rate, joint = scale(rate, h), scale(joint, h)
-        # The parent carries the arm: it is behind a joint that is left, and before one that is entered.
+        # The parent carries the arm: a joint on the way up comes before its arm, one on the way down after it.
         before, after = (joint, ZERO3) if move is vsub else (ZERO3, joint)
         omega, theta = vsub(omega, before), theta + length_up(before)
         place, slope = move(place, arm), move(slope, vadd(cross(omega, arm), rate))
@@ -184,12 +186,12 @@ def motion(frame, link, t, h):
         omega, theta = vadd(omega, after), theta + length_up(after)
     return place, slope, omega, k, mul_up(theta, theta)
 def height(body, part, frame, t, h, n, d):
-    """A height below which nothing of the part is during the stretch of time, by Lemma 1. The plane n . x = d turns
-    with the link `frame`, and x is from its centre."""
+    """Returns a lower bound of the height of a part over the interval of time, by Lemma 1. The plane n . x = d turns
+    with the link `frame`, and x is relative to the centre of that link."""
     size, (place, slope, omega, k, factor) = body.size(part), motion(frame, body.link, t, h)
-    r = root_up(shift_up(size[6], 2 * (body.shift - F)))   # no z of the part is longer
-    # In the coordinates of the mesh n + s n x Omega, for s = 1 and s = -1, is an integer vector m but for an error
-    # of at most e in each coordinate. So its product with z is no less than m . z - the sum of e |z|.
+    r = root_up(shift_up(size[6], 2 * (body.shift - F)))   # an upper bound of |z|
+    # In the coordinates of the mesh, n + s n x Omega is an integer vector m with an error of at most e in each
+    # coordinate, for s = 1 and s = -1. So its product with z is at least m . z minus the sum of e |z|.
     back, start, slope, ends = body.link.pose(t)[0], dot(n, place), dot(n, slope), []
     w, tilt = matvec(back, n), matvec(back, cross(n, omega))
     for v, rise in (vadd(w, tilt), slope[0]), (vsub(w, tilt), -slope[1]):
@@ -198,9 +200,9 @@ def height(body, part, frame, t, h, n, d):
         ends.append(rise + shift_down(body.lowest(part, *m) - error, body.shift))
     return start[0] - d + min(ends) - (k + mul_up(factor, r) + 1 >> 1)
 def is_beyond_ball(body, part, other, others, t, h, margin):
-    """Whether a ball around a part, as the paragraph Balls has it, is farther than the margin from the other part."""
+    """Returns whether the ball around a part is farther than the margin from the other part (README, Balls)."""
     size, (place, slope, omega, k, factor) = body.size(part), motion(other.link, body.link, t, h)
-    twice, s = [low + high for low, high in zip(size, size[3:6])], body.shift + 1 - F   # of lengths in 2^-bits
+    twice, s = [low + high for low, high in zip(size, size[3:6])], body.shift + 1 - F   # for lengths in 2^-bits
     corners = itertools.chain(*body.corners[slice(*body.spans[part])])
     far = max(sum((2 * x - c) ** 2 for x, c in zip(v, twice)) for v in corners)
     r = root_up(shift_up(far, 2 * s)) + shift_up(size[7], s - 1)
@@ -210,7 +212,7 @@ def is_beyond_ball(body, part, other, others, t, h, margin):
     return other.is_beyond(others, point, r + m + margin << other.shift)
 # ---- a proof ----
 def check(path, tree_of):
-    """Returns what holds, or raises Fails. `tree_of` finds the tree of a digest."""
+    """Returns a summary of a proof that holds, or raises Fails. `tree_of` finds the tree of a digest."""
     r = Reader(path, b"CCDPROF1")
     *units, link_count, body_count, pair_count = r.take("iiIII")
     r.require(max(map(abs, units)) <= MAX_UNIT, 8, "a unit is out of range", "unverifiable")
@@ -219,7 +221,7 @@ def check(path, tree_of):
         links.append(Link(r.one_of(links, "link before this one")).read(r, length, time))
     bodies = [Body(tree_of(*r.take("32s")), r.one_of(links, "link"), units[0]) for _ in range(body_count)]
     pairs = [([r.one_of(bodies, "body") for _ in "AB"], r.at_least_0("margin") / length) for _ in range(pair_count)]
-    def require_range(t):                           # no later time is asked for
+    def require_range(t):                           # t is the latest time that is needed
         r.require(t <= 1, r.pos - 8, "the unit of time is less than the time", "unverifiable")
         for v, f in [vf for x in links for vf in ((x.start, 1), (x.turn, t))]:
             r.require(sum((f * x) ** 2 for x in v) <= MAX_TURN ** 2, r.pos - 8, "a link turns too far", "unverifiable")
@@ -231,7 +233,7 @@ def check(path, tree_of):
         (two, near), t, pos = r.one_of(pairs, "pair"), r.at_least_0("time of the witness") / time, r.pos - 8
         require_range(t)
         near, gap = near + r.at_least_0("tolerance") / length, motion(two[0].link, two[1].link, t, (0, 0))[0]
-        for body, move in zip(two, (vsub, vadd)):   # to the centres of two balls, which are nearer by their radii
+        for body, move in zip(two, (vsub, vadd)):   # the gap is between centres, so near gets the radii
             corners = r.one_of(body.corners, "triangle")
             weights = [int.from_bytes(x, "little") for x in r.take("7s7s7s")]
             r.require(sum(weights) == 1 << 55, r.pos - 21, "the weights do not add up to 1")
@@ -240,13 +242,13 @@ def check(path, tree_of):
             near += ball
         r.require(length_up(gap) <= fix(near)[0], pos, "the witnesses are too far apart")
     for number, (two, margin) in enumerate(pairs):
-        half, todo = fix(margin / 2)[1], [((0, 0), 0, int(until * (1 << 60)) + 1)]   # the last one is the next one
+        half, todo = fix(margin / 2)[1], [((0, 0), 0, int(until * (1 << 60)) + 1)]   # the last entry is taken next
         while todo:
             (parts, t0, t1), pos = todo.pop(), r.pos
             r.require(pos < len(r.data), pos, f"the file ends, and {len(todo) + 1} parts are not proven")
             step, = r.take("B")
             r.require(step <= 7, pos, "there is no such step")
-            middle = (t0 + t1) // 2                 # in 2^-60 of the unit of time
+            middle = (t0 + t1) // 2                 # in multiples of 2^-60 of the unit of time
             t, h, leaves = Fraction(middle, 1 << 60), (t1 - middle << F - 60,) * 2, leaves + (step > 2)
             if step < 2:
                 r.require(split := two[step].halves[parts[step]], pos, "a triangle can not be split")
@@ -258,8 +260,8 @@ def check(path, tree_of):
                 *n, d = [int.from_bytes(x, "little", signed=True) for x in r.take("7s7s7s7s")]
                 frame = (links[0], two[0].link, two[1].link)[step - 3]
                 heights = [height(body, part, frame, t, h, [(side * x << F - 50,) * 2 for x in n], side * d << F)
-                           for body, part, side in zip(two, parts, (-1, 1))]   # A is above the plane -n, -d
-                proves = sum(x * x for x in n) <= 1 << 100 and min(heights) > half   # n is no longer than 1
+                           for body, part, side in zip(two, parts, (-1, 1))]   # A is above the plane with -n and -d
+                proves = sum(x * x for x in n) <= 1 << 100 and min(heights) > half   # n is at most 1 long
                 r.require(proves, pos, f"the plane does not prove the parts of pair {number} apart")
             else:
                 around, other = [(two[i], parts[i]) for i in (step - 6, 7 - step)]

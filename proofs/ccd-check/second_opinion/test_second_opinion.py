@@ -1,36 +1,36 @@
 #!/usr/bin/env python3
-"""Tests of second_opinion.py. Meshes, certificates and proofs are built here by hand, from the README.
+"""Tests of second_opinion.py. They build meshes, certificates and proofs by the format in the README.
 
-Binary64 is used only to make inputs and to sample motions; what is tested decides without it.
+Binary64 is only used to build inputs and to sample motions. The tested code does not use it.
 """
 import collections, contextlib, hashlib, io, itertools, math, os, random, struct, tempfile, unittest, unittest.mock
 from fractions import Fraction
 import second_opinion as so
 
-ONE = 1 << 50   # of the numbers of a normal
+ONE = 1 << 50   # the scale of the coordinates of a normal
 X, Y, Z = (ONE, 0, 0), (0, ONE, 0), (0, 0, ONE)
 UNIT3 = (1, 0, 0), (0, 1, 0), (0, 0, 1)
-TICKS = (-40, 60)   # units with which the time is counted in whole units: 2^-60 of 2^60
-WHOLE = 1 << 55   # of weights
+TICKS = (-40, 60)   # units for which times are integers: ticks of 2^-60 of 2^60
+WHOLE = 1 << 55   # the scale of weights
 ZERO = 0, 0, 0
-AUTO = -0x5eed0ff5   # as an offset: halfway between the heights of the parts, by Case.fit
+AUTO = -0x5eed0ff5   # an offset that Case.fit replaces by the middle between the heights of the parts
 # ---- files ----
 def minus(axis): return tuple(-c for c in axis)
 
 
 def mesh(vertices, triangles):
     return (struct.pack("<II", len(vertices), len(triangles))
-            + b"".join(struct.pack("<4d", *v, *[0.0] * (4 - len(v))) for v in vertices)   # without a radius it is 0
+            + b"".join(struct.pack("<4d", *v, *[0.0] * (4 - len(v))) for v in vertices)   # the default radius is 0
             + b"".join(struct.pack("<3I", *t) for t in triangles))
 
 
 def points(*vertices):
-    """A mesh whose triangles are points."""
+    """Returns a mesh whose triangles are single points."""
     return mesh(vertices, [(i, i, i) for i in range(len(vertices))])
 
 
 def thick(mesh_bytes, *radii):
-    """The mesh with other radii of its vertices: one for each, or one for all."""
+    """Returns the mesh with other radii: one for each vertex, or one for all."""
     count, = struct.unpack_from("<I", mesh_bytes)
     out = bytearray(mesh_bytes)
     for i in range(count):
@@ -39,7 +39,7 @@ def thick(mesh_bytes, *radii):
 
 
 def balanced(order):
-    """The tree of that order in which the first part of n triangles has n // 2. A tree is the number of a triangle or
+    """Returns the tree of this order whose first part of n triangles has n // 2. A tree is the index of a triangle, or
     a pair of trees."""
     order = list(order)
     half = len(order) // 2
@@ -47,14 +47,14 @@ def balanced(order):
 
 
 def leaning(n, to):
-    """The numbers of the tree in which each first part (to = 0), or each second one (to = 1), is one triangle."""
+    """Returns the numbers of a tree whose first parts (to = 0), or second parts (to = 1), are single triangles."""
     if to == 0:
         return [x for i in range(n - 1) for x in (1, i)] + [n - 1]
     return [*range(n - 1, 0, -1), *range(n)]
 
 
 def random_tree(rng, order):
-    """A tree of that order, with any first parts."""
+    """Returns a random tree of this order."""
     if len(order) == 1:
         return order[0]
     first = rng.randrange(1, len(order))
@@ -62,7 +62,7 @@ def random_tree(rng, order):
 
 
 def triangles_of(tree):
-    """Those of each part, in preorder."""
+    """Returns the triangles of each part, in preorder."""
     if isinstance(tree, int):
         return [[tree]]
     first, second = map(triangles_of, tree)
@@ -70,7 +70,7 @@ def triangles_of(tree):
 
 
 def preorder(tree):
-    """The numbers that a certificate has for the parts."""
+    """Returns the numbers of the parts in a certificate."""
     if isinstance(tree, int):
         return [tree]
     first, second = tree
@@ -78,7 +78,7 @@ def preorder(tree):
 
 
 def certificate(mesh_bytes, order=None, tree=None, numbers=None):
-    """Of a balanced tree of that order; of any tree; or with such numbers, be they those of a tree or not."""
+    """Returns a certificate: of a balanced tree of an order, of a tree, or with any numbers, valid or not."""
     if numbers is None:
         count, = struct.unpack_from("<I", mesh_bytes, 4)
         numbers = preorder(balanced(range(count) if order is None else order) if tree is None else tree)
@@ -104,13 +104,13 @@ def slides(v=(0, 0, 1), alpha=0.0, beta=0.0, p=ZERO, q=(0, 0, 0, 1), on=0):
 def link_bytes(x): return struct.pack("<I10dI8d", x.on, *x.p, *x.q, *x.c, x.axes, *x.v, *x.a, x.alpha, x.beta)
 def seven(x): return x.to_bytes(7, "little", signed=True)
 def leaf(axis, frame=0, d=AUTO): return bytes([3 + frame]) + b"".join(map(seven, (*axis, d)))
-def along(*v): return tuple(math.trunc(c * (1 - 1e-9) * ONE) for c in v)   # a bit less than 1 long
+def along(*v): return tuple(math.trunc(c * (1 - 1e-9) * ONE) for c in v)   # slightly less than 1 long
 AROUND_A, AROUND_B = b"\6", b"\7"
 def split_time(first, second): return b"\2" + first + second
 
 
 def halves(depth, make, t0=0.0, t1=1.0):
-    """The time split 2^depth times into equal parts; make(middle) is the leaf of a part."""
+    """Returns the steps that split the time 2^depth times into equal parts. make(middle) returns the leaf of a part."""
     if depth == 0:
         return make((t0 + t1) / 2)
     m = (t0 + t1) / 2
@@ -118,7 +118,7 @@ def halves(depth, make, t0=0.0, t1=1.0):
 
 
 def until(t, first, second, t0=0.0, t1=1.0):
-    """One leaf until t and the other one after it, with no more splits of the time than that takes."""
+    """Returns the steps with one leaf until t and another one after it, and the fewest splits of time."""
     if not t0 < t < t1:
         return first if t1 <= t else second
     m = (t0 + t1) / 2
@@ -126,8 +126,8 @@ def until(t, first, second, t0=0.0, t1=1.0):
 
 
 def proof(links, bodies, pairs, steps, duration=1.0, witness=None, units=None):
-    """bodies: (mesh, link); pairs: (body, body, margin);
-    witness = (pair, time, tolerance, (place, weights) of A, of B), weights in 2^-55."""
+    """Returns a proof. bodies: (mesh, link); pairs: (body, body, margin);
+    witness = (pair, time, tolerance, (triangle, weights) of A, of B), weights in 2^-55."""
     units = units or (-40, max(-60, math.frexp(max(duration, witness[1] if witness else 0.0))[1]))
     out = b"CCDPROF1" + struct.pack("<iiIII", *units, len(links), len(bodies), len(pairs))
     out += b"".join(map(link_bytes, links))
@@ -145,13 +145,13 @@ def proof(links, bodies, pairs, steps, duration=1.0, witness=None, units=None):
 
 
 def two(a, b, la, lb, steps, margin=0.0, contact=None, **more):
-    """Two bodies, each on a link of its own."""
+    """Returns a proof about two bodies, each on its own link."""
     witness = contact and (0, *contact)
     return proof([la, lb], [(a, 1), (b, 2)], [(0, 1, margin)], steps, witness=witness, **more)
 
 
 LINK = 4 + 80 + 4 + 64
-HEADER = 8 + 8 + 12 + 2 * LINK + 2 * 36 + 16 + 8   # of two bodies on two links, to the number of witnesses
+HEADER = 8 + 8 + 12 + 2 * LINK + 2 * 36 + 16 + 8   # bytes before the number of witnesses, for two bodies and links
 FLAT = mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
 FLAT_TREE = certificate(FLAT)
 POINT = points((0, 0, 0))
@@ -169,7 +169,7 @@ def flength(v): return math.sqrt(fdot(v, v))
 
 
 def turn_by(a, v):
-    """exp([a]x) v, along and across a."""
+    """Returns exp([a]x) v, from the parts of v along and across a."""
     angle = flength(a)
     if angle == 0:
         return list(v)
@@ -179,7 +179,7 @@ def turn_by(a, v):
 
 
 def rotate(q, v):
-    """The rotation of q / |q|, as q v q* / |q|^2."""
+    """Rotates v by q / |q|, as q v q* / |q|^2."""
     u, w = q[:3], q[3]
     t = fadd(fscale(w, v), fcross(u, v))                    # q v = (-u.v, t)
     r = fadd(fscale(fdot(u, v), u), fscale(w, t), fcross(u, t))
@@ -187,7 +187,7 @@ def rotate(q, v):
 
 
 def up(x, y, t):
-    """From the frame of a link to that of its parent, by the formula of the README."""
+    """Transforms a point from the frame of a link to that of its parent, by the formula of the README."""
     s = x.alpha + t * x.beta
     v, a = (rotate(x.q, u) if x.axes else u for u in (x.v, x.a))
     return fadd(x.p, rotate(x.q, x.c), fscale(s, v), turn_by(fscale(s, a), rotate(x.q, fsub(y, x.c))))
@@ -203,7 +203,7 @@ def direction(links, i, u, t): return fsub(where(links, i, u, t), where(links, i
 
 
 def axis_at(links, frame, n, middle, t):
-    """The axis n of the world in the middle, as it is at t if it turns with a link."""
+    """Returns the direction at time t of an axis that turns with a link, and is n in the world at the middle."""
     return fadd(*[fscale(fdot(n, direction(links, frame, e, middle)), direction(links, frame, e, t)) for e in UNIT3])
 
 
@@ -211,7 +211,7 @@ def centre(links, i): return links[i - 1].c if i else ZERO
 
 
 def least_height(links, end, corners, side, n, d, frame, t0, t1, samples):
-    """Of any samples of balls above the plane, or below it if the side is -1."""
+    """Returns the least sampled height of the balls above the plane, or below it if the side is -1."""
     least = math.inf
     for i in range(samples + 1):
         t = t0 + (t1 - t0) * i / samples
@@ -223,13 +223,13 @@ def least_height(links, end, corners, side, n, d, frame, t0, t1, samples):
 
 
 def stretch(t0, t1):
-    """The middle of a stretch of time and half of it, as the checker has them, from ticks."""
+    """Returns the middle and the half-length of an interval of ticks, as the checker computes them."""
     middle = (t0 + t1) // 2
     return Fraction(middle, 1 << 60), (t1 - middle << so.F - 60,) * 2
 
 
 def random_link(rng, on, speed=1.0):
-    """Free, a joint that turns or slides, or all at once along any axes."""
+    """Returns a free link, a revolute or prismatic joint, or a general motion along any axes."""
     def vec(s): return tuple(rng.uniform(-s, s) for _ in range(3))
     p, q, kind = vec(1), tuple(rng.gauss(0, 1) for _ in range(4)), rng.randrange(4)
     q = tuple(fscale(1 / flength(q), q))
@@ -244,7 +244,7 @@ def random_link(rng, on, speed=1.0):
 
 
 def random_links(rng, count, speed=1.0):
-    """A tree; half of the links are on the one before."""
+    """Returns random links in a tree. For half of them the parent is the link before."""
     return [random_link(rng, i if rng.random() < 0.5 else rng.randint(0, i), speed) for i in range(count)]
 # ---- tests ----
 class Case(unittest.TestCase):
@@ -258,7 +258,7 @@ class Case(unittest.TestCase):
         return paths
 
     def fit(self, meshes, made):
-        """The proof with the best offsets in place of AUTO: each plane is taken for good, and tells the heights."""
+        """Returns the proof with the best offset in place of each AUTO. The heights come from a patched checker."""
         if seven(AUTO) not in made:
             return made
         real, heights, found = so.height, [], []
@@ -267,7 +267,7 @@ class Case(unittest.TestCase):
             if abs(d) != -AUTO:
                 return real(*call)
             heights.append(real(*call[:-1], 0))
-            if d < 0:                   # of B, that of A is before it
+            if d < 0:                   # the plane of B, as that of A comes before it
                 below, above = heights[-2:]
                 found.append(round(Fraction(above - below, 2 << so.F)))
             return 1 << 4096
@@ -291,7 +291,7 @@ class Case(unittest.TestCase):
         return status, [line.split(": ", 2)[1:] for line in out.getvalue().splitlines()]
 
     def run_files(self, meshes, *proofs):
-        """The verdicts and reasons the command prints; meshes are mesh, certificate, mesh, certificate."""
+        """Returns the verdicts and reasons that the command prints. `meshes` are mesh, certificate, and so on."""
         paths = self.files(*meshes, *(self.fit(meshes, made) for made in proofs))
         status, lines = self.checked(paths[:len(meshes)], paths[len(meshes):])
         self.assertEqual(len(lines), len(proofs))
@@ -308,7 +308,7 @@ class Case(unittest.TestCase):
             self.assertIn(reason, line[1])
 
     def exact_links(self, links):
-        """Links as the checker reads them, in units of 1."""
+        """Returns the links as the checker reads them, with units of 1."""
         reader, out = so.Reader(*self.files(b"".join(map(link_bytes, links)))), [so.Link()]
         for _ in links:
             out.append(so.Link(reader.one_of(out, "link")).read(reader, Fraction(1), Fraction(1)))
@@ -337,21 +337,21 @@ class Free(Case):
             self.fails("does not prove", files, make(leaf(Z), margin=0.5 if sum(radii) < 1 else 0.0))
 
     def thick_pair(self, radii, la=free(), lb=free(p=(0, 0, 1))):
-        """Two triangles with these radii, and what makes proofs of them."""
+        """Returns the files of two triangles with these radii, and a function that makes proofs of them."""
         a, b = (thick(FLAT, r) for r in radii)
         return (a, certificate(a), b, certificate(b)), lambda steps, **more: two(a, b, la, lb, steps, **more)
 
     def test_each_radius_counts(self):
-        # Only at its own corner: z is 0, 0.5 and 0.75 there, and radii sink it as far as each has one.
+        # Each radius only counts at its own corner. The corners are at z = 0, 0.5 and 0.75.
         for radii, least in (((0, 0, 0), 0), ((0.25, 0.25, 0.25), -0.25), ((0, 0.75, 0), -0.25), ((0, 0, 0.5), 0),
                              ((0, 0.5, 0.875), -0.125), ((0.0625, 0.25, 0.75), -0.0625)):
             b = mesh([(0, 0, 0, radii[0]), (1, 0, 0.5, radii[1]), (0, 1, 0.75, radii[2])], [(0, 1, 2)])
             files = *self.M, b, certificate(b)
-            for q, p, axis in (((0, 0, 0, 1), 1, Z), ((1, 0, 0, 0), -1, minus(Z))):   # as it is, and turned over
+            for q, p, axis in (((0, 0, 0, 1), 1, Z), ((1, 0, 0, 0), -1, minus(Z))):   # upright, and turned over
                 def make(margin): return two(FLAT, b, free(), free((0, 0, p), q), leaf(axis), margin)
                 self.holds(files, make(math.nextafter(1 + least, 0)))
                 self.fails("does not prove", files, make(1.0 + least))
-        # A motion takes off what it does of flat ones: rate / 2 by the end, and half of the square of half of the turn.
+        # A motion lowers the gap as for flat triangles: by rate / 2, and by half of the square of half of the turn.
         for rate in (0.0, 0.5):
             lb = free(p=(0, 0, 1), w=(0, 0, rate), v=(0, 0, -rate / 2))
             files, make = self.thick_pair((0.125, 0.25), lb=lb)
@@ -359,7 +359,7 @@ class Free(Case):
             self.fails("does not prove", files, make(leaf(Z), margin=0.6251 - rate / 2 - rate ** 2 / 8))
 
     def test_radii_of_parts(self):
-        # A small ball below and a large one above it: the box of both is lower than either.
+        # A small ball is below a large one. Their common box reaches lower than either ball.
         b = points((0, 0, 1, 0.125), (0, 0, 2, 0.75), (0, 0, 3, 2.0))
         files = *self.M, b, certificate(b, (2, 0, 1))
         def make(margin): return two(FLAT, b, free(), free(), leaf(Z), margin)
@@ -369,10 +369,10 @@ class Free(Case):
         self.fails("does not prove", (*self.M, b, certificate(b, (2, 0, 1))), make(math.nextafter(0.875, 0)))
 
     def test_offset(self):
-        # B is 1 above A, and the plane has to leave half of the margin on both sides of it.
-        half = 1 << 39                              # of 1, in units of 2^-40
+        # B is 1 above A. The plane needs half of the margin on either side.
+        half = 1 << 39                              # 1/2, in units of 2^-40
         for frame in (0, 1, 2):
-            below = half - (frame == 2) * 2 * half   # seen from A or the world, or from B
+            below = half - (frame == 2) * 2 * half   # relative to A or the world, or to B
             for d, most in ((0, 1.0), (half // 2, 0.5), (-half // 2, 0.5), (half - 1, 2.0 ** -39), (half, 0.0),
                             (1 - half, 2.0 ** -39), (-half, 0.0), (2 * half, 0.0), (-8 * half, 0.0),
                             (2 ** 55 - 1 - half, 0.0), (half - 2 ** 55, 0.0)):
@@ -382,21 +382,21 @@ class Free(Case):
                 self.fails("does not prove", self.M, self.flat(step, margin=most))
 
     def test_offset_is_from_the_centre(self):
-        # A and B are 10 and 11 above the world, and their centres elsewhere.
+        # A and B are 10 and 11 above the origin, with centres elsewhere.
         la, lb = free(p=(0, 0, 10), c=(0, 0, 4)), free(p=(0, 0, 11), c=(0, 0, -7))
         for frame, origin in ((0, 0), (1, 14), (2, 4)):
             def make(d):
                 return self.flat(leaf(Z, frame, int((d - origin) * 2 ** 40)), la, lb, margin=0.75)
             self.holds(self.M, make(10.5), make(10.4), make(10.6))
             self.fails("does not prove", self.M, make(10.3), make(10.7), make(0), make(-10.5))
-        # A plane that goes along with the centre of a body that does not turn.
+        # The plane moves with the centre of a body that does not turn.
         la, lb = free(v=(0, 0, 9)), free(p=(0, 0, 1), v=(0, 0, 9))
         for frame, d in ((1, 1 << 39), (2, -1 << 39)):
             self.holds(self.M, self.flat(leaf(Z, frame, d), la, lb, margin=0.99))
         self.fails("does not prove", self.M, self.flat(leaf(Z), la, lb))
 
     def test_unit_of_offset(self):
-        for e in (-60, -40, -10, 0, 3):             # B is 2^(e + 21) above A, and the plane half of that
+        for e in (-60, -40, -10, 0, 3):             # B is 2^(e + 21) above A, and the plane is halfway
             lb = free(p=(0, 0, 2.0 ** (e + 21)))
             def make(margin): return self.flat(leaf(Z, 0, 1 << 20), lb=lb, margin=margin, units=(e, 0))
             self.holds(self.M, make(math.nextafter(2.0 ** (e + 21), 0)))
@@ -415,7 +415,7 @@ class Free(Case):
         self.fails("does not prove", self.M, self.flat(leaf(Z), lb=lb, duration=1.5))
 
     def test_part_of_time(self):
-        # B goes down beside A: it is above until 0.25, and beside from 0.125 on.
+        # B moves down beside A. It is above A until 0.25, and beside A from 0.125 on.
         lb, units = free(p=(0, 0, 0.5), v=(8, 0, -2)), (-40, 0)
         for more in ({}, {"units": units}):
             self.holds(self.M, self.flat(until(0.1875, leaf(Z), leaf(X)), lb=lb, margin=0.1, **more))
@@ -425,12 +425,12 @@ class Free(Case):
 
     def test_the_time_is_counted_in_the_unit(self):
         down = free(p=(0, 0, 1), v=(0, 0, -0.75))
-        # The first stretch ends at the next tick, until which the gap shrinks to 0.25.
+        # The first interval ends at the next tick, when the gap is 0.25.
         for duration in (0.0, 0.25, 0.5):
             self.holds(self.M, self.flat(leaf(Z), lb=down, margin=0.24, duration=duration, units=TICKS))
             made = self.flat(leaf(Z), lb=down, margin=0.26, duration=duration, units=TICKS)
             self.fails("does not prove", self.M, made)
-        # A stretch is split if it has two ticks or more, until each has one.
+        # An interval can be split if it has at least two ticks.
         once = split_time(leaf(Z), leaf(Z))
         left, right = split_time(once, leaf(Z)), split_time(leaf(Z), once)
         all_made = [self.flat(steps, units=TICKS, duration=duration)
@@ -440,8 +440,8 @@ class Free(Case):
                 self.holds(self.M, made)
             else:
                 self.fails("too short to be split", self.M, made)
-        # The middle is rounded down: three ticks are split after the first one. What is after it may be checked from a
-        # tick before: B is beside A from 1.5 before the middle on, and above until 0.5 after it; or one of both is not.
+        # The middle is rounded down: three ticks are split after the first one. The second half may be checked from one
+        # tick before. B is beside A from 1.5 ticks before the middle and above A until 0.5 after it, or only one.
         for duration, middle in ((2.0, 1), (3.0, 1), (4.0, 2), (5.0, 2), (8.0, 4)):
             for above, beside in ((middle + 0.5, middle - 1.5), (middle - 0.5, middle - 1.5),
                                   (middle + 0.5, middle + 0.5)):
@@ -462,12 +462,12 @@ class Free(Case):
         self.fails("does not prove", self.M, self.flat(leaf(Y)))
         for axis in ((0, 0, ONE + 1), (1, 0, ONE), (0, 0, -2 * ONE), (32 * ONE - 1, 0, 0), (0, -32 * ONE, 0)):
             self.fails("does not prove", self.M, self.flat(leaf(axis, 0, 1 << 39)))
-        # A normal that is 1 long exactly proves something, and one that is a bit longer does not, however far B is.
+        # A normal of length 1 is accepted. A slightly longer one is refused, however far B is.
         lb, half = free(p=(0, 0, 100)), 1 << 45
         self.holds(self.M, self.flat(leaf(Z, 0, half), lb=lb), self.flat(leaf((0, 0, ONE - 1), 0, half), lb=lb))
         for axis in ((0, 0, ONE + 1), (1, 0, ONE)):
             self.fails("does not prove", self.M, self.flat(leaf(axis, 0, half), lb=lb))
-        # A bent axis shows a shorter gap: here 0.8 less 0.6 of the extent along x.
+        # An oblique axis shows a smaller gap: 0.8 minus 0.6 of the extent along x.
         bent = along(0.6, 0, 0.8)
         self.holds(self.M, self.flat(leaf(bent), margin=0.19))
         self.fails("does not prove", self.M, self.flat(leaf(bent), margin=0.21))
@@ -479,7 +479,7 @@ class Free(Case):
         self.fails("file ends", self.M, *[good[:n] for n in range(8, len(good), 7)])
         self.fails("bytes follow", self.M, good + b"\0", good + leaf(Z))
         self.fails("another kind", self.M, b"", b"CCDPROOG" + good[8:])
-        for step in (8, 9, 128, 255):               # with and without what a plane has
+        for step in (8, 9, 128, 255):               # with and without the numbers of a plane
             self.fails("no such step", self.M, self.flat(bytes([step])), self.flat(bytes([step]) + leaf(Z)[1:]))
         for count in (2, 3, 256, 1 << 31, (1 << 32) - 1):
             self.fails("more than one", self.M, good[:HEADER] + struct.pack("<I", count) + good[HEADER + 4:])
@@ -499,7 +499,7 @@ class Free(Case):
             return proof(list(links), list(bodies), list(pairs), leaf(Z) * len(pairs))
         self.holds(self.M, make(), make(pairs=()), proof([], [], [], b""))
         self.holds(self.M, make(links=(free(p=(0, 0, 1)),), bodies=((FLAT, 0), (FLAT, 1))))
-        for on in (1, 2, 3, 1 << 31):   # a link on itself, or on a later one
+        for on in (1, 2, 3, 1 << 31):   # a link whose parent is itself or a later link
             self.fails("no such link before", self.M, make(links=(free(on=on), free(p=(0, 0, 1)))))
         self.fails("no such link", self.M, make(bodies=((FLAT, 3), (FLAT, 2))))
         self.fails("no such body", self.M, make(pairs=((0, 2, 0.5),)), make(pairs=((2, 0, 0.5),)))
@@ -525,12 +525,12 @@ class Free(Case):
             self.fails("turns too far", self.M, self.flat(leaf(Z), lb=link), verdict="unverifiable")
         self.holds(self.M, self.flat(leaf(Z), lb=turns(p=(0, 0, 1), alpha=500.0)))
         spin = free(p=(0, 0, 1), w=(0, 0, 250))
-        self.fails("does not prove", self.M, self.flat(leaf(Z), lb=spin))   # true, but this is too long a stretch
+        self.fails("does not prove", self.M, self.flat(leaf(Z), lb=spin))   # true, but the interval is too long
         self.holds(self.M, self.flat(halves(8, lambda _: leaf(Z)), lb=spin))
         for q in ((0, 0, 0, 0), (0, 0, 0, 1.01), (0, 0, 0, 1 - 2.0 ** -20)):
             self.fails("1 long", self.M, *(self.flat(leaf(Z), lb=f(p=(0, 0, 1), q=q)) for f in (free, turns, slides)))
         self.holds(self.M, self.flat(leaf(Z), lb=free(p=(0, 0, 1), q=(0, 0, 0, 1 - 2.0 ** -21))))
-        # Very large and very small numbers are exact too.
+        # Very large and very small numbers are exact, too.
         far = free(p=(0, 0, 1e300))
         self.holds(self.M, self.flat(leaf(Z), lb=far, margin=9.9e299, units=(950, 0)))
         ball = thick(FLAT, 1e300)
@@ -541,16 +541,16 @@ class Free(Case):
         self.holds((tiny, tree, *self.M), two(tiny, FLAT, free(), free(p=(0, 0, 1)), leaf(Z), margin=0.5))
 
     def test_quaternion(self):
-        # A quarter turn about x takes y to z, so that the triangle stands up to z = 1.
+        # A quarter turn about x rotates y to z, so the triangle reaches up to z = 1.
         q = (math.sqrt(0.5), 0, 0, math.sqrt(0.5))
         above = free(p=(0, 0, 1.25))
-        # With its centre at y = 1 that corner stays at p + R0 c.
+        # With the centre at y = 1, that corner stays at p + R0 c.
         for up in (free(q=q), free(q=q, c=(0, 1, 0)), turns(q=q), slides(q=q)):
             self.holds(self.M, self.flat(leaf(Z), la=up, lb=above, margin=0.2499))
             self.fails("does not prove", self.M, self.flat(leaf(Z), la=up, lb=above, margin=0.2501))
 
     def test_quaternion_not_quite_1_long(self):
-        # A is turned by half a turn about z, so that its corner is at x = -1, however long the quaternion is.
+        # A is turned by half a turn about z, so its corner is at x = -1, whatever the length of the quaternion.
         e = 2.0 ** -22
         for z in (1 + e, 1 - e):
             for kind in (free, turns, slides):
@@ -564,17 +564,17 @@ class Joints(Case):
     M = POINT, POINT_TREE, FLAT, FLAT_TREE
 
     def test_sliding(self):
-        # B is carried up x by a slide that is turned to z, and the axis may have any length.
-        q = (0, -math.sqrt(0.5), 0, math.sqrt(0.5))   # takes x to z
+        # A prismatic joint lifts B along z. Its axis may have any length.
+        q = (0, -math.sqrt(0.5), 0, math.sqrt(0.5))   # rotates x to z
         for a, alpha, beta in (((1, 0, 0), 1.0, -0.75), ((0.25, 0, 0), 4.0, -3.0), ((-1, 0, 0), -1.0, 0.75)):
             def make(margin, **more):
                 return two(FLAT, FLAT, free(), slides(a, alpha, beta, q=q), leaf(Z), margin, **more)
-            # Turned so, the triangle itself reaches from z = 0 to 1 above its place.
+            # The rotated triangle reaches from z = 0 to z = 1 above its position.
             self.holds(self.M, make(0.2499))
             self.fails("does not prove", self.M, make(0.2501), make(0.2499, duration=1.1))
 
     def test_turning(self):
-        # A point at x = 1 turns about z by an angle from -0.5 to 0.5.
+        # A point at x = 1 turns about z, by angles from -0.5 to 0.5.
         a = points((1, 0, 0))
         for axis, alpha, beta in (((0, 0, 1), -0.5, 1.0), ((0, 0, -0.5), 1.0, -2.0)):
             def make(margin, depth):
@@ -589,14 +589,14 @@ class Joints(Case):
             self.fails("does not prove", files, away(alpha, 2.0001 + math.cos(alpha)))
 
     def test_scara(self):
-        # Arms 1 long turn about z by t and by -2 t, so the tip stays on y = 0, below a plate that a slide lifts.
+        # Arms of length 1 turn about z by t and by -2 t, so the tip stays on y = 0. A plate above it is lifted.
         links = [turns(beta=1.0), turns(beta=-2.0, p=(1, 0, 0), on=1), slides(beta=0.5, p=(1, 0, 0), on=2),
                  slides((0, 0, 1), 0.0, 0.5, p=(0, 0, 1))]
         def make(margin, depth, axis=Z):
             steps = halves(depth, lambda t: leaf(axis))
             return proof(links, [(POINT, 3), (FLAT, 4)], [(0, 1, margin)], steps)
-        # Both rise by 0.5 in all, and the plane does not: in a stretch it is 2^-8 lower than B at the start and
-        # higher than A at the end.
+        # Both rise by 0.5, but the plane is static. In an interval it is 2^-8 below B at the start, and
+        # 2^-8 above A at the end.
         self.holds(self.M, make(0.999 - 2 ** -8, 7))
         self.fails("does not prove", self.M, make(1.0001 - 2 ** -8, 7), make(0.999, 1), make(0.0, 7, Y))
         wall = mesh([(-9, 0.25, -9), (9, 0.25, -9), (0, 0.25, 9)], [(0, 1, 2)])
@@ -607,7 +607,7 @@ class Joints(Case):
         self.fails("does not prove", files, beside(0.251, 6), beside(0.24, 1))
 
     def test_a_turning_base_carries_both(self):
-        # Each body is on a link of its own on a base that turns by 6 radians. Seen from a body nothing turns.
+        # Each body is on its own link, on a base that turns by 6 radians. The bodies are static relative to each other.
         for base in (turns(beta=6.0), free(w=(0, 0, 6.0)), turns((0, 0, 3.0), 1.0, 2.0)):
             links = [base, free(on=1), free(p=(0, 0, 1), on=1), slides((1, 0, 0), -0.5, 1.0, p=(0.5, 0, 0), on=1)]
             side = along(*direction(links, 1, (1, 0, 0), 0.5))
@@ -618,7 +618,7 @@ class Joints(Case):
                 self.holds(self.M, make(3, Z, frame, 0.999))
             self.fails("does not prove", self.M, make(3, Z, 0, 0.0))
             self.holds(self.M, make(3, Z, 0, 0.99, 6))
-            for frame in (1, 2):   # the slide starts at 0 and goes to 1 along x of the base
+            for frame in (1, 2):   # the prismatic joint starts at 0, and moves to 1 along x of the base
                 self.fails("does not prove", self.M, make(4, side, frame, 0.001))
             links[3] = slides((1, 0, 0), 0.0, 1.0, p=(0.5, 0, 0), on=1)
             for frame in (1, 2):
@@ -640,7 +640,7 @@ class Joints(Case):
         self.fails("does not prove", files, make(0.0, 0))
 
     def test_axes(self):
-        # R0 takes x to y. B goes along x of the parent, or of the joint, which is y of the parent: from 0.5 to 1.5.
+        # R0 rotates x to y. B moves along x of the parent, or of the joint, which is y of the parent, from 0.5 to 1.5.
         q = 0, 0, math.sqrt(0.5), math.sqrt(0.5)
         for axes, n, other, end in ((0, X, Y, (2, 0, 0)), (1, Y, X, (0, 2, 0))):
             for scale in (1.0, -0.25):
@@ -649,8 +649,8 @@ class Joints(Case):
                 self.holds(self.M, make(n, 0.4999), make(minus(n), 0.4999, end))
                 self.fails("does not prove", self.M, make(n, 0.5001), make(minus(n), 0.5001, end), make(other, 0.0),
                            make(minus(other), 0.0))
-        # An axis that is x of the parent, or of the joint: a point at x = 1 of the link, which is y = 1 of the parent,
-        # goes to y = -1 by half of a turn about x, or stays.
+        # The axis is x of the parent, or of the joint. The point at x = 1 of the link is at y = 1 of the parent.
+        # With the first axis it turns by half a turn to y = -1. With the second axis it stays.
         b = points((1, 0, 0))
         files = *self.M, b, certificate(b)
         for axes, n in ((0, minus(Y)), (1, Y)):
@@ -660,12 +660,12 @@ class Joints(Case):
             self.fails("does not prove", files, make(minus(n), 0.0), make(n, 1.0001))
 
     def poses(self, x, t):
-        """Of a link on the world: the place of its centre and its axes, as the checker has them."""
+        """Returns the position and the axes of a link on the world, as the checker computes them."""
         columns, place, _, _ = self.exact_links([x])[1].pose(Fraction(t))
         return [[lo / so.ONE for lo, _ in v] for v in (place, *columns)]
 
     def test_axes_of_the_joint_are_turned_ones(self):
-        # With R0 v and R0 a along the axes of the parent it is the same link, and so it is with powers of two.
+        # R0 v and R0 a along the axes of the parent give the same link. So does scaling by powers of two.
         rng = random.Random(12)
         for _ in range(30):
             v, a, p, c, (alpha, beta, t) = ([rng.uniform(-1, 1) for _ in range(3)] for _ in range(5))
@@ -679,20 +679,20 @@ class Joints(Case):
                     self.assertLess(flength(fsub(u, v)), 1e-13)
             unturned = self.poses(x._replace(axes=0), t)
             self.assertGreater(max(flength(fsub(u, v)) for u, v in zip(unturned, want)), 1e-3)
-            # A joint as it is known: what turns it is behind R0.
+            # The usual formula of a joint, with its rotation applied before R0.
             s = x.alpha + t * x.beta
             for e, column in zip(UNIT3, want[1:]):
                 self.assertLess(flength(fsub(rotate(x.q, turn_by(fscale(s, x.a), e)), column)), 1e-13)
 
     def test_screw_against_its_differential_equation(self):
-        # x' = v + a x (x - centre) and centre' = v from s = 0, by the method of Runge and Kutta.
+        # x' = v + a x (x - centre) and centre' = v from s = 0, by the Runge-Kutta method.
         rng = random.Random(13)
         for trial in range(10):
             v, a, p, c, y = ([rng.uniform(-1, 1) for _ in range(3)] for _ in range(5))
             q, t = [rng.gauss(0, 1) for _ in range(4)], rng.random()
             q = fscale(1 / flength(q), q)
             x = moves(v, a, rng.uniform(-3, 3), rng.uniform(-3, 3), trial & 1, p, q, c)
-            matrix = [rotate(q, e) for e in UNIT3]  # its columns
+            matrix = [rotate(q, e) for e in UNIT3]  # the columns of the matrix
             def r0(u): return fadd(*[fscale(f, column) for f, column in zip(u, matrix)])
             if x.axes:
                 v, a = r0(v), r0(a)
@@ -711,8 +711,8 @@ class Joints(Case):
             self.assertLess(flength(fsub(where([x], 1, y, t), at)), 1e-8)
 
     def test_screw(self):
-        # A point at (2, 0, 0) of a link whose centre is (1, 0, 0) goes by one turn along a helix about that, and up or
-        # down by 0.75. There is a plate at z = 1. Half of a turn about x lets v and a of the joint point down.
+        # The point (2, 0, 0) of a link with the centre (1, 0, 0) moves along one turn of a helix, up or down by 0.75.
+        # A plate is at z = 1. With half of a turn about x, v and a of the joint point down.
         b, corner = points((2, 0, 0)), (0, (WHOLE, 0, 0))
         plate = mesh([(-9, -9, 1), (9, -9, 1), (0, 9, 1)], [(0, 1, 2)])
         files, turn, over = (b, certificate(b), plate, certificate(plate), *self.M), 2 * math.pi, (1, 0, 0, 0)
@@ -749,14 +749,14 @@ class Joints(Case):
 
 class Turning(Case):
     def setUp(self):
-        # Two plates that turn together about the origin: x = 0 and x = 1 of the same frame.
+        # Two plates turn together about the origin. They are at x = 0 and x = 1 of the same frame.
         self.a = mesh([(0, -3, -3), (0, 3, -3), (0, 0, 3)], [(0, 1, 2)])
         self.b = mesh([(1, -3, -3), (1, 3, -3), (1, 0, 3)], [(0, 1, 2)])
         self.M = self.a, certificate(self.a), self.b, certificate(self.b)
         self.link = free(w=(0, 0, 1.5))
 
     def plates(self, steps, margin=0.0, apart=False, **more):
-        """Both on one link; or each on a link of its own that rests on it."""
+        """Returns a proof with both plates on one link, or on two links that are fixed to it."""
         links, ends = ([self.link, free(on=1), free(on=1)], (2, 3)) if apart else ([self.link], (1, 1))
         return proof(links, [*zip((self.a, self.b), ends)], [(0, 1, margin)], steps, **more)
 
@@ -769,11 +769,11 @@ class Turning(Case):
                 self.fails("does not prove", self.M, self.plates(leaf(X, frame), 0.0, apart))
 
     def test_two_links_that_turn_alike(self):
-        # The lemmas do not know that both turn about one axis. In half of a stretch either turns by 0.75 / 2^depth, and
-        # theta is twice that. Corners are at up to sqrt 18 (A) and sqrt 19 (B).
+        # The lemmas ignore that both turn about one axis. Over half of an interval each turns by 0.75 / 2^depth, and
+        # theta is twice that. The distance of the corners is at most sqrt 18 for A and sqrt 19 for B.
         for depth, frame in itertools.product((3, 4, 5), (1, 2)):
             theta = 1.5 / 2 ** depth
-            lost = theta ** 2 / 2 * math.sqrt(19 if frame == 1 else 18)   # B is seen from A, or A from B
+            lost = theta ** 2 / 2 * math.sqrt(19 if frame == 1 else 18)   # with the frame of A, and of B
             def make(margin):
                 steps = halves(depth, lambda t: leaf(along(math.cos(1.5 * t), math.sin(1.5 * t), 0), frame))
                 return two(self.a, self.b, self.link, self.link, steps, margin)
@@ -785,7 +785,7 @@ class Turning(Case):
             return leaf(along(math.cos(1.5 * middle), math.sin(1.5 * middle), 0), 1)
         self.holds(self.M, self.plates(halves(2, at, 0, 1), margin=0.99))
         self.fails("does not prove", self.M, self.plates(halves(2, lambda _: leaf(X, 1)), margin=0.99))
-        # One tick has its middle at 0, three have it at 1; what is left is covered to the end.
+        # For one tick the middle is 0, and for three ticks it is 1. The interval is covered to its end.
         self.link = free(w=(0, 0, 0.25))
         for duration, middle in ((1.0, 0), (2.0, 1), (3.0, 1)):
             good = leaf(along(math.cos(middle / 4), math.sin(middle / 4), 0), 2)
@@ -796,7 +796,7 @@ class Turning(Case):
                 self.fails("does not prove", self.M, self.plates(other, margin=0.999, **ticks))
 
     def test_time_is_split(self):
-        # A rod of length 1 turns in the y-z plane by 4 radians; B is 3 above.
+        # A rod of length 1 turns in the y-z plane by 4 radians. B is 3 above it.
         a = mesh([(0, -1, 0), (0, 1, 0), (0.125, 0, 0)], [(0, 1, 2)])
         files = a, certificate(a), FLAT, FLAT_TREE
         def make(steps): return two(a, FLAT, free(w=(4, 0, 0)), free(p=(0, 0, 3)), steps, margin=1.0)
@@ -805,11 +805,11 @@ class Turning(Case):
         self.holds(files, good)
         self.fails("does not prove", files, make(halves(3, lambda t: leaf(Z) if t < 0.9 else leaf(Y))))
         first, size = HEADER + 4 + 3, len(leaf(Z))
-        self.fails("file ends", files, good[:-size])                       # the last leaf is dropped
-        self.fails("file ends", files, good[:first] + good[first + size:]) # the first one is dropped
-        # Without the last splits, and a leaf of each, the stretches are longer; that is a proof still.
+        self.fails("file ends", files, good[:-size])                       # without the last leaf
+        self.fails("file ends", files, good[:first] + good[first + size:]) # without the first leaf
+        # Without the last split and one of its leaves, the interval is longer, and the proof still holds.
         self.holds(files, good[:first - 1] + good[first + size:], make(halves(2, lambda _: leaf(Z))))
-        for step in range(first, len(good)):                               # each leaf is shifted, or bent
+        for step in range(first, len(good)):                               # each plane is changed
             if good[step:step + size] == leaf(Z):
                 self.fails("", files, good[:step] + leaf(Z)[1:] + good[step + size:])
                 self.fails("does not prove", files, good[:step] + leaf(along(0.75, 0, 0)) + good[step + size:],
@@ -818,9 +818,9 @@ class Turning(Case):
 
 
 class SecondOrder(Case):
-    """What the lemmas take off, one term at a time: a margin a little below is proven, one a little above is not.
+    """Tests each term of the error bound of the lemmas. A margin slightly below is proven, one slightly above is not.
 
-    The stretch is 0.2 long and links turn by 1; all meshes are single points."""
+    The interval is 0.2 long, and links turn by 1 radian per time. All meshes are single points."""
     def bound(self, want, links, ends, frame, za=(0, 0, 0), zb=(0, 0, 0), axis=X):
         a, b = points(za), points(zb)
         files = a, certificate(a), b, certificate(b)
@@ -832,75 +832,75 @@ class SecondOrder(Case):
     def test_one_joint(self):
         spin = free(w=(0, 0, 1))
         self.bound(1 - 0.005, [spin, free(p=(1, 0, 0))], (1, 2), 1)                     # theta^2 |d|
-        # The velocity and the turn cancel in the first order; the second has theta^2 (|d| + |m|) and 2 theta |m|.
+        # The velocity and the turn cancel in first order. The second order has theta^2 (|d| + |m|) and 2 theta |m|.
         self.bound(1 - 0.005 * (1 + 0.1) - 0.1 * 0.1, [spin, free(p=(1, 0.1, 0), v=(0, -1, 0))], (1, 2), 1)
         self.bound(1 - 0.005, [spin, free()], (1, 2), 1, zb=(1, 0, 0))                  # theta^2 r
-        back = free(q=(0, 0, -math.sin(0.05), math.cos(0.05)), w=(0, 0, 1))             # straight at the middle
+        back = free(q=(0, 0, -math.sin(0.05), math.cos(0.05)), w=(0, 0, 1))             # unrotated at the middle
         self.bound(1 - 0.005, [free(), back], (1, 2), 0, zb=(1, 0, 0))
         self.bound(1 - 0.005, [back, free()], (1, 2), 0, za=(-1, 0, 0))
         joint = turns(alpha=-0.1, beta=1.0)
         self.bound(1 - 0.005, [free(), joint], (1, 2), 0, zb=(1, 0, 0))
-        self.bound(1, [back], (1, 1), 2, za=(0, 1, 0), zb=(1, 1, 0))                    # all turns together
+        self.bound(1, [back], (1, 1), 2, za=(0, 1, 0), zb=(1, 1, 0))                    # both bodies turn together
         self.bound(1, [joint], (1, 1), 1, za=(0, 1, 0), zb=(1, 1, 0))
 
     def test_one_axis(self):
-        # theta has no regard to how the axes are to each other: it is 0.2 after two joints, and K' is 0.04.
+        # theta ignores the directions of the axes. It is 0.2 for two joints, and K' is 0.04.
         joint = turns(alpha=-0.1, beta=1.0)
         back = free(q=(0, 0, -math.sin(0.05), math.cos(0.05)), w=(0, 0, 1))
-        # One is left and the other one entered, so that Omega = 0. A is at 1 from its centre, B at sqrt 2.
+        # The path has one joint up and one down, so Omega = 0. A is at 1 from its centre, and B at sqrt 2.
         for x in (joint, back):
             self.bound(1 - 0.02, [x, x], (1, 2), 2, za=(0, 1, 0), zb=(1, 1, 0))
             self.bound(1 - 0.02 * math.sqrt(2), [x, x], (1, 2), 1, za=(0, 1, 0), zb=(1, 1, 0))
-        # One on the other, which turns it on, back, or about an axis of its own.
+        # The second joint is on the first one, and turns in the same or the opposite direction, or about another axis.
         for axis in ((0, 0, 1), (0, 0, -1), (1, 0, 0), (0.6, 0, 0.8)):
             second = turns(axis, -0.1, 1.0, on=1)
             self.bound(1 - 0.02, [joint, second], (0, 2), 0, zb=(1, 0, 0))
             self.bound(1 - 0.02, [joint, second], (2, 0), 1, zb=(1, 0, 0))
             self.bound(1 - 0.02, [joint, second, free(p=(1, 0, 0), on=2)], (0, 3), 0)
-            # An arm between them is carried by the first one alone.
+            # The arm between the joints is carried by the first one.
             second = turns(axis, -0.1, 1.0, p=(1, 0, 0), on=1)
             self.bound(1 - 0.005, [joint, second], (0, 2), 0)
-        # A second one of other speed: by 0.1 and by 0.3.
+        # The joints have different speeds: 0.1 and 0.3.
         second = turns((0, 0, 0.5), -0.6, 6.0, on=1)
         self.bound(1 - 0.4 ** 2 / 2, [joint, second], (0, 2), 0, zb=(1, 0, 0))
-        # An arm that gets longer on the second one: theta^2 (|d| + |m|) + 2 theta |m|.
+        # The arm on the second joint becomes longer: theta^2 (|d| + |m|) + 2 theta |m|.
         slide = [joint, turns(alpha=-0.1, beta=1.0, on=1), slides((1, 0, 0), 0.9, 1.0, on=2)]
         self.bound(1 - 0.1 - (0.04 * 1.1 + 2 * 0.2 * 0.1) / 2, slide, (0, 3), 0)
 
     def test_chains(self):
         z, x = turns(alpha=-0.1, beta=1.0), turns((1, 0, 0), -0.1, 1.0, on=1)
-        # About z and then about x: theta = 0.2. A point on x rests on its own joint.
+        # The link turns about z and then about x, so theta = 0.2. A point on x is on the axis of its own joint.
         self.bound(1 - 0.02, [z, x], (0, 2), 0, zb=(1, 0, 0))
         self.bound(1 - 0.02, [z, x], (2, 0), 0, za=(-1, 0, 0))                           # the same for A
-        self.bound(1 - 0.02, [z, x, free(p=(1, 0, 0), on=2)], (0, 3), 0)                 # an arm there, no point
-        # The axis turns with the end of the chain: x is left first, then z, with the other signs.
+        self.bound(1 - 0.02, [z, x, free(p=(1, 0, 0), on=2)], (0, 3), 0)                 # an arm instead of a point
+        # The frame turns with the end of the chain. The path goes up through x and then z, with opposite signs.
         self.bound(1 - 0.02, [z, x], (2, 0), 1, zb=(1, 0, 0))
         self.bound(1 - 0.02, [z, x], (0, 2), 2, za=(-1, 0, 0))
-        # Up and down: off the joint x to z, and on another joint with the same turn.
+        # The path goes up through x to z, and down through another joint with the same turn.
         twin = turns((1, 0, 0), -0.1, 1.0, on=1)
         self.bound(1 - 0.02, [z, x, twin], (2, 3), 1, zb=(1, 0, 0))
-        # Up by x, which takes off the arm of the twin, 1 long and carried by the link of z.
+        # The path goes up through x, and then along the arm of the twin. That is 1 long and carried by the link of z.
         twin = turns((1, 0, 0), -0.1, 1.0, p=(1, 0, 0), on=1)
         self.bound(1 - 0.005, [z, x, twin], (2, 3), 1)
-        # Each arm has its bound: the way from A to B has 5 and -4 there. From the world each way has its own.
+        # Each arm has its own bound. The path from A to B has arms of 5 and -4, and a path from the world one of them.
         arms = [z, turns((1, 0, 0), -0.1, 1.0, p=(-5, 0, 0), on=1), turns((1, 0, 0), -0.1, 1.0, p=(-4, 0, 0), on=1)]
         for frame in (0, 1, 2):
             self.bound(1 - 0.005 * 9, arms, (2, 3), frame)
-        # A slide does not turn: its arm, and the next one, are carried by the joint before. They are 3 and 4 long.
+        # A prismatic joint does not turn. Its arm of 3 and the next arm of 4 are carried by the joint before.
         slide = [z, slides((1, 0, 0), -3.0, 0.0, on=1), turns((1, 0, 0), -0.1, 1.0, p=(4, 0, 0), on=2)]
         self.bound(1 - 0.005 * 7, slide, (0, 3), 0)
-        # An arm that gets longer: theta^2 (|d| + |m|) + 2 theta |m|.
+        # The arm becomes longer: theta^2 (|d| + |m|) + 2 theta |m|.
         slide = [z, slides((1, 0, 0), 0.9, 1.0, on=1)]
         self.bound(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, slide, (0, 2), 0)
-        # A screw turns, and its arm gets longer: the arm is before the turn, and the point behind it.
+        # A screw turns, and its arm becomes longer. The path has the arm before the turn, and the point after it.
         screw = [z, moves((1, 0, 0), (0, 0, 1), -0.1, 1.0, 1, p=(1, 0, 0), on=1)]
         self.bound(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, screw, (0, 2), 0)
         self.bound(2 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1 + 0.04) / 2, screw, (0, 2), 0, zb=(1, 0, 0))
-        # From the link of the screw its turn is before the arm; A is at the place of z.
+        # In the frame of the screw, the path has the turn before the arm. A is at the position of z.
         self.bound(1 - 0.1 - (0.01 * 1.1 + 2 * 0.1 * 0.1) / 2, screw, (1, 2), 2)
 
     def test_three_joints(self):
-        # theta = 0.3, about any axes, in whatever order; along one axis as much is true.
+        # theta = 0.3 for any axes in any order. Along one axis the bound is tight.
         for axis in ((0, 1, 0), (math.sqrt(0.5), 0, math.sqrt(0.5)), (0, 0, 1), (1, 0, 0)):
             joints = [turns(alpha=-0.1, beta=1.0), turns((1, 0, 0), -0.1, 1.0, on=1), turns(axis, -0.1, 1.0, on=2)]
             self.bound(1 - 0.09 / 2, joints, (0, 3), 0, zb=(1, 0, 0))
@@ -911,17 +911,17 @@ class SecondOrder(Case):
 
 
 class SecondDerivatives(Case):
-    """Lemma 2 against motions in binary64, which are differentiated as numbers."""
-    STENCIL, STEP = (1 / 90, -3 / 20, 3 / 2, -49 / 18, 3 / 2, -3 / 20, 1 / 90), 0.02   # of a second derivative
+    """Compares Lemma 2 with numerical derivatives of motions in binary64."""
+    STENCIL, STEP = (1 / 90, -3 / 20, 3 / 2, -49 / 18, 3 / 2, -3 / 20, 1 / 90), 0.02   # weights of a second derivative
 
     def seen(self, links, frame, end, t):
-        """As the link `frame` sees them: the place of the centre of the other link, and its axes."""
+        """Returns the position of the other link's centre, and its axes, in the frame of the link `frame`."""
         origin, axes = where(links, frame, centre(links, frame), t), [direction(links, frame, e, t) for e in UNIT3]
         place = fsub(where(links, end, centre(links, end), t), origin)
         return [[fdot(x, e) for e in axes] for x in (place, *(direction(links, end, e, t) for e in UNIT3))]
 
     def longest(self, columns):
-        """The length of the longest vector that the matrix makes of one of length 1, or a bit less."""
+        """Returns the largest factor by which the matrix stretches a vector, or slightly less."""
         u = 0.8, 0.48, 0.36
         for _ in range(20):
             x = fadd(*map(fscale, u, columns))
@@ -930,7 +930,7 @@ class SecondDerivatives(Case):
         return flength(fadd(*map(fscale, u, columns)))
 
     def shares(self, links, frame, end, t0, t1):
-        """What share of K and of K' is needed at some time; None of one that is small."""
+        """Returns the largest used share of K and of K' at sampled times, or None for a small bound."""
         exact, t, h = self.exact_links(links), (t0 + t1) / 2, (t1 - t0) / 2
         *_, k, bend = so.motion(exact[frame], exact[end], Fraction(t), so.fix(Fraction(h)))
         needs, out = [0, 0], []
@@ -958,22 +958,22 @@ class SecondDerivatives(Case):
             self.assertGreater(sum(found) / len(found), mean)
 
     def test_bounds_that_are_needed(self):
-        # All along one axis: all of K' is needed, and all of the bound of an arm across it, left or entered.
+        # With all joints along one axis, K' is tight. So is the bound of an arm across that axis, up or down.
         for count in (1, 2, 3):
             joints = [turns(alpha=-0.1 * i, beta=1.0 + i, on=i) for i in range(count)]
             arm = [*joints, free(p=(1, 0, 0), on=count)]
             self.assertGreater(self.shares(joints, 0, count, 0.25, 0.5)[1], 0.999)
             self.assertGreater(self.shares(joints, count, 0, 0.25, 0.5)[1], 0.999)
             self.assertGreater(self.shares(arm, 0, count + 1, 0.25, 0.5)[0], 0.999)
-            # A way up: all joints from the last one on turn the arm of the first.
+            # On the way up, all later joints turn the arm of the first one.
             up = [joints[0]._replace(p=(1, 0, 0)), *joints[1:]]
             self.assertGreater(self.shares(up, count, 0, 0.25, 0.5)[0], 0.999)
-            # Up and down, by turns against each other.
+            # The path goes up and down, with opposite turns.
             down = [x._replace(beta=-x.beta, alpha=-x.alpha, on=x.on and x.on + count) for x in joints]
             both = [*joints, *down, free(p=(1, 0, 0), on=2 * count)]
             place, turned = self.shares(both, count, 2 * count + 1, 0.25, 0.5)
             self.assertGreater(min(place, turned), 0.999)
-        # An arm that passes the axis needs 2 theta |m|, and theta^2 |m| is little of it.
+        # An arm that passes the axis needs 2 theta |m|. Its theta^2 |m| is comparatively small.
         for half, least in ((0.05, 0.95), (0.01, 0.99)):
             slide = [turns(beta=1.0), slides((1000, 0, 0), -0.5, 1.0, on=1)]
             self.assertGreater(self.shares(slide, 0, 2, 0.5 - half, 0.5 + half)[0], least)
@@ -982,8 +982,8 @@ class SecondDerivatives(Case):
 
 
 class Balls(Case):
-    """Leaves with balls: a margin a little below is proven, one a little above is not. All distances here are exact in
-    binary64, but for those after turns."""
+    """Tests leaves with balls. A margin slightly below is proven, one slightly above is not. Distances are exact in
+    binary64, except those after turns."""
     def exactly(self, want, a, b, la, lb, step, slack=0.0, **more):
         self.bound(want, [la, lb], a, b, (1, 2), step, slack, **more)
 
@@ -998,7 +998,7 @@ class Balls(Case):
             self.fails(why, files, make(want + slack))
 
     def both(self, want_a, want_b, a, b, la=free(), lb=free(), slack=0.0, **more):
-        """What a ball around A proves, and one around B; and with A and B exchanged."""
+        """Tests the margins that a ball around A and one around B prove, and the same with A and B exchanged."""
         for want, step, other in ((want_a, AROUND_A, AROUND_B), (want_b, AROUND_B, AROUND_A)):
             self.exactly(want, a, b, la, lb, step, slack, **more)
             self.exactly(want, b, a, lb, la, other, slack, **more)
@@ -1013,17 +1013,17 @@ class Balls(Case):
     def test_radii(self):
         for ra, rb in ((0.25, 0), (0, 0.25), (0.5, 0.125), (0.75, 0.25), (2, 0)):
             self.both(1 - ra - rb, 1 - ra - rb, points((0, 0, 0, ra)), points((0, 0, 1, rb)))
-        # The ball around a part has its middle in that of the box of the vertices, and the largest radius on top.
+        # The ball's centre is that of the bounding box of the vertices, and the largest radius is added to its radius.
         self.both(1.5, 1.5, points((0, 0, 0), (2, 0, 0, 0.5)), points((4, 0, 0)))
         self.both(1.5, 2, points((0, 0, 0, 0.5), (2, 0, 0)), points((4, 0, 0)))
-        # Boxes of the other part are opened, as far as triangles. In those a radius counts for all three corners.
+        # Boxes of the other part are split down to triangles. A triangle counts with the largest radius of its corners.
         a = points((0, 0, 0, 0.125))
         self.exactly(0.625, a, points((1, 0, 0, 0.25), (3, 0, 0, 1.5)), free(), free(), AROUND_A)
         b = mesh([(1, 0, 0), (3, 0, 0, 0.5), (3, 1, 0)], [(0, 1, 2)])
         self.exactly(0.875 - 0.5, a, b, free(), free(), AROUND_A)
 
     def test_ball_is_around_the_box(self):
-        # The box of A is 6 by 8 around (7, -2, 1), with most corners at one end of it.
+        # The box of A is 6 by 8 around (7, -2, 1), with most vertices at one end.
         a = points((4, -2, 5), (10, -2, 5), (4, -2, -3), (4, -2, 4.5), (4, -2, 4))
         for place, far in (((7, -10, 1), 8), ((7, 10, 1), 12), ((22, -2, 1), 15), ((10, 2, 13), 13), ((7, 3, 1), 5)):
             self.exactly(far - 5, a, points(place), free(), free(), AROUND_A)
@@ -1031,16 +1031,16 @@ class Balls(Case):
         for place, far, near in (((7, -10, 1), 8, 8), ((7, 10, 1), 12, 12), ((22, -2, 1), 15, 12), ((7, 3, 1), 5, 5)):
             self.both(far - 5, near, a, points(place))
         self.exactly(13 - 2.5, points((0, 0, 0), (3, 4, 0)), points((4.5, 6, 12)), free(), free(), AROUND_A)
-        # It is as large as the corners need, not as the corners of the box: here 4, around the origin.
+        # The ball reaches the farthest vertex, not the corners of the box. Here its radius is 4 around the origin.
         a = points((-3, 0, 0), (0, 0, 4), (3, 0, 0), (0, 0, -4))
         for order in itertools.permutations(range(4)):
             self.bound(13 - 4, [], a, points((5, 12, 0)), (0, 0), AROUND_A, 0.0, orders=(order, None))
-        # The farthest corner and the largest radius need not be of one vertex.
+        # The farthest vertex and the largest radius may belong to different vertices.
         a = points((-3, 0, 0, 0.5), (0, 0, 4, 0.25), (3, 0, 0, 0.75), (0, 0, -4))
         self.exactly(13 - 4.75, a, points((5, 12, 0)), free(), free(), AROUND_A)
 
     def test_other_part_is_boxes_of_triangles(self):
-        # In the box of a triangle, and not on it: nothing more is known of it. A plane is between both.
+        # A point is in the box of a triangle, but not in the triangle. No ball separates them, but a plane does.
         b = mesh([(0, 0, 0), (2, 0, 0), (0, 2, 0)], [(0, 1, 2)])
         self.exactly(0, points((1.5, 1.5, 0)), b, free(), free(), AROUND_A)
         self.exactly(0, points((2, 2, 0)), b, free(), free(), AROUND_A)
@@ -1052,13 +1052,13 @@ class Balls(Case):
         a = points((1.5, 1.5, 0))
         apart = two(a, b, free(), free(), leaf(along(-math.sqrt(0.5), -math.sqrt(0.5), 0)), 0.7)
         self.holds((a, certificate(a), b, certificate(b)), apart)
-        # The nearest triangle counts, wherever it is in the order; the boxes of most parts have the point in them.
+        # The nearest triangle counts, at any index. The boxes of most parts contain the point.
         b = points((-3, -4, 0), (6, 8, 0), (0, 2, 0), (0, 7, 0))
         for order in itertools.permutations(range(4)):
             self.bound(2, [], points((0, 0, 0)), b, (0, 0), AROUND_A, 0.0, orders=(None, order))
 
     def test_moves(self):
-        # B passes: at half of the time it is 4 away, and 3 farther along.
+        # B passes A. At half of the time it is 4 away. It moves by 3 to both sides of that point.
         self.both(1, 1, POINT, points((5, 0, 0)), lb=free(p=(-1, -3, 0), v=(0, 6, 0)))
         self.both(1, 1, POINT, POINT, la=free(v=(1, 0, 0)), lb=free(p=(4, -3, 0), v=(1, 6, 0)))
         self.both(3, 3, POINT, POINT, lb=free(p=(5, 0, 0), v=(-2, 0, 0)))
@@ -1073,7 +1073,7 @@ class Balls(Case):
             self.fails("is too near", (POINT, POINT_TREE), made[1])
 
     def test_ticks(self):
-        # One tick has its middle at 0 and begins before; three have it at 1.
+        # For one tick the middle is 0, and the interval begins before. For three ticks the middle is 1.
         for ticks, want in ((1, 10 - 1), (2, 9 - 1), (3, 9 - 2), (4, 8 - 2)):
             for duration in ticks - 1.0, ticks - 0.5:
                 more = {"lb": free(p=(10, 0, 0), v=(-1, 0, 0)), "duration": duration, "units": TICKS}
@@ -1091,84 +1091,84 @@ class Balls(Case):
         self.both(2 * tiny, 2 * tiny, POINT, points((0, 3 * tiny, 0, tiny)), units=(-1074, 0))
 
     def test_both_move_together(self):
-        # The other body's link is what all is seen from.
+        # The frame is the other body's link.
         a, b = points((20, 0, 0)), points((23, 4, 0))
         fly = free(p=(-4.5, 4.5, -4.5), v=(9, -9, 9))
         self.both(5, 5, a, b, fly, fly)
-        self.both(0, 0, a, b, fly, free())          # either moves by 7.8 to both sides
+        self.both(0, 0, a, b, fly, free())          # each moves by 7.8 to both sides
         self.both(0, 0, a, b, free(), fly)
         for spin in (turns(beta=6.0), turns((1, 2, -2), 1.0, 2.0, p=(1, 1, 1)),
                      free(w=(3, -6, 6), v=(1, 9, 9), c=(1, 2, 3))):
             for step in (AROUND_A, AROUND_B):
                 self.bound(5, [spin], a, b, (1, 1), step)
                 self.bound(5, [spin, free(p=(1, 0, 0), on=1), free(p=(1, 3, 4), on=1)], POINT, POINT, (2, 3), step)
-                # One of both slides on what turns: by 1 to both sides of (3, 4, 0).
+                # One of them slides on the turning link, by 1 to both sides of (3, 4, 0).
                 self.bound(4, [spin, free(on=1), free(p=(2, 4, 0), v=(2, 0, 0), on=1)], POINT, POINT, (2, 3), step)
                 self.bound(0, [spin, free(on=1)], a, b, (2, 0), step)
                 self.bound(0, [spin, free(on=1)], a, b, (0, 2), step)
 
     def test_turning(self):
-        # A turns by 0.5 to both sides. Its corner at 2 is moved by 1, and by half of 0.25 * 2 that it may bend. Seen
-        # from A it is the corner of B that turns, at 10.
+        # A turns by 0.5 to both sides. The corner at distance 2 moves by 1 in first order, and the second order adds
+        # half of 0.25 * 2. In the frame of A, the corner of B at distance 10 turns instead.
         corner, far, back = points((2, 0, 0)), points((10, 0, 0)), (0, 0, -math.sin(0.25), math.cos(0.25))
         for a in (turns(alpha=-0.5, beta=1.0), turns((0, 0, -0.25), 2.0, -4.0), free(q=back, w=(0, 0, 1))):
             self.both(8 - 1 - 0.25, 8 - 5 - 1.25, corner, far, a, free(), 1e-9)
             self.both(7.75 - 1 - 0.25, 7.75 - 5 - 1.25, points((2, 0, 0, 0.25)), far, a, free(), 1e-9)
-            # The middle of the part counts, and not its corners.
+            # The centre of the ball counts, not the corners of the part.
             self.both(10, 10 - 5 - 1.25, POINT, far, a, free(), 1e-9)
             self.exactly(10 - 3, points((-3, 0, 0), (3, 0, 0)), far, a, free(), AROUND_A, 1e-9)
             self.exactly(8 - 3 - 1 - 0.25, points((-1, 0, 0), (5, 0, 0)), far, a, free(), AROUND_A, 1e-9)
-            # On the axis nothing moves, but the lemmas do not know how what bends is placed.
+            # On the axis nothing moves, but the bound of the second derivative ignores the direction of the arm.
             self.both(10 - 0.25, 10 - 1.5, points((0, 0, 2)), points((0, 0, 12)), a, free(), 1e-9)
-        # With a centre elsewhere the corner is at 2 from there.
+        # With another centre, the corner is at distance 2 from it.
         a = free(p=fscale(-5, rotate(back, (1, 0, 0))), q=back, w=(0, 0, 1), c=(5, 0, 0))
         self.exactly(8 - 1 - 0.25, points((7, 0, 0)), far, a, free(), AROUND_A, 1e-9)
-        # In the middle of the time A points to y.
+        # At the middle of the time A points to y.
         a = turns(alpha=math.pi / 2 - 0.5, beta=1.0)
         self.exactly(8 - 1.25, corner, points((0, 10, 0)), a, free(), AROUND_A, 1e-9)
         self.exactly(math.sqrt(104) - 1.25, corner, far, a, free(), AROUND_A, 1e-9)
-        # Half of the velocity and the 1 along y of the turn are added as vectors.
+        # Half of the velocity, and the turn's displacement of 1 along y, are added as vectors.
         for v, m in (((6, 0, 0), math.hypot(3, 1)), ((0, 6, 0), 4), ((0, -2, 0), 0), ((0, -6, 0), 2),
                      ((0, 0, 1), math.hypot(1, 0.5))):
             a = free(p=fscale(-0.5, v), q=back, v=v, w=(0, 0, 1))
             self.exactly(8 - m - 0.25, corner, far, a, free(), AROUND_A, 1e-9)
 
     def test_chains(self):
-        # The numbers are those of SecondOrder: 0.2 long, and each joint turns by 0.1 to both sides.
+        # As in SecondOrder, the interval is 0.2 long, and each joint turns by 0.1 to both sides.
         z, x, k = turns(alpha=-0.1, beta=1.0), turns((1, 0, 0), -0.1, 1.0, on=1), 0.2 ** 2
         one, far = points((1, 0, 0)), points((10, 0, 0))
         self.bound(9 - 0.1 - k / 2, [z, x], one, far, (2, 0), AROUND_A, duration=0.2)
         self.bound(9 - 0.1 - k / 2, [z, x], far, one, (0, 2), AROUND_B, duration=0.2)
         self.bound(9 - 0.1 - k / 2, [z, x, free(p=(1, 0, 0), on=2)], POINT, far, (3, 0), AROUND_A, duration=0.2)
         self.bound(9 - 1 - 10 * k / 2, [z, x], one, far, (2, 0), AROUND_B, duration=0.2)
-        # From the link of z only x turns, about the axis on which the point is.
+        # In the frame of the link of z, only x turns, about the axis through the point.
         self.bound(9 - 0.005, [z, x], one, far, (2, 1), AROUND_A, duration=0.2)
         self.bound(9 - 0.05, [z, x], one, far, (2, 1), AROUND_B, duration=0.2)
-        # Joints beside each other: seen from the other one both turn, by as much and so not at all. The lemmas do not
-        # know that they have one axis.
+        # Two parallel joints turn by the same angle, so the links are static relative to each other. The lemmas ignore
+        # that the joints have the same axis.
         twin = turns((1, 0, 0), -0.1, 1.0, on=1)
         self.bound(9 - k / 2, [z, x, twin], one, far, (2, 3), AROUND_A, duration=0.2)
         self.bound(9 - 10 * k / 2, [z, x, twin], one, far, (2, 3), AROUND_B, duration=0.2)
 
     def test_axes_of_links(self):
-        # B is a rod along its own x, which is turned to y = x. In its link A is at (12, 5), and at (-5, -12).
+        # B is a rod along its own x, which is rotated to y = x. In its frame A is at (12, 5), or at (-5, -12).
         q, s = (0, 0, math.sin(math.pi / 8), math.cos(math.pi / 8)), math.sqrt(0.5)
         rod_b = points(*[(i, 0, 0) for i in range(25)])
         for up in (free, turns, slides):
             lb = up(p=(1, 2, 3), q=q)
             self.exactly(5, points((1 + 7 * s, 2 + 17 * s, 3)), rod_b, free(), lb, AROUND_A, 1e-9)
             self.exactly(13, points((1 + 7 * s, 2 - 17 * s, 3)), rod_b, free(), lb, AROUND_A, 1e-9)
-        # The middle of A is at (0, 1, 0), as its link has a quarter turn. How the other one is turned does not matter.
+        # The centre of the ball around A is at (0, 1, 0) after a quarter turn. The rotation of B does not matter.
         a, quarter = points((0, 0, 0), (2, 0, 0)), (0, 0, math.sqrt(0.5), math.sqrt(0.5))
         for qb in ((0, 0, 0, 1), quarter, (0.5, 0.5, 0.5, 0.5)):
             self.exactly(1, a, POINT, free(q=quarter), free(p=(0, 3, 0), q=qb), AROUND_A, 1e-9)
             self.exactly(4, a, POINT, free(q=quarter), free(p=(3, 5, 0), q=qb), AROUND_A, 1e-9)
-        # Both have centres that are elsewhere.
+        # Both links have centres that are not at the origin.
         la, lb = free(q=quarter, c=(3, 1, 2)), free(p=(0, 3, 0), q=quarter, c=(-1, 4, 2))
         self.exactly(1, a, POINT, la, lb, AROUND_A, 1e-9)
 
     def test_parts(self):
-        # The ball around A as a whole has B in it; around each point it has not.
+        # The ball around the whole A contains B. The balls around its points do not.
         a, b = points((0, 0, 0), (6, 0, 0)), points((3, 4, 0))
         self.exactly(1, a, b, free(), free(), AROUND_A)
         files = a, certificate(a), b, certificate(b)
@@ -1176,7 +1176,7 @@ class Balls(Case):
         for steps in (b"\0" + AROUND_A + AROUND_A, b"\0" + AROUND_B + AROUND_A, AROUND_B):
             self.holds(files, make(steps, math.nextafter(5, 0)))
             self.fails("is too near", files, make(steps, 5))
-        # Only one half of A is far enough from B: it holds when the other one is proven by another leaf.
+        # Only one half of A is far enough from B. The other half needs another leaf.
         for order, first in (((0, 1), True), ((1, 0), False)):
             a = mesh([(0, 0, 0), (2, 0, 0), (0, 2, 0), (-9, 0, 0)], [(0, 1, 2), (3, 3, 3)])
             b = points((1.5, 1.5, 0))
@@ -1187,7 +1187,7 @@ class Balls(Case):
                 self.holds(files, make(b"\0" + b"".join(steps), 0.5))
                 why = f"the ball around {'AB'[ball[0] - 6]} of"
                 self.fails(why, files, make(b"\0" + b"".join(reversed(steps)), 0.5))
-        # The same of B, which is split by 1.
+        # The same with B split, by step 1.
         a, b = b, a
         files = a, certificate(a), b, certificate(b, (0, 1))
         plane = leaf(along(-math.sqrt(0.5), -math.sqrt(0.5), 0))
@@ -1197,7 +1197,7 @@ class Balls(Case):
         self.fails("can not be split", files, make(b"\0" + AROUND_A + AROUND_A, 0.5))
 
     def test_only_the_part_counts(self):
-        # The ball is around this part, and has to be away from this part of the other one only.
+        # Only the two parts of the entry count, not the whole bodies.
         a, b = points((0, 0, 0), (100, 0, 0)), points((0, 8, 0), (100, -9, 0))
         files = a, certificate(a), b, certificate(b)
         quarters = b"\0" + (b"\1" + AROUND_A + AROUND_B) + (b"\1" + AROUND_B + AROUND_A)
@@ -1228,7 +1228,7 @@ class Balls(Case):
             margins = [0.99, 1.99, 2.99]
             margins[k] += 0.02
             self.fails(f"the ball around {around} of pair {k} is too near the other part", files, make(margins, steps))
-        # A body is too near itself.
+        # A body has no distance from itself.
         for pair in ((0, 0), (1, 1)):
             for step in (AROUND_A, AROUND_B):
                 self.fails("is too near", files, proof(links, bodies, [(*pair, 0.0)], step))
@@ -1267,7 +1267,7 @@ class Pairs(Case):
 
     def test_witness_of_a_pair(self):
         pairs, steps, corner = [(0, 1, 0.99), (1, 2, 1.24)], leaf(Z) * 2, (0, (WHOLE, 0, 0))
-        # The gaps are 1 and 2 - 0.5 t; with the radius of a body 1.25 is near.
+        # The gaps are 1 and 2 - 0.5 t. The radius of one body leaves 1.75 - 0.5 t of the second gap.
         for time in (0.0, 0.5, 1.0):
             need = 2 - 0.5 * time - 1.24 - 0.25
             self.holds(self.M, self.make(pairs, steps, witness=(0, time, 0.011, corner, corner)),
@@ -1280,7 +1280,7 @@ class Pairs(Case):
 
 class Parts(Case):
     def setUp(self):
-        # A is a notch: plates x = -1 and y = -1. B is a small triangle in it. No plane parts them.
+        # A is a notch of the plates x = -1 and y = -1, with a small triangle B in it. No single plane separates them.
         self.a = mesh([(-1, -1, -9), (-1, 9, 0), (-1, -1, 9), (9, -1, 0)], [(0, 1, 2), (0, 3, 2)])
         self.b = mesh([(-0.75, -0.75, 0), (-0.5, -0.75, 0), (-0.75, -0.5, 0)], [(0, 1, 2)])
         self.cb = certificate(self.b)
@@ -1302,7 +1302,7 @@ class Parts(Case):
         self.holds(*self.notch(b"\0" + leaf(X) + split_time(leaf(Y), leaf(Y)), margin=0.24))
 
     def test_moved_by_one_unit(self):
-        # The gaps are 0.25 exactly; a corner that is nearer by the least step of its binary64 has less.
+        # The gaps are exactly 0.25. Moving a corner by one unit in the last place makes the gap smaller.
         exact = math.nextafter(0.25, 0)
         steps = b"\0" + leaf(X) + leaf(Y)
         self.holds(*self.notch(steps, margin=exact))
@@ -1320,7 +1320,7 @@ class Parts(Case):
             self.fails("does not prove", *self.notch(wrong, certificate(self.a, order)))
 
     def test_halves(self):
-        # The first half of three is one. The point 0 is left of B, and all others are right of it.
+        # The first part of three triangles has one. The point 0 is left of B, and all others are right of it.
         a = points(*[(i, i * i, 0) for i in range(6)])
         left, right = leaf(X), leaf(minus(X))
         for order, steps in ((range(6), b"\0\0" + left + right + right),
@@ -1332,7 +1332,7 @@ class Parts(Case):
             self.fails("does not prove", files, make(0.51))
 
     def test_uneven_trees(self):
-        # The same points: in each tree the steps part 0 from what has others only. None of them fits another tree.
+        # All trees have the same points. The steps separate point 0 from the others, and fit one tree only.
         a = points(*[(i, i * i, 0) for i in range(6)])
         trees = {(0, (1, (2, (3, (4, 5))))): "/lr", ((((5, (4, 3)), 2), 1), 0): "/rl",
                  ((0, 1), (2, (3, (4, 5)))): "//lrr", (((0, (1, 2)), 3), (4, 5)): "///lrrr",
@@ -1340,7 +1340,7 @@ class Parts(Case):
         left, right = leaf(X), leaf(minus(X))
         for (tree, steps), (other, _) in itertools.product(trees.items(), repeat=2):
             files = a, certificate(a, tree=other), POINT, POINT_TREE
-            # Exchanged, B is split by 1, and is on the other side of the planes.
+            # With exchanged bodies, step 1 splits B, and the planes have the other direction.
             for back, codes in (1, {"/": b"\0", "l": left, "r": right}), (-1, {"/": b"\1", "l": right, "r": left}):
                 def make(margin):
                     bodies = [(a, 0), (POINT, 1)][::back]
@@ -1352,7 +1352,7 @@ class Parts(Case):
                     self.fails("", files, make(0.49))
 
     def test_any_tree_is_as_good(self):
-        # What no step splits is split in the heights and distances alone, as far as triangles. B is in most boxes.
+        # Without splits in the proof, only the bounds of heights and distances split parts. B is inside most boxes.
         rng, a = random.Random(9), points((-3, -4, 0), (6, 8, 0.5), (0, 2, 0), (0, 7, 1), (1, -3, 0), (-9, 1, 0.25))
         orders = list(itertools.permutations(range(6)))
         for _ in range(40):
@@ -1364,7 +1364,7 @@ class Parts(Case):
                 self.fails(why, files, make(float(far)))
 
     def test_balls_around_parts_of_uneven_trees(self):
-        # The ball around 0 and 1 is 1 around (1, 0, 0); with 2 it is 3 around (3, 0, 0). B is at (1, 6, 0).
+        # The ball around 0 and 1 has radius 1 and centre (1, 0, 0). With 2 it has radius 3 and centre (3, 0, 0).
         a, b = points((0, 0, 0), (2, 0, 0), (6, 0, 0)), points((1, 6, 0))
         for tree, first, second in (((0, (1, 2)), math.sqrt(37), math.sqrt(45) - 2), (((0, 1), 2), 5, math.sqrt(61)),
                                     ((2, (0, 1)), math.sqrt(61), 5), (((0, 2), 1), math.sqrt(40) - 3, math.sqrt(37))):
@@ -1384,7 +1384,7 @@ class Parts(Case):
                 parts, read = triangles_of(tree), so.Tree(*self.files(data, certificate(data, tree=tree)))
                 self.assertEqual((len(read.spans), len(read.halves)), (2 * count - 1, 2 * count - 1))
                 self.assertEqual([[t[0] for t in read.triangles[i:j]] for i, j in read.spans], parts)
-                def same(part, tree):   # the parts of a part are those of the pair
+                def same(part, tree):   # compares the parts of a part with the pair of trees
                     self.assertEqual(parts[part], triangles_of(tree)[0])
                     self.assertEqual(len(read.halves[part]), 0 if isinstance(tree, int) else 2)
                     for half, child in zip(read.halves[part], () if isinstance(tree, int) else tree):
@@ -1392,7 +1392,7 @@ class Parts(Case):
                 same(0, tree)
 
     def test_deep_trees(self):
-        # All around B, which is in the boxes of all parts of more than one.
+        # The points are around B, which is inside the box of each part with more than one point.
         def around(n): return points(*[((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0))[i % 4] for i in range(n)])
         a = around(91)
         for to in (0, 1):
@@ -1403,13 +1403,13 @@ class Parts(Case):
             self.holds(files, make(AROUND_B), make(leaf(Z), 1), make(AROUND_A, 2.5))
             self.fails("is too near", files, make(AROUND_B, margin=1.0), make(AROUND_A))
             self.fails("does not prove", files, make(leaf(Z), 1, 1.0))
-            # All 90 splits, down to points. Those that are first come one by one; or all first parts come at once.
+            # The proof has all 90 splits, down to points. Each first part is a point, or all splits come first.
             sides = [leaf(axis) for axis in (minus(X), X, minus(Y), Y)]
             each = [sides[i % 4] for i in range(91)]
             steps = b"".join(b"\0" + x for x in each[:-1]) + each[-1] if to == 0 else b"\0" * 90 + b"".join(each)
             self.holds(files, make(steps, margin=0.99))
             self.fails("does not prove", files, make(steps, margin=1.0), make(steps.replace(each[2], each[1])))
-            # Far deeper ones are read, but not worked with; what comes after them is checked.
+            # Far deeper trees are read but not checked. Later proofs are still checked.
             deep = around(5001)
             files = deep, certificate(deep, numbers=leaning(5001, to)), *files
             for bodies, split in (((deep, POINT), b"\0"), ((POINT, deep), b"\1"), ((deep, deep), b"\0")):
@@ -1439,12 +1439,12 @@ class Parts(Case):
             run("bytes follow", numbers, bytes(20))
             for cut in range(8, 60, 3):
                 run("ends too early", numbers, cut=cut)
-            # The number of the triangle that is last is that of another one, or of none.
+            # The last triangle repeats another one, or does not exist.
             for other in (numbers[-2], 3, 4, 1 << 31, (1 << 32) - 1):
                 run("each triangle once", [*numbers[:-1], other])
         run("each triangle once", [1, 3, 1, 1, 2])
         run("each triangle once", [1, 2, 1, 2, 2])
-        # How many are in the first part, of all or of two: at least one, and not all.
+        # The number of triangles of a first part is at least 1, and less than all.
         for bad in (0, 3, 4, 5, 1 << 31, (1 << 32) - 1):
             run("byte 40", [bad, *good[0][1:]])
             run("a part has no triangle", [bad, *good[0][1:]])
@@ -1454,7 +1454,7 @@ class Parts(Case):
             run("byte 44", [2, bad, 0, 1, 2])
             run("a part has no triangle", [1, 0, bad, 1, 2])
             run("a part has no triangle", [2, bad, 0, 1, 2])
-        # One triangle has its number only.
+        # A single triangle only has its index.
         a = points((-1, 0, 0))
         run("", [0])
         run("each triangle once", [1])
@@ -1478,15 +1478,15 @@ class Parts(Case):
         (a, ca, b, cb), good = self.notch(b"\0" + leaf(X) + leaf(Y))
         self.holds((b, cb, a, ca), good)
         self.holds((FLAT, FLAT_TREE, b, cb, a, ca, b, cb), good)
-        self.holds((b, cb, FLAT, b"nothing", a, ca), good)   # not asked for
+        self.holds((b, cb, FLAT, b"nothing", a, ca), good)   # a mesh that is not used
         self.fails("is not given", (a, ca), good, verdict="unverifiable")
         self.fails("another mesh", (a, cb, b, ca), good)
-        # Swapped in the proof: then A is the small triangle, which has no halves.
+        # Only the digests are exchanged, so A is the small triangle, which cannot be split.
         links, digests = HEADER - 8 - 16 - 72, [hashlib.sha256(m).digest() for m in (a, b)]
         self.assertEqual(good[links:links + 32] + good[links + 36:links + 68], b"".join(digests))
         swapped = good[:links] + digests[1] + good[links + 32:links + 36] + digests[0] + good[links + 68:]
         self.fails("", (a, ca, b, cb), swapped)
-        # Really swapped, the axes point the other way.
+        # With really exchanged bodies, the axes have the opposite direction.
         self.holds((a, ca, b, cb), two(b, a, *self.rest, b"\1" + leaf(minus(X)) + leaf(minus(Y)), margin=0.24))
 
     def test_missing_files(self):
@@ -1499,7 +1499,7 @@ class Parts(Case):
 
 class Contact(Case):
     def setUp(self):
-        # B comes down at 1 per second from 1 above. They are 0.02 apart at 0.98.
+        # B moves down at speed 1 from a height of 1. The gap is 0.02 at 0.98.
         self.links = free(), free(p=(0, 0, 1), v=(0, 0, -1))
         self.corner = (0, (WHOLE, 0, 0))
         self.middle = (0, (WHOLE >> 2, WHOLE >> 2, WHOLE >> 1))
@@ -1513,7 +1513,7 @@ class Contact(Case):
             self.holds(*self.flat((0.98, 0.0101, w, w)))
             self.fails("too far apart", *self.flat((0.98, 0.0099, w, w)))
             self.fails("too far apart", *self.flat((0.97, 0.0101, w, w)))
-            self.fails("does not prove", *self.flat((0.9901, 0.0101, w, w)))   # within the margin before
+            self.fails("does not prove", *self.flat((0.9901, 0.0101, w, w)))   # too near before the end
             self.fails("does not prove", *self.flat((1.0, 0.0101, w, w)))
             self.fails("negative", *self.flat((-0.5, 10.0, w, w)))
             for tolerance in (-5e-324, -0.001, -0.0101):
@@ -1522,7 +1522,7 @@ class Contact(Case):
             self.fails("bytes follow", *self.flat((0.98, 0.0101, w, w), steps=leaf(Z) + b"\0"))
 
     def test_within_is_not_strict(self):
-        # So as not to round, nothing moves: 0.5 is within 0.25 + 0.25, and not within the next number below.
+        # Nothing moves, so nothing is rounded. A distance of 0.5 is within 0.25 + 0.25, but not within any less.
         self.links = free(), free(p=(0, 0, 0.5))
         def make(tolerance): return self.flat((1.0, tolerance, self.middle, self.middle), margin=0.25)
         self.holds(*make(0.25))
@@ -1539,7 +1539,7 @@ class Contact(Case):
             self.fails("too far apart", files, make(0.0099))
 
     def test_radius_of_a_point(self):
-        # It has the same weights as the point: here 1/2, 1/8 and 3/8 of radii 0.25, 1 and 0.5, in all 0.4375.
+        # The radius has the weights of the point: 1/2, 1/8 and 3/8 of the radii 0.25, 1 and 0.5 are 0.4375 in total.
         a = thick(FLAT, 0.25, 1.0, 0.5)
         files, weights = (a, certificate(a), FLAT, FLAT_TREE), (WHOLE >> 1, WHOLE >> 3, 3 * WHOLE >> 3)
         def make(tolerance, swap, more=0):
@@ -1552,7 +1552,7 @@ class Contact(Case):
                        make(1.5 - 0.25 - 0.4375 - 0.1, swap, WHOLE >> 3))
 
     def test_time(self):
-        # The closest approach of all of 0.98 is at its end; before it the tolerance has to be larger.
+        # The closest approach until 0.98 is at the end. An earlier witness needs a larger tolerance.
         w = self.corner
         for tau, tolerance in ((0.0, 0.9901), (0.5, 0.4901), (0.98, 0.0101)):
             self.holds(*self.flat((tau, tolerance, w, w), duration=0.98))
@@ -1560,26 +1560,26 @@ class Contact(Case):
         for tau in (-5e-324, -1e-20, -1.0, -100.0):
             self.fails("the time of the witness is negative", *self.flat((tau, 2000.0, w, w), duration=0.98))
         self.holds(*self.flat((-0.0, 0.9901, w, w), duration=0.98))
-        # The time of a witness is not rounded: it is 0.5 or 0.75 ticks.
+        # The time of a witness is not rounded, for example to 0.5 or 0.75 ticks.
         self.links = free(), free(p=(0, 0, 1), v=(0, 0, -0.5))
         for tau in (0.5, 0.75):
             self.holds(*self.flat((tau, 0.9901 - tau / 2, w, w), duration=0.5, units=TICKS))
             self.fails("too far apart", *self.flat((tau, 0.9899 - tau / 2, w, w), duration=0.5, units=TICKS))
 
     def test_a_later_time(self):
-        # They are free until 0.98, and meet at 1; later B is below A, and as far as it has gone.
+        # The bodies are free until 0.98, and meet at 1. Then B is below A, at an increasing distance.
         w = self.corner
         for tau in (math.nextafter(0.98, 1), 0.985, 1.5, 100.0):
             need = abs(1 - tau) - 0.01
             self.holds(*self.flat((tau, need + 1e-4, w, w), duration=0.98))
             self.fails("too far apart", *self.flat((tau, need - 1e-4, w, w), duration=0.98))
-            # Nothing is stated, and proven, of the time from T to the witness: but all until T is.
+            # Nothing is stated about the time from T to the witness. Everything until T is proven.
             self.fails("does not prove", *self.flat((tau, need + 1e-4, w, w), duration=0.9901))
             self.fails("file ends", *self.flat((tau, need + 1e-4, w, w), duration=0.98, steps=b""))
         for duration in (0.0, 0.98):
             self.holds(*self.flat((1.0, 0.0, w, w), duration=duration))
             self.fails("too far apart", *self.flat((1.02, 0.0, w, w), duration=duration))
-        # It is no later than the unit of time, and no link turns too far until then.
+        # The time of a witness is at most the unit of time. No link turns too far until then.
         self.holds(*self.flat((4.0, 3.0, w, w), duration=0.98, units=(-40, 2)))
         for tau in (math.nextafter(4, 5), 1e9, 1e300):
             files, made = self.flat((tau, 1e301, w, w), duration=0.98, units=(-40, 2))
@@ -1591,7 +1591,7 @@ class Contact(Case):
                 self.fails("a link turns too far", *self.flat((tau, 1e301, w, w), duration=0.5), verdict="unverifiable")
 
     def test_a_clearance(self):
-        # B goes down and comes up again on an arm, with its lowest point at half of the time.
+        # B is on an arm, and moves down and up again. It is lowest at half of the time.
         b = points((0, 0, -1))
         links = free(), free(p=(0, 0, 2), q=(math.sin(-0.25), 0, 0, math.cos(-0.25)), w=(1, 0, 0))
         files = FLAT, FLAT_TREE, b, certificate(b)
@@ -1604,7 +1604,7 @@ class Contact(Case):
 
     def test_witnesses(self):
         self.fails("too far apart", *self.flat((0.98, 0.0101, self.corner, self.middle)))
-        # Weights are not negative and add up to 1, also if they are larger than that.
+        # Weights are non-negative and add up to 1. A sum that overflows is refused, too.
         top, good = 2 * WHOLE - 1, self.corner
         for bad in ((WHOLE, 1, 0), (WHOLE, 0, 1), (WHOLE - 1, 2, 0), (WHOLE - 1, 0, 0), (0, 0, 0), (0, 0, WHOLE - 1),
                     (WHOLE >> 1,) * 3, (WHOLE,) * 3, (top,) * 3, (top, 0, 0), (top, WHOLE + 1, 0), (top, 1, WHOLE),
@@ -1614,7 +1614,7 @@ class Contact(Case):
         self.fails("no such triangle", *self.flat((0.98, 0.0101, (1, self.corner[1]), self.corner)))
 
     def test_weights_are_of_corners_in_order(self):
-        # The point of A is right below that of B, at a distance of 1, and with other weights it is not.
+        # The point of A is 1 below that of B. With other weights it is elsewhere.
         weights, corners = (WHOLE >> 1, WHOLE >> 3, 3 * WHOLE >> 3), [(0, 0, 0), (4, 0, 0), (0, 4, 0)]
         for order in itertools.permutations(range(3)):
             a = mesh([corners[i] for i in order], [(0, 1, 2)])
@@ -1625,7 +1625,7 @@ class Contact(Case):
                     self.holds(files, made)
                 else:
                     self.fails("too far apart", files, made)
-        # The least weight counts: it takes the point 2^-55 down from 0, where it is 1 below that of B.
+        # The smallest weight counts. It moves the point of A down by 2^-55, from 1 below the point of B.
         for low, high in itertools.permutations(range(3), 2):
             a, w = mesh([(0, 0, -(i == low)) for i in range(3)], [(0, 1, 2)]), [0, 0, 0]
             w[low], w[high], files = 1, WHOLE - 1, (a, certificate(a), POINT, POINT_TREE)
@@ -1644,11 +1644,11 @@ class Contact(Case):
             self.fails("too far apart", files, make(1 - place))
 
     def test_turning(self):
-        # The tip of a rod turns about z by 1 radian and comes to 0.01 below the plate y = sin 1 + 0.01.
+        # The tip of a rod turns about z by 1 radian, and ends 0.01 below the plate y = sin 1 + 0.01.
         a, y = rod(), math.sin(1.0) + 0.01
         b = mesh([(-9, 0, -9), (9, 0, -9), (0, 0, 9)], [(0, 1, 2)])
         files = a, certificate(a), b, certificate(b)
-        # The point x = cos 1, z = 0 of the plate: half of the third corner, the rest of the other two.
+        # The point x = cos 1, z = 0 of the plate has half of its weight at the third corner.
         wx = round((0.25 + math.cos(1.0) / 18) * WHOLE)
         wb = 0, (WHOLE // 2 - wx, wx, WHOLE // 2)
         wa = 0, (0, WHOLE, 0)
@@ -1664,12 +1664,12 @@ class Contact(Case):
             self.fails("file ends", files, make(steps=halves(4, lambda _: leaf(Y))[:-7]))
 
     def test_chains(self):
-        # Random trees of links: the witnesses are points whose distance is known by binary64.
+        # Links are random trees. The distance of the witness points is computed in binary64.
         rng, a, b = random.Random(4), points((1, 0, 2, 0.25), (5, 5, 5)), points((0, -1, 1, 0.5))
         files = a, certificate(a, [1, 0]), b, certificate(b)
         for _ in range(25):
             far = 0
-            while far < 1:                          # not within the margin and the radii
+            while far < 1:                          # outside the margin and the radii
                 links, tau, ends = random_links(rng, 5), rng.random(), [rng.randint(0, 5) for _ in "AB"]
                 far = flength(fsub(where(links, ends[0], (1, 0, 2), tau), where(links, ends[1], (0, -1, 1), tau)))
             def make(tolerance):
@@ -1681,7 +1681,7 @@ class Contact(Case):
 
 
 class Arithmetic(Case):
-    """Against samples in binary64."""
+    """Compares the checker with samples in binary64."""
     def near(self, interval, x, slack=1e-12):
         lo, hi = (Fraction(i, so.ONE) for i in interval)
         self.assertTrue(lo <= hi and lo - Fraction(slack) <= Fraction(x) <= hi + Fraction(slack), (lo, x, hi))
@@ -1692,7 +1692,7 @@ class Arithmetic(Case):
             q = Fraction(x) ** 2
             self.near(so.series(q, 1), math.sin(x) / x if x else 1.0)
             self.near(so.series(q, 2), 2 * (math.sin(x / 2) / x) ** 2 if x else 0.5)
-        # sin^2 + cos^2 = 1, far closer than binary64 can say.
+        # sin^2 + cos^2 = 1, far more precisely than binary64.
         q = Fraction(37)
         s, c = so.series(q, 1), so.series(q, 2)
         square = so.add(so.mul(so.fix(q), so.mul(s, s)),
@@ -1721,7 +1721,7 @@ class Arithmetic(Case):
 
 class Random(Case):
     def scene(self, rng, speed=1.0, size=0.5, count=5):
-        """Random links and two random bodies on them, as the checker holds them; and the links, meshes and trees."""
+        """Returns random links and two bodies, as the checker has them, and the inputs: links, meshes and trees."""
         def vec(s): return tuple(rng.uniform(-s, s) for _ in range(3))
         links, bodies, files = random_links(rng, count, speed), [], []
         exact, ends = self.exact_links(links), [rng.randint(0, count) for _ in range(2)]
@@ -1736,29 +1736,29 @@ class Random(Case):
         return links, exact, ends, bodies, files
 
     def corners(self, data, triangles):
-        """Of some triangles, in the frame of the link, with radii."""
+        """Returns the corners of some triangles, in the frame of the link, with radii."""
         vertices = struct.unpack_from("<36d", data, 8)
         corners = [struct.unpack_from("<3I", data, 8 + 36 * 8 + 12 * t) for t in triangles]
         return [vertices[4 * i:4 * i + 4] for three in corners for i in three]
 
     def parts(self, file):
-        """The corners of each part, by the numbers of parts in the certificate."""
+        """Returns the corners of each part, in the order of the certificate."""
         data, tree = file
         return [self.corners(data, triangles) for triangles in triangles_of(tree)]
 
     def axis(self, rng, links, ends, corners, t):
-        """Roughly from A to B, in 2^-50."""
+        """Returns a direction roughly from A to B, in 2^-50."""
         a, b = ([where(links, end, y[:3], t) for y in c] for end, c in zip(ends, corners))
         n = fsub(fscale(1 / len(b), fadd(*b)), fscale(1 / len(a), fadd(*a)))
         n = fadd(fscale(1 / (flength(n) or 1), n), [rng.gauss(0, 0.2) for _ in range(3)])
         return along(*fscale(1 / flength(n), n))
 
     def motion(self, links, end, frame, t0, t1):
-        """P, P', Omega, K and K' by the words of the README: the velocities are those in the world."""
+        """Computes P, P', Omega, K and K' by the README, from velocities in the world."""
         t, h = (t0 + t1) / 2, (t1 - t0) / 2
         def chain(i): return chain(links[i - 1].on) + [i] if i else [0]
         def at(i): return where(links, i, centre(links, i), t)
-        def joint(i):   # its turn, and the rate of its arm, in the world
+        def joint(i):   # the turn and the rate of the arm, in the world
             x = links[i - 1]
             v, a = (rotate(x.q, u) if x.axes else u for u in (x.v, x.a))
             return [fscale(h * x.beta, direction(links, x.on, u, t)) for u in (a, v)]
@@ -1774,14 +1774,14 @@ class Random(Case):
         k, theta = 0, 0
         for sign, i in way:
             angle, (arm, m) = flength(joint(i)[0]), map(flength, (fsub(at(i), at(links[i - 1].on)), joint(i)[1]))
-            carried = theta if sign > 0 else theta + angle   # before the joint, or behind it
+            carried = theta if sign > 0 else theta + angle   # theta before the joint, or after it
             k, theta = k + carried ** 2 * (arm + m) + 2 * carried * m, theta + angle
         p = fsub(at(end), at(frame))
         slope = fsub(fsub(velocity(end), velocity(frame)), fcross(turn(frame), p))
         return p, slope, fsub(turn(end), turn(frame)), k, theta ** 2
 
     def readme(self, links, end, corners, side, n, d, frame, t0, t1):
-        """The least height of the README."""
+        """Returns the least height by the README."""
         (p, slope, omega, k, bend), t = self.motion(links, end, frame, t0, t1), (t0 + t1) / 2
         centre_at = where(links, end, centre(links, end), t)
         z = [(fsub(where(links, end, y, t), centre_at), ball) for *y, ball in corners]
@@ -1790,7 +1790,7 @@ class Random(Case):
                    + min(side * fdot(fadd(n, fscale(s, tilt)), y) - ball for y, ball in z) for s in (1, -1))
 
     def readme_ball(self, links, end, corners, frame, t0, t1):
-        """Where the ball of the README is in the middle, as seen from the other body's link, and its radius."""
+        """Returns the centre of the README's ball at the middle, in the other body's frame, and its radius."""
         (_, slope, omega, k, bend), t = self.motion(links, end, frame, t0, t1), (t0 + t1) / 2
         *ranges, radii = zip(*corners)
         g = [(min(c) + max(c)) / 2 for c in ranges]
@@ -1800,7 +1800,7 @@ class Random(Case):
         return self.seen(links, frame, where(links, end, g, t), t), r + m
 
     def seen(self, links, frame, x, t):
-        """A point of the world, from the centre of a link and along its axes."""
+        """Transforms a point of the world to the frame of a link, relative to its centre."""
         x = fsub(x, where(links, frame, centre(links, frame), t))
         return [fdot(x, direction(links, frame, e, t)) for e in UNIT3]
 
@@ -1856,20 +1856,20 @@ class Random(Case):
                     farthest = max(farthest, flength(fsub(x, point)) + ball)
             self.assertLessEqual(farthest, limit + 1e-9)
             if k == 8 and len(corners) == 3:
-                # The ball has the largest radius all around, so that of the farthest corner may be smaller.
+                # The ball adds the largest radius, while the farthest corner may have a smaller one.
                 self.assertLess(limit - centres - max(ball for *_, ball in corners), 0.02)
                 close += 1
         self.assertGreater(close, 3)
 
     def test_is_beyond(self):
-        """Against the boxes of all triangles, at the least limits that are too much for one."""
+        """Compares the distances with the boxes of all triangles, at the least limits that one box does not exceed."""
         rng, counts = random.Random(4), [0, 0]
         for _ in range(20):
             _, _, _, bodies, files = self.scene(rng)
             body, centre = bodies[0], bodies[0].link.centre
             for part, triangles in enumerate(triangles_of(files[0][1])):
                 point = [rng.randint(-5 << 52, 5 << 52) << so.F + body.bits - 52 for _ in range(3)]
-                far = []                            # of each triangle: the square of the distance, and the radius
+                far = []                            # for each triangle: the square of the distance, and the radius
                 for triangle in triangles:
                     corners = self.corners(files[0][0], [triangle])
                     *ranges, radii = [[int(Fraction(x) * (so.ONE << body.bits)) for x in c] for c in zip(*corners)]
@@ -1881,14 +1881,14 @@ class Random(Case):
                         want = all(square > (limit + ball) ** 2 for square, ball in far)
                         self.assertEqual(body.is_beyond(part, [(x, x) for x in point], limit), want)
                         counts[want] += 1
-                        # With a point that is known to within 1, the nearest one counts.
+                        # The point has an error of 1, so its nearest possible position counts.
                         wide = body.is_beyond(part, [(x - 1, x + 1) for x in point], limit)
                         self.assertEqual(wide, want and wide)
         self.assertGreater(min(counts), 50)
 
     def random_proofs(self, seed, trials, balls, shares):
-        """Random splits and leaves, and a margin near what samples allow: none is accepted that they refute. Margins
-        are such shares of what they allow, and less by as much. Returns how many there were of (false, verdict)."""
+        """Tests random splits and leaves, with margins near those that samples allow. Samples refute no accepted proof.
+        The margins are these shares of the allowed ones, on both sides. Returns counts by (false, verdict)."""
         rng, counts = random.Random(seed), {}
         for trial in range(trials):
             links, exact, ends, bodies, files = self.scene(rng, speed=0.5, size=0.25, count=4)
@@ -1956,7 +1956,7 @@ class Random(Case):
 
 class Damage(Case):
     def test_single_bits(self):
-        """No damage raises anything; damage before the motions or in the steps' kinds is seen."""
+        """Tests that damaged files raise no exception, and that damage before the motions or in opcodes is refused."""
         a = mesh([(0, -1, 0, 0.125), (0, 1, 0, 0.0625), (0.125, 0, 0)], [(0, 1, 2)])
         files = a, certificate(a), FLAT, FLAT_TREE
         links = [slides((0, 1, 0), 0.5, 0.125), turns((1, 0, 0), 0.25, 4.0, p=(0, -0.5, 0), on=1), free(p=(0, 0, 3))]
@@ -1974,11 +1974,11 @@ class Damage(Case):
                 self.assertNotEqual(verdict, "holds", (i, reason))
         lines = self.run_files(files, *[good[:n] for n in range(0, len(good), 5)])
         self.assertTrue(all(v == "broken" for v, _ in lines))
-        time = good.rindex(struct.pack("<dd", 0.25, 4.0))   # of the witness
+        time = good.rindex(struct.pack("<dd", 0.25, 4.0))   # the position of the witness
         bad = [good[:time + i] + bytes([good[time + i] ^ 1 << bit]) + good[time + i + 1:]
                for i in range(16) for bit in range(8)]
         for i, (verdict, reason) in enumerate(self.run_files(files, *bad)):
-            if i % 64 == 63:                        # a sign
+            if i % 64 == 63:                        # the sign bit
                 self.assertIn("is negative", reason)
         cert = files[1]
         for i in range(0, len(cert)):
@@ -1996,7 +1996,7 @@ class Damage(Case):
         for i, bit in itertools.product(range(9), (0, 1, 2, 3, 8, 31)):
             other = certificate(a, numbers=[*numbers[:i], numbers[i] ^ 1 << bit, *numbers[i + 1:]])
             (verdict, reason), = self.run_files((a, other, POINT, POINT_TREE), made)
-            is_tree = (i, bit) == (0, 0)            # with a first part of three
+            is_tree = (i, bit) == (0, 0)            # a first part of three triangles is valid
             self.assertEqual(other == certificate(a, tree=((3, (1, 0)), (4, 2))), is_tree)
             self.assertEqual(verdict, "holds" if is_tree else "broken", (i, bit, reason))
 

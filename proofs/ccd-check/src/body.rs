@@ -1,16 +1,16 @@
-//! A mesh of rounded triangles, and a tree over them.
+//! A mesh of rounded triangles, and a tree of bounding boxes over them.
 //!
-//! The certificate of a body says only what is in each part of the tree. How large parts are is measured here.
+//! The certificate of a body only gives the tree. The checker computes all bounding boxes itself.
 
 use crate::{Checked, Stop, number::*, reader::Reader, sha256, verifiable};
 use alloc::vec::Vec;
 
-/// A point, and the radius of the ball around it.
+/// The coordinates of a vertex, and the radius of the ball around it.
 type Corner = [i64; 4];
 
 type Triangle = [Corner; 3];
 
-/// No part is more than so many splits deep.
+/// The maximum number of splits between the root of a tree and any part.
 const MAX_DEPTH: usize = 100;
 
 /// A mesh with its tree, in integer coordinates.
@@ -18,58 +18,59 @@ const MAX_DEPTH: usize = 100;
 pub struct Body {
     pub(crate) digest: [u8; 32],
     pub(crate) unit: i64,
-    /// The corners of each triangle in the order of the tree. Each is off by less than 1 in each coordinate.
+    /// The triangles in the order of the tree. Each coordinate has an error of less than 1.
     pub(crate) triangles: Vec<Triangle>,
-    /// Each before the nodes of its first part, and these before those of the second one.
+    /// The nodes in preorder: each before all nodes of its first part, and these before all nodes of its second part.
     pub(crate) nodes: Vec<Node>,
 }
 
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
-    /// The number of its first triangle, and the nodes of both of its parts, if it has more than one triangle.
+    /// The index of its first triangle.
     triangle: usize,
+    /// The indices of the nodes of both of its parts. `None` for a single triangle.
     parts: Option<[usize; 2]>,
-    /// The least and the greatest of each coordinate, and of the radii.
+    /// The least and the greatest x, y, z and radius of all corners.
     ranges: [[i64; 2]; 4],
-    /// The middle of the ranges, and the radius of a ball around it that has all in it.
+    /// The bounding ball of the part: its centre, which is the middle of the ranges, and its radius.
     pub(crate) ball: (Vector, i64),
 }
 
-/// A part of a body, and the number of the link that carries it.
+/// A part of a body, and the index of the link that carries it.
 #[derive(Clone, Copy)]
 pub(crate) struct Part<'a> {
     pub(crate) body: &'a Body,
     pub(crate) node: &'a Node,
     pub(crate) link: usize,
-    /// How much the check has looked at so far.
+    /// The number of links and parts that the check has visited so far.
     pub(crate) work: &'a core::cell::Cell<u64>,
 }
 
 impl Body {
-    /// Reads a mesh and the certificate of its tree, in the unit of a proof.
+    /// Reads a mesh and the certificate of its tree, in the unit of length of a proof.
     ///
     /// # Errors
-    /// The verdict, if the certificate is broken or numbers are out of range.
+    /// [`Stop`] if a file is broken, or if a number is outside the range of the checker.
     pub fn new(mesh: &[u8], certificate: &[u8], proof: &[u8]) -> Result<Body, Stop> {
         let unit = Reader::new(b"CCDPROF1", proof)?.signed(4)?;
-        let (mut all, mut triangles, mut nodes) = (read_mesh(mesh, unit)?, Vec::new(), Vec::new());
+        let (mut unused, mut triangles, mut nodes) = (read_mesh(mesh, unit)?, Vec::new(), Vec::new());
         let (digest, mut reader) = (sha256(mesh), Reader::new(b"CCDBODY1", certificate)?);
         let is_of_mesh = reader.take(32)? == digest;
-        reader.require(is_of_mesh, "this is the certificate of another mesh")?;
-        // How many triangles the parts have that are read next, and how deep these are.
-        let mut waiting = alloc::vec![(all.len(), 0)];
-        while let Some((count, depth)) = waiting.pop() {
+        reader.require(is_of_mesh, "the certificate belongs to another mesh")?;
+        // The number of triangles, and the depth, of each part that is not read yet.
+        let mut stack = alloc::vec![(unused.len(), 0)];
+        while let Some((count, depth)) = stack.pop() {
             let (from, node, mut parts) = (triangles.len(), nodes.len(), None);
             if count > 1 {
                 let first = reader.index(count)?;
                 reader.require(first > 0, "a part is empty")?;
                 verifiable(depth < MAX_DEPTH, "a tree is too deep")?;
-                waiting.extend([(count - first, depth + 1), (first, depth + 1)]);
+                stack.extend([(count - first, depth + 1), (first, depth + 1)]);
                 // A part of n triangles has 2 n − 1 nodes.
                 parts = Some([node + 1, node + 2 * first]);
             } else {
-                let number = reader.index(all.len())?;
-                triangles.push(all[number].take().ok_or(reader.broken("a tree has a triangle twice"))?);
+                let index = reader.index(unused.len())?;
+                triangles.push(unused[index].take().ok_or(reader.broken("a tree contains a triangle twice"))?);
             }
             nodes.push((from..from + count, parts));
         }
@@ -91,47 +92,47 @@ impl Node {
 }
 
 impl<'a> Part<'a> {
-    /// Returns both parts of a part; `None` if it is a triangle.
+    /// Returns the first and the second part of this part. Returns `None` for a single triangle.
     pub(crate) fn halves(self) -> Option<[Part<'a>; 2]> {
         Some(self.node.parts?.map(|node| Part { node: &self.body.nodes[node], ..self }))
     }
 
-    /// Returns whether all points of the part are farther than a limit from a point.
+    /// Checks that the bounding boxes of the part are all farther than `limit` from `point`.
     pub(crate) fn is_beyond(self, point: Vector, limit: i64) -> bool {
-        self.all(&|node| {
+        self.satisfies(&|node| {
             let [x, y, z, [_, radius]] = node.ranges;
-            let away = [0, 1, 2].map(|k| ([x, y, z][k][0] - point[k]).max(point[k] - [x, y, z][k][1]).max(0));
-            dot(away, away) > product(limit + radius, limit + radius)
+            let distance = [0, 1, 2].map(|k| ([x, y, z][k][0] - point[k]).max(point[k] - [x, y, z][k][1]).max(0));
+            dot(distance, distance) > product(limit + radius, limit + radius)
         })
     }
 
-    /// Returns whether no point of the part is lower along a direction than a limit. A ball sinks below its centre by its radius, as
-    /// the plane's normal is no longer than 1.
+    /// Checks that the part has a height of at least `limit` along `direction`. A ball reaches at most its radius below its centre,
+    /// as the normal of the plane is at most 1 long.
     pub(crate) fn is_above(self, direction: Vector, limit: i128) -> bool {
         let [i, j, k] = direction.map(|x| usize::from(x < 0));
         let is_high = |&[x, y, z, radius]: &Corner| dot(direction, [x, y, z]) - product(ONE, radius) >= limit;
-        self.all(&|Node { triangle, parts, ranges: [x, y, z, radius], .. }| {
+        self.satisfies(&|Node { triangle, parts, ranges: [x, y, z, radius], .. }| {
             is_high(&[x[i], y[j], z[k], radius[1]]) || parts.is_none() && self.body.triangles[*triangle].iter().all(is_high)
         })
     }
 
-    /// Returns whether something is so of the part, or of all parts that it is split into.
-    fn all(self, is_so: &impl Fn(&Node) -> bool) -> bool {
+    /// Checks a condition for the part as a whole, and where that fails for both of its parts in turn.
+    fn satisfies(self, holds: &impl Fn(&Node) -> bool) -> bool {
         self.work.set(self.work.get() + 1);
-        is_so(self.node) || self.halves().is_some_and(|[first, second]| first.all(is_so) && second.all(is_so))
+        holds(self.node) || self.halves().is_some_and(|[first, second]| first.satisfies(holds) && second.satisfies(holds))
     }
 }
 
-/// Reads a mesh: the numbers of vertices and triangles, the vertices with their radii, and the corners.
+/// Reads the triangles of a mesh.
 fn read_mesh(mesh: &[u8], unit: i64) -> Checked<Vec<Option<Triangle>>> {
     let (mut reader, mut vertices, mut triangles) = (Reader::new(b"", mesh)?, Vec::new(), Vec::new());
-    let [vertex_count, triangle_count] = reader.all(|reader| reader.unsigned(4))?;
+    let [vertex_count, triangle_count] = reader.array(|reader| reader.unsigned(4))?;
     for _ in 0..vertex_count {
-        let [x, y, z] = reader.all(|reader| reader.number(unit, [LENGTH, 0]))?;
-        vertices.push([x, y, z, reader.size(unit, [LENGTH, 0])?]);
+        let [x, y, z] = reader.array(|reader| reader.number(unit, [LENGTH, 0]))?;
+        vertices.push([x, y, z, reader.magnitude(unit, [LENGTH, 0])?]);
     }
     for _ in 0..triangle_count {
-        let [a, b, c] = reader.all(|reader| reader.index(vertices.len()))?;
+        let [a, b, c] = reader.array(|reader| reader.index(vertices.len()))?;
         triangles.push(Some([vertices[a], vertices[b], vertices[c]]));
     }
     reader.end()?;
@@ -142,20 +143,21 @@ fn read_mesh(mesh: &[u8], unit: i64) -> Checked<Vec<Option<Triangle>>> {
 mod tests {
     use super::*;
 
-    /// The beginning of a proof whose unit of length is 1.
+    /// The first bytes of a proof with the unit of length 1.
     const UNIT: &[u8] = b"CCDPROF1\0\0\0\0";
 
-    /// Numbers from −n/2 to n/2.
+    /// A generator of random numbers.
     struct Random(u64);
 
     impl Random {
-        fn below(&mut self, n: i64) -> i64 {
+        /// Returns a number from −n/2 to n/2.
+        fn centred(&mut self, n: i64) -> i64 {
             self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (self.0 >> 40) as i64 % n - n / 2
         }
     }
 
-    /// A mesh of triangles that share no corner.
+    /// Returns the bytes of a mesh of triangles that share no vertex.
     fn mesh(triangles: &[Triangle]) -> Vec<u8> {
         let count = triangles.len() as u32;
         let mut mesh = [3 * count, count].map(u32::to_le_bytes).concat();
@@ -169,26 +171,26 @@ mod tests {
         [&b"CCDBODY1"[..], &sha256(mesh), &parts].concat()
     }
 
-    /// Writes any tree of triangles.
+    /// Writes a random tree of triangles.
     fn write_part(random: &mut Random, order: &[u32], parts: &mut Vec<u32>) {
         if let [number] = *order {
             return parts.push(number);
         }
-        let first = 1 + random.below(100).unsigned_abs() as usize % (order.len() - 1);
+        let first = 1 + random.centred(100).unsigned_abs() as usize % (order.len() - 1);
         parts.push(first as u32);
         write_part(random, &order[..first], parts);
         write_part(random, &order[first..], parts);
     }
 
-    /// What is above a limit, what is beyond a distance, and what is in a ball, against all corners, for all parts
-    /// of bodies of one to twelve triangles.
+    /// Compares the checks of heights, distances and bounding balls with all corners, for all parts of bodies of 1 to 12 triangles.
     #[test]
-    fn heights_and_distances_are_those_of_the_corners() {
+    fn heights_and_distances_agree_with_the_corners() {
         let mut random = Random(1);
         let one = i128::from(ONE);
         let ([mut above, mut below], mut beyond) = ([0, 0], 0);
         for count in 1..=12 {
-            let corner = |random: &mut Random| [random.below(1000), random.below(30), random.below(7), random.below(9).abs()];
+            let corner =
+                |random: &mut Random| [random.centred(1000), random.centred(30), random.centred(7), random.centred(9).abs()];
             let triangles: Vec<Triangle> = (0..count).map(|_| [(); 3].map(|()| corner(&mut random))).collect();
             let (mesh, mut parts) = (mesh(&triangles), Vec::new());
             let order: Vec<u32> = (0..count).rev().collect();
@@ -198,11 +200,11 @@ mod tests {
             let mut waiting = alloc::vec![(Part { body: &body, node: &body.nodes[0], link: 0, work }, 0, count as usize)];
             while let Some((part, from, to)) = waiting.pop() {
                 let corners = body.triangles[from..to].as_flattened();
-                let direction = [(); 3].map(|()| random.below(8) << FRACTION);
-                let point = [random.below(2000), 3, 5];
+                let direction = [(); 3].map(|()| random.centred(8) << FRACTION);
+                let point = [random.centred(2000), 3, 5];
                 let height = |[x, y, z, radius]: &Corner| dot(direction, [*x, *y, *z]) - one * i128::from(*radius);
                 let height = corners.iter().map(height).min().unwrap();
-                for limit in [i128::MIN, height - 1, height, height + 1, one * i128::from(random.below(100_000))] {
+                for limit in [i128::MIN, height - 1, height, height + 1, one * i128::from(random.centred(100_000))] {
                     let is_above = part.is_above(direction, limit);
                     assert_eq!(is_above, height >= limit);
                     if is_above { above += 1 } else { below += 1 }
@@ -210,11 +212,11 @@ mod tests {
                 let square = |v: Vector| dot(v, v);
                 let (middle, ball) = part.node.ball;
                 for &[x, y, z, radius] in corners {
-                    let room = ball - radius;
-                    assert!(room >= 0 && product(room, room) >= square(sub([x, y, z], middle)));
+                    let distance = ball - radius;
+                    assert!(distance >= 0 && product(distance, distance) >= square(sub([x, y, z], middle)));
                 }
                 for limit in [0, 10, 300, 1000] {
-                    // Convex combinations of the corners of each triangle, in sixths.
+                    // Compares with convex combinations of the corners of each triangle, in sixths.
                     let weights = (0..=6).flat_map(|a| (0..=6 - a).map(move |b| [a, b, 6 - a - b]));
                     let is_near = |weights: [i64; 3], [a, b, c]: &Triangle| {
                         let [x, y, z, radius] = [0, 1, 2, 3].map(|k| weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k]);
@@ -235,9 +237,9 @@ mod tests {
         assert!(above > 100 && below > 100 && beyond > 100, "{above} above, {below} below, {beyond} beyond");
     }
 
-    /// Trees that are none.
+    /// Tests lists of numbers that are not a tree over all triangles.
     #[test]
-    fn trees_that_leave_out_a_triangle_are_broken() {
+    fn trees_that_omit_a_triangle_are_broken() {
         let triangles = [0, 1, 2].map(|x| [[x, 0, 0, 0], [x, 1, 0, 0], [x, 0, 1, 0]]);
         let mesh = mesh(&triangles);
         let verdict = |parts: &[u32]| Body::new(&mesh, &certificate(&mesh, parts), UNIT).map(|body| body.triangles.len());
@@ -246,17 +248,17 @@ mod tests {
             Err(Stop::Broken(reason, _)) => reason,
             other => panic!("{other:?}"),
         };
-        assert_eq!(reason(&[1, 2, 1, 0, 2]), "a tree has a triangle twice");
-        assert_eq!(reason(&[1, 2, 1, 0, 3]), "there is nothing of this number");
+        assert_eq!(reason(&[1, 2, 1, 0, 2]), "a tree contains a triangle twice");
+        assert_eq!(reason(&[1, 2, 1, 0, 3]), "an index is out of range");
         assert_eq!(reason(&[0, 2, 1, 0, 1]), "a part is empty");
-        assert_eq!(reason(&[3, 2, 1, 0, 1]), "there is nothing of this number");
+        assert_eq!(reason(&[3, 2, 1, 0, 1]), "an index is out of range");
         assert_eq!(reason(&[1, 2, 1, 0]), "the file ends too early");
-        assert_eq!(reason(&[1, 2, 1, 0, 1, 0]), "the file goes on after its end");
+        assert_eq!(reason(&[1, 2, 1, 0, 1, 0]), "the file has bytes after its end");
     }
 
-    /// A tree of which each part has one triangle and the rest.
+    /// Tests a tree in which each first part is a single triangle.
     #[test]
-    fn trees_have_a_largest_depth() {
+    fn the_depth_of_a_tree_is_bounded() {
         let verdict = |count: u32| {
             let mesh = mesh(&alloc::vec![[[0; 4]; 3]; count as usize]);
             let parts: Vec<u32> = (0..count - 1).flat_map(|number| [1, number]).chain([count - 1]).collect();

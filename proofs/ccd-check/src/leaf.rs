@@ -1,39 +1,47 @@
-//! Proves that two parts stay apart over a stretch of time: the lemmas of the README.
+//! Checks that a leaf keeps two parts apart over an interval of time. The README states and proves the lemmas.
 
-use crate::{body::Part, motion::Stretch, motion::Way, number::*};
+use crate::{body::Part, motion::Interval, motion::RelativeMotion, number::*};
 
-impl Stretch<'_> {
-    /// Returns whether a part stays farther than `least` above a plane that turns with a link: on the side to which its normal points.
-    /// It has the points whose product with (x, y, z) is d, from the centre of that link. `None` if (x, y, z) is longer than 1, or the
-    /// part's link turns too far.
-    pub(crate) fn keeps_above(&self, part: Part<'_>, ([x, y, z, d], frame): ([i64; 4], usize), least: i64) -> Option<bool> {
+impl Interval<'_> {
+    /// Checks that a part stays farther than `gap` above a plane, over the whole interval. The plane turns with the link
+    /// `frame`. Above is the side to which the normal (x, y, z) points. The plane has the points whose dot product with the normal
+    /// is d, relative to the centre of that link.
+    ///
+    /// Returns `None` if the normal is longer than 1, or if the part's link turns too far relative to `frame`.
+    pub(crate) fn stays_above_plane(&self, part: Part<'_>, ([x, y, z, d], frame): ([i64; 4], usize), gap: i64) -> Option<bool> {
         (dot([x, y, z], [x, y, z]) <= 1 << 100).then_some(())?;
         let normal = [x, y, z].map(|x| x << (FRACTION - 50));
-        let ([seen_from, link], way) = ([frame, part.link].map(|k| &self.placed[k]), Way::new(self, frame, part.link)?);
+        let ([frame_state, link], motion) =
+            ([frame, part.link].map(|k| &self.states[k]), RelativeMotion::new(self, frame, part.link)?);
         let ((middle, radius), centre) = (part.node.ball, self.links.all[part.link].centre);
-        // Corners and centre are off by less than 2 each.
-        let reach = length(sub(middle, centre)) + i128::from(radius) + 4;
-        let least = i128::from(least + d) + way.bend(reach, 0) / 2 + 1 + 8 * self.links.loss(reach);
-        let least = least * i128::from(ONE) - dot(normal, sub(link.place, seen_from.place));
-        let (change, tilt) = (dot(normal, way.change), cross(normal, way.turn));
-        // If nothing is known to move, both ends ask for the same: what may move yet is in what is lost.
-        let ends: &[i64] = if (way.turn, way.change) == (ZERO, ZERO) { &[0] } else { &[-1, 1] };
+        // The corners and the centre each have an error of less than 2.
+        let reach = length_bound(sub(middle, centre)) + i128::from(radius) + 4;
+        let error = motion.second_derivative(reach, 0) / 2 + 1 + 8 * self.links.error_bound(reach);
+        let limit = (i128::from(gap + d) + error) * i128::from(ONE) - dot(normal, sub(link.position, frame_state.position));
+        let (rise, tilt) = (dot(normal, motion.displacement), cross(normal, motion.turn));
+        // Without any computed motion both ends give the same inequality. The error bound covers motion too small to compute.
+        let ends: &[i64] = if (motion.turn, motion.displacement) == (ZERO, ZERO) { &[0] } else { &[-1, 1] };
         Some(ends.iter().all(|&end| {
-            let direction = turned_back(link.rotation, add(normal, tilt.map(|x| end * x)));
-            part.is_above(direction, least - i128::from(end) * change + dot(direction, centre))
+            let direction = rotated_back(link.rotation, add(normal, tilt.map(|x| end * x)));
+            part.is_above(direction, limit - i128::from(end) * rise + dot(direction, centre))
         }))
     }
 
-    /// Returns whether a part stays farther than a margin from a ball around another one, as it is seen from the link of the part.
-    pub(crate) fn keeps_beyond_ball(&self, part: Part<'_>, around: Part<'_>, margin: i64) -> Option<bool> {
-        let [(link, centre), (carrier, pivot)] = [part.link, around.link].map(|k| (&self.placed[k], self.links.all[k].centre));
-        let ((middle, radius), way) = (around.node.ball, Way::new(self, part.link, around.link)?);
-        let arm = turned(carrier.rotation, sub(middle, pivot));
-        let reach = length(arm);
-        let loss = self.links.loss(reach);
-        let travel = length(add(way.change, cross(way.turn, arm))) + way.bend(reach + loss, 0) / 2 + 1;
-        let point = add(centre, turned_back(link.rotation, add(sub(carrier.place, link.place), arm)));
-        let limit = i128::from(radius + margin) + travel + 8 * loss;
+    /// Checks that a part stays farther than `margin` from the bounding ball of another part, over the whole interval. The ball
+    /// moves relative to the link of the first part.
+    ///
+    /// Returns `None` if the links turn too far relative to each other.
+    pub(crate) fn stays_beyond_ball(&self, part: Part<'_>, ball_part: Part<'_>, margin: i64) -> Option<bool> {
+        let [(link, centre), (ball_link, ball_centre)] =
+            [part.link, ball_part.link].map(|k| (&self.states[k], self.links.all[k].centre));
+        let ((middle, radius), motion) = (ball_part.node.ball, RelativeMotion::new(self, part.link, ball_part.link)?);
+        let arm = rotated(ball_link.rotation, sub(middle, ball_centre));
+        let reach = length_bound(arm);
+        let error = self.links.error_bound(reach);
+        let velocity = add(motion.displacement, cross(motion.turn, arm));
+        let travel = length_bound(velocity) + motion.second_derivative(reach + error, 0) / 2 + 1;
+        let point = add(centre, rotated_back(link.rotation, add(sub(ball_link.position, link.position), arm)));
+        let limit = i128::from(radius + margin) + travel + 8 * error;
         Some(limit < 1 << 60 && part.is_beyond(point, limit as i64))
     }
 }

@@ -16,19 +16,19 @@ pub use body::Body;
 pub use check::check;
 pub use sha256::sha256;
 
-/// Why a certificate proves nothing. A check that returns none of these has proven the statement in the certificate.
+/// The reason why a check stops without a proof.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// A file is broken: what is wrong, and how many bytes were read before.
+    /// The file is broken: the reason, and the number of bytes read so far.
     Broken(&'static str, usize),
-    /// Numbers are beyond the range in which the checker computes; nothing is said.
+    /// A number is outside the range in which the checker computes. The statement may be true or false.
     Unverifiable(&'static str),
 }
 
 impl core::fmt::Display for Stop {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Stop::Broken(reason, at) => write!(f, "broken: {reason} (before byte {at})"),
+            Stop::Broken(reason, position) => write!(f, "broken: {reason} (before byte {position})"),
             Stop::Unverifiable(reason) => write!(f, "unverifiable: {reason}"),
         }
     }
@@ -36,10 +36,10 @@ impl core::fmt::Display for Stop {
 
 impl core::error::Error for Stop {}
 
-/// What is read, or why the check stops.
+/// The value that was read or checked, or the reason why the check stops.
 type Checked<T> = Result<T, Stop>;
 
-/// Requires that numbers are in the range of the checker.
+/// Stops the check as unverifiable if the condition is false.
 fn verifiable(condition: bool, reason: &'static str) -> Checked<()> {
     condition.then_some(()).ok_or(Stop::Unverifiable(reason))
 }

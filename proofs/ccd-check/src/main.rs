@@ -1,6 +1,6 @@
-//! The checker as a command: reads meshes, certificates of bodies, and certificates of queries, and prints a verdict on each.
+//! The command `ccd-check`: reads meshes and certificates, and prints a verdict on each proof.
 
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "verdicts are its output")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "the command prints verdicts")]
 
 use ccd_check::{Body, check};
 use std::fs;
@@ -14,8 +14,8 @@ Usage: ccd-check [--mesh MESH BODY]... PROOF...
   --mesh MESH BODY   a mesh, and the certificate of its tree
   PROOF              a certificate of a query; it names its meshes by their digests
 
-Prints `holds`, `broken` and where, or `unverifiable` for each. Exit code: 0 if all hold, 1 if one does not, 2 if a file cannot
-be read.
+Prints a verdict on each proof: `holds`, `broken` with the reason and the position in the file, or `unverifiable` with the reason.
+Exit code: 0 if all proofs hold, 1 if one does not hold, 2 if a file cannot be read.
 
 Example:
   ccd-check --mesh a.mesh a.body --mesh b.mesh b.body 0.proof
@@ -46,20 +46,20 @@ fn run(mut arguments: &[String]) -> Result<bool, String> {
         arguments = rest;
     }
     if arguments.first().is_none_or(|argument| argument.starts_with("--")) {
-        return Err("meshes of two files each, and then proofs are needed; see --help".into());
+        return Err("expected any number of --mesh MESH BODY, then at least one PROOF; see --help".into());
     }
     let mut all_hold = true;
     for name in arguments {
         let proof = read(name)?;
-        // A proof may be about some of the meshes: of the others it does not matter if they are out of its range.
-        let (mut bodies, mut left_out) = (Vec::new(), None);
+        // A proof may use only some of the meshes. The other meshes may be outside the range of its unit of length.
+        let (mut bodies, mut skipped) = (Vec::new(), None);
         for (mesh, body, name) in &meshes {
             match Body::new(mesh, body, &proof) {
                 Ok(body) => bodies.push(body),
-                Err(stop) => left_out = Some(format!("; {name}: {stop}")),
+                Err(stop) => skipped = Some(format!("; {name}: {stop}")),
             }
         }
-        let verdict = check(&bodies, &proof).map_err(|stop| format!("{stop}{}", left_out.unwrap_or_default()));
+        let verdict = check(&bodies, &proof).map_err(|stop| format!("{stop}{}", skipped.unwrap_or_default()));
         all_hold &= verdict.is_ok();
         println!("{name}: {}", verdict.map_or_else(|why| why, |()| "holds".into()));
     }

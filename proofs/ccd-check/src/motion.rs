@@ -1,120 +1,130 @@
-//! Links, each of which moves on the one that carries it, where they are in the middle of a stretch of time, and how they move in
-//! half of it.
+//! The motion of links: the pose of each link at the middle of an interval of time, and its motion over half of the interval.
 
 use crate::{Checked, number::*, reader::Reader, verifiable};
 use alloc::vec::Vec;
 
-/// How a link moves on its parent: its centre along a line, and the link about it at a constant rate.
+/// The motion of a link on its parent. Its centre moves along a line, and the link turns about its centre at a constant rate.
 pub(crate) struct Link {
-    /// The number of the link that carries it; 0 is the world.
+    /// The index of the parent. Index 0 is the world.
     parent: usize,
-    /// The point of the link about which it turns.
+    /// The point of the link about which it turns, in the frame of the link.
     pub(crate) centre: Vector,
-    /// The rotation on the parent before any turn.
+    /// The rotation of the link on its parent without the turn of the joint.
     start: Rotation,
-    /// From the centre of the parent to that of the link, and the turn: both at time 0, and how they change in the unit of time.
+    /// The vector from the centre of the parent to the centre of the link at time 0, and its change in the unit of time.
     arm: [Vector; 2],
+    /// The rotation vector of the joint at time 0, and its change in the unit of time.
     turn: [Vector; 2],
 }
 
-/// The world and all links, and how well their places are known.
+/// The world and all links, and the sums that bound the rounding errors of their poses.
 pub(crate) struct Links {
     pub(crate) all: Vec<Link>,
-    /// E of the README, of which bounds for what rotations lose are made, in fractions.
-    off: i64,
-    /// S of the README: all lengths that are turned, in all.
-    size: i64,
+    /// E of the README: a bound of the error of any rotation, as a fraction.
+    rotation_error: i64,
+    /// S of the README: the sum of the lengths of all arms.
+    arm_sum: i64,
 }
 
 impl Links {
-    /// Reads so many links.
+    /// Reads `count` links.
     pub(crate) fn read(reader: &mut Reader<'_>, count: u64, [length, time]: [i64; 2]) -> Checked<Links> {
         let world = Link { parent: 0, centre: ZERO, start: IDENTITY, arm: [ZERO; 2], turn: [ZERO; 2] };
-        let mut links = Links { all: alloc::vec![world], off: 0, size: 1 << (LENGTH - 6) };
+        let mut links = Links { all: alloc::vec![world], rotation_error: 0, arm_sum: 1 << (LENGTH - 6) };
         for _ in 0..count {
             let parent = reader.index(links.all.len())?;
-            let position = reader.all(|reader| reader.number(length, [LENGTH, 0]))?;
-            let q: [i64; 4] = reader.all(|reader| reader.number(0, [1, FRACTION]))?;
+            let position = reader.array(|reader| reader.number(length, [LENGTH, 0]))?;
+            let q: [i64; 4] = reader.array(|reader| reader.number(0, [1, FRACTION]))?;
             let square = dot(q, q);
             verifiable((square - (1 << 120)).abs() <= 1 << 100, "a quaternion is not of unit length")?;
             let [x, y, z, w] = q.map(|x| ((i128::from(x) << FRACTION) / square.isqrt()) as i64);
-            let (start, centre) = (([x, y, z], w), reader.all(|reader| reader.number(length, [LENGTH, 0]))?);
-            // What is read next is along the axes of the parent, or along those of the joint.
+            let (start, centre) = (([x, y, z], w), reader.array(|reader| reader.number(length, [LENGTH, 0]))?);
+            // The velocity and the axis are given along the axes of the parent (0), or along the axes of the joint (1).
             let axes = [IDENTITY, start][reader.index(2)?];
-            let slide = turned(axes, reader.all(|reader| reader.number(length, [LENGTH, 6]))?);
-            let axis = turned(axes, reader.all(|reader| reader.number(0, [0, FRACTION]))?);
-            let at = [reader.number(0, [8, RADIAN])?, reader.number(-time, [8, RADIAN])?];
-            let mut arm = at.map(|at| scaled(slide, at, RADIAN + 6));
-            arm[0] = sub(add(add(position, turned(start, centre)), arm[0]), links.all[parent].centre);
-            let turn = at.map(|at| scaled(axis, at, FRACTION));
-            links.off += (3 + ((at[0].abs() + at[1].abs()) >> RADIAN)) << 10;
-            links.size = arm.as_flattened().iter().fold(links.size, |size, x| size.saturating_add(x.abs()));
-            verifiable(links.off <= ONE >> 30 && links.size <= 1 << (LENGTH + 6), "links turn or reach too far in all")?;
+            let velocity = rotated(axes, reader.array(|reader| reader.number(length, [LENGTH, 6]))?);
+            let axis = rotated(axes, reader.array(|reader| reader.number(0, [0, FRACTION]))?);
+            let parameter = [reader.number(0, [8, RADIAN])?, reader.number(-time, [8, RADIAN])?];
+            let mut arm = parameter.map(|x| scaled(velocity, x, RADIAN + 6));
+            arm[0] = sub(add(add(position, rotated(start, centre)), arm[0]), links.all[parent].centre);
+            let turn = parameter.map(|x| scaled(axis, x, FRACTION));
+            links.rotation_error += (3 + ((parameter[0].abs() + parameter[1].abs()) >> RADIAN)) << 10;
+            links.arm_sum = arm.as_flattened().iter().fold(links.arm_sum, |sum, x| sum.saturating_add(x.abs()));
+            let is_in_range = links.rotation_error <= ONE >> 30 && links.arm_sum <= 1 << (LENGTH + 6);
+            verifiable(is_in_range, "the links turn or reach too far in total")?;
             links.all.push(Link { parent, centre, start, arm, turn });
         }
         Ok(links)
     }
 
-    /// Returns L of the README, of which bounds for what is lost are made, for points that are so far from the centre of a link.
-    pub(crate) fn loss(&self, reach: i128) -> i128 {
-        13 * (self.all.len() as i128 + 1) + up(self.off.into(), reach + i128::from(self.size))
+    /// Returns L(`reach`) of the README. A small multiple of it bounds the rounding error of any point within `reach` of the
+    /// centre of its link.
+    pub(crate) fn error_bound(&self, reach: i128) -> i128 {
+        13 * (self.all.len() as i128 + 1) + mul_up(self.rotation_error.into(), reach + i128::from(self.arm_sum))
     }
 
-    /// Returns all links in the middle of a stretch of time. The first one is the world.
-    pub(crate) fn stretch(&self, middle: i64, half: i64) -> Stretch<'_> {
-        let (loss, loss_of_turns) = (self.loss(0), 3 * i128::from(self.off));
-        let mut placed: Vec<Placed> = Vec::with_capacity(self.all.len());
+    /// Computes the states of all links for the interval of time with this middle and half-length. The first one is the world.
+    pub(crate) fn over_interval(&self, middle: i64, half: i64) -> Interval<'_> {
+        let (arm_error, turn_error) = (self.error_bound(0), 3 * i128::from(self.rotation_error));
+        let mut states: Vec<LinkState> = Vec::with_capacity(self.all.len());
         for link in &self.all {
-            let (place, on) = placed.get(link.parent).map_or((ZERO, IDENTITY), |on| (on.place, on.rotation));
-            let [arm, turn] = [link.arm, link.turn].map(|[at, rate]| add(at, scaled(rate, middle, FRACTION)));
-            let rotation = if turn == ZERO { link.start } else { times(exp(turn), link.start) };
-            // More than the two radians that a way may turn by is as good as any more.
+            let parent = states.get(link.parent).map_or((ZERO, IDENTITY), |parent| (parent.position, parent.rotation));
+            let [arm, turn] = [link.arm, link.turn].map(|[start, rate]| add(start, scaled(rate, middle, FRACTION)));
+            let rotation = if turn == ZERO { link.start } else { compose(exp(turn), link.start) };
+            // Saturates: `RelativeMotion::new` rejects rotations above 2 radians.
             let turn = link.turn[1].map(|x| (product(x, half) >> RADIAN).clamp(-product(2, ONE), product(2, ONE)) as i64);
-            let seen = |v, loss| (turned(on, v), length(v) + loss);
-            let (arm, travel) = (seen(arm, loss), seen(scaled(link.arm[1], half, FRACTION), loss));
-            let (place, rotation, turn) = (add(place, arm.0), times(on, rotation), seen(turn, loss_of_turns));
-            placed.push(Placed { place, rotation, arm, travel, turn });
+            let in_world = |v, error| (rotated(parent.1, v), length_bound(v) + error);
+            let arm_change = in_world(scaled(link.arm[1], half, FRACTION), arm_error);
+            let (arm, turn) = (in_world(arm, arm_error), in_world(turn, turn_error));
+            let (position, rotation) = (add(parent.0, arm.0), compose(parent.1, rotation));
+            states.push(LinkState { position, rotation, arm, arm_change, turn });
         }
-        Stretch { links: self, placed }
+        Interval { links: self, states }
     }
 }
 
-/// All links in the middle of a stretch of time.
-pub(crate) struct Stretch<'a> {
+/// The states of all links for an interval of time.
+pub(crate) struct Interval<'a> {
     pub(crate) links: &'a Links,
-    pub(crate) placed: Vec<Placed>,
+    pub(crate) states: Vec<LinkState>,
 }
 
-/// A link in the middle of a stretch of time, and how it moves on its parent in half of it; all along the axes of the world.
-pub(crate) struct Placed {
-    /// The point about which it turns.
-    pub(crate) place: Vector,
+/// The pose of a link at the middle of an interval, and its motion on its parent over half of the interval. All vectors are
+/// along the axes of the world.
+pub(crate) struct LinkState {
+    /// The position of the centre of the link.
+    pub(crate) position: Vector,
     pub(crate) rotation: Rotation,
-    /// From the centre of the parent to that of the link, how that changes, and how the link turns; each with a bound of its length.
+    /// The vector from the centre of the parent to the centre of the link, and an upper bound of its length.
     arm: (Vector, i128),
-    travel: (Vector, i128),
+    /// The change of the arm over half of the interval, and an upper bound of its length.
+    arm_change: (Vector, i128),
+    /// The rotation vector of the joint over half of the interval, and an upper bound of its length.
     turn: (Vector, i128),
 }
 
-/// How a link moves in half of a stretch of time as it is seen from another one: what the lemmas of the README need.
+/// The motion of a link relative to another link over half of an interval, as the lemmas of the README need it.
 #[derive(Default)]
-pub(crate) struct Way {
-    /// How the vector from centre to centre changes, and how the link turns.
-    pub(crate) change: Vector,
+pub(crate) struct RelativeMotion {
+    /// P′ of the README: the first-order change of the vector between the centres of both links.
+    pub(crate) displacement: Vector,
+    /// Ω of the README: the first-order rotation vector of the link.
     pub(crate) turn: Vector,
-    /// The sum of the angles of all joints, and a bound of the second derivative of the vector.
+    /// θ of the README: the sum of the angles of all joints on the path between both links.
     angle: i128,
-    bend: i128,
+    /// K of the README: an upper bound of the second derivative of the vector between the centres.
+    centre_second_derivative: i128,
 }
 
-impl Way {
-    /// Returns the way from a link to another one; `None` if the joints turn by more than two radians, over which nothing is proven.
-    pub(crate) fn new(Stretch { links, placed }: &Stretch<'_>, from: usize, to: usize) -> Option<Way> {
-        let (mut way, mut left, mut entered, mut path) = (Way::default(), from, to, Vec::with_capacity(8));
+impl RelativeMotion {
+    /// Computes the motion of the link `to` relative to the link `from`. Returns `None` if the joints between them turn by more
+    /// than 2 radians in total. The lemmas prove nothing beyond that.
+    pub(crate) fn new(Interval { links, states }: &Interval<'_>, from: usize, to: usize) -> Option<RelativeMotion> {
+        let (mut motion, mut left, mut entered) = (RelativeMotion::default(), from, to);
+        let mut path = Vec::with_capacity(8);
         while left != entered {
             if left > entered {
-                way.turn_by(&placed[left], -1)?;
-                way.move_by(&placed[left], -1);
+                motion.add_turn(&states[left], -1)?;
+                motion.add_arm(&states[left], -1);
                 left = links.all[left].parent;
             } else {
                 path.push(entered);
@@ -122,26 +132,27 @@ impl Way {
             }
         }
         for link in path.into_iter().rev() {
-            way.move_by(&placed[link], 1);
-            way.turn_by(&placed[link], 1)?;
+            motion.add_arm(&states[link], 1);
+            motion.add_turn(&states[link], 1)?;
         }
-        Some(way)
+        Some(motion)
     }
 
-    /// Returns a bound of the second derivative of the vector and one more, so long, that the link carries and that changes at a rate.
-    pub(crate) fn bend(&self, long: i128, rate: i128) -> i128 {
-        self.bend + up(self.angle, up(self.angle, long + rate) + 2 * rate)
+    /// Returns a bound of the second derivative of the vector between the centres plus one more vector. The link carries that
+    /// vector, which has at most this length and changes at this rate.
+    pub(crate) fn second_derivative(&self, length: i128, rate: i128) -> i128 {
+        self.centre_second_derivative + mul_up(self.angle, mul_up(self.angle, length + rate) + 2 * rate)
     }
 
-    fn turn_by(&mut self, &Placed { turn: (turn, angle), .. }: &Placed, sign: i64) -> Option<()> {
+    fn add_turn(&mut self, &LinkState { turn: (turn, angle), .. }: &LinkState, sign: i64) -> Option<()> {
         self.turn = add(self.turn, turn.map(|x| sign * x));
         self.angle += angle;
         (self.angle <= product(2, ONE)).then_some(())
     }
 
-    fn move_by(&mut self, &Placed { arm: (arm, long), travel: (travel, rate), .. }: &Placed, sign: i64) {
-        let change = add(travel, cross(self.turn, arm));
-        self.change = add(self.change, change.map(|x| sign * x));
-        self.bend = self.bend(long, rate);
+    fn add_arm(&mut self, &LinkState { arm: (arm, length), arm_change: (change, rate), .. }: &LinkState, sign: i64) {
+        let change = add(change, cross(self.turn, arm));
+        self.displacement = add(self.displacement, change.map(|x| sign * x));
+        self.centre_second_derivative = self.second_derivative(length, rate);
     }
 }

@@ -4,14 +4,15 @@ use alloc::vec::Vec;
 
 /// Returns the SHA-256 digest of bytes.
 pub fn sha256(bytes: &[u8]) -> [u8; 32] {
-    // The first 32 bits of the fractional parts of the square roots of the first 8 primes, and of the cube roots of the first 64.
+    // The initial state is the first 32 bits of the fractional parts of the square roots of the first 8 primes. The constants
+    // `k` are those of the cube roots of the first 64 primes.
     let mut state = [2u128, 3, 5, 7, 11, 13, 17, 19].map(|prime| (prime << 64).isqrt() as u32);
     let primes = (2u128..).filter(|n| (2..*n).all(|divisor| n % divisor > 0));
     let bits = || (0..35).rev().map(|bit| 1u128 << bit);
     let cube_root = |x: u128| bits().fold(0, |root, bit| if (root + bit).pow(3) <= x { root + bit } else { root });
     let k: Vec<u32> = primes.take(64).map(|prime| cube_root(prime << 96) as u32).collect();
     let sum = |words: &[u32]| words.iter().fold(0, |sum: u32, &word| sum.wrapping_add(word));
-    // A bit that is 1, zeros, and the length in bits fill the last block.
+    // The padding is a 1 bit, zeros, and the length in bits.
     let mut padded = [bytes, &[0x80]].concat();
     padded.resize((bytes.len() + 72) / 64 * 64 - 8, 0);
     padded.extend((8 * bytes.len() as u64).to_be_bytes());
@@ -44,7 +45,7 @@ mod tests {
         digits.concat()
     }
 
-    /// The examples of the standard, and lengths around those at which another block begins.
+    /// Tests the examples of the standard.
     #[test]
     fn digests_are_those_of_the_standard() {
         let empty = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";

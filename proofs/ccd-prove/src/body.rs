@@ -1,4 +1,4 @@
-//! A mesh with the tree that its certificate describes.
+//! A mesh with its bounding box tree, and the certificate of the tree.
 
 use crate::stop::{Never, Stop, sort};
 use crate::tree::Tree;
@@ -6,39 +6,39 @@ use ccd_core::glam::{DVec3, DVec4};
 use sha2::{Digest, Sha256};
 use std::cmp::Ordering;
 
-/// A mesh of rounded triangles, with a tree of boxes around them, and both as bytes.
+/// A mesh of rounded triangles with a bounding box tree, and the bytes of both.
 ///
-/// Around each vertex is a ball, and a triangle is the convex hull of the balls of its corners. If their radii are 0 it is flat.
+/// Each vertex has a ball around it. A rounded triangle is the convex hull of the balls around its corners. It is flat if their radii
+/// are 0.
 #[derive(Clone, Debug)]
 pub struct Body {
     pub(crate) tree: Tree,
     mesh: Vec<u8>,
-    /// The SHA-256 digest of the mesh.
+    /// The SHA-256 digest of the bytes of the mesh.
     pub(crate) digest: [u8; 32],
     certificate: Vec<u8>,
 }
 
 impl Body {
-    /// Makes a body of a mesh. Its digest is that of the mesh as bytes: the numbers of vertices and triangles, the coordinates and
-    /// radii, the numbers of the corners, all in little endian.
+    /// Creates a body from a mesh of flat triangles.
     ///
     /// # Panics
-    /// If a triangle has a corner that is no vertex, or if there is no triangle.
+    /// If the index of a corner is out of range, or if there is no triangle.
     pub fn new(vertices: &[[f64; 3]], faces: &[[u32; 3]]) -> Self {
         let flat: Vec<[f64; 4]> = vertices.iter().map(|&[x, y, z]| [x, y, z, 0.0]).collect();
         Body::rounded(&flat, faces)
     }
 
-    /// Makes a body of a mesh with balls around its vertices: each has its radius after its coordinates.
+    /// Creates a body from a mesh of rounded triangles. Each vertex has x, y, z and the radius of the ball around it.
     ///
     /// # Panics
-    /// As [`new`](Self::new).
+    /// Like [`new`](Self::new).
     pub fn rounded(vertices: &[[f64; 4]], faces: &[[u32; 3]]) -> Self {
-        let Ok(body) = Body::of_mesh(vertices, faces, Never);
+        let Ok(body) = Body::build(vertices, faces, Never);
         body
     }
 
-    fn of_mesh<S: Stop>(
+    fn build<S: Stop>(
         vertices: &[[f64; 4]],
         faces: &[[u32; 3]],
         stop: S,
@@ -48,15 +48,15 @@ impl Body {
         assert!(!triangles.is_empty(), "a body has triangles");
         let mesh = mesh_bytes(vertices, faces);
         let mut hasher = Sha256::new();
-        for part in mesh.chunks(HASHED_AT_ONCE) {
+        for part in mesh.chunks(HASH_CHUNK) {
             stop.check()?;
             hasher.update(part);
         }
         let digest: [u8; 32] = hasher.finalize().into();
-        let (tree, written) = Tree::new(&triangles, stop)?;
+        let (tree, numbers) = Tree::new(&triangles, stop)?;
         let mut certificate = b"CCDBODY1".to_vec();
         certificate.extend(digest);
-        certificate.extend(written.iter().flat_map(|number| number.to_le_bytes()));
+        certificate.extend(numbers.iter().flat_map(|number| number.to_le_bytes()));
         Ok(Body {
             tree,
             mesh,
@@ -65,43 +65,44 @@ impl Body {
         })
     }
 
-    /// Makes a body of the triangles of one of the engine's; `None` if a piece of more than three points has none.
+    /// Converts a body of the engine. Returns `None` if a piece with more than three points has no mesh triangles.
     ///
-    /// A ball is a triangle whose corners are its centre, a capsule one that is its axis. Vertices and triangles are sorted, so that
-    /// the bytes of the mesh do not depend on the tree that the engine has built.
+    /// A ball becomes a triangle with its centre as all three corners, and a capsule a triangle along its axis. Vertices and
+    /// triangles are sorted, so the bytes of the mesh do not depend on the engine's tree.
     pub fn of(body: &ccd_core::Body) -> Option<Self> {
         let Ok(body) = Body::of_triangles(&triangles_of(body)?, Never);
         Some(body)
     }
 
+    /// Creates a body from triangles, whose corners have x, y, z and a radius.
     pub(crate) fn of_triangles<S: Stop>(
         triangles: &[[DVec4; 3]],
         stop: S,
     ) -> Result<Self, S::Stopped> {
-        let (vertices, faces) = canonical(triangles, stop)?;
-        Body::of_mesh(&vertices, &faces, stop)
+        let (vertices, faces) = sorted_mesh(triangles, stop)?;
+        Body::build(&vertices, &faces, stop)
     }
 
-    /// Returns the mesh as the bytes whose digest a certificate states.
+    /// Returns the bytes of the mesh. A certificate names a mesh by the digest of these bytes.
     pub fn mesh(&self) -> &[u8] {
         &self.mesh
     }
 
-    /// Returns the SHA-256 digest of the mesh.
+    /// Returns the SHA-256 digest of the bytes of the mesh.
     pub fn digest(&self) -> [u8; 32] {
         self.digest
     }
 
-    /// Returns the certificate of the body's tree.
+    /// Returns the certificate of the tree.
     pub fn certificate(&self) -> &[u8] {
         &self.certificate
     }
 }
 
-/// The number of bytes that are hashed without a look at the flag that stops the work.
-const HASHED_AT_ONCE: usize = 1 << 20;
+/// The number of bytes to hash between two checks of the stop condition.
+const HASH_CHUNK: usize = 1 << 20;
 
-/// Returns the triangles of one of the engine's bodies.
+/// Returns the triangles of a body of the engine. Returns `None` if a piece with more than three points has no mesh triangles.
 pub(crate) fn triangles_of(body: &ccd_core::Body) -> Option<Vec<[DVec4; 3]>> {
     let mut triangles: Vec<[DVec4; 3]> = Vec::new();
     for piece in body.pieces().iter() {
@@ -125,12 +126,12 @@ pub(crate) fn triangles_of(body: &ccd_core::Body) -> Option<Vec<[DVec4; 3]>> {
     Some(triangles)
 }
 
-/// Vertices, and triangles by the numbers of their corners.
-type Canonical = (Vec<[f64; 4]>, Vec<[u32; 3]>);
+/// The vertices of a mesh, and the indices of the corners of its triangles.
+type IndexedMesh = (Vec<[f64; 4]>, Vec<[u32; 3]>);
 
-/// Returns the vertices of triangles in the order of their coordinates, and the triangles in the order of their corners, the
-/// least of which comes first.
-fn canonical<S: Stop>(triangles: &[[DVec4; 3]], stop: S) -> Result<Canonical, S::Stopped> {
+/// Returns the distinct vertices of triangles, sorted by their coordinates, and the sorted triangles. The corners of a triangle are
+/// rotated so that the least index comes first.
+fn sorted_mesh<S: Stop>(triangles: &[[DVec4; 3]], stop: S) -> Result<IndexedMesh, S::Stopped> {
     let compare = |a: &[f64; 4], b: &[f64; 4]| {
         let coordinates = a.iter().zip(b).map(|(a, b)| a.total_cmp(b));
         coordinates.fold(Ordering::Equal, Ordering::then)
@@ -138,12 +139,12 @@ fn canonical<S: Stop>(triangles: &[[DVec4; 3]], stop: S) -> Result<Canonical, S:
     let mut vertices: Vec<[f64; 4]> = triangles.iter().flatten().map(|v| v.to_array()).collect();
     sort(&mut vertices, compare, stop)?;
     vertices.dedup_by(|a, b| compare(a, b).is_eq());
-    let number = |corner: DVec4| {
+    let index = |corner: DVec4| {
         let corner = corner.to_array();
         vertices.partition_point(|v| compare(v, &corner).is_lt()) as u32
     };
-    let numbers = |corners: &[DVec4; 3]| stop.check().map(|()| corners.map(number));
-    let faces = triangles.iter().map(numbers);
+    let indices = |corners: &[DVec4; 3]| stop.check().map(|()| corners.map(index));
+    let faces = triangles.iter().map(indices);
     let mut faces: Vec<[u32; 3]> = faces.collect::<Result<_, _>>()?;
     for face in &mut faces {
         let least = (0..3).min_by_key(|&k| face[k]).unwrap_or(0);
@@ -153,6 +154,7 @@ fn canonical<S: Stop>(triangles: &[[DVec4; 3]], stop: S) -> Result<Canonical, S:
     Ok((vertices, faces))
 }
 
+/// Returns the bytes of a mesh: the counts of vertices and triangles, the vertices, and the indices of the corners.
 fn mesh_bytes(vertices: &[[f64; 4]], faces: &[[u32; 3]]) -> Vec<u8> {
     let mut bytes = Vec::new();
     bytes.extend((vertices.len() as u32).to_le_bytes());

@@ -1,9 +1,9 @@
-//! Boxes around corners with balls.
+//! Bounding boxes of vertices, and the range of the radii around them.
 
 use ccd_core::glam::{DVec3, DVec4};
 use ccd_core::order::{greater, lesser};
 
-/// The least and the greatest coordinates and radius of corners.
+/// The least and the greatest x, y, z and radius of some vertices.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     pub(crate) least: DVec4,
@@ -16,43 +16,45 @@ impl Bounds {
     }
 
     pub(crate) fn around(corners: impl Iterator<Item = DVec4>) -> Bounds {
-        let none = Bounds {
+        let empty = Bounds {
             least: DVec4::INFINITY,
             greatest: DVec4::NEG_INFINITY,
         };
-        corners.fold(none, |all, corner| {
-            all.with(&Bounds {
+        corners.fold(empty, |bounds, corner| {
+            bounds.union(&Bounds {
                 least: corner,
                 greatest: corner,
             })
         })
     }
 
-    /// Returns the bounds of both.
-    pub(crate) fn with(&self, other: &Bounds) -> Bounds {
+    /// Returns the smallest bounds that contain both.
+    pub(crate) fn union(&self, other: &Bounds) -> Bounds {
         Bounds {
-            least: of_each(self.least, other.least, lesser),
-            greatest: of_each(self.greatest, other.greatest, greater),
+            least: by_coordinate(self.least, other.least, lesser),
+            greatest: by_coordinate(self.greatest, other.greatest, greater),
         }
     }
 
-    pub(crate) fn middle(&self) -> DVec3 {
+    pub(crate) fn centre(&self) -> DVec3 {
         (0.5 * (self.least + self.greatest)).truncate()
     }
 
-    /// Returns half of the area of the box, and a tenth of the square of its diagonal, which tells boxes without an area apart.
+    /// Returns half of the surface area of the box, plus a tenth of the square of its diagonal. The diagonal orders boxes with no
+    /// area.
     pub(crate) fn area(&self) -> f64 {
         let size = (self.greatest - self.least).truncate();
         let [x, y, z] = size.to_array();
         x * y + y * z + z * x + 0.1 * size.length_squared()
     }
 
-    /// Returns the least height of the box.
+    /// Returns the least dot product of `direction` with a point of the box.
     pub(crate) fn least_height(&self, direction: DVec4) -> f64 {
-        of_each(direction * self.least, direction * self.greatest, lesser).element_sum()
+        by_coordinate(direction * self.least, direction * self.greatest, lesser).element_sum()
     }
 }
 
-pub(crate) fn of_each(a: DVec4, b: DVec4, of: fn(f64, f64) -> f64) -> DVec4 {
-    DVec4::new(of(a.x, b.x), of(a.y, b.y), of(a.z, b.z), of(a.w, b.w))
+/// Applies a function to each pair of coordinates.
+pub(crate) fn by_coordinate(a: DVec4, b: DVec4, f: fn(f64, f64) -> f64) -> DVec4 {
+    DVec4::new(f(a.x, b.x), f(a.y, b.y), f(a.z, b.z), f(a.w, b.w))
 }

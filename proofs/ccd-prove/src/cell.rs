@@ -1,11 +1,11 @@
-//! The bodies of a robot's cell as proofs take them, and the scene of an edge.
+//! Proofs about the paths of a robot in a cell.
 
 use crate::body::Body;
 use crate::error::{CellNotProvable, NotProven, PathNotProven};
-use crate::placed::moving;
+use crate::link_motion::link_motions;
 use crate::positions::{ImpossiblePosition, check_positions};
-use crate::resting::{Resting, resting_bodies};
-use crate::scene::{AxisKind, Carried, Joint, Link, Pair, Scene, Witness};
+use crate::rigid_groups::{RigidGroup, rigid_groups};
+use crate::scene::{AxisKind, Joint, Link, Pair, Scene, SceneBody, Witness};
 use crate::statement::Statement;
 use crate::stop::{Never, Stop};
 use crate::write::{Proof, mesh_points, prove_unless_stopped, statement_of};
@@ -16,16 +16,16 @@ use rigid_ccd_robot::{Cell, Item, PathAnswer, PathContact, PathOutcome, RobotErr
 use std::collections::HashMap;
 use std::sync::atomic::AtomicBool;
 
-/// A cell whose bodies are prepared for proofs.
+/// A robot's cell whose bodies are prepared for proofs.
 ///
-/// Bodies that rest against each other, such as all obstacles, are one body of a proof if they are compared with the same others.
-/// Its mesh has the corners of all of them in the frame of the link that carries them, rounded to binary64, each with a ball around
-/// it that is larger by what the corner may be off. So a proof about it is one about each of them.
+/// Bodies that are static relative to each other, such as all obstacles, are merged into one body if they are compared with the same
+/// other bodies. The vertices of the merged mesh are in the frame of the common link, rounded to binary64. The ball around each vertex
+/// grows by the rounding error, so a proof about the merged mesh holds for each of its bodies.
 #[derive(Debug)]
 pub struct ProvenCell<'c> {
     cell: &'c Cell,
-    bodies: Vec<Resting>,
-    /// The links that carry them, each with the one that carries it and the number of its joint; those that carry others first.
+    groups: Vec<RigidGroup>,
+    /// The links that move the bodies, each with its parent and the index of its joint. Parents come first.
     links: Vec<(usize, usize, usize)>,
 }
 
@@ -33,13 +33,13 @@ impl<'c> ProvenCell<'c> {
     /// Prepares the bodies of a cell.
     ///
     /// # Errors
-    /// [`CellNotProvable`], with the name of an obstacle, a held body or a link, or if no pair is compared.
+    /// [`CellNotProvable`] if a body has no mesh, with the name of its obstacle, held body or link, or if no pair is compared.
     pub fn new(cell: &'c Cell) -> Result<Self, CellNotProvable> {
         let Ok(proven) = ProvenCell::prepare(cell, Never);
         proven
     }
 
-    /// Prepares the bodies of a cell as [`new`](Self::new) does; `None` soon after another thread sets a flag.
+    /// Prepares the bodies of a cell as [`new`](Self::new) does. Returns `None` soon after another thread sets a flag.
     pub fn unless_stopped(
         cell: &'c Cell,
         stop: &AtomicBool,
@@ -54,26 +54,26 @@ impl<'c> ProvenCell<'c> {
         if let Err(nothing) = cell.check_any_compared() {
             return Ok(Err(nothing.into()));
         }
-        let bodies = resting_bodies(cell, stop)?;
-        Ok(bodies.map_or_else(
+        let groups = rigid_groups(cell, stop)?;
+        Ok(groups.map_or_else(
             |error| Err(error.into()),
-            |bodies| Ok(ProvenCell::of_bodies(cell, bodies)),
+            |groups| Ok(ProvenCell::from_groups(cell, groups)),
         ))
     }
 
-    fn of_bodies(cell: &'c Cell, bodies: Vec<Resting>) -> Self {
+    fn from_groups(cell: &'c Cell, groups: Vec<RigidGroup>) -> Self {
         let mut links = cell.robot().joints_parents_first();
-        let mut carries = vec![false; cell.robot().links().len()];
-        for resting in &bodies {
-            carries[resting.link] = true;
+        let mut moves_body = vec![false; cell.robot().links().len()];
+        for group in &groups {
+            moves_body[group.link] = true;
         }
         for (link, parent, _) in links.iter().rev() {
-            carries[*parent] |= carries[*link];
+            moves_body[*parent] |= moves_body[*link];
         }
-        links.retain(|(link, ..)| carries[*link]);
+        links.retain(|(link, ..)| moves_body[*link]);
         ProvenCell {
             cell,
-            bodies,
+            groups,
             links,
         }
     }
@@ -83,12 +83,12 @@ impl<'c> ProvenCell<'c> {
         self.cell
     }
 
-    /// Returns the meshes of the cell's bodies.
+    /// Returns the meshes of a proof, each of one body or of several merged ones.
     pub fn meshes(&self) -> impl Iterator<Item = &Body> {
-        self.bodies.iter().map(|resting| &resting.body)
+        self.groups.iter().map(|group| &group.body)
     }
 
-    /// Returns the scene of an edge, whose joints move from one configuration to another at constant rates from time 0 to 1.
+    /// Returns the scene of an edge. Its joints move from one configuration to another at constant rates, from time 0 to 1.
     ///
     /// # Errors
     /// [`RobotError::WrongPositionCount`].
@@ -96,62 +96,62 @@ impl<'c> ProvenCell<'c> {
         let robot = self.cell.robot();
         let [from, to] = [robot.joint_positions(from)?, robot.joint_positions(to)?];
         let mut scene = Scene::default();
-        // The number in the scene of each link of the robot; that of the base is the world.
-        let mut numbers = vec![0; robot.links().len()];
-        for &(link, parent, number) in &self.links {
-            let joint = &robot.joints()[number].geometry;
-            let positions = [from[number], to[number]];
+        // The index of each link of the robot in the scene. The base is the world.
+        let mut scene_links = vec![0; robot.links().len()];
+        for &(link, parent, joint_index) in &self.links {
+            let joint = &robot.joints()[joint_index].geometry;
+            let positions = [from[joint_index], to[joint_index]];
             scene.links.push(Link {
-                parent: numbers[parent],
+                parent: scene_links[parent],
                 joint: scene_joint(joint.kind(), *joint.origin(), positions),
             });
-            numbers[link] = scene.links.len();
+            scene_links[link] = scene.links.len();
         }
-        for Resting {
+        for RigidGroup {
             link, pose, body, ..
-        } in &self.bodies
+        } in &self.groups
         {
-            let mut link = numbers[*link];
+            let mut link = scene_links[*link];
             if *pose != Pose::IDENTITY {
-                let joint = fixed(*pose);
+                let joint = fixed_joint(*pose);
                 scene.links.push(Link {
                     parent: link,
                     joint,
                 });
                 link = scene.links.len();
             }
-            scene.bodies.push(Carried { body, link });
+            scene.bodies.push(SceneBody { body, link });
         }
         scene.pairs = self.pairs(margin);
         Ok(scene)
     }
 
-    /// Returns the positions at times 0 and 1 that a statement gives to the joints that move its bodies; `None` if the statement is not
-    /// about all pairs of this cell with a margin.
+    /// Returns the names of the joints in a statement, and their positions at times 0 and 1. Returns `None` if the statement is not
+    /// about all pairs of this cell with this margin.
     pub fn joints_of(&self, statement: &Statement, margin: f64) -> Option<Vec<(&str, [f64; 2])>> {
         let robot = self.cell.robot();
-        let still = vec![0.0; robot.free_joint_names().len()];
-        let own = statement_of(&self.edge(&still, &still, margin).ok()?, 0.0)?;
+        let zeros = vec![0.0; robot.free_joint_names().len()];
+        let own = statement_of(&self.edge(&zeros, &zeros, margin).ok()?, 0.0)?;
         let scales = own.scales(statement)?;
         let links = statement.links.iter().zip(scales).zip(&self.links);
         let joints = links.filter(|((stated, _), _)| stated.axes > 0);
-        let positions = joints.map(|((stated, scale), (.., number))| {
-            let positions = [stated.start, stated.start + stated.rate].map(|by| by * scale);
-            (&*robot.joints()[*number].name, positions)
+        let positions = joints.map(|((stated, scale), (.., joint_index))| {
+            let positions = [stated.start, stated.start + stated.rate].map(|s| s * scale);
+            (&*robot.joints()[*joint_index].name, positions)
         });
         Some(positions.collect())
     }
 
-    /// Says whether joints may be at positions that a statement gives them, as [`ProvenCell::joints_of`] returns them: within their
-    /// limits, and as the rules of those that follow others say.
+    /// Checks that the robot can have the joint positions of a statement, which [`ProvenCell::joints_of`] returns. They have to be
+    /// within the limits, and a joint that follows another one has to agree with its rule.
     ///
     /// # Errors
-    /// [`ImpossiblePosition`], with the first joint that may not.
+    /// [`ImpossiblePosition`], with the first joint that fails.
     pub fn check_positions(&self, joints: &[(&str, [f64; 2])]) -> Result<(), ImpossiblePosition> {
         check_positions(self.cell.robot(), joints)
     }
 
-    /// Returns what a proof of an edge states, until its end; `None` if no certificate can state it, as its numbers are too small.
+    /// Returns the statement of a proof of a whole edge. Returns `None` if a number is too small for a certificate.
     ///
     /// # Errors
     /// [`RobotError::WrongPositionCount`].
@@ -163,26 +163,25 @@ impl<'c> ProvenCell<'c> {
         Ok(statement_of(&self.edge(from, to, margin)?, 1.0))
     }
 
-    /// Returns the pairs of bodies that are compared: those of the first ones of what rests stand for all.
+    /// Returns the pairs of groups that are compared. All members of a group have the same pairs, so the first members suffice.
     fn pairs(&self, margin: f64) -> Vec<Pair> {
-        let firsts = self.bodies.iter().enumerate();
-        let firsts: HashMap<usize, usize> = firsts
-            .map(|(number, resting)| (resting.members[0], number))
+        let groups = self.groups.iter().enumerate();
+        let by_first_member: HashMap<usize, usize> = groups
+            .map(|(index, group)| (group.members[0], index))
             .collect();
         let pairs = self.cell.compared_pairs(margin);
-        let number = |body| firsts.get(&body).copied();
-        let of_firsts = pairs.filter_map(|([a, b], margin)| {
-            let bodies = [number(a)?, number(b)?];
+        let group_of = |body| by_first_member.get(&body).copied();
+        let group_pairs = pairs.filter_map(|([a, b], margin)| {
+            let bodies = [group_of(a)?, group_of(b)?];
             Some(Pair { bodies, margin })
         });
-        of_firsts.collect()
+        group_pairs.collect()
     }
 
-    /// Proves what is known of a path: for each segment that all pairs of the cell are farther apart than the margin, up to the
-    /// first contact, and two points that are near each other there. A segment at whose start bodies touch, or one is in another, is
-    /// left out, unless their surfaces are apart there by less than the tolerance.
+    /// Proves the answer about the first contact on a path, with one proof for each segment up to the contact.
     ///
-    /// `answer` is that about the first contact.
+    /// A proof states that all pairs of the cell stay farther apart than the margin. The last one also has the contact as a witness.
+    /// A segment has no proof if bodies are in contact at its start, unless their surfaces can still be proven apart there.
     ///
     /// # Errors
     /// [`PathNotProven`].
@@ -195,8 +194,8 @@ impl<'c> ProvenCell<'c> {
         self.path_proofs(path, answer, settings).collect()
     }
 
-    /// Proves what is known of a path as [`prove_path`](Self::prove_path) does, one segment after another: each proof is made when
-    /// it is asked for. The first error is the last item.
+    /// Proves the answer as [`prove_path`](Self::prove_path) does, but computes each proof when the iterator reaches it. The iterator
+    /// ends after the first error.
     pub fn path_proofs<'p, C: AsRef<[f64]>>(
         &'p self,
         path: &'p [C],
@@ -223,7 +222,7 @@ impl<'c> ProvenCell<'c> {
         proofs.take_while(move |proof| !std::mem::replace(&mut has_failed, proof.is_err()))
     }
 
-    /// Proves what is known of a segment up to a share of it; `None` if bodies touch at its start.
+    /// Proves a segment up to a share of it. Returns `None` if bodies are in contact at its start.
     fn prove_segment(
         &self,
         (segment, [from, to]): (usize, [&[f64]; 2]),
@@ -246,8 +245,9 @@ impl<'c> ProvenCell<'c> {
         }
     }
 
-    /// Returns a contact of an edge as a witness in its scene: of the pairs of bodies that the contact may be of, the one whose
-    /// meshes are nearest to its points. `None` if there is no such pair, or if a deadline has left the contact without points.
+    /// Returns the witness of a contact. Several pairs of the scene may belong to the contact's links or obstacles; the witness is for
+    /// the pair whose meshes are nearest to the contact's points. Returns `None` if no pair belongs to it, or if a deadline left the
+    /// contact without points.
     fn witness(
         &self,
         scene: &Scene<'_>,
@@ -256,10 +256,10 @@ impl<'c> ProvenCell<'c> {
     ) -> Option<Witness> {
         let items: Vec<Item<'_>> = self.cell.carried_bodies().map(|body| body.item).collect();
         let has = |body: usize, item: Item<'_>| {
-            let mut members = self.bodies[body].members.iter();
+            let mut members = self.groups[body].members.iter();
             members.any(|&member| items[member] == item)
         };
-        let links = moving(&scene.links, 0).ok()?;
+        let links = link_motions(&scene.links, 0).ok()?;
         let ([a, b], [x, y]) = (contact.witnesses?, contact.items);
         let all = scene.pairs.iter().enumerate();
         let candidates = all.filter_map(|(pair, Pair { bodies: [k, l], .. })| {
@@ -286,9 +286,9 @@ impl<'c> ProvenCell<'c> {
 
 fn scene_joint(kind: JointKind, pose: Pose, [start, end]: [f64; 2]) -> Joint {
     let (kind, axis) = match kind {
-        JointKind::Fixed => return fixed(pose),
-        JointKind::Revolute(axis) => (AxisKind::Turns, axis),
-        JointKind::Prismatic(axis) => (AxisKind::Slides, axis),
+        JointKind::Fixed => return fixed_joint(pose),
+        JointKind::Revolute(axis) => (AxisKind::Revolute, axis),
+        JointKind::Prismatic(axis) => (AxisKind::Prismatic, axis),
     };
     Joint::Axis {
         kind,
@@ -299,6 +299,6 @@ fn scene_joint(kind: JointKind, pose: Pose, [start, end]: [f64; 2]) -> Joint {
     }
 }
 
-fn fixed(pose: Pose) -> Joint {
+fn fixed_joint(pose: Pose) -> Joint {
     Joint::Free(Motion::still(pose))
 }

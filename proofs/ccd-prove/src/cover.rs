@@ -1,10 +1,11 @@
-//! Splits what is to be proven until leaves prove it that are cheap to check.
+//! Builds the steps of a proof: splits parts and intervals of time until a cheap leaf proves each pair of parts apart.
 
 use crate::error::NotProven;
-use crate::placed::{Moving, Placed, placed as placed_links};
-use crate::plane::Gap;
+use crate::interval::{LinkState, PairInterval, link_states};
+use crate::link_motion::LinkMotion;
 use crate::scene::Scene;
-use crate::stretch::Stretch;
+use crate::separating_plane::PlaneSearch;
+use crate::step::Step;
 use crate::tree::{Part, Tree};
 use ccd_core::glam::DVec3;
 use ccd_distance_gjk::{TerminationBounds, Vertex, bound_distance};
@@ -12,225 +13,274 @@ use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The largest number of bytes of a proof.
+/// The maximum number of bytes of the steps.
 const MAX_BYTES: usize = 1 << 26;
 
-/// The largest number of splits on a path.
+/// The maximum number of splits between a pair's root and any leaf.
 const MAX_DEPTH: u32 = 200;
 
-/// The shortest stretch that is split, as a share of the whole: the checker has times in 2⁻⁶⁰.
-const SHORTEST: f64 = 1e-15;
+/// The shortest interval that is split, as a share of the whole time. The checker's times are multiples of 2⁻⁶⁰.
+const MIN_INTERVAL: f64 = 1e-15;
 
-/// Parts that move by less than this share of their radius are not split in time.
-const LEAST_WAY: f64 = 0.1;
+/// Time is not split for parts whose displacement is below this share of their radius.
+const MIN_DISPLACEMENT: f64 = 0.1;
 
-/// What it takes to check a leaf with a ball or a plane besides the looks at boxes, and to place a link in the middle of a stretch
-/// of time: as many looks as take as long, about.
-const BALL: usize = 15;
-const PLANE: usize = 35;
-const LINK: usize = 40;
+/// The cost of checking a leaf with a ball, besides its visits to boxes. All costs are in visits to one box.
+const BALL_COST: usize = 15;
 
-/// A leaf that takes less to check is not split to find cheaper ones.
-const CHEAP: usize = 30;
+/// The cost of checking a leaf with a plane, besides its visits to boxes.
+const PLANE_COST: usize = 35;
 
-/// What is expected to check what a split leaves unproven.
-const EXPECTED: usize = 800;
+/// The cost of computing the state of one link for one interval.
+const LINK_COST: usize = 40;
 
-/// A proof as it is written.
+/// A task with a leaf of at most this cost is not split in search of cheaper leaves.
+const CHEAP_LEAF_COST: usize = 30;
+
+/// Estimated checking cost of a task that no leaf proves yet.
+const UNPROVEN_COST: usize = 800;
+
+/// The maximum number of link states in the cache, which take about 100 MB. The checker's cache has the same maximum.
+pub(crate) const MAX_CACHED_STATES: usize = 1 << 19;
+
+/// The steps of a proof while they are written. Their leaves cover all pairs of triangles at all times.
 pub(crate) struct Cover<'a> {
-    scene: (&'a Scene<'a>, &'a [Moving]),
-    until: f64,
-    /// What another thread sets to stop the work.
-    stop: Option<&'a AtomicBool>,
-    /// The unit of length.
-    unit: f64,
-    /// The pair, and how far its parts have to be from a plane: half of the margin, and an allowance for the rounding here.
+    scene: &'a Scene<'a>,
+    link_motions: &'a [LinkMotion],
+    limits: CoverLimits<'a>,
+    /// The unit of length of the certificate.
+    length_unit: f64,
+    /// The index of the current pair.
     pair: usize,
-    least: f64,
-    stretches: HashMap<[u64; 2], Rc<Stretch<'a>>>,
-    /// All links in the middle of each stretch, which pairs share.
-    placed: HashMap<[u64; 2], Vec<Placed>>,
+    /// The required gap of the current pair on either side of a separating plane: half of the margin, and an allowance for rounding.
+    required_gap: f64,
+    /// The current pair in each interval, by the bits of the interval's start and end.
+    pair_intervals: HashMap<[u64; 2], Rc<PairInterval<'a>>>,
+    /// The states of all links in each interval, which all pairs share.
+    link_states: HashMap<[u64; 2], Vec<LinkState>>,
     pub(crate) steps: Vec<u8>,
-    pub(crate) leaves: usize,
+    pub(crate) leaf_count: usize,
 }
 
-/// Parts over a stretch of time.
+/// The end of the time to cover, and the limits of the work.
+#[derive(Clone, Copy)]
+pub(crate) struct CoverLimits<'a> {
+    /// The time until which the pairs are proven apart.
+    pub(crate) until: f64,
+    /// The flag that another thread sets to stop the work.
+    pub(crate) stop: Option<&'a AtomicBool>,
+    /// The number of link states above which the cache is emptied.
+    pub(crate) max_cached_states: usize,
+}
+
+/// Two parts to prove apart over an interval of time.
 #[derive(Clone)]
 struct Task<'a> {
     parts: [Part; 2],
-    stretch: Rc<Stretch<'a>>,
-    /// The axis that kept them apart best, or a part above them.
+    interval: Rc<PairInterval<'a>>,
+    /// The best separating axis so far of these parts, or of the parts that they were split from.
     axis: DVec3,
-    /// The number of splits so far.
+    /// The number of splits above this task.
     depth: u32,
-    /// The cheapest leaf that is known to prove them apart, if that has been asked.
-    leaf: Option<Option<Leaf>>,
+    leaf: KnownLeaf,
 }
 
-/// What proves a task, and what it takes to check that.
+/// The result of the search for a leaf that proves a task.
+#[derive(Clone, Copy)]
+enum KnownLeaf {
+    NotSearched,
+    NotFound,
+    Found(Leaf),
+}
+
+/// A leaf that proves a task, and its checking cost.
 #[derive(Clone, Copy)]
 struct Leaf {
-    price: usize,
-    by: By,
+    cost: usize,
+    kind: LeafKind,
 }
 
 #[derive(Clone, Copy)]
-enum By {
-    /// A ball around A or B.
+enum LeafKind {
+    /// The bounding ball of the part of a body: 0 is A, 1 is B.
     Ball(usize),
-    /// A plane across the axis of the task.
+    /// A plane perpendicular to the axis of the task.
     Plane,
 }
 
-/// What a task is split into.
+/// A split of a task, and the tasks that remain.
 struct Split<'a> {
-    step: u8,
-    /// What it takes to check the split itself.
-    price: usize,
+    step: Step,
+    /// The cost of checking the split itself.
+    cost: usize,
     tasks: Vec<Task<'a>>,
 }
 
 impl<'a> Cover<'a> {
     pub(crate) fn new(
-        scene: (&'a Scene<'a>, &'a [Moving]),
-        (until, stop): (f64, Option<&'a AtomicBool>),
-        unit: f64,
+        (scene, link_motions): (&'a Scene<'a>, &'a [LinkMotion]),
+        limits: CoverLimits<'a>,
+        length_unit: f64,
     ) -> Self {
         Cover {
             scene,
-            until,
-            stop,
-            unit,
+            link_motions,
+            limits,
+            length_unit,
             pair: 0,
-            least: 0.0,
-            stretches: HashMap::new(),
-            placed: HashMap::new(),
+            required_gap: 0.0,
+            pair_intervals: HashMap::new(),
+            link_states: HashMap::new(),
             steps: Vec::new(),
-            leaves: 0,
+            leaf_count: 0,
         }
     }
 
-    /// Writes the steps that prove a pair to be farther apart than twice `least`.
-    pub(crate) fn write(&mut self, pair: usize, least: f64) -> Result<(), NotProven> {
-        (self.pair, self.least) = (pair, least);
-        self.stretches.clear();
-        let stretch = self.stretch([0.0, self.until]);
-        let axis = stretch.offset;
-        self.cover(Task {
+    /// Writes the steps that prove a pair farther apart than twice `required_gap`.
+    pub(crate) fn write_pair(&mut self, pair: usize, required_gap: f64) -> Result<(), NotProven> {
+        (self.pair, self.required_gap) = (pair, required_gap);
+        self.pair_intervals.clear();
+        let interval = self.pair_interval([0.0, self.limits.until]);
+        let axis = interval.offset;
+        self.prove_task(Task {
             parts: [Tree::WHOLE; 2],
-            stretch,
+            interval,
             axis,
             depth: 0,
-            leaf: None,
+            leaf: KnownLeaf::NotSearched,
         })
     }
 
-    fn stretch(&mut self, times: [f64; 2]) -> Rc<Stretch<'a>> {
-        let (scene, pair, key) = (self.scene, self.pair, times.map(f64::to_bits));
-        let placed = &mut self.placed;
-        let stretch = self.stretches.entry(key).or_insert_with(|| {
-            let [from, to] = times;
-            let all = placed
-                .entry(key)
-                .or_insert_with(|| placed_links(scene.1, 0.5 * (from + to), 0.5 * (to - from)));
-            Rc::new(Stretch::new(scene, pair, (times, all)))
-        });
-        Rc::clone(stretch)
+    /// Returns the current pair over an interval of time, from the cache if it is there.
+    fn pair_interval(&mut self, times: [f64; 2]) -> Rc<PairInterval<'a>> {
+        let key = times.map(f64::to_bits);
+        if let Some(interval) = self.pair_intervals.get(&key) {
+            return Rc::clone(interval);
+        }
+        if self.cached_states() > self.limits.max_cached_states {
+            self.link_states.clear();
+            self.pair_intervals.clear();
+        }
+        let ([start, end], motions) = (times, self.link_motions);
+        let states = self
+            .link_states
+            .entry(key)
+            .or_insert_with(|| link_states(motions, 0.5 * (start + end), 0.5 * (end - start)));
+        let interval = PairInterval::new((self.scene, motions), self.pair, (times, states));
+        let interval = Rc::new(interval);
+        self.pair_intervals.insert(key, Rc::clone(&interval));
+        interval
     }
 
-    fn cover(&mut self, mut task: Task<'a>) -> Result<(), NotProven> {
-        let at = task.stretch.from;
+    /// Returns the number of link states in the cache.
+    pub(crate) fn cached_states(&self) -> usize {
+        self.link_states.len() * self.link_motions.len()
+    }
+
+    /// Writes the steps that prove a task: its leaf, or a split and the steps of the tasks that remain.
+    fn prove_task(&mut self, mut task: Task<'a>) -> Result<(), NotProven> {
+        let at = task.interval.start;
         if task.depth > MAX_DEPTH || self.steps.len() > MAX_BYTES {
             let bytes = self.steps.len();
             return Err(NotProven::TooLong { at, bytes });
         }
-        if self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+        if self
+            .limits
+            .stop
+            .is_some_and(|stop| stop.load(Ordering::Relaxed))
+        {
             return Err(NotProven::Stopped { at });
         }
-        let leaf = self.leaf(&mut task);
-        let price = leaf.map_or(usize::MAX, |leaf| leaf.price);
-        let mut best: (usize, Option<Split<'a>>) = (price, None);
-        if price > CHEAP {
-            // What a leaf proves is not left to splits of which more is not known.
-            let expected = if leaf.is_some() { usize::MAX } else { EXPECTED };
+        let leaf = self.find_leaf(&mut task);
+        let leaf_cost = leaf.map_or(usize::MAX, |leaf| leaf.cost);
+        let mut best: (usize, Option<Split<'a>>) = (leaf_cost, None);
+        if leaf_cost > CHEAP_LEAF_COST {
+            // A split with an unproven task does not replace a leaf.
+            let unproven_cost = if leaf.is_some() {
+                usize::MAX
+            } else {
+                UNPROVEN_COST
+            };
             for mut split in self.splits(&task) {
-                let price = self.price(&mut split, expected);
-                if price < best.0 {
-                    best = (price, Some(split));
+                let cost = self.split_cost(&mut split, unproven_cost);
+                if cost < best.0 {
+                    best = (cost, Some(split));
                 }
             }
         }
         let Some(split) = best.1 else {
             let leaf = leaf.ok_or(NotProven::Touching { at })?;
-            return self.write_leaf(&task, leaf.by);
+            return self.write_leaf(&task, leaf.kind);
         };
-        self.steps.push(split.step);
+        self.steps.push(split.step.opcode());
         split
             .tasks
             .into_iter()
-            .try_for_each(|task| self.cover(task))
+            .try_for_each(|task| self.prove_task(task))
     }
 
-    fn write_leaf(&mut self, task: &Task<'a>, by: By) -> Result<(), NotProven> {
-        match by {
-            By::Ball(k) => self.steps.push(6 + k as u8),
-            By::Plane => {
-                let (axis, _) = axis_in_the_middle(task);
-                let plane = self.gap(task).cheapest_plane([task.axis, axis]);
-                let at = task.stretch.from;
+    fn write_leaf(&mut self, task: &Task<'a>, kind: LeafKind) -> Result<(), NotProven> {
+        match kind {
+            LeafKind::Ball(k) => self.steps.push(Step::Ball(k).opcode()),
+            LeafKind::Plane => {
+                let (axis, _) = separating_axis_at_middle(task);
+                let plane = self.plane_search(task).cheapest_plane([task.axis, axis]);
+                let at = task.interval.start;
                 let plane = plane.ok_or(NotProven::Touching { at })?;
                 plane.write(&mut self.steps);
             }
         }
-        self.leaves += 1;
+        self.leaf_count += 1;
         Ok(())
     }
 
-    /// Returns what it takes to check what a split leads to: what is expected for each task that no leaf proves.
-    fn price(&self, split: &mut Split<'a>, expected: usize) -> usize {
+    /// Returns the cost of checking a split and its tasks. A task that no leaf proves costs `unproven_cost`.
+    fn split_cost(&self, split: &mut Split<'a>, unproven_cost: usize) -> usize {
         let tasks = split.tasks.iter_mut();
-        let prices = tasks.map(|task| self.leaf(task).map_or(expected, |leaf| leaf.price));
-        prices.fold(split.price, usize::saturating_add)
+        let costs = tasks.map(|task| self.find_leaf(task).map_or(unproven_cost, |leaf| leaf.cost));
+        costs.fold(split.cost, usize::saturating_add)
     }
 
-    /// Returns the ways to split a task, the one first that looks best.
+    /// Returns the possible splits of a task, the most promising one first.
     fn splits(&mut self, task: &Task<'a>) -> Vec<Split<'a>> {
-        let (stretch, parts) = (&task.stretch, task.parts);
-        let radii = [0, 1].map(|k| stretch.bodies[k].radius(parts[k]));
+        let (interval, parts) = (&task.interval, task.parts);
+        let radii = [0, 1].map(|k| interval.trees[k].radius(parts[k]));
         let larger = usize::from(radii[1] > radii[0]);
-        let way = stretch.way(parts);
-        let time = (way > LEAST_WAY * radii[larger] || !stretch.is_short())
+        let displacement = interval.relative_displacement(parts);
+        let is_within_max_turn = interval.is_within_max_turn();
+        let time = (displacement > MIN_DISPLACEMENT * radii[larger] || !is_within_max_turn)
             .then(|| self.split_time(task))
             .flatten();
-        if !stretch.is_short() {
+        if !is_within_max_turn {
             return time.into_iter().collect();
         }
         let halves = [larger, 1 - larger]
             .into_iter()
-            .filter_map(|side| split_part(task, side));
-        if way > radii[larger] {
+            .filter_map(|body| split_part(task, body));
+        if displacement > radii[larger] {
             time.into_iter().chain(halves).collect()
         } else {
             halves.chain(time).collect()
         }
     }
 
+    /// Splits a task at the middle of its interval. Returns `None` if the interval is too short.
     fn split_time(&mut self, task: &Task<'a>) -> Option<Split<'a>> {
-        let Stretch { from, to, .. } = *task.stretch;
-        let middle = 0.5 * (from + to);
-        if to - from <= SHORTEST * self.until {
+        let PairInterval { start, end, .. } = *task.interval;
+        let middle = 0.5 * (start + end);
+        if end - start <= MIN_INTERVAL * self.limits.until {
             return None;
         }
-        let halves = [[from, middle], [middle, to]];
-        let is_new = !self.placed.contains_key(&halves[0].map(f64::to_bits));
+        let halves = [[start, middle], [middle, end]];
+        let is_new = !self.link_states.contains_key(&halves[0].map(f64::to_bits));
         let tasks = halves.map(|times| Task {
-            stretch: self.stretch(times),
-            ..task.below()
+            interval: self.pair_interval(times),
+            ..task.child()
         });
         Some(Split {
-            step: 2,
-            price: if is_new {
-                2 * LINK * self.scene.1.len()
+            step: Step::SplitTime,
+            cost: if is_new {
+                2 * LINK_COST * self.link_motions.len()
             } else {
                 0
             },
@@ -238,88 +288,89 @@ impl<'a> Cover<'a> {
         })
     }
 
-    fn gap<'t>(&self, task: &'t Task<'a>) -> Gap<'t> {
-        Gap {
+    fn plane_search<'t>(&self, task: &'t Task<'a>) -> PlaneSearch<'t> {
+        PlaneSearch {
             parts: task.parts,
-            stretch: &task.stretch,
-            least: self.least,
-            unit: self.unit,
+            interval: &task.interval,
+            required_gap: self.required_gap,
+            length_unit: self.length_unit,
         }
     }
 
-    /// Returns the cheapest leaf that is found to prove a task: with a ball, or with a plane across its axis, or across the axis along
-    /// which its parts are farthest apart in the middle; that is its axis then.
-    fn leaf(&self, task: &mut Task<'a>) -> Option<Leaf> {
-        if let Some(known) = task.leaf {
-            return known;
+    /// Finds the cheapest leaf that proves a task: one with a ball, or one with a plane perpendicular to the task's axis. If that
+    /// plane does not separate the parts, their best separating axis at the middle of the interval becomes the task's axis.
+    fn find_leaf(&self, task: &mut Task<'a>) -> Option<Leaf> {
+        match task.leaf {
+            KnownLeaf::NotSearched => {}
+            KnownLeaf::NotFound => return None,
+            KnownLeaf::Found(leaf) => return Some(leaf),
         }
+        let gap = 2.0 * self.required_gap;
         let ball = [0, 1].into_iter().filter_map(|k| {
-            let looks = task
-                .stretch
-                .looks_beyond_ball(task.parts, k, 2.0 * self.least)?;
-            let (price, by) = (BALL + looks, By::Ball(k));
-            Some(Leaf { price, by })
+            let cost = BALL_COST + task.interval.ball_visits(task.parts, k, gap)?;
+            let kind = LeafKind::Ball(k);
+            Some(Leaf { cost, kind })
         });
-        let mut leaf = ball.min_by_key(|leaf| leaf.price);
-        if leaf.is_none_or(|leaf| leaf.price > PLANE) {
-            let mut looks = self.gap(task).looks(task.axis);
-            if looks.is_none() {
-                let (axis, distance) = axis_in_the_middle(task);
-                if axis != task.axis && distance > 2.0 * self.least {
-                    looks = self.gap(task).looks(axis);
+        let mut leaf = ball.min_by_key(|leaf| leaf.cost);
+        if leaf.is_none_or(|leaf| leaf.cost > PLANE_COST) {
+            let mut visits = self.plane_search(task).visits_along(task.axis);
+            if visits.is_none() {
+                let (axis, distance) = separating_axis_at_middle(task);
+                if axis != task.axis && distance > gap {
+                    visits = self.plane_search(task).visits_along(axis);
                 }
                 task.axis = axis;
             }
-            let price = looks.map(|looks| PLANE + looks);
-            let is_cheaper = |price: &usize| leaf.is_none_or(|leaf| *price < leaf.price);
-            if let Some(price) = price.filter(is_cheaper) {
-                let by = By::Plane;
-                leaf = Some(Leaf { price, by });
+            let cost = visits.map(|visits| PLANE_COST + visits);
+            let is_cheaper = |cost: &usize| leaf.is_none_or(|leaf| *cost < leaf.cost);
+            if let Some(cost) = cost.filter(is_cheaper) {
+                let kind = LeafKind::Plane;
+                leaf = Some(Leaf { cost, kind });
             }
         }
-        task.leaf = Some(leaf);
+        task.leaf = leaf.map_or(KnownLeaf::NotFound, KnownLeaf::Found);
         leaf
     }
 }
 
 impl Task<'_> {
-    /// Returns what a split of the task leaves to be proven, as it is before it is told what of.
-    fn below(&self) -> Self {
+    /// Returns a copy that is one split deeper, whose parts or interval the caller replaces.
+    fn child(&self) -> Self {
         Task {
             depth: self.depth + 1,
-            leaf: None,
+            leaf: KnownLeaf::NotSearched,
             ..self.clone()
         }
     }
 }
 
-/// Halves the part of a body of a task; `None` if it is a triangle.
-fn split_part<'a>(task: &Task<'a>, side: usize) -> Option<Split<'a>> {
-    let tasks = task.stretch.bodies[side]
-        .halves(task.parts[side])?
+/// Splits the part of a body. Returns `None` if it is a single triangle.
+fn split_part<'a>(task: &Task<'a>, body: usize) -> Option<Split<'a>> {
+    let tasks = task.interval.trees[body]
+        .halves(task.parts[body])?
         .map(|half| {
             let mut parts = task.parts;
-            parts[side] = half;
+            parts[body] = half;
             Task {
                 parts,
-                ..task.below()
+                ..task.child()
             }
         });
     Some(Split {
-        step: side as u8,
-        price: 0,
+        step: Step::SplitPart(body),
+        cost: 0,
         tasks: tasks.into(),
     })
 }
 
-/// Returns the axis along which parts are farthest apart in the middle of a stretch, and how far.
-fn axis_in_the_middle(task: &Task<'_>) -> (DVec3, f64) {
-    let ([a, b], stretch) = (task.parts, &task.stretch);
+/// Returns the axis along which the gap between the parts is largest at the middle of the interval, and a lower bound of the gap.
+fn separating_axis_at_middle(task: &Task<'_>) -> (DVec3, f64) {
+    let ([a, b], interval) = (task.parts, &task.interval);
     let support = |direction: DVec3| {
-        let (a, of_a) = stretch.lowest(0, a, -direction);
-        let (b, of_b) = stretch.lowest(1, b, direction);
+        let (a, point_a) = interval.lowest_vertex(0, a, -direction);
+        let (b, point_b) = interval.lowest_vertex(1, b, direction);
         Vertex {
-            point: of_b - of_a,
+            point: point_b - point_a,
             a,
             b,
         }
@@ -328,11 +379,11 @@ fn axis_in_the_middle(task: &Task<'_>) -> (DVec3, f64) {
         sufficient_lower_bound: f64::INFINITY,
         sufficient_upper_bound: 0.0,
     };
-    let first = if task.axis == DVec3::ZERO {
+    let initial_axis = if task.axis == DVec3::ZERO {
         DVec3::X
     } else {
         task.axis
     };
-    let found = bound_distance(support, first, bounds);
+    let found = bound_distance(support, initial_axis, bounds);
     (found.axis.normalize_or_zero(), found.lower)
 }

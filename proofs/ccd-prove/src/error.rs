@@ -1,10 +1,12 @@
-//! Why a certificate is not written.
+//! The reasons why a certificate is not written.
 
 use rigid_ccd_robot::{NothingCompared, RobotError};
 
-/// No proof can be about a body: a piece of it has no triangles of a mesh.
+/// A body that has no mesh for a proof, as a piece of it has no mesh triangles.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{body} has pieces without triangles; prepare it with exact meshes")]
+#[error(
+    "{body} has pieces without mesh triangles, which no proof can be about; prepare it from a mesh, with exact pieces"
+)]
 pub struct NoMesh {
     /// The name of the body.
     pub body: String,
@@ -14,10 +16,10 @@ pub struct NoMesh {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CellNotProvable {
-    /// A body has pieces without triangles.
+    /// A body has pieces without mesh triangles.
     #[error(transparent)]
     NoMesh(#[from] NoMesh),
-    /// No pair of bodies is compared: a proof would be about nothing.
+    /// No pair of bodies is compared, so there is nothing to prove.
     #[error(transparent)]
     NothingCompared(#[from] NothingCompared),
 }
@@ -28,49 +30,51 @@ pub enum CellNotProvable {
 pub enum NotProven {
     /// Two triangles are too near each other to be proven apart.
     #[error(
-        "two triangles cannot be proven apart, at time {at} or soon after; a proof needs a gap of some 1e-12 of the largest \
-         length, and a larger tolerance leaves a larger one"
+        "two triangles cannot be proven apart at time {at} or soon after; a proof needs a gap of about 1e-12 of the largest length, \
+         and a larger tolerance leaves a larger gap"
     )]
     Touching {
-        /// The start of the stretch of time that is not proven.
+        /// The time until which the certificate is complete.
         at: f64,
     },
-    /// The certificate would be too long.
+    /// The certificate would exceed the maximum length.
     #[error(
-        "the certificate has {bytes} bytes, and is not complete from time {at} on; a larger tolerance makes it shorter"
+        "the certificate has {bytes} bytes but is complete only until time {at}; a larger tolerance makes it shorter"
     )]
     TooLong {
-        /// The start of the stretch of time that is not proven.
+        /// The time until which the certificate is complete.
         at: f64,
-        /// The number of its bytes.
+        /// The number of bytes so far.
         bytes: usize,
     },
-    /// The points of a witness are too far from each other, or not on the bodies.
-    #[error("the points of a contact are {distance} apart, more than the margin and the tolerance")]
+    /// The points of a witness are too far apart, or are not on the bodies.
+    #[error(
+        "the points of a contact are {distance} apart, which is more than the margin plus the tolerance"
+    )]
     NoContact {
-        /// The distance of the points of the meshes.
+        /// The distance between the nearest points of the meshes.
         distance: f64,
     },
-    /// Another thread has set the flag that stops the work.
-    #[error("the proof is not complete from time {at} on: it was stopped")]
+    /// Another thread has set the stop flag.
+    #[error("the proof was stopped, and is complete only until time {at}")]
     Stopped {
-        /// The start of the stretch of time that is not proven.
+        /// The time until which the certificate is complete.
         at: f64,
     },
-    /// A link moves by numbers that cannot be scaled by a power of two.
+    /// The motion of a link has numbers so small that scaling by a power of two loses bits.
     #[error(
-        "link {link} moves by numbers so small that they have fewer bits than others, near 1e-308"
+        "the motion of link {link} has a number near 1e-308, which is too small for a certificate"
     )]
     TooSmall {
-        /// The number of the link, counted from 1.
+        /// The link, where 1 is the first one.
         link: usize,
     },
-    /// A link turns farther than the checker takes.
+    /// A link turns farther than the checker's limit.
     #[error(
-        "link {link} turns by more than the checker takes: 256 radians to its start, or at least 128 from there"
+        "link {link} turns too far for the checker: its limit is 256 radians at the start, and at least 128 radians from there"
     )]
     TurnsTooFar {
-        /// The number of the link, counted from 1.
+        /// The link, where 1 is the first one.
         link: usize,
     },
 }
@@ -82,15 +86,15 @@ pub enum PathNotProven {
     /// The path does not fit the robot.
     #[error(transparent)]
     Robot(#[from] RobotError),
-    /// The answer is to another question than that about the first contact.
-    #[error("the answer is not one about the first contact: only such are proven")]
+    /// The answer is not about the first contact.
+    #[error("the answer is not about the first contact; only such an answer can be proven")]
     NoFirstContact,
     /// A segment of the path cannot be proven.
     #[error("segment {segment}: {reason}")]
     Segment {
-        /// The number of the segment.
+        /// The index of the segment.
         segment: usize,
-        /// Why.
+        /// The reason why it cannot be proven.
         reason: NotProven,
     },
 }

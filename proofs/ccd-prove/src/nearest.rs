@@ -1,29 +1,31 @@
-//! The point of a mesh that is nearest to a point.
+//! Finds the nearest point of a mesh.
 
 use crate::tree::Tree;
 use ccd_core::glam::{DVec3, DVec4};
 use ccd_core::order::{greater, lesser};
 
-/// A point of a mesh: a triangle by its place in the order of the tree, and the weights of its corners.
+/// A point of a mesh.
 pub(crate) struct MeshPoint {
-    pub(crate) place: usize,
+    /// The index of its triangle in the order of the tree.
+    pub(crate) triangle: usize,
+    /// The barycentric weights of the corners of the triangle.
     pub(crate) weights: [f64; 3],
-    /// The point, and the radius of the ball around it.
+    /// The coordinates x, y, z, and the radius of the ball around the point.
     pub(crate) ball: DVec4,
-    /// The distance from the rounded triangle.
+    /// The distance from the ball to the point that was asked for.
     pub(crate) distance: f64,
 }
 
 impl MeshPoint {
-    /// Returns the point of a mesh that is nearest to a point of its frame: of the nearest points of all triangles, as if they were
-    /// flat, the one whose ball is nearest.
+    /// Finds the nearest point of a mesh to `point`, in the frame of the mesh. It takes the nearest point of each flat triangle, and
+    /// of these the one with the nearest ball.
     pub(crate) fn nearest(tree: &Tree, point: DVec3) -> MeshPoint {
         let triangles = tree.triangles.iter().enumerate();
-        let points = triangles.map(|(place, triangle)| {
-            let weights = nearest_weights(triangle.map(DVec4::truncate), point);
-            let ball = (0..3).map(|k| triangle[k] * weights[k]).sum::<DVec4>();
+        let points = triangles.map(|(triangle, corners)| {
+            let weights = nearest_weights(corners.map(DVec4::truncate), point);
+            let ball = (0..3).map(|k| corners[k] * weights[k]).sum::<DVec4>();
             MeshPoint {
-                place,
+                triangle,
                 weights,
                 ball,
                 distance: greater(ball.truncate().distance(point) - ball.w, 0.0),
@@ -31,7 +33,7 @@ impl MeshPoint {
         });
         let nearest = points.min_by(|a, b| a.distance.total_cmp(&b.distance));
         nearest.unwrap_or(MeshPoint {
-            place: 0,
+            triangle: 0,
             weights: [1.0, 0.0, 0.0],
             ball: DVec4::NAN,
             distance: f64::INFINITY,
@@ -39,10 +41,10 @@ impl MeshPoint {
     }
 }
 
-/// Returns the weights of the corners of the point of a triangle that is nearest to a point: that below it, if it is inside, or
-/// the nearest one of an edge. So a triangle may be a segment or a point.
+/// Returns the barycentric weights of the nearest point of a triangle to p. That point is the projection of p, if it is inside, or
+/// else the nearest point of an edge. The triangle may be a segment or a single point.
 fn nearest_weights(corners: [DVec3; 3], p: DVec3) -> [f64; 3] {
-    let distance = |weights: &[f64; 3]| {
+    let distance_squared = |weights: &[f64; 3]| {
         let point = (0..3).map(|k| corners[k] * weights[k]).sum::<DVec3>();
         point.distance_squared(p)
     };
@@ -56,12 +58,12 @@ fn nearest_weights(corners: [DVec3; 3], p: DVec3) -> [f64; 3] {
     });
     let [a, b, c] = corners;
     let normal = (b - a).cross(c - a);
-    let share = |u: DVec3, v: DVec3| normal.dot((u - p).cross(v - p)) / normal.length_squared();
-    let (v, w) = (share(c, a), share(a, b));
+    let weight = |u: DVec3, v: DVec3| normal.dot((u - p).cross(v - p)) / normal.length_squared();
+    let (v, w) = (weight(c, a), weight(a, b));
     let inside = [1.0 - v - w, v, w];
     let is_inside = inside.iter().all(|&weight| weight >= 0.0);
     let nearest = on_edges.into_iter().chain(is_inside.then_some(inside));
-    let nearest = nearest.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let nearest = nearest.min_by(|a, b| distance_squared(a).total_cmp(&distance_squared(b)));
     nearest.unwrap_or([1.0, 0.0, 0.0])
 }
 
@@ -70,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn points_of_triangles_segments_and_points_are_the_nearest() {
+    fn the_nearest_points_of_triangles_segments_and_points_are_found() {
         let [x, y] = [DVec3::X, DVec3::Y];
         for (corners, point, expected) in [
             (
@@ -92,8 +94,8 @@ mod tests {
             ([x, x, -x], DVec3::new(-3.0, 2.0, 0.0), [0.0, 0.0, 1.0]),
         ] {
             let found = nearest_weights(corners, point);
-            let off = (0..3).map(|k| (found[k] - expected[k]).abs()).sum::<f64>();
-            assert!(off < 1e-12, "{corners:?} {point}: {found:?}");
+            let error = (0..3).map(|k| (found[k] - expected[k]).abs()).sum::<f64>();
+            assert!(error < 1e-12, "{corners:?} {point}: {found:?}");
         }
         let of_a_point = nearest_weights([x; 3], y);
         assert!((of_a_point.iter().sum::<f64>() - 1.0).abs() < 1e-12);

@@ -1,4 +1,4 @@
-//! Two bodies as proofs take them, and the proof of an answer about them.
+//! Proofs of answers about two bodies.
 
 use crate::body::{Body, triangles_of};
 use crate::error::{NoMesh, NotProven};
@@ -19,13 +19,13 @@ impl ProvenPair {
     /// Prepares two bodies.
     ///
     /// # Errors
-    /// [`NoMesh`], with the name `a` or `b`.
+    /// [`NoMesh`], with the name `a` or `b` of the body.
     pub fn new(a: &ccd_core::Body, b: &ccd_core::Body) -> Result<Self, NoMesh> {
         let Ok(pair) = ProvenPair::prepare([a, b], Never);
         pair
     }
 
-    /// Prepares two bodies as [`new`](Self::new) does; `None` soon after another thread sets a flag.
+    /// Prepares two bodies as [`new`](Self::new) does. Returns `None` soon after another thread sets a flag.
     pub fn unless_stopped(
         a: &ccd_core::Body,
         b: &ccd_core::Body,
@@ -51,18 +51,18 @@ impl ProvenPair {
         self.bodies.each_ref()
     }
 
-    /// Returns what a proof of two motions states, until their end; `None` if no certificate can state it, as its numbers are too
-    /// small.
+    /// Returns the statement of a proof of two whole motions. Returns `None` if a number is too small for a certificate.
     pub fn statement(&self, motions: [Motion; 2], duration: f64, margin: f64) -> Option<Statement> {
         let [a, b] = &self.bodies;
         let scene = Scene::of_two((a, motions[0]), (b, motions[1]), margin);
         statement_of(&scene, duration)
     }
 
-    /// Proves what an answer to a question about the first contact says: that the bodies are farther apart than the margin until
-    /// then, and two points that are near each other. For a question that a limit has ended it proves what is known.
-    /// The settings are those of the question; its flag stops the proof, too.
-    /// Returns `None` if there is nothing to prove, as the bodies touch at the start or the question was about a distance.
+    /// Proves an answer about the first contact. The proof states that the bodies stay farther apart than the margin until the
+    /// contact, and has the contact as a witness. If a limit ended the query, it states how long the bodies certainly stay apart.
+    ///
+    /// `settings` are those of the query, whose stop flag also stops the proof. Returns `None` if there is nothing to prove: the bodies
+    /// are in contact at the start, or the query was about a distance.
     ///
     /// # Errors
     /// [`NotProven`].
@@ -92,7 +92,9 @@ impl ProvenPair {
     ) -> Option<Result<Proof, NotProven>> {
         let (until, witness) = match &answer.outcome {
             Outcome::Free { .. } => (duration, None),
-            Outcome::Unresolved(left) if left.safe_until > 0.0 => (left.safe_until, None),
+            Outcome::Unresolved(unresolved) if unresolved.safe_until > 0.0 => {
+                (unresolved.safe_until, None)
+            }
             Outcome::Contact { time, contact } => {
                 let witness = Witness::of_two(*time, answer.tolerance, contact);
                 (*time, Some(witness))

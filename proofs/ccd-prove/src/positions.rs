@@ -1,10 +1,10 @@
-//! Whether a robot's joints may be at the positions that a certificate gives them.
+//! Checks that a robot can have the joint positions of a certificate.
 
-use crate::tolerances::POSITION;
+use crate::tolerances::POSITION_ERROR;
 use rigid_ccd_robot::{Joint, PositionRule, Robot};
 use std::collections::BTreeMap;
 
-/// A position of a joint in a certificate that the robot cannot have.
+/// A joint position of a certificate that the robot cannot have.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ImpossiblePosition {
@@ -13,42 +13,47 @@ pub enum ImpossiblePosition {
     BeyondLimit {
         /// The name of the joint.
         joint: String,
-        /// Where it is at an end of the edge.
+        /// Its position at an end of the edge.
         position: f64,
         /// The lower limit.
         low: f64,
         /// The upper limit.
         high: f64,
     },
-    /// The joint follows another one, and is not where that moves it.
+    /// The joint follows another joint, and its position does not agree with its rule.
     #[error("joint {joint} is at {position}, but follows {followed}, which moves it to {expected}")]
     NotFollowing {
         /// The name of the joint.
         joint: String,
-        /// Where it is at an end of the edge.
+        /// Its position at an end of the edge.
         position: f64,
-        /// The name of the joint that it follows in the end.
+        /// The name of the joint at the end of the chain of rules.
         followed: String,
-        /// Where it would be.
+        /// Its position by the rule.
         expected: f64,
     },
 }
 
-/// How the position of a joint is made of one that has a position of its own: `factor · position + offset`.
+/// The position of a joint as a function of its root, which is the independent joint at the end of the chain of rules:
+/// `factor · root + offset`.
 struct Rule<'r> {
     root: &'r Joint,
     factor: f64,
     offset: f64,
-    /// The sum of the magnitudes of what is added up to `offset`.
-    magnitude: f64,
-    /// The number of joints from the one to the other.
-    chain: f64,
+    /// The sum of the magnitudes of the terms of `offset`.
+    offset_magnitude: f64,
+    /// The number of rules in the chain. It is 0 for an independent joint.
+    chain_length: f64,
 }
 
-/// A position, and a bound of what it is off by.
-type Rounded = (f64, f64);
+/// A position, and a bound of its error.
+#[derive(Clone, Copy)]
+struct BoundedPosition {
+    position: f64,
+    error: f64,
+}
 
-/// Checks the positions of joints at both ends of an edge. Between them all are linear, so limits and rules hold there, too.
+/// Checks the positions of joints at both ends of an edge. Positions are linear in between, so limits and rules then hold there, too.
 pub(crate) fn check_positions(
     robot: &Robot,
     joints: &[(&str, [f64; 2])],
@@ -60,21 +65,22 @@ pub(crate) fn check_positions(
         .filter_map(|&(name, ends)| Some((name, ends, rule(&by_name, by_name.get(name)?)?)));
     let rules: Vec<_> = rules.collect();
     for end in 0..2 {
-        // A joint that is followed may carry no body, and have no position here: then one that follows it says where it is.
-        let mut roots: BTreeMap<&str, Rounded> = BTreeMap::new();
-        let own_first = [true, false].into_iter();
-        for is_own in own_first {
+        // A root may be missing in the statement, if it moves no body. Then the position of a follower gives that of the root.
+        let mut roots: BTreeMap<&str, BoundedPosition> = BTreeMap::new();
+        for is_root in [true, false] {
             for (_, ends, rule) in rules
                 .iter()
-                .filter(|(.., rule)| (rule.chain == 0.0) == is_own)
+                .filter(|(.., rule)| (rule.chain_length == 0.0) == is_root)
             {
                 if rule.factor != 0.0 {
-                    let off = POSITION * (1.0 + rule.chain) * (size(*ends) + rule.magnitude);
-                    let found = (
-                        (ends[end] - rule.offset) / rule.factor,
-                        off / rule.factor.abs(),
-                    );
-                    roots.entry(&rule.root.name).or_insert(found);
+                    let error = POSITION_ERROR
+                        * (1.0 + rule.chain_length)
+                        * (magnitude(*ends) + rule.offset_magnitude);
+                    let root = BoundedPosition {
+                        position: (ends[end] - rule.offset) / rule.factor,
+                        error: error / rule.factor.abs(),
+                    };
+                    roots.entry(&rule.root.name).or_insert(root);
                 }
             }
         }
@@ -88,14 +94,14 @@ pub(crate) fn check_positions(
     Ok(())
 }
 
-/// Returns the rule of a joint; `None` if it follows none that has a position of its own, which no robot has.
+/// Returns the rule of a joint. Returns `None` if its chain of rules has no independent joint, which no robot has.
 fn rule<'r>(by_name: &BTreeMap<&str, &'r Joint>, joint: &'r Joint) -> Option<Rule<'r>> {
     let mut rule = Rule {
         root: joint,
         factor: 1.0,
         offset: 0.0,
-        magnitude: 0.0,
-        chain: 0.0,
+        offset_magnitude: 0.0,
+        chain_length: 0.0,
     };
     for _ in 0..=by_name.len() {
         let PositionRule::Follows {
@@ -110,22 +116,25 @@ fn rule<'r>(by_name: &BTreeMap<&str, &'r Joint>, joint: &'r Joint) -> Option<Rul
             root: by_name.get(&**followed)?,
             factor: rule.factor * multiplier,
             offset: rule.offset + rule.factor * offset,
-            magnitude: rule.magnitude + (rule.factor * offset).abs(),
-            chain: rule.chain + 1.0,
+            offset_magnitude: rule.offset_magnitude + (rule.factor * offset).abs(),
+            chain_length: rule.chain_length + 1.0,
         };
     }
     None
 }
 
-fn size([from, to]: [f64; 2]) -> f64 {
+fn magnitude([from, to]: [f64; 2]) -> f64 {
     from.abs() + to.abs()
 }
 
-fn check_limits(joint: &Joint, (position, off): Rounded) -> Result<(), ImpossiblePosition> {
+fn check_limits(
+    joint: &Joint,
+    BoundedPosition { position, error }: BoundedPosition,
+) -> Result<(), ImpossiblePosition> {
     let limits = joint.geometry.limits();
     let (low, high) = (*limits.start(), *limits.end());
     // Written so that NaN is refused.
-    if position >= low - off && position <= high + off {
+    if position >= low - error && position <= high + error {
         return Ok(());
     }
     Err(ImpossiblePosition::BeyondLimit {
@@ -139,13 +148,14 @@ fn check_limits(joint: &Joint, (position, off): Rounded) -> Result<(), Impossibl
 fn check_follows(
     (name, ends, rule): (&str, [f64; 2], &Rule<'_>),
     end: usize,
-    root: Option<&Rounded>,
+    root: Option<&BoundedPosition>,
 ) -> Result<(), ImpossiblePosition> {
-    // Of a joint that is at rest whatever it follows the offset is known.
-    let &(root, off) = root.unwrap_or(&(0.0, 0.0));
+    // With a factor of 0 the joint stays at its offset, whatever the position of the root.
+    let (root, root_error) = root.map_or((0.0, 0.0), |root| (root.position, root.error));
     let expected = rule.factor * root + rule.offset;
-    let size = size(ends) + (rule.factor * root).abs() + rule.magnitude;
-    let allowed = rule.factor.abs() * off + POSITION * (1.0 + rule.chain) * size;
+    let magnitude = magnitude(ends) + (rule.factor * root).abs() + rule.offset_magnitude;
+    let allowed =
+        rule.factor.abs() * root_error + POSITION_ERROR * (1.0 + rule.chain_length) * magnitude;
     let position = ends[end];
     if (position - expected).abs() <= allowed {
         return Ok(());

@@ -1,91 +1,91 @@
-//! What a certificate is about: links that move on each other, the meshes on them, and the pairs that stay apart.
+//! The scene of a certificate: links that move on each other, the meshes on them, and the pairs that stay apart.
 
 use crate::body::Body;
 use ccd_core::glam::DVec3;
 use ccd_core::{Contact, Motion, Pose, Separation};
 
-/// Links, the bodies on them, and the pairs of bodies that are to be proven apart.
+/// Links, the bodies on them, and the pairs of bodies to prove apart.
 #[derive(Clone, Debug, Default)]
 pub struct Scene<'a> {
-    /// The links, each after the one that carries it.
+    /// The links, each after its parent.
     pub links: Vec<Link>,
     /// The bodies.
-    pub bodies: Vec<Carried<'a>>,
+    pub bodies: Vec<SceneBody<'a>>,
     /// The pairs.
     pub pairs: Vec<Pair>,
 }
 
-/// Two bodies, and what they have to be farther apart than.
+/// Two bodies, and the margin that they keep.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
-    /// The numbers of both bodies.
+    /// The indices of both bodies in the scene.
     pub bodies: [usize; 2],
-    /// The margin.
+    /// The distance that the bodies stay farther apart than.
     pub margin: f64,
 }
 
-/// A link, and how it moves on the one that carries it.
+/// A link, and its motion on its parent.
 #[derive(Clone, Copy, Debug)]
 pub struct Link {
-    /// The number of the link that carries it, counted from 1; 0 is the world.
+    /// The parent: 0 is the world, 1 the first link.
     pub parent: usize,
-    /// How it moves.
+    /// The joint between the parent and the link.
     pub joint: Joint,
 }
 
-/// How a link moves on the one that carries it.
+/// The motion of a link on its parent.
 #[derive(Clone, Copy, Debug)]
 pub enum Joint {
-    /// Freely, at constant rates.
+    /// A free motion, at a constant velocity and a constant angular velocity.
     Free(Motion),
-    /// About an axis, or along one.
+    /// A motion about an axis or along an axis, at a constant rate.
     Axis {
-        /// Whether it turns or slides.
+        /// Whether the link turns about the axis or slides along it.
         kind: AxisKind,
-        /// The pose of the joint's frame, in which the link is when its position is 0.
+        /// The pose of the link on its parent at position 0. This is the frame of the joint.
         pose: Pose,
         /// The axis in the joint's frame.
         axis: DVec3,
         /// The position at time 0, in radians or as a length.
         start: f64,
-        /// How the position changes in a unit of time.
+        /// The change of the position per time.
         rate: f64,
     },
 }
 
-/// What a joint with an axis does.
+/// The kind of a joint with an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisKind {
-    /// It turns the link about the axis.
-    Turns,
-    /// It moves the link along the axis.
-    Slides,
+    /// The link turns about the axis.
+    Revolute,
+    /// The link slides along the axis.
+    Prismatic,
 }
 
 /// A mesh on a link.
 #[derive(Clone, Copy, Debug)]
-pub struct Carried<'a> {
+pub struct SceneBody<'a> {
     /// The mesh.
     pub body: &'a Body,
-    /// The number of the link, counted from 1; 0 is the world.
+    /// The link that carries it: 0 is the world, 1 the first link.
     pub link: usize,
 }
 
 /// Two points of a pair that are near each other at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Witness {
-    /// The number of the pair.
+    /// The index of the pair in the scene.
     pub pair: usize,
     /// The time.
     pub time: f64,
-    /// What the points may be farther apart than the margin.
+    /// The distance of the points is at most the margin plus this tolerance.
     pub tolerance: f64,
     /// A point of each body, in the world.
     pub points: [DVec3; 2],
 }
 
 impl Witness {
-    /// Returns a contact of two bodies as a witness of the only pair of their scene.
+    /// Returns the witness of a contact, for a scene of two bodies.
     pub fn of_two(time: f64, tolerance: f64, contact: &Contact) -> Self {
         let Separation {
             witness_a,
@@ -108,10 +108,10 @@ impl<'a> Scene<'a> {
             parent: 0,
             joint: Joint::Free(motion),
         };
-        let carried = |body, link| Carried { body, link };
+        let on_link = |body, link| SceneBody { body, link };
         Scene {
             links: vec![link(a.1), link(b.1)],
-            bodies: vec![carried(a.0, 1), carried(b.0, 2)],
+            bodies: vec![on_link(a.0, 1), on_link(b.0, 2)],
             pairs: vec![Pair {
                 bodies: [0, 1],
                 margin,

@@ -1,13 +1,15 @@
-//! Where a tree of boxes splits triangles.
+//! Splits the triangles of a node of a bounding box tree.
 
 use crate::bounds::Bounds;
 use crate::stop::{Stop, sort};
 
-/// A part that is so many splits deep is halved: until then splits may be as uneven as they like. The checker has a limit of 100.
-const MOST_UNEVEN: usize = 60;
+/// From this depth on each split halves the triangles. This bounds the depth of the tree, for which the checker's limit is 100.
+const MAX_UNEVEN_DEPTH: usize = 60;
 
-/// Orders triangles, of which there is more than one, and returns how many of them the first part has: such that the areas of the
-/// boxes of both parts, times their numbers of triangles, have the least sum of all splits along an axis of the mesh.
+/// Splits at least two triangles into two parts. Orders the triangles, and returns the number of triangles of the first part.
+///
+/// Chooses the split with the least surface area heuristic, of all splits along a coordinate axis: the sum over both parts of the
+/// box's area times the number of triangles.
 pub(crate) fn split<S: Stop>(
     boxes: &[Bounds],
     triangles: &mut [u32],
@@ -18,44 +20,49 @@ pub(crate) fn split<S: Stop>(
     let mut best = (f64::INFINITY, 0, half);
     for axis in 0..3 {
         sort_along(boxes, triangles, axis, stop)?;
-        let first = prices(boxes, triangles.iter());
-        let second = prices(boxes, triangles.iter().rev());
-        // The first price is that of one triangle, the last one that of all.
+        let first = costs(boxes, triangles.iter());
+        let second = costs(boxes, triangles.iter().rev());
+        // `first[k]` is the cost of the first k + 1 triangles, `second[k]` that of the last k + 1.
         let sums = first
             .iter()
             .zip(second.iter().rev().skip(1))
             .map(|(a, b)| a + b);
-        for (price, count) in sums.zip(1..) {
-            if price < best.0 {
-                best = (price, axis, count);
+        for (cost, count) in sums.zip(1..) {
+            if cost < best.0 {
+                best = (cost, axis, count);
             }
         }
     }
     let (_, axis, count) = best;
     sort_along(boxes, triangles, axis, stop)?;
-    Ok(if depth < MOST_UNEVEN { count } else { half })
+    Ok(if depth < MAX_UNEVEN_DEPTH {
+        count
+    } else {
+        half
+    })
 }
 
-/// Returns the areas of the boxes of the first triangle, the first two and so on, times their number.
-fn prices<'a>(boxes: &[Bounds], triangles: impl Iterator<Item = &'a u32>) -> Vec<f64> {
-    let ordered = triangles.map(|&number| &boxes[number as usize]);
-    let growing = ordered.scan(None, |all: &mut Option<Bounds>, one| {
-        *all = Some(all.map_or(*one, |all| all.with(one)));
-        *all
+/// Returns the cost of the first triangle, of the first two triangles, and so on: their number times the area of their box.
+fn costs<'a>(boxes: &[Bounds], triangles: impl Iterator<Item = &'a u32>) -> Vec<f64> {
+    let ordered = triangles.map(|&triangle| &boxes[triangle as usize]);
+    let growing = ordered.scan(None, |union: &mut Option<Bounds>, bounds| {
+        *union = Some(union.map_or(*bounds, |union| union.union(bounds)));
+        *union
     });
     growing
         .zip(1u32..)
-        .map(|(all, count)| all.area() * f64::from(count))
+        .map(|(union, count)| union.area() * f64::from(count))
         .collect()
 }
 
+/// Sorts triangles by the centres of their boxes along a coordinate axis.
 fn sort_along<S: Stop>(
     boxes: &[Bounds],
     triangles: &mut [u32],
     axis: usize,
     stop: S,
 ) -> Result<(), S::Stopped> {
-    let middle = |number: u32| boxes[number as usize].middle()[axis];
-    let compare = |a: &u32, b: &u32| middle(*a).total_cmp(&middle(*b)).then(a.cmp(b));
+    let centre = |triangle: u32| boxes[triangle as usize].centre()[axis];
+    let compare = |a: &u32, b: &u32| centre(*a).total_cmp(&centre(*b)).then(a.cmp(b));
     sort(triangles, compare, stop)
 }

@@ -1,51 +1,54 @@
-//! A link as a certificate states it.
+//! A link in the statement of a certificate.
 
 use crate::cursor::Cursor;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
-/// A link, and how it moves on the one that carries it: a point y is at `p + R c + s v + exp(s [a]×) R (y − c)` with
-/// s = start + t rate, where p is the position, R the rotation of the quaternion, c the centre, v the velocity, a the axis.
+/// A link in the statement of a certificate, and its motion on its parent.
+///
+/// At time t a point y of the link is at `p + R c + s v + exp(s [a]×) R (y − c)` with s = start + t rate. Here p is the position, R the
+/// rotation of the quaternion, c the centre, v the velocity and a the axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StatedLink {
-    /// The number of the link that carries it, counted from 1; 0 is the world.
+    /// The parent: 0 is the world, 1 the first link.
     pub parent: u32,
-    /// The position.
+    /// The position of the link's frame on the parent.
     pub position: [f64; 3],
-    /// The quaternion x, y, z, w.
+    /// The rotation of the link's frame on the parent, as a quaternion x, y, z, w.
     pub quaternion: [f64; 4],
     /// The point of the link about which it turns.
     pub centre: [f64; 3],
-    /// What velocity and axis are along: 0 the axes of the parent, 1 those of the joint, so that v and a are R times them.
+    /// The frame in which the velocity and the axis are given: 0 is the parent, 1 is the joint. For 1, v and a are R times them.
     pub axes: u32,
-    /// The velocity, by which the centre moves.
+    /// The velocity of the centre, per unit of s.
     pub velocity: [f64; 3],
-    /// The axis, about which it turns.
+    /// The axis of rotation. Its length is the angular speed, per unit of s.
     pub axis: [f64; 3],
-    /// What it has moved by at time 0.
+    /// The parameter s at time 0.
     pub start: f64,
-    /// What it moves by in a unit of time.
+    /// The change of the parameter s per time.
     pub rate: f64,
 }
 
 impl StatedLink {
-    pub(crate) fn read(at: &mut Cursor<'_>) -> Option<Self> {
+    pub(crate) fn read(cursor: &mut Cursor<'_>) -> Option<Self> {
         Some(StatedLink {
-            parent: at.u32()?,
-            position: at.numbers()?,
-            quaternion: at.numbers()?,
-            centre: at.numbers()?,
-            axes: at.u32()?,
-            velocity: at.numbers()?,
-            axis: at.numbers()?,
-            start: at.f64()?,
-            rate: at.f64()?,
+            parent: cursor.u32()?,
+            position: cursor.numbers()?,
+            quaternion: cursor.numbers()?,
+            centre: cursor.numbers()?,
+            axes: cursor.u32()?,
+            velocity: cursor.numbers()?,
+            axis: cursor.numbers()?,
+            start: cursor.f64()?,
+            rate: cursor.f64()?,
         })
     }
 
-    /// Returns the link with the numbers that its motion was given with, if they differ by a power of two from those of the
-    /// certificate: a free motion with its velocity and spin in a unit of time, a joint with an axis whose largest coordinate is
-    /// above 1/2, and at most 1. It is the same motion.
+    /// Undoes the scaling by a power of two that the prover applied, and returns the same motion in the numbers that it was given in.
+    ///
+    /// A free motion then has its velocity and angular velocity per time, with rate 1. A joint has an axis whose largest coordinate is
+    /// above 1/2, and at most 1. A link that was not scaled is returned as it is.
     #[must_use]
     pub fn as_given(&self) -> Self {
         let [velocity, axis] = [self.velocity, self.axis].map(DVec3::from_array);
@@ -66,14 +69,18 @@ impl StatedLink {
             rate: self.rate / factor,
             ..self.clone()
         };
-        let back = |v: [f64; 3]| (DVec3::from_array(v) / factor).to_array();
-        let is_same = is_power_of_two(factor)
-            && (back(as_given.velocity), back(as_given.axis)) == (self.velocity, self.axis)
+        let unscaled = |v: [f64; 3]| (DVec3::from_array(v) / factor).to_array();
+        let is_same_motion = is_power_of_two(factor)
+            && (unscaled(as_given.velocity), unscaled(as_given.axis)) == (self.velocity, self.axis)
             && (as_given.start * factor, as_given.rate * factor) == (self.start, self.rate);
-        if is_same { as_given } else { self.clone() }
+        if is_same_motion {
+            as_given
+        } else {
+            self.clone()
+        }
     }
 
-    /// Returns all numbers of the link, as it was given, for comparison.
+    /// Returns the bits of all numbers of the link without the prover's scaling, for comparison.
     pub(crate) fn numbers(&self) -> Vec<u64> {
         let given = self.as_given();
         let numbers = [
@@ -85,13 +92,13 @@ impl StatedLink {
             &[given.start, given.rate],
         ];
         let counts = [self.parent, self.axes].map(u64::from);
-        // Both zeros are one number.
+        // Adding 0 turns −0 into 0.
         let numbers = numbers.concat().into_iter().map(|x| (x + 0.0).to_bits());
         counts.into_iter().chain(numbers).collect()
     }
 
-    /// Returns by what start and rate of the same joint at other positions are to be multiplied, from which a power of two may have
-    /// been taken; `None` if that is another joint.
+    /// Compares with the same joint at other positions, whose numbers may be scaled by a power of two. Returns the factor for the start
+    /// and the rate of `other`. Returns `None` if `other` is a different joint.
     pub(crate) fn scale(&self, other: &StatedLink) -> Option<f64> {
         let is_fixed = self.axes == 0;
         let [own, theirs] = [self.velocity, other.velocity].map(DVec3::from_array);
@@ -115,7 +122,7 @@ fn is_power_of_two(number: f64) -> bool {
     number.is_normal() && number > 0.0 && number.to_bits() << 12 == 0
 }
 
-/// Returns the least power of two that is not below a number, from its bits: a logarithm would be rounded.
+/// Returns the least power of two that is at least a number. It uses the bits, as a logarithm would be rounded.
 fn power_not_below(number: f64) -> f64 {
     let is_between = number.to_bits() << 12 != 0;
     f64::from_bits(((number.to_bits() >> 52) + u64::from(is_between)) << 52)

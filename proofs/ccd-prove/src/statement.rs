@@ -1,30 +1,32 @@
-//! What a certificate states, read for people: the checker reads it by itself.
+//! Reads the statement of a certificate, to compare it and to print it. The checker has its own reader.
 
 use crate::cursor::{Cursor, signed, unsigned};
 use crate::stated_link::StatedLink;
+use crate::step::Step;
 use std::fmt::{self, Display};
 
-/// The statement of a certificate.
+/// The statement of a certificate: which pairs of bodies stay apart, by how much, and until when.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Statement {
     /// The exponents of the units of length and of time.
     pub units: [i32; 2],
     /// The links.
     pub links: Vec<StatedLink>,
-    /// The bodies: the digest of the mesh, the number of the link.
+    /// The bodies, each with the digest of its mesh and its link. Link 0 is the world.
     pub bodies: Vec<([u8; 32], u32)>,
-    /// The pairs: both bodies, and the margin.
+    /// The pairs, each with the indices of both bodies and the margin.
     pub pairs: Vec<([u32; 2], f64)>,
-    /// The time until which the pairs are farther apart.
+    /// The time until which the pairs stay farther apart than their margins.
     pub until: f64,
     /// The witness, if there is one.
     pub witness: Option<StatedWitness>,
-    /// The number of bytes of the statement; what follows is its proof.
+    /// The number of bytes of the statement. The steps of the proof follow it.
     pub bytes: usize,
 }
 
-/// What a statement is about but for its margins and times: which meshes move how, and which pairs are compared. Two statements
-/// have the same subject if their numbers are the same, up to powers of two that a certificate moves between factors.
+/// The subject of a statement: the meshes, their motions, and the pairs, without margins and times. Statements can be compared by it.
+///
+/// Two motions are equal if their numbers are, apart from the prover's scaling by powers of two.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Subject {
     links: Vec<Vec<u64>>,
@@ -35,21 +37,21 @@ pub struct Subject {
 /// Two points of a pair that are near each other at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StatedWitness {
-    /// The number of the pair.
+    /// The index of the pair.
     pub pair: u32,
     /// The time.
     pub time: f64,
-    /// What the points may be farther apart than the pair has to be.
+    /// The distance of the points is at most the pair's margin plus this tolerance.
     pub tolerance: f64,
-    /// For each body the place of a triangle in the order of its tree, and the weights of its corners in 2⁻⁵⁵.
+    /// A point of each body: the index of its triangle in the order of the tree, and the weights of the corners in 2⁻⁵⁵.
     pub points: [(u32, [u64; 3]); 2],
 }
 
 impl StatedWitness {
-    fn read(at: &mut Cursor<'_>) -> Option<Self> {
-        let (pair, time, tolerance) = (at.u32()?, at.f64()?, at.f64()?);
+    fn read(cursor: &mut Cursor<'_>) -> Option<Self> {
+        let (pair, time, tolerance) = (cursor.u32()?, cursor.f64()?, cursor.f64()?);
         let mut point = || {
-            let (triangle, mut weight) = (at.u32()?, || Some(unsigned(at.take(7)?)));
+            let (triangle, mut weight) = (cursor.u32()?, || Some(unsigned(cursor.take(7)?)));
             Some((triangle, [weight()?, weight()?, weight()?]))
         };
         Some(StatedWitness {
@@ -62,24 +64,24 @@ impl StatedWitness {
 }
 
 impl Statement {
-    /// Reads the statement of a certificate; `None` if it ends too early, or is none.
+    /// Reads the statement of a certificate. Returns `None` if the file is of another kind, or ends too early.
     pub fn read(certificate: &[u8]) -> Option<Self> {
-        let mut at = Cursor(certificate);
-        if at.take(8)? != b"CCDPROF1" {
+        let mut cursor = Cursor(certificate);
+        if cursor.take(8)? != b"CCDPROF1" {
             return None;
         }
-        let units = [at.u32()? as i32, at.u32()? as i32];
-        let [links, bodies, pairs] = [at.u32()?, at.u32()?, at.u32()?];
-        let links = (0..links).map(|_| StatedLink::read(&mut at));
+        let units = [cursor.u32()? as i32, cursor.u32()? as i32];
+        let [links, bodies, pairs] = [cursor.u32()?, cursor.u32()?, cursor.u32()?];
+        let links = (0..links).map(|_| StatedLink::read(&mut cursor));
         let links = links.collect::<Option<_>>()?;
-        let bodies = (0..bodies).map(|_| Some((at.take(32)?.try_into().ok()?, at.u32()?)));
+        let bodies = (0..bodies).map(|_| Some((cursor.take(32)?.try_into().ok()?, cursor.u32()?)));
         let bodies = bodies.collect::<Option<_>>()?;
-        let pairs = (0..pairs).map(|_| Some(([at.u32()?, at.u32()?], at.f64()?)));
+        let pairs = (0..pairs).map(|_| Some(([cursor.u32()?, cursor.u32()?], cursor.f64()?)));
         let pairs = pairs.collect::<Option<_>>()?;
-        let until = at.f64()?;
-        let witness = match at.u32()? {
+        let until = cursor.f64()?;
+        let witness = match cursor.u32()? {
             0 => None,
-            1 => Some(StatedWitness::read(&mut at)?),
+            1 => Some(StatedWitness::read(&mut cursor)?),
             _ => return None,
         };
         Some(Statement {
@@ -89,11 +91,11 @@ impl Statement {
             pairs,
             until,
             witness,
-            bytes: certificate.len() - at.0.len(),
+            bytes: certificate.len() - cursor.0.len(),
         })
     }
 
-    /// Returns what the statement is about, for comparison with the one that is wanted.
+    /// Returns the subject of the statement, for comparison with that of the wanted statement.
     pub fn subject(&self) -> Subject {
         Subject {
             links: self.links.iter().map(StatedLink::numbers).collect(),
@@ -102,24 +104,24 @@ impl Statement {
         }
     }
 
-    /// Returns whether all pairs keep at least the margins that they have in another statement of the same subject.
+    /// Returns whether each pair has at least the margin that it has in `wanted`, a statement with the same subject.
     pub fn keeps_margins_of(&self, wanted: &Statement) -> bool {
         let pairs = self.pairs.iter().zip(&wanted.pairs);
         self.pairs.len() == wanted.pairs.len()
             && pairs.into_iter().all(|(own, wanted)| own.1 >= wanted.1)
     }
 
-    /// Returns by what start and rate of each link of another statement are to be multiplied; `None` if it is not about the same
-    /// bodies, on the same links, with the same pairs and margins. The positions of joints may differ, and times.
+    /// Compares with a statement about the same bodies, links, pairs and margins, at other joint positions and times. Returns the
+    /// factor for the start and the rate of each link of `other`. Returns `None` if the statements differ in anything else.
     pub(crate) fn scales(&self, other: &Statement) -> Option<Vec<f64>> {
-        let is_of_cell = self.bodies == other.bodies
+        let has_same_pairs = self.bodies == other.bodies
             && self.pairs == other.pairs
             && self.links.len() == other.links.len();
         let links = self.links.iter().zip(&other.links);
-        is_of_cell.then(|| links.map(|(own, theirs)| own.scale(theirs)).collect())?
+        has_same_pairs.then(|| links.map(|(own, theirs)| own.scale(theirs)).collect())?
     }
 
-    /// Returns the statement in one line.
+    /// Returns a summary of one line.
     pub fn summary(&self) -> String {
         let Statement { pairs, until, .. } = self;
         let margins = pairs.iter().map(|pair| pair.1);
@@ -143,8 +145,8 @@ impl Statement {
     }
 }
 
-/// The statement as text, a line for each link, body and pair; links move by the numbers that they were [given
-/// with](StatedLink::as_given). Numbers are the shortest that are read as the same binary64.
+/// Writes the whole statement as text, with one line for each link, body and pair. A link has the numbers that it was [given
+/// in](StatedLink::as_given). A number has the fewest digits that give the same binary64.
 impl Display for Statement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [length, time] = self.units;
@@ -194,23 +196,12 @@ impl Display for Statement {
     }
 }
 
-/// Returns the steps of a proof as text, one in each line; what cannot be read ends it.
+/// Returns the steps of a proof as text, one on each line. The text ends with `broken` at a step that cannot be read.
 pub fn steps_text(certificate: &[u8], statement: &Statement) -> String {
-    let mut at = Cursor(certificate.get(statement.bytes..).unwrap_or_default());
+    let mut cursor = Cursor(certificate.get(statement.bytes..).unwrap_or_default());
     let mut text = String::new();
-    while let Some(&[step]) = at.take(1) {
-        let line = match step {
-            0 => Some("split A".to_owned()),
-            1 => Some("split B".to_owned()),
-            2 => Some("split time".to_owned()),
-            3 => plane(&mut at).map(|plane| format!("plane with world {plane}")),
-            4 => plane(&mut at).map(|plane| format!("plane with A {plane}")),
-            5 => plane(&mut at).map(|plane| format!("plane with B {plane}")),
-            6 => Some("ball around A".to_owned()),
-            7 => Some("ball around B".to_owned()),
-            _ => None,
-        };
-        match line {
+    while let Some(&[step]) = cursor.take(1) {
+        match step_text(step, &mut cursor) {
             Some(line) => text += &(line + "\n"),
             None => return text + "broken\n",
         }
@@ -218,9 +209,23 @@ pub fn steps_text(certificate: &[u8], statement: &Statement) -> String {
     text
 }
 
-/// Reads the normal of a plane and its offset, of 7 bytes each.
-fn plane(at: &mut Cursor<'_>) -> Option<String> {
-    let mut number = || Some(signed(at.take(7)?));
+/// Returns a step as text. Reads the numbers of a plane from `cursor`.
+fn step_text(opcode: u8, cursor: &mut Cursor<'_>) -> Option<String> {
+    let body = |index: usize| ["A", "B"][index];
+    Some(match Step::from_opcode(opcode)? {
+        Step::SplitPart(index) => format!("split {}", body(index)),
+        Step::SplitTime => "split time".to_owned(),
+        Step::Plane(frame) => {
+            let frame = ["world", "A", "B"][frame];
+            format!("plane with {frame} {}", plane_text(cursor)?)
+        }
+        Step::Ball(index) => format!("ball around {}", body(index)),
+    })
+}
+
+/// Reads the normal and the offset of a plane, of 7 bytes each, and returns them as text.
+fn plane_text(cursor: &mut Cursor<'_>) -> Option<String> {
+    let mut number = || Some(signed(cursor.take(7)?));
     let normal = [number()?, number()?, number()?];
     Some(format!("{normal:?} {}", number()?))
 }

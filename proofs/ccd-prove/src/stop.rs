@@ -1,19 +1,19 @@
-//! Work that another thread may stop.
+//! Stops long work when another thread sets a flag.
 
 use std::cmp::Ordering;
 use std::convert::Infallible;
 use std::sync::atomic::{self, AtomicBool};
 
-/// What work asks again and again whether it goes on.
+/// A condition that long work checks regularly, to see whether to stop.
 pub(crate) trait Stop: Copy {
-    /// What stopped work returns; nothing for work that is never stopped.
+    /// The error of stopped work. It has no value for work that is never stopped.
     type Stopped;
 
-    /// Returns an error once the work is to stop.
+    /// Returns an error if the work has to stop.
     fn check(self) -> Result<(), Self::Stopped>;
 }
 
-/// Work goes on to its end.
+/// The condition of work that is never stopped.
 #[derive(Clone, Copy)]
 pub(crate) struct Never;
 
@@ -25,7 +25,7 @@ impl Stop for Never {
     }
 }
 
-/// Another thread has set the flag of the work.
+/// The error of work that another thread has stopped.
 pub(crate) struct Stopped;
 
 impl Stop for &AtomicBool {
@@ -40,10 +40,10 @@ impl Stop for &AtomicBool {
     }
 }
 
-/// The number of elements that are sorted without a look at the flag.
+/// The number of elements to sort between two checks of the stop condition.
 const SORTED_AT_ONCE: usize = 1 << 14;
 
-/// Sorts elements, equal ones in their order.
+/// Sorts elements. The sort is stable.
 pub(crate) fn sort<T, S: Stop>(
     elements: &mut [T],
     compare: impl Fn(&T, &T) -> Ordering,
@@ -53,7 +53,7 @@ pub(crate) fn sort<T, S: Stop>(
     loop {
         for part in elements.chunks_mut(length) {
             stop.check()?;
-            // Of two parts that are sorted it makes one in a single pass.
+            // Each part is two sorted runs, which the stable sort merges in a single pass.
             part.sort_by(&compare);
         }
         if length >= elements.len() {
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn long_lists_are_sorted_in_the_order_of_equal_elements() {
+    fn sorting_long_lists_is_stable() {
         for count in [
             0,
             1,

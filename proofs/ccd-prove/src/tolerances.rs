@@ -1,25 +1,29 @@
-//! What the prover, which computes in binary64, allows for rounding: its own, and that of the checker.
+//! The prover's allowances for rounding, of its own computations in binary64 and of the checker's.
 
-/// The share of the largest length that heights and distances may lose here for each link, and for each part as if it were one more: it
-/// is placed by less than 200 operations on numbers that are no larger, and each loses 2⁻⁵³ at most.
+/// Error bound of a height or distance, as a share of the largest length, for each link and for each of both parts.
+///
+/// Each link and each part takes fewer than 200 operations on numbers below the largest length. Each operation rounds by at most
+/// 2⁻⁵³.
 pub(crate) const ROUNDING: f64 = 2e-14;
 
-/// The factor by which bounds of second derivatives are increased: they are made of fewer than 1,000 operations on numbers that are not
-/// negative, here and in the checker, which rounds each up by less than a unit besides.
-pub(crate) const LENGTHS: f64 = 1.0 + 1e-12;
-
-/// The largest sum of turns in half of a stretch, in radians. The checker has a limit of 2 for sums that it has rounded up.
-pub(crate) const MOST_TURN: f64 = 1.999;
-
-/// What placing a corner by a pose is off by at most, as a share of the lengths of the corner and of the translation.
+/// Factor that rounds a bound of a second derivative up.
 ///
-/// With u = 2⁻⁵³: the quaternion is off by less than 8 u from one of unit length, so the rotation scales by less than 1 + 16 u.
-/// Its 30 operations round to within 40 u in each coordinate, the sum to within u: in all less than 2⁷ u.
-pub(crate) const PLACING: f64 = 1.0 / (1u64 << 46) as f64;
+/// The bound takes fewer than 1,000 operations on non-negative numbers. The checker also rounds each of these up by less than one
+/// unit.
+pub(crate) const SECOND_DERIVATIVE_FACTOR: f64 = 1.0 + 1e-12;
 
-/// What a position of a joint at the end of a certificate is off by at most from the one that the rule of the joint gives, as a share
-/// of the numbers that both are made of, for each joint that is followed.
+/// The largest sum of joint angles over half of an interval, in radians. The checker's limit is 2, after rounding up.
+pub(crate) const MAX_TURN: f64 = 1.999;
+
+/// Error bound of a point transformed by a pose, as a share of the lengths of the point and of the translation.
 ///
-/// With u = 2⁻⁵³: the position that is followed, and the one that follows, are sums of a start and a rate, which are off by less than
-/// 3 u of both ends. The rule is a product and a sum for each joint that is followed, of less than 4 u. In all less than 2⁴ u.
-pub(crate) const POSITION: f64 = 1.0 / (1u64 << 49) as f64;
+/// With u = 2⁻⁵³, the quaternion differs from unit length by less than 8 u, so the rotation scales by less than 1 + 16 u. Its 30
+/// operations round each coordinate by less than 40 u, and the translation by less than u. The sum is below 2⁷ u.
+pub(crate) const POSE_ERROR: f64 = 1.0 / (1u64 << 46) as f64;
+
+/// Error bound of a joint position in a certificate against the joint's position rule, for each joint of the chain of rules. It is
+/// a share of the numbers in the rule.
+///
+/// With u = 2⁻⁵³, both positions are a start plus a rate, with errors below 3 u of both ends. The rule is one product and one sum
+/// for each followed joint, with errors below 4 u. The sum is below 2⁴ u.
+pub(crate) const POSITION_ERROR: f64 = 1.0 / (1u64 << 49) as f64;

@@ -1,40 +1,40 @@
-//! The tree of a body's triangles that its certificate describes.
+//! The bounding box tree over a body's triangles. The certificate of the body describes it.
 
-use crate::bounds::{Bounds, of_each};
+use crate::bounds::{Bounds, by_coordinate};
 use crate::split::split;
 use crate::stop::Stop;
 use ccd_core::glam::{DVec3, DVec4};
 use ccd_core::order::greater;
 
-/// Triangles, and parts of them: a part of more than one triangle has two parts.
+/// A binary tree over triangles. A part with more than one triangle has two parts.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
-    /// In the order of the tree. Each corner has its radius after its coordinates.
+    /// The triangles in the order of the tree. A corner has the coordinates x, y, z and its radius.
     pub(crate) triangles: Vec<[DVec4; 3]>,
-    /// Each before the nodes of its first part, and these before those of the second one.
+    /// The nodes in preorder: each before all nodes of its first part, and these before all nodes of its second part.
     nodes: Vec<Node>,
 }
 
-/// A part of the triangles, by the number of its node.
+/// A part of the triangles, given by the index of its node.
 pub(crate) type Part = usize;
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
     bounds: Bounds,
-    /// The radius of a ball around the middle that has all in it.
-    ball: f64,
-    /// The first triangle.
+    /// The radius of the bounding ball around the centre of the box.
+    ball_radius: f64,
+    /// The index of the first triangle.
     triangle: usize,
-    /// The node of the second part, if there is more than one triangle.
+    /// The second part. `None` for a single triangle.
     second: Option<Part>,
 }
 
 impl Tree {
-    /// The part that has all triangles.
+    /// The part with all triangles.
     pub(crate) const WHOLE: Part = 0;
 
-    /// Makes a tree of triangles, and returns it as it is written: each node in its order, for a part of more than one triangle how
-    /// many of them its first part has, for a triangle its number.
+    /// Builds a tree over triangles. Also returns the numbers of the certificate, one for each node in preorder. A single triangle
+    /// has its index, and any other part the number of triangles of its first part.
     pub(crate) fn new<S: Stop>(
         triangles: &[[DVec4; 3]],
         stop: S,
@@ -45,66 +45,66 @@ impl Tree {
             triangles: Vec::new(),
             nodes: Vec::new(),
         };
-        let mut written = Vec::new();
-        tree.add((triangles, &boxes), (&mut order, 0), &mut written, stop)?;
-        Ok((tree, written))
+        let mut numbers = Vec::new();
+        tree.add((triangles, &boxes), (&mut order, 0), &mut numbers, stop)?;
+        Ok((tree, numbers))
     }
 
-    /// Adds a part of the triangles that is so many splits deep.
+    /// Adds a part at a depth, and all parts below it.
     fn add<S: Stop>(
         &mut self,
         (triangles, boxes): (&[[DVec4; 3]], &[Bounds]),
         (part, depth): (&mut [u32], usize),
-        written: &mut Vec<u32>,
+        numbers: &mut Vec<u32>,
         stop: S,
     ) -> Result<(), S::Stopped> {
         let node = self.nodes.len();
-        let corners = part.iter().flat_map(|&number| triangles[number as usize]);
+        let corners = part.iter().flat_map(|&index| triangles[index as usize]);
         self.nodes.push(Node::of(corners, self.triangles.len()));
-        if let [number] = *part {
-            written.push(number);
-            self.triangles.push(triangles[number as usize]);
+        if let [index] = *part {
+            numbers.push(index);
+            self.triangles.push(triangles[index as usize]);
         } else {
             let count = split(boxes, part, depth, stop)?;
-            written.push(count as u32);
+            numbers.push(count as u32);
             let (first, second) = part.split_at_mut(count);
-            self.add((triangles, boxes), (first, depth + 1), written, stop)?;
+            self.add((triangles, boxes), (first, depth + 1), numbers, stop)?;
             self.nodes[node].second = Some(self.nodes.len());
-            self.add((triangles, boxes), (second, depth + 1), written, stop)?;
+            self.add((triangles, boxes), (second, depth + 1), numbers, stop)?;
         }
         Ok(())
     }
 
-    /// Returns both parts of a part; `None` if it is a triangle.
+    /// Returns the first and the second part of a part. Returns `None` for a single triangle.
     pub(crate) fn halves(&self, part: Part) -> Option<[Part; 2]> {
         Some([part + 1, self.nodes[part].second?])
     }
 
-    /// Returns the least height of a part along a direction, where a ball sinks below its centre by its radius.
+    /// Returns the least height of a part along a direction: the least height of a corner, less the radius around it.
     pub(crate) fn least_height(&self, part: Part, direction: DVec3) -> f64 {
-        let none = (f64::INFINITY, 0);
-        self.lowest(part, direction.extend(-1.0), none).0
+        let above_all = (f64::INFINITY, 0);
+        self.lower_corner(part, direction.extend(-1.0), above_all).0
     }
 
-    /// Returns the corner of a part whose centre is lowest along a direction.
+    /// Returns the lowest corner of a part along a direction without radii, and its index.
     pub(crate) fn lowest_corner(&self, part: Part, direction: DVec3) -> (u32, DVec3) {
-        let none = (f64::INFINITY, 3 * self.nodes[part].triangle);
-        let (_, number) = self.lowest(part, direction.extend(0.0), none);
-        let corner = self.triangles[number / 3][number % 3];
-        (number as u32, corner.truncate())
+        let above_all = (f64::INFINITY, 3 * self.nodes[part].triangle);
+        let (_, index) = self.lower_corner(part, direction.extend(0.0), above_all);
+        let corner = self.triangles[index / 3][index % 3];
+        (index as u32, corner.truncate())
     }
 
-    /// Returns the height of the corner of a part that is lowest along a direction, and its number; what is given if none is lower.
-    fn lowest(&self, part: Part, direction: DVec4, found: (f64, usize)) -> (f64, usize) {
+    /// Returns the height and the index of the lowest corner of a part along a direction. Returns `lowest` if no corner is lower.
+    fn lower_corner(&self, part: Part, direction: DVec4, lowest: (f64, usize)) -> (f64, usize) {
         let Some(halves) = self.halves(part) else {
             let triangle = self.nodes[part].triangle;
             let corners = self.triangles[triangle].iter().enumerate();
-            return corners.fold(found, |found, (k, corner)| {
+            return corners.fold(lowest, |lowest, (k, corner)| {
                 let height = direction.dot(*corner);
-                if height < found.0 {
+                if height < lowest.0 {
                     (height, 3 * triangle + k)
                 } else {
-                    found
+                    lowest
                 }
             });
         };
@@ -112,49 +112,51 @@ impl Tree {
         if halves[1].0 < halves[0].0 {
             halves.swap(0, 1);
         }
-        halves.into_iter().fold(found, |found, (bound, half)| {
-            if bound < found.0 {
-                self.lowest(half, direction, found)
+        halves.into_iter().fold(lowest, |lowest, (bound, half)| {
+            if bound < lowest.0 {
+                self.lower_corner(half, direction, lowest)
             } else {
-                found
+                lowest
             }
         })
     }
 
-    /// Returns how many boxes and triangles of a part have to be looked at to see that none is lower along a direction than a limit.
-    pub(crate) fn looks(&self, part: Part, direction: DVec3, limit: f64) -> usize {
+    /// Returns the number of boxes and triangles that the checker visits to confirm that the part has a height of at least `limit`
+    /// along `direction`.
+    pub(crate) fn visits_above(&self, part: Part, direction: DVec3, limit: f64) -> usize {
         let bounds = &self.nodes[part].bounds;
         let is_low = bounds.least_height(direction.extend(-1.0)) < limit;
         let halves = self.halves(part).filter(|_| is_low);
-        let of_halves = |halves: [Part; 2]| halves.map(|half| self.looks(half, direction, limit));
-        1 + halves.map_or(0, |halves| of_halves(halves).iter().sum())
+        let visits =
+            |halves: [Part; 2]| halves.map(|half| self.visits_above(half, direction, limit));
+        1 + halves.map_or(0, |halves| visits(halves).iter().sum())
     }
 
-    /// Returns the centre and the radius of a ball that has all points of a part in it.
+    /// Returns the centre and the radius of the bounding ball of a part.
     pub(crate) fn ball(&self, part: Part) -> (DVec3, f64) {
         let node = &self.nodes[part];
-        (node.bounds.middle(), node.ball)
+        (node.bounds.centre(), node.ball_radius)
     }
 
-    /// Returns how many boxes of a part have to be looked at to see that all of its points are farther than a limit from a point;
-    /// `None` if the boxes do not show it.
-    pub(crate) fn looks_beyond(&self, part: Part, point: DVec3, limit: f64) -> Option<usize> {
+    /// Returns the number of boxes that the checker visits to confirm that all points of the part are farther than `limit` from
+    /// `point`. Returns `None` if a box of a triangle is nearer.
+    pub(crate) fn visits_beyond(&self, part: Part, point: DVec3, limit: f64) -> Option<usize> {
         let Bounds { least, greatest } = &self.nodes[part].bounds;
-        let centre = point.extend(0.0);
-        let away = of_each(*least - centre, centre - *greatest, greater);
-        let away = of_each(away, DVec4::ZERO, greater).truncate();
-        if away.length() > limit + greatest.w {
+        let point4 = point.extend(0.0);
+        let offset = by_coordinate(*least - point4, point4 - *greatest, greater);
+        let offset = by_coordinate(offset, DVec4::ZERO, greater).truncate();
+        if offset.length() > limit + greatest.w {
             return Some(1);
         }
         let [first, second] = self.halves(part)?;
-        let looks = self.looks_beyond(first, point, limit)?;
-        Some(1 + looks + self.looks_beyond(second, point, limit)?)
+        let visits = self.visits_beyond(first, point, limit)?;
+        Some(1 + visits + self.visits_beyond(second, point, limit)?)
     }
 
-    /// Returns a distance from a point that no point of a part exceeds.
+    /// Returns an upper bound of the distance from `point` to any point of a part.
     pub(crate) fn reach(&self, part: Part, point: DVec3) -> f64 {
-        let (middle, radius) = self.ball(part);
-        middle.distance(point) + radius
+        let (centre, radius) = self.ball(part);
+        centre.distance(point) + radius
     }
 
     /// Returns the largest radius of a corner.
@@ -162,7 +164,7 @@ impl Tree {
         self.nodes[Tree::WHOLE].bounds.greatest.w
     }
 
-    /// Returns half of the size of a part, and 0 for a triangle.
+    /// Returns half of the diagonal of a part's box, and 0 for a single triangle, which cannot be split.
     pub(crate) fn radius(&self, part: Part) -> f64 {
         let Node { bounds, second, .. } = &self.nodes[part];
         let size = (bounds.greatest - bounds.least).truncate();
@@ -173,10 +175,10 @@ impl Tree {
 impl Node {
     fn of(corners: impl Iterator<Item = DVec4> + Clone, triangle: usize) -> Node {
         let bounds = Bounds::around(corners.clone());
-        let squares = corners.map(|corner| corner.truncate().distance_squared(bounds.middle()));
+        let squares = corners.map(|corner| corner.truncate().distance_squared(bounds.centre()));
         Node {
             bounds,
-            ball: squares.fold(0.0, greater).sqrt() + bounds.greatest.w,
+            ball_radius: squares.fold(0.0, greater).sqrt() + bounds.greatest.w,
             triangle,
             second: None,
         }

@@ -1,11 +1,11 @@
-//! Writes a certificate: the statement, and the cover that proves it.
+//! Writes a certificate: its statement, and the steps that prove it.
 
-use crate::cover::Cover;
+use crate::cover::{Cover, CoverLimits, MAX_CACHED_STATES};
 use crate::error::NotProven;
+use crate::interval::link_states;
+use crate::link_motion::{LinkMotion, exponent_above, link_motions};
 use crate::nearest::MeshPoint;
-use crate::placed::{Moving, moving, placed};
-use crate::scene::{Scene, Witness};
-use crate::screw::exponent_above;
+use crate::scene::{Scene, SceneBody, Witness};
 use crate::statement::Statement;
 use crate::tolerances::ROUNDING;
 use crate::tree::Tree;
@@ -13,40 +13,41 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 use std::sync::atomic::AtomicBool;
 
-/// A certificate, and what it took.
+/// A certificate, and figures about it.
 #[derive(Clone, Debug)]
 pub struct Proof {
     /// The certificate.
     pub bytes: Vec<u8>,
-    /// The number of its leaves.
+    /// The number of leaves.
     pub leaves: usize,
-    /// The unit of its lengths is 2 to the power of this.
+    /// The exponent of the unit of length, which is a power of two.
     pub unit: i32,
 }
 
-/// The checker has numbers of 8 bits before the point for what a link has moved by.
-const MOST_RADIANS: f64 = 256.0;
+/// The checker's limit for the parameter of a link's motion, which is in radians for a turning link.
+const MAX_PARAMETER: f64 = 256.0;
 
-/// Weights of corners are multiples of 2⁻⁵⁵.
-const WEIGHT_UNIT: f64 = (1u64 << 55) as f64;
+/// A weight of a corner is a multiple of 2⁻⁵⁵.
+const WEIGHT_SCALE: f64 = (1u64 << 55) as f64;
 
-/// The number of bits of the largest length in the unit of a certificate.
+/// The number of bits of the largest length, in the unit of length.
 const LENGTH_BITS: i32 = 52;
 
-/// What a rotation is off by in the checker: the share of a turn of about a radian.
-const TURNS: f64 = 1.0 / (1u64 << 50) as f64;
+/// The checker's error of a rotation for each radian of a turn.
+const ROTATION_ERROR: f64 = 1.0 / (1u64 << 50) as f64;
 
-/// The checker has 59 bits for the sum of lengths.
-const LENGTHS_IN_SUM: f64 = 64.0;
+/// The checker's limit for the sum of the lengths of all arms, as a multiple of the largest length. The sum has 59 bits, and a
+/// length 53.
+const MAX_ARM_SUM: f64 = 64.0;
 
-/// What the checker adds to the sum of lengths, in units: it is turned as much as lengths are.
-const ADDED_TO_SUM: f64 = (1u64 << 47) as f64;
+/// A constant that the checker adds to the sum of the lengths of all arms, in units of length.
+const ADDED_TO_ARM_SUM: f64 = (1u64 << 47) as f64;
 
-/// Writes a certificate: each pair of a scene is farther apart than its margin from time 0 to `until`, and the
-/// witness, if there is one, comes as near as it says.
+/// Writes a certificate. It states that each pair of a scene stays farther apart than its margin from time 0 to `until`, and that
+/// the points of the witness are near each other.
 ///
-/// A first contact is proven until its time, with a witness at it. A least clearance is proven for the whole duration, with the
-/// clearance as the margin and a witness at some time.
+/// To prove a first contact, set `until` to its time and give a witness at that time. To prove a least clearance, set `until` to the
+/// whole duration and the margins to the clearance, and give a witness at the time of the closest approach.
 ///
 /// # Errors
 /// [`NotProven`].
@@ -54,7 +55,7 @@ pub fn prove(scene: &Scene<'_>, until: f64, witness: Option<Witness>) -> Result<
     prove_unless_stopped(scene, until, witness, None)
 }
 
-/// As [`prove`], but ends soon after another thread sets a flag.
+/// Writes a certificate as [`prove`] does, but ends soon after another thread sets a flag.
 pub(crate) fn prove_unless_stopped(
     scene: &Scene<'_>,
     until: f64,
@@ -62,44 +63,72 @@ pub(crate) fn prove_unless_stopped(
     stop: Option<&AtomicBool>,
 ) -> Result<Proof, NotProven> {
     let time_unit = exponent_above(until);
-    let links = moving(&scene.links, time_unit)?;
-    let turns_too_far =
-        |link: &Moving| !(link.screw.moved(time_unit).iter()).all(|&by| by <= MOST_RADIANS);
+    let links = link_motions(&scene.links, time_unit)?;
+    let turns_too_far = |link: &LinkMotion| {
+        let magnitudes = link.screw.parameter_magnitudes(time_unit);
+        !magnitudes
+            .iter()
+            .all(|&magnitude| magnitude <= MAX_PARAMETER)
+    };
     if let Some(link) = links.iter().position(turns_too_far) {
         return Err(NotProven::TurnsTooFar { link });
     }
-    let (mut bytes, unit, lost) = state(scene, &links, until, witness)?;
-    let mut cover = Cover::new((scene, &links), (until, stop), 2f64.powi(unit));
-    for (number, pair) in scene.pairs.iter().enumerate() {
-        cover.write(number, 0.5 * pair.margin + lost)?;
-    }
-    bytes.extend(&cover.steps);
+    let statement = write_statement(scene, &links, until, witness)?;
+    let limits = CoverLimits {
+        until,
+        stop,
+        max_cached_states: MAX_CACHED_STATES,
+    };
+    let cover = cover_pairs((scene, &links), &statement, limits)?;
     Ok(Proof {
-        bytes,
-        leaves: cover.leaves,
-        unit,
+        bytes: [statement.bytes, cover.steps].concat(),
+        leaves: cover.leaf_count,
+        unit: statement.length_exponent,
     })
 }
 
-/// Returns a statement as bytes, the unit of its lengths as a power of two, and how much farther than is asked for parts have to be
-/// from a plane so that the checker sees it.
+/// Writes the steps that prove a statement.
+fn cover_pairs<'a>(
+    (scene, links): (&'a Scene<'a>, &'a [LinkMotion]),
+    statement: &Written,
+    limits: CoverLimits<'a>,
+) -> Result<Cover<'a>, NotProven> {
+    let length_unit = 2f64.powi(statement.length_exponent);
+    let mut cover = Cover::new((scene, links), limits, length_unit);
+    for (index, pair) in scene.pairs.iter().enumerate() {
+        cover.write_pair(index, 0.5 * pair.margin + statement.rounding)?;
+    }
+    Ok(cover)
+}
+
+/// A statement as it is written.
+struct Written {
+    bytes: Vec<u8>,
+    /// The exponent of the unit of length.
+    length_exponent: i32,
+    /// The rounding allowance for the distance of a part from a plane, for the prover and the checker.
+    rounding: f64,
+}
+
+/// Writes a statement.
 ///
 /// # Errors
 /// [`NotProven::NoContact`].
-fn state(
+fn write_statement(
     scene: &Scene<'_>,
-    links: &[Moving],
+    links: &[LinkMotion],
     until: f64,
     witness: Option<Witness>,
-) -> Result<(Vec<u8>, i32, f64), NotProven> {
+) -> Result<Written, NotProven> {
     let time_unit = exponent_above(until);
-    let size = largest_length(scene, links, time_unit);
-    let sum = sum_of_lengths(links, time_unit);
-    let unit = exponent_above(greater(size, sum / LENGTHS_IN_SUM)) - LENGTH_BITS;
-    let lost = lost(links, time_unit, [2f64.powi(unit), 2.0 * size + sum])
-        + ROUNDING * size * (scene.links.len() + 2) as f64;
+    let largest = largest_length(scene, links, time_unit);
+    let arm_sum = sum_of_arms(links, time_unit);
+    let length_exponent = exponent_above(greater(largest, arm_sum / MAX_ARM_SUM)) - LENGTH_BITS;
+    let length_unit = 2f64.powi(length_exponent);
+    let rounding = checker_error(links, time_unit, length_unit, 2.0 * largest + arm_sum)
+        + ROUNDING * largest * (scene.links.len() + 2) as f64;
     let mut bytes = b"CCDPROF1".to_vec();
-    bytes.extend(unit.to_le_bytes());
+    bytes.extend(length_exponent.to_le_bytes());
     bytes.extend(time_unit.to_le_bytes());
     for count in [scene.links.len(), scene.bodies.len(), scene.pairs.len()] {
         bytes.extend((count as u32).to_le_bytes());
@@ -111,9 +140,9 @@ fn state(
         bytes.extend(axes.to_le_bytes());
         write_numbers(&mut bytes, after);
     }
-    for carried in &scene.bodies {
-        bytes.extend(carried.body.digest);
-        bytes.extend((carried.link as u32).to_le_bytes());
+    for SceneBody { body, link } in &scene.bodies {
+        bytes.extend(body.digest);
+        bytes.extend((*link as u32).to_le_bytes());
     }
     for pair in &scene.pairs {
         bytes.extend(pair.bodies.map(|body| (body as u32).to_le_bytes()).concat());
@@ -122,64 +151,77 @@ fn state(
     write_numbers(&mut bytes, [until]);
     bytes.extend(u32::from(witness.is_some()).to_le_bytes());
     if let Some(witness) = witness {
-        write_witness(&mut bytes, scene, links, (witness, lost))?;
+        write_witness(&mut bytes, scene, links, (witness, rounding))?;
     }
-    Ok((bytes, unit, lost))
+    Ok(Written {
+        bytes,
+        length_exponent,
+        rounding,
+    })
 }
 
-/// Returns what a certificate of a scene states without a witness; `None` if none can state it.
+/// Returns the statement of a certificate of a scene, without a witness. Returns `None` if a number is too small for a certificate.
 pub(crate) fn statement_of(scene: &Scene<'_>, until: f64) -> Option<Statement> {
-    let links = moving(&scene.links, exponent_above(until)).ok()?;
-    let (bytes, ..) = state(scene, &links, until, None).ok()?;
-    Statement::read(&bytes)
+    let links = link_motions(&scene.links, exponent_above(until)).ok()?;
+    let written = write_statement(scene, &links, until, None).ok()?;
+    Statement::read(&written.bytes)
 }
 
-/// Returns the sum of the coordinates of all arms and of their changes in the unit of time, of which the checker has 59 bits.
-fn sum_of_lengths(links: &[Moving], time_unit: i32) -> f64 {
+/// Returns the sum of the absolute coordinates of all arms and of their changes in the unit of time.
+fn sum_of_arms(links: &[LinkMotion], time_unit: i32) -> f64 {
     let lengths = links.iter().map(|link| {
-        let travel = link.travel * 2f64.powi(time_unit);
-        (link.arm.abs() + travel.abs()).element_sum()
+        let arm_change = link.velocity * 2f64.powi(time_unit);
+        (link.arm.abs() + arm_change.abs()).element_sum()
     });
     lengths.sum()
 }
 
-/// Returns 8 L of the checker's README, for lengths in a unit that add up to so much.
-fn lost(links: &[Moving], time_unit: i32, [unit, lengths]: [f64; 2]) -> f64 {
-    let of_moves = |link: &Moving| 3.0 + link.screw.moved(time_unit).iter().sum::<f64>();
-    let off = links.iter().map(of_moves).sum::<f64>() * TURNS;
-    8.0 * (13.0 * unit * (links.len() + 1) as f64 + off * (lengths + ADDED_TO_SUM * unit))
+/// Returns 8 L of the checker's README, which bounds the checker's error of a height. `lengths` is the reach of a part plus the sum
+/// of the arms.
+fn checker_error(links: &[LinkMotion], time_unit: i32, length_unit: f64, lengths: f64) -> f64 {
+    let parameter_sum = |link: &LinkMotion| {
+        3.0 + link
+            .screw
+            .parameter_magnitudes(time_unit)
+            .iter()
+            .sum::<f64>()
+    };
+    let rotation_error = links.iter().map(parameter_sum).sum::<f64>() * ROTATION_ERROR;
+    8.0 * (13.0 * length_unit * (links.len() + 1) as f64
+        + rotation_error * (lengths + ADDED_TO_ARM_SUM * length_unit))
 }
 
-/// Returns the largest length that the checker computes with.
-fn largest_length(scene: &Scene<'_>, links: &[Moving], time_unit: i32) -> f64 {
+/// Returns an upper bound of the lengths that the checker computes with.
+fn largest_length(scene: &Scene<'_>, links: &[LinkMotion], time_unit: i32) -> f64 {
     let margins = scene.pairs.iter().map(|pair| pair.margin);
-    let mut most = margins.fold(0.0, greater);
+    let mut largest = margins.fold(0.0, greater);
     let mut reaches: Vec<f64> = Vec::new();
     for link in links {
-        let travel = link.travel.length() * 2f64.powi(time_unit);
-        // What is read before it is added up is no longer than half of the sum, but for centres.
-        let reach = reaches.get(link.parent).unwrap_or(&0.0) + 2.0 * (link.arm.length() + travel);
+        let arm_change = link.velocity.length() * 2f64.powi(time_unit);
+        // Twice the lengths also bound the vectors that the checker adds up to an arm, except the centres.
+        let reach =
+            reaches.get(link.parent).unwrap_or(&0.0) + 2.0 * (link.arm.length() + arm_change);
         reaches.push(reach);
-        most = greater(most, reach + link.screw.centre.length());
+        largest = greater(largest, reach + link.screw.centre.length());
     }
-    for carried in &scene.bodies {
-        let tree = &carried.body.tree;
+    for placed in &scene.bodies {
+        let tree = &placed.body.tree;
         let reach = tree.reach(Tree::WHOLE, DVec3::ZERO);
-        most = greater(most, tree.largest_radius() + reach);
+        largest = greater(largest, tree.largest_radius() + reach);
     }
-    most
+    largest
 }
 
 fn write_numbers(bytes: &mut Vec<u8>, numbers: impl IntoIterator<Item = f64>) {
     bytes.extend(numbers.into_iter().flat_map(|x| x.to_le_bytes()));
 }
 
-/// Writes the triangle of each witness, and the weights of its corners. If only rounding makes the tolerance too small for the
-/// checker, it is as large as it has to be.
+/// Writes a witness: the triangles of both points, and the weights of their corners. If the tolerance is too small only because of
+/// rounding, writes the smallest tolerance that the checker accepts.
 fn write_witness(
     bytes: &mut Vec<u8>,
     scene: &Scene<'_>,
-    links: &[Moving],
+    links: &[LinkMotion],
     (witness, rounding): (Witness, f64),
 ) -> Result<(), NotProven> {
     let points = mesh_points(scene, links, witness);
@@ -192,10 +234,10 @@ fn write_witness(
     bytes.extend((witness.pair as u32).to_le_bytes());
     write_numbers(bytes, [witness.time, greater(witness.tolerance, needed)]);
     for point in points {
-        bytes.extend((point.place as u32).to_le_bytes());
-        // Together they are the whole, also if they are rounded up.
-        let (whole, weights) = (WEIGHT_UNIT as u64, point.weights);
-        let [a, b, _] = weights.map(|weight| (weight * WEIGHT_UNIT) as u64);
+        bytes.extend((point.triangle as u32).to_le_bytes());
+        // The third weight completes the sum to 1, and none is negative, whatever the rounding.
+        let (whole, weights) = (WEIGHT_SCALE as u64, point.weights);
+        let [a, b, _] = weights.map(|weight| (weight * WEIGHT_SCALE) as u64);
         let a = a.min(whole);
         let b = b.min(whole - a);
         for weight in [a, b, whole - a - b] {
@@ -205,19 +247,25 @@ fn write_witness(
     Ok(())
 }
 
-/// Returns the points of both meshes that are nearest to those of a witness, in the world.
-pub(crate) fn mesh_points(scene: &Scene<'_>, links: &[Moving], witness: Witness) -> [MeshPoint; 2] {
-    let all = placed(links, witness.time, 0.0);
+/// Finds the nearest points of both meshes to the points of a witness, in the world.
+pub(crate) fn mesh_points(
+    scene: &Scene<'_>,
+    links: &[LinkMotion],
+    witness: Witness,
+) -> [MeshPoint; 2] {
+    let states = link_states(links, witness.time, 0.0);
     [0, 1].map(|k| {
-        let carried = &scene.bodies[scene.pairs[witness.pair].bodies[k]];
-        let link = &all[carried.link];
-        let local = link.rotation.transpose() * (witness.points[k] - link.centre);
-        let centre = links[carried.link].screw.centre;
-        let nearest = MeshPoint::nearest(&carried.body.tree, local + centre);
-        let place = link.centre + link.rotation * (nearest.ball.truncate() - centre);
+        let SceneBody { body, link } = scene.bodies[scene.pairs[witness.pair].bodies[k]];
+        let (state, centre) = (&states[link], links[link].screw.centre);
+        let local = state.rotation.transpose() * (witness.points[k] - state.centre);
+        let nearest = MeshPoint::nearest(&body.tree, local + centre);
+        let in_world = state.centre + state.rotation * (nearest.ball.truncate() - centre);
         MeshPoint {
-            ball: place.extend(nearest.ball.w),
+            ball: in_world.extend(nearest.ball.w),
             ..nearest
         }
     })
 }
+
+#[cfg(test)]
+mod tests;

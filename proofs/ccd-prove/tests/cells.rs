@@ -1,4 +1,4 @@
-//! Proofs of paths of a small robot: each that is written holds, also at the limits.
+//! Proofs of the paths of a small robot, including paths at the checker's limits.
 
 use ccd_prove::{NotProven, PathNotProven, Proof, ProvenCell, StatedLink, Statement};
 use rigid_ccd::{Body, Pose, Settings, StartPolicy, trajectory};
@@ -6,7 +6,7 @@ use rigid_ccd_robot::{Cell, Joint, Link, LinkPairs, PositionRule, Robot};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// A car that slides along x towards an obstacle, and beside it a wheel that turns, with a body if one is given.
+/// Returns a cell with a car that slides along x towards an obstacle, and a turning wheel beside it. The wheel may have a body.
 fn cell(car: Body, obstacle: (Body, f64), wheel: Option<Body>) -> Cell {
     let joint = |parent: &str, child: &str, geometry| Joint {
         name: child.into(),
@@ -39,7 +39,7 @@ fn block(half: f64) -> Body {
     Body::cuboid([half; 3]).unwrap()
 }
 
-/// Asks when the cell first touches on a path, and proves the answer; all proofs have to hold.
+/// Computes the first contact on a path, proves the answer, and checks all proofs.
 fn prove_and_check(cell: &Cell, path: &[[f64; 2]]) -> Result<Vec<Proof>, PathNotProven> {
     prove_with(cell, path, &Settings::DEFAULT)
 }
@@ -63,7 +63,7 @@ fn prove_with(
     Ok(proofs)
 }
 
-/// Their surfaces are apart, so there is nothing to prove.
+/// Tests a body inside another one, which counts as a contact although their surfaces are apart.
 #[test]
 fn a_body_in_another_at_the_start_has_no_proof() {
     let ball = || Body::sphere(0.1).unwrap();
@@ -74,7 +74,7 @@ fn a_body_in_another_at_the_start_has_no_proof() {
     }
 }
 
-/// The answer is found before the flag is set.
+/// Tests a flag that is set after the answer is found.
 #[test]
 fn a_proof_ends_when_it_is_stopped() {
     let cell = cell(block(0.1), (block(0.1), 2.0), None);
@@ -94,7 +94,7 @@ fn a_proof_ends_when_it_is_stopped() {
     assert_eq!(prove(true).unwrap_err(), stopped);
 }
 
-/// Only the answer about the first contact says until where the path is free.
+/// Tests answers that do not contain the time until which the path is free.
 #[test]
 fn answers_to_other_questions_are_not_proven() {
     let cell = cell(block(0.1), (block(0.1), 2.0), None);
@@ -109,9 +109,9 @@ fn answers_to_other_questions_are_not_proven() {
     }
 }
 
-/// A pair that is let go with a gap has a proof; one that touches has none, and that is said.
+/// Tests a pair that starts within the tolerance, under the policy `Leave`. It has a proof if there is a gap, and else an error.
 #[test]
-fn a_pair_that_is_let_go_is_proven_if_it_has_a_gap() {
+fn a_pair_in_contact_at_the_start_is_proven_if_it_has_a_gap() {
     let path = [[0.0, 0.0], [-0.5, 0.0]];
     let leave = || Settings {
         start_policy: StartPolicy::Leave,
@@ -126,7 +126,7 @@ fn a_pair_that_is_let_go_is_proven_if_it_has_a_gap() {
     }
 }
 
-/// The gap is the tolerance but for rounding: at a start, or where one segment ends and the next one begins.
+/// Tests a gap that equals the tolerance up to rounding, at the start of a path and between two segments.
 #[test]
 fn a_contact_at_the_tolerance_is_proven() {
     let at = 2.0 + Settings::DEFAULT.tolerance;
@@ -137,7 +137,7 @@ fn a_contact_at_the_tolerance_is_proven() {
     assert_eq!(prove_and_check(&cell, &path).unwrap().len(), 2);
 }
 
-/// A wheel that moves no body is in no statement, one that does turns too far.
+/// Tests a wheel that turns too far. Only a wheel with a body is in the statement.
 #[test]
 fn turns_beyond_the_range_of_the_checker_are_refused() {
     for (from, to) in [(300.0, 300.5), (0.0, 129.0)] {
@@ -154,7 +154,7 @@ fn turns_beyond_the_range_of_the_checker_are_refused() {
     assert_eq!(prove_and_check(&used, &path).unwrap().len(), 1);
 }
 
-/// Positions of joints are stated as they are asked for, whatever power of two a sliding one has given to its line.
+/// Tests that joint positions are read back exactly, although the prover scales those of sliding joints by powers of two.
 #[test]
 fn positions_of_joints_are_read_from_statements() {
     let cell = cell(block(0.5), (block(0.5), 900.0), Some(block(1.0)));
@@ -177,7 +177,7 @@ fn positions_of_joints_are_read_from_statements() {
             [0, 1].map(|k| path[0][k] + (path[1][k] - path[0][k])),
         ];
         assert_eq!([from, to], ends);
-        // Other margins, other obstacles.
+        // The margin or an obstacle differs.
         assert_eq!(proven.joints_of(&statement, 0.1), None);
         let other = self::cell(block(0.5), (block(0.4), 900.0), Some(block(1.0)));
         let other = ProvenCell::new(&other).unwrap();
@@ -185,9 +185,9 @@ fn positions_of_joints_are_read_from_statements() {
     }
 }
 
-/// Joints that are not those of the statement, in what it leaves to a power of two.
+/// Tests changes to the joints of a statement, in the numbers that a power of two may scale.
 #[test]
-fn statements_about_other_joints_are_seen() {
+fn statements_about_other_joints_are_rejected() {
     let cell = cell(block(0.5), (block(0.5), 900.0), Some(block(1.0)));
     let proven = ProvenCell::new(&cell).unwrap();
     let proof = &prove_and_check(&cell, &[[0.1, 0.2], [0.3, -0.4]]).unwrap()[0];
@@ -211,7 +211,7 @@ fn statements_about_other_joints_are_seen() {
             assert_eq!(proven.joints_of(&other, 0.0).is_some(), is_same, "{number}");
         }
     }
-    // A power of two is taken from positions and given to the line.
+    // Scaling the velocity and the positions by a power of two keeps the motion.
     let mut same = statement.clone();
     same.links[0].velocity[0] *= 8.0;
     same.links[0].start /= 8.0;

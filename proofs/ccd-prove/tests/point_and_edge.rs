@@ -1,10 +1,10 @@
-//! Proofs of a point and an edge that come very near each other, by cases from the tests of other libraries.
+//! Proofs of a point and an edge that come very near each other. The cases are from the tests of other libraries.
 
 use ccd_core::{Motion, Pose};
 use ccd_prove::{Body, NotProven, Scene, prove};
 use std::f64::consts::TAU;
 
-/// Proves and checks that a point and an edge are apart until a time.
+/// Proves and checks that a point and an edge stay apart until a time.
 fn prove_point_and_edge(a: ([f64; 3], Motion), b: ([[f64; 3]; 2], Motion), until: f64) {
     let point = Body::new(&[a.0], &[[0; 3]]);
     let edge = Body::new(&b.0, &[[0, 1, 1]]);
@@ -19,7 +19,7 @@ fn flight(place: [f64; 3], velocity: [f64; 3], spin: [f64; 3]) -> Motion {
     Motion::new(Pose::at(place).unwrap(), velocity, spin).unwrap()
 }
 
-/// A leaf needs a normal that is off by less than the distance over the length of the edge.
+/// Tests a tiny gap beside a long edge. The error of the normal has to be smaller than the gap divided by the length.
 /// Source: `ipc-toolkit`'s test "Point-edge ToI random rigid 0".
 #[test]
 fn a_point_is_proven_to_fly_until_a_billionth_from_an_edge() {
@@ -35,7 +35,7 @@ fn a_point_is_proven_to_fly_until_a_billionth_from_an_edge() {
     );
 }
 
-/// What the checker knows of a rotation is lost to the turning body alone.
+/// Tests a tiny gap to a static edge. Only the turning body has a rounding error of its rotation.
 /// Source: `rigid-ipc`'s test "edge-vertex Rotation theta -2 pi order 0".
 #[test]
 fn a_point_is_proven_to_turn_until_a_hundred_billionth_from_an_edge() {
@@ -49,7 +49,7 @@ fn a_point_is_proven_to_turn_until_a_hundred_billionth_from_an_edge() {
     );
 }
 
-/// No plane of the world stays between them for long, but one that flies with them does.
+/// Tests bodies that move at the same velocity. Only a plane that moves with them separates them for long.
 /// Source: `ipc-toolkit`'s test "Point-Triangle CCD General".
 #[test]
 fn bodies_that_fly_side_by_side_are_proven_apart() {
@@ -64,7 +64,7 @@ fn bodies_that_fly_side_by_side_are_proven_apart() {
     );
 }
 
-/// A power of two cannot be taken from the least numbers.
+/// Tests a velocity so small that scaling it by a power of two loses bits.
 #[test]
 fn a_velocity_that_loses_bits_is_refused() {
     let point = Body::new(&[[0.0; 3]], &[[0; 3]]);

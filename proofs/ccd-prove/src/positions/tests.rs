@@ -3,7 +3,7 @@ use ccd_core::Pose;
 use rigid_ccd::trajectory;
 use rigid_ccd_robot::Link;
 
-/// A gripper whose second finger follows the first one by a factor, and a third one that follows the second one.
+/// Returns a gripper with three fingers. The second one follows the first one by a rule, and the third one follows the second one.
 fn gripper(factor: f64, offset: f64) -> Robot {
     let joint = |name: &str, rule| Joint {
         name: name.into(),
@@ -58,7 +58,7 @@ fn limits_are_kept_at_both_ends() {
         "joint grip is at 0.050001, beyond its limits 0 to 0.05"
     );
     assert!(check_positions(&robot, &[("grip", [-1e-9, 0.0])]).is_err());
-    // Where the one that is followed is not in the statement, its followers say where it is.
+    // If a followed joint is not in the statement, its position follows from its followers.
     let text = problem(&robot, &[("grip2", [0.0, 0.06])]);
     assert_eq!(text, "joint grip is at 0.06, beyond its limits 0 to 0.05");
     let text = problem(&robot, &[("grip2", [0.0, 0.05]), ("grip3", [0.1, 0.2])]);
@@ -66,7 +66,7 @@ fn limits_are_kept_at_both_ends() {
     assert!(text.starts_with(begin), "{text}");
 }
 
-/// Tests that what a robot computes itself is never refused, through a start and a rate that are rounded.
+/// Tests that positions computed by the robot are accepted after the rounding of a start and a rate.
 #[test]
 fn positions_that_the_robot_computes_are_possible() {
     let mut state = 5u64;

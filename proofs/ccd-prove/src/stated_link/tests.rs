@@ -15,12 +15,12 @@ fn link(axes: u32, [velocity, axis]: [[f64; 3]; 2], [start, rate]: [f64; 2]) -> 
 }
 
 #[test]
-fn a_free_motion_has_its_velocity_in_a_unit_of_time() {
+fn a_free_motion_is_returned_with_rate_one() {
     let stated = link(0, [[0.0, 0.0, -0.25], [0.75, 0.0, 0.0]], [0.0, 4.0]);
     let given = link(0, [[0.0, 0.0, -1.0], [3.0, 0.0, 0.0]], [0.0, 1.0]);
     assert_eq!(stated.as_given(), given);
     assert_eq!(stated.numbers(), given.numbers());
-    // What no power of two relates, or has moved before, stays as it is.
+    // A link that was not scaled by a power of two, or does not start at 0, stays as it is.
     for other in [
         link(0, [[0.0, 0.0, -0.25], [0.0; 3]], [0.0, 3.0]),
         link(0, [[0.0, 0.0, -0.25], [0.0; 3]], [1.0, 4.0]),
@@ -32,7 +32,7 @@ fn a_free_motion_has_its_velocity_in_a_unit_of_time() {
 }
 
 #[test]
-fn a_joint_has_its_axis_of_length_one() {
+fn a_joint_is_returned_with_an_axis_of_length_one() {
     let diagonal = 1.0 / 3f64.sqrt();
     for axis in [[1.0, 0.0, 0.0], [0.6, 0.0, -0.8], [diagonal; 3]] {
         for power in [-30, 0, 3] {

@@ -1,4 +1,4 @@
-//! Forged proofs do not hold.
+//! Tests that forged proofs do not hold.
 
 use super::{Meshes, Random, WITNESSES_AT, proofs};
 use ccd_check::Stop;
@@ -6,8 +6,10 @@ use ccd_core::{Motion, Pose};
 use ccd_prove::{Proof, StatedLink, Statement, steps_text};
 use rigid_ccd::Solver;
 
-/// The bytes of a witness, and of a leaf with a plane.
+/// The number of bytes of a witness.
 const WITNESS: usize = 70;
+
+/// The number of bytes of a leaf with a plane.
 const PLANE: usize = 29;
 
 /// Returns the last step of a proof as text.
@@ -17,10 +19,10 @@ fn last_step(bytes: &[u8]) -> String {
 }
 
 #[test]
-fn each_kind_of_forgery_is_seen() {
+fn each_kind_of_forgery_is_rejected() {
     let meshes = Meshes::new();
     let [free, contacts] = proofs(&meshes, 10);
-    // One whose last leaf has a plane, and one whose last leaf has a ball.
+    // Finds a proof whose last leaf has a plane, and one whose last leaf has a ball.
     let [proof, with_ball] = ["plane", "ball"].map(|name| {
         let mut proofs = free.iter().map(|(_, proof)| proof);
         let is_last = |proof: &&Proof| last_step(&proof.bytes).starts_with(name);
@@ -29,16 +31,16 @@ fn each_kind_of_forgery_is_seen() {
     let bodies = meshes.bodies(&proof.bytes);
     let reason_of = |bytes: &[u8]| reason(ccd_check::check(&bodies, bytes));
     assert_eq!(ccd_check::check(&bodies, &proof.bytes), Ok(()));
-    // The last leaf is dropped, and one too many is there.
+    // The last leaf is missing, or there is an additional leaf.
     let end = proof.bytes.len();
     assert_eq!(
         reason_of(&proof.bytes[..end - PLANE]),
         "the file ends too early"
     );
     let longer = [&proof.bytes[..], &proof.bytes[end - PLANE..]].concat();
-    assert_eq!(reason_of(&longer), "the file goes on after its end");
-    // A leaf has a normal of no length, or one that is too long, or its plane is on the other side of A or of B.
-    let bent = |normal: [i64; 3], offset: Option<i64>| {
+    assert_eq!(reason_of(&longer), "the file has bytes after its end");
+    // A normal is zero or too long, or the plane is on the far side of A or of B.
+    let with_plane = |normal: [i64; 3], offset: Option<i64>| {
         let mut bytes = proof.bytes.clone();
         let mut numbers: Vec<i64> = normal.into();
         numbers.extend(offset);
@@ -48,25 +50,25 @@ fn each_kind_of_forgery_is_seen() {
         }
         bytes
     };
-    let not_apart = "a leaf does not prove that its parts are apart";
-    assert_eq!(reason_of(&bent([0; 3], None)), not_apart);
-    assert_eq!(reason_of(&bent([1 << 50, 1, 0], None)), not_apart);
+    let not_apart = "a leaf does not prove its parts apart";
+    assert_eq!(reason_of(&with_plane([0; 3], None)), not_apart);
+    assert_eq!(reason_of(&with_plane([1 << 50, 1, 0], None)), not_apart);
     let normal = [1, 8, 15].map(|k| {
         let bytes = &proof.bytes[end - PLANE + k..end - PLANE + k + 7];
         let high = if bytes[6] < 128 { 0 } else { 255 };
         i64::from_le_bytes([&[high], bytes].concat().try_into().unwrap()) >> 8
     });
     for offset in [-(1 << 55), (1 << 55) - 1] {
-        assert_eq!(reason_of(&bent(normal, Some(offset))), not_apart);
+        assert_eq!(reason_of(&with_plane(normal, Some(offset))), not_apart);
     }
-    // One leaf stands for everything.
+    // A single leaf stands for all steps.
     for leaf in [&[6][..], &[7], &proof.bytes[end - PLANE..]] {
         let contact = &contacts[0].1;
         let nothing = [&contact.bytes[..WITNESSES_AT], &[0; 4], leaf].concat();
         let verdict = ccd_check::check(&meshes.bodies(&contact.bytes), &nothing);
         assert_eq!(reason(verdict), not_apart);
     }
-    // The ball is around the other body, or there is no such step.
+    // The opcode of the last leaf is out of range.
     let mut around = with_ball.bytes.clone();
     *around.last_mut().unwrap() = 8;
     let bodies_of_ball = meshes.bodies(&with_ball.bytes);
@@ -74,18 +76,18 @@ fn each_kind_of_forgery_is_seen() {
         reason(ccd_check::check(&bodies_of_ball, &around)),
         "there is no such step"
     );
-    // A mesh is not given.
+    // One of the meshes is not given.
     assert_eq!(
         reason(ccd_check::check(&bodies[..1], &proof.bytes)),
-        "a mesh is none of those that are given, in this unit"
+        "a mesh is not given in this unit"
     );
 }
 
 #[test]
-fn contacts_that_are_said_to_be_later_are_seen() {
+fn contacts_with_a_later_time_are_rejected() {
     let meshes = Meshes::new();
     let [_, contacts] = proofs(&meshes, 10);
-    // The bodies are said to be free for longer than they are, and to touch later.
+    // The statement says that the bodies are free for longer, with a later contact or without one.
     for (_, proof) in &contacts {
         let bodies = meshes.bodies(&proof.bytes);
         let mut bytes = proof.bytes.clone();
@@ -101,13 +103,13 @@ fn contacts_that_are_said_to_be_later_are_seen() {
 }
 
 #[test]
-fn witnesses_that_are_not_near_or_not_on_their_triangles_are_seen() {
+fn witnesses_with_far_points_or_wrong_weights_are_rejected() {
     let meshes = Meshes::new();
     let [_, contacts] = proofs(&meshes, 10);
     let triangle = WITNESSES_AT + 4 + 4 + 16;
     for (_, proof) in &contacts {
         let bodies = meshes.bodies(&proof.bytes);
-        // Another triangle, one that is none, and weights that are more than 1, or less.
+        // The triangle is another one or does not exist, or the weights add up to more or less than 1.
         let verdict_with = |at: usize, with: &[u8]| {
             let mut bytes = proof.bytes.clone();
             bytes[at..at + with.len()].copy_from_slice(with);
@@ -115,9 +117,9 @@ fn witnesses_that_are_not_near_or_not_on_their_triangles_are_seen() {
         };
         let number = u32::from_le_bytes(proof.bytes[triangle..][..4].try_into().unwrap());
         let other = (number + 100) % (2 * 12 * 12);
-        let far = "the witnesses are too far from each other";
+        let far = "the points of the witness are too far apart";
         assert_eq!(verdict_with(triangle, &other.to_le_bytes()), far);
-        let none = "there is nothing of this number";
+        let none = "an index is out of range";
         assert_eq!(verdict_with(triangle, &[0xff; 4]), none);
         let not_one = "the weights of a witness do not add up to 1";
         assert_eq!(verdict_with(triangle + 4, &[0xff; 21]), not_one);
@@ -126,33 +128,36 @@ fn witnesses_that_are_not_near_or_not_on_their_triangles_are_seen() {
 }
 
 #[test]
-fn an_order_that_omits_a_triangle_or_belongs_to_another_mesh_is_seen() {
+fn a_tree_that_omits_a_triangle_or_belongs_to_another_mesh_is_rejected() {
     let meshes = Meshes::new();
     let body = &meshes.proofs[0];
     let proof = proofs(&meshes, 1)[0][0].1.bytes.clone();
     let read = |mesh: &[u8], certificate: &[u8]| {
         reason(ccd_check::Body::new(mesh, certificate, &proof).map(|_| ()))
     };
-    // The last part of a tree is a triangle, and so is one before.
+    // The last triangle of the tree is replaced by an earlier one.
     let mut twice = body.certificate().to_vec();
     let end = twice.len();
     let places = (40..end - 4).step_by(4).rev();
     let number = |at: usize| u32::from_le_bytes(twice[at..at + 4].try_into().unwrap());
     let another = places.map(number).find(|&other| other > 144).unwrap();
     twice[end - 4..].copy_from_slice(&another.to_le_bytes());
-    assert_eq!(read(body.mesh(), &twice), "a tree has a triangle twice");
-    // A vertex is moved by the least that its numbers can tell.
+    assert_eq!(
+        read(body.mesh(), &twice),
+        "a tree contains a triangle twice"
+    );
+    // A coordinate of a vertex changes by one unit in the last place.
     let mut moved = body.mesh().to_vec();
     moved[8] ^= 1;
-    let other = "this is the certificate of another mesh";
+    let other = "the certificate belongs to another mesh";
     assert_eq!(read(&moved, body.certificate()), other);
     let short = &body.certificate()[..body.certificate().len() - 1];
     assert_eq!(read(body.mesh(), short), "the file ends too early");
 }
 
-/// Changes bits of proofs at random. What still holds must be true, by the motions that it states.
+/// Changes random bits of proofs. A statement that is still accepted has to be true for the motions in it.
 #[test]
-fn no_random_forgery_is_accepted_that_is_false() {
+fn no_false_random_forgery_is_accepted() {
     let meshes = Meshes::new();
     let mut random = Random(7);
     let [mut all, contacts] = proofs(&meshes, 8);
@@ -162,7 +167,7 @@ fn no_random_forgery_is_accepted_that_is_false() {
         let bodies = meshes.bodies(&proof.bytes);
         for _ in 0..500 {
             let mut bytes = proof.bytes.clone();
-            // Half of the changes are to the statement.
+            // Half of the changes are in the statement.
             let limit = if random.bits().is_multiple_of(2) {
                 WITNESSES_AT
             } else {
@@ -181,13 +186,13 @@ fn no_random_forgery_is_accepted_that_is_false() {
     assert!(accepted > 100 && refused > 3000, "{accepted} {refused}");
 }
 
-/// Returns whether no sampled pair of triangles crosses until the time that a certificate states.
+/// Returns whether the engine finds no contact at sampled times until the stated time.
 fn is_true(meshes: &Meshes, bytes: &[u8]) -> bool {
     let statement = Statement::read(bytes).unwrap();
     let motion = |link: &StatedLink| {
         let [velocity, spin] = [link.velocity, link.axis].map(|v| v.map(|x| x * link.rate));
         let start = Pose::new(link.position, link.quaternion).unwrap();
-        // What a forger has made of the axes and of the start is no motion of a free body.
+        // With other axes or another start the link is not a freely moving body.
         let is_free = link.axes == 0 && link.start == 0.0;
         is_free.then(|| Motion::about(start, velocity, spin, link.centre).unwrap())
     };

@@ -1,4 +1,4 @@
-//! Proofs of the engine's answers hold, and forged ones do not.
+//! Tests that proofs of the engine's answers hold, and that forged proofs do not.
 
 mod forged;
 
@@ -6,16 +6,17 @@ use ccd_check::Stop;
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
 use ccd_prove::{
-    AxisKind, Body, Carried, Joint, Link, NotProven, Pair, Proof, Scene, Statement, Witness, prove,
+    AxisKind, Body, Joint, Link, NotProven, Pair, Proof, Scene, SceneBody, Statement, Witness,
+    prove,
 };
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
 use rigid_ccd::{Outcome, Settings, Solver};
 use std::f64::consts::TAU;
 
-/// Where the number of witnesses stands in the file of a query of two free bodies.
+/// The position of the number of witnesses in a certificate of two free bodies.
 const WITNESSES_AT: usize = 28 + 2 * 152 + 2 * 36 + 16 + 8;
 
-/// A torus of triangles about z, a mesh that is not convex.
+/// Returns the mesh of a torus about z.
 fn torus(count: usize, radius: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     let number = |i: usize, j: usize| ((i % count) * count + j % count) as u32;
@@ -31,7 +32,7 @@ fn torus(count: usize, radius: f64) -> (Vec<[f64; 3]>, Vec<[u32; 3]>) {
     (vertices, faces)
 }
 
-/// A mesh with balls around its vertices.
+/// Returns a body with balls around its vertices.
 fn rounded((vertices, faces): &(Vec<[f64; 3]>, Vec<[u32; 3]>), radius: f64) -> Body {
     let vertices: Vec<[f64; 4]> = vertices
         .iter()
@@ -70,7 +71,7 @@ impl Random {
     }
 }
 
-/// Two meshes, as the engine and as proofs take them; these have the second one with rounded triangles, too.
+/// Two meshes as bodies of the engine and of proofs. A third body for proofs is the second mesh with rounded triangles.
 struct Meshes {
     engine: [rigid_ccd::Body; 2],
     proofs: [Body; 3],
@@ -93,7 +94,7 @@ impl Meshes {
         }
     }
 
-    /// Asks the engine when the bodies first touch, and proves the answer; `None` if they do at the start.
+    /// Computes the first contact with the engine, and proves the answer. Returns `None` for a contact at the start.
     fn prove(&self, motions: [Motion; 2]) -> Option<Proof> {
         self.prove_within(Settings::DEFAULT.tolerance, motions)
     }
@@ -127,7 +128,7 @@ impl Meshes {
     }
 }
 
-/// Proofs about random motions that do not touch at the start: so many of each claim.
+/// Returns `count` proofs without a contact and `count` proofs with one, for random motions.
 fn proofs(meshes: &Meshes, count: usize) -> [Vec<([Motion; 2], Proof)>; 2] {
     let mut random = Random(1);
     let mut found = [Vec::new(), Vec::new()];
@@ -166,9 +167,9 @@ fn contacts_within_a_billionth_are_proven() {
 }
 
 #[test]
-fn a_body_that_rests_inside_the_range_of_another_is_proven_free() {
+fn a_wheel_that_turns_around_another_one_is_proven_free() {
     let meshes = Meshes::new();
-    // Both turn about z, as a wheel on its axle: no axis of the world stays between them.
+    // Both turn about z like a wheel on its axle, so a plane that is fixed in the world separates them only for a short time.
     let turning = |height: f64, rate: f64| {
         let start = Pose::at([0.0, 0.0, height]).unwrap();
         Motion::new(start, [0.0; 3], [0.0, 0.0, rate]).unwrap()
@@ -180,7 +181,7 @@ fn a_body_that_rests_inside_the_range_of_another_is_proven_free() {
     assert_eq!(meshes.check(&proof), Ok(()));
 }
 
-/// Two arms on one turning column, each with a joint that turns and one that slides.
+/// Returns two arms on one turning column, each with a revolute joint and a prismatic joint.
 fn arms(meshes: &Meshes) -> Scene<'_> {
     let joint = |parent, kind, x, axis: DVec3, [start, rate]: [f64; 2]| Link {
         parent,
@@ -193,17 +194,17 @@ fn arms(meshes: &Meshes) -> Scene<'_> {
         },
     };
     let links = vec![
-        joint(0, AxisKind::Turns, 0.0, DVec3::Z, [0.3, 9.0]),
-        joint(1, AxisKind::Turns, 2.0, DVec3::Y, [0.2, 0.7]),
-        joint(2, AxisKind::Slides, 0.5, DVec3::X, [0.0, 0.4]),
-        joint(1, AxisKind::Turns, -2.0, DVec3::Y, [0.1, -0.9]),
-        joint(4, AxisKind::Slides, -0.5, DVec3::X, [-0.1, -0.3]),
+        joint(0, AxisKind::Revolute, 0.0, DVec3::Z, [0.3, 9.0]),
+        joint(1, AxisKind::Revolute, 2.0, DVec3::Y, [0.2, 0.7]),
+        joint(2, AxisKind::Prismatic, 0.5, DVec3::X, [0.0, 0.4]),
+        joint(1, AxisKind::Revolute, -2.0, DVec3::Y, [0.1, -0.9]),
+        joint(4, AxisKind::Prismatic, -0.5, DVec3::X, [-0.1, -0.3]),
     ];
-    let carried = |k: usize, link| Carried {
+    let on_link = |k: usize, link| SceneBody {
         body: &meshes.proofs[k],
         link,
     };
-    let bodies = vec![carried(0, 3), carried(2, 5), carried(2, 0)];
+    let bodies = vec![on_link(0, 3), on_link(2, 5), on_link(2, 0)];
     Scene {
         links,
         bodies,
@@ -216,8 +217,8 @@ fn arms(meshes: &Meshes) -> Scene<'_> {
     }
 }
 
-/// The column turns by nine radians, which moves both arms alike. No stretch may be longer than two radians, but each takes as few
-/// leaves as if the column stood still.
+/// Tests a column that turns by nine radians, and moves both arms alike. An interval covers at most two radians, but needs no more
+/// leaves than with a static column.
 #[test]
 fn arms_on_a_turning_column_are_proven_apart_from_each_other() {
     let meshes = Meshes::new();
@@ -254,7 +255,7 @@ fn arms_and_a_body_at_rest_are_proven_apart_unless_its_radius_reaches_them() {
     );
 }
 
-/// Weights are read as they are stated, also that of a point that is a corner, which has all.
+/// Tests a witness at a vertex, for which one weight is 1.
 #[test]
 fn weights_of_witnesses_add_up_to_one() {
     let point = Body::new(&[[0.0; 3]], &[[0; 3]]);

@@ -1,50 +1,57 @@
-//! Bodies of a cell that rest against each other, as one body of a proof.
+//! Merges bodies of a cell that are static relative to each other into one body of a proof.
 
 use crate::body::{Body, triangles_of};
 use crate::error::NoMesh;
 use crate::stop::Stop;
-use crate::tolerances::PLACING;
+use crate::tolerances::POSE_ERROR;
 use ccd_core::Pose;
 use ccd_core::glam::{DVec3, DVec4};
 use rigid_ccd::trajectory::JointKind;
 use rigid_ccd_robot::{CarriedBody, Cell, Robot};
 use std::collections::BTreeMap;
 
-/// One body of a cell, or several that rest against each other.
+/// One body of a cell, or several bodies that are static relative to each other and have the same pairs.
 #[derive(Debug)]
-pub(crate) struct Resting {
-    /// The numbers of the cell's bodies.
+pub(crate) struct RigidGroup {
+    /// The indices of the cell's bodies.
     pub(crate) members: Vec<usize>,
-    /// The robot's link that carries it.
+    /// The index of the robot's link that carries the group.
     pub(crate) link: usize,
-    /// The pose on the link; none for several bodies, whose corners are in the frame of the link.
+    /// The pose on the link. It is the identity for several bodies, whose vertices are in the frame of the link.
     pub(crate) pose: Pose,
+    /// The merged mesh.
     pub(crate) body: Body,
 }
 
-/// What bodies have in common that are one: the link they rest on, the others that they are compared with, and how far they have
-/// to be from these.
-type Kind = (usize, Vec<[u64; 3]>);
+/// The key of a group: the link that its bodies are static on, and the pairs of each body. A pair has the other body, and the bits of
+/// the required distance at margins 0 and 1.
+type GroupKey = (usize, Vec<[u64; 3]>);
 
-/// Returns the bodies of a cell that are compared with others, those of one kind as one. None of these is compared with another
-/// one of its kind, as none is compared with itself.
+/// Groups the bodies of a cell that are in at least one pair. Two bodies of one group are never compared with each other. Their
+/// keys would differ, as no body is compared with itself.
 ///
 /// # Errors
 /// [`NoMesh`].
-pub(crate) fn resting_bodies<S: Stop>(
+pub(crate) fn rigid_groups<S: Stop>(
     cell: &Cell,
     stop: S,
-) -> Result<Result<Vec<Resting>, NoMesh>, S::Stopped> {
-    let ways = ways_to_roots(cell.robot());
+) -> Result<Result<Vec<RigidGroup>, NoMesh>, S::Stopped> {
+    let roots = static_roots(cell.robot());
     let mut partners = vec![Vec::new(); cell.carried_bodies().len()];
-    // Two margins tell a distance that is added to the margin from one that replaces it.
-    for (([a, b], least), (_, more)) in cell.compared_pairs(0.0).zip(cell.compared_pairs(1.0)) {
+    // The distances at two margins distinguish a padding, which is added to the margin, from a clearance, which replaces it.
+    for (([a, b], distance_at_0), (_, distance_at_1)) in
+        cell.compared_pairs(0.0).zip(cell.compared_pairs(1.0))
+    {
         for (body, partner) in [(a, b), (b, a)] {
-            partners[body].push([partner as u64, least.to_bits(), more.to_bits()]);
+            partners[body].push([
+                partner as u64,
+                distance_at_0.to_bits(),
+                distance_at_1.to_bits(),
+            ]);
         }
     }
-    let mut kinds: BTreeMap<Kind, Vec<Member<'_>>> = BTreeMap::new();
-    for ((number, carried), partners) in cell.carried_bodies().enumerate().zip(partners) {
+    let mut members: BTreeMap<GroupKey, Vec<Member<'_>>> = BTreeMap::new();
+    for ((index, carried), partners) in cell.carried_bodies().enumerate().zip(partners) {
         if partners.is_empty() {
             continue;
         }
@@ -53,30 +60,30 @@ pub(crate) fn resting_bodies<S: Stop>(
             let body = carried.item.name().into();
             return Ok(Err(NoMesh { body }));
         };
-        let root = ways[carried.link].0;
+        let root = roots[carried.link].link;
         let member = Member {
-            number,
+            index,
             carried,
             triangles,
         };
-        let kind = (root, partners);
-        kinds.entry(kind).or_default().push(member);
+        members.entry((root, partners)).or_default().push(member);
     }
-    let kinds = kinds.into_iter();
-    let mut bodies: Vec<Resting> = kinds
-        .map(|((root, _), members)| union(root, members, &ways, stop))
+    let mut groups: Vec<RigidGroup> = members
+        .into_iter()
+        .map(|((root, _), members)| merge(root, members, &roots, stop))
         .collect::<Result<_, _>>()?;
-    bodies.sort_by_key(|resting| resting.members[0]);
-    Ok(Ok(bodies))
+    groups.sort_by_key(|group| group.members[0]);
+    Ok(Ok(groups))
 }
 
 /// A body of a cell, and the triangles of its mesh.
 struct Member<'c> {
-    number: usize,
+    index: usize,
     carried: CarriedBody<'c>,
     triangles: Vec<[DVec4; 3]>,
 }
 
+<<<<<<<< HEAD:proofs/ccd-prove/src/resting.rs
 /// For a link the one on which it rests that rests on no other, and the poses from it to that one.
 type WayToRoot = (usize, Vec<Pose>);
 
@@ -92,22 +99,49 @@ fn ways_to_roots(robot: &Robot) -> Vec<WayToRoot> {
         }
     }
     ways
+========
+/// The static root of a link: its nearest ancestor, or the link itself, that is not on a fixed joint.
+#[derive(Clone)]
+struct StaticRoot {
+    link: usize,
+    /// The poses from the link to the root, in the order in which they are applied.
+    poses: Vec<Pose>,
+>>>>>>>> words-proofs:proofs/ccd-prove/src/rigid_groups.rs
 }
 
-/// Returns bodies of one kind as one.
-fn union<S: Stop>(
+/// Returns the static root of each link.
+fn static_roots(robot: &Robot) -> Vec<StaticRoot> {
+    let mut roots: Vec<StaticRoot> = (0..robot.links().len())
+        .map(|link| StaticRoot {
+            link,
+            poses: Vec::new(),
+        })
+        .collect();
+    for (link, parent, joint_index) in robot.joints_parents_first() {
+        let joint = &robot.joints()[joint_index].axis_and_limits;
+        if matches!(joint.kind(), JointKind::Fixed) {
+            let mut root = roots[parent].clone();
+            root.poses.insert(0, *joint.origin());
+            roots[link] = root;
+        }
+    }
+    roots
+}
+
+/// Merges the members of a group into one body.
+fn merge<S: Stop>(
     root: usize,
     mut members: Vec<Member<'_>>,
-    ways: &[WayToRoot],
+    roots: &[StaticRoot],
     stop: S,
-) -> Result<Resting, S::Stopped> {
-    let numbers = members.iter().map(|member| member.number).collect();
+) -> Result<RigidGroup, S::Stopped> {
+    let indices = members.iter().map(|member| member.index).collect();
     if members.len() == 1 {
         let Member {
             carried, triangles, ..
         } = members.remove(0);
-        return Ok(Resting {
-            members: numbers,
+        return Ok(RigidGroup {
+            members: indices,
             link: carried.link,
             pose: carried.pose,
             body: Body::of_triangles(&triangles, stop)?,
@@ -118,29 +152,33 @@ fn union<S: Stop>(
         carried, triangles, ..
     } in members
     {
-        let poses = || [&carried.pose].into_iter().chain(&ways[carried.link].1);
-        let placed = |corner| poses().fold(corner, place);
-        all.extend(triangles.into_iter().map(|corners| corners.map(placed)));
+        let poses = || {
+            [&carried.pose]
+                .into_iter()
+                .chain(&roots[carried.link].poses)
+        };
+        let to_root = |corner| poses().fold(corner, transform_ball);
+        all.extend(triangles.into_iter().map(|corners| corners.map(to_root)));
     }
-    Ok(Resting {
-        members: numbers,
+    Ok(RigidGroup {
+        members: indices,
         link: root,
         pose: Pose::IDENTITY,
         body: Body::of_triangles(&all, stop)?,
     })
 }
 
-/// Places a ball; its radius grows by what its centre may be off.
-fn place(ball: DVec4, pose: &Pose) -> DVec4 {
+/// Transforms a ball by a pose, and grows its radius by the error bound of the centre.
+fn transform_ball(ball: DVec4, pose: &Pose) -> DVec4 {
     if *pose == Pose::IDENTITY {
         return ball;
     }
-    let (centre, shift): (DVec3, _) = (ball.truncate(), pose.translation());
-    // Lengths by their coordinates, which do not underflow as squares do.
-    let lengths = centre.abs().element_sum() + shift.abs().element_sum();
-    let off = PLACING * lengths + f64::MIN_POSITIVE;
-    let placed = pose.transform_point(centre);
-    placed.extend((ball.w + off).next_up())
+    let (centre, translation): (DVec3, _) = (ball.truncate(), pose.translation());
+    // The sum of the absolute coordinates bounds a length, and does not underflow as squares do.
+    let lengths = centre.abs().element_sum() + translation.abs().element_sum();
+    let error = POSE_ERROR * lengths + f64::MIN_POSITIVE;
+    let transformed = pose.transform_point(centre);
+    transformed.extend((ball.w + error).next_up())
 }
 
 #[cfg(test)]
@@ -157,8 +195,8 @@ mod tests {
         RBig::try_from(x).unwrap()
     }
 
-    /// The pose of a point by the rotation of q / |q|, in fractions.
-    fn exactly_placed(point: DVec3, pose: &Pose) -> [RBig; 3] {
+    /// Transforms a point by a pose with the rotation of q / |q|, in exact fractions.
+    fn transform_exactly(point: DVec3, pose: &Pose) -> [RBig; 3] {
         let [x, y, z, w] = pose.rotation().to_array().map(exact);
         let [vx, vy, vz] = point.to_array().map(exact);
         let dot = |a: [&RBig; 3], b: [&RBig; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -178,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn balls_that_are_placed_hold_those_that_are_placed_exactly() {
+    fn transformed_balls_contain_the_exact_ones() {
         let mut state = 3u64;
         let mut random = || {
             state = state
@@ -189,25 +227,26 @@ mod tests {
         for round in 0..1000 {
             let size = 10f64.powi([round % 13 - 6, -300 - round % 20][round as usize % 2]);
             let mut vector = |size: f64| [random() * size, random() * size, random() * size];
-            let of_shift = if size < 1e-200 { size } else { 10.0 };
-            let (point, shift, [x, y, z]) = (vector(size), vector(of_shift), vector(1.0));
-            let pose = Pose::new(shift, [x, y, z, 0.3]).unwrap();
+            let translation_size = if size < 1e-200 { size } else { 10.0 };
+            let (point, translation, [x, y, z]) =
+                (vector(size), vector(translation_size), vector(1.0));
+            let pose = Pose::new(translation, [x, y, z, 0.3]).unwrap();
             let ball = DVec3::from_array(point).extend(0.25);
-            let placed = place(ball, &pose);
-            let expected = exactly_placed(ball.truncate(), &pose);
-            let found = placed.truncate().to_array().map(exact);
+            let transformed = transform_ball(ball, &pose);
+            let expected = transform_exactly(ball.truncate(), &pose);
+            let found = transformed.truncate().to_array().map(exact);
             let [x, y, z] = [0, 1, 2].map(|k| {
-                let off = &found[k] - &expected[k];
-                &off * &off
+                let error = &found[k] - &expected[k];
+                &error * &error
             });
-            let slack = exact(placed.w) - exact(ball.w);
-            assert!(x + y + z <= &slack * &slack);
-            // The slack is no more than it has to be.
-            assert!(placed.w - ball.w < 1e-13 * (size + 20.0));
+            let growth = exact(transformed.w) - exact(ball.w);
+            assert!(x + y + z <= &growth * &growth);
+            // The radius grows by little more than necessary.
+            assert!(transformed.w - ball.w < 1e-13 * (size + 20.0));
         }
     }
 
-    /// An arm with a tool that is fixed to it, among four obstacles.
+    /// Returns a cell with an arm, a tool fixed to it, and four obstacles.
     fn cell() -> Cell {
         let at = |x, y, z| Pose::new([x, y, z], [0.1, 0.2, x, 1.0]).unwrap();
         let rod = || rigid_ccd::Body::capsule(0.1, 0.4).unwrap();
@@ -238,17 +277,17 @@ mod tests {
         cell
     }
 
-    /// Each pair that the cell compares is stated once, with its margin, and no other; and what is stated is proven.
-    fn check(cell: &Cell, kinds: &[&[usize]]) {
-        let Ok(bodies) = resting_bodies(cell, Never);
-        let bodies = bodies.unwrap();
-        let members: Vec<&[usize]> = bodies.iter().map(|body| &body.members[..]).collect();
-        assert_eq!(members, kinds);
+    /// Checks the members of the groups. Checks that exactly the pairs of the cell are stated, with their margins, and are proven.
+    fn check(cell: &Cell, expected: &[&[usize]]) {
+        let Ok(groups) = rigid_groups(cell, Never);
+        let groups = groups.unwrap();
+        let members: Vec<&[usize]> = groups.iter().map(|group| &group.members[..]).collect();
+        assert_eq!(members, expected);
         let proven = ProvenCell::new(cell).unwrap();
         let scene = proven.edge(&[0.2], &[0.5], 0.01).unwrap();
         let mut stated = Vec::new();
         for pair in &scene.pairs {
-            let [a, b] = pair.bodies.map(|body| kinds[body]);
+            let [a, b] = pair.bodies.map(|body| expected[body]);
             for &a in a {
                 stated.extend(b.iter().map(|&b| ([a.min(b), a.max(b)], pair.margin)));
             }
@@ -267,33 +306,33 @@ mod tests {
     }
 
     #[test]
-    fn bodies_that_rest_on_each_other_are_one_if_they_have_the_same_pairs() {
+    fn static_bodies_are_merged_if_they_have_the_same_pairs() {
         let mut cell = cell();
         check(&cell, &[&[0, 1], &[2, 3, 4, 5]]);
-        // A padding is the tool's alone.
+        // Only the tool has a padding, so its distances differ from those of the arm.
         cell.set_padding("tool", 0.05).unwrap();
         check(&cell, &[&[0], &[1], &[2, 3, 4, 5]]);
         cell.set_padding("arm", 0.05).unwrap();
         check(&cell, &[&[0, 1], &[2, 3, 4, 5]]);
-        // This clearance is the padding, but does not grow with the margin.
+        // This clearance equals the padding, but does not grow with the margin.
         let pair = [Item::Link("arm"), Item::Obstacle("obstacle 3")];
         cell.set_clearance(pair, 0.05).unwrap();
         check(&cell, &[&[0], &[1], &[2, 3, 4], &[5]]);
-        // So it is with a contact that is allowed, which no proof is about.
+        // A pair with an allowed contact is in no proof.
         cell.allow_contact([Item::Link("tool"), Item::Obstacle("obstacle 2")])
             .unwrap();
         check(&cell, &[&[0], &[1], &[2, 3], &[4], &[5]]);
     }
 
     #[test]
-    fn what_is_compared_with_nothing_is_no_body_of_a_proof() {
+    fn a_body_without_pairs_is_not_in_a_proof() {
         let mut cell = cell();
         for number in 0..4 {
             cell.remove_obstacle(&format!("obstacle {number}")).unwrap();
         }
-        let Ok(bodies) = resting_bodies(&cell, Never);
-        assert!(bodies.unwrap().is_empty());
-        // A proof about nothing would hold whatever the path.
+        let Ok(groups) = rigid_groups(&cell, Never);
+        assert!(groups.unwrap().is_empty());
+        // A proof without pairs would hold for any path.
         let error = ProvenCell::new(&cell).unwrap_err();
         assert!(
             matches!(error, CellNotProvable::NothingCompared(_)),
