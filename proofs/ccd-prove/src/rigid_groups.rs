@@ -83,30 +83,12 @@ struct Member<'c> {
     triangles: Vec<[DVec4; 3]>,
 }
 
-<<<<<<<< HEAD:proofs/ccd-prove/src/resting.rs
-/// For a link the one on which it rests that rests on no other, and the poses from it to that one.
-type WayToRoot = (usize, Vec<Pose>);
-
-fn ways_to_roots(robot: &Robot) -> Vec<WayToRoot> {
-    let mut ways: Vec<WayToRoot> = (0..robot.links().len())
-        .map(|link| (link, Vec::new()))
-        .collect();
-    for (link, parent, number) in robot.joints_parents_first() {
-        let joint = &robot.joints()[number].geometry;
-        if matches!(joint.kind(), JointKind::Fixed) {
-            let (root, poses) = ways[parent].clone();
-            ways[link] = (root, [vec![*joint.origin()], poses].concat());
-        }
-    }
-    ways
-========
 /// The static root of a link: its nearest ancestor, or the link itself, that is not on a fixed joint.
 #[derive(Clone)]
 struct StaticRoot {
     link: usize,
     /// The poses from the link to the root, in the order in which they are applied.
     poses: Vec<Pose>,
->>>>>>>> words-proofs:proofs/ccd-prove/src/rigid_groups.rs
 }
 
 /// Returns the static root of each link.
@@ -118,7 +100,7 @@ fn static_roots(robot: &Robot) -> Vec<StaticRoot> {
         })
         .collect();
     for (link, parent, joint_index) in robot.joints_parents_first() {
-        let joint = &robot.joints()[joint_index].axis_and_limits;
+        let joint = &robot.joints()[joint_index].geometry;
         if matches!(joint.kind(), JointKind::Fixed) {
             let mut root = roots[parent].clone();
             root.poses.insert(0, *joint.origin());
