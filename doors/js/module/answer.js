@@ -1,15 +1,15 @@
-// Makes the plain objects of answers about two bodies.
+// Converts answers about two bodies to plain objects.
 
 import { classes } from "./wasm.js";
 
-/** The names of the kinds of answers, in the order of the engine. */
+/** The names of the kinds of answers. Indices are values of `AnswerKind` in `doors/js/src/wasm/answer.rs`. */
 export const KINDS = ["free", "contact", "touching", "overlapping", "interval", "leastDistance", "unresolved"];
-/** Places in the numbers of an answer, and in those of a contact, as `doors/js/src/wasm/answer.rs` writes them. */
+/** Indices in the array of numbers of an answer, and in that of a contact. `doors/js/src/wasm/answer.rs` writes both arrays. */
 const CONTACTS = 7;
 const CONTACT_LENGTH = 21;
 const POINT_ONLY = 1;
 
-/** Returns the answer of a kind in numbers from a place on. */
+/** Reads an answer of a kind. Its numbers start at index `at`. */
 export function answerOf(kind, numbers, at) {
   const name = KINDS[kind];
   const tolerance = numbers[at];
@@ -33,12 +33,12 @@ export function answerOf(kind, numbers, at) {
   }
 }
 
-/** Returns what is known about a limit, by its number. */
+/** Returns the name of a limit and the advice about it, from its number. */
 function limitOf(number) {
   return { limit: classes().limit_name(number), advice: classes().limit_advice(number) };
 }
 
-/** Returns a feature of a body, as `v7`, `e3-7`, `f12` or `p0`; null if there is none. */
+/** Reads a feature of a body, and returns it as `v7`, `e3-7`, `f12` or `p0`, or null if there is none. */
 function featureOf(numbers, at) {
   const one = numbers[at + 1];
   switch (numbers[at]) {

@@ -8,7 +8,7 @@ import { Owned } from "./owned.js";
 import { MOTION_LENGTH, writeMotion, writeRest } from "./places.js";
 import { classes, engine, numbersAt } from "./wasm.js";
 
-/** Places in the memory of the solver; `doors/js/src/wasm/solver.rs` has the same. */
+/** Indices in the numbers of the solver. `doors/js/src/wasm/solver.rs` has the same. */
 const TOLERANCE = 0;
 const MARGIN = 1;
 const CLEARANCE = 2;
@@ -17,7 +17,7 @@ const DURATION = 4;
 const MOTIONS = 5;
 const ANSWER = MOTIONS + 2 * MOTION_LENGTH;
 
-/** The names of the options of a question about contacts, of one about a distance, and of one at rest. */
+/** The names of the options of questions about contacts, about distances, and about time 0 only. */
 const OF_CONTACTS = ["motionA", "motionB", "duration", "tolerance", "margin", "budget"];
 const OF_DISTANCES = OF_CONTACTS.filter((name) => name !== "margin");
 const AT_REST = OF_DISTANCES.filter((name) => name !== "duration");
@@ -25,13 +25,13 @@ const AT_REST = OF_DISTANCES.filter((name) => name !== "duration");
 const startOf = choiceOf(["report", "leave"]);
 const PLACES = { tolerance: TOLERANCE, margin: MARGIN, budget: BUDGET, duration: DURATION };
 
-/** The engine that has the solver. */
+/** The engine that the solver belongs to. */
 let home = null;
 let solver = null;
 let numbers = null;
 let defaults = null;
 
-/** The error of a question that has to be answered by yes or no, and is not. */
+/** The error of a yes-or-no question that could not be decided. */
 export class UnresolvedError extends Error {
   constructor(known) {
     const proven = known.safeUntil === undefined ? `the distance is at least ${known.lower}` : `no contact before ${known.safeUntil}`;
@@ -81,7 +81,7 @@ export function keepsClearance(a, b, clearance, options) {
   throw new UnresolvedError({ ...known, lower, upper });
 }
 
-/** Returns the settings of a question about a path: tolerance, margin, 1 to leave contacts at the start or 0, and budget. Others are for the caller. */
+/** Returns the settings of a question about a path: tolerance, margin, 1 or 0 for the start policy "leave" or "report", and budget. The caller reads the other options. */
 export function settingsOf(options, known) {
   if (options !== undefined) checkNames(options, "options", known);
   const settings = Float64Array.from(defaultSettings());
@@ -100,7 +100,7 @@ function ask(question, a, b, options, known, clearance = 0) {
   for (const [body, what] of [[a, "a"], [b, "b"]]) bodyOf(body, what);
   const { given, moveA, moveB } = readOptions(options, known);
   given[CLEARANCE] = clearance;
-  // What a getter of the caller's asks or frees is done with here.
+  // From here on no getter of the caller runs. A getter could ask other questions or free objects.
   solverNumbers().set(given);
   const moves = [moveA, moveB].map((move) => move && Owned.inner(move));
   const [bodyA, bodyB] = [bodyOf(a, "a"), bodyOf(b, "b")];
@@ -109,7 +109,7 @@ function ask(question, a, b, options, known, clearance = 0) {
   return answerOf(kind, solverNumbers(), ANSWER);
 }
 
-/** Reads the options of a question about two bodies: what the solver has before its answer, and the movements of the bodies. */
+/** Reads the options of a question about two bodies. Returns the numbers that the solver takes, and the movements of the bodies. */
 function readOptions(options, known) {
   const given = new Float64Array(ANSWER);
   given.set(defaultSettings());
@@ -127,7 +127,7 @@ function readOptions(options, known) {
   return { given, moveA, moveB };
 }
 
-/** Returns the movement of a body; null if it has a motion, whose numbers are written. */
+/** Returns the movement of a body. For a motion given by numbers, writes the numbers and returns null. */
 function movementOf(moved, what, given, at) {
   if (moved instanceof Movement) return moved;
   if (moved === undefined) writeRest(given, at);
@@ -135,7 +135,7 @@ function movementOf(moved, what, given, at) {
   return null;
 }
 
-/** Returns the end of paths and links; 1 if neither body moves by one. */
+/** Returns the default end of a question: the end of the movements, or 1 if neither ends. */
 function endOf(moveA, moveB) {
   const a = moveA?.end ?? null;
   const b = moveB?.end ?? null;
@@ -143,7 +143,7 @@ function endOf(moveA, moveB) {
   return a ?? b ?? 1;
 }
 
-/** Returns the numbers of the solver. They are taken anew after the memory has grown, which empties them. */
+/** Returns a view of the numbers of the solver. Growth of the memory detaches the view; then makes a new one. */
 function solverNumbers() {
   if (home !== engine()) {
     solver = new (classes().Solver)();

@@ -1,4 +1,4 @@
-//! Answers about two bodies as numbers, at places that `doors/js/module/answer.js` knows.
+//! Answers about two bodies as an array of numbers. `doors/js/module/answer.js` reads them by index.
 
 use super::limits::limit_number;
 use rigid_ccd::answer::{Contact, Feature, HitKind, Overlap, Unresolved};
@@ -6,11 +6,11 @@ use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Answer, Hit, Outcome};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// The number of numbers of an answer: seven, then two contacts.
+/// The length of an answer: seven numbers, then two contacts.
 pub(crate) const ANSWER_LENGTH: usize = 7 + 2 * CONTACT_LENGTH;
 const CONTACT_LENGTH: usize = 21;
 
-/// The kind of an answer, of the first contact in an interval, or of its last.
+/// The kind of an answer, or of the first or last contact of an interval.
 #[wasm_bindgen]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnswerKind {
@@ -22,7 +22,7 @@ pub enum AnswerKind {
     Touching,
     /// The bodies overlap at the start.
     Overlapping,
-    /// The first and the last time of contact.
+    /// The first and the last contact.
     Interval,
     /// Bounds of the least distance.
     LeastDistance,
@@ -30,11 +30,12 @@ pub enum AnswerKind {
     Unresolved,
 }
 
-/// Writes an answer about a duration as numbers, and returns its kind.
+/// Writes an answer to a query from time 0 to `duration` as numbers, and returns its kind.
 ///
-/// First come the tolerance, a lower and an upper bound of the distance, the time before which nothing touches, the time after which
-/// nothing touches, the number of the limit, and the kind of the last contact; then the first contact or the nearest one, and the last
-/// one. The first number of a contact is 0 if there is none, 1 if only a point inside both bodies is known, and else 2.
+/// The first seven numbers are: the tolerance, the lower and the upper bound of the distance, the time before which
+/// nothing touches, the time after which nothing touches, the number of the limit or the kind of the first contact of
+/// an interval, and the kind of its last contact. Then follow the first or nearest contact, and the last contact. The
+/// first number of a contact is 0 if there is none, 1 if only a point inside both bodies is known, and otherwise 2.
 pub(crate) fn write(answer: &Answer, duration: f64, numbers: &mut [f64]) -> AnswerKind {
     numbers[..ANSWER_LENGTH].fill(0.0);
     let (values, contacts) = numbers.split_at_mut(7);
@@ -126,7 +127,7 @@ fn write_vector(vector: DVec3, numbers: &mut [f64]) {
     numbers[..3].copy_from_slice(&vector.to_array());
 }
 
-/// Returns the kind of a feature, in the order in which [`Feature`] lists them, and its numbers.
+/// Returns the index of the feature's kind, in the order of [`Feature`], and its mesh indices.
 fn feature_numbers(feature: Feature) -> [f64; 3] {
     let [kind, one, other] = match feature {
         Feature::Vertex(vertex) => [0, vertex, 0],

@@ -9,7 +9,7 @@ use rigid_ccd::trajectory::MovingBody;
 use rigid_ccd::{Answer, InputError, Motion, Remark, Settings};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// The places of numbers in the memory of a solver; `doors/js/module/solver.js` has the same.
+/// Indices in the numbers of a solver. `doors/js/module/solver.js` has the same.
 const SETTINGS: usize = 0;
 const DURATION: usize = 4;
 const MOTIONS: [usize; 2] = [5, 5 + MOTION_LENGTH];
@@ -19,33 +19,33 @@ const ANSWER: usize = 5 + 2 * MOTION_LENGTH;
 #[wasm_bindgen]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
-    /// When they first touch.
+    /// When do the bodies first touch?
     FirstContact,
-    /// Whether they touch.
+    /// Do the bodies touch at all?
     AnyContact,
-    /// When they first and when they last touch.
+    /// When do the bodies first touch, and when last?
     ContactInterval,
-    /// How near they come.
+    /// How near do the bodies come?
     ClosestApproach,
-    /// Whether they keep a clearance.
+    /// Do the bodies keep a clearance?
     KeptClearance,
 }
 
-/// Answers questions about two bodies, with numbers at fixed places in its memory.
+/// Answers questions about two bodies. Numbers are passed in an array in its memory.
 ///
-/// JavaScript writes tolerance, margin, clearance, budget, duration, and the numbers of two motions. A question writes those of the
-/// answer behind.
+/// The shared array. JavaScript writes tolerance, margin, clearance, budget, duration, and the numbers of two motions.
+/// A question writes the numbers of its answer behind them.
 #[wasm_bindgen]
 pub struct Solver {
     solver: rigid_ccd::Solver,
     numbers: Box<[f64; ANSWER + ANSWER_LENGTH]>,
-    /// What moves the bodies of the next question in place of the motions among the numbers.
+    /// The movements of the bodies in the next question. Each replaces a motion in `numbers`.
     movements: [Option<Movement>; 2],
 }
 
 #[wasm_bindgen]
 impl Solver {
-    /// Creates a solver, whose memory holds the default settings.
+    /// Creates a solver with the default settings.
     #[wasm_bindgen(constructor)]
     pub fn new() -> Self {
         let mut numbers = Box::new([0.0; ANSWER + ANSWER_LENGTH]);
@@ -63,17 +63,17 @@ impl Solver {
         }
     }
 
-    /// Returns the address of the numbers.
+    /// Returns the address of the array of numbers.
     pub fn numbers_address(&self) -> usize {
         self.numbers.as_ptr() as usize
     }
 
-    /// Returns how many numbers there are.
+    /// Returns the length of the array of numbers.
     pub fn number_count(&self) -> usize {
         self.numbers.len()
     }
 
-    /// Lets a movement move body 0 or 1 in the next question.
+    /// Sets the movement of body 0 or 1 for the next question.
     pub fn move_by(&mut self, body: usize, movement: &Movement) {
         if let Some(place) = self.movements.get_mut(body) {
             *place = Some(movement.clone());
@@ -132,7 +132,7 @@ impl Solver {
     }
 }
 
-/// Calls a function with a body that a movement moves, or else a motion.
+/// Calls a function with a body and its movement, or its motion if there is no movement.
 fn with_moving<T>(
     movement: Option<Movement>,
     motion: Result<Motion, InputError>,
@@ -164,7 +164,7 @@ fn settings(question: Question, numbers: &[f64]) -> Settings {
         tolerance: numbers[0],
         margin: numbers[1],
         clearance: (question == Question::KeptClearance).then_some(numbers[2]),
-        // A budget beyond all numbers is the largest.
+        // A cast saturates: a larger number is the largest budget.
         budget: numbers[3] as u64,
         ..Settings::DEFAULT
     }
