@@ -1,4 +1,4 @@
-//! Gives the shared library the name by which programs find it, with the version of its binary interface.
+//! Sets the SONAME of the shared library, which has the version of its binary interface.
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");

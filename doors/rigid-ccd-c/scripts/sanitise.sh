@@ -13,11 +13,11 @@ skipped=() found=()
 
 step() { printf '\n== %s (%d:%02d min)\n' "$*" "$((SECONDS / 60))" "$((SECONDS % 60))"; }
 skip() { echo "skipped: $*"; skipped+=("$*"); }
-# Runs a command, and goes on if it fails: other sanitisers may find more.
+# Runs a command, and continues if it fails, because other sanitisers may find more.
 check() { "$@" || { echo "FAILED: $*" >&2; found+=("$*"); }; }
 has() { grep -q "^$1.*(installed)" <<<"$components"; }
 
-# Stops at the first finding, with another status than a test that fails.
+# Stops at the first finding, with a status that differs from that of a failed test.
 export ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 export TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1 RUST_TEST_THREADS=2
 
@@ -29,7 +29,8 @@ cargo_with() {
         cargo +nightly "$command" --locked -Zbuild-std --target "$host" -p rigid-ccd-c "$@"
 }
 
-# Writes what code of LLVM calls and the thread sanitiser of gcc does not have: it sees the functions themselves.
+# Writes the functions that code of LLVM calls and the thread sanitiser of gcc lacks. That sanitiser intercepts the
+# originals.
 write_missing() {
     local size='unsigned long count' name
     for name in memcpy memmove; do
@@ -51,12 +52,12 @@ program() {
         -lpthread -ldl -lm && "$folder/program" "$@"
 }
 
-# sanitise SANITISER SANITISERS_OF_C: the tests of the interface, then programs, which see both sides of it.
+# sanitise SANITISER SANITISERS_OF_C runs the tests of the interface, then programs with both sides sanitised.
 sanitise() {
     local sanitiser=$1 of_c=$2 library="$folder/$1/$host/debug/deps/librigid_ccd_c.a" robot=rigid-ccd-robot/examples/edges
     has rust-src || { skip "$sanitiser: rustup component add rust-src --toolchain nightly"; return; }
     step "$sanitiser: tests"
-    # Those of the header build programs, which follow.
+    # Tests of the header build programs, which run below.
     check cargo_with "$sanitiser" test --test it -- --skip header::
     step "$sanitiser: programs in C and C++"
     local ompl=() ompl_libraries=()
@@ -91,7 +92,7 @@ for name in $steps; do
     thread) sanitise thread thread ;;
     miri)
         run_miri "" arguments::null arguments::a_place arguments::freeing
-        # Meshes and robots start threads of rayon, which outlive the tests: leaks are not seen.
+        # Meshes and robots start threads of rayon, which outlive the tests, so leaks are ignored.
         run_miri -Zmiri-ignore-leaks arguments::numbers arguments::prepared cells::cells_keep cells::names cells::a_joint \
             cells::too_many paths::a_flag
         skip "miri: leaks of meshes and robots, which the address sanitiser sees"

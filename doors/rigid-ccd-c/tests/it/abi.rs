@@ -1,7 +1,8 @@
-//! Tests the binary interface: what programs were built against stays as it was.
+//! Tests that the binary interface stays compatible with programs that were built against it.
 //!
-//! `abi.txt` lists each function with its arguments, each value of an enum, and the place and size of each field, as a compiler
-//! for 64-bit Linux sees them. A line that changes or goes breaks programs; new lines do not, and are to be added.
+//! `abi.txt` lists each function with its arguments, each value of an enum, and the offset and size of each field, as a
+//! compiler for 64-bit Linux sees them. A changed or removed line breaks programs. New lines do not; add them to the
+//! file.
 
 use crate::programs::{folder, run, static_library};
 use std::collections::BTreeSet;
@@ -54,7 +55,7 @@ fn values(header: &str) -> Vec<String> {
         .collect()
 }
 
-/// Lets the compiler say where fields are: one line for each struct and each field.
+/// Returns the layout of structs by a compiler: one line for each struct and each field.
 fn layout(structs: &[(String, Vec<String>)]) -> String {
     let mut program =
         String::from("#include \"rigid_ccd.h\"\n#include <stdio.h>\nint main(void) {\n");

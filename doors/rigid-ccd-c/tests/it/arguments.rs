@@ -4,7 +4,7 @@ use crate::support::{Handle, default_settings, empty_answer, last_error, moving,
 use rigid_ccd_c::*;
 use std::ptr::{dangling, null, null_mut};
 
-/// Asserts that a call has failed for an argument, with a message that names it.
+/// Asserts that a call has failed because of an argument, with a message that names the argument.
 #[track_caller]
 fn refused(status: RccdStatus, named: &str) {
     let message = last_error();
@@ -141,7 +141,7 @@ fn numbers_out_of_range_are_refused() {
     }
 }
 
-/// Tests that an answer of which C has set nothing but the size is filled.
+/// Tests that a call fills an answer in which C has set only the size.
 #[test]
 fn a_place_for_an_answer_holds_none_before() {
     let (solver, ball) = (crate::support::solver(None), sphere(0.5));

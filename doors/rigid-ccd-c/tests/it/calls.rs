@@ -1,10 +1,10 @@
 //! Calls all functions of the header in random orders and with random arguments, many of which are wrong.
 //!
-//! A function is an entry of `table.rs`. Handles are made, shared and freed in any order; none is used after that. Of each call
-//! it is checked that it does not panic, that a failure has a message and leaves all places as they were, that an answer is in
-//! its ranges, and that the same question has the same answer. `CCD_TEST_CASES` and `CCD_TEST_SEED` are as for the property
-//! suite. A failure prints its seed: with it and `CCD_TEST_CASES=0` nothing else runs, and with `CCD_TEST_TRACE=1` each argument
-//! is printed before it is used, for a call that does not return.
+//! A function is an entry of `table.rs`. Handles are made, shared and freed in any order; none is used after it was
+//! freed. Of each call it is checked that it does not panic, that a failure has a message and leaves all places as they
+//! were, that an answer is in its ranges, and that the same question has the same answer. `CCD_TEST_CASES` and
+//! `CCD_TEST_SEED` are as for the property suite. A failure prints its seed: with it and `CCD_TEST_CASES=0` nothing else
+//! runs, and with `CCD_TEST_TRACE=1` each argument is printed before it is used, for a call that does not return.
 
 mod answers;
 mod arrays;
@@ -70,7 +70,7 @@ fn random_calls_keep_the_contract() {
     }
 }
 
-/// Calls functions at random, with handles of their own.
+/// Calls functions at random. The calls of one seed share a set of handles.
 fn call_functions(seed: u64, files: &Files, counts: &mut Counts) -> Result<(), String> {
     let mut world = World::new(files);
     let mut random = Random::new(seed);

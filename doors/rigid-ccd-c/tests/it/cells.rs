@@ -1,4 +1,4 @@
-//! Tests of cells: what is in them, when their solvers end, and what is refused.
+//! Tests of cells: their contents, changes that invalidate solvers, and arguments that are refused.
 
 use crate::support::{Handle, default_settings, last_error, ok};
 use crate::support_cells::*;
@@ -67,13 +67,13 @@ fn a_solver_of_a_cell_that_was_changed_does_not_answer() {
                 "{what}: {}",
                 last_error()
             );
-            // Of two bytes of NaN none is equal to the other.
+            // Compares texts, because NaN is not equal to NaN.
             assert_eq!(format!("{answer:?}"), format!("{before:?}"), "{what}");
         }
     }
     let of_now = cell_solver(&cell, &default_settings());
     assert_eq!(first_contact(&of_now, &reach).outcome, RccdOutcome::Free);
-    // A cell that is freed is as it was.
+    // Freeing the cell does not affect the solver.
     drop(cell);
     assert_eq!(first_contact(&of_now, &reach).outcome, RccdOutcome::Free);
 }
@@ -231,7 +231,8 @@ fn held_bodies_move_with_their_link() {
     assert_eq!(touches().outcome, RccdOutcome::Free);
 }
 
-/// Tests that the name of a joint lives as long as its cell, which may share its content with a solver until it is changed.
+/// Tests that the name of a joint is valid as long as its cell. The cell shares its content with a solver until it is
+/// changed.
 #[test]
 fn names_of_joints_stay_when_the_cell_changes() {
     let (cell, _) = cells();
@@ -267,7 +268,7 @@ fn a_joint_is_stored_in_all_places_or_in_none() {
     assert!(name.data.is_null() && lower == 7.0, "{name:?} {lower}");
 }
 
-/// Tests that a number of configurations that take no memory is bounded.
+/// Tests that the number of configurations without joints, which take no memory, is bounded.
 #[test]
 fn too_many_configurations_without_joints_are_refused() {
     let file = tempfile::Builder::new().suffix(".urdf").tempfile().unwrap();
@@ -346,7 +347,7 @@ fn a_cell_of_which_no_pair_is_checked_has_no_solver() {
     }
 }
 
-/// Tests that a held body is lifted from what it stands on, by the start policy and by an allowed contact.
+/// Tests that a held body can be lifted from its support, by the start policy and by an allowed contact.
 #[test]
 fn held_bodies_are_lifted_from_what_they_stand_on() {
     let lift = r#"<robot name="lift"><link name="rail"/><link name="fork"/>
@@ -421,7 +422,7 @@ fn held_bodies_are_lifted_from_what_they_stand_on() {
             lines.ends_with("\n1 contact allowed: can and table"),
             "{lines}"
         );
-        // Nothing else is compared.
+        // The cell has no other pair to check.
         let mut solver = std::ptr::null_mut();
         let refused = rccd_cell_solver_new(pointer, null(), &mut solver);
         assert_eq!(refused, RccdStatus::InvalidInput);

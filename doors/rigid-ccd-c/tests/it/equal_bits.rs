@@ -1,4 +1,4 @@
-//! Tests that every question through the interface has the same bits as in Rust.
+//! Tests that answers through the interface have the same bits as in Rust.
 
 use crate::support::{Handle, Random, default_settings, moving, ok};
 use rigid_ccd::answer::ClearanceVerdict;
@@ -17,7 +17,7 @@ type Question = unsafe extern "C" fn(
     *mut RccdAnswer,
 ) -> RccdStatus;
 
-/// Returns the answer to a question by the interface.
+/// Returns the answer of the interface to a question.
 fn ask(
     solver: &Handle<RccdSolver>,
     bodies: [RccdMovingBody; 2],
@@ -274,7 +274,7 @@ fn answers_about_splines_have_the_bits_of_rust() {
     assert_eq!(refused, RccdStatus::InvalidInput);
 }
 
-/// Tests that a clearance at rest is decided: nothing is searched, and the distance is known.
+/// Tests that a clearance of static bodies is decided without a search, and that the distance is known.
 #[test]
 fn clearances_at_rest_are_kept_or_violated() {
     let (ball, rests) = (crate::support::sphere(0.5), rccd_motion_at_rest());

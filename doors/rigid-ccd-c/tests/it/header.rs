@@ -1,4 +1,4 @@
-//! Tests that the headers compile without a warning, and that programs in C and C++ build and answer right.
+//! Tests that the headers compile without a warning, and that programs in C and C++ build and answer correctly.
 
 use crate::programs::{WARNINGS, build_and_run, folder, run};
 use std::process::Command;

@@ -1,4 +1,4 @@
-//! Tests of the interface, from Rust, as C calls it.
+//! Tests of the interface. They are written in Rust, and call the functions as C does.
 
 #![allow(unsafe_code, reason = "the interface is called as C calls it")]
 

@@ -3,7 +3,7 @@
 use crate::support::{Handle, Random, default_settings, empty_answer, moving, ok};
 use rigid_ccd_c::*;
 
-/// Asks when a body touches itself on each of the motions. Returns the number of contacts.
+/// Asks for the first contact of a body with a copy of itself, on each of the motions. Returns the number of contacts.
 fn ask_all(
     solver: &Handle<RccdSolver>,
     mesh: &Handle<RccdBody>,

@@ -1,5 +1,5 @@
-//! Tests that questions about paths of robots have the bits of Rust, do not allocate once warm, and keep their deadline's
-//! promise.
+//! Tests of questions about paths. Answers have the bits of Rust, warm solvers do not allocate, and the path before a
+//! deadline is free.
 
 use crate::support::{Handle, Random, default_settings, last_error, ok};
 use crate::support_cells::*;
@@ -61,7 +61,7 @@ fn paths_have_the_bits_of_rust() {
     assert!(free > 50 && hits > 50, "{free} {hits}");
 }
 
-/// Tests that an answer tells the tolerance that it meets, if rounding allows only a larger one than was asked for.
+/// Tests that an answer reports a larger tolerance than requested if rounding allows no smaller one.
 #[test]
 fn a_raised_tolerance_is_told() {
     let (cell, rust) = cells();
@@ -101,11 +101,11 @@ fn warm_paths_do_not_allocate() {
     assert_eq!(counted.count_total, 0, "{counted:?}");
 }
 
-/// Tests that a path whose deadline or budget ends the search is free until the point that the answer names.
+/// Tests that a path is free until the point in the answer if a deadline or a budget ended the search.
 #[test]
 fn a_limit_leaves_a_certified_prefix() {
     let (cell, rust) = cells();
-    // Far below the gap that a prefix is proven to keep.
+    // Far below the gap that a free prefix is proven to keep.
     let fine = Settings {
         tolerance: 1e-9,
         ..Settings::DEFAULT
@@ -140,7 +140,7 @@ fn a_limit_leaves_a_certified_prefix() {
     assert!(unresolved > 30, "{unresolved} {prefixes}");
 }
 
-/// Tests that curves are those of Rust, with and without accelerations, and by their polynomials.
+/// Tests that curves equal those of Rust: with accelerations, without, and made from polynomials.
 #[test]
 fn curves_have_the_bits_of_rust() {
     let (cell, rust) = cells();
@@ -149,7 +149,7 @@ fn curves_have_the_bits_of_rust() {
     let mut random = Random::new(17);
     let (mut free, mut hits) = (0, 0);
     for number in 0..100 {
-        // Slow enough for the limits of the joints.
+        // Velocities that keep the joints within their limits.
         let mut rows = |size: f64| [(); 3].map(|()| configuration(&mut random).map(|q| size * q));
         let times = [0.0, 0.5, 1.25];
         let (positions, velocities, accelerations) = (rows(0.8), rows(0.1), rows(0.1));
@@ -191,7 +191,7 @@ fn curves_have_the_bits_of_rust() {
     assert!(free > 20 && hits > 20, "{free} {hits}");
 }
 
-/// Tests that a curve of polynomials is the edge that it describes.
+/// Tests that a curve of polynomials of degree 1 is an edge.
 #[test]
 fn polynomials_of_degree_one_are_an_edge() {
     let (cell, _) = cells();
@@ -280,11 +280,11 @@ fn records_of_answers_are_replayed_in_rust() {
     assert_eq!(record.settings.deadline, Some(1.0));
     assert_eq!(record.replay(&rust).unwrap().verdict, Verdict::SameAnswer);
 
-    // As if the deadline had passed when half of what is free was known.
+    // Imitates a deadline that passed at half of the free prefix.
     answer.outcome = RccdOutcome::Unresolved;
     answer.limit = RccdLimit::Deadline;
     answer.share *= 0.5;
-    // With bounds it would be an answer about a distance.
+    // An answer with bounds would be one about a distance.
     assert_eq!(write(&through(&edge), &answer), RccdStatus::InvalidArgument);
     [answer.lower, answer.upper] = [f64::NAN; 2];
     ok(write(&through(&edge), &answer));

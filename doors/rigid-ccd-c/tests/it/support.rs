@@ -1,4 +1,4 @@
-//! What the tests share: handles that free themselves, and random scenes.
+//! Shared helpers of the tests: handles that free themselves, and random scenes.
 
 use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
 use rigid_ccd::{Body, Motion, Pose};
@@ -106,7 +106,7 @@ pub(crate) fn default_settings() -> RccdSettings {
     settings
 }
 
-/// Returns an answer to be filled, as C makes it: zero but for its size.
+/// Returns an empty answer as C makes it: all zero except for its size.
 pub(crate) fn empty_answer() -> RccdAnswer {
     let feature = RccdFeature {
         kind: RccdFeatureKind::None,
@@ -132,7 +132,7 @@ pub(crate) fn empty_answer() -> RccdAnswer {
     }
 }
 
-/// Draws a mesh of triangles near the origin, as a body of the interface and of Rust.
+/// Draws a mesh of triangles near the origin. Returns it as a body of the interface and as a body of Rust.
 pub(crate) fn random_mesh(random: &mut Random, count: usize) -> (Handle<RccdBody>, Body) {
     let mut vertices = Vec::new();
     for _ in 0..count {
@@ -163,7 +163,7 @@ pub(crate) fn random_mesh(random: &mut Random, count: usize) -> (Handle<RccdBody
     )
 }
 
-/// A linear congruential generator: the tests need no better numbers.
+/// A linear congruential generator, which is good enough for the tests.
 #[derive(Clone)]
 pub(crate) struct Random(u64);
 

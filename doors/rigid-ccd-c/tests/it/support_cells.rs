@@ -1,4 +1,4 @@
-//! What tests of cells share: an arm beside a ball, by the interface and in Rust.
+//! Shared helpers of tests of cells: an arm beside a ball, in the interface and in Rust.
 
 use crate::support::{Handle, Random, ok};
 use rigid_ccd::{Body, Pose};
@@ -22,7 +22,7 @@ pub(crate) fn write_arm() -> tempfile::NamedTempFile {
     file
 }
 
-/// Returns the arm beside a ball, by the interface and in Rust.
+/// Returns the arm beside a ball, as a cell of the interface and as a cell of Rust.
 pub(crate) fn cells() -> (Handle<RccdCell>, Cell) {
     let arm = write_arm();
     let file = RobotFile::from_path(arm.path());
@@ -86,7 +86,7 @@ pub(crate) fn ask(
     answer
 }
 
-/// Returns a path through configurations, which the caller keeps alive.
+/// Returns a path through configurations. The caller keeps the configurations alive.
 pub(crate) fn through(configurations: &[[f64; 2]]) -> RccdPath {
     RccdPath {
         configurations: configurations.as_ptr().cast(),

@@ -1,5 +1,5 @@
-//! Tests that threads share bodies, trajectories, curves, cells and flags, each with a solver of its own, and that their answers
-//! are those of one thread. `scripts/sanitise.sh` runs it where a data race is seen.
+//! Tests that threads can share bodies, trajectories, curves, cells and flags, each thread with its own solver. Their
+//! answers are those of one thread. `scripts/sanitise.sh` runs the tests with a sanitiser that detects data races.
 
 use crate::support::{Handle, Random, default_settings, empty_answer, ok};
 use crate::support_cells::{self, Question, cells};
@@ -15,7 +15,7 @@ unsafe impl<T> Send for Shared<T> {}
 // SAFETY: as above.
 unsafe impl<T> Sync for Shared<T> {}
 
-/// What all threads share.
+/// The objects that all threads share.
 struct Scene {
     bodies: [Shared<RccdBody>; 2],
     trajectory: Shared<RccdTrajectory>,
@@ -49,13 +49,13 @@ fn threads_share_what_is_const() {
     let alone = answers(&scene, null());
     let stopped = std::thread::scope(|scope| {
         let threads = [(); 3].map(|()| scope.spawn(|| answers(&scene, scene.stop.0)));
-        // As long as they ask: what was written long ago is lost to a sanitiser.
+        // Sets the flag as long as threads ask questions, because a sanitiser forgets old writes.
         while threads.iter().any(|thread| !thread.is_finished()) {
             // SAFETY: the handle lives here.
             ok(unsafe { rccd_stop_set(stop.pointer()) });
             // SAFETY: the handle lives here.
             ok(unsafe { rccd_stop_clear(stop.pointer()) });
-            // Most of the time it is not set, or no question would be answered.
+            // The flag is clear most of the time; otherwise no question would be answered.
             std::thread::sleep(std::time::Duration::from_millis(1));
         }
         threads.map(|thread| check_same(&alone, &thread.join().unwrap()))
@@ -66,7 +66,7 @@ fn threads_share_what_is_const() {
     );
 }
 
-/// Checks that answers are the same, except of questions that were stopped. Returns the number of these.
+/// Checks that answers are equal, except for questions that were stopped. Returns the number of stopped questions.
 fn check_same(alone: &[(RccdLimit, u64)], shared: &[(RccdLimit, u64)]) -> usize {
     let is_stopped = |&&(limit, _): &&(RccdLimit, u64)| limit == RccdLimit::Stopped;
     for (number, (one, other)) in alone.iter().zip(shared).enumerate() {
@@ -79,7 +79,7 @@ fn check_same(alone: &[(RccdLimit, u64)], shared: &[(RccdLimit, u64)]) -> usize 
     shared.iter().filter(is_stopped).count()
 }
 
-/// Asks questions with solvers of its own.
+/// Asks questions with the solvers of this thread.
 fn answers(scene: &Scene, stop: *const RccdStop) -> Vec<(RccdLimit, u64)> {
     let settings = RccdSettings {
         stop,
@@ -105,8 +105,8 @@ fn answers(scene: &Scene, stop: *const RccdStop) -> Vec<(RccdLimit, u64)> {
         answers.push((answer.limit, answer.time.to_bits()));
         // SAFETY: as above.
         ok(unsafe { rccd_closest_approach(solver.pointer(), &a, &b, 1.0, &mut answer) });
-        // Bodies that come within the tolerance are looked at once more at the start. If this is stopped, the answer names
-        // the later time.
+        // If bodies come within the tolerance, a second query examines the start. If that query is stopped, the answer
+        // has the later time.
         answers.push((answer.limit, answer.lower.to_bits()));
         let configurations = [(); 2].map(|()| support_cells::configuration(&mut random));
         let curve = RccdPath {
@@ -118,7 +118,7 @@ fn answers(scene: &Scene, stop: *const RccdStop) -> Vec<(RccdLimit, u64)> {
         for (question, is_first) in questions.into_iter().zip([true, false]) {
             for path in [support_cells::through(&configurations), curve] {
                 let found = support_cells::ask(question, &cell_solver, &path);
-                // A question for any contact that is stopped may have found another one before.
+                // A stopped question about any contact may have found a different contact before.
                 let answer = if is_first {
                     found.share.to_bits()
                 } else {

@@ -15,7 +15,7 @@ void expect(bool holds) {
     std::exit(1);
 }
 
-// As Eigen has it: a vector, a row of a matrix that has gaps, and a matrix.
+// Like types of Eigen: a vector, a row of a matrix with a stride, and a matrix.
 template <int IS_VECTOR, int STRIDE>
 struct OfEigen {
     enum { IsVectorAtCompileTime = IS_VECTOR, InnerStrideAtCompileTime = STRIDE };
@@ -25,7 +25,7 @@ struct OfEigen {
 template <typename Container>
 constexpr bool is_view = std::is_constructible_v<rigid_ccd::View<double>, const Container &>;
 static_assert(is_view<std::vector<double>> && is_view<OfEigen<1, 1>>);
-// A pool refers to its cell, which has to live as long.
+// A pool refers to its cell, so the cell must outlive it.
 static_assert(std::is_constructible_v<rigid_ccd::SolverPool, rigid_ccd::Cell &>);
 static_assert(!std::is_constructible_v<rigid_ccd::SolverPool, rigid_ccd::Cell>);
 static_assert(!is_view<OfEigen<1, 3>> && !is_view<OfEigen<1, -1>> && !is_view<OfEigen<0, 1>> && !is_view<std::vector<float>>);
@@ -74,7 +74,7 @@ int main(int, char **argv) {
         edges.insert(edges.end(), start.begin(), start.end());
         edges.insert(edges.end(), joints, 0.03 * k);
     }
-    // No more threads are started than there are edges.
+    // The pool starts at most as many threads as there are edges.
     rigid_ccd::SolverPool pool(cell);
     expect(pool.measure_edges(edges, 1u << 31).size() == 50);
     const auto one = pool.measure_edges(edges, 1), two = pool.measure_edges(edges, 2);

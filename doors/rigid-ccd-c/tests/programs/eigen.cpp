@@ -1,4 +1,4 @@
-// Poses of Eigen: rotations keep their place, and what is no rotation is an error. `.ci/doors` runs it.
+// Poses of Eigen: rotations are converted, and other linear maps are errors. `.ci/doors` runs it.
 #include <Eigen/Geometry>
 
 #include "rigid_ccd.hpp"

@@ -1,4 +1,5 @@
-// Handles that were moved from, objects of a statement before, and failures as exceptions beside a file with failures as values.
+// Tests moved-from handles, temporaries of an earlier statement, and exceptions beside a source file with expected
+// values.
 #include "rigid_ccd_cell.hpp"
 
 #include <string>

@@ -1,5 +1,6 @@
-// All headers at once, for sanitisers: threads that share bodies, trajectories, curves and a flag, edges measured on four
-// threads, failures, and handles that are freed before what shares them. With OMPL its header, too.
+// A program for sanitisers that uses all headers, with OMPL also its header. Threads share bodies, trajectories,
+// curves and a flag, and measure edges on four threads. Calls fail, and handles are freed before objects that share
+// them.
 #include "rigid_ccd_cell.hpp"
 #ifdef RIGID_CCD_WITH_OMPL
 #include "rigid_ccd_ompl.hpp"
@@ -47,7 +48,7 @@ void share_bodies() {
     std::vector<std::thread> threads;
     for (int k = 0; k < 3; ++k)
         threads.emplace_back([&, copy = ball] { wrong += contacts(copy, box, flies, stop) != alone; });
-    // A flag that only solvers of this thread name.
+    // A flag for the solvers of this thread only.
     const auto own = rigid_ccd::Stop::make();
     std::atomic<bool> is_done{false};
     std::thread setter([&] {
@@ -83,7 +84,7 @@ void measure_edges(const rigid_ccd::Cell &cell) {
     expect(refused({edges.begin(), edges.begin() + 3}), "a part of an edge is refused");
 }
 
-// A name stays after the cell has changed, and the solver is gone that shared the cell before.
+// Checks that a name stays valid after the cell was changed and the solver that shared it was freed.
 void keep_names(rigid_ccd::Cell cell) {
     rccd_text name{};
     double lower = 0, upper = 0;

@@ -1,19 +1,19 @@
-//! What holds of all answers.
+//! Checks that every answer must pass.
 
 use super::places::{Context, require};
 use super::world::World;
 use rigid_ccd_c::*;
 use std::fmt::Debug;
 
-/// Numbers of `rccd_limit`.
+/// The values of `rccd_limit`.
 const LIMITS: [i32; 8] = [0, 1, 2, 3, 4, 5, 6, 255];
 const UNRESOLVED: i32 = RccdOutcome::Unresolved as i32;
 
 pub(super) trait Answer: Copy + Debug {
-    /// Checks an answer of which the enums are known.
+    /// Checks an answer whose enums are valid.
     fn check(&self, world: &mut World<'_>, context: &Context) -> Result<(), String>;
 
-    /// Checks the enums of an answer in bytes: they follow its size.
+    /// Checks the enums of an answer in its bytes. They follow the size.
     fn check_enums(bytes: &[u8]) -> Result<(), String> {
         let [outcome, limit] = [8, 12].map(|from| {
             let bytes = bytes[from..from + 4].try_into();
@@ -46,7 +46,7 @@ impl Answer for RccdAnswer {
                 self.safe_until <= self.time,
                 "a contact is safe beyond its time",
             )?;
-            // An interval that begins inside has no first contact.
+            // An interval that begins with one body inside the other has no first contact.
             if self.outcome != RccdOutcome::Interval || self.time > 0.0 {
                 check_direction(self.normal)?;
                 require(
@@ -57,7 +57,7 @@ impl Answer for RccdAnswer {
             let margin = world.settings.get(&context.owner).map(|own| own.margin);
             let distance = context.clearance.or(margin).unwrap_or(0.0);
             let bound = distance + self.tolerance;
-            // At the contact `upper` is a bound, too; of an interval it is not.
+            // `upper` also bounds the distance at a contact, but not that of an interval.
             let is_interval = self.outcome == RccdOutcome::Interval;
             let distance = if is_interval { self.lower } else { self.upper };
             require(
@@ -91,7 +91,7 @@ impl Answer for RccdPathAnswer {
         require(!(self.lower > self.upper), "lower is above upper")?;
         match self.outcome {
             RccdOutcome::Contact => {
-                // A deadline may leave no time to find witnesses.
+                // A deadline may leave no time to find witness points.
                 let settings = world.settings.get(&context.owner);
                 let has_deadline = settings.is_some_and(|own| own.deadline.is_finite());
                 let witnesses = finite(self.witness_a) && finite(self.witness_b);

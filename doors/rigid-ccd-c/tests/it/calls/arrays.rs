@@ -5,12 +5,12 @@ use rigid_ccd_c::*;
 use std::fmt::Debug;
 use std::ptr::null;
 
-/// More than any memory has.
+/// A count beyond any memory.
 const TOO_MANY: usize = usize::MAX / 8;
 
 impl Call<'_, '_> {
-    /// Keeps an array, and the count that `count` returns: the number of values by `unit`. At times the count is too large and
-    /// refused, or the array is null or misaligned.
+    /// Keeps an array, and its number of values in units of `unit`, which `count` returns. Sometimes the count is too
+    /// large, or the array is null or misaligned.
     pub(super) fn array<T: Debug + 'static>(
         &mut self,
         name: &str,
@@ -95,7 +95,7 @@ impl Call<'_, '_> {
         self.array("triangles", triangles, 3)
     }
 
-    /// Draws the number of times, of joints, and the degree of a curve. Some do not fit together.
+    /// Draws the number of times, the number of joints and the degree of a curve. Some do not fit together.
     fn curve_size(&mut self) -> [usize; 3] {
         let count = if self.once_in(40) {
             500
@@ -133,7 +133,7 @@ impl Call<'_, '_> {
         (0..count).map(draw).collect()
     }
 
-    /// Draws the times of a curve, three arrays of a row for each, and their counts.
+    /// Draws the times of a curve, three arrays with a row for each time, and their counts.
     pub(super) fn hermite(&mut self) -> *const f64 {
         let [count, joints, _] = self.curve_size();
         let mut arrays = vec![self.times(count)];
@@ -152,7 +152,7 @@ impl Call<'_, '_> {
         let [segments, joints, degree] = self.curve_size();
         let times = self.times(segments + 1);
         let coefficients = if self.once_in(2) {
-            // Constants, which do not jump.
+            // Constant polynomials, which are continuous.
             let own = [vec![0.3], vec![0.0; degree]].concat();
             own.repeat(segments * joints)
         } else {
@@ -172,7 +172,7 @@ impl Call<'_, '_> {
         self.first_of(arrays, counts)
     }
 
-    /// Returns the first of these arrays; `next` and `count` return the other ones and the counts.
+    /// Returns the first of these arrays. `next` and `count` return the other arrays and the counts.
     fn first_of<const COUNT: usize>(
         &mut self,
         arrays: Vec<*const f64>,
@@ -232,7 +232,7 @@ impl Call<'_, '_> {
         } else {
             null()
         };
-        // The number of segments of a curve is not known here.
+        // The number of segments of a curve is unknown here.
         self.segments = if curve.is_null() { count } else { 0 };
         self.lend(RccdPath {
             configurations,

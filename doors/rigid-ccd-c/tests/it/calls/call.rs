@@ -10,7 +10,7 @@ use std::ffi::{CString, c_char};
 use std::fmt::{Debug, Write};
 use std::ptr::{null, null_mut};
 
-/// Numbers at the ends of ranges, and none.
+/// Numbers at the ends of ranges, and NaN.
 const ODD_NUMBERS: [f64; 16] = [
     f64::NAN,
     f64::INFINITY,
@@ -36,7 +36,7 @@ pub(super) struct Call<'w, 'f> {
     /// Whether some of the arguments are wrong.
     pub(super) is_wrong: bool,
     pub(super) text: String,
-    /// What pointers point to during the call.
+    /// The values that pointers point to during the call.
     arena: Vec<Box<dyn Any>>,
     /// The counts that belong to arrays that were drawn, in the order of the arguments.
     pub(super) counts: VecDeque<usize>,
@@ -52,7 +52,7 @@ pub(super) struct Call<'w, 'f> {
     pub(super) duration: f64,
     pub(super) segments: usize,
     pub(super) vertex_count: u32,
-    /// Asks another solver than the one that is drawn.
+    /// The solver to use in place of the drawn one.
     pub(super) other_solver: Option<*mut RccdSolver>,
 }
 
@@ -81,7 +81,7 @@ impl<'w, 'f> Call<'w, 'f> {
         call
     }
 
-    /// Notes an argument. With `CCD_TEST_TRACE` it is printed at once, for calls that do not return.
+    /// Records an argument. With `CCD_TEST_TRACE` prints it at once, for calls that do not return.
     pub(super) fn note(&mut self, name: &str, value: impl Debug) {
         self.write(format_args!("{name} {value:?}, "));
     }
@@ -98,17 +98,17 @@ impl<'w, 'f> Call<'w, 'f> {
         }
     }
 
-    /// Returns whether an argument is to be wrong.
+    /// Draws whether an argument is wrong.
     pub(super) fn is_odd(&mut self) -> bool {
         self.is_wrong && self.random.index(4) == 0
     }
 
-    /// Returns true once in so many times.
+    /// Returns true once in `count` times.
     pub(super) fn once_in(&mut self, count: u32) -> bool {
         self.random.index(count) == 0
     }
 
-    /// Keeps a value during the call, and returns a pointer to it: null or misaligned at times.
+    /// Keeps a value during the call, and returns a pointer to it, which is sometimes null or misaligned.
     pub(super) fn lend<T: 'static>(&mut self, value: T) -> *const T {
         let pointer = self.keep(vec![value]);
         self.spoil(pointer)
@@ -121,7 +121,7 @@ impl<'w, 'f> Call<'w, 'f> {
         pointer
     }
 
-    /// Returns the pointer, or at times one that is refused.
+    /// Returns the pointer, or sometimes an invalid one.
     pub(super) fn spoil<T>(&mut self, pointer: *const T) -> *const T {
         if !self.is_odd() {
             return pointer;
@@ -175,7 +175,7 @@ impl<'w, 'f> Call<'w, 'f> {
     }
 
     pub(super) fn detail(&mut self) -> u32 {
-        // Two of them measure for long.
+        // Queries of two such bodies take long.
         let usual = if self.once_in(1000) {
             3 * self.random.index(2)
         } else {
@@ -197,7 +197,7 @@ impl<'w, 'f> Call<'w, 'f> {
         number
     }
 
-    /// Draws a handle that lives.
+    /// Draws a handle that has not been freed.
     pub(super) fn handle<T: Pooled>(&mut self) -> *mut T {
         let picked = pick::<T>(self.world, &mut self.random);
         let kind = std::any::type_name::<T>().rsplit("::").next();
@@ -206,7 +206,7 @@ impl<'w, 'f> Call<'w, 'f> {
         self.spoil(handle).cast_mut()
     }
 
-    /// Draws a handle whose kind matters to the checks.
+    /// Draws the handle of a solver or cell, and remembers it for the checks.
     pub(super) fn owner<T: Pooled>(&mut self) -> *mut T {
         let handle = self.handle::<T>();
         self.owner = handle.addr();
@@ -215,7 +215,7 @@ impl<'w, 'f> Call<'w, 'f> {
 
     pub(super) fn cell_to_ask(&mut self) -> *mut RccdCell {
         let cell = self.owner();
-        // A handle that is not aligned has no number of joints.
+        // A misaligned handle has no number of joints.
         self.joint_count = super::world::joint_count(cell);
         cell
     }
@@ -228,7 +228,7 @@ impl<'w, 'f> Call<'w, 'f> {
     /// Takes a handle from its pool, or null, to be freed.
     pub(super) fn freed<T: Pooled>(&mut self) -> *mut T {
         let picked = pick::<T>(self.world, &mut self.random);
-        // A pool that is not full is left as it is, mostly.
+        // A pool with few handles mostly keeps them.
         let keeps = T::pool(self.world).len() < 4 && !self.once_in(8);
         match picked {
             Some((index, _)) if !keeps => {
@@ -242,7 +242,7 @@ impl<'w, 'f> Call<'w, 'f> {
         }
     }
 
-    /// Draws a text of these, or one that is wrong.
+    /// Draws one of these texts, or a wrong one.
     pub(super) fn text_of(&mut self, name: &str, usual: &[CString]) -> *const c_char {
         let index = self.random.index(usual.len() as u32);
         let mut text = usual[index].clone();
@@ -266,7 +266,7 @@ impl<'w, 'f> Call<'w, 'f> {
         self.text_of("obstacle", &["ball", "box", "post"].map(c_text))
     }
 
-    /// Draws the name of a body that is attached, or may be.
+    /// Draws a name of attached bodies. Such a body need not exist.
     pub(super) fn held(&mut self) -> *const c_char {
         self.text_of("held", &["cup", "tool"].map(c_text))
     }
@@ -293,7 +293,7 @@ impl<'w, 'f> Call<'w, 'f> {
         self.array("links", links, 1)
     }
 
-    /// Returns the files that are right, or the broken ones.
+    /// Returns the valid files, or the broken ones.
     fn files(&mut self) -> &'f Kinds {
         if self.is_odd() {
             &self.world.files.broken

@@ -1,4 +1,4 @@
-//! A call, and what is checked of it.
+//! A call, and the checks of its result.
 
 use super::call::Call;
 use super::places::{Context, require};
@@ -7,7 +7,7 @@ use super::world::World;
 use crate::support::{Handle, Random, default_settings, last_error};
 use rigid_ccd_c::*;
 
-/// Calls a function, and asks again if it has answered. Returns what it has come to.
+/// Calls a function, and repeats the question if it was answered. Returns the result.
 pub(super) fn call_and_check(
     function: &Function,
     world: &mut World<'_>,
@@ -17,7 +17,8 @@ pub(super) fn call_and_check(
     if let Some(answer) = &made.answer {
         let settings = world.settings.get(&made.owner).copied();
         let settings = settings.ok_or("a solver has no settings")?;
-        // With a deadline the answer depends on the machine. A default budget would be spent several times.
+        // With a deadline the answer depends on the machine. A default budget would take too long to spend several
+        // times.
         let is_short = settings.budget < default_settings().budget;
         if settings.deadline == f64::INFINITY && is_short {
             let again = make(function, world, random, None)?;
@@ -43,7 +44,7 @@ fn require_same(made: &Made, again: &Made) -> Result<(), String> {
     )
 }
 
-/// Asks a solver that has answered nothing before, and for the least distance, which agrees with the first contact.
+/// Repeats the question with a new solver. Then asks for the least distance, which must agree with the first contact.
 fn ask_others(
     function: &Function,
     world: &mut World<'_>,
@@ -69,7 +70,7 @@ fn ask_others(
         .find(|own| own.name == "rccd_closest_approach");
     let nearest = make(closest.unwrap(), world, random, Some(&solver))?.answer;
     let nearest = nearest.as_deref().and_then(pair_answer);
-    // A contact at the start is found before the rest of the motion is seen to be out of range.
+    // A contact at the start may be found before the rest of the motion is found to be out of range.
     let Some(nearest) = nearest else {
         return Ok(());
     };
@@ -95,7 +96,7 @@ fn pair_answer(bytes: &[u8]) -> Option<RccdAnswer> {
     is_pair.then(|| unsafe { bytes.as_ptr().cast::<RccdAnswer>().read_unaligned() })
 }
 
-/// What a call has come to.
+/// The result of a call.
 pub(super) struct Made {
     pub(super) has_worked: bool,
     owner: usize,

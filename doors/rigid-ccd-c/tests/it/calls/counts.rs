@@ -1,10 +1,10 @@
-//! What a run has come to.
+//! The counts of a run.
 
 use super::checked::Made;
 use super::table::FUNCTIONS;
 use std::time::{Duration, Instant};
 
-/// How often functions were called, and have worked.
+/// The number of calls of each function, and of those that succeeded.
 pub(super) struct Counts {
     called: Vec<[u64; 2]>,
     times: Vec<Duration>,
@@ -59,7 +59,7 @@ impl Counts {
         }
     }
 
-    /// Checks that functions both work and fail often enough for the run to mean something.
+    /// Checks that functions succeed and fail often enough for a meaningful run.
     pub(super) fn check(&self) {
         let [called, worked] = self.total();
         assert!(

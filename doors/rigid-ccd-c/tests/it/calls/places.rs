@@ -1,4 +1,4 @@
-//! Places for results: what a call that fails leaves untouched, and what is checked of a call that works.
+//! Memory for results. A failed call must leave it unchanged; results of a successful call are checked.
 
 use super::answers::Answer;
 use super::call::Call;
@@ -6,27 +6,27 @@ use super::world::{Pooled, World};
 use rigid_ccd_c::*;
 use std::fmt::Debug;
 
-/// What places hold before a call.
+/// The bytes of the memory before a call.
 const PATTERN: u8 = 0xa5;
 
-/// Bytes behind a place, which no call writes.
+/// The number of bytes behind the memory that no call may write.
 const GUARD: usize = 32;
 
-/// What a call has been made with, for the checks of its results.
+/// The arguments of a call that the checks of its results need.
 pub(super) struct Context {
     pub(super) owner: usize,
-    /// That of the cell.
+    /// The number of free joints of the cell.
     pub(super) joint_count: Option<usize>,
-    /// The distance of a contact that was asked for, instead of the margin.
+    /// The clearance of the question, which replaces the margin.
     pub(super) clearance: Option<f64>,
     pub(super) settings: Option<RccdSettings>,
     pub(super) duration: f64,
     pub(super) segments: usize,
 }
 
-/// A place for a result.
+/// Memory for a result.
 pub(super) trait Place {
-    /// Checks the place after a call, and keeps what it has given.
+    /// Checks the memory after a call, and keeps handles and texts in it.
     fn check(
         &self,
         has_worked: bool,
@@ -34,13 +34,13 @@ pub(super) trait Place {
         context: &Context,
     ) -> Result<(), String>;
 
-    /// Returns the bytes of an answer, which are the same for the same question.
+    /// Returns the bytes of an answer. They are equal for equal questions.
     fn answer(&self) -> Option<&[u8]> {
         None
     }
 }
 
-/// A place for plain values, with a guard behind it, which is aligned as the value is.
+/// Memory for plain values, aligned for them, with guard bytes behind it.
 pub(super) struct Bytes {
     content: Box<[u64]>,
     before: Box<[u64]>,
@@ -62,13 +62,13 @@ impl Bytes {
         self.content.as_mut_ptr().cast()
     }
 
-    /// Sets the first number of the place.
+    /// Sets the size at the start of the memory.
     fn set_size(&mut self, size: usize) {
         self.content[0] = size as u64;
         self.before[0] = size as u64;
     }
 
-    /// Returns the value if the call has worked.
+    /// Returns the value if the call succeeded.
     fn value<T: Copy>(&self, has_worked: bool) -> Result<Option<T>, String> {
         let whole = self.length.div_ceil(8);
         if self.content[whole..] != self.before[whole..] {
@@ -91,7 +91,7 @@ impl Bytes {
     }
 }
 
-/// A place for a handle.
+/// Memory for a handle.
 struct HandlePlace<T> {
     bytes: Bytes,
     kind: std::marker::PhantomData<*mut T>,
@@ -121,7 +121,7 @@ impl<T: Pooled> Place for HandlePlace<T> {
     }
 }
 
-/// A place for a plain value, and its check.
+/// Memory for a plain value, and a check of the value.
 struct ValuePlace<T> {
     bytes: Bytes,
     check: fn(T, &mut World<'_>, &Context) -> Result<(), String>,
@@ -143,7 +143,7 @@ impl<T: Copy + Debug> Place for ValuePlace<T> {
     }
 }
 
-/// A place for an answer, with the size that was set.
+/// Memory for an answer, with the size that was set.
 struct AnswerPlace<T> {
     bytes: Bytes,
     kind: std::marker::PhantomData<T>,
@@ -225,7 +225,7 @@ impl Call<'_, '_> {
         self.value_place(|text, world, context| world.lend(context.owner, text))
     }
 
-    /// A text that lives until the next one is asked for.
+    /// A text that is valid until the next call for one.
     pub(super) fn new_summary(&mut self) -> *mut RccdText {
         self.value_place(|text: RccdText, _, _| {
             require(
@@ -263,7 +263,7 @@ impl Call<'_, '_> {
         })
     }
 
-    /// Returns a place of a size that the caller has set, and that is too small at times.
+    /// Returns memory with its size set, which is sometimes too small.
     fn sized_place<T>(&mut self) -> Bytes {
         let mut bytes = Bytes::new::<T>();
         let right = size_of::<T>();

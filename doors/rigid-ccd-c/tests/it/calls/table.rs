@@ -1,4 +1,4 @@
-//! The table of all functions of the header: how its arguments are drawn.
+//! The table of all functions of the header, with the generators of their arguments.
 
 use super::call::Call;
 use rigid_ccd_c::*;
@@ -6,19 +6,19 @@ use std::ffi::{CStr, c_char};
 
 pub(super) struct Function {
     pub(super) name: &'static str,
-    /// How often it is called.
+    /// The relative frequency of calls.
     pub(super) weight: u32,
     pub(super) call: fn(&mut Call<'_, '_>) -> Returned,
 }
 
-/// What a function returns.
+/// The result type of a function.
 pub(super) enum Returned {
     Status(RccdStatus),
-    /// It cannot fail.
+    /// A function that cannot fail.
     Nothing,
 }
 
-/// A function, how often it is called, and what draws its arguments, in the order of the header.
+/// A function, the frequency of its calls, and the generators of its arguments, in the order of the header.
 macro_rules! functions {
     ($($name:ident $weight:literal $returns:ident ($($argument:ident),*);)*) => {
         &[$(Function {
@@ -111,7 +111,7 @@ pub(super) const FUNCTIONS: &[Function] = functions! {
     rccd_trajectory_free 8 status (freed);
 };
 
-/// What a function without arguments returns.
+/// The result of a function without arguments.
 trait Constant {
     fn check(self);
 }

@@ -9,7 +9,7 @@ use std::ptr::null;
 
 impl Call<'_, '_> {
     fn three(&mut self, name: &str, size: f64) -> [f64; 3] {
-        // Seldom far away, or tiny.
+        // Rarely far away, or tiny.
         let size = if self.once_in(50) {
             size * 10.0_f64.powf(15.0 * self.random.number())
         } else {
@@ -73,7 +73,7 @@ impl Call<'_, '_> {
 
     pub(super) fn points(&mut self) -> *const f64 {
         let count = match self.random.index(100) {
-            // A visit of a curve takes the square of its degree.
+            // The time of a visit of a curve grows with the square of its degree.
             0 => 30,
             k if k < 10 => k % 4,
             k => 4 + k % 4,
@@ -109,7 +109,7 @@ impl Call<'_, '_> {
         [x, y, z, i, j, k, w]
     }
 
-    /// Draws a body with a motion, with a trajectory, with neither, or, which is wrong, with both.
+    /// Draws a body with a motion, with a trajectory, or with neither. Sometimes draws both, which is wrong.
     pub(super) fn moving(&mut self) -> *const RccdMovingBody {
         let mut moving = RccdMovingBody {
             body: self.handle(),
@@ -130,7 +130,7 @@ impl Call<'_, '_> {
 
     pub(super) fn settings(&mut self) -> *const RccdSettings {
         let settings = self.settings_value();
-        // Seldom: the default budget lasts for seconds.
+        // Rarely, because the default budget lasts for seconds.
         if self.once_in(1000) {
             self.settings = Some(default_settings());
             self.note("settings", ());
@@ -167,7 +167,7 @@ impl Call<'_, '_> {
         if self.once_in(30) {
             (settings.budget, settings.deadline) = (u64::MAX, 1e-3);
         }
-        // Questions about the closest approach of a cell refuse the other policy.
+        // Questions about the closest approach in a cell refuse `Leave`.
         settings.start_policy = u32::from(self.once_in(4));
         settings.contact_normals = self.random.index(2) as u32;
         if self.is_odd() {
@@ -186,7 +186,7 @@ impl Call<'_, '_> {
         settings
     }
 
-    /// Draws an answer about a path, as a caller may have changed it.
+    /// Draws an answer about a path, with changes that a caller may have made.
     pub(super) fn given_answer(&mut self) -> *const RccdPathAnswer {
         let mut answer = MaybeUninit::<RccdPathAnswer>::zeroed();
         let outcome = [1, 1, 2, 0, 0, 6, 77][self.random.index(7)];

@@ -1,4 +1,4 @@
-//! The handles that live at a time, and the files that calls read.
+//! The live handles, and the files that calls read.
 
 use crate::support::Random;
 use rigid_ccd_c::*;
@@ -9,7 +9,7 @@ use std::path::Path;
 /// The largest number of handles of a kind.
 const POOL_SIZE: usize = 12;
 
-/// All handles that are alive.
+/// All live handles.
 pub(super) struct World<'f> {
     bodies: Vec<*mut RccdBody>,
     trajectories: Vec<*mut RccdTrajectory>,
@@ -20,13 +20,13 @@ pub(super) struct World<'f> {
     curves: Vec<*mut RccdJointCurve>,
     /// The settings of each solver, by its address.
     pub(super) settings: HashMap<usize, RccdSettings>,
-    /// The number of free joints of each cell and cell's solver, by its address.
+    /// The number of free joints of each cell and each cell solver, by address.
     pub(super) joint_counts: HashMap<usize, usize>,
     pub(super) lent: Vec<LentText>,
     pub(super) files: &'f Files,
 }
 
-/// A text that belongs to a handle, and its content when it was given.
+/// A text owned by a handle, and its content when it was returned.
 pub(super) struct LentText {
     pub(super) owner: usize,
     pub(super) lent: RccdText,
@@ -66,7 +66,7 @@ macro_rules! pooled {
     }};
 }
 
-// Bodies first: cells and solvers share them.
+// Bodies are first, because cells and solvers share them.
 pooled! {
     RccdBody, bodies, rccd_body_free;
     RccdTrajectory, trajectories, rccd_trajectory_free;
@@ -95,7 +95,7 @@ impl<'f> World<'f> {
         }
     }
 
-    /// Adds a handle; the oldest is freed if there are many.
+    /// Adds a handle. Frees the oldest handle if there are many.
     pub(super) fn add<T: Pooled>(&mut self, handle: *mut T) {
         T::pool(self).push(handle);
         if T::pool(self).len() > POOL_SIZE {
@@ -122,7 +122,7 @@ impl<'f> World<'f> {
         }
     }
 
-    /// Remembers a text that a call has given.
+    /// Remembers a text that a call has returned.
     pub(super) fn lend(&mut self, owner: usize, lent: RccdText) -> Result<(), String> {
         if lent.data.is_null() {
             return if lent.length == 0 {
@@ -144,7 +144,7 @@ impl<'f> World<'f> {
         Ok(())
     }
 
-    /// Checks that texts are what they were, as long as what they belong to lives.
+    /// Checks that texts are unchanged until their owners are freed.
     pub(super) fn check_texts(&self) -> Result<(), String> {
         let changed = self.lent.iter().find(|own| bytes(own.lent) != own.content);
         changed.map_or(Ok(()), |own| {
@@ -169,7 +169,7 @@ pub(super) struct Files {
 }
 
 pub(super) struct Kinds {
-    /// A mesh, and files that calls store.
+    /// The mesh files and the prepared bodies that calls may store.
     pub(super) bodies: Vec<CString>,
     pub(super) robots: Vec<CString>,
     /// The texts of robots.
@@ -229,7 +229,7 @@ impl Files {
         text(self.folder.path())
     }
 
-    /// Removes what earlier calls have stored: what a seed does is not to depend on it.
+    /// Removes the files that earlier calls have stored, so that a seed does not depend on them.
     fn remove_stored(&self) {
         for path in &self.right.bodies[1..] {
             let _ = std::fs::remove_file(path.to_str().unwrap());
@@ -257,7 +257,7 @@ const MJCF: &str = r#"<mujoco><worldbody><body name="upper" pos="0 0 0.5"><joint
 const SRDF: &str =
     r#"<robot name="arm"><disable_collisions link1="base" link2="lower" reason="Never"/></robot>"#;
 
-/// Returns a robot of so many joints, one after the other.
+/// Returns a robot that is a chain of `count` joints.
 fn chain(count: usize) -> String {
     let name = |k: usize| ["base", "upper", "lower", "l3", "l4", "l5", "l6", "l7"][k];
     let link = |k: usize| {
@@ -278,13 +278,13 @@ fn chain(count: usize) -> String {
     format!(r#"<robot name="chain">{links}{joints}</robot>"#)
 }
 
-/// Returns a random handle of a pool, and its number; `None` if the pool is empty.
+/// Returns a random handle of a pool and its index, or `None` if the pool is empty.
 pub(super) fn pick<T: Pooled>(
     world: &mut World<'_>,
     random: &mut Random,
 ) -> Option<(usize, *mut T)> {
     let count = T::pool(world).len() as u32;
-    // The same number of draws, whether there is one or not.
+    // Draws equally often whether there is a handle or not.
     let index = random.index(count.max(1));
     T::pool(world).get(index).map(|&handle| (index, handle))
 }
