@@ -1,12 +1,12 @@
-// What enters is read exactly, or refused by an error that names the argument.
+// Arguments are read exactly, or refused with an error that names the argument.
 
 /** Values that are no number, no name, no list, no pose and no options. */
 const NOTHING = [null, true, false, 5n, Symbol("s"), () => 1, new Map([["position", [1, 2, 3]]]), new Set([1]), new Date(0)];
-/** What is left out, empty, or of another kind than one of those below. */
+/** Values that are missing, empty, or of another kind than those below. */
 const OTHERS = [undefined, "", "5", "auto", [], [[[]]], NaN, 7, {}, { unknown: 1 }, new Float64Array(0)];
 const HOSTILE = [...NOTHING, ...OTHERS];
 
-/** Which of the hostile values an argument of each kind takes. */
+/** The hostile values that an argument of each kind accepts. */
 const TAKES = {
   number: (value) => value === 7,
   optionalNumber: (value) => value === 7 || value === undefined,
@@ -29,7 +29,7 @@ function isEmpty(value) {
   return typeof value === "object" && value !== null && Object.getPrototypeOf(value) === Object.prototype && Object.keys(value).length === 0;
 }
 
-/** All calls: for each argument, and for each field of it, the kind, a valid value, and the word by which messages name it. */
+/** All calls. For each argument and each of its fields: the kind, a valid value, and its name in messages. */
 function calls(ccd) {
   const { Body, Cell, Motion, Path, Robot, Throw } = ccd;
   const ball = Body.sphere(1);
@@ -159,7 +159,7 @@ function calls(ccd) {
 
 const show = (value) => (typeof value === "object" && value !== null ? `${value.constructor?.name} ${Object.keys(value)}` : String(value));
 
-/** Numbers in arrays of all kinds: each with a function that makes it of integers from 0 to 100, and whether it may be taken. */
+/** Arrays of numbers of all kinds: for each, a function that makes it from integers from 0 to 100, and whether it is accepted. */
 const ARRAYS = {
   Array: (numbers) => numbers,
   ...Object.fromEntries(
@@ -184,7 +184,7 @@ if (typeof SharedArrayBuffer !== "undefined") {
   };
 }
 
-/** What is no list of finite numbers, made of such a list. */
+/** Functions that make an invalid value from a list of finite numbers. */
 const REFUSED = {
   BigInt64Array: (numbers) => BigInt64Array.from(numbers, BigInt),
   BigUint64Array: (numbers) => BigUint64Array.from(numbers, BigInt),
@@ -217,7 +217,7 @@ if (ArrayBuffer.prototype.resize) {
   };
 }
 
-/** Where lists of three numbers enter: each with the word that messages have, and what comes out. */
+/** All arguments that are lists of three numbers: for each, the name in messages, and a function that returns the numbers read. */
 function entries(ccd) {
   const { Body, Path, Robot } = ccd;
   const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
@@ -242,7 +242,7 @@ function entries(ccd) {
       const at = found.map((time) => path.pose(time).position[0]);
       return path.end === found[2] && Math.hypot(at[0], at[1] - 1, at[2] - 2) < 1e-9 ? found : [path.end, ...at];
     },
-    // A corner of a triangle, by its distances from three balls.
+    // Computes a corner of a triangle from its distances from three balls.
     "positions": (list) => {
       if (!Array.isArray(list) && !/^Float/.test(list[Symbol.toStringTag])) throw new TypeError("positions: see the types");
       const [x, y, z] = copied(list);
@@ -339,7 +339,7 @@ export default (ccd, { equal, ok, randomNumbers }) => ({
       }
       ok(error instanceof TypeError && pattern.test(error.message), `${call}: ${error}`);
     }
-    // Objects of classes have what they like beside their coordinates.
+    // Objects of a class may have other properties than their coordinates.
     class Vector3 {
       constructor(x, y, z) {
         Object.assign(this, { x, y, z, isVector3: true });

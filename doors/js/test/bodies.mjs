@@ -1,6 +1,6 @@
 // Bodies from shapes, arrays and files; memory and errors.
 
-/** A cube of side 2 as three.js makes a `BoxGeometry`: four corners for each face. */
+/** A cube of side 2 like a `BoxGeometry` of three.js, with four corners for each face. */
 function cubeOfThree() {
   const [positions, indices] = [[], []];
   for (let axis = 0; axis < 3; axis += 1) {
@@ -19,7 +19,7 @@ function cubeOfThree() {
 
 const TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
-/** A tetrahedron in glTF, whose data is in a buffer of its own by default. */
+/** A tetrahedron in glTF. By default its data is in a separate buffer. */
 function gltf(buffer) {
   const positions = new Uint8Array(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]).buffer);
   const indices = new Uint8Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]);
@@ -44,7 +44,7 @@ export default (ccd, { equal, ok, between, throws }) => ({
     const [cube, ball] = [ccd.Body.fromMesh(positions, indices), ccd.Body.sphere(0.5)];
     equal([cube.isSolid, cube.excess], [true, 0]);
     ok(/closed|solid/.test(cube.report), cube.report);
-    // Inside a solid nothing touches its surface, and yet they overlap.
+    // A body inside a solid does not touch its surface, but overlaps it.
     equal(ccd.firstContact(ball, cube).kind, "overlapping");
     const { lower, upper } = ccd.distance(ball, cube, { motionA: { position: [3, 0, 0] } });
     between(1.5, lower, upper);

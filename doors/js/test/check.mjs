@@ -1,4 +1,4 @@
-// What the cases check with, in node as in a browser.
+// Assertions of the cases, for Node and browsers.
 
 export function ok(condition, message) {
   if (!condition) throw new Error(message);
@@ -9,7 +9,7 @@ export function equal(actual, expected) {
   ok(one === other, `${one} is not ${other}`);
 }
 
-/** Checks that a number is at most a little before another one, and never beyond it. */
+/** Checks that a number is at most `by` less than another one, and not greater. */
 export function justBefore(actual, expected, by) {
   ok(actual <= expected && actual >= expected - by, `${actual} is not within ${by} before ${expected}`);
 }

@@ -1,15 +1,15 @@
-// Robots and mechanisms with answers that are known exactly.
+// Robots and mechanisms with exactly known answers.
 
 export default (ccd, { equal, justBefore, between, throws }) => {
   const slider = { type: "prismatic", name: "slider", parent: "rail", child: "carriage", axis: [1, 0, 0], limits: [-10, 10] };
-  /** A ball on a rail, 2 - x before a wall. */
+  /** A ball on a rail, at the distance 2 - x from a wall. */
   function beforeWall() {
     const robot = new ccd.Robot({ joints: [slider], bodies: { carriage: ccd.Body.sphere(0.5) } });
     const cell = new ccd.Cell(robot);
     cell.add("wall", ccd.Body.box([0.5, 2, 2]), { position: [3, 0, 0] });
     return { robot, cell };
   }
-  /** A leaf of 1 by 0.1 by 2 that turns about z. */
+  /** A door leaf of 1 by 0.1 by 2 that turns about z. */
   function door() {
     const hinge = { type: "revolute", name: "hinge", parent: "frame", child: "leaf", limits: [0, 3] };
     const leaf = [{ body: ccd.Body.box([0.5, 0.05, 1]), pose: { position: [0.5, 0, 0] } }];
@@ -52,7 +52,7 @@ export default (ccd, { equal, justBefore, between, throws }) => {
     "what is not checked is remarked upon"() {
       const { robot, cell } = beforeWall();
       equal(robot.remarks, [{ kind: "remark", text: "1 link without bodies, compared with nothing: rail" }]);
-      // A pair of links that is not compared may touch anyway.
+      // A pair of links that is not checked may touch without permission.
       cell.allowContact("carriage", "rail");
       equal(cell.remarks, robot.remarks);
       cell.allowContact("carriage", "wall");

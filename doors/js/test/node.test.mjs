@@ -15,7 +15,7 @@ import { answers } from "./random_answers.mjs";
 
 const MODULE = new URL("../../../target/js/rigid-ccd.js", import.meta.url);
 const hasFallback = existsSync(new URL("fallback.js", MODULE));
-/** Options of tests that need the module without vectors. */
+/** Options of tests that need the module without vector instructions. */
 const ofFallback = hasFallback ? {} : { skip: "the package was built without its fallback" };
 
 const unloaded = await import(`${MODULE}?unloaded`);
@@ -56,7 +56,7 @@ test("what is collected as garbage is freed", async () => {
   check.equal(ccd.memoryUsage(), before);
 });
 
-/** Returns the error of a call, which has to have one. */
+/** Returns the error of a call, which must fail. */
 function errorOf(call) {
   try {
     call();
@@ -66,7 +66,7 @@ function errorOf(call) {
   throw new Error(`nothing is thrown by ${call}`);
 }
 
-/** Loads a copy of the module, and returns it with the memory of its engine and the exports of it that are called. */
+/** Loads a copy of the module. Returns it with the memory of its engine, and the exports to be called. */
 async function withMemory(copy, exportsOf = (exports) => exports) {
   const { instantiate } = WebAssembly;
   let memory = null;
@@ -84,7 +84,7 @@ async function withMemory(copy, exportsOf = (exports) => exports) {
 test("at the end of its memory the engine ends with a typed error, and another one begins", async () => {
   const { module, memory } = await withMemory("memory");
   const [ball, motion] = [module.Body.sphere(1), new module.Motion({ velocity: [1, 0, 0] })];
-  // What is left is taken without being used.
+  // Takes the remaining memory without using it.
   memory.grow(65536 - memory.buffer.byteLength / 65536);
   const mesh = Float64Array.from({ length: 900000 }, (_, k) => ((k * 7919) % 1000) / 1000 + k);
   const error = errorOf(() => module.Body.fromMesh(mesh));
@@ -165,7 +165,7 @@ test("what is probably a mistake is said once in the console", async () => {
     cell.add(`wall ${k}`, Body.box([1, 50, 50]), { position: [9, 0, 0] });
     cell.isFree([[0], [6.28]]);
     check.equal(said.length, 4 + k);
-    // Of these kinds are said already.
+    // Warnings of these kinds were already shown.
     cell.isFree([[0], [90]], { tolerance: 1 });
     cell.add(`desk ${k}`, Body.box([1200, 800, 750]), { position: [9000, 0, 0] });
   }
@@ -185,7 +185,7 @@ test("a mesh that is probably a mistake is said once in the console", async () =
   const module = await import(`${MODULE}?meshes`);
   await module.init();
   const { Body } = module;
-  // Meshes that are flat or meant as surfaces have no inside that is missed.
+  // Flat meshes and declared surfaces give no warning, because they have no inside.
   const corners = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1];
   const dae = (unit) => `<COLLADA version="1.4.1"><asset>${unit}</asset><library_geometries><geometry><mesh><source id="s"><float_array id="a">${corners.join(" ")}</float_array><technique_common><accessor source="#a" count="4" stride="3"/></technique_common></source><vertices id="v"><input semantic="POSITION" source="#s"/></vertices><triangles count="4"><input semantic="VERTEX" source="#v"/><p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries></COLLADA>`;
   const file = (unit, options) => Body.fromFile("part.dae", new TextEncoder().encode(dae(unit)), options);
@@ -209,7 +209,7 @@ test("a mesh that is probably a mistake is said once in the console", async () =
   for (const [k, pattern] of patterns.entries()) check.ok(pattern.test(said[k]), said[k]);
 });
 
-/** Returns the error of an init, which has to have one. */
+/** Returns the error of an init, which must fail. */
 async function refused(init) {
   const error = await init.then(() => null, (caught) => caught);
   check.ok(error instanceof Error, "nothing is refused");

@@ -9,7 +9,7 @@ const here = (name) => readFile(new URL(name, import.meta.url), "utf8");
 const texts = { module: await here("../../../target/js/rigid-ccd.js"), fallback: await here("../../../target/js/fallback.js") };
 for (const name of ["check", "random_answers", ...CASES]) texts[name] = await here(`${name}.mjs`);
 
-// In a script `<` could begin its end.
+// Escapes `<`, which could begin the end tag of the script.
 const json = JSON.stringify(texts).replaceAll("<", "\\u003c");
 await writeFile(
   argv[2],
@@ -21,7 +21,7 @@ await writeFile(
 <pre></pre>
 <iframe hidden></iframe>
 <script>
-// A document that is being written holds up the event \`load\`, for which a headless browser waits.
+// A document that is still being written delays the event \`load\`. A headless browser waits for that event.
 const held = document.querySelector("iframe").contentDocument;
 held.open();
 </script>
@@ -29,10 +29,10 @@ held.open();
 const texts = ${json};
 const addressOf = (text) => URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
 const load = (text) => import(addressOf(text));
-// Nothing lies beside an object of the browser.
+// A module from an object URL has no folder, so the path of the fallback is replaced.
 const module = texts.module.replace('"./fallback.js"', JSON.stringify(addressOf(texts.fallback)));
 const lines = [];
-// Remarks are no faults.
+// Remarks are not failures.
 console.warn = (text) => lines.push(text);
 async function run() {
   const check = await load(texts.check);

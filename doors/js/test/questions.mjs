@@ -1,4 +1,4 @@
-// Questions about two bodies, with answers that are known exactly.
+// Questions about two bodies, with exactly known answers.
 
 export default (ccd, { equal, ok, justBefore, between, throws }) => {
   const ball = ccd.Body.sphere(0.5);
@@ -143,7 +143,7 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
         ok(throws(() => ccd.firstContact(ball, ball, { motionA: { velocity: wrong } }), /^motionA\.velocity: .*(NaN|Infinity)/) instanceof RangeError, String(wrong));
       }
       ok(throws(() => ccd.firstContact(ball, ball, { motionA: { rotation: [0, 0, 0, 0] } }), /^motionA\.rotation: .*length zero/) instanceof RangeError, "zero");
-      // Three angles in an order are no vector.
+      // Three angles in an order are not a vector.
       class Euler {
         constructor() {
           Object.assign(this, { isEuler: true, x: 1, y: 2, z: 3, order: "XYZ" });
@@ -156,7 +156,7 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
       const freed = path(1);
       freed.free();
       throws(() => ccd.closestApproach(ball, ball, { motionA: path(1), motionB: freed }), /this Path was freed/);
-      // An error leaves no movement for the next question.
+      // After an error, no movement remains for the next question.
       equal(ccd.firstContact(ball, ball, { motionA: { position: [5, 0, 0] } }).kind, "free");
     },
   };

@@ -1,6 +1,6 @@
 // Answers to random questions, with all their bits.
 
-/** A knotted tube, whose vertices are sums of products: no function that an engine may round in its own way. */
+/** A knotted tube. Its vertices are sums of products, without functions that engines may round differently. */
 function tube(random) {
   const [around, along] = [8, 40];
   const [positions, indices] = [[], []];
@@ -15,7 +15,7 @@ function tube(random) {
   return [new Float64Array(positions), new Uint32Array(indices)];
 }
 
-/** Returns the answers to random questions as a text, in which each number has all its bits. */
+/** Returns the answers to random questions as a text that has all bits of each number. */
 export function answers(ccd, randomNumbers) {
   const random = randomNumbers(7);
   const vector = (size) => [0, 1, 2].map(() => random(-size, size));

@@ -1,4 +1,4 @@
-"""Prints how long after Ctrl-C each call that may take long has ended."""
+"""Prints the time from Ctrl-C to the end of a call, for each call that may take long."""
 
 import os
 import signal

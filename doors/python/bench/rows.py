@@ -2,9 +2,10 @@
 
     python bench/rows.py A.obj B.obj motions.csv --ccd target/release/ccd
 
-The rows are repeated until there are --rows. Each way runs --repeat times, in turn, each time in a process of its own:
-where the bodies lie in memory changes a process's speed by 1 to 2 %. Seconds are medians. Ratios are medians of those of
-neighbouring runs, which the machine's changing speed affects least. The times of contact have to be the same bits.
+The rows are repeated until there are --rows. Both alternate --repeat times, each time in a process of its own, because
+the location of bodies in memory changes the speed by 1 to 2 %. Seconds are medians. Ratios are medians of the ratios of
+neighbouring runs, which depend least on the changing speed of the machine. The times of contact must have the same
+bits.
 """
 
 import argparse

@@ -1,4 +1,4 @@
-"""How far a gripper of four-bar linkages may open, where it touches a ball, and an arm that carries both.
+"""Certifies the openings of a gripper of four-bar linkages, its contact with a ball, and the path of an arm with both.
 
     pip install example-robot-data matplotlib scipy
     python gripper.py [PLOT.png]

@@ -1,9 +1,9 @@
-"""Picks a can from a table with one of two arms, carries it onto a shelf, and finds what stands in other ways.
+"""Picks a can from a table with one of two arms, carries it to a shelf, and finds the contacts on other paths.
 
     python pick_and_place.py
 
-Lengths are in metres, angles in radians. The can stands on the table when it is lifted: `start="leave"` lets it part, and
-finds every other contact.
+Lengths are in metres, angles in radians. The can stands on the table when it is lifted: `start="leave"` allows it to
+separate, and still finds every other contact.
 """
 
 # %% An arm of a lift, two hinges and two fingers

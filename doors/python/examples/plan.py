@@ -3,8 +3,8 @@
     pip install example-robot-data ompl scipy
     python plan.py
 
-Each motion that the planner tries is proven free between all steps. The path is then rounded off to a curve for the
-controller, which is proven as well: a curve leaves the straight lines that the planner knows.
+Each motion that the planner tries is proven free along its whole length. The path is then smoothed to a curve for the
+controller. The curve is certified too, because it differs from the straight lines of the planner.
 """
 
 from importlib.metadata import files
@@ -47,7 +47,7 @@ nearest = cell.closest_approach(path)
 print(f"a path of {len(path)} configurations is free; it comes within {1000 * nearest.upper:.1f} mm of a contact")
 
 # %% The curve
-# More points on the straight lines hold the spline nearer to them, until it is proven free.
+# Adds points on the straight lines until the spline is near enough to them to be proven free.
 for count in 2 ** np.arange(0, 7):
     shares = np.linspace(0, len(path) - 1, count * (len(path) - 1) + 1)
     points = np.stack([np.interp(shares, np.arange(len(path)), joint) for joint in path.T], axis=1)

@@ -41,7 +41,8 @@ for name, (size, position, rotation) in boxes.items():
     cell.add(name, Body.box(size=size), (position, rotation))
 
 # %% Edges of a planner
-# Each begins where the arm is free, and turns joints by up to 1.5 radians. A certified edge is free between all steps.
+# Each edge begins where the arm is free, and turns joints by up to 1.5 radians. A certified edge is free along its
+# whole length.
 TOLERANCE = 1e-4  # an edge that keeps this much clearance is certified
 starts = random.uniform(low, high, (1200, len(low)))
 starts = starts[cell.edges(starts, starts, tolerance=TOLERANCE)["status"] == "free"][:400]
@@ -62,7 +63,7 @@ for steps in (5, 20, 100):
             print(f"    edge {k}: {contact.a} meets {contact.b} at {contact.share:.4f} of it, at", contact.witness_b)
 
 # %% A whole turn of the base
-# In the stretch from one angle to the next, the clearance is never less than `lower`.
+# In the interval from one angle to the next, the clearance is never less than `lower`.
 POSE = [0.0, 0.6, -2.6, 1.1, 3.7, 1.6, 0.02]
 angles = np.linspace(low[0], high[0], 241)
 turn = np.column_stack([angles, np.tile(POSE, (len(angles), 1))])

@@ -1,4 +1,4 @@
-"""Wrong arguments are refused by their names: whole numbers, truth values, names and folders."""
+"""Wrong arguments are refused with errors that name them: whole numbers, truth values, names and folders."""
 
 import itertools
 import pickle
@@ -40,7 +40,7 @@ def slide() -> Cell:
 CELL = slide()
 EDGES: Any = ([[0.0]], [[1.0]])
 
-# Each argument that is a whole number, with the numbers that it does not take.
+# All arguments that are whole numbers, each with the numbers that it refuses.
 WHOLE: dict[str, tuple[str, Callable[[Any], Any], list[Any]]] = {
     "threads of edges": ("threads", lambda n: CELL.edges(*EDGES, threads=n), [0, -1, 1025, 2**70, -(2**70)]),
     "threads of paths": ("threads", lambda n: CELL.paths([[[0.0]]], threads=n), [0, -1, 1025, 2**70]),

@@ -45,7 +45,7 @@ def test_links_are_where_trigonometry_says() -> None:
     moves = chain.motion("tip", [0, 0], [1, -2], duration=2)
     for time in (0, 0.7, 2):
         assert moves.pose(time)[:3, 3] == pytest.approx(tip(time / 2, -time))
-    # In the frame of the forearm, the tip is at rest.
+    # In the frame of the forearm, the tip is static.
     rests = chain.motion("tip", [0, 0], [1, -2], 2, seen_from="fore")
     assert rests.pose(0.7) == pytest.approx(rests.pose(0))
 
@@ -54,7 +54,7 @@ def test_the_tip_of_an_arm_touches_a_post() -> None:
     chain = arm()
     post = Body.sphere(0.05)
     for angle in np.linspace(0.2, 1.4, 7):
-        # Both joints turn: the tip meets a post that stands on its curve, and not the one beside it.
+        # Both joints turn. The tip meets a post on its curve, and not the post beside it.
         begin, end = [0.0, 0], [1.5, 1.5]
         moves = chain.motion("tip", begin, end)
         place = tip(angle, angle)
@@ -113,7 +113,7 @@ def test_a_robot_is_made_of_joints_and_bodies() -> None:
     assert not Cell(gripper).is_free([[0.0], [-0.4]])
     with pytest.raises(InputError, match="nothing is compared in this cell: .*1 not \\(disabled: may touch\\)"):
         Cell(Robot(fingers, tips, [("right finger", "left finger")])).is_free([[0.0], [-0.4]])
-    # As the left finger sees it, the right one comes at twice the rate.
+    # In the frame of the left finger, the right one approaches at twice the rate.
     comes = gripper.motion("right finger", [0.0], [-0.4], seen_from="left finger")
     hit = first_contact(BALL, BALL, comes)
     assert hit is not None and hit.time == pytest.approx(1, abs=1e-3)
@@ -146,7 +146,7 @@ def test_mimic_joints_are_rounded_once() -> None:
         mimic = Joint.prismatic("follower", "base", "ball", axis=[1, 0, 0], mimic=("drive", multiplier, offset))
         with pytest.raises(InputError, match="joint `follower`: the multiplier or the offset is NaN or infinite"):
             Robot([drive, mimic])
-    # A million cancels: in exact arithmetic the balls overlap by 5e-11.
+    # Coordinates of a million cancel: in exact arithmetic the balls overlap by 5e-11.
     mimic = Joint.prismatic("follower", "base", "ball", axis=[1, 0, 0], mimic=("drive", 1000000.1, -1e6))
     cell = Cell(Robot([drive, mimic], {"ball": Body.sphere(0.5)}))
     cell.add("wall", Body.sphere(0.5), ([1.1000000108069037, 0, 0], [1, 0, 0, 0]))

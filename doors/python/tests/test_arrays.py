@@ -1,4 +1,4 @@
-"""An array is read as the nested list of its elements, whatever its type, its order in memory and its class, or is refused."""
+"""Arrays of any type, class and order in memory are read like nested lists of their elements, or are refused."""
 
 import functools
 import math
@@ -24,7 +24,7 @@ from rigid_ccd import (
     first_contacts,
 )
 
-# Multiples of 1/4, which all types of floats have.
+# Multiples of 1/4, which all types of floats represent exactly.
 CORNERS: Any = [[0, 0, 0], [1, 0, 0.25], [0, 1, 0.5], [0, 0, 1], [-1, -0.5, 0.25]]
 FACES: Any = [[0, 1, 2], [0, 1, 3], [1, 2, 3], [0, 2, 4]]
 TURN: Any = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
@@ -33,7 +33,7 @@ BALL, WALL = Body.sphere(0.5), Body.box(0.1, 5, 5)
 
 
 class Polynomials:
-    """Polynomials as scipy.interpolate.PPoly has them."""
+    """Polynomials with the attributes of scipy.interpolate.PPoly."""
 
     def __init__(self, c: Any, x: Any) -> None:
         self.c, self.x = c, x
@@ -80,7 +80,7 @@ def axis_of(axis: Any) -> Any:
     return Robot([Joint.revolute("j", "a", "b", axis=axis)]).pose("b", [1.0]).tolist()
 
 
-# What is read from an array, the nested list that stands for it, and a text that tells what was read.
+# All arguments read from arrays: each with a valid nested list, and a function that returns a text of the values read.
 READS: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "path": (PATH, lambda a: repr((CELL.first_contact(a), CELL.closest_approach(a)))),
     "configuration": (PATH[1], lambda a: repr(CELL.closest_approach(a))),
@@ -122,12 +122,12 @@ READS: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "rows": ([3, 1, 1, 0], lambda a: table(Table({"x": [1, 2, 3, 4]}).take(a))),
     "joint": ([-3, 2, 1.5, 4], lambda a: table(EdgesQuery(CELL)({"id": range(4), "from_x": a, **dict.fromkeys(["to_x", "from_y", "to_y"], [1] * 4)}))),
 }
-# What is read as whole numbers alone.
+# The arguments that are read as whole numbers only.
 WHOLE = ("faces", "column of ids", "rows")
 
 
 def draw(values: Any, kind: str, random: np.random.Generator) -> tuple[Any, str]:
-    """Returns an array with some values, and a text of how it was made."""
+    """Returns an array of values, and a description of how it was made."""
     plain = np.array(values)
     types = "i1 i2 i4 i8" if kind in WHOLE else "f2 f4 f8 f8 f8 g O i8"
     if (plain == np.abs(plain)).all() and kind != "axis":
@@ -144,7 +144,7 @@ def draw(values: Any, kind: str, random: np.random.Generator) -> tuple[Any, str]
 
 
 def laid_out(plain: Any, random: np.random.Generator) -> Any:
-    """Returns an array with the same elements, which are somewhere else in memory."""
+    """Returns an array with the same elements at other places in memory."""
     order = random.integers(6)
     if order == 0:
         return np.asfortranarray(plain)
@@ -152,10 +152,10 @@ def laid_out(plain: Any, random: np.random.Generator) -> Any:
         axes = random.permutation(plain.ndim)
         return np.ascontiguousarray(plain.transpose(axes)).transpose(np.argsort(axes))
     if order == 2 and plain.dtype != object:
-        # At an odd address, at which a processor may not be able to read a number.
+        # Puts the elements at an odd address, from which a processor may not be able to read numbers.
         raw = bytearray(1) + plain.tobytes()
         return np.frombuffer(raw, np.uint8)[1:].view(plain.dtype).reshape(plain.shape) if plain.dtype.itemsize == 1 else np.ndarray(plain.shape, plain.dtype, raw, 1)
-    # Every other element of a larger array, forwards or backwards, somewhere inside it.
+    # Uses every other element of a larger array, forwards or backwards.
     steps = [int(step) for step in random.choice([-3, -2, -1, 1, 2, 3], plain.ndim)]
     large = np.full([3 * n + 2 for n in plain.shape], 77).astype(plain.dtype)
     where = []
@@ -169,7 +169,7 @@ def laid_out(plain: Any, random: np.random.Generator) -> Any:
 
 
 def as_object(made: Any, kind: str, random: np.random.Generator) -> tuple[Any, str]:
-    """Returns the array as another object that stands for it."""
+    """Returns the array as an object of another kind with the same elements."""
     pandas, polars = pytest.importorskip("pandas"), pytest.importorskip("polars")
     choices: list[Callable[[], Any]] = [lambda: made, lambda: made.view(Sub), lambda: Own(made)]
     choices += [lambda: np.ma.MaskedArray(made), lambda: list(made), lambda: tuple(made) if kind != "pose" else list(made)]
@@ -193,11 +193,11 @@ def test_an_array_is_the_nested_list_of_its_elements(kind: str) -> None:
         try:
             found = read(given)
         except TypeError as error:
-            # Poses and ids are taken one by one.
+            # Poses and ids are read one by one.
             assert kind in ("poses", "column of ids") and "Own" in str(error), how
             continue
         except InputError as error:
-            # A column takes no objects, and neither does it take Fractions.
+            # A column refuses arrays of objects, so it refuses Fractions too.
             assert "object" in str(error) or "float128" in str(error) or "longdouble" in str(error), (how, error)
             continue
         assert found == known, how
@@ -255,11 +255,11 @@ def test_what_has_another_shape_is_refused(kind: str) -> None:
             found = read(given)
         except (InputError, TypeError):
             continue
-        # One more dimension of one element, or fewer rows, is what it says; it is never read as something else.
+        # Extra dimensions of one element, or fewer rows, are read as such or refused, but never read as another shape.
         assert given.size == 0 or found == known or given.shape[:-1] != plain.shape[:-1] or kind in FEWER, (given.shape, found)
 
 
-# Of these a shorter list is a list, too.
+# For these arguments a shorter list is valid too.
 FEWER = ("column of a table", "rows", "column of ids")
 
 

@@ -1,4 +1,4 @@
-"""Robots and cells: answers against closed forms, poses and distances of one pair after another."""
+"""Robots and cells. Answers are compared with closed forms, poses, and distances of single pairs."""
 
 import pickle
 import runpy
@@ -131,7 +131,7 @@ def test_cells_change(robot: Robot) -> None:
 
 
 def test_pairs_are_proven_and_written(tmp_path: Path) -> None:
-    # The ball of the forearm meets a pillar on the base within the shoulder's limits, and not within smaller ones.
+    # The ball of the forearm meets a pillar on the base within the shoulder's limits, but not within narrower limits.
     pillar = (
         '<link name="base"><collision><origin xyz="0 1.5 0"/><geometry><sphere radius="0.1"/></geometry>'
         "</collision></link>"
@@ -273,7 +273,7 @@ def test_a_robot_of_yourdfpy_is_that_of_its_file(tmp_path: Path) -> None:
 
 
 class PPoly:
-    """Polynomials as scipy.interpolate.PPoly has them."""
+    """Polynomials with the attributes of scipy.interpolate.PPoly."""
 
     def __init__(self, c: Any, x: Any) -> None:
         self.c, self.x = np.asarray(c, float), np.asarray(x, float)
@@ -369,7 +369,7 @@ def test_curves_are_what_their_objects_say(robot: Robot) -> None:
 
 def test_contacts_have_witnesses_while_threads_compete(robot: Robot) -> None:
     cell = Cell(robot)
-    # So fine a body that to measure a contact takes a part of the time after which a question goes on on another thread.
+    # The body is so fine that measuring a contact takes a part of the time limit of the first attempt.
     angles = np.linspace(0, 2 * np.pi, 400)
     ring = np.stack([1.5 * np.sin(angles), 1.5 * np.cos(angles), 0.05 * np.cos(40 * angles)], axis=1)
     faces = [[k, k + 1, k + 2] for k in range(len(ring) - 2)]
@@ -387,7 +387,7 @@ def test_contacts_have_witnesses_while_threads_compete(robot: Robot) -> None:
 def test_a_plane_has_no_end(robot: Robot) -> None:
     cell = Cell(robot)
     cell.add_plane("slope", ([2, 0, 0], [np.sqrt(0.5), 0, -np.sqrt(0.5), 0]))
-    # The ball is at 1.5 from the shoulder, in the half-space beyond x = 2 - 0.2 nowhere.
+    # The ball is at 1.5 from the shoulder, and never reaches the half-space beyond x = 2 - 0.2.
     assert cell.is_free([[0, 0], [3, 0]])
     cell.move_to("slope", ([1.5, 1e6, 0], [np.sqrt(0.5), 0, -np.sqrt(0.5), 0]))
     for own in (cell, pickle.loads(pickle.dumps(cell))):
@@ -466,7 +466,7 @@ def test_a_can_is_lifted_from_a_table() -> None:
     other: Any = "go"
     with pytest.raises(InputError, match="'go' is not report or leave"):
         cell.is_free(up, start=other)
-    # The table may be touched in other ways, too.
+    # Contacts with the table can also be allowed in other ways.
     cell.allow_contact("table", "can")
     for change in ("allowed", "may touch"):
         contact = cell.first_contact(up, tolerance=1e-5)

@@ -1,4 +1,4 @@
-"""Curves of scipy: splines are what they are at all times, and what has no coefficients is refused."""
+"""Curves of scipy: splines keep their values at all times, and objects without coefficients are refused."""
 
 from typing import Any
 
@@ -39,7 +39,7 @@ def test_a_spline_is_a_curve(cell: Cell, degree: int) -> None:
     assert touch - 1e-4 < contact.time <= touch + 1e-9
     nearest = cell.closest_approach(spline, tolerance=1e-7)
     assert nearest.upper == 0
-    # It is the curve of the polynomials of scipy itself, where these are of one joint each.
+    # The curve equals that of scipy's own polynomials, which are for one joint each.
     each = [interpolate.PPoly.from_spline(interpolate.make_interp_spline(many, places[:, k], k=degree)) for k in (0, 1)]
     inside = np.flatnonzero(np.diff(each[0].x) > 0)
     breaks = each[0].x[[*inside, inside[-1] + 1]]
@@ -55,7 +55,7 @@ def test_a_spline_ends_with_its_base_interval(cell: Cell) -> None:
     spline = interpolate.BSpline(np.arange(9.0), np.array([[0, 0], [1, 0], [0, 1], [1, 1], [0, 0.5]]), 3)
     ranges = cell.clearance_ranges(spline)
     assert (ranges[0].start, ranges[-1].end) == (3, 5)
-    # A knot that is repeated is no segment; one that is repeated so often that the spline jumps is refused.
+    # A repeated knot makes no segment. A knot that is repeated so often that the spline jumps is refused.
     knots = np.array([0, 0, 0, 1, 1, 2, 2, 2.0])
     bends = interpolate.BSpline(knots, np.array([[0, 0], [1, 0], [3, 0], [3, 1], [2, 4.0]]), 2)
     contact = cell.first_contact(bends, tolerance=1e-7)

@@ -46,7 +46,7 @@ def test_everything_is_documented() -> None:
 
 
 def documented(module: ModuleType) -> list[tuple[str, Any]]:
-    """Lists what a module has, and the public methods of its classes."""
+    """Lists the public objects of a module, and the public methods of its classes."""
     found = []
     for name in getattr(module, "__all__", dir(module)):
         thing = getattr(module, name)
@@ -60,7 +60,7 @@ def documented(module: ModuleType) -> list[tuple[str, Any]]:
 
 
 def python_blocks(name: str) -> list[str]:
-    """Returns the Python code of a page, each block with empty lines before it, so that errors tell the page's lines."""
+    """Returns the Python blocks of a page, with leading empty lines, so that errors show the lines of the page."""
     text = (ROOT / name).read_text()
     starts = re.finditer(r"```python\n(.*?)```", text, re.DOTALL)
     return ["\n" * text[: block.start(1)].count("\n") + block[1] for block in starts]
@@ -84,7 +84,7 @@ def test_a_block_of_a_readme_runs_alone_and_prints_what_it_says(
 def test_all_figures_of_the_readme_are_compared() -> None:
     blocks = python_blocks("doors/python/README.md")
     assert len(blocks) >= 6
-    # What is printed is said beside it, and so is compared.
+    # Each print statement has its output in a comment beside it, which is compared.
     printing = [line for block in blocks for line in block.splitlines() if line.startswith("print(")]
     assert len(printing) >= 11
     assert [line for line in printing if "  # " not in line] == []
@@ -106,7 +106,7 @@ def run(code: str, name: str) -> dict[int, tuple[str, str]]:
 
 
 def same(expected: str, printed: str) -> bool:
-    """Returns whether a text is the expected one, of which "..." leaves something out; lines may be broken anywhere."""
+    """Returns whether a text equals the expected one. "..." stands for any text, and lines may be broken anywhere."""
     words = [" ".join(text.split()) for text in (expected, printed)]
     return re.fullmatch(re.escape(words[0]).replace(re.escape("..."), ".*"), words[1]) is not None
 

@@ -64,7 +64,7 @@ def test_engines_have_the_results_of_one_process(
     a, b, starts, results = (tmp_path / name for name in ("ball.ccd", "knot.ccd", "motions.parquet", "results"))
     BALL.save(a)
     knot(60).save(b)
-    # Groups without a contact, and without an answer: types of columns do not depend on values.
+    # Some groups have no contact or no answer, because types of columns must not depend on values.
     parquet.write_table(motions, starts, row_group_size=50)
     by(importlib.import_module(example), a, b, starts, results)
     expected: Any = sys.modules["pyarrow"].table(first_contacts(BALL, knot(60), motions, micros=False))
@@ -75,7 +75,7 @@ def test_engines_have_the_results_of_one_process(
 
 
 def table() -> Any:
-    """Returns fifty motions that miss, fifty invalid ones, and a hundred of which about half hit."""
+    """Returns fifty motions that miss, fifty invalid motions, and a hundred motions of which about half hit."""
     random = np.random.default_rng(1)
     columns = {
         "id": [f"shot {k:03}" for k in range(200)],

@@ -1,4 +1,4 @@
-"""FCL and trimesh, which know nothing of this package, judge the answers of examples/robot.py."""
+"""Compares the answers of examples/robot.py with FCL and trimesh, which are independent of this package."""
 
 import runpy
 import sys
@@ -24,7 +24,7 @@ EXAMPLE = Path(__file__).parents[1] / "examples/robot.py"
 
 
 class Judge:
-    """FCL's managers of the same triangles: the moving links, the obstacles, and each link with those it may meet."""
+    """FCL's managers of the same triangles: of moving links, of obstacles, and of the links that each link may meet."""
 
     def __init__(self, example: Any) -> None:
         self.robot = example.robot
@@ -143,7 +143,7 @@ def test_no_distance_on_the_turn_is_under_its_bound(example: Any, judge: Judge) 
     stretch = np.clip(np.searchsorted(example.angles, angles) - 1, 0, len(example.lower) - 1)
     distances = 1e3 * np.array([judge.distance([angle, *example.POSE]) for angle in angles])
     assert (distances >= example.lower[stretch] - 1e3 * ROUNDING).all()
-    # The least one is real.
+    # The smallest lower bound is attained, up to the tolerance.
     least = int(example.lower.argmin())
     near = np.linspace(example.angles[least], example.angles[least + 1], 100)
     nearest = 1e3 * min(judge.distance([angle, *example.POSE]) for angle in near)

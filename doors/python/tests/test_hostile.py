@@ -46,7 +46,7 @@ def test_a_damaged_pickle_as_a_whole() -> None:
         except Exception:
             told += 1
             continue
-        # Around the bytes of the table, pickle may make something else of its own; it never makes another table.
+        # A change outside of the table's bytes may make pickle return another object, but never another table.
         if isinstance(found, Table):
             assert columns(found) == columns(table), bit
     assert told > 0.9 * 8 * len(whole)

@@ -1,4 +1,4 @@
-"""Ctrl-C ends each call that may take long, with what is known by then; progress is told meanwhile."""
+"""Ctrl-C ends each call that may take long, with the results so far. Progress is reported during the call."""
 
 import functools
 import math
@@ -51,27 +51,27 @@ def knot(size: int) -> tuple[Any, Any]:
 
 
 KNOT = Body(*knot(600))
-# It makes a hundred thousand turns, and barely misses each time: minutes of work.
+# The knot makes a hundred thousand turns, and barely misses each time, which is minutes of work.
 MISSES = Motion([3.3, 0, 0], spin=[6e5, 6e5, 0])
 HARD: Any = {"tolerance": 1e-9, "budget": 2**60}
 
 
 def hard_cell() -> Cell:
-    """A knot that a hinge without limits turns beside another one."""
+    """A knot on a hinge without limits, beside another knot."""
     cell = Cell(Robot([Joint.revolute("hinge", "base", "knot", axis=[1, 1, 0])], {"knot": KNOT}))
     cell.add("other", KNOT, ([3.3, 0, 0], [1, 0, 0, 0]))
     return cell
 
 
 CELL = hard_cell()
-# The first edges are short; those that follow are many turns.
+# The first edges are short, and the others are many turns.
 ENDS = np.array([[1e-9]] * 40 + [[1e6]] * 40)
 STARTS = np.zeros_like(ENDS)
 LONG = [[0.0], [1e6]]
 
 
 def interrupted(call: Callable[[], Any], seconds: float = 0.5, most_work: float = math.inf) -> BaseException:
-    """Sends Ctrl-C to this process while it calls, and returns the exception; most_work is in seconds of all threads after it."""
+    """Sends Ctrl-C during a call, and returns the exception. `most_work` limits the CPU seconds after it."""
     sent = []
 
     def send() -> None:
@@ -84,7 +84,7 @@ def interrupted(call: Callable[[], Any], seconds: float = 0.5, most_work: float 
     timer.start()
     with pytest.raises(KeyboardInterrupt) as caught:
         call()
-        # A call that has ended before Ctrl-C was no long one.
+        # A call that ends before Ctrl-C does not take long enough for this test.
         pytest.fail("the call has ended")
     assert time.process_time() - sent[0] < most_work
     timer.join()
@@ -140,7 +140,7 @@ def test_edges_keep_what_is_answered(ask: Any) -> None:
 
 
 def test_ranges_are_those_found_by_then() -> None:
-    # A box slides on a table: at no point of the path it is decided whether it keeps a distance of 0.
+    # A box slides on a table, so it is undecided everywhere on the path whether the box keeps a distance of 0.
     slider = Joint.prismatic("slider", "table", "box", axis=[1, 0, 0])
     cell = Cell(Robot([slider], {"box": Body.box(0.1, 0.1, 0.1)}))
     cell.add("floor", Body.box(5, 5, 0.1), ([5.5, 0, -0.2], [1, 0, 0, 0]))
@@ -153,7 +153,7 @@ def test_ranges_are_those_found_by_then() -> None:
 
 def test_proofs_are_those_made_by_then() -> None:
     told: list[tuple[int, int | None]] = []
-    # Each of very many segments has a proof of its own.
+    # Each segment has a proof of its own, and there are very many segments.
     path = np.linspace(0, 0.1, 500_000)[:, None]
     error = interrupted(lambda: CELL.prove(path, progress=lambda *now: told.append(now)), 1)
     assert isinstance(error, Interrupted) and isinstance(error.results, list)
@@ -191,7 +191,7 @@ def write_obj(path: Path, vertices: Any, faces: Any) -> None:
 
 
 def test_what_reads_and_makes_meshes(tmp_path: Path) -> None:
-    # The work goes on after Ctrl-C, and what comes next waits for the cores: this takes some seconds.
+    # The work continues after Ctrl-C, so later calls wait some seconds for the cores.
     vertices, faces = knot(1000)
     calls: list[Callable[[], Any]] = [lambda: Body(vertices, faces, pieces="patches")]
     write_obj(tmp_path / "knot.obj", vertices, faces)

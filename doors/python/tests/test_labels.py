@@ -1,4 +1,4 @@
-"""Labels of data frames and other containers are those of the joints, or the values are refused: NumPy drops them."""
+"""Labels of data frames and other containers must be names of the joints, because NumPy drops them."""
 
 from collections import UserList, deque, namedtuple
 from collections.abc import Callable
@@ -18,7 +18,8 @@ xarray: Any = pytest.importorskip("xarray")
 Rows = list[list[float]]
 JOINTS = ["x", "y"]
 
-# What is read as configurations, as in `READS`; square where it may be, so that rows are easily taken for columns.
+# All arguments that are configurations, as in `READS`. Arrays are square if possible, so that rows could be mistaken
+# for columns.
 KINDS = ["path", "configuration", "ranges", "proofs", "edges from", "edges to", "paths", "place", "start", "end", "coefficients"]
 
 
@@ -47,7 +48,7 @@ def of_objects(values: list[Any]) -> Any:
     return made
 
 
-# Containers with names for columns. Each stands for the rows of a table, and its first element for a row.
+# Containers with names of columns. Each holds the rows of a table, and its first element is a row.
 LABELLED: dict[str, Callable[[Rows, list[Any]], Any]] = {
     "frame": frame,
     "frame with names of rows": lambda rows, names: frame(rows, names).set_axis([f"stop {k}" for k in range(len(rows))]),
@@ -64,7 +65,7 @@ LABELLED: dict[str, Callable[[Rows, list[Any]], Any]] = {
     "rows of xarray": lambda rows, names: list(data_array(rows, names)),
     "numbers of xarray": lambda rows, names: [[number for number in row] for row in data_array(rows, names)],
 }
-# Those that never stand for configurations, even with the right names.
+# Containers that are never configurations, even with the right names.
 NO_ARRAYS: dict[str, Callable[[Rows, list[Any]], Any]] = {
     "structured": structured,
     "records": lambda rows, names: list(structured(rows, names)),
@@ -89,7 +90,7 @@ def shortened(kind: str) -> Any:
 
 
 def labelled(make: Callable[[Rows, list[Any]], Any], values: Any, names: list[Any], order: list[int]) -> Any:
-    """Returns values of so many dimensions in a container, whose columns are in another order."""
+    """Returns a container of values of the given number of dimensions, with columns in another order."""
     plain = np.array(values, float)[..., order]
     if plain.ndim == 1:
         made = make([plain.tolist()], names)

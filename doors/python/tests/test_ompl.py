@@ -18,7 +18,7 @@ def cell(tmp_path: Path) -> Cell:
     file = tmp_path / "arm.urdf"
     file.write_text(URDF)
     cell = Cell(Robot.from_urdf(file))
-    # A sheet of 1 mm, which steps of a hundredth of the space jump over.
+    # A sheet of 1 mm. Sampling at steps of a hundredth of the space misses it.
     sheet: Any = ([0, 1.5, 0], [1, 0, 0, 0])
     cell.add("sheet", Body.box(0.0005, 0.3, 0.3), sheet)
     return cell
@@ -70,7 +70,7 @@ def test_held_joints_keep_their_position(cell: Cell) -> None:
     # With the elbow bent the ball is too short to meet the sheet.
     path = plan(cell, certified=True, held={"elbow": 2.9})
     assert [np.shape(state) for state in path] == [(1,)] * len(path) and len(path) > 1
-    # With the elbow straight there is no way past it.
+    # With the elbow straight no path leads past the sheet.
     assert plan(cell, certified=True, held={"elbow": 0.0}) == [] or not cell.is_free([[0.5, 0], [2.6, 0]])
     with pytest.raises(ValueError, match="no joint wrist"):
         plan(cell, certified=True, held={"wrist": 0.0})

@@ -1,4 +1,4 @@
-"""Machine-checkable proofs: they hold, forged ones do not, and what cannot be proven is said."""
+"""Machine-checkable proofs: they hold, forged proofs do not, and unprovable answers raise exceptions."""
 
 import pickle
 from pathlib import Path
@@ -54,7 +54,7 @@ def test_proofs_of_contacts_and_of_free_motions_hold() -> None:
     assert hit is not None and f"until {hit.time}" in str(proof)
     away = proof_of(cube, Motion([-3, 0, 0], velocity=[-1, 0, 0]))
     assert away.check() == "holds" and "until 1" in str(away)
-    # At rest, in a gap of 1.9.
+    # Static bodies with a gap of 1.9.
     kept = proof_of(cube, Motion([-3, 0, 0]), margin=1.875)
     assert kept.check() == "holds"
 
@@ -123,7 +123,7 @@ def test_a_proof_says_whether_it_ends_in_a_contact(cell: Cell) -> None:
 
 
 def test_a_list_of_proofs_is_an_answer(cell: Cell) -> None:
-    """All proofs say "free" exactly if the path is free, and without proofs there is an exception."""
+    """All proofs state "free" exactly if the path is free. If a proof is missing, there is an exception."""
     random = np.random.default_rng(7)
     seen = set()
     for _ in range(40):

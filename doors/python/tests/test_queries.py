@@ -52,7 +52,7 @@ def test_a_slow_ball_stays_apart() -> None:
 
 
 def test_bounds_hold_for_the_cylinders_that_bodies_exceed() -> None:
-    # Their sides are 0.1 apart; corners of the polytopes about them face each other.
+    # The sides are 0.1 apart, and corners of the enclosing polytopes face each other.
     wheel = Body.cylinder(1, 1, 0.01)
     half = math.pi / 48
     turned = [math.cos(half), 0, 0, math.sin(half)]

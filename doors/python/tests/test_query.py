@@ -1,4 +1,4 @@
-"""Questions that are sent to other processes."""
+"""Questions that are pickled and answered in other processes."""
 
 import multiprocessing
 import os
@@ -104,7 +104,7 @@ def test_parts_of_a_pandas_frame_fit_together() -> None:
     found = query(frame)
     assert found["id"].tolist() == frame["id"].tolist()
     assert found["status"].tolist() == ["free", "contact", "error", "contact", "error", "free"]
-    # No contact, contacts alone, errors alone: rows that are not next to each other.
+    # Groups of rows that are not consecutive: without contacts, with contacts only, with errors only.
     for rows in ([0, 5], [1, 3], [2, 4], []):
         part = query(frame.loc[rows])
         pandas.testing.assert_frame_equal(part, found.loc[rows])

@@ -96,7 +96,7 @@ def test_what_is_usual_is_not() -> None:
         arm().motion("upper", [0, 0], [2 * math.pi, 90])
         Path([0, 1], np.tile(np.eye(4), (2, 1, 1)))
         Body(CORNERS, FACES)
-        # What is flat has no inside, and what is meant as a surface none that is missed.
+        # Flat meshes and declared surfaces give no warning, because they have no inside.
         Body(CORNERS, FACES[:1])
         Body(CORNERS, FACES[1:], surface=True)
         Body(CORNERS, FACES[1:], pieces="outer-hull")
@@ -136,7 +136,7 @@ MJCF = """<mujoco model="arm"><worldbody><geom type="plane" size="1 1 1"/><body 
 
 
 def told(act: Callable[[], object]) -> list[str]:
-    """Returns the texts of all warnings, which are about the lines of this file."""
+    """Returns the texts of all warnings, and checks that they refer to lines of this file."""
     with warnings.catch_warnings(record=True) as all_of_them:
         warnings.simplefilter("always")
         act()
@@ -153,7 +153,7 @@ def table(unit: float) -> Body:
 
 
 def two_links(size: float = 0.4, **limits: Any) -> Robot:
-    """Returns an arm whose links are of a size and twice as far apart."""
+    """Returns an arm with links of a given size, at twice that distance from each other."""
     at = ([0, 0, 2 * size], [1, 0, 0, 0])
     rod = Body.box(0.1 * size, 0.1 * size, size)
     joints = [Joint.revolute("hinge", "base", "upper", at, [0, 1, 0], **limits), Joint.revolute("elbow", "upper", "fore", at, [0, 1, 0])]
@@ -169,13 +169,13 @@ def test_a_mesh_in_millimetres_is_warned_of() -> None:
     assert cell.remarks[:2] == [held, text]
     for part in ("sizes: robot 2.4, tool 1200, table 1200", text):
         assert part in repr(cell)
-    # Copies have the remarks, and do not warn again of what is in them.
+    # Copies have the remarks, and do not repeat the warnings.
     assert told(lambda: copy.copy(cell)) == []
-    # In metres all is well.
+    # In metres there is no warning.
     cell.remove("table")
     cell.detach("tool")
     assert told(lambda: cell.add("table", table(1), far)) == []
-    # A warning that is an error leaves the cell as it was.
+    # A warning raised as an error leaves the cell unchanged.
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         with pytest.raises(UserWarning, match="dust is 0.0002"):
@@ -249,7 +249,7 @@ def test_files_with_mistakes_are_warned_of_once(tmp_path: pathlib.Path) -> None:
 
 
 def usual_cells(tmp_path: pathlib.Path) -> dict[str, Callable[[], object]]:
-    """Returns what makes cells of usual kinds, and asks them."""
+    """Returns functions that make cells of usual kinds and ask questions about them."""
     slide = Joint.prismatic("x", "rail", "cart", axis=[1, 0, 0])
     ball, far = Body.sphere(0.1), ([4, 0, 0.5], [1, 0, 0, 0])
 

@@ -24,7 +24,8 @@ def test_a_model_of_mujoco_is_a_robot(tmp_path: Path) -> None:
     robot = Robot.from_mjcf(write_finger(tmp_path))
     assert robot.joint_names == ["hinge"] and robot.checked_pairs == [("world", "finger")]
     np.testing.assert_array_equal(robot.limits, [[-1, 1]])
-    # At its reference the body has its pose; else it turns about the anchor, 0.6 above the world.
+    # At the reference position the body has its own pose. At others it is rotated about the anchor, 0.6 above the
+    # world.
     np.testing.assert_allclose(robot.pose("finger", [0.2])[:3, 3], [0, 0, 0.5], atol=1e-15)
     turned = [-0.1 * np.sin(0.5), 0, 0.6 - 0.1 * np.cos(0.5)]
     np.testing.assert_allclose(robot.pose("finger", [0.7])[:3, 3], turned, atol=1e-15)

@@ -152,7 +152,7 @@ def test_nothing_crashes_and_no_memory_is_kept() -> None:
     gc.collect()
     after = resident()
     assert [sys.getrefcount(thing) for thing in (BALL, WALL, CORNERS, FACES, ODD)] == references
-    # A leak of ten bytes for each call would show among a million; few calls are lost in the allocator's noise.
+    # A million calls show a leak of ten bytes for each call. With few calls it would be lost in the allocator's noise.
     grown = after - before
     print(f"{CALLS} calls: {before / 1e6:.1f} MB before, {grown / 1e6:+.1f} MB after")
     assert grown < 8e6, f"{grown} bytes more after {CALLS} calls"

@@ -42,7 +42,7 @@ COLUMNS = (
 
 
 def shots(rows: int) -> dict[str, NDArray[Any]]:
-    """Returns motions of balls from all sides, of which about half hit."""
+    """Returns motions of balls from all sides. About half of them hit."""
     random = np.random.default_rng(1)
     return {
         "id": np.array([f"shot {k}" for k in range(rows)]),
@@ -300,7 +300,7 @@ def test_ids_come_back_as_they_are() -> None:
         table = pyarrow.table(found)
         assert table.schema.field("id").type == ids.type
         assert table["id"].to_pylist() == ids.to_pylist() == [plain(id) for id in found["id"]]
-    # The dictionaries of parts may be too large for one.
+    # The dictionaries of parts together may be too large for one dictionary.
     names = [f"n{k}" for k in range(300)]
     parts = [pyarrow.array(names[k : k + 50]).cast(pyarrow.dictionary(pyarrow.int8(), pyarrow.string())) for k in range(0, 300, 50)]
     chunks = pyarrow.concat_tables([pyarrow.table({"id": part, "a_px": np.full(50, -3.0)}) for part in parts])
@@ -327,7 +327,7 @@ def test_numbers_that_float64_cannot_hold_are_bad_rows() -> None:
     ):
         found = first_contacts(BALL, WALL, motions)
         assert found["status"].tolist() == ["error"] and "1152921504606847105" in found["reason"][0]
-    # Powers of two are exact, and times since the first are small.
+    # Powers of two are exact, and times since the first one are small.
     assert first_contacts(BALL, WALL, {"t": [2**60, 2**61], "a_px": [0.0, 0]})["status"].tolist() == ["overlapping"]
 
 
@@ -655,7 +655,7 @@ def test_ctrl_c_ends_an_endless_stream(column: str) -> None:
 
 
 def test_ctrl_c_ends_a_question_about_a_path() -> None:
-    # A box slides on a table: at no point of the path it is decided whether it keeps a distance of 0.
+    # A box slides on a table, so it is undecided everywhere on the path whether the box keeps a distance of 0.
     slider = Joint.prismatic("slider", "table", "box", axis=[1, 0, 0])
     cell = Cell(Robot([slider], {"box": Body.box(0.1, 0.1, 0.1)}))
     cell.add("floor", Body.box(5, 5, 0.1), ([0, 0, -0.2], [1, 0, 0, 0]))

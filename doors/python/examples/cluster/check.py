@@ -4,9 +4,9 @@
     python check.py dask 100000 --kill
     python check.py spark 100000 --kill
 
-A table of random motions is answered in one process, and by the example of the engine on as many cores. Times are of both
-in turn, with reading and writing, without the start of the cluster. With --kill, `kill -9` ends a node of Ray, a worker of
-Dask, or an executor of Spark, when a third of the rows is answered.
+Answers a table of random motions alternately in one process and by the example of the engine, on as many cores. Times
+include reading and writing, but not the start of the cluster. With --kill, `kill -9` ends a node of Ray, a worker of
+Dask, or an executor of Spark when a third of the rows is answered.
 """
 
 import argparse

@@ -17,10 +17,10 @@ from rigid_ccd import TableQuery
 
 
 def answer(a: Path, b: Path, motions: Path, results: Path) -> None:
-    """Answers a folder or file of Parquet into a new folder. All machines see the same paths."""
+    """Answers a file or folder of Parquet, and writes a new folder. All machines must share the paths."""
     results.mkdir(parents=True)  # Dask would mix the files with those of a former run
     frame = dask.dataframe.read_parquet(motions.resolve(), dtype_backend="pyarrow", split_row_groups=True)
-    # A row group may have a million rows. A thread takes a partition at a time.
+    # A row group may have a million rows, and a thread answers one partition at a time.
     parts = 8 * sum(get_client().nthreads().values())
     if frame.npartitions < parts:
         frame = frame.repartition(npartitions=parts)

@@ -16,7 +16,7 @@ from rigid_ccd import TableQuery
 
 
 def answer(a: Path, b: Path, motions: Path, results: Path, *, actors: int | None = None) -> None:
-    """Answers a folder or file of Parquet into a new folder. All machines see the same paths."""
+    """Answers a file or folder of Parquet, and writes a new folder. All machines must share the paths."""
     table = ray.data.read_parquet(str(motions.resolve()))
     # By default Ray makes blocks of a hundred megabytes: a million rows for one task.
     table = table.repartition(target_num_rows_per_block=10_000)
@@ -31,7 +31,7 @@ def by_tasks(table: Dataset, a: Path, b: Path) -> Dataset:
 
 
 def by_actors(table: Dataset, a: Path, b: Path, actors: int) -> Dataset:
-    """Uses one processor for each actor, and needs one more: with fewer it waits forever."""
+    """Uses one processor for each actor, and one more for other tasks. With fewer it waits forever."""
     return table.map_batches(
         TableQuery,
         fn_constructor_args=(a.resolve(), b.resolve()),

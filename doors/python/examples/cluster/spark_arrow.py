@@ -25,9 +25,10 @@ def session(master: str) -> SparkSession:
 
 
 def answer(spark: SparkSession, a: Path, b: Path, motions: Path, results: Path) -> None:
-    """Answers a folder or file of Parquet into a new folder. All machines see the same paths."""
+    """Answers a file or folder of Parquet, and writes a new folder. All machines must share the paths."""
     table = spark.read.parquet(str(motions.resolve()))
-    # A partition of Spark has a hundred megabytes: a million rows. A core takes a partition at a time.
+    # By default a partition of Spark has a hundred megabytes, which is a million rows. A core answers one partition at
+    # a time.
     table = table.repartition(8 * spark.sparkContext.defaultParallelism, "id")
     query = TableQuery(a.resolve(), b.resolve())
     schema = from_arrow_schema(query.schema(to_arrow_schema(table.schema)))
