@@ -4,7 +4,7 @@ import { classes } from "./wasm.js";
 
 /** The names of the kinds of answers. Indices are values of `AnswerKind` in `doors/js/src/wasm/answer.rs`. */
 export const KINDS = ["free", "contact", "touching", "overlapping", "interval", "leastDistance", "unresolved"];
-/** Indices in the array of numbers of an answer, and in that of a contact. `doors/js/src/wasm/answer.rs` writes both arrays. */
+/** Indices in the numbers of an answer, and in the numbers of a contact. `doors/js/src/wasm/answer.rs` writes both. */
 const CONTACTS = 7;
 const CONTACT_LENGTH = 21;
 const POINT_ONLY = 1;

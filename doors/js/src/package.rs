@@ -130,8 +130,8 @@ fn engine(subfolder: &Path, flags: &str) -> Result<String> {
     Ok(format!("{loader}const CODE = \"{code}\";\n"))
 }
 
-/// Returns a part without its imports and exports, as it stands in one file with the parts that it imports. Only the
-/// list of exports of the last part remains.
+/// Returns a part as it is joined with the other parts in one file: without imports, and without exports except for the
+/// list of the last part.
 fn without_links(part: &str) -> String {
     let lines = part.lines().filter(|line| !line.starts_with("import "));
     let local = |line: &str| line.strip_prefix("export ").map(str::to_owned);

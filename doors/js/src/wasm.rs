@@ -3,7 +3,7 @@
 //! Those modules check arguments, and convert answers to plain objects. Numbers are passed through the memory of
 //! [`Solver`], because passing an object or an array takes longer than a short query.
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
 //! | `body` | bodies from shapes, arrays and files |
 //! | `movement`, `poses` | movements of bodies: constant velocities, poses, a throw, the link of a robot |

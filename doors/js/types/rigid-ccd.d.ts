@@ -145,7 +145,7 @@ export function readMesh(
   options?: FileOptions,
 ): { positions: Float64Array; indices: Uint32Array; unit: FileOptions["unit"] | null };
 
-// --- What moves a body
+// --- Movements of bodies
 
 /** A motion at constant velocities: a pose at time 0, the velocity of a center, and an angular velocity about it. Defaults are 0. */
 export interface MotionNumbers extends GivenPose {
@@ -229,7 +229,7 @@ export interface Moving extends Movements {
   duration?: number;
 }
 
-/** A vertex, an edge, a face or a piece of a body. Indices are those of its mesh, from 0. */
+/** A vertex, an edge, a face or a piece of a body. Indices refer to its mesh, from 0. */
 export type Feature = `v${number}` | `e${number}-${number}` | `f${number}` | `p${number}`;
 
 /** The bodies stay apart. */

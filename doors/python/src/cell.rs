@@ -196,7 +196,7 @@ impl PyCell {
     /// body is inside another one. Curves have no proofs.
     ///
     /// Args:
-    ///     path: configurations. A single one is a robot at rest.
+    ///     path: configurations. A path of one configuration is a static robot.
     ///     progress: a function, called with the number of segments proven and the number of all segments; a bar of
     ///         tqdm; or True for a new bar.
     ///

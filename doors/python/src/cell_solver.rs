@@ -113,7 +113,7 @@ fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
 /// The number of paths that a thread answers in one task.
 const PATHS_PER_TASK: usize = 32;
 
-/// Paths of equally many configurations, one after another.
+/// Paths with equal numbers of configurations, one after another.
 #[derive(Clone, Copy)]
 pub(crate) struct Paths<'a> {
     pub(crate) positions: &'a [f64],

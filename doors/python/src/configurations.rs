@@ -7,8 +7,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList, PyString, PyTuple};
 use rigid_ccd_robot::Robot;
 
-/// Reads configurations of a robot from anything that NumPy can convert to an array of numbers. The last index is that
-/// of the joint.
+/// Reads configurations of a robot from anything that NumPy can convert to an array of numbers. The last index is the
+/// index of the joint.
 ///
 /// NumPy drops labels, so this function checks them. Labels of the last index, at any depth of nested lists, must be
 /// the names of the joints in their order, or default numbers. If they are not names, other indices must not have names
@@ -198,7 +198,7 @@ fn refusal(labels: &[Bound<'_, PyAny>], robot: &Robot, what: &str) -> PyErr {
     ))
 }
 
-/// Returns an attribute that is neither a method nor None.
+/// Returns an attribute. Returns `None` if it is missing, a method or None.
 fn attribute<'py>(of: &Bound<'py, PyAny>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
     let found = of.getattr_opt(name)?;
     Ok(found.filter(|found| !found.is_none() && !found.is_callable()))

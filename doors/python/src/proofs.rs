@@ -138,7 +138,7 @@ pub(crate) fn prove_path<'py>(
     };
     let mut path = path.configurations();
     if let [only] = path[..] {
-        // A single configuration is a robot at rest.
+        // A path of one configuration is a static robot.
         path.push(only);
     }
     let progress = GivenProgress {

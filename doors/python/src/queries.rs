@@ -109,7 +109,7 @@ impl PairQuestion<'_> {
 }
 
 impl PairQuestion<'_> {
-    /// Makes the exception of the interrupted question, which has what was known by then.
+    /// Makes the exception for an interrupted question, with the bounds known so far.
     fn interruption(
         &self,
         py: Python<'_>,

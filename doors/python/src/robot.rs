@@ -114,11 +114,11 @@ impl PyRobot {
 
     /// Reads a robot from an MJCF file of MuJoCo and the mesh files that it names.
     ///
-    /// Bodies of MuJoCo become links, and the world becomes the link "world". The pairs of links that are checked are
-    /// those of MuJoCo. A joint follows another one if an element ``equality`` makes its position a linear function of
-    /// the other's; other constraints leave joints independent. Ranges of ball joints and margins are left out. The
-    /// positions of a free joint are those of its body in the world. A shape that is fitted to a mesh, a plane on a
-    /// body that moves, and an element that is not known are errors.
+    /// Bodies of MuJoCo become links, and the world becomes the link "world". Checked pairs of links are the same as in
+    /// MuJoCo. If an element ``equality`` makes the position of a joint a linear function of another joint's, the joint
+    /// follows the other one. Joints with other constraints stay independent. Ranges of ball joints and margins are
+    /// ignored. The positions of a free joint are the pose of its body in the world. Shapes fitted to a mesh, planes on
+    /// moving bodies, and unknown elements are errors.
     ///
     /// Args:
     ///     path: the MJCF file.
@@ -145,7 +145,7 @@ impl PyRobot {
         PyRobot::read(class.py(), file, srdf, constructor_call)
     }
 
-    /// Reads a robot from the text of a URDF file, such as what xacro prints.
+    /// Reads a robot from the text of a URDF file, such as the output of xacro.
     ///
     /// Args:
     ///     text: the text.
@@ -332,11 +332,12 @@ impl PyRobot {
     ///     link: the name of the link.
     ///     start, end: configurations.
     ///     duration: the time from `start` to `end`.
-    ///     seen_from: the link in whose frame the motion is; None for the base. Query the motion against that link's
-    ///         body as a static body. Witness points and normals are in that frame too.
+    ///     seen_from: the link that is the reference frame of the motion; None for the base. Query the motion against
+    ///         that link's body as a static body. Witness points and normals are in that frame too.
     ///
     /// Raises:
-    ///     InputError: a position exceeds its joint's limits, or the number of positions is not that of joints.
+    ///     InputError: a position exceeds its joint's limits, or the number of positions differs from the number of
+    ///         joints.
     #[pyo3(signature = (link, start, end, duration = 1.0, seen_from = None))]
     fn motion(
         slf: &Bound<'_, Self>,

@@ -125,7 +125,7 @@ typedef uint32_t rccd_feature_kind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// How a body is made of triangles in arrays.
+// The way in which triangles in arrays are represented by convex pieces.
 enum rccd_detail
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -588,10 +588,10 @@ rccd_status rccd_cell_allow_contact(struct rccd_cell *cell,
 // As for `rccd_cell_allow_contact`.
 rccd_status rccd_cell_forbid_contact(struct rccd_cell *cell, const char *a, const char *b);
 
-// Stores a summary of what is checked in the cell, as lines of text: counts, then all remarks. A line that begins with
-// `warning: ` reports a probable mistake, such as a size in another unit or the SRDF of another robot, or that most of
-// the robot is not checked. The other lines tell what is not checked, and why. The text is valid until the next such
-// call for the cell, or until the cell is freed.
+// Stores a summary of the checked pairs of the cell, as lines of text: counts, then all remarks. A line that begins
+// with `warning: ` reports a probable mistake, such as a size in another unit or the SRDF of another robot, or that
+// most of the robot is not checked. The other lines list pairs and links that are not checked, with reasons. The text
+// is valid until the next such call for the cell, or until the cell is freed.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `out` is null or points to memory for a text.

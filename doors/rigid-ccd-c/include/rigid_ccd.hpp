@@ -38,7 +38,7 @@ inline namespace RIGID_CCD_FAILURES {
 // A failed call. A query that reaches a limit does not fail: its outcome is unresolved.
 class Error : public std::runtime_error {
 public:
-    // Takes the message of this thread's last failed call.
+    // Makes the error with the message of this thread's last failed call.
     explicit Error(rccd_status status) : Error(status, rccd_last_error()) {}
     Error(rccd_status status, const std::string &message) : std::runtime_error(message), status_(status) {}
     rccd_status status() const noexcept { return status_; }
@@ -120,8 +120,8 @@ inline Error wrong_count(const std::string &what, std::size_t needed, std::size_
 inline bool has_zero(const std::string &text) { return text.find('\0') != std::string::npos; }
 inline const char *c_text(const std::string &text) { return has_zero(text) ? nullptr : text.c_str(); }
 
-// Whether the values of a container are contiguous in memory and in one dimension. Types of Eigen tell this: matrices
-// have two dimensions, and a row of a matrix may have a stride.
+// Whether a container is a contiguous array of one dimension. Checks types of Eigen: a matrix has two dimensions, and a
+// row of a matrix may have a stride.
 template <typename Container, typename = void>
 struct InOneRow : std::true_type {};
 template <typename Container>
@@ -187,7 +187,7 @@ inline Result<Motion> between(const Pose &start, const Pose &end, double duratio
 }
 
 #ifdef RIGID_CCD_HAS_EIGEN
-// Converts a pose of Eigen. Fails if its linear part scales or mirrors: each entry must be accurate to a millionth.
+// Converts a pose of Eigen. Fails if its linear part is not a rotation, to within a millionth in each entry.
 inline Result<Pose> to_pose(const Eigen::Isometry3d &pose) {
     const Eigen::Matrix3d linear = pose.linear();
     const Eigen::Matrix3d skew = linear.transpose() * linear - Eigen::Matrix3d::Identity();

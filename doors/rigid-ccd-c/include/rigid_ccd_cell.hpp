@@ -36,7 +36,7 @@ struct Joint {
 class Cell {
 public:
     // Loads the robot of a URDF or MJCF file, with its meshes. `package_folder` is the folder searched first for
-    // `package://` names. Empty texts stand for no SRDF file and no folder.
+    // `package://` names. Pass empty texts if there is no SRDF file or no folder.
     static Result<Cell> load(const std::string &robot, const std::string &srdf = "",
                              const std::string &package_folder = "") {
         if (detail::has_zero(srdf) || detail::has_zero(package_folder)) return zero_in_path();
@@ -170,14 +170,14 @@ private:
     }
 };
 
-// The certified free part of an edge, with the names of Drake's EdgeMeasure.
+// The certified free part of an edge. Names of functions are those of Drake's EdgeMeasure.
 class EdgeMeasure {
 public:
     explicit EdgeMeasure(double alpha) : alpha_(alpha) {}
     bool completely_free() const noexcept { return alpha_ >= 1; }
     // Returns whether some initial part of the edge is certainly free.
     bool partially_free() const noexcept { return alpha_ > 0; }
-    // Returns the share of the edge, from its start, that is certainly free. Returns 0 if no part of it is.
+    // Returns the share of the edge, from its start, that is certainly free. Returns 0 if no part is certainly free.
     double alpha() const noexcept { return alpha_; }
 
 private:

@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// A body: a rigid shape. Many queries and threads may share it.
 pub struct RccdBody(pub(crate) Arc<Body>);
 
-/// How a body is made of triangles in arrays.
+/// The way in which triangles in arrays are represented by convex pieces.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RccdDetail {

@@ -320,10 +320,10 @@ pub unsafe extern "C" fn rccd_cell_forbid_contact(
     unsafe { change_pair(cell, a, b, Cell::forbid_contact) }
 }
 
-/// Stores a summary of what is checked in the cell, as lines of text: counts, then all remarks. A line that begins with
-/// `warning: ` reports a probable mistake, such as a size in another unit or the SRDF of another robot, or that most of
-/// the robot is not checked. The other lines tell what is not checked, and why. The text is valid until the next such
-/// call for the cell, or until the cell is freed.
+/// Stores a summary of the checked pairs of the cell, as lines of text: counts, then all remarks. A line that begins
+/// with `warning: ` reports a probable mistake, such as a size in another unit or the SRDF of another robot, or that
+/// most of the robot is not checked. The other lines list pairs and links that are not checked, with reasons. The text
+/// is valid until the next such call for the cell, or until the cell is freed.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `out` is null or points to memory for a text.

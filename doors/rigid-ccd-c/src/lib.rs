@@ -2,8 +2,8 @@
 //!
 //! | to … | file |
 //! |---|---|
-//! | see whether a call has worked, and why not | `status.rs` |
-//! | follow the pointers that C passes | `arguments.rs`, `growing.rs` |
+//! | check whether a call has failed, and why | `status.rs` |
+//! | dereference the pointers that C passes | `arguments.rs`, `growing.rs` |
 //! | make bodies, from shapes, arrays and files | `body.rs` |
 //! | move them at constant velocities | `motion.rs` |
 //! | move them along trajectories | `trajectory.rs` |
@@ -13,7 +13,7 @@
 //! | read answers | `answer.rs`, `feature.rs` |
 //! | put a robot among obstacles | `cell.rs` |
 //! | ask about its paths | `cell_solver.rs`, `path.rs`, `joint_curve.rs`, `path_answer.rs` |
-//! | record an answer, to be asked again later | `evidence.rs` |
+//! | record an answer, for a later check | `evidence.rs` |
 //!
 //! # Contract of all functions
 //! A function never panics into C and never calls back. It keeps no pointer to its arguments after it returns. Each

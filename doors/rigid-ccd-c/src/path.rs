@@ -53,8 +53,8 @@ impl RccdPath {
     /// Dereferences the pointers of a path. The robot has `joint_count` free joints.
     ///
     /// # Safety
-    /// `path` is null or points to a path. Each of its pointers is null or points to as many values as the path says,
-    /// which nobody changes during the call.
+    /// `path` is null or points to a path. Each of its pointers is null or points to valid values, which nobody changes
+    /// during the call.
     unsafe fn follow<'a>(
         path: *const RccdPath,
         joint_count: usize,

@@ -3,7 +3,7 @@
 import { Plane, Raycaster, Vector2, Vector3 } from "three";
 import { camera } from "./stage.js";
 
-// In metres: the largest distance by which a pointer may miss a part that it takes, and the step of an arrow key.
+// The largest distance from the pointer to a part that it grabs, and the step of an arrow key, both in metres.
 const [NEAR, STEP] = [0.05, 0.02];
 // The velocity is measured over the last `RECENT` milliseconds. There is none if the pointer was held for less than
 // `SHORTEST` milliseconds, or is slower than `SLOWEST` metres per second.

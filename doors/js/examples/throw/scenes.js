@@ -42,7 +42,7 @@ function knot() {
   return mesh(mergeVertices(geometry));
 }
 
-/** A plate across x with a slot along z. */
+/** Makes a plate across x with a slot along z. */
 function slottedPlate() {
   const plate = new Shape(rectangle(0.8, 0.9));
   plate.holes.push(new Path(rectangle(0.12, 0.72)));

@@ -37,7 +37,7 @@ export class Stage {
     }).observe(canvas);
   }
 
-  /** Draws all but the pose of the part. `ghosts` are poses; a contact has witness points, and a normal. */
+  /** Draws everything except the pose of the part. `ghosts` are poses; a contact has witness points, and a normal. */
   draw({ thrown, target }, { ghosts, contact, wrong }) {
     this.part.geometry = this.ghosts.geometry = thrown.geometry;
     this.target.geometry = target.geometry;

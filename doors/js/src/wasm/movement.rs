@@ -77,7 +77,7 @@ impl Movement {
     /// `None`.
     ///
     /// # Errors
-    /// An invalid pose, by its index; times that do not increase; wrong angular velocities.
+    /// An invalid pose (the error names its index), times that do not increase, or wrong angular velocities.
     pub fn through_poses(
         times: &[f64],
         poses: &[f64],

@@ -23,7 +23,7 @@ pub(crate) struct Batch {
     /// The column `id` with the caller's values.
     id_column: Option<ArrayRef>,
     id_reading: IdReading,
-    /// The other columns as numbers; `None` in the place of `id`.
+    /// All columns as numbers, with `None` for the column `id`.
     columns: Vec<Option<NumberColumn>>,
 }
 
