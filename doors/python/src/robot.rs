@@ -230,7 +230,7 @@ impl PyRobot {
         let given: Vec<(String, Py<PyRobot>)> = given.collect::<PyResult<_>>()?;
         let names: Vec<String> = given.iter().map(|(name, _)| name.clone()).collect();
         let robot_bases = RobotBase::read_all(&names, poses, bases, carriers)?;
-        // Keeps the values that were read for pickle, because the caller may change the arguments.
+        // For pickle, keeps the values that were read, because the caller may change the arguments.
         let read = [(); 4].map(|()| PyDict::new(py));
         let mut placed = Vec::new();
         for ((name, robot), base) in given.iter().zip(&robot_bases) {

@@ -22,7 +22,7 @@ def cell() -> Cell:
 
 
 def first_time(spline: Any, start: float, end: float) -> float:
-    """Returns when the ball first touches the post, from samples."""
+    """Returns the time at which the ball first touches the post, by sampling."""
     times = np.linspace(start, end, 400_001)
     apart = np.linalg.norm(spline(times) - [2.5, 1.75], axis=1) - 0.5
     return float(times[np.argmax(apart <= 0)])

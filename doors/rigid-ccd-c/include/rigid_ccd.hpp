@@ -78,7 +78,7 @@ template <typename T>
 using Result = T;
 #endif
 
-// The value of a function that can fail and otherwise returns nothing.
+// An empty value, for functions that can fail but have no result.
 struct Done {};
 
 namespace detail {

@@ -187,7 +187,7 @@ impl Call<'_, '_> {
         self.pointers.pop_front().unwrap().cast()
     }
 
-    /// Draws the pointers to arrays that share counts.
+    /// Draws pointers to several arrays with the same counts.
     pub(super) fn arrays<const COUNT: usize>(
         &mut self,
         arrays: Vec<Vec<f64>>,
