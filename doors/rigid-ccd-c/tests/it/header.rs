@@ -53,7 +53,7 @@ fn no_handle_is_lost() {
 
 #[test]
 fn robots_in_cpp_answer() {
-    let arm = folder().join("../rigid-ccd-robot/examples/edges/arm.urdf");
+    let arm = folder().join("../../rigid-ccd-robot/examples/edges/arm.urdf");
     let arguments = [arm.to_str().unwrap(), "link7"];
     let printed = build_and_run(
         "c++",
@@ -84,7 +84,7 @@ fn the_robot_of_the_documentation_prints_what_is_shown() {
 
 #[test]
 fn threads_in_cpp_share() {
-    let arm = folder().join("../rigid-ccd-robot/examples/edges/arm.urdf");
+    let arm = folder().join("../../rigid-ccd-robot/examples/edges/arm.urdf");
     let arguments = [arm.to_str().unwrap()];
     let program = "tests/programs/threads.cpp";
     let printed = build_and_run("c++", &["-std=c++17"], program, &arguments);
