@@ -1,4 +1,4 @@
-// Compares the package with native answers to the same queries: times of queries, the time to load, sizes.
+// Compares the package with native answers to the same queries: times of queries, loading time, sizes.
 //
 //   cargo run --release -p rigid-ccd-js -- target/js
 //   taskset -c 1 cargo run --release -p rigid-ccd-js --example native-queries >target/queries.json
@@ -36,7 +36,7 @@ async function main() {
 async function page(module, queries) {
   const compared = await readFile(new URL("compare.mjs", import.meta.url), "utf8");
   const texts = JSON.stringify({ module, compared, queries }).replaceAll("<", "\\u003c");
-  // A document that is being written holds up the event `load`, for which a headless browser waits.
+  // A document that is still being written delays the event `load`. A headless browser waits for that event.
   return `<!doctype html><meta charset="utf-8"><pre></pre><iframe hidden></iframe>
 <script>const held = document.querySelector("iframe").contentDocument; held.open();</script>
 <script type="module">

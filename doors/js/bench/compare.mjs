@@ -1,6 +1,8 @@
-// Answers queries, compares the answers with native ones, and returns the times over native ones, a line for each family.
+// Answers queries, and compares the answers with native ones. Returns the ratios of the times to native times, a line
+// for each family.
 
-// The least of all rounds counts: what else the machine does only adds to them. The first ones run before the engine optimises.
+// Takes the least time of all rounds, because other load of the machine only adds time. The first rounds run before
+// the engine optimises.
 const ROUNDS = 60;
 // Native answers may differ in their last bits.
 const ROUNDING = 1e-12;

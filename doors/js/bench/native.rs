@@ -18,7 +18,7 @@ const KNOT: &str = concat!(
     "/../../rigid-ccd/tests/data/knot216.obj"
 );
 
-/// A motion as JavaScript takes it: position, quaternion x, y, z, w, velocity, and angular velocity.
+/// A motion in the order of JavaScript: position, quaternion x, y, z, w, velocity, and angular velocity.
 type Numbers = ([f64; 3], [f64; 4], [f64; 3], [f64; 3]);
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(std::io::stdout().write_all(&text)?)
 }
 
-/// Throws a body at another one of its kind, or a capsule at a box, from about a distance.
+/// Returns queries that throw a body at another one of its kind, or a capsule at a box, from about the distance `far`.
 fn family(name: &str, (body, kind): (Body, &str), far: f64) -> Result<Value, Box<dyn Error>> {
     let target = match kind {
         "capsule" => Body::cuboid([0.5, 0.3, 0.2])?,
@@ -66,7 +66,7 @@ fn family(name: &str, (body, kind): (Body, &str), far: f64) -> Result<Value, Box
         };
         let mut solver = Solver::new();
         let mut answers = Vec::new();
-        // The least of all rounds: what else the machine does only adds to them.
+        // The least time of all rounds, because other load of the machine only adds time.
         let mut micros = Vec::new();
         for _ in 0..ROUND_COUNT {
             answers.clear();

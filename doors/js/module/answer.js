@@ -1,9 +1,9 @@
-// Makes the plain objects of answers about two bodies.
+// Converts answers about two bodies to plain objects.
 
 import { layout } from "./layout.js";
 import { classes } from "./wasm.js";
 
-/** The names of the kinds of answers, in the order of the engine. */
+/** The names of the kinds of answers. Indices are values of `AnswerKind` in `doors/js/src/wasm/answer.rs`. */
 export const KINDS = ["free", "contact", "touching", "overlapping", "interval", "leastDistance", "unresolved"];
 /** What is known of an overlap of which only a point inside both bodies is known. */
 const POINT_ONLY = 1;
@@ -38,12 +38,12 @@ export function boundsOf(numbers, start) {
   return { lower: numbers[start + lower], upper: numbers[start + upper] };
 }
 
-/** Returns what is known about a limit, by its number. */
+/** Returns the name of a limit and the advice about it, from its number. */
 function limitOf(number) {
   return { limit: classes().limit_name(number), advice: classes().limit_advice(number) };
 }
 
-/** Returns a feature of a body, as `v7`, `e3-7`, `f12` or `p0`; null if there is none. */
+/** Reads a feature of a body, and returns it as `v7`, `e3-7`, `f12` or `p0`, or null if there is none. */
 function featureOf(numbers, at) {
   const one = numbers[at + 1];
   switch (numbers[at]) {

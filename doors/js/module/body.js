@@ -14,7 +14,7 @@ export class Body extends Owned {
     return "Body";
   }
 
-  /** @hideconstructor Bodies are made by `Body.sphere` and its like. */
+  /** @hideconstructor `Body.sphere` and the other static functions make bodies. */
   constructor(inner) {
     if (!(inner instanceof classes().Body)) throw new TypeError("a Body is made by Body.fromMesh, Body.sphere or the like");
     super(inner);
@@ -70,13 +70,13 @@ export class Body extends Owned {
   }
 }
 
-/** Reads the triangles of a mesh file, to be drawn or changed before they become a body. */
+/** Reads the triangles of a mesh file, to draw them, or to change them before making a body. */
 export function readMesh(name, bytes, options) {
   const file = optionsOf(options, "readMesh", FILE_OPTIONS);
   return ofMesh(name, bytes, file, (mesh) => ({ positions: mesh.positions(), indices: mesh.indices(), unit: mesh.unit() ?? null }));
 }
 
-/** Returns what a function makes of the mesh in a file. */
+/** Reads the mesh in a file, calls a function with it, and returns the result. */
 function ofMesh(name, bytes, { scale, unit }, made) {
   const mesh = classes().Mesh.read(nameOf(name, "name"), bytesOf(bytes, name), scale, unit);
   try {
@@ -86,7 +86,7 @@ function ofMesh(name, bytes, { scale, unit }, made) {
   }
 }
 
-/** Reads an argument that has to be a body, for the WebAssembly. */
+/** Checks that an argument is a body, and returns its object in the WebAssembly. */
 export function bodyOf(value, what) {
   return innerOf(value, Body, what);
 }
@@ -110,7 +110,7 @@ function coordinatesOf(positions) {
   return numbers;
 }
 
-/** The corners of the triangles of a mesh without indices. */
+/** Returns the indices of a mesh that was given without: every three vertices are a triangle. */
 function everyVertex(count) {
   if (count % 3 !== 0) throw new TypeError(`positions: ${count} vertices without indices are no whole number of triangles`);
   return Uint32Array.from({ length: count }, (_, k) => k);

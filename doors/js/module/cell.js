@@ -105,7 +105,7 @@ export class Cell extends Owned {
     return answerOfPath(Owned.inner(this).ask(question, this.#numbersOf(path), path.length, settingsOf(options, known)));
   }
 
-  /** Returns the configurations of a path one after another. */
+  /** Returns the configurations of a path as one array of numbers. */
   #numbersOf(path) {
     return joined(listOf(path, "path", (value, what) => configurationOf(value, what, this.#joints)));
   }
@@ -120,7 +120,7 @@ function contactAnswer({ kind, limit, advice, safeUntil, tolerance, nearest }) {
   return kind === "unresolved" ? { kind, limit, advice, safeUntil } : { kind, safeUntil };
 }
 
-/** Reads an answer of the engine, and frees it. */
+/** Converts an answer of the engine to a plain object, and frees it. */
 function answerOfPath(answer) {
   const { kind, safe_until: safeUntil, lower, upper, tolerance } = answer;
   const found = { kind: KINDS[kind], limit: answer.limit(), advice: answer.advice(), safeUntil, lower, upper, tolerance, nearest: contactOfPath(answer.nearest()) };
@@ -128,7 +128,7 @@ function answerOfPath(answer) {
   return found;
 }
 
-/** Reads the pair of an answer, and frees it; null if there is none. */
+/** Converts the pair of an answer to a plain object, and frees it. Returns null if there is no pair. */
 function contactOfPath(pair) {
   if (pair === undefined) return null;
   const { segment, share, time, lower, upper } = pair;

@@ -1,4 +1,4 @@
-// What the package exports.
+// The exports of the package.
 
 import { Body, readMesh } from "./body.js";
 import { Cell } from "./cell.js";

@@ -1,16 +1,16 @@
-// Unpacks gzip [RFC 1951, RFC 1952] for engines that cannot.
+// Decompresses gzip [RFC 1951, RFC 1952], for engines without `DecompressionStream`.
 
-/** What each symbol of a length, and each of a distance, stands for: the least value, and how many bits are added. */
+/** For each symbol of a length and of a distance: the least value, and the number of extra bits added to it. */
 const LENGTHS = symbolValues([0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5], 3);
 const DISTANCES = symbolValues([0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13], 1);
-/** The greatest length has a symbol of its own, without added bits. */
+/** The greatest length has a symbol of its own, without extra bits. */
 LENGTHS.push({ least: 258, bits: 0 });
 
 const LENGTH_CODE_ORDER = [16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15];
 const HEADER_LENGTH = 10;
 const END_OF_BLOCK = 256;
 
-/** Returns the content of a gzip of one member, whose header has no optional parts. */
+/** Decompresses a gzip file. It must have one member, and no optional parts in its header. */
 export function inflated(packed) {
   const size = new DataView(packed.buffer, packed.byteOffset).getUint32(packed.length - 4, true);
   const input = { packed, at: HEADER_LENGTH, bits: 0, count: 0 };
@@ -35,7 +35,7 @@ function symbolValues(bits, first) {
   });
 }
 
-/** Takes bits of the input, the lowest first. */
+/** Reads bits of the input, lowest first. */
 function take(input, count) {
   while (input.count < count) {
     input.bits |= input.packed[input.at] << input.count;
@@ -49,7 +49,7 @@ function take(input, count) {
 }
 
 function copyStored(input, output, length) {
-  // The rest of the byte is passed over, and so is the complement of the length.
+  // Skips the rest of the byte, and the complement of the length.
   input.bits = 0;
   input.count = 0;
   const size = take(input, 16);
@@ -59,7 +59,7 @@ function copyStored(input, output, length) {
   return length + size;
 }
 
-/** Unpacks a block behind what there is, and returns where it ends. */
+/** Decompresses a block to the output from index `from` on, and returns the index of its end. */
 function unpackBlock(input, output, from, [symbols, distances]) {
   let at = from;
   for (;;) {
@@ -72,7 +72,7 @@ function unpackBlock(input, output, from, [symbols, distances]) {
     }
     const end = at + valueOf(input, LENGTHS[symbol - END_OF_BLOCK - 1]);
     const distance = valueOf(input, DISTANCES[decode(input, distances)]);
-    // Byte by byte: what is copied may reach into what is written.
+    // Copies byte by byte, because source and destination may overlap.
     for (; at < end; at += 1) output[at] = output[at - distance];
   }
 }
@@ -81,7 +81,7 @@ function valueOf(input, { least, bits }) {
   return least + take(input, bits);
 }
 
-/** A prefix code by the lengths of its words: how many words have each length, and the symbols in their order. */
+/** Returns the prefix code with these code lengths: the number of codes of each length, and the symbols in the order of their codes. */
 function codeOf(lengths) {
   const counts = new Uint16Array(16);
   for (const length of lengths) counts[length] += 1;
@@ -91,7 +91,7 @@ function codeOf(lengths) {
   return { counts, symbols };
 }
 
-/** Reads a symbol. Words of a length follow each other, and come after all shorter ones. */
+/** Reads a symbol. Codes of one length are consecutive numbers, and come after all shorter codes. */
 function decode(input, { counts, symbols }) {
   let [word, first, index] = [0, 0, 0];
   for (let length = 1; length < counts.length; length += 1) {
@@ -110,7 +110,7 @@ function fixedCodes() {
   return [codeOf(lengths), codeOf(new Array(30).fill(5))];
 }
 
-/** Reads both codes of a block, whose lengths are packed by a third one. */
+/** Reads both prefix codes of a block. A third code encodes their code lengths. */
 function readCodes(input) {
   const [symbols, distances, packed] = [take(input, 5) + 257, take(input, 5) + 1, take(input, 4) + 4];
   const own = new Array(19).fill(0);

@@ -1,13 +1,13 @@
-// What moves a body.
+// Movements of bodies.
 
 import { finiteNumber, joined, listOf, listOfNumbers, optionsOf, settingNumber } from "./numbers.js";
 import { Owned } from "./owned.js";
 import { MOTION_LENGTH, motionNumbers, ORIGIN, poseNumbers, poseOfNumbers, throwNumbers, vectorNumbers } from "./places.js";
 import { classes } from "./wasm.js";
 
-/** What moves a body: a `Motion`, a `Throw`, a `Path` or a `LinkMotion`. */
+/** The movement of a body: a `Motion`, a `Throw`, a `Path` or a `LinkMotion`. */
 export class Movement extends Owned {
-  /** Asked for each query, and never changing. */
+  /** A cache: each query needs the end, which never changes. */
   #end;
 
   constructor(inner) {

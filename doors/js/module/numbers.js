@@ -1,13 +1,13 @@
-// Reads what a caller passes: exactly as it is, or an error that names the argument.
+// Reads arguments of callers. Nothing is converted: a wrong value is an error that names the argument.
 //
-// A reader takes a value, and what it is in messages. The classes list their arguments as fields: for each name a reader, and what
-// stands for the field if it is left out. A field without that is required.
+// A reader takes a value and its name in messages. Classes list their arguments as fields: for each name a reader and
+// a default value. A field without a default is required.
 
 import { described, quoted } from "./words.js";
 
 // --- Objects with fields, and lists
 
-/** Reads the fields of an object, each by its reader. */
+/** Reads the fields of an object, each with its reader. */
 export function fieldsOf(value, what, fields, prefix = "") {
   checkNames(value, what, Object.keys(fields));
   const read = {};
@@ -18,38 +18,39 @@ export function fieldsOf(value, what, fields, prefix = "") {
   return read;
 }
 
-/** Reads options, which may be left out altogether. */
+/** Reads options. The whole object may be left out. */
 export function optionsOf(options, owner, fields) {
   return fieldsOf(options === undefined ? {} : options, `options of ${owner}`, fields);
 }
 
-/** Refuses what is no object with fields, and fields that are not known, which are typing errors. */
+/** Refuses a value that is not an object with fields, and unknown fields, which are typing errors. */
 export function checkNames(value, what, known) {
   if (typeof value !== "object" || value === null) throw new TypeError(`${what}: an object is needed, not ${described(value)}`);
   for (const name in value) {
     if (!known.includes(name)) throw unknownName(what, name, known.join(", "));
   }
-  // Methods of a class are not listed. An object of another class that has none of the names is something else, such as a list.
+  // The loop above does not see members of a class. An object of a class must have at least one of the names;
+  // otherwise it is something else, such as a list.
   if (!isPlain(value) && !known.some((name) => name in value)) {
     throw new TypeError(`${what}: an object with ${known.join(", ")} is needed, not ${described(value)}`);
   }
 }
 
-/** What Rust and Python have, and this package has not. */
+/** Settings of Rust and Python that this package does not have. */
 const NO_SETTINGS = { deadline: "a budget ends a question" };
 
 function unknownName(what, name, known) {
   return new TypeError(`${what}: there is no ${quoted(name)}; ${NO_SETTINGS[name] ?? `there are ${known}`}`);
 }
 
-/** Returns whether a value is an object of no class, in any window. */
+/** Returns whether a value is a plain object, of this or another window. */
 export function isPlain(value) {
   if (typeof value !== "object" || value === null) return false;
   const parent = Object.getPrototypeOf(value);
   return parent === null || Object.getPrototypeOf(parent) === null;
 }
 
-/** Reads a list, each element by a reader. */
+/** Reads a list, each element with a reader. */
 export function listOf(value, what, reader) {
   const length = lengthOf(value, what, "a list");
   const read = [];
@@ -57,14 +58,14 @@ export function listOf(value, what, reader) {
   return read;
 }
 
-/** Reads a list of so many elements. */
+/** Reads a list of exactly `count` elements. */
 export function tupleOf(value, what, count, reader) {
   const read = listOf(value, what, reader);
   if (read.length !== count) throw new TypeError(`${what}: ${count} elements are needed, not ${read.length}`);
   return read;
 }
 
-/** Reads numbers, which may be infinite, into a Float64Array. */
+/** Reads numbers into a Float64Array. They may be infinite. */
 export function listOfNumbers(value, what) {
   const length = lengthOf(value, what, "a list of numbers");
   const numbers = typedArrayName(value) === undefined ? [] : value;
@@ -76,7 +77,7 @@ export function listOfNumbers(value, what) {
   return numbers instanceof Float64Array ? numbers : Float64Array.from(numbers);
 }
 
-/** Returns lists of numbers as one. */
+/** Concatenates lists of numbers. */
 export function joined(lists) {
   return Float64Array.from(lists.flatMap((numbers) => [...numbers]));
 }
@@ -92,12 +93,12 @@ export function lengthOf(value, what, needed) {
 const typedArray = Object.getPrototypeOf(Uint8Array.prototype);
 const nameOfTypedArray = Object.getOwnPropertyDescriptor(typedArray, Symbol.toStringTag).get;
 
-/** Returns the name of the class of a typed array, of any window; undefined for other values. */
+/** Returns the class name of a typed array, of this or another window. Returns undefined for other values. */
 export function typedArrayName(value) {
   return nameOfTypedArray.call(value);
 }
 
-/** Refuses an array whose memory was passed on or has shrunk: it has the length 0, as if it were empty. */
+/** Refuses an array whose memory was transferred or has shrunk. Its length is 0, so it would look empty. */
 function checkMemory(value, what) {
   try {
     typedArray.values.call(value);
@@ -128,7 +129,7 @@ export function finiteNumber(value, what) {
   return value;
 }
 
-/** A limit may be infinite. */
+/** Reads a limit, which may be infinite. */
 export function numberOrInfinity(value, what) {
   if (Number.isNaN(number(value, what))) throw new RangeError(`${what}: a number is needed, not NaN`);
   return value;
@@ -144,15 +145,15 @@ export function trueOrFalse(value, what) {
   return value;
 }
 
-/** Reads a name, which has to be a string. */
+/** Reads a name, which must be a string. */
 export function nameOf(value, what) {
   if (typeof value !== "string") throw new TypeError(`${what}: a string is needed, not ${described(value)}`);
-  // Half of a character would become another one in the WebAssembly.
+  // Refuses lone surrogates: the WebAssembly would replace them by another character.
   if (/\p{Surrogate}/u.test(value)) throw new TypeError(`${what}: ${quoted(value)} has half of a character`);
   return value;
 }
 
-/** Makes a reader of one of some texts. `advice` says what stands for others, by their text. */
+/** Makes a reader for one of several known texts. For some wrong texts, `advice` has the right replacement. */
 export function choiceOf(known, advice = {}) {
   const list = `${known.slice(0, -1).map(quoted).join(", ")} or ${quoted(known.at(-1))}`;
   return (value, what) => {
@@ -162,7 +163,7 @@ export function choiceOf(known, advice = {}) {
   };
 }
 
-/** The least and the greatest value of each setting, as the WebAssembly has them. */
+/** The least and the greatest value of each setting, the same as in the WebAssembly. */
 const SETTINGS = {
   tolerance: [1e-100, 1e12],
   margin: [0, 1e12],
@@ -175,7 +176,7 @@ const SETTINGS = {
 
 export function settingNumber(value, name) {
   const [least, greatest] = SETTINGS[name];
-  // Written so that NaN is refused.
+  // The comparison is written so that NaN is refused.
   if (!(number(value, name) >= least && value <= greatest)) {
     const allowed = greatest >= Number.MAX_VALUE ? `at least ${least}` : `from ${least} to ${greatest}`;
     const finite = greatest === Number.MAX_VALUE ? " and finite" : "";

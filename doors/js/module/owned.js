@@ -1,11 +1,11 @@
-// An object whose memory is in the WebAssembly.
+// Objects whose memory is in the WebAssembly.
 
 import { engineEnd, engine } from "./wasm.js";
 import { described, nameOfClass } from "./words.js";
 
 /**
- * Holds an object of the WebAssembly until `free`, or until the garbage collector finds that nothing refers to it: wasm-bindgen
- * registers its objects for that.
+ * Owns an object of the WebAssembly until `free`, or until garbage collection: wasm-bindgen registers its objects for
+ * it.
  */
 export class Owned {
   #inner;
@@ -16,7 +16,7 @@ export class Owned {
     this.#inner = inner;
   }
 
-  /** Returns the object of the WebAssembly. */
+  /** Returns the object in the WebAssembly. Throws if it was freed, or if its engine has ended. */
   static inner(owned) {
     if (owned.#inner === null) throw new Error(`this ${nameOfClass(owned)} was freed`);
     const end = engineEnd(owned.#home);
@@ -30,10 +30,10 @@ export class Owned {
   }
 }
 
-// Engines without `using` have no such symbol.
+// JavaScript engines without `using` do not have this symbol.
 if (Symbol.dispose) Object.defineProperty(Owned.prototype, Symbol.dispose, { value: Owned.prototype.free });
 
-/** Returns the inner object of an argument that has to be of a class. */
+/** Checks that an argument is of a class, and returns its object in the WebAssembly. */
 export function innerOf(value, type, what) {
   if (value instanceof type) return Owned.inner(value);
   const name = nameOfClass(type.prototype);

@@ -1,4 +1,4 @@
-// Reads vectors, poses and motions that a caller passes.
+// Reads vectors, poses and motions from arguments.
 
 import { checkNames } from "./numbers.js";
 import { described } from "./words.js";
@@ -10,12 +10,12 @@ export function vectorNumbers(value, what) {
   return numbers;
 }
 
-/** Writes a vector into numbers from a place on. `part` is what it is of `what`. */
+/** Writes a vector to `numbers` from index `at` on. Messages name it as `part` of `what`. */
 function writeVector(value, numbers, at, what, part = "") {
   writeCoordinates(value, 3, numbers, at) || refuse(value, 3, what + part);
 }
 
-/** Writes a quaternion, `[x, y, z, w]` or `{ x, y, z, w }`. */
+/** Writes a quaternion, `[x, y, z, w]` or `{ x, y, z, w }`, to `numbers`. */
 function writeQuaternion(value, numbers, at, what, part = "") {
   writeCoordinates(value, 4, numbers, at) || refuse(value, 4, what + part);
   const isZero = numbers[at] === 0 && numbers[at + 1] === 0 && numbers[at + 2] === 0 && numbers[at + 3] === 0;
@@ -24,7 +24,7 @@ function writeQuaternion(value, numbers, at, what, part = "") {
 
 const COORDINATES = ["x", "y", "z", "w"];
 
-/** Returns whether a value has so many coordinates, and all are finite numbers. */
+/** Writes the coordinates of a value. Returns false if it does not have `count` coordinates that are finite numbers. */
 function writeCoordinates(value, count, numbers, at) {
   if (typeof value !== "object" || value === null) return false;
   if (isList(value) ? value.length !== count : hasMore(value, count)) return false;
@@ -45,8 +45,8 @@ function coordinateOf(value, k) {
 }
 
 /**
- * Returns whether an object has more than so many coordinates. Those of classes, such as in three.js, may have other properties, but no
- * order of rotations: that is of three angles, which are no vector.
+ * Returns whether an object has more than `count` coordinates. Objects of a class, as in three.js, may have other
+ * properties. They must not have an order of rotations: an object with one holds three angles, not a vector.
  */
 function hasMore(value, count) {
   if (Object.getPrototypeOf(value) !== Object.prototype) return typeof value.order === "string" || (count < 4 && value.w !== undefined);
@@ -57,7 +57,7 @@ function hasMore(value, count) {
   return false;
 }
 
-/** Refuses what is no vector or quaternion of finite numbers: a number that is not finite is out of range, all else is of another type. */
+/** Throws the error for a value that is not a vector or quaternion of finite numbers: a `RangeError` if a number is not finite, and otherwise a `TypeError`. */
 function refuse(value, count, what) {
   const names = COORDINATES.slice(0, count).join(", ");
   const needed = `${what}: [${names}] or { ${names} } of finite numbers is needed, not`;
@@ -68,12 +68,12 @@ function refuse(value, count, what) {
   throw new TypeError(`${needed} ${isList(value) ? `[${parts.map(described)}]` : described(value)}`);
 }
 
-/** The number of numbers of a pose: a position and a quaternion. */
+/** The number of values of a pose: a position and a quaternion. */
 export const POSE_LENGTH = 7;
-/** Those of a motion: a pose, a velocity, a spin and a center. */
+/** The number of values of a motion: a pose, a velocity, an angular velocity and a center. */
 export const MOTION_LENGTH = POSE_LENGTH + 9;
 
-/** The parts of a motion and of a throw: what writes each, and where. */
+/** The parts of a motion and of a throw: for each, the function that writes it, and its index. */
 const PARTS = {
   position: [writeVector, 0],
   rotation: [writeQuaternion, 3],
@@ -86,12 +86,12 @@ const THROW = Object.keys(PARTS);
 const MOTION = THROW.slice(0, 5);
 const POSE = THROW.slice(0, 2);
 
-/** Writes a motion at constant velocities; what is left out is 0, and no rotation. */
+/** Writes a motion at constant velocities. Parts that are left out are 0, or no rotation. */
 export function writeMotion(motion, what, numbers, at) {
   writeParts(motion, what, MOTION, numbers, at);
 }
 
-/** Writes that a body rests at the origin. */
+/** Writes the motion of a body that is static at the origin. */
 export function writeRest(numbers, at) {
   numbers.fill(0, at, at + MOTION_LENGTH);
   numbers[at + 6] = 1;
@@ -114,7 +114,7 @@ export function motionNumbers(motion, what) {
   return numbers;
 }
 
-/** Returns the numbers of a motion, and an acceleration behind them. */
+/** Returns the numbers of a throw: those of a motion, then the acceleration. */
 export function throwNumbers(motion, what) {
   const numbers = new Float64Array(MOTION_LENGTH + 3);
   writeParts(motion, what, THROW, numbers, 0);
@@ -130,7 +130,7 @@ export function poseNumbers(pose, what) {
 }
 
 export const ORIGIN = new Float64Array(3);
-/** The numbers of a pose without offset. */
+/** The numbers of the identity pose. */
 export const NO_OFFSET = poseNumbers({}, "");
 
 export function poseOfNumbers(numbers) {

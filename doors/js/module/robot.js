@@ -1,4 +1,4 @@
-// Robots and mechanisms: links, joints, and the bodies that are fixed to links.
+// Robots and mechanisms: links, joints, and the bodies fixed to links.
 
 import { Body, bodyOf } from "./body.js";
 import { LinkMotion } from "./movement.js";
@@ -9,9 +9,9 @@ import { classes } from "./wasm.js";
 import { described, quoted } from "./words.js";
 
 const TYPES = choiceOf(["revolute", "prismatic", "fixed"], { continuous: "a continuous joint is a revolute one without limits" });
-/** What every joint has. */
+/** The fields of every joint. */
 const FIXED = { type: [TYPES], name: [nameOf], parent: [nameOf], child: [nameOf], origin: [poseNumbers, NO_OFFSET] };
-/** What a joint with a position has, too. */
+/** The fields of a joint with a position. */
 const MOVING = { ...FIXED, axis: [vectorNumbers, [0, 0, 1]], limits: [limitsOf, [-Infinity, Infinity]], mimic: [mimicOf, undefined] };
 
 export class Robot extends Owned {
@@ -55,7 +55,7 @@ export class Robot extends Owned {
   }
 }
 
-/** Reads a position for each of the joints with these names. */
+/** Reads a configuration: one position for each of the joints in `names`. */
 export function configurationOf(value, what, names) {
   const configuration = listOfNumbers(value, what);
   if (configuration.length !== names.length) throw new TypeError(`${what}: ${configuration.length} positions, but ${names.length} joints: ${names.join(", ")}`);
@@ -91,7 +91,7 @@ function mimicOf(value, what) {
   return fieldsOf(value, what, { joint: [nameOf], multiplier: [finiteNumber, 1], offset: [finiteNumber, 0] }, `${what}.`);
 }
 
-/** Reads the bodies of all links: for each link one, or a list of them at poses. */
+/** Reads the bodies of all links. Each link has one body, or a list of bodies at poses. */
 function bodiesOf(value, what) {
   if (!isPlain(value)) throw new TypeError(`${what}: an object with a body for each link is needed, not ${described(value)}`);
   return Object.entries(value).flatMap(([link, held]) => {
@@ -109,7 +109,7 @@ export function pairsOf(list) {
   return Array.from({ length: list.length / 2 }, (_, k) => [list[2 * k], list[2 * k + 1]]);
 }
 
-/** Returns remarks from their kinds and texts, one after another. */
+/** Returns remarks from a list of alternating kinds and texts. */
 export function remarksOf(list) {
   return pairsOf(list).map(([kind, text]) => ({ kind, text }));
 }

@@ -9,7 +9,7 @@ import { Owned } from "./owned.js";
 import { writeMotion, writeRest } from "./places.js";
 import { classes, engine, numbersAt } from "./wasm.js";
 
-/** The names of the options of a question about contacts, of one about a distance, and of one at rest. */
+/** The names of the options of questions about contacts, about distances, and about time 0 only. */
 const OF_CONTACTS = ["motionA", "motionB", "duration", "tolerance", "margin", "budget"];
 const OF_DISTANCES = OF_CONTACTS.filter((name) => name !== "margin");
 const AT_REST = OF_DISTANCES.filter((name) => name !== "duration");
@@ -18,13 +18,13 @@ const startOf = choiceOf(["report", "leave"]);
 /** The options that are numbers. */
 const NUMBERS = ["tolerance", "margin", "budget", "duration"];
 
-/** The engine that has the solver. */
+/** The engine that the solver belongs to. */
 let home = null;
 let solver = null;
 let numbers = null;
 let defaults = null;
 
-/** The error of a question that has to be answered by yes or no, and is not. */
+/** The error of a yes-or-no question that could not be decided. */
 export class UnresolvedError extends Error {
   constructor(known) {
     const proven = known.safeUntil === undefined ? `the distance is at least ${known.lower}` : `no contact before ${known.safeUntil}`;
@@ -92,7 +92,7 @@ function ask(question, a, b, options, known, clearance = 0) {
   for (const [body, what] of [[a, "a"], [b, "b"]]) bodyOf(body, what);
   const { given, moveA, moveB } = readOptions(options, known);
   given[layout().solver.clearance] = clearance;
-  // What a getter of the caller's asks or frees is done with here.
+  // From here on no getter of the caller runs. A getter could ask other questions or free objects.
   solverNumbers().set(given);
   const moves = [moveA, moveB].map((move) => move && Owned.inner(move));
   const [bodyA, bodyB] = [bodyOf(a, "a"), bodyOf(b, "b")];
@@ -101,7 +101,7 @@ function ask(question, a, b, options, known, clearance = 0) {
   return answerOf(kind, solverNumbers(), layout().solver.answer);
 }
 
-/** Reads the options of a question about two bodies: what the solver has before its answer, and the movements of the bodies. */
+/** Reads the options of a question about two bodies. Returns the numbers that the solver takes, and the movements of the bodies. */
 function readOptions(options, known) {
   const { solver: at } = layout();
   const given = new Float64Array(at.answer);
@@ -119,7 +119,7 @@ function readOptions(options, known) {
   return { given, moveA, moveB };
 }
 
-/** Returns the movement of a body; null if it has a motion, whose numbers are written. */
+/** Returns the movement of a body. For a motion given by numbers, writes the numbers and returns null. */
 function movementOf(moved, what, given, at) {
   if (moved instanceof Movement) return moved;
   if (moved === undefined) writeRest(given, at);
@@ -127,7 +127,7 @@ function movementOf(moved, what, given, at) {
   return null;
 }
 
-/** Returns the end of paths and links; 1 if neither body moves by one. */
+/** Returns the default end of a question: the end of the movements, or 1 if neither ends. */
 function endOf(moveA, moveB) {
   const a = moveA?.end ?? null;
   const b = moveB?.end ?? null;
@@ -135,7 +135,7 @@ function endOf(moveA, moveB) {
   return a ?? b ?? 1;
 }
 
-/** Returns the numbers of the solver. They are taken anew after the memory has grown, which empties them. */
+/** Returns a view of the numbers of the solver. Growth of the memory detaches the view; then makes a new one. */
 function solverNumbers() {
   if (home !== engine()) {
     solver = new (classes().Solver)();

@@ -5,16 +5,16 @@
 import { inflated } from "./inflate.js";
 import { optionsOf, trueOrFalse } from "./numbers.js";
 
-/** The instructions `i8x16.splat` and `i8x16.popcnt`: a module that is valid only with SIMD. */
+/** A module with the instructions `i8x16.splat` and `i8x16.popcnt`. It is valid only in engines with SIMD. */
 const VECTOR_MODULE = new Uint8Array([
   0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11,
 ]);
 
 let loading = null;
-/** The engine: its classes, its memory, whether it has vector instructions, and the error at which it ended. */
+/** The engine: its classes, its memory, whether it uses vector instructions, and the error that ended it. */
 let loaded = null;
 
-/** The engine has ended, and with it all objects in its memory. Another `init` loads a fresh one. */
+/** The engine has ended, and all objects in its memory are lost. Calling `init` again loads a new engine. */
 export class EngineError extends Error {
   constructor(reason, what, cause) {
     super(`${what}: all bodies, movements, robots and cells are lost; \`await init()\` loads the engine anew`, { cause });
@@ -25,7 +25,7 @@ export class EngineError extends Error {
 
 export async function init(options) {
   const { simd: wanted } = optionsOf(options, "init", { simd: [trueOrFalse, undefined] });
-  // An engine that has ended is loaded anew.
+  // Loads a new engine if the old one has ended.
   if (loaded !== null) engineEnd(loaded);
   loading ??= load(wanted ?? WebAssembly.validate(VECTOR_MODULE)).catch((error) => {
     loading = null;
@@ -40,12 +40,12 @@ export function memoryUsage() {
   return engine().memory.buffer.byteLength;
 }
 
-/** Returns the classes of the WebAssembly, or throws if there are none yet. */
+/** Returns the classes of the WebAssembly. Throws if it is not loaded. */
 export function classes() {
   return engine().classes;
 }
 
-/** Returns numbers in the memory of the WebAssembly. They have to be taken anew when it grows. */
+/** Returns a view of numbers in the memory of the WebAssembly. Growth of the memory detaches it. */
 export function numbersAt(address, count) {
   return new Float64Array(engine().memory.buffer, address, count);
 }
@@ -68,15 +68,15 @@ async function load(simd) {
   return loaded;
 }
 
-/** Returns what instantiates the WebAssembly so that an engine that fails ends, whichever call it is. */
+/** Returns a replacement of the global `WebAssembly`. It wraps each exported function, so that a fault in any call ends the engine. */
 function guard(fresh) {
   const guarded = (call) => (...values) => {
-    // Garbage of an engine that has ended needs no memory.
+    // The garbage collector may still free objects of an engine that has ended: do nothing.
     if (engineEnd(fresh) !== null) return undefined;
     try {
       return call(...values);
     } catch (error) {
-      // What comes next may fail if the stack is full; this assignment does not.
+      // If the stack is full, the next call may fail. This assignment does not.
       fresh.failure = error;
       throw failed(fresh, error);
     }
@@ -91,21 +91,21 @@ function guard(fresh) {
   };
 }
 
-/** Returns the error with which an engine has ended, or null. */
+/** Returns the error that ended an engine, or null. */
 export function engineEnd(engine) {
   if (engine.failure !== null) failed(engine, engine.failure);
   return engine.ended;
 }
 
-/** Ends an engine if it cannot go on after an error. Returns what is to be thrown. */
+/** Ends an engine if it cannot continue after an error. Returns the error to throw. */
 function failed(fresh, error) {
-  // Too deep a stack is an error of the JavaScript engine: a RangeError, or an InternalError.
+  // A stack overflow is an error of the JavaScript engine: a RangeError, or an InternalError.
   if (!(error instanceof WebAssembly.RuntimeError || error instanceof RangeError || error.name === "InternalError")) {
     fresh.failure = null;
     return error;
   }
   const { fault, memory } = fresh;
-  // Without a fault it is the end of the memory that makes the code unreachable.
+  // If no fault was reported, unreachable code means that memory is exhausted.
   const isMemory = fault === null ? /unreachable/i.test(error.message) : /capacity overflow/.test(fault);
   const what = isMemory ? `the memory of the WebAssembly is at its end, ${memory.buffer.byteLength} bytes` : `a fault of rigid-ccd: ${fault ?? error.message}`;
   fresh.ended = new EngineError(isMemory ? "memory" : "fault", what, error);
@@ -116,14 +116,14 @@ function failed(fresh, error) {
 
 const remarked = new Set();
 
-/** Writes a remark on what is probably a mistake to the console, one of each kind. */
+/** Writes a remark on a probable mistake to the console, once for each kind. */
 function remark(kind, text) {
   if (remarked.has(kind)) return;
   remarked.add(kind);
   console.warn(`rigid-ccd: ${text}`);
 }
 
-/** Fetches the module without vector instructions, which lies beside this one. */
+/** Loads the module without vector instructions, in the same folder as this one. */
 async function fallback() {
   try {
     return await import("./fallback.js");
@@ -133,7 +133,7 @@ async function fallback() {
 }
 
 async function unpacked(packed) {
-  // Safari 15 and Firefox 112 have no such class.
+  // Safari 15 and Firefox 112 do not have this class.
   if (typeof DecompressionStream === "undefined") return inflated(packed);
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream).arrayBuffer();

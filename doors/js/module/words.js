@@ -1,11 +1,11 @@
-// Writes values in messages.
+// Formats values for messages.
 
-/** Writes a string in messages as JavaScript does, so that it is told from all around it. */
+/** Quotes a string as JavaScript does, so that its ends are visible in a message. */
 export function quoted(text) {
   return JSON.stringify(text);
 }
 
-/** Describes a value in messages. */
+/** Describes a value for a message. */
 export function described(value) {
   if (typeof value === "string") return quoted(value);
   if (typeof value === "bigint") return `${value}n`;
@@ -14,7 +14,7 @@ export function described(value) {
   return `an object of ${nameOfClass(value) ?? "no class"}`;
 }
 
-/** Returns the name of an object's class. Bundlers shorten names in the code, and so the classes of this package have it as their tag. */
+/** Returns the name of an object's class. Classes of this package store their name in a tag, because bundlers shorten names in code. */
 export function nameOfClass(value) {
   return value?.[Symbol.toStringTag] ?? value?.constructor?.name;
 }

@@ -15,7 +15,7 @@ use wasm_bindgen_cli_support::Bindgen;
 
 const WASM_TARGET: &str = "wasm32-unknown-unknown";
 
-/// The parts of the module, each after those that it imports.
+/// The parts of the module. Each comes after the parts that it imports.
 const PARTS: [&str; 14] = [
     include_str!("../module/words.js"),
     include_str!("../module/numbers.js"),
@@ -33,10 +33,10 @@ const PARTS: [&str; 14] = [
     include_str!("../module/index.js"),
 ];
 
-/// The name of the module without vector instructions, which the other one loads.
+/// The name of the module without vector instructions. The main module loads it if necessary.
 const FALLBACK: &str = "fallback.js";
 
-/// The files of the package besides both modules, by their names.
+/// The names and contents of the package's files, except for both modules.
 const FILES: [(&str, &str); 5] = [
     ("package.json", include_str!("../package.json")),
     ("rigid-ccd.d.ts", include_str!("../types/rigid-ccd.d.ts")),
@@ -48,18 +48,18 @@ const FILES: [(&str, &str); 5] = [
 /// The modules of a package.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Modules {
-    /// All that is published.
+    /// Both modules, as published.
     All,
-    /// The one for WebAssembly with vector instructions alone: half of the work, for tests.
+    /// Only the module with vector instructions. For tests: it halves the time of a build.
     WithVectors,
 }
 
-/// Writes the package into a folder, which `npm pack` takes.
+/// Writes the package to a folder, for `npm pack`.
 ///
 /// # Errors
 /// A build that fails, or a file that cannot be written.
 pub fn write(folder: &Path, modules: Modules) -> Result<()> {
-    // Most of a build is the optimisation of one unit, on one core.
+    // Runs both builds in parallel: most of a build is the optimisation of one unit, on one core.
     let (module, fallback) = thread::scope(|scope| {
         let fallback = (modules == Modules::All).then(|| scope.spawn(fallback));
         (module(), fallback.map(thread::ScopedJoinHandle::join))
@@ -83,28 +83,29 @@ pub fn write(folder: &Path, modules: Modules) -> Result<()> {
     Ok(())
 }
 
-/// Returns the text of the module: one file that needs no other where WebAssembly has vector instructions.
+/// Returns the text of the module. It needs no other file in engines with vector instructions.
 ///
 /// # Errors
 /// A build that fails.
 pub fn module() -> Result<String> {
     let parts = PARTS.map(without_links);
-    // All browsers with WebAssembly have had 128-bit vectors since 2023.
+    // All browsers with WebAssembly have supported 128-bit vectors since 2023.
     let engine = engine(Path::new(""), "-Ctarget-feature=+simd128")?;
     Ok([engine, parts.concat()].concat())
 }
 
-/// Returns the text of the module that the other one loads where WebAssembly has no vector instructions.
+/// Returns the text of the module that the main module loads in engines without vector instructions.
 fn fallback() -> Result<String> {
     let exports = "export { CODE as code, wasm_bindgen as bindgen };\n".to_owned();
-    // Two builds in one folder wait for each other.
+    // Builds in a folder of its own, because two builds in one folder wait for each other.
     Ok([engine(Path::new("without-vectors"), "")?, exports].concat())
 }
 
-/// Returns the constants `wasm_bindgen` and `CODE`: a function that makes what loads the WebAssembly, and the WebAssembly, packed.
+/// Returns JavaScript code that defines two constants. `wasm_bindgen` is a function that makes a loader of the
+/// WebAssembly. `CODE` is the compressed WebAssembly.
 ///
-/// The function takes what instantiates in place of the global `WebAssembly`, and what `wasm/host.rs` calls. Each call has classes of its own, because those of an
-/// engine that has ended free what was in its memory.
+/// `wasm_bindgen` takes a replacement of the global `WebAssembly`, and the object that `wasm/host.rs` calls. Each call
+/// makes classes of its own, because the classes of an ended engine free objects in its memory.
 fn engine(subfolder: &Path, flags: &str) -> Result<String> {
     let mut bindgen = Bindgen::new();
     bindgen
@@ -130,7 +131,8 @@ fn engine(subfolder: &Path, flags: &str) -> Result<String> {
     Ok(format!("{loader}const CODE = \"{code}\";\n"))
 }
 
-/// Returns a part as it is in one file with those that it imports: without imports, and only the last list of exports.
+/// Returns a part without its imports and exports, as it stands in one file with the parts that it imports. Only the
+/// list of exports of the last part remains.
 fn without_links(part: &str) -> String {
     let lines = part.lines().filter(|line| !line.starts_with("import "));
     let local = |line: &str| line.strip_prefix("export ").map(str::to_owned);
@@ -143,10 +145,10 @@ fn without_links(part: &str) -> String {
     lines.map(|line| line + "\n").collect()
 }
 
-/// Compiles this crate to WebAssembly in a subfolder of the target folder, with flags of the compiler, and returns the path of
+/// Compiles this crate to WebAssembly, in a subfolder of the target folder and with compiler flags. Returns the path of
 /// the file.
 fn build_wasm(subfolder: &Path, flags: &str) -> Result<PathBuf> {
-    // The command that runs is at TARGET_DIR/PROFILE/NAME.
+    // The running command is at TARGET_DIR/PROFILE/NAME.
     let command = env::current_exe()?;
     let folder = command
         .ancestors()

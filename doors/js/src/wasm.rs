@@ -1,17 +1,17 @@
 //! The classes that the modules in `doors/js/module` wrap.
 //!
-//! Those modules check what a caller passes, and make the plain objects of answers. Numbers go through the memory of [`Solver`],
-//! because an object or an array costs more to pass than a short query takes.
+//! Those modules check arguments, and convert answers to plain objects. Numbers are passed through the memory of
+//! [`Solver`], because passing an object or an array takes longer than a short query.
 //!
 //! | file | what |
 //! |---|---|
 //! | `body` | bodies from shapes, arrays and files |
-//! | `movement`, `poses` | what moves a body: constant velocities, poses, a throw, the link of a robot |
+//! | `movement`, `poses` | movements of bodies: constant velocities, poses, a throw, the link of a robot |
 //! | `solver`, `answer`, `fields` | questions about two bodies, and their answers as numbers with names |
 //! | `robot`, `cell`, `path_answer` | robots and mechanisms, and questions about their paths |
 //! | `fault` | errors as JavaScript has them |
-//! | `limits` | reasons why a question is not answered |
-//! | `host` | what JavaScript is told beside answers: remarks, and the text of a fault |
+//! | `limits` | the limits that leave a question unresolved |
+//! | `host` | messages to JavaScript besides answers: remarks, and the text of a fault |
 
 mod answer;
 mod body;

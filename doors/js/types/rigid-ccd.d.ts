@@ -1,37 +1,39 @@
 /**
  * Certified continuous collision detection: when do two moving rigid bodies first touch?
  *
- * No answer is ever late, in floating point too. Lengths are in any one unit, angles in radians, times in the motions' unit.
+ * No contact happens before the reported time, in floating point too. Lengths are in any one unit, angles in radians,
+ * times in the motions' unit.
  */
 
 /**
- * Loads the WebAssembly. It comes before everything else, and again costs nothing.
+ * Loads the WebAssembly. Call and await it before anything else; later calls do nothing.
  *
- * Where the engine has no vector instructions for WebAssembly, or `simd` is false, it fetches `fallback.js`, which lies beside the
- * module. Its answers are the same, to the bit, and take longer. With `simd: true` it rejects instead.
+ * If the engine has no vector instructions for WebAssembly, or `simd` is false, it loads `fallback.js` from the
+ * folder of the module. The fallback gives the same answers, bit for bit, but takes longer. With `simd: true` the
+ * promise rejects instead.
  */
 export function init(options?: { simd?: boolean }): Promise<{ simd: boolean }>;
 
 /**
- * The engine has ended: its memory is at its end, of 4 GB at most, or it has a fault. All bodies, movements, robots and cells are lost,
- * and each use of one throws this error. Another `init` loads the engine anew.
+ * The engine has ended: its memory of at most 4 GB is exhausted, or it has a fault. All bodies, movements, robots and
+ * cells are lost, and each use of one throws this error. Calling `init` again loads a new engine.
  */
 export class EngineError extends Error {
   private constructor();
   reason: "memory" | "fault";
 }
 
-/** Returns how many bytes of memory the WebAssembly has. It grows, and never shrinks. */
+/** Returns the size of the memory of the WebAssembly, in bytes. It grows, and never shrinks. */
 export function memoryUsage(): number;
 
 // --- Vectors, poses and bodies
 
 export type Vector = readonly [number, number, number];
-/** In the order of three.js. The Python package has w first. */
+/** A quaternion in the order x, y, z, w, as in three.js. The Python package has w first. */
 export type Quaternion = readonly [x: number, y: number, z: number, w: number];
-/** A list, or an object such as a `Vector3` of three.js. */
+/** A vector as a list, or as an object such as a `Vector3` of three.js. */
 export type GivenVector = ArrayLike<number> | { readonly x: number; readonly y: number; readonly z: number };
-/** Of any length but 0; a list, or an object such as a `Quaternion` of three.js. */
+/** A quaternion as a list, or as an object such as a `Quaternion` of three.js. It need not be normalised, but must not be zero. */
 export type GivenQuaternion = ArrayLike<number> | { readonly x: number; readonly y: number; readonly z: number; readonly w: number };
 
 export interface Pose {
@@ -39,14 +41,14 @@ export interface Pose {
   rotation: Quaternion;
 }
 
-/** A pose; what is left out is the origin, and no rotation. */
+/** A pose. The defaults are the origin and no rotation. */
 export interface GivenPose {
   position?: GivenVector;
   rotation?: GivenQuaternion;
 }
 
 declare global {
-  /** Of ES2026, as TypeScript's `esnext.disposable` and the types of Node declare it: older libraries have none. */
+  /** Declared as in TypeScript's `esnext.disposable` and in the types of Node, because older libraries do not have it. */
   interface SymbolConstructor {
     readonly dispose: unique symbol;
   }
@@ -55,7 +57,10 @@ declare global {
   }
 }
 
-/** Something in the memory of the WebAssembly. It ends with `free`, with a block that has it by `using`, or when it is collected as garbage. */
+/**
+ * An object in the memory of the WebAssembly. Its memory is freed by `free`, at the end of a block with `using`, or
+ * by garbage collection.
+ */
 declare abstract class Owned {
   free(): void;
   [Symbol.dispose](): void;
@@ -63,11 +68,12 @@ declare abstract class Owned {
 
 export interface BodyOptions {
   /**
-   * The convex pieces to make: the fewest that are exact by default. A `"hull"` is that of a closed convex mesh, and exact. An
-   * `"outer-hull"` encloses any mesh, open ones too; `excess` says by how much.
+   * The convex pieces that represent the mesh. The default is the fewest pieces that are exact. `"hull"` needs a
+   * closed convex mesh, and is exact. `"outer-hull"` encloses any mesh, even an open one; `Body.excess` bounds how
+   * far it extends beyond the mesh.
    */
   pieces?: "auto" | "triangles" | "patches" | "hull" | "outer-hull";
-  /** Whether a closed mesh is a hollow surface, too. An open one is a surface anyway, and is not remarked upon with it. */
+  /** Makes a closed mesh a hollow surface. An open mesh is always a surface; with this option there is no warning about it. */
   surface?: boolean;
 }
 
@@ -75,8 +81,9 @@ export interface FileOptions {
   /** A factor on all coordinates; 1 by default. */
   scale?: number;
   /**
-   * The unit to convert coordinates to, before `scale`. A COLLADA states its unit, and a glTF is in metres; the numbers of other files are
-   * taken to be in the unit. Without it coordinates are those of the file, and a unit that is not the metre is a line in the console.
+   * The unit to convert coordinates to, before `scale`. COLLADA files state their unit, and glTF files are in metres.
+   * Other files are assumed to be in the requested unit already. Without this option coordinates are those of the
+   * file; if its unit is not the metre, the console shows a warning.
    */
   unit?: "um" | "mm" | "cm" | "m" | "in" | "ft";
 }
@@ -84,47 +91,53 @@ export interface FileOptions {
 /**
  * A rigid body: a mesh, a box, a ball, a capsule, a cylinder or a cone.
  *
- * A mesh is a solid when it is closed and consistently oriented. Otherwise it is a surface. A closed shell inside another one bounds a
- * cavity, however it is turned. A body inside a solid overlaps it; a body
- * inside a surface does not. A mesh that is not closed is a line in the console, unless it is to be a `surface`.
+ * A mesh is solid if it is closed and consistently oriented. Otherwise it is a surface. A closed shell inside another
+ * one bounds a cavity, whatever its orientation. A body inside a solid overlaps it; a body inside a surface does not.
+ * A mesh that is not closed gives a warning in the console, unless the option `surface` is set.
  */
 export class Body extends Owned {
   private constructor();
   /**
-   * Makes a body of a mesh in memory, such as the attribute `position` and the index of a `BufferGeometry` of three.js.
+   * Makes a body from a mesh in memory, such as the attribute `position` and the index of a `BufferGeometry` of
+   * three.js.
    *
-   * Without indices each three vertices are a triangle. Vertices at exactly the same point are one; the README says what closes seams
-   * of three.js. Positions are a Float32Array, a Float64Array or an array. An error names the first vertex or triangle that is not valid.
+   * Without indices, every three vertices are a triangle. Vertices at exactly the same point are merged; the README
+   * shows how to close seams of three.js. Positions are a Float32Array, a Float64Array or an array. An error names
+   * the first invalid vertex or triangle.
    */
   static fromMesh(positions: ArrayLike<number>, indices?: ArrayLike<number> | null, options?: BodyOptions): Body;
   /**
-   * Reads an STL, OBJ, PLY, OFF, COLLADA or glTF; the end of the name tells which. A glTF is a `.glb`, or a `.gltf` that holds its data:
-   * other files cannot be fetched.
+   * Makes a body from an STL, OBJ, PLY, OFF, COLLADA or glTF file. The end of `name` tells the format. A `.gltf` must
+   * contain its data, because other files cannot be fetched; a `.glb` always does.
    */
   static fromFile(name: string, bytes: Uint8Array | ArrayBuffer, options?: BodyOptions & FileOptions): Body;
   /** Makes a box about its origin. */
   static box(halfExtents: GivenVector): Body;
   /** Makes a ball about its origin. */
   static sphere(radius: number): Body;
-  /** Makes a capsule along z; `halfHeight` is the distance from its middle to the centre of either cap. */
+  /** Makes a capsule along z. `halfHeight` is the distance from its middle to the centre of either cap. */
   static capsule(radius: number, halfHeight: number): Body;
-  /** Makes a cylinder along z, as a polytope around it that exceeds it by at most `excess`: by default 1/4096 of the radius. */
+  /**
+   * Makes a cylinder along z. It is represented by an enclosing polytope, which extends beyond it by at most
+   * `excess`: by default 1/4096 of the radius.
+   */
   static cylinder(radius: number, halfHeight: number, excess?: number): Body;
-  /** Makes a cone along z with its apex up, as a polytope around it, like `cylinder`. */
+  /** Makes a cone along z with its apex up. It is represented by an enclosing polytope, like `cylinder`. */
   static cone(radius: number, halfHeight: number, excess?: number): Body;
-  /** Whether the body fills its inside, so that another body inside it overlaps it. */
+  /** Whether the body is solid: another body inside it overlaps it. */
   readonly isSolid: boolean;
   /** The number of convex pieces. */
   readonly pieces: number;
-  /** The shape and its lengths in words, or the pieces made of the mesh, with remarks about it. */
+  /** A description of the body: the shape and its lengths, or the pieces that represent the mesh, with remarks. */
   readonly report: string;
-  /** How far the body may exceed its shape. Contacts may be early because of it, never late. 0 for exact bodies. */
+  /** How far the body may extend beyond its shape; 0 for exact bodies. Contacts may be early because of it, but never late. */
   readonly excess: number;
 }
 
 /**
- * Reads the triangles of a file that `Body.fromFile` reads, to be drawn, or changed before they become a body. `unit` is that of the
- * positions: the one asked for, or the one that the file states; null if neither is known, or with a `scale`.
+ * Reads the triangles of a mesh file, to draw them, or to change them before making a body. Formats are those of
+ * `Body.fromFile`. `unit` is the unit of the positions: the requested one, or the one that the file states. It is
+ * null if neither is known, or with a `scale`.
  */
 export function readMesh(
   name: string,
@@ -134,50 +147,51 @@ export function readMesh(
 
 // --- What moves a body
 
-/** A pose at time 0, the constant velocity of a center, and a constant angular velocity about it. What is left out is 0. */
+/** A motion at constant velocities: a pose at time 0, the velocity of a center, and an angular velocity about it. Defaults are 0. */
 export interface MotionNumbers extends GivenPose {
-  /** Of the center, per unit of time. */
+  /** The velocity of the center, per unit of time. */
   velocity?: GivenVector;
   /** The angular velocity about the world's axes, in radians per unit of time. */
   spin?: GivenVector;
-  /** The center of rotation in the body's frame; its origin by default. */
+  /** The center of rotation in the body's frame. The default is the body's origin. */
   center?: GivenVector;
 }
 
-/** What moves a body. */
+/** The movement of a body. */
 export abstract class Movement extends Owned {
-  /** When the movement ends, of a path, a link's motion and `Motion.between`: there a question about it ends, too. Null if it goes on. */
+  /** The end of the movement, for a path, a link's motion or `Motion.between`; null for others. Questions end there by default. */
   readonly end: number | null;
   pose(time: number): Pose;
 }
 
-/** A motion at constant velocities. Questions take its numbers as well, which need no `free`. */
+/** A motion at constant velocities. Questions also take plain `MotionNumbers`, which need no `free`. */
 export class Motion extends Movement {
   constructor(motion?: MotionNumbers);
   /**
-   * Makes the motion between two poses: the center moves straight, and the body turns the shortest way. The duration is 1 by default, and
-   * questions end there. One that is asked for longer goes on at the same velocities.
+   * Makes the motion between two poses. The center moves on a straight line, and the body takes the shortest
+   * rotation. The duration is 1 by default, and questions end there by default. In a longer question the motion
+   * continues at the same velocities.
    */
   static between(start: GivenPose, end: GivenPose, options?: { duration?: number; center?: GivenVector }): Motion;
 }
 
-/** A body that is thrown: its center has a constant acceleration, and it turns at a constant rate. */
+/** The movement of a thrown body: its center has a constant acceleration, and it rotates at a constant rate. */
 export class Throw extends Movement {
   constructor(motion: MotionNumbers & { acceleration: GivenVector });
 }
 
 /**
- * A path through poses at times that increase. Between two of them the center moves straight, and the body turns the shortest way; it
- * rests before the first and after the last.
+ * A path through poses at increasing times. Between two poses the center moves on a straight line, and the body takes
+ * the shortest rotation. The body is at rest before the first pose and after the last one.
  *
- * `spins` are angular velocities from each pose to the next, for more than half a turn. What one leaves over, a quarter turn at most, is
- * turned beside it.
+ * `spins` are angular velocities from each pose to the next, for rotations of more than half a turn. An angular
+ * velocity may miss the next pose by at most a quarter turn. The rest is added as a second rotation.
  */
 export class Path extends Movement {
   constructor(times: ArrayLike<number>, poses: readonly GivenPose[], options?: { center?: GivenVector; spins?: readonly GivenVector[] });
 }
 
-/** The motion of a robot's link while all joints move at constant rates; `Robot.motion` makes it. */
+/** The motion of a robot's link while all joints move at constant rates. `Robot.motion` makes it. */
 export class LinkMotion extends Movement {
   private constructor();
 }
@@ -185,30 +199,37 @@ export class LinkMotion extends Movement {
 // --- Questions about two bodies
 
 export interface Settings {
-  /** A contact is reported at a distance of at most margin + tolerance; 0.001 by default. */
+  /** The accuracy of contacts: a contact is reported at a distance of at most margin + tolerance. The default is 0.001. */
   tolerance?: number;
-  /** The work after which a question is given up, a whole number or infinity; a million takes about a second. For a path it is that between two poses; in a cell that of two bodies, and a question takes at most 8 budgets for each segment of the path. */
+  /**
+   * The largest amount of work of a question, a whole number or infinity. A million takes about a second. Along a
+   * `Path` the budget is for each segment between two poses. In a cell it is for each query of two bodies, and a
+   * question takes at most 8 budgets for each segment of the path.
+   */
   budget?: number;
 }
 
 export interface ContactSettings extends Settings {
-  /** A distance to keep; 0 by default. */
+  /** The distance at which bodies count as touching; 0 by default. */
   margin?: number;
 }
 
 export interface Movements {
-  /** What moves `a`; without it `a` rests at the world's origin. */
+  /** The movement of `a`. Without it, `a` is static at the world's origin. */
   motionA?: Movement | MotionNumbers;
-  /** What moves `b`. */
+  /** The movement of `b`. Without it, `b` is static at the world's origin. */
   motionB?: Movement | MotionNumbers;
 }
 
 export interface Moving extends Movements {
-  /** The end of the question, which starts at time 0. By default the end of what moves the bodies, else 1. Two that end at different times need it. */
+  /**
+   * The end of the question, which starts at time 0. The default is the end of the movements, or 1 if they have none.
+   * It is required if the movements end at different times.
+   */
   duration?: number;
 }
 
-/** A vertex, an edge, a face or a piece, numbered from 0 as in the body's mesh. */
+/** A vertex, an edge, a face or a piece of a body. Indices are those of its mesh, from 0. */
 export type Feature = `v${number}` | `e${number}-${number}` | `f${number}` | `p${number}`;
 
 /** The bodies stay apart. */
@@ -216,24 +237,27 @@ export interface Free {
   kind: "free";
   /** Nothing touches until this time: the duration. */
   safeUntil: number;
-  /** They are never nearer than this: the margin and half the tolerance, even if they are farther apart. */
+  /** A proven lower bound of the distance: margin + half the tolerance. The bodies may be farther apart. */
   provenGap: number;
   tolerance: number;
 }
 
 interface Touch {
-  /** Nothing touches before a first contact. */
+  /** The time of the contact. Nothing touches before a first contact. */
   time: number;
-  /** The point of `a` nearest to `b`, in the world at that time. */
+  /** The point of `a` nearest to `b`, in world coordinates at that time. */
   witnessA: Vector;
   witnessB: Vector;
-  /** The unit vector from `a` to `b`. */
+  /** The unit normal from `a` to `b`. */
   normal: Vector;
   /** Bounds of the distance at that time. */
   distance: readonly [lower: number, upper: number];
   featureA: Feature;
   featureB: Feature;
-  /** The distance beyond the margin within which a contact is reported: the given one, or more if only that can be certified. */
+  /**
+   * The largest distance beyond the margin at which a contact is reported. It is that of the options, or larger if
+   * rounding allows no less.
+   */
   tolerance: number;
 }
 
@@ -247,7 +271,7 @@ export interface Touching extends Touch {
   kind: "touching";
 }
 
-/** The bodies overlap. What a point inside both does not tell is null. */
+/** The bodies overlap. If only a point inside both bodies is known, the other fields are null. */
 export interface Overlapping extends Pick<Touch, "time" | "witnessA" | "witnessB" | "tolerance"> {
   kind: "overlapping";
   normal: Vector | null;
@@ -256,7 +280,7 @@ export interface Overlapping extends Pick<Touch, "time" | "witnessA" | "witnessB
   featureB: Feature | null;
 }
 
-/** The first and the last contact. The bodies may part in between; they do not touch before the first or after the last. */
+/** The first and the last contact. The bodies do not touch before the first or after the last one. They may separate in between. */
 export interface Interval {
   kind: "interval";
   first: Contact | Touching | Overlapping;
@@ -264,10 +288,13 @@ export interface Interval {
   tolerance: number;
 }
 
-/** Where two bodies are nearest, as far as was measured. */
+/** The nearest points of two bodies among all measured times. */
 export type Nearest = Pick<Touch, "time" | "witnessA" | "witnessB" | "normal" | "featureA" | "featureB">;
 
-/** Bounds of the least distance: never less than `lower`, and at `time` at most `upper`. What bodies exceed their shapes by is in `upper`. */
+/**
+ * Bounds of the least distance: it is at least `lower`, and at `time` it is at most `upper`. `upper` includes the
+ * excess of bodies over their shapes.
+ */
 export interface LeastDistance extends Nearest {
   kind: "leastDistance";
   lower: number;
@@ -277,18 +304,18 @@ export interface LeastDistance extends Nearest {
 
 export interface Limit {
   limit: "budget" | "stalled" | "undecided" | "oracle gave up" | (string & {});
-  /** What can be done about it. */
+  /** Advice on how to avoid the limit. */
   advice: string;
 }
 
-/** A limit was reached before the answer was known. All that is told is proven. */
+/** A limit was reached before the answer was known. All fields are proven. */
 export interface Unresolved extends Limit {
   kind: "unresolved";
   /** No contact happens before this time; 0 for questions about a distance. */
   safeUntil: number;
   /** No contact happens after this time; null unless the question is about the last contact. */
   safeFrom: number | null;
-  /** Bounds of the distance asked for; 0 and infinity if none are known. */
+  /** Bounds of the requested distance; 0 and infinity if none are known. */
   lower: number;
   upper: number;
   /** The smallest distance that was measured. */
@@ -300,18 +327,21 @@ export interface Unresolved extends Limit {
 export function firstContact(a: Body, b: Body, options?: Moving & ContactSettings): Free | Contact | Touching | Overlapping | Unresolved;
 /** Do they touch at all? The contact may not be the first. */
 export function anyContact(a: Body, b: Body, options?: Moving & ContactSettings): Free | Contact | Touching | Overlapping | Unresolved;
-/** Do they stay apart by more than the margin? Throws an `UnresolvedError` if a limit is reached. */
+/** Do they always stay farther apart than the margin? Throws an `UnresolvedError` if a limit is reached. */
 export function isFree(a: Body, b: Body, options?: Moving & ContactSettings): boolean;
 /** When do they first touch, and when last? */
 export function contactInterval(a: Body, b: Body, options?: Moving & ContactSettings): Free | Interval | Unresolved;
-/** How near do they come, to within the tolerance? It has no margin. */
+/** How near do they come, to within the tolerance? There is no option `margin`. */
 export function closestApproach(a: Body, b: Body, options?: Moving & Settings): LeastDistance | Overlapping | Unresolved;
 /** How far apart are they at time 0? */
 export function distance(a: Body, b: Body, options?: Movements & Settings): LeastDistance | Overlapping | Unresolved;
-/** Are they at least `clearance` apart all the time? Throws an `UnresolvedError` if the bounds do not tell, as for a distance that is the clearance exactly. */
+/**
+ * Are they always at least `clearance` apart? Throws an `UnresolvedError` if the bounds do not decide, for instance
+ * if the distance equals the clearance exactly.
+ */
 export function keepsClearance(a: Body, b: Body, clearance: number, options?: Moving & Settings): boolean;
 
-/** A question that wants yes or no was not decided. Which bounds are proven depends on the question. */
+/** A yes-or-no question was not decided. Which bounds are proven depends on the question. */
 export class UnresolvedError extends Error implements Limit {
   private constructor();
   limit: Limit["limit"] | "excess" | "tolerance";
@@ -324,9 +354,9 @@ export class UnresolvedError extends Error implements Limit {
 // --- Robots and mechanisms
 
 interface JointBetween {
-  /** No other joint of the robot has this name. */
+  /** The name of the joint, unique in the robot. */
   name: string;
-  /** The link that holds the joint, and the link that it moves. */
+  /** The link that the joint is fixed to. `child` is the link that it moves. */
   parent: string;
   child: string;
   /** The pose of the joint in the frame of the parent. */
@@ -337,32 +367,35 @@ export interface FixedJoint extends JointBetween {
   type: "fixed";
 }
 
-/** A joint with a position: an angle, or a length for one that slides. */
+/** A joint with a position: an angle for a revolute joint, a length for a prismatic one. */
 export interface MovingJoint extends JointBetween {
-  /** A continuous joint of URDF is a revolute one without limits. */
+  /** For a continuous joint of URDF, use a revolute joint without limits. */
   type: "revolute" | "prismatic";
-  /** In the joint's frame, of any length; z by default. */
+  /** The axis in the joint's frame. It need not be normalised. The default is z. */
   axis?: GivenVector;
-  /** The least and the greatest position; any by default. */
+  /** The least and the greatest position. There are no limits by default. */
   limits?: readonly [low: number, high: number];
-  /** The joint that this one follows: its position is `multiplier` times that, which is 1 by default, plus `offset`. */
+  /**
+   * The joint that this joint follows. The position of this joint is `multiplier` times the position of the other,
+   * plus `offset`. The defaults are 1 and 0.
+   */
   mimic?: { joint: string; multiplier?: number; offset?: number };
 }
 
 export type Joint = FixedJoint | MovingJoint;
 
 export interface RobotParts {
-  /** In the order in which configurations have positions. */
+  /** The joints, in the order of positions in configurations. */
   joints?: readonly Joint[];
-  /** What is fixed to each link. */
+  /** The bodies that are fixed to each link. */
   bodies?: { readonly [link: string]: Body | readonly { body: Body; pose?: GivenPose }[] };
-  /** Pairs of links that are not checked, besides neighbours. */
+  /** Pairs of links that are not checked. Neighbours are never checked either. */
   mayTouch?: readonly (readonly [string, string])[];
 }
 
-/** What is probably a mistake, or what is not checked. It changes no answer. */
+/** A remark about a probable mistake, or about something that is not checked. It changes no answer. */
 export interface Remark {
-  /** A warning tells what is probably a mistake, or that most of a robot is not checked. */
+  /** A warning is about a probable mistake, or about a robot that is mostly not checked. */
   kind: "remark" | "warning";
   text: string;
 }
@@ -373,13 +406,13 @@ export type Configuration = ArrayLike<number>;
 /** A robot or a mechanism: a tree of links and joints, and the pairs of links that are checked. */
 export class Robot extends Owned {
   constructor(parts: RobotParts);
-  /** The names of the joints that have a position of their own. */
+  /** The names of the joints that have a position of their own in configurations. */
   readonly jointNames: string[];
   readonly linkNames: string[];
   readonly limits: [low: number, high: number][];
-  /** The pairs of links that are checked. A cell has a list of its own, to which `Cell.setClearance` may add. */
+  /** The pairs of links that are checked. A cell has its own list, and `Cell.setClearance` may add pairs to it. */
   readonly checkedPairs: [string, string][];
-  /** What is probably a mistake, then what is not checked: links without bodies, and pairs of links by reason. */
+  /** Remarks on probable mistakes, then on what is not checked: links without bodies, and pairs of links by reason. */
   readonly remarks: Remark[];
   /** Returns the pose of a link in the frame of the base. */
   pose(link: string, configuration: Configuration): Pose;
@@ -387,16 +420,16 @@ export class Robot extends Owned {
   motion(link: string, start: Configuration, end: Configuration, options?: { duration?: number; seenFrom?: string }): LinkMotion;
 }
 
-/** A pair of a cell on a path. Witnesses are in the frame of the robot's base. */
+/** A pair of items of a cell, at a point of a path. Witness points are in the frame of the robot's base. */
 export interface Pair {
-  /** The segment between two configurations, from 0, and the share of it that is passed. */
+  /** The index, from 0, of the segment between two configurations. `share` is the position within it, from 0 to 1. */
   segment: number;
   share: number;
-  /** Both together: 1.5 is the middle of the second segment. */
+  /** The sum of `segment` and `share`: 1.5 is the middle of the second segment. */
   time: number;
-  /** A link, or a body that is attached to one. */
+  /** The name of the first item: a link, or an attached body. */
   a: string;
-  /** Another one, or an obstacle. */
+  /** The name of the second item: a link, an attached body or an obstacle. */
   b: string;
   witnessA: Vector;
   witnessB: Vector;
@@ -407,15 +440,18 @@ export interface Pair {
 }
 
 /**
- * A free path is safe until its end, which is the number of its segments. A contact is within margin + tolerance: that of the
- * options, unless the rounding of positions allows only a larger one.
+ * An answer about contacts on a path. If the path is free, `safeUntil` is its number of segments. A contact is within
+ * margin + tolerance. The tolerance is that of the options, or larger if rounding of positions does not allow less.
  */
 export type PathContact = { kind: "free"; safeUntil: number } | ({ kind: "contact"; tolerance: number } & Pair) | ({ kind: "unresolved"; safeUntil: number } & Limit);
 
 /** Bounds of the least distance on a path, to within the tolerance, and the nearest pair that was measured. */
 export type PathDistance = { lower: number; upper: number; tolerance: number; nearest: Pair | null } & ({ kind: "leastDistance" } | ({ kind: "unresolved" } & Limit));
 
-/** Whether all pairs keep their distance everywhere in a range, or one is nearer everywhere in it, or neither is proven. */
+/**
+ * A range of a path. "kept": all pairs keep their required distance everywhere in it. "violated": everywhere in it
+ * some pair is nearer. "unverified": neither is proven.
+ */
 export interface PathRange {
   start: number;
   end: number;
@@ -423,43 +459,56 @@ export interface PathRange {
 }
 
 export interface PathSettings extends ContactSettings {
-  /** With "leave", pairs in contact at the start may part or slide, but not come nearer; "report" by default. */
+  /** With "leave", pairs in contact at the start may separate or slide, but not come nearer. The default is "report". */
   start?: "report" | "leave";
 }
 
-/** A robot among obstacles that rest in the frame of its base. A path is a list of configurations, between which joints move at constant rates. */
+/**
+ * A cell (planning scene): a robot among obstacles that are static in the frame of its base. A path is a list of
+ * configurations. Between them joints move at constant rates.
+ */
 export class Cell extends Owned {
   constructor(robot: Robot);
-  /** Adds an obstacle. */
+  /** Adds an obstacle at a pose in the frame of the robot's base. */
   add(name: string, body: Body, pose?: GivenPose): void;
   moveTo(name: string, pose: GivenPose): void;
   remove(name: string): void;
-  /** Attaches a body to a link, at a pose in its frame. It may touch that link, and the links, attached bodies and obstacles that are named. */
+  /**
+   * Attaches a body to a link, at a pose in the link's frame. The body may touch that link, and the items named in
+   * `mayTouch`: links, attached bodies and obstacles.
+   */
   attach(name: string, body: Body, link: string, options?: { pose?: GivenPose; mayTouch?: readonly string[] }): void;
   detach(name: string): void;
-  /** Allows two items to touch, also if they have a clearance: two links, or a link, an attached body and an obstacle. What is removed takes this away, and so do `forbidContact` and `setClearance`. */
+  /**
+   * Allows two items to touch, even if they have a clearance. An item is a link, an attached body or an obstacle. The
+   * permission ends when one of them is removed, and by `forbidContact` and `setClearance`.
+   */
   allowContact(a: string, b: string): void;
-  /** Compares two items again that were allowed to touch, or two links that were not checked. */
+  /** Checks two items again that were allowed to touch, or checks two links that were not checked before. */
   forbidContact(a: string, b: string): void;
-  /** The remarks on the robot, obstacles and attached bodies of an unlikely size, and which contacts are allowed. */
+  /** The remarks on the robot, on obstacles and attached bodies of an unlikely size, and on allowed contacts. */
   readonly remarks: Remark[];
-  /** Sets the distance that obstacles have to keep from a link, in addition to the margin. */
+  /** Sets the padding of a link: the distance, in addition to the margin, that obstacles have to keep from it. */
   setPadding(link: string, distance: number): void;
-  /** The pairs of links that are checked: those of the robot, and those that `setClearance` has added. */
+  /** The pairs of links that are checked: those of the robot, and those added by `setClearance`. */
   readonly checkedPairs: [string, string][];
-  /** Sets the distance at which a pair counts as touching. A pair of links that was not checked is checked from then on, and so is a pair that was allowed to touch. */
+  /**
+   * Sets the distance at which a pair counts as touching. The pair is checked from then on, even if it was not
+   * checked or was allowed to touch.
+   */
   setClearance(a: string, b: string, distance: number): void;
-  /** What touches first on a path? Nothing touches before. A cell of which nothing is compared is an error for all questions. */
+  /** What touches first on a path? Nothing touches before. Every question about a cell without a pair to check is an error. */
   firstContact(path: ArrayLike<Configuration>, options?: PathSettings): PathContact;
-  /** Does nothing touch on a path? Throws an `UnresolvedError` if a limit is reached. */
+  /** Is a path free of contact? Throws an `UnresolvedError` if a limit is reached. */
   isFree(path: ArrayLike<Configuration>, options?: PathSettings): boolean;
-  /** How near does anything come on a path? It has no margin. */
+  /** How near does any pair come on a path? There is no option `margin`. */
   closestApproach(path: ArrayLike<Configuration>, options?: Settings): PathDistance;
   /**
-   * Where on a path do all pairs keep the margin, or the clearance that is set for them?
+   * Where on a path do all pairs keep the margin, or their own clearance if one is set?
    *
-   * `resolution` is the length of the shortest ranges that are examined, in segments: 1/4096 by default. `maxPoseError` is how far points
-   * of links may be from where the path places them, as between the configurations of a closed loop of joints.
+   * `resolution` is the length of the shortest ranges that are examined, in segments: 1/4096 by default.
+   * `maxPoseError` bounds how far points of links may be from their positions on the path. A closed loop of joints
+   * needs it, because the path is inexact between its configurations.
    */
   clearanceRanges(path: ArrayLike<Configuration>, options?: ContactSettings & { resolution?: number; maxPoseError?: number }): PathRange[];
 }

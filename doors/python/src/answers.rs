@@ -1,4 +1,4 @@
-//! Converts answers to the package's Python classes, which `_answers.py` defines.
+//! Converts answers to the Python classes that `_answers.py` defines.
 
 use ccd_tables::results::Status;
 use pyo3::prelude::*;
@@ -8,7 +8,7 @@ use rigid_ccd::Question;
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Hit, Outcome};
 
-/// Makes a Python `Contact` from a hit.
+/// Makes a Python `Contact` from a contact of the engine.
 pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, PyAny>> {
     static CONTACT_CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     let contact = hit.contact();
@@ -27,7 +27,7 @@ pub(crate) fn contact<'py>(py: Python<'py>, hit: &Hit) -> PyResult<Bound<'py, Py
         ))
 }
 
-/// Makes a Python `Distance`, including its comparison with a clearance.
+/// Makes a Python `Distance`, with its comparison to a clearance.
 pub(crate) fn make_distance<'py>(
     py: Python<'py>,
     found: &Outcome,

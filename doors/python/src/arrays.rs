@@ -1,23 +1,23 @@
-//! Reads NumPy arrays, and what NumPy makes arrays of, with its conversion rules.
+//! Reads NumPy arrays, and other values by NumPy's rules of conversion.
 
 use crate::errors::{input_error, input_error_from};
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 
-/// The elements of an array, the last index fastest, whatever their order in memory.
+/// The elements of an array in C order (last index fastest), whatever their order in memory.
 pub(crate) struct Elements<T> {
     pub(crate) values: Vec<T>,
     pub(crate) shape: Vec<usize>,
 }
 
 impl Elements<f64> {
-    /// Reads numbers from anything that NumPy can convert to an array of them.
+    /// Reads numbers from anything that NumPy can convert to an array of numbers.
     pub(crate) fn read(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Self> {
         let given = numpy_array(values, what)?;
         match kind(&given)? {
             'f' | 'i' | 'u' => {}
-            // Arrays of objects contain other kinds of numbers, such as fractions.
+            // Arrays of objects may contain other kinds of numbers, such as fractions.
             'O' => check_objects(&given, what)?,
             _ => {
                 let dtype = given.getattr("dtype")?;
@@ -30,7 +30,7 @@ impl Elements<f64> {
 }
 
 impl Elements<i64> {
-    /// Reads whole numbers from anything that NumPy can convert to an array of them.
+    /// Reads whole numbers from anything that NumPy can convert to an array of whole numbers.
     pub(crate) fn read(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Self> {
         let given = numpy_array(values, what)?;
         let is_empty = given.getattr("size")?.extract::<usize>()? == 0;
@@ -63,7 +63,7 @@ fn elements<T: Element + Copy>(
     what: &str,
 ) -> PyResult<Elements<T>> {
     let py = array.py();
-    // Elements of the machine's byte order, at addresses from which it can read them.
+    // Converts the elements to the machine's byte order, at aligned addresses.
     let plain = (py.import("numpy")?)
         .call_method1("require", (array, dtype, ["C", "A"]))
         .map_err(|error| input_error_from(py, what, error))?;
@@ -96,7 +96,7 @@ pub(crate) fn triangles(values: &Bound<'_, PyAny>) -> PyResult<Vec<[u32; 3]>> {
     .collect()
 }
 
-/// Reads exactly `N` finite numbers; the error names the first number that is NaN or infinite.
+/// Reads exactly `N` finite numbers. The error names the first number that is NaN or infinite.
 pub(crate) fn finite_numbers<const N: usize>(
     values: &Bound<'_, PyAny>,
     what: &str,
@@ -131,7 +131,7 @@ fn indices(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<i64>> {
     Ok(Elements::<i64>::read(values, what)?.values)
 }
 
-/// Reads row indices; a boolean array with one element per row stands for the indices of its true elements.
+/// Reads row indices. A boolean array with one element for each row stands for the indices of its true elements.
 pub(crate) fn row_indices(rows: &Bound<'_, PyAny>, all: usize) -> PyResult<Vec<i64>> {
     let given = numpy_array(rows, "rows")?;
     if kind(&given)? != 'b' {
@@ -148,12 +148,12 @@ pub(crate) fn row_indices(rows: &Bound<'_, PyAny>, all: usize) -> PyResult<Vec<i
     }
 }
 
-/// Returns the shape of the array that NumPy makes of some values.
+/// Returns the shape of the array that NumPy makes from values.
 pub(crate) fn shape(values: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<usize>> {
     numpy_array(values, what)?.getattr("shape")?.extract()
 }
 
-/// Makes an array of values, whose element type NumPy chooses.
+/// Converts values to an array. NumPy chooses the element type.
 pub(crate) fn numpy_array<'py>(
     values: &Bound<'py, PyAny>,
     what: &str,
@@ -163,7 +163,7 @@ pub(crate) fn numpy_array<'py>(
     let array = numpy.call_method1("asarray", (values,));
     let array = array.map_err(|error| input_error_from(py, what, error))?;
     let masked_array = numpy.getattr("ma")?.getattr("MaskedArray")?;
-    // NumPy takes what is under a mask.
+    // NumPy would read the values under a mask, so masked arrays are refused.
     visit_parts(values, array.getattr("ndim")?.extract()?, &mut |part, _| {
         let is_masked = part.is_instance(&masked_array)?
             && part.getattr("mask")?.call_method0("any")?.is_truthy()?;
@@ -182,8 +182,9 @@ pub(crate) fn kind(array: &Bound<'_, PyAny>) -> PyResult<char> {
     array.getattr("dtype")?.getattr("kind")?.extract()
 }
 
-/// Calls `visit` with what NumPy makes an array of, and with each object in its nested lists that is no number, to a depth: that of
-/// the dimensions of the array; with how much deeper each one is.
+/// Calls `visit` with the values, and with each object in their nested lists that is not a number. It visits `depth`
+/// levels, one for each dimension of the array. The second argument of `visit` is the number of levels below the
+/// object.
 pub(crate) fn visit_parts<'py>(
     values: &Bound<'py, PyAny>,
     depth: usize,
@@ -204,7 +205,8 @@ pub(crate) fn visit_parts<'py>(
     Ok(())
 }
 
-/// Returns whether NumPy takes the elements of an object one by one: those of a list, or of another sequence that is no array.
+/// Returns whether NumPy converts the elements of an object one by one: it is a list, or another sequence that is not
+/// an array.
 fn is_nested(values: &Bound<'_, PyAny>) -> PyResult<bool> {
     if values.is_instance_of::<PyList>() || values.is_instance_of::<PyTuple>() {
         return Ok(true);
@@ -217,7 +219,7 @@ fn is_nested(values: &Bound<'_, PyAny>) -> PyResult<bool> {
         && values.hasattr("__getitem__")?)
 }
 
-/// Refuses objects that NumPy converts to numbers and that are none: text, truth values and None.
+/// Refuses objects that are not numbers but that NumPy would convert to numbers: text, truth values and None.
 fn check_objects(array: &Bound<'_, PyAny>, what: &str) -> PyResult<()> {
     let truth = array.py().import("numpy")?.getattr("bool")?;
     for value in array.getattr("flat")?.try_iter()? {

@@ -18,22 +18,22 @@ use std::path::PathBuf;
 
 /// A rigid body: a mesh, a box, a ball, a capsule, a cylinder or a cone.
 ///
-/// A mesh is a solid when it is closed and consistently oriented. Otherwise it is a surface. A body inside a solid
-/// overlaps it; a body inside a surface does not.
+/// A mesh is solid if it is closed and consistently oriented. Otherwise it is a surface. A body inside a solid overlaps
+/// it; a body inside a surface does not.
 ///
 /// Args:
 ///     vertices: array of shape (n, 3), in any unit of length.
-///     faces: array of shape (m, 3), integers from 0.
-///     pieces: the convex pieces to make: "auto", "triangles", "patches", "hull" of a convex solid, or "outer-hull", which
-///         encloses any mesh.
-///     surface: whether a closed mesh is a hollow surface, too.
+///     faces: array of shape (m, 3), indices of vertices from 0.
+///     pieces: the convex pieces that represent the mesh: "auto", "triangles", "patches", "hull" for a convex solid, or
+///         "outer-hull", which encloses any mesh.
+///     surface: whether a closed mesh is a hollow surface instead of a solid.
 ///
-/// A mesh that is not closed gives a warning, unless it is meant as a surface. If only rounding keeps it open, as the seam
-/// of a round shape, the warning says so: trimesh joins such vertices with `merge_vertices(merge_tex=True,
+/// A mesh that is not closed gives a warning, unless `surface` is True. The warning also tells if only rounding keeps
+/// the mesh open, as at the seam of a round shape. trimesh joins such vertices with `merge_vertices(merge_tex=True,
 /// merge_norm=True)`.
 ///
 /// Raises:
-///     InputError: the mesh is no mesh; the message names the element.
+///     InputError: the mesh is invalid; the message names the element.
 ///
 /// >>> from rigid_ccd import Body
 /// >>> Body([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]).is_solid
@@ -45,7 +45,7 @@ pub(crate) struct PyBody {
     size: f64,
     pickle_data: PickleData,
     #[pyo3(get)]
-    /// A description of the body in words: its shape and lengths, or the pieces made of its mesh with remarks about it.
+    /// A description of the body: its shape and lengths, or the pieces that represent its mesh, with remarks.
     report: String,
 }
 
@@ -55,7 +55,7 @@ enum PickleData {
     Mesh(Box<StoredBodyContent>),
 }
 
-/// Extracts a `Body` from a Python argument; `what` names it in errors.
+/// Extracts a `Body` from a Python argument. Errors name it as `what`.
 pub(crate) fn extract_body<'p>(given: &'p Bound<'_, PyAny>, what: &str) -> PyResult<&'p Body> {
     let needed = "a Body, as Body.from_file or Body.from_trimesh makes it,";
     match given.cast::<PyBody>() {
@@ -107,26 +107,27 @@ impl PyBody {
 
     /// Reads a mesh file (.gltf, .glb, .dae, .obj, .stl, .ply, .off), or a prepared body (.ccd).
     ///
-    /// Coordinates keep the unit that a COLLADA or a glTF states, unless `unit` converts them. One that is not the metre
-    /// gives a warning, if neither a unit nor a factor is given.
+    /// Coordinates keep the unit that a COLLADA or glTF file states, unless `unit` converts them. A unit other than the
+    /// metre gives a warning if you pass none of `unit`, `file_unit` and `scale`.
     ///
     /// Args:
     ///     path: the file.
-    ///     part: the name or the number of a part of a scene; None for all of it.
-    ///     unit: "um", "mm", "cm", "m", "in" or "ft" converts files whose unit is known to it: of glTF and COLLADA, or by `file_unit`.
-    ///     pieces: as of `Body`.
-    ///     file_unit: the unit of the file's numbers, whatever the file says.
+    ///     part: the name or the index of a part of a scene; None for the whole scene.
+    ///     unit: the unit to convert coordinates to: "um", "mm", "cm", "m", "in" or "ft". The unit of the file must be
+    ///         known: by the format, for glTF and COLLADA, or by `file_unit`.
+    ///     pieces: as for `Body`.
+    ///     file_unit: the unit of the file's coordinates; it overrides the one that the file states.
     ///     scale: a factor on all coordinates.
-    ///     mirror: "x", "y" or "z" changes the signs of that coordinate, and turns the triangles round.
-    ///     surface: as of `Body`.
+    ///     mirror: "x", "y" or "z" changes the sign of that coordinate, and reverses the orientation of triangles.
+    ///     surface: as for `Body`.
     ///
     /// Raises:
-    ///     InputError: the file is no mesh; OSError is raised for one that cannot be read.
+    ///     InputError: the file is not a valid mesh. A file that cannot be read raises OSError.
     #[classmethod]
     #[pyo3(signature = (
         path, *, part = None, unit = None, pieces = "auto", file_unit = None, scale = None, mirror = None, surface = false
     ))]
-    // Python's keyword arguments.
+    // The keyword arguments of Python.
     #[allow(clippy::too_many_arguments)]
     fn from_file(
         class: &Bound<'_, PyType>,
@@ -151,7 +152,7 @@ impl PyBody {
             part,
             detail: detail(pieces, surface)?,
         };
-        // What cannot be read is an error of the reader.
+        // If the file cannot be read, the reader reports it later.
         let file_bytes = std::fs::metadata(&file.path).map_or(0, |file| file.len());
         let read = move || {
             let (model, remarks) = file.read()?;
@@ -162,7 +163,7 @@ impl PyBody {
         Ok(body)
     }
 
-    /// Makes a body of a trimesh mesh, or of any object with `vertices` and `faces`.
+    /// Makes a body from a trimesh mesh, or from any object with `vertices` and `faces`.
     #[classmethod]
     #[pyo3(signature = (mesh, *, pieces = "auto", surface = false))]
     fn from_trimesh(
@@ -191,7 +192,7 @@ impl PyBody {
     ///
     /// Args:
     ///     x, y, z: half extents.
-    ///     size: full extents instead, as in URDF, trimesh, Coal and Drake.
+    ///     size: full extents, in place of half extents, as in URDF, trimesh, Coal and Drake.
     #[classmethod]
     #[pyo3(signature = (x = None, y = None, z = None, *, size = None))]
     fn r#box(
@@ -230,7 +231,7 @@ impl PyBody {
         PyBody::from_shape(Body::sphere(radius), recipe, report)
     }
 
-    /// Makes a capsule along z; `half_height` is the distance from its middle to the centre of either cap.
+    /// Makes a capsule along z. `half_height` is the distance from its middle to the centre of either cap.
     #[classmethod]
     fn capsule(
         class: &Bound<'_, PyType>,
@@ -242,12 +243,14 @@ impl PyBody {
         PyBody::from_shape(Body::capsule(radius, half_height), recipe, report)
     }
 
-    /// Makes a cylinder along z, as a polytope around it that exceeds the cylinder by at most `excess`.
+    /// Makes a cylinder along z. It is represented by an enclosing polytope, which extends beyond it by at most
+    /// `excess`.
     ///
     /// Args:
     ///     radius: its radius.
     ///     half_height: half its length.
-    ///     excess: how far the polytope may exceed it, at least 1.9e-8 of the radius; None for 1/4096 of the radius.
+    ///     excess: the largest distance by which the polytope may extend beyond the cylinder, at least 1.9e-8 of the
+    ///         radius; None for 1/4096 of the radius.
     #[classmethod]
     #[pyo3(signature = (radius, half_height, excess = None))]
     fn cylinder(
@@ -266,12 +269,12 @@ impl PyBody {
         )
     }
 
-    /// Makes a cone along z with its apex up, as a polytope around it, like `Body.cylinder`.
+    /// Makes a cone along z with its apex up. It is represented by an enclosing polytope, like `Body.cylinder`.
     ///
     /// Args:
     ///     radius: the radius of its base.
     ///     half_height: half its length.
-    ///     excess: as of `Body.cylinder`.
+    ///     excess: as for `Body.cylinder`.
     #[classmethod]
     #[pyo3(signature = (radius, half_height, excess = None))]
     fn cone(
@@ -284,14 +287,14 @@ impl PyBody {
         PyBody::solid_of_revolution(class.py(), "cone", &round, [radius, half_height], excess)
     }
 
-    /// Whether the body fills its inside, so that another body inside it overlaps it.
+    /// Whether the body is solid: another body inside it overlaps it.
     #[getter]
     fn is_solid(&self) -> bool {
         self.body.solidity() == Solidity::Solid
     }
 
-    /// How far the body may exceed the shape that it was made of, as a length. Contacts may be early because of it, but
-    /// never late, and upper bounds of distances are larger by it. 0 for exact bodies.
+    /// The largest distance by which the body may extend beyond the shape that it represents; 0 for exact bodies.
+    /// Contacts may be early because of it, but never late. Upper bounds of distances include it.
     #[getter]
     fn excess(&self) -> f64 {
         self.body.excess()
@@ -303,10 +306,10 @@ impl PyBody {
         self.body.pieces().len()
     }
 
-    /// Writes the prepared body to a file, which `Body.from_file` reads much faster than a mesh.
+    /// Writes the prepared body to a file. `Body.from_file` reads it much faster than a mesh.
     ///
     /// Args:
-    ///     path: by convention it ends in .ccd.
+    ///     path: the file, which ends in .ccd by convention.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         py.detach(|| {
             self.model()?

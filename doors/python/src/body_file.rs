@@ -1,4 +1,4 @@
-//! Reads bodies from files of meshes, and prepared ones.
+//! Reads bodies from mesh files, and from files of prepared bodies.
 
 use crate::errors::{InputError, file_error, input_error};
 use crate::numbers::whole_number;
@@ -11,23 +11,23 @@ use rigid_ccd::mesh::{
 };
 use std::path::{Path, PathBuf};
 
-/// A file of a mesh or of a prepared body, and what is to be made of it.
+/// A file of a mesh or of a prepared body, and the options for reading it.
 pub(crate) struct BodyFile {
     pub(crate) path: PathBuf,
     pub(crate) part: Option<String>,
     pub(crate) adjustments: Adjustments,
     pub(crate) detail: Detail,
-    /// Whether nothing is asked for that a prepared body cannot give.
+    /// Whether the options allow a prepared body.
     pub(crate) may_be_prepared: bool,
-    /// Whether neither a unit nor a factor is given.
+    /// Whether the options have neither a unit nor a factor.
     pub(crate) keeps_numbers: bool,
 }
 
 impl BodyFile {
-    /// Reads the file, and remarks on its mesh.
+    /// Reads the file. Returns its content, and remarks on the mesh.
     pub(crate) fn read(self) -> PyResult<(StoredBodyContent, Vec<Remark>)> {
         let path = self.path;
-        // An unreadable file is an OSError. A pipe would block, and is refused.
+        // An unreadable file is an OSError. A pipe is refused, because it would block.
         let there = std::fs::metadata(&path).map_err(|error| file_error(&error, &path))?;
         if !there.is_file() {
             return Err(input_error(format!("{}: is no file", path.display())));
@@ -74,7 +74,7 @@ pub(crate) fn read_adjustments(
     Ok(adjustments)
 }
 
-/// Reads the name or the number of a part.
+/// Reads the name or the index of a part.
 pub(crate) fn read_part(given: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     if given.is_none() || given.is_instance_of::<PyString>() {
         return given.extract();
@@ -82,7 +82,7 @@ pub(crate) fn read_part(given: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     Ok(Some(whole_number(given, "part", 0..=u64::MAX)?.to_string()))
 }
 
-/// Reads a unit of length; `argument` names it in errors.
+/// Reads a unit of length. Errors name it as `argument`.
 pub(crate) fn parse_unit(argument: &str, name: Option<&str>) -> PyResult<Option<Unit>> {
     let unit = name.map(str::parse::<Unit>).transpose();
     unit.map_err(|error| input_error(format!("{argument}: {error}")))

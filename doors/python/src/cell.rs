@@ -21,14 +21,16 @@ use pyo3::types::{PyDict, PyType};
 use rigid_ccd::{Body, Question};
 use rigid_ccd_robot::{Cell, CellRemark, RangeSettings};
 
-/// A robot among obstacles that rest in the frame of its base.
+/// A cell (planning scene): a robot among obstacles that are static in the frame of its base.
 ///
-/// A path is an array of shape (n, joints): configurations, between two of which all joints move at constant rates. An array
-/// of shape (joints,) is a configuration alone. The columns of a data frame name the joints, with the end `_deg` for degrees.
+/// A path is an array of shape (n, joints): a sequence of configurations, between which all joints move at constant
+/// rates. An array of shape (joints,) is a single configuration. In a data frame, columns have the names of joints,
+/// with the suffix `_deg` for degrees.
 ///
-/// Or a path is a curve of up to degree 9: a `scipy.interpolate.PPoly` such as `CubicSpline`, or any object with its breakpoints
-/// `x` and its coefficients `c` of shape (degree + 1, segments, joints); or a `BSpline` on its base interval, or any object that is
-/// called with a time and the order of a derivative as it is, with its knots `t`, its coefficients `c` and its degree `k`.
+/// A path may also be a curve of up to degree 9, in one of two forms. The first is a `scipy.interpolate.PPoly`, such as
+/// `CubicSpline`, or any object with the same breakpoints `x` and coefficients `c` of shape (degree + 1, segments,
+/// joints). The second is a `BSpline` on its base interval, or any object with the same knots `t`, coefficients `c` and
+/// degree `k` that can be called with a time and the order of a derivative.
 ///
 /// Args:
 ///     robot: the robot.
@@ -44,7 +46,7 @@ impl PyCell {
     fn new(robot: &Bound<'_, PyRobot>) -> PyResult<Self> {
         let given = robot.get();
         let cell = Cell::new((*given.robot).clone(), given.pairs.clone());
-        // Those on files were told when they were read.
+        // Warnings about files were shown when the files were read.
         let told: Vec<_> = given.file_remarks().collect();
         let remarks = cell.remarks().into_iter();
         warn_of(robot.py(), remarks.filter(|remark| !told.contains(&remark)))?;
@@ -60,7 +62,8 @@ impl PyCell {
         self.robot.clone_ref(py)
     }
 
-    /// Adds an obstacle at a pose in the frame of the robot's base. Warns if its size is unlikely beside the robot.
+    /// Adds an obstacle at a pose in the frame of the robot's base. Warns if its size is unlikely compared with the
+    /// robot.
     #[pyo3(signature = (name, body, pose = None))]
     fn add(
         &self,
@@ -74,14 +77,14 @@ impl PyCell {
         self.state.add(name, given, pose)
     }
 
-    /// Adds an obstacle that is a half-space: all points below the plane z = 0 of the frame at a pose, without an end. A path on which
-    /// joints slide so far that this is not certain raises an InputError.
+    /// Adds a half-space as an obstacle: all points below the plane z = 0 of the frame at a pose. It is represented by
+    /// a large box. A path on which prismatic joints could reach the end of the box raises an InputError.
     #[pyo3(signature = (name, pose = None))]
     fn add_plane(&self, name: &str, pose: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
         self.state.add_plane(name, given_pose_or_identity(pose)?)
     }
 
-    /// Moves an obstacle to a pose.
+    /// Moves an obstacle to a pose in the frame of the robot's base.
     fn move_to(&self, name: &str, pose: &Bound<'_, PyAny>) -> PyResult<()> {
         self.state.move_to(name, read_given_pose(pose, "pose")?)
     }
@@ -91,8 +94,8 @@ impl PyCell {
         self.state.remove(name)
     }
 
-    /// Attaches a body to a link, at a pose in the link's frame. It may touch that link, and the links, attached bodies and
-    /// obstacles in `may_touch`. Warns if its size is unlikely beside the robot.
+    /// Attaches a body to a link, at a pose in the link's frame. The body may touch that link, and the items in
+    /// `may_touch`: links, attached bodies and obstacles. Warns if its size is unlikely compared with the robot.
     #[pyo3(signature = (name, body, link, pose = None, may_touch = Vec::new()))]
     fn attach(
         &self,
@@ -108,30 +111,30 @@ impl PyCell {
         self.state.attach((name, given, link, pose, may_touch))
     }
 
-    /// Removes a body that is attached to a link.
+    /// Detaches a body from its link, and removes it.
     fn detach(&self, name: &str) -> PyResult<()> {
         self.state.detach(name)
     }
 
-    /// Allows two items to touch: two links, or a link, an attached body and an obstacle, also if they have a clearance. What is
-    /// removed takes this away, and so do `forbid_contact` and `set_clearance`.
+    /// Allows two items to touch, even if they have a clearance. An item is a link, an attached body or an obstacle.
+    /// The permission ends when one of them is removed, and by `forbid_contact` and `set_clearance`.
     fn allow_contact(&self, a: &str, b: &str) -> PyResult<()> {
         self.state.set_contact(a, b, Contact::Allowed)
     }
 
-    /// Compares two items again that were allowed to touch, or two links that were not checked.
+    /// Checks two items again that were allowed to touch, or checks two links that were not checked before.
     fn forbid_contact(&self, a: &str, b: &str) -> PyResult<()> {
         self.state.set_contact(a, b, Contact::Forbidden)
     }
 
-    /// What is probably a mistake, then what is not checked, as texts: the robot's remarks, obstacles and attached bodies of an
-    /// unlikely size, and allowed contacts.
+    /// Remarks as texts: first on probable mistakes, then on what is not checked. They include the robot's remarks,
+    /// obstacles and attached bodies of an unlikely size, and allowed contacts.
     #[getter]
     fn remarks(&self) -> Vec<String> {
         remark_texts(&self.state.solvers.cell().remarks())
     }
 
-    /// Sets the distance that obstacles have to keep from a link, in addition to the margin.
+    /// Sets the padding of a link: the distance, in addition to the margin, that obstacles have to keep from it.
     fn set_padding(
         &self,
         link: &str,
@@ -140,8 +143,8 @@ impl PyCell {
         self.state.set_padding(link, distance)
     }
 
-    /// Sets the distance at which a pair counts as touching, also if it was allowed to. `a` is a link or an attached body; so is `b`,
-    /// or an obstacle.
+    /// Sets the distance at which a pair counts as touching, even if the pair was allowed to touch. `a` is a link or an
+    /// attached body. `b` is a link, an attached body or an obstacle.
     fn set_clearance(
         &self,
         a: &str,
@@ -151,13 +154,13 @@ impl PyCell {
         self.state.set_clearance(a, b, distance)
     }
 
-    /// Returns whether nothing touches on a path. That is proven for all configurations on it.
+    /// Returns whether a path is free of contact. True is proven for every configuration on the path.
     ///
-    /// With the setting `start="leave"` pairs in contact at the start may part or slide, but not come nearer: a held can is lifted
-    /// from a table.
+    /// With the setting `start="leave"`, pairs in contact at the start may separate or slide, but not come nearer. Use
+    /// it to lift a held object from a table.
     ///
     /// Raises:
-    ///     InputError: the path does not fit the robot, or no pair of the cell is compared.
+    ///     InputError: the path does not fit the robot, or the cell has no pair to check.
     ///     Unresolved: a limit was reached first.
     #[pyo3(signature = (path, **settings))]
     fn is_free(
@@ -171,10 +174,11 @@ impl PyCell {
         Ok(answer.row.status == Status::Free)
     }
 
-    /// Returns the first contact on a path, or None. Nothing touches before it. `start="leave"` is as of `is_free`.
+    /// Returns the first contact on a path, or None. Nothing touches before it. `start="leave"` is as for `is_free`.
     ///
     /// Raises:
-    ///     Unresolved: a limit was reached first; `safe_until` is the last free point, in segments of the path, or the time on a curve.
+    ///     Unresolved: a limit was reached first. The path is free until `safe_until`, in segments of the path, or as a
+    ///         time on a curve.
     #[pyo3(signature = (path, **settings))]
     fn first_contact<'py>(
         &self,
@@ -187,23 +191,25 @@ impl PyCell {
         contact_object(py, &answer)
     }
 
-    /// Finds the first contact on a path of configurations, and proves the answer for each of its segments: that all pairs that
-    /// the cell compares are farther apart than their margins. A proof is of the triangles: of a body inside another one it says
-    /// nothing. A curve has no proofs.
+    /// Finds the first contact on a path of configurations, and proves the answer for each segment. A proof states that
+    /// all checked pairs are farther apart than their margins. It is about triangles only, and does not exclude that a
+    /// body is inside another one. Curves have no proofs.
     ///
     /// Args:
-    ///     path: configurations; one alone is a rest there.
-    ///     progress: a function of the number of segments proven and of all segments; or a bar of tqdm; or True for one.
+    ///     path: configurations. A single one is a robot at rest.
+    ///     progress: a function, called with the number of segments proven and the number of all segments; a bar of
+    ///         tqdm; or True for a new bar.
     ///
     /// Returns:
-    ///     A list of `Proof`: one for each segment, until the end or the first contact. It is never empty. A deadline is one for the
-    ///     search, not for proofs.
+    ///     A list of `Proof`: one for each segment, until the end or the first contact. It is never empty. A deadline
+    ///     limits the search, but not the writing of proofs.
     ///
     /// Raises:
-    ///     InputError: a body has no triangles, the path is a curve, or a segment cannot be proven, such as one at whose start bodies
-    ///         touch, or one is in another; its `results` has the proofs of the segments before.
-    ///     Unresolved: a limit was reached first; its `results` has the proofs of what is known, and `safe_until` says until when.
-    ///     Interrupted: Ctrl-C; its `results` has the proofs made by then.
+    ///     InputError: a body has no triangles, the path is a curve, or a segment cannot be proven, for instance
+    ///         because bodies touch at its start, or one is inside another. `results` has the proofs of the segments
+    ///         before.
+    ///     Unresolved: a limit was reached first. `results` has the proofs until `safe_until`.
+    ///     Interrupted: Ctrl-C was pressed. `results` has the proofs so far.
     #[pyo3(signature = (path, *, progress = None, **settings))]
     fn prove<'py>(
         &self,
@@ -216,7 +222,8 @@ impl PyCell {
         prove_path(py, &self.state.solvers.cell(), path, progress, settings)
     }
 
-    /// Returns bounds of the least distance on a path, with the nearest pair. With a `clearance` it also says whether that is kept.
+    /// Returns bounds of the least distance on a path, with the nearest pair. With a `clearance`, the answer also tells
+    /// whether it is kept.
     #[pyo3(signature = (path, **settings))]
     fn closest_approach<'py>(
         &self,
@@ -231,20 +238,22 @@ impl PyCell {
         approach_object(py, &answer, clearance)
     }
 
-    /// Divides a path into ranges in which all pairs keep their distance, ranges in which one certainly does not, and the rest.
-    /// The distance is the setting `margin` with the paddings, or the clearance of a pair.
+    /// Divides a path into ranges. In a range all pairs keep their required distance, or some pair certainly does not,
+    /// or neither is verified. The required distance is the setting `margin` plus paddings, or the clearance of a pair.
     ///
     /// Args:
-    ///     path: the path; for a mechanism with one joint `[[low], [high]]`.
+    ///     path: the path, such as `[[low], [high]]` for a mechanism with one joint.
     ///     resolution: the length of the shortest ranges that are examined, in segments of the path or of the curve.
-    ///     max_pose_error: how far points of links may be from where the path places them. A closed loop of joints is a path of
-    ///         configurations in which the loop is closed; between these, points differ by the error of the interpolation.
+    ///     max_pose_error: a bound of how far points of links may be from their positions on the path. A closed loop of
+    ///         joints needs it: the path has configurations in which the loop is closed, and between them points differ
+    ///         by the error of the interpolation.
     ///
     /// Returns:
     ///     A list of `PathRange`, in the order of the path.
     ///
     /// Raises:
-    ///     Interrupted: Ctrl-C; its `results` has the ranges found by then, and says "unverified" of the rest.
+    ///     Interrupted: Ctrl-C was pressed. `results` has the ranges found so far, and "unverified" for the rest of the
+    ///         path.
     #[pyo3(signature = (path, *, resolution = RangeSettings::DEFAULT.resolution, max_pose_error = 0.0, **settings))]
     fn clearance_ranges<'py>(
         &self,
@@ -262,23 +271,24 @@ impl PyCell {
         path_ranges(py, &self.state.solvers, path, how, settings)
     }
 
-    /// Answers a question about many edges, on all cores: `start` and `end` are arrays of shape (N, joints). They have no names: `start="leave"` is a
-    /// setting, as of `is_free`.
+    /// Answers a question about many edges, on all cores. The first two arguments are arrays of shape (N, joints): the
+    /// start and the end of each edge. They are positional only, because the keyword `start` is the setting of
+    /// `is_free`.
     ///
     /// Args:
     ///     ask: "is-free", "first-contact" or "closest-approach".
-    ///     threads: how many threads; None for one on each core.
-    ///     progress: a function of the number of edges answered and of all edges, called up to fifty times a second; or a bar of
-    ///         tqdm; or True for one.
+    ///     threads: the number of threads; None for one on each core.
+    ///     progress: a function, called up to fifty times a second with the number of edges answered and the number of
+    ///         all edges; a bar of tqdm; or True for a new bar.
     ///
     /// Returns:
-    ///     A table with a row for each edge, with the columns of ``ccd edges``: `status`, `reason`, and those that the question has
-    ///     of `time` from 0 to 1, `a`, `b`, `distance_lower`, `distance_upper`, the witnesses `witness_a_x` to `witness_b_z`, and
-    ///     `feature_a` and `feature_b`, the parts of meshes that these are on.
-    ///     With the setting `clearance` a closest approach is "kept", "violated" or "unverified".
+    ///     A table with a row for each edge, with the columns of ``ccd edges``. Every question has `status` and `reason`.
+    ///     The other columns depend on the question: `time` from 0 to 1, `a`, `b`, `distance_lower`, `distance_upper`, the
+    ///     witness points `witness_a_x` to `witness_b_z`, and their features `feature_a` and `feature_b`. With the setting
+    ///     `clearance`, the status of a closest approach is "kept", "violated" or "unverified".
     ///
     /// Raises:
-    ///     Interrupted: Ctrl-C; its `results` has the rows answered by then, from the first on.
+    ///     Interrupted: Ctrl-C was pressed. `results` has the rows answered so far, from the first on.
     #[pyo3(signature = (start, end, /, ask = "is-free", *, threads = None, progress = None, **settings))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
     fn edges(
@@ -301,9 +311,9 @@ impl PyCell {
         answer_paths(py, &self.state.solvers, given, edges)
     }
 
-    /// Answers a question about many paths of equally many configurations, on all cores: an array of shape
-    /// (N, n, joints). The table is that of `edges`, and so are the arguments; times are in segments: 1.5 is the middle of the
-    /// second one. A list of curves has their own times.
+    /// Answers a question about many paths, on all cores. `paths` is an array of shape (N, n, joints), or a list of
+    /// curves. The other arguments and the table are those of `edges`. Times are in segments: 1.5 is the middle of the
+    /// second segment. For curves, times are their own.
     #[pyo3(signature = (paths, ask = "is-free", *, threads = None, progress = None, **settings))]
     fn paths(
         &self,
@@ -372,7 +382,7 @@ fn given_pose_or_identity(given: Option<&Bound<'_, PyAny>>) -> PyResult<GivenPos
     })
 }
 
-/// Reads a list of names, which one text is not.
+/// Reads a list of names. Refuses a single text.
 fn read_names(given: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
     let names = given.extract::<Vec<String>>();
     names.map_err(|_| wrong_type_error("may_touch", "a list of names", given))

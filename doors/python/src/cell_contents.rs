@@ -1,10 +1,10 @@
-//! What was put into a cell, as Python gave it, so that the cell can be pickled.
+//! The contents of a cell as Python passed them, for pickling.
 
 use crate::body::PyBody;
 use crate::motion::GivenPose;
 use pyo3::prelude::*;
 
-/// The arguments of the calls that make a cell as it is now.
+/// The arguments of the calls that produce the present state of a cell.
 #[derive(Default)]
 pub(crate) struct CellContents {
     /// A plane has no body.
@@ -12,7 +12,7 @@ pub(crate) struct CellContents {
     attached: Vec<AttachedBody>,
     paddings: Vec<(String, f64)>,
     clearances: Vec<(String, String, f64)>,
-    /// The last call about the contact of each pair: whether it is allowed.
+    /// For each pair, whether the last call allowed or forbade its contact.
     contacts: Vec<(String, String, bool)>,
 }
 
@@ -26,7 +26,7 @@ pub(crate) enum Contact {
 /// The arguments of `Cell.attach`.
 pub(crate) type AttachedBody = (String, Py<PyBody>, String, GivenPose, Vec<String>);
 
-/// What pickle stores of the contents.
+/// The contents as pickle stores them.
 pub(crate) type PickledContents = (
     Vec<(String, Option<Py<PyBody>>, GivenPose)>,
     Vec<AttachedBody>,
@@ -86,7 +86,7 @@ impl CellContents {
         self.clearances
             .retain(|(one, other, _)| !is_same([one, other], [a, b]));
         self.clearances.push((a.to_owned(), b.to_owned(), distance));
-        // A clearance forbids the contact.
+        // Setting a clearance forbids contact.
         self.set_contact(a, b, Contact::Forbidden);
     }
 
@@ -126,7 +126,7 @@ impl CellContents {
     }
 }
 
-/// Returns whether two pairs of names are the same.
+/// Returns whether two pairs of names are the same, in either order.
 fn is_same([one, other]: [&str; 2], [a, b]: [&str; 2]) -> bool {
     [(one, other), (other, one)].contains(&(a, b))
 }

@@ -11,13 +11,14 @@ pub(crate) fn remark_texts(remarks: &[CellRemark]) -> Vec<String> {
     remarks.iter().map(ToString::to_string).collect()
 }
 
-/// Returns the warnings among remarks for a `repr`; empty if there are none.
+/// Returns the warnings among remarks as a text for a `repr`. It is empty if there are none.
 pub(crate) fn warning_text(remarks: &[CellRemark]) -> String {
     let warnings = remarks.iter().filter(|remark| remark.is_warning());
     warnings.map(|warning| format!("; {warning}")).collect()
 }
 
-/// Warns the Python program of the warnings among remarks. Those on numbers are told without these, as all of a line are one.
+/// Shows the warnings among remarks in Python. Leaves numbers out of warnings about input, because Python shows equal
+/// texts from one line of code only once.
 pub(crate) fn warn_of(
     py: Python<'_>,
     remarks: impl IntoIterator<Item = CellRemark>,
@@ -33,13 +34,14 @@ pub(crate) fn warn_of(
     Ok(())
 }
 
-/// The configurations of a question.
+/// The configurations that a question is about.
 pub(crate) enum Asked<'a> {
     Path(&'a GivenPath),
     Paths(&'a GivenPaths),
 }
 
-/// Warns of a tolerance that is large against what is in the cell, and of a position in degrees.
+/// Warns of a tolerance that is large compared with the bodies in the cell, and of positions that seem to be in
+/// degrees.
 pub(crate) fn warn_of_question(
     py: Python<'_>,
     cell: &Cell,

@@ -1,4 +1,4 @@
-//! A cell with solvers that keep their memory from one question to the next.
+//! A cell with solvers that reuse memory between questions.
 
 use rigid_ccd::{ParallelSolver, Settings};
 use rigid_ccd_robot::{Cell, CellSolver};
@@ -17,10 +17,11 @@ self_cell::self_cell!(
     }
 );
 
-/// A cell that may change between questions, and solvers for it. Neither changes nor questions wait for another question.
+/// A cell that may change between questions, and its solvers. Neither changes nor questions wait for a running
+/// question.
 pub(crate) struct CellWithCachedSolvers {
     cell: Mutex<Arc<Cell>>,
-    /// The solvers of the last question; `None` while it is answered.
+    /// The solvers of the last question, or `None` while a question uses them.
     solvers: Mutex<Option<CellAndSolvers>>,
 }
 
@@ -32,17 +33,17 @@ impl CellWithCachedSolvers {
         }
     }
 
-    /// Returns the cell as it is now.
+    /// Returns the present state of the cell.
     pub(crate) fn cell(&self) -> Arc<Cell> {
         Arc::clone(&lock(&self.cell))
     }
 
-    /// Changes the cell for the questions that follow.
+    /// Changes the cell for later questions.
     pub(crate) fn change<T>(&self, change: impl FnOnce(&mut Cell) -> T) -> T {
         change(Arc::make_mut(&mut lock(&self.cell)))
     }
 
-    /// Asks a solver a question about the cell as it is now.
+    /// Answers a question about the present state of the cell.
     pub(crate) fn ask<T: Send>(
         &self,
         settings: &Settings,
@@ -56,7 +57,7 @@ impl CellWithCachedSolvers {
         answers.remove(0)
     }
 
-    /// Answers many tasks about the cell as it is now, on `threads` threads, or on all cores.
+    /// Answers many tasks about the present state of the cell, on `threads` threads, or on all cores.
     pub(crate) fn answer_tasks<Q: Sync, T: Send>(
         &self,
         settings: &Settings,
@@ -76,8 +77,8 @@ impl CellWithCachedSolvers {
         })
     }
 
-    /// Calls `work` with solvers for so many threads, or for any number of them: those of the last question if they are for the
-    /// cell as it is now, or new ones.
+    /// Calls `work` with solvers for `threads` threads, or for any number of threads. Reuses the solvers of the last
+    /// question if they are for the present state of the cell, and makes new ones otherwise.
     fn with_solvers<T>(
         &self,
         threads: Option<NonZeroUsize>,
@@ -103,12 +104,13 @@ impl CellWithCachedSolvers {
     }
 }
 
-/// Locks a value. After a panic in a question there are no solvers; a change does not panic.
+/// Locks a value, even if a thread panicked while it held the lock: the value is still valid. A panic in a question
+/// leaves no solvers, and a change does not panic.
 fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
     value.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The number of paths that a thread answers at a time.
+/// The number of paths that a thread answers in one task.
 const PATHS_PER_TASK: usize = 32;
 
 /// Paths of equally many configurations, one after another.

@@ -1,4 +1,4 @@
-//! What a cell of Python holds: the cell with its solvers, and in step with it what was put in, as Python gave it.
+//! The state of a Python cell: the cell with its solvers, and in parallel its contents as Python passed them.
 
 use crate::body::{PyBody, extract_body};
 use crate::cell_contents::{
@@ -94,12 +94,12 @@ impl CellState {
         Ok(())
     }
 
-    /// Returns what was put in, for pickle.
+    /// Returns the contents, for pickle.
     pub(crate) fn pickled(&self, py: Python<'_>) -> PickledContents {
         self.contents().pickled(py)
     }
 
-    /// Puts in again what pickle stored.
+    /// Restores the contents that pickle stored.
     pub(crate) fn restore(&self, contents: UnpickledContents<'_>) -> PyResult<()> {
         let (obstacles, attached, paddings, clearances, contacts) = contents;
         for (name, body, pose) in &obstacles {
@@ -139,7 +139,7 @@ impl CellState {
     }
 }
 
-/// Reads a body of a cell.
+/// Reads an argument that must be a body.
 pub(crate) fn read_body(given: &Bound<'_, PyAny>) -> PyResult<Py<PyBody>> {
     extract_body(given, "body")?;
     Ok(given.clone().cast_into::<PyBody>()?.unbind())

@@ -1,4 +1,4 @@
-//! Reads configurations of a robot from arrays, and from data frames and other containers that label them.
+//! Reads configurations of a robot from arrays, data frames and other containers with labels.
 
 use crate::arrays::{Elements, numpy_array, visit_parts};
 use crate::errors::input_error;
@@ -7,11 +7,13 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyList, PyString, PyTuple};
 use rigid_ccd_robot::Robot;
 
-/// Reads configurations of a robot, the last index that of the joint, from anything that NumPy can convert to an array of numbers.
+/// Reads configurations of a robot from anything that NumPy can convert to an array of numbers. The last index is that
+/// of the joint.
 ///
-/// NumPy drops labels. So those of the last index, at any depth of nested lists, must be the joints in their order, or default
-/// numbers; and without names of joints there, no other index has names: it may be that of the joints. Names of the whole may end
-/// in `_deg`, for degrees.
+/// NumPy drops labels, so this function checks them. Labels of the last index, at any depth of nested lists, must be
+/// the names of the joints in their order, or default numbers. If they are not names, other indices must not have names
+/// either, because one of them may be meant as the index of joints. Names on the outermost object may end in `_deg`,
+/// for degrees.
 pub(crate) fn read_configurations(
     values: &Bound<'_, PyAny>,
     robot: &Robot,
@@ -38,8 +40,9 @@ pub(crate) fn read_configurations(
     Ok(given)
 }
 
-/// Refuses starts and ends of edges in data frames whose rows have the same labels in another order: NumPy pairs rows by their
-/// places. Other labels are taken, such as those of a frame without its last row, and without its first one.
+/// Refuses two data frames of starts and ends whose rows have the same labels in different orders, because NumPy pairs
+/// rows by position. Other labels are accepted: for instance, one frame may lack the last row of a table, and the other
+/// one its first row.
 pub(crate) fn check_same_rows([start, end]: [&Bound<'_, PyAny>; 2]) -> PyResult<()> {
     let (Some(starts), Some(ends)) = (labels_of_rows(start)?, labels_of_rows(end)?) else {
         return Ok(());
@@ -65,20 +68,20 @@ fn labels_of_rows<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, 
     }
 }
 
-/// The prefixes of the joints' names in a table of edges, by the argument that has these columns.
+/// The arguments for the start and the end of edges, and the prefixes of their columns in a table of edges.
 const PREFIXES: [(&str, &str); 2] = [("start", "from_"), ("end", "to_")];
 
-/// The labels of a part of an array.
+/// The labels of an array, or of an object in nested lists.
 #[derive(Default)]
 struct Labels<'py> {
-    /// All that label the last index.
+    /// All lists of labels of the last index.
     last: Vec<Vec<Bound<'py, PyAny>>>,
-    /// Those of all other indices.
+    /// The labels of all other indices.
     others: Vec<Bound<'py, PyAny>>,
 }
 
 impl<'py> Labels<'py> {
-    /// Reads the labels of an object, whose elements are so many lists deep.
+    /// Reads the labels of an object. Its elements are `depth` lists deep.
     fn read(part: &Bound<'py, PyAny>, depth: usize) -> PyResult<Self> {
         let mut labels = Labels::default();
         if part.is_exact_instance_of::<PyList>() || part.is_exact_instance_of::<PyTuple>() {
@@ -94,7 +97,7 @@ impl<'py> Labels<'py> {
                 labels.others = elements(rows)?.unwrap_or_default();
             }
         } else if part.hasattr("to_frame")? {
-            // A series. Its name is the label of a column, or of a row of a frame.
+            // A series of pandas. Its name is the label of a column or of a row of a frame.
             let index = attribute(part, "index")?.map(elements).transpose()?;
             labels.last.extend(index.flatten());
             labels.others.extend(attribute(part, "name")?);
@@ -116,7 +119,7 @@ impl<'py> Labels<'py> {
         Ok(labels)
     }
 
-    /// Adds the coordinates of an array of xarray.
+    /// Adds the labels in the coordinates of an array of xarray.
     fn read_coordinates(
         &mut self,
         dimensions: &Bound<'py, PyAny>,
@@ -142,7 +145,8 @@ impl<'py> Labels<'py> {
         Ok(())
     }
 
-    /// Returns the unit of each joint; `None` without names. Labels that are wrong for configurations of a robot are refused.
+    /// Returns the unit of each joint, or `None` without names. Refuses labels that are wrong for configurations of the
+    /// robot.
     fn units(&self, robot: &Robot, what: &str) -> PyResult<Option<Vec<AngleUnit>>> {
         let mut units = None;
         for labels in self.last.iter().filter(|labels| !are_default(labels)) {
@@ -159,7 +163,7 @@ impl<'py> Labels<'py> {
     }
 }
 
-/// Returns the unit of each joint by the names of the joints in their order; `None` for other names.
+/// Returns the unit of each joint if the labels are the names of the joints in their order, or `None`.
 fn units_of_names(
     labels: &[Bound<'_, PyAny>],
     robot: &Robot,
@@ -184,7 +188,7 @@ fn units_of_names(
     Ok(None)
 }
 
-/// Makes the error for labels that are not those of the joints.
+/// Makes the error for labels that are not the names of the joints.
 fn refusal(labels: &[Bound<'_, PyAny>], robot: &Robot, what: &str) -> PyErr {
     let joints: Vec<&str> = robot.free_joint_names().collect();
     let labels = texts(labels).unwrap_or_else(|_| "no texts".to_owned());
@@ -200,12 +204,12 @@ fn attribute<'py>(of: &Bound<'py, PyAny>, name: &str) -> PyResult<Option<Bound<'
     Ok(found.filter(|found| !found.is_none() && !found.is_callable()))
 }
 
-/// Returns the elements of a list of labels; `None` for what is no list.
+/// Returns the elements of a list of labels, or `None` if the object is not a list.
 fn elements(labels: Bound<'_, PyAny>) -> PyResult<Option<Vec<Bound<'_, PyAny>>>> {
     labels.try_iter().ok().map(Iterator::collect).transpose()
 }
 
-/// Returns whether labels are those that a library gives to what has none: numbers, or `column_0` and so on.
+/// Returns whether labels are the defaults of a library for data without labels: numbers, or `column_0` and so on.
 fn are_default(labels: &[Bound<'_, PyAny>]) -> bool {
     labels.iter().enumerate().all(|(k, label)| {
         let is_number = label.extract::<i64>().is_ok();
@@ -214,7 +218,7 @@ fn are_default(labels: &[Bound<'_, PyAny>]) -> bool {
     })
 }
 
-/// Returns whether a label is a text, or several labels of a hierarchy; an empty text is none.
+/// Returns whether a label is a name: a text that is not empty, or several labels of a hierarchy.
 fn is_name(label: &Bound<'_, PyAny>) -> bool {
     let is_empty = || label.extract::<String>().is_ok_and(|text| text.is_empty());
     (label.is_instance_of::<PyString>() && !is_empty())
@@ -222,7 +226,7 @@ fn is_name(label: &Bound<'_, PyAny>) -> bool {
         || label.is_instance_of::<PyTuple>()
 }
 
-/// The number of labels that a message shows.
+/// The largest number of labels in a message.
 const MAX_SHOWN_LABELS: usize = 16;
 
 fn texts(labels: &[Bound<'_, PyAny>]) -> PyResult<String> {

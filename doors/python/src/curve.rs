@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 use rigid_ccd_robot::{JointCurve, Robot};
 
-/// Reads a list of curves; `None` for anything else.
+/// Reads a list of curves. Returns `None` for anything else.
 pub(crate) fn read_curves(
     values: &Bound<'_, PyAny>,
     robot: &Robot,
@@ -26,7 +26,8 @@ pub(crate) fn read_curves(
     Ok(Some(curves).filter(|curves| !curves.is_empty()))
 }
 
-/// Reads an object with the attributes of `scipy.interpolate.PPoly` or `BSpline`; `None` for an object that is no such curve.
+/// Reads a curve: an object with the attributes of `scipy.interpolate.PPoly` or `BSpline`. Returns `None` for other
+/// objects.
 pub(crate) fn read_curve(values: &Bound<'_, PyAny>, robot: &Robot) -> PyResult<Option<JointCurve>> {
     // A data frame may have columns of these names.
     if values.hasattr("__array__")? {
@@ -48,11 +49,11 @@ pub(crate) fn read_curve(values: &Bound<'_, PyAny>, robot: &Robot) -> PyResult<O
     Ok(Some(curve))
 }
 
-/// Polynomials of the time since the start of each segment.
+/// Polynomials in the time since the start of each segment.
 struct Polynomials {
-    /// The times at which segments begin, and the end of the last one.
+    /// The start times of the segments, and the end of the last segment.
     times: Vec<f64>,
-    /// Of shape (degree + 1, segments, joints), those of the highest power first.
+    /// The coefficients, of shape (degree + 1, segments, joints), highest power first.
     coefficients: Elements<f64>,
 }
 
@@ -79,7 +80,8 @@ impl Polynomials {
     }
 }
 
-/// Reads a B-spline. SciPy allows more coefficients than there are basis functions, which come last and have no effect.
+/// Reads a B-spline. SciPy allows more coefficients than basis functions; the extra coefficients are last, and have no
+/// effect.
 fn curve_of_spline(
     spline: &Bound<'_, PyAny>,
     knots: &Bound<'_, PyAny>,
@@ -108,11 +110,12 @@ fn curve_of_spline(
     curve.map_err(|error| input_error(format!("path: {error}")))
 }
 
-/// The largest difference of a value to that of the object which the curve is, relative to values above 1.
+/// The largest accepted difference between the values of the curve and of the given object; relative for values above
+/// 1.
 const MAX_VALUE_DIFFERENCE: f64 = 1e-6;
 
-/// Refuses an object whose values are not those of its coefficients as powers, such as a `BPoly`: two values in each segment are
-/// compared. An object that cannot be called has no values.
+/// Refuses an object whose coefficients are not those of powers, such as a `BPoly`. Compares two values in each
+/// segment. An object that cannot be called is not checked.
 fn check_values(given: &Bound<'_, PyAny>, curve: &JointCurve, robot: &Robot) -> PyResult<()> {
     if !given.is_callable() {
         return Ok(());
@@ -124,7 +127,7 @@ fn check_values(given: &Bound<'_, PyAny>, curve: &JointCurve, robot: &Robot) -> 
     let joints = values.len() / times.len();
     for (k, time) in times.iter().enumerate() {
         let (values, own) = (&values[k * joints..][..joints], curve.positions(*time));
-        // Written so that NaN is refused.
+        // The comparison is written so that NaN is refused.
         let is_same = |(value, own): (&f64, &f64)| {
             (value - own).abs() <= MAX_VALUE_DIFFERENCE * (1.0 + own.abs())
         };

@@ -15,19 +15,19 @@ pyo3::create_exception!(
     rigid_ccd,
     InputError,
     PyValueError,
-    "A number, a mesh, a motion or a table that is out of range; the message names the element."
+    "A number is out of range, or a mesh, a motion or a table is invalid. The message names the element."
 );
 pyo3::create_exception!(
     rigid_ccd,
     Unresolved,
     PyRuntimeError,
-    "A limit was reached first. Attribute `safe_until`: no contact happens before this time; or, of a distance, `lower` and `upper`: what is known of it; of a proof `results`: the proofs of what is known. The others are None."
+    "A limit was reached before the answer was known. For questions about contacts, nothing touches before the attribute `safe_until`. For distances, `lower` and `upper` are proven bounds. For proofs, `results` has the proofs until the limit. Other attributes are None."
 );
 pyo3::create_exception!(
     rigid_ccd,
     Interrupted,
     PyKeyboardInterrupt,
-    "Ctrl-C ended a call. Attribute `results`: what was answered by then, such as the rows of a table from the first on; of one question `safe_until`, or `lower` and `upper`, as of `Unresolved`. The others are None."
+    "Ctrl-C ended a call. The attribute `results` has the answers so far, such as the first rows of a table. For a single question, `safe_until`, or `lower` and `upper`, are as for `Unresolved`. Other attributes are None."
 );
 
 /// Adds the exceptions to the module, and gives their attributes the default value None.
@@ -57,7 +57,7 @@ pub(crate) fn add_exceptions(module: &Bound<'_, PyModule>) -> PyResult<()> {
 
 /// Runs code of libraries that panic on some tables or arrays, and converts a panic to an `InputError`.
 ///
-/// A panic would be an exception that `except Exception` does not catch.
+/// Python could not catch a panic with `except Exception`.
 pub(crate) fn run_catching_panics<T>(
     what: &str,
     work: impl FnOnce() -> PyResult<T>,
@@ -91,9 +91,9 @@ pub(crate) fn input_error(error: impl Display) -> PyErr {
     InputError::new_err(error.to_string())
 }
 
-/// Converts an error of a table to an `InputError`, or to a `KeyboardInterrupt` if Ctrl-C caused it.
+/// Converts an error of a table to an `InputError`. If Ctrl-C caused it, returns a `KeyboardInterrupt`.
 ///
-/// A stream hands over the text of an exception, not the exception: that of Ctrl-C stays what it is.
+/// A stream passes the text of an exception, and not the exception, so Ctrl-C is recognised by its text.
 pub(crate) fn input_error_or_interrupt(error: impl Display) -> PyErr {
     let text = error.to_string();
     let last = text.trim_end().lines().next_back().unwrap_or_default();
@@ -105,8 +105,8 @@ pub(crate) fn input_error_or_interrupt(error: impl Display) -> PyErr {
     }
 }
 
-/// Converts an exception to an `InputError` that has the exception as its cause. Exceptions that are to end the
-/// program, such as that of Ctrl-C, stay what they are.
+/// Converts an exception to an `InputError` with the exception as its cause. Returns exceptions that end the program,
+/// such as that of Ctrl-C, unchanged.
 pub(crate) fn input_error_from(py: Python<'_>, what: &str, cause: PyErr) -> PyErr {
     if !cause.is_instance_of::<PyException>(py) {
         return cause;
@@ -119,7 +119,7 @@ pub(crate) fn input_error_from(py: Python<'_>, what: &str, cause: PyErr) -> PyEr
 /// Converts an error of a file to an `OSError` of the same kind, with the error number and the path.
 pub(crate) fn file_error(error: &std::io::Error, path: &std::path::Path) -> PyErr {
     match error.raw_os_error() {
-        // OSError chooses the class by the number.
+        // `OSError` chooses the subclass by the error number.
         Some(number) => {
             let text = error.to_string();
             let text = text
@@ -148,7 +148,8 @@ pub(crate) fn unresolved_distance_error(py: Python<'_>, known: &answer::Unresolv
     with_attribute(py, error, "upper", upper)
 }
 
-/// Makes the exception of work that Ctrl-C ended, or an exception of a signal handler or a callback: it has the results by then.
+/// Makes the exception for work that was ended by Ctrl-C, or by an exception of a signal handler or a callback. It has
+/// the results so far.
 pub(crate) fn interruption_error<'py>(
     py: Python<'py>,
     cause: PyErr,
@@ -163,7 +164,7 @@ pub(crate) fn interruption_error<'py>(
     )
 }
 
-/// Makes the exception of an interrupted question about contacts: nothing touches before a time, if one is known.
+/// Makes the exception for an interrupted question about contacts. Nothing touches before `safe_until`, if it is known.
 pub(crate) fn time_interruption(py: Python<'_>, cause: PyErr, safe_until: Option<f64>) -> PyErr {
     let known = safe_until.map_or_else(String::new, |time| {
         format!("; no contact happens before {time}")
@@ -172,14 +173,15 @@ pub(crate) fn time_interruption(py: Python<'_>, cause: PyErr, safe_until: Option
     with_attribute(py, error, "safe_until", safe_until)
 }
 
-/// Makes the exception of an interrupted question about a distance.
+/// Makes the exception for an interrupted question about a distance.
 pub(crate) fn bounds_interruption(py: Python<'_>, cause: PyErr, [lower, upper]: [f64; 2]) -> PyErr {
     let text = format!("interrupted; the distance is from {lower} to {upper}");
     let error = with_attribute(py, interruption(py, cause, text), "lower", lower);
     with_attribute(py, error, "upper", upper)
 }
 
-/// Turns the `KeyboardInterrupt` of a Ctrl-C into an `Interrupted`; an exception of a signal handler or a callback stays as it is.
+/// Converts the `KeyboardInterrupt` of a Ctrl-C to an `Interrupted`. Returns an exception of a signal handler or a
+/// callback unchanged.
 fn interruption(py: Python<'_>, cause: PyErr, text: String) -> PyErr {
     if !cause.get_type(py).is(py.get_type::<PyKeyboardInterrupt>()) {
         return cause;
@@ -189,8 +191,8 @@ fn interruption(py: Python<'_>, cause: PyErr, text: String) -> PyErr {
     error
 }
 
-/// Warns the Python program of input that is valid, but probably a mistake. The warning is about the line of Python
-/// that is so many calls up; Python shows one of each text for a line, so that numbers would make it many.
+/// Warns the Python program of input that is valid, but probably a mistake. The warning refers to the line of Python
+/// `calls_up` calls up. Python shows equal texts from one line only once, so texts should not contain numbers.
 pub(crate) fn warn(
     py: Python<'_>,
     remarks: impl IntoIterator<Item = Remark>,
@@ -203,7 +205,7 @@ pub(crate) fn warn(
     Ok(())
 }
 
-/// Makes a `TypeError` that says which type is needed and which was given.
+/// Makes a `TypeError` that names the needed type and the given one.
 pub(crate) fn wrong_type_error(what: &str, needed: &str, found: &Bound<'_, PyAny>) -> PyErr {
     let kind = found.get_type();
     let name = kind
@@ -219,7 +221,7 @@ pub(crate) fn with_attribute<'py>(
     name: &str,
     value: impl IntoPyObject<'py>,
 ) -> PyErr {
-    // An exception takes any attribute, unless its class forbids it.
+    // Ignores a failure: only an exception whose class forbids the attribute fails.
     let _ = error.value(py).setattr(name, value);
     error
 }

@@ -12,15 +12,15 @@ use std::time::Duration;
 /// The interval between two checks for signals such as Ctrl-C.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
-/// The number of bytes of a mesh up to which work on it takes some hundredths of a second.
+/// The largest size of a mesh for which work takes at most some hundredths of a second, in bytes.
 const FEW_BYTES: u64 = 1 << 18;
 
 /// Runs `work` that has no flag to stop it on a new thread, without the GIL, and returns its result.
 ///
-/// Meanwhile this thread looks for signals. An exception of one comes back at once: the work goes on to its end, and its result is
-/// dropped. Without a thread to spare, or after a panic, there is an exception, too.
+/// Meanwhile this thread checks for signals. If a signal raises an exception, returns it at once; the work continues to
+/// its end, and its result is dropped. If no thread can be started, or the work panics, returns an exception too.
 ///
-/// Work on a few `bytes` is done on this thread: to start another one would cost more.
+/// If there are few `bytes`, the work runs on this thread, because starting another one would take longer.
 pub(crate) fn run_or_leave<T: Send + 'static>(
     py: Python<'_>,
     bytes: u64,
@@ -31,7 +31,7 @@ pub(crate) fn run_or_leave<T: Send + 'static>(
     }
     py.detach(|| {
         let (sender, receiver) = mpsc::channel();
-        // The receiver of a thread that is left is gone.
+        // If the caller has returned, the receiver is gone, and sending fails.
         let worker = Builder::new().spawn(move || drop(sender.send(work())));
         let worker = worker.map_err(no_thread_error)?;
         loop {
@@ -55,8 +55,9 @@ fn no_thread_error(error: std::io::Error) -> PyErr {
 
 /// Runs `work` on a new thread, without the GIL, and returns its result.
 ///
-/// Meanwhile this thread looks for signals, and calls `look`. An exception of either sets the flag, which ends the work
-/// soon; it comes back beside the result. Without a thread to spare, or after a panic, there is an exception alone.
+/// Meanwhile this thread checks for signals, and calls `look`. If either raises an exception, sets the flag that ends
+/// the work soon, and returns the exception beside the result. If no thread can be started, or the work panics, returns
+/// only an exception.
 pub(crate) fn run_interruptibly<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(&Arc<AtomicBool>) -> T + Send,
@@ -69,7 +70,7 @@ pub(crate) fn run_interruptibly<T: Send>(
             let worker = Builder::new().spawn_scoped(scope, {
                 let stop = &stop;
                 move || {
-                    // Dropped at the end of the work, even by a panic.
+                    // Dropped when the work ends, even by a panic.
                     let _ends = sender;
                     work(stop)
                 }

@@ -9,8 +9,8 @@ use pyo3::types::PyType;
 use rigid_ccd::{InputError, Pose, trajectory};
 use rigid_ccd_robot::{Joint, PositionRule};
 
-/// A joint of a `Robot`, as in URDF: `Joint.revolute`, `Joint.prismatic` or `Joint.fixed`. It holds the link `child` on the
-/// link `parent`.
+/// A joint of a `Robot`, as in URDF. It connects the link `child` to the link `parent`. Make one with `Joint.revolute`,
+/// `Joint.prismatic` or `Joint.fixed`.
 #[pyclass(name = "Joint", module = "rigid_ccd", frozen)]
 pub(crate) struct PyJoint {
     pub(crate) joint: Joint,
@@ -18,7 +18,7 @@ pub(crate) struct PyJoint {
     constructor_call: ConstructorCall,
 }
 
-/// How a joint follows another one: the name of the other joint, the multiplier and the offset.
+/// The rule by which a joint follows another one: the name of the other joint, the multiplier and the offset.
 type Mimic = (String, f64, f64);
 
 /// Makes a joint from the pose of its frame and its axis.
@@ -34,14 +34,15 @@ type MovingJointArgs<'a, 'py> = (
 
 #[pymethods]
 impl PyJoint {
-    /// Makes a joint that rotates about an axis; its position is an angle in radians.
+    /// Makes a joint that rotates about an axis. Its position is an angle in radians.
     ///
     /// Args:
     ///     name, parent, child: the names of the joint and of both links.
-    ///     origin: the pose of the joint's frame in that of the parent, as `Motion.between` takes poses; None is no offset.
-    ///     axis: in the joint's frame, of any length; None is z.
-    ///     limits: the least and the greatest position; None allows any.
-    ///     mimic: the name of a joint that this one follows, a multiplier and an offset.
+    ///     origin: the pose of the joint's frame in the parent's frame, in the forms of `Motion.between`; None is the
+    ///         identity.
+    ///     axis: the axis in the joint's frame. It need not be normalised. None is z.
+    ///     limits: the least and the greatest position; None is no limits.
+    ///     mimic: the name of the joint that this one follows, the multiplier and the offset.
     #[classmethod]
     #[pyo3(signature = (name, parent, child, origin = None, axis = None, limits = None, mimic = None))]
     #[expect(clippy::too_many_arguments, reason = "arguments with names")]
@@ -65,7 +66,7 @@ impl PyJoint {
         )
     }
 
-    /// Makes a joint that slides along an axis; its position is a length. Arguments are those of `revolute`.
+    /// Makes a joint that slides along an axis. Its position is a length. The arguments are those of `revolute`.
     #[classmethod]
     #[pyo3(signature = (name, parent, child, origin = None, axis = None, limits = None, mimic = None))]
     #[expect(clippy::too_many_arguments, reason = "arguments with names")]
@@ -89,7 +90,7 @@ impl PyJoint {
         )
     }
 
-    /// Makes a joint without a degree of freedom, which has no position.
+    /// Makes a joint without a degree of freedom. Configurations have no position for it.
     #[classmethod]
     #[pyo3(signature = (name, parent, child, origin = None))]
     fn fixed(
@@ -113,7 +114,7 @@ impl PyJoint {
         })
     }
 
-    /// The name of the joint, which no other joint of a robot has.
+    /// The name of the joint, unique in a robot.
     #[getter]
     fn name(&self) -> &str {
         &self.joint.name
@@ -142,7 +143,7 @@ impl PyJoint {
 }
 
 impl PyJoint {
-    /// Makes a joint that turns or slides, by a constructor that Python calls `kind`.
+    /// Makes a revolute or prismatic joint with a constructor. Python calls the constructor `kind`.
     fn moving_joint(
         py: Python<'_>,
         (kind, make): (&'static str, MakeJoint),
@@ -156,7 +157,7 @@ impl PyJoint {
         let limits: Option<[f64; 2]> =
             limits.map(|limits| numbers(limits, "limits")).transpose()?;
         if let Some([low, high]) = limits {
-            // Written so that NaN is refused.
+            // The comparison is written so that NaN is refused.
             if !(low <= high && low < f64::INFINITY && high > f64::NEG_INFINITY) {
                 let text = format!("limits: no position is between {low} and {high}");
                 return Err(input_error(text));

@@ -1,4 +1,4 @@
-//! The question which links of a robot can touch, and the table of its answer.
+//! Decides which links of a robot can touch, and makes the table of answers.
 
 use crate::errors::{file_error, input_error};
 use crate::numbers::whole_number;
@@ -23,7 +23,7 @@ pub(crate) struct LinkContactQuestion<'a, 'py> {
 }
 
 impl LinkContactQuestion<'_, '_> {
-    /// Answers the question; Ctrl-C ends it with what is decided by then.
+    /// Answers the question. Ctrl-C ends it with the pairs decided so far.
     pub(crate) fn answer(self, py: Python<'_>) -> PyResult<PyTable> {
         let LinkContactQuestion {
             robot,
@@ -61,7 +61,7 @@ impl LinkContactQuestion<'_, '_> {
     }
 }
 
-/// Refuses the path of a file to write whose folder is missing, before the work and not after it.
+/// Refuses the path of an output file whose folder is missing. Called before the work, so that the work is not lost.
 fn check_folder_of(path: &Path) -> PyResult<()> {
     let folder = match path.parent() {
         Some(folder) if folder.as_os_str().is_empty() => Path::new("."),
@@ -72,7 +72,7 @@ fn check_folder_of(path: &Path) -> PyResult<()> {
     found.map_err(|error| file_error(&error, path)).map(drop)
 }
 
-/// Reads the number of boxes that are examined for a pair.
+/// Reads the number of boxes to examine for a pair.
 pub(crate) fn read_max_boxes(given: &Bound<'_, PyAny>) -> PyResult<usize> {
     whole_number(given, "max_boxes", 0..=usize::MAX)
 }

@@ -9,17 +9,17 @@ use rigid_ccd::Remark;
 use rigid_ccd::trajectory::{JointKind, LinkTrajectory, Trajectory};
 use rigid_ccd_robot::{ChainBetween, Robot};
 
-/// The motion of a link of a `Robot` while all joints move at constant rates; `Robot.motion` makes it.
+/// The motion of a link of a `Robot` while all joints move at constant rates. `Robot.motion` makes it.
 ///
-/// It stands for a `Motion` in all queries. Times and distances are as certain as those of a `Motion`. Witnesses are within
-/// the tolerance of where they are said to be.
+/// All queries take it in place of a `Motion`. Times and distances are certified, as those of a `Motion`. Witness
+/// points are accurate to the tolerance.
 #[pyclass(name = "LinkMotion", module = "rigid_ccd", frozen)]
 pub(crate) struct PyLinkMotion {
-    /// The object of Python whose method `motion` made the motion.
+    /// The Python object whose method `motion` made this motion.
     robot: Py<PyAny>,
     motion_arguments: RobotMotionArguments,
     chain: ChainBetween,
-    /// The positions of the chain's joints at both ends.
+    /// The positions of the chain's joints at the start and at the end.
     ends: [Vec<f64>; 2],
 }
 
@@ -59,7 +59,7 @@ impl PyLinkMotion {
 }
 
 impl PyLinkMotion {
-    /// Makes the motion of a link, or an error if positions are missing or outside their joints' limits.
+    /// Makes the motion of a link. Fails if positions are missing, or exceed the limits of their joints.
     pub(crate) fn new(
         robot: &Bound<'_, PyAny>,
         links: &Robot,

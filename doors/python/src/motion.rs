@@ -9,16 +9,16 @@ use pyo3::types::{PyTuple, PyType};
 use rigid_ccd::glam::{DMat3, DQuat, DVec3};
 use rigid_ccd::{Motion, Pose, Remark};
 
-/// The largest accepted entry of M·Mᵀ − I for a rotation matrix M: a few products in float32 reach it. The rotation
-/// that is used is that of the quaternion that fits the matrix.
+/// The largest accepted entry of M·Mᵀ − I for a rotation matrix M. Products of a few matrices in float32 have errors of
+/// this size. The engine uses the rotation of the unit quaternion nearest to the matrix.
 const ORTHONORMALITY_TOLERANCE: f64 = 1e-5;
 
 /// A motion: a pose at time 0, a constant velocity of a centre, and a constant angular velocity about it.
 ///
 /// Args:
-///     position: the place of the body's origin at time 0, three numbers.
+///     position: the position of the body's origin at time 0, three numbers.
 ///     rotation: a matrix of shape (3, 3), a quaternion (w, x, y, z), or a scipy Rotation; None is no rotation.
-///     velocity: of the centre, per unit of time.
+///     velocity: the velocity of the centre, per unit of time.
 ///     spin: the angular velocity about the world's axes, in radians per unit of time.
 ///     center: the centre of rotation in the body's frame.
 ///
@@ -28,7 +28,7 @@ const ORTHONORMALITY_TOLERANCE: f64 = 1e-5;
 #[pyclass(name = "Motion", module = "rigid_ccd", frozen)]
 pub(crate) struct PyMotion {
     pub(crate) motion: Motion,
-    /// The end of a motion between two poses; None if it goes on.
+    /// The end of a motion between two poses. It is None for other motions, which have no end.
     #[pyo3(get)]
     pub(crate) end: Option<f64>,
     constructor_call: ConstructorCall,
@@ -57,18 +57,18 @@ impl PyMotion {
         PyMotion::from_velocities(py, start, velocity, spin, center)
     }
 
-    /// Makes the motion of a body at rest; the pose takes the same forms as in `Motion.between`.
+    /// Makes the motion of a static body. `pose` takes the same forms as in `Motion.between`.
     #[classmethod]
     fn still(class: &Bound<'_, PyType>, pose: &Bound<'_, PyAny>) -> PyResult<Self> {
         let start = read_given_pose(pose, "pose")?;
         PyMotion::from_velocities(class.py(), start, [0.0; 3], [0.0; 3], [0.0; 3])
     }
 
-    /// Makes the motion from one pose to another: the centre moves in a straight line, and the body rotates the
-    /// shortest way.
+    /// Makes the motion from one pose to another. The centre moves on a straight line, and the body takes the shortest
+    /// rotation.
     ///
-    /// A pose is a matrix of shape (4, 4), or a pair of a position and a rotation as `Motion` takes them. Questions about
-    /// the motion end at its `duration`, if they are given none.
+    /// A pose is a matrix of shape (4, 4), or a pair of a position and a rotation as `Motion` takes them. Questions
+    /// about the motion end at its `duration` by default.
     #[classmethod]
     #[pyo3(signature = (start, end, duration = 1.0, center = None))]
     fn between(
@@ -136,14 +136,15 @@ impl PyMotion {
     }
 }
 
-/// A position and an orientation as the caller gave them: normalisation may change even a normalised quaternion.
+/// A position and an orientation as the caller passed them. They are kept, because normalisation may change even a
+/// normalised quaternion.
 #[derive(Clone, Copy)]
 pub(crate) struct GivenPose([f64; 3], DQuat);
 
 impl GivenPose {
     pub(crate) const IDENTITY: GivenPose = GivenPose([0.0; 3], DQuat::IDENTITY);
 
-    /// Returns the normalised pose; `what` names it in errors.
+    /// Returns the normalised pose. Errors name it as `what`.
     pub(crate) fn pose(&self, what: &str) -> PyResult<Pose> {
         Pose::new(self.0, self.1).map_err(|error| input_error(format!("{what}: {error}")))
     }
@@ -208,7 +209,7 @@ fn quaternion_from_rows(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
     let matrix = DMat3::from_cols_array(&rows).transpose();
     let off = (matrix * matrix.transpose() - DMat3::IDENTITY).to_cols_array();
     let error = off.iter().map(|entry| entry.abs());
-    // Written so that NaN is refused.
+    // The comparison is written so that NaN is refused.
     let is_rotation =
         error.clone().all(|error| error <= ORTHONORMALITY_TOLERANCE) && matrix.determinant() > 0.0;
     if is_rotation {
@@ -223,12 +224,12 @@ fn quaternion_from_rows(rows: [f64; 9], what: &str) -> PyResult<DQuat> {
     }
 }
 
-/// Reads a pose from any of its accepted forms; `what` names it in errors.
+/// Reads a pose from any of its accepted forms. Errors name it as `what`.
 pub(crate) fn read_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<Pose> {
     read_given_pose(value, what)?.pose(what)
 }
 
-/// Reads a pose as given, without normalising it.
+/// Reads a pose without normalising it.
 pub(crate) fn read_given_pose(value: &Bound<'_, PyAny>, what: &str) -> PyResult<GivenPose> {
     if let Ok((place, turned)) = value.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>() {
         return Ok(GivenPose(

@@ -9,16 +9,16 @@ use pyo3::prelude::*;
 use rigid_ccd::trajectory::{LinkTrajectory, MovingBody, Poses, Trajectory};
 use rigid_ccd::{Body, Motion, Remark};
 
-/// The movement of a body as a Python argument gives it.
+/// The movement of a body, as passed by Python.
 pub(crate) enum GivenMovement<'c> {
-    /// A motion, with its end if it is one between two poses.
+    /// A motion. A motion between two poses has an end.
     Motion(Motion, Option<f64>),
     Link(LinkTrajectory<'c>, f64),
     Path(&'c Poses),
 }
 
 impl<'c> GivenMovement<'c> {
-    /// Extracts a movement from the argument `motion_a` or `motion_b`; None means at rest.
+    /// Extracts a movement from the argument `motion_a` or `motion_b`. None is a static body.
     pub(crate) fn extract(given: Option<&'c Bound<'_, PyAny>>, what: &str) -> PyResult<Self> {
         let Some(given) = given.filter(|given| !given.is_none()) else {
             return Ok(GivenMovement::Motion(Motion::STILL, None));
@@ -43,7 +43,7 @@ impl<'c> GivenMovement<'c> {
         ))
     }
 
-    /// Returns the time at which the movement ends; `None` for a motion at constant velocities, which goes on.
+    /// Returns the time at which the movement ends, or `None` for a motion at constant velocities, which has no end.
     fn end_time(&self) -> Option<f64> {
         match self {
             GivenMovement::Motion(_, end) => *end,
@@ -67,7 +67,7 @@ pub(crate) struct Pair<'c> {
     pub(crate) b: (&'c Body, GivenMovement<'c>),
 }
 
-/// A body and its motion, as a Python caller passes them.
+/// A body and its motion, as passed by Python.
 pub(crate) type GivenBodyAndMotion<'a, 'py> =
     (&'a Bound<'py, PyAny>, Option<&'a Bound<'py, PyAny>>);
 
@@ -88,8 +88,8 @@ impl<'c> Pair<'c> {
         })
     }
 
-    /// Returns the duration of a query: the given one, or the movements' end. The default is that of links, paths and
-    /// motions between two poses, which must be equal for both, or 1.
+    /// Returns the duration of a query: the given one, or the default. The default is the end of links, paths and
+    /// motions between two poses, or 1 if there is none. If both movements have an end, the ends must be equal.
     pub(crate) fn duration(&self, given: Option<f64>) -> PyResult<f64> {
         let courses = [&self.a.1, &self.b.1];
         let ends = courses.iter().filter_map(|course| course.end_time());
@@ -119,7 +119,7 @@ impl<'c> Pair<'c> {
         Ok(duration)
     }
 
-    /// Returns a remark for each motion whose spin seems to be in degrees, not in radians.
+    /// Returns a remark for each motion whose angular velocity seems to be in degrees instead of radians.
     pub(crate) fn remarks(&self, duration: f64) -> impl Iterator<Item = Remark> {
         let courses = [&self.a.1, &self.b.1].into_iter();
         courses.filter_map(move |course| match course {

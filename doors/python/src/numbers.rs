@@ -1,4 +1,4 @@
-//! Reads numbers from arguments of Python, to which a truth value is a number, too.
+//! Reads numbers from arguments of Python. Refuses truth values, which Python treats as numbers.
 
 use crate::errors::{input_error, wrong_type_error};
 use pyo3::exceptions::PyTypeError;
@@ -7,7 +7,7 @@ use pyo3::types::{PyBool, PyFloat};
 use std::fmt::Display;
 use std::ops::RangeInclusive;
 
-/// Reads a whole number in a range; the error names the argument.
+/// Reads a whole number in a range. Errors name the argument.
 pub(crate) fn whole_number<'py, T>(
     given: &Bound<'py, PyAny>,
     what: &str,
@@ -32,7 +32,7 @@ where
         .filter(|number| range.contains(number));
     number.ok_or_else(|| {
         let (least, most) = (range.start(), range.end());
-        // Python writes no numbers of thousands of digits.
+        // Python refuses to format numbers with thousands of digits.
         let text = whole
             .str()
             .map_or_else(|_| "the number".to_owned(), |text| text.to_string());
@@ -49,7 +49,7 @@ pub(crate) fn refuse_truth(given: &Bound<'_, PyAny>, what: &str) -> PyResult<()>
     }
 }
 
-/// Returns whether something is a truth value of Python or of NumPy.
+/// Returns whether an object is a truth value of Python or NumPy.
 fn is_truth(given: &Bound<'_, PyAny>) -> PyResult<bool> {
     if given.is_instance_of::<PyFloat>() {
         return Ok(false);
@@ -58,7 +58,7 @@ fn is_truth(given: &Bound<'_, PyAny>) -> PyResult<bool> {
     Ok(given.is_instance_of::<PyBool>() || given.is_instance(&numpy.getattr("bool_")?)?)
 }
 
-/// Reads a number that is an argument, which an exception for a wrong type names.
+/// Reads a number. pyo3 adds the name of the argument to an exception for a wrong type.
 pub(crate) fn read_number(given: &Bound<'_, PyAny>) -> PyResult<f64> {
     if is_truth(given)? {
         Err(PyTypeError::new_err("must be a number, not bool"))
@@ -67,7 +67,7 @@ pub(crate) fn read_number(given: &Bound<'_, PyAny>) -> PyResult<f64> {
     }
 }
 
-/// Reads a number that is an argument, or None.
+/// Reads a number, or None.
 pub(crate) fn read_optional_number(given: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
     if given.is_none() {
         Ok(None)

@@ -7,17 +7,19 @@ use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
 use rigid_ccd::trajectory::{Poses, Trajectory};
 
-/// A path through poses at given times, for example from a planner or a simulator's log.
+/// A path of a body through poses at given times, for example from a planner or a simulator's log.
 ///
-/// From one pose to the next, the center moves in a straight line, and the body turns about it the shortest way. It rests
-/// before the first time and after the last. With spins, it turns by any number of turns.
+/// From one pose to the next, the center moves on a straight line, and the body takes the shortest rotation about it.
+/// The body is at rest before the first time and after the last one. With `spins`, it may rotate by any number of
+/// turns.
 ///
 /// Args:
-///     times: increasing.
-///     poses: one for each time, as `Motion.between` takes them: an array of shape (n, 4, 4), for instance.
-///     center: the point of the body that moves straight, in its frame; its origin by default.
-///     spins: angular velocities in the world, one from each pose to the next: of shape (n - 1, 3). What one leaves over
-///         to the next pose, a quarter turn at most, is turned beside it. Zeros mean the shortest turn.
+///     times: increasing times, one for each pose.
+///     poses: one pose for each time, in the forms of `Motion.between`, for instance an array of shape (n, 4, 4).
+///     center: the point in the body's frame that moves on straight lines; the body's origin by default.
+///     spins: angular velocities in the world, one from each pose to the next, of shape (n - 1, 3). An angular velocity
+///         may miss the next pose by at most a quarter turn; the rest is added as a second rotation. Zeros stand for
+///         the shortest rotation.
 ///
 /// >>> import numpy as np
 /// >>> from rigid_ccd import Path
@@ -45,7 +47,7 @@ impl PyPath {
         spins: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let times = flat_numbers(times, "times")?;
-        // One pose too many is seen; an iterator may have no end.
+        // Reads one pose more than needed, to detect too many poses of an iterator that may have no end.
         let poses = poses.try_iter()?.take(times.len() + 1).enumerate();
         let given: Vec<GivenPose> = poses
             .map(|(k, pose)| read_given_pose(&pose?, &format!("pose {k}")))

@@ -1,4 +1,4 @@
-//! Questions about paths by their names, and their answers as objects of Python.
+//! Names of questions about paths, and answers as Python objects.
 
 use crate::errors::{Unresolved, input_error, with_attribute};
 use ccd_tables::path_rows::PathRow;
@@ -8,7 +8,7 @@ use rigid_ccd::Question;
 use rigid_ccd::answer::Limit;
 use rigid_ccd_robot::{CellSolver, PathError};
 
-/// Returns the question about paths that has a name.
+/// Returns the question about paths with a name.
 pub(crate) fn question_named(name: &str) -> PyResult<Question> {
     let found = Question::from_name(name).filter(|found| CellSolver::QUESTIONS.contains(found));
     found.ok_or_else(|| {
@@ -18,7 +18,7 @@ pub(crate) fn question_named(name: &str) -> PyResult<Question> {
     })
 }
 
-/// Returns the pair of an answer as an object of Python; `None` without one.
+/// Returns the pair of an answer as a Python object, or `None` if there is none.
 pub(crate) fn contact_object<'py>(
     py: Python<'py>,
     answer: &PathRow,
@@ -27,7 +27,7 @@ pub(crate) fn contact_object<'py>(
     let (Some(at), Some(_)) = (answer.at, &row.item_a) else {
         return Ok(None);
     };
-    // A deadline may pass before the points of a contact are found.
+    // There are no witness points if the deadline passed before they were found.
     let point =
         |point: [Option<f64>; 3]| <(f64, f64, f64)>::from(point.map(|x| x.unwrap_or(f64::NAN)));
     let (witness_a, witness_b) = (point(row.witness_a), point(row.witness_b));
@@ -50,7 +50,7 @@ pub(crate) fn contact_object<'py>(
     class.call1(values).map(Some)
 }
 
-/// Checks that no limit ended a question about contacts.
+/// Checks that a question about contacts was answered before any limit.
 ///
 /// # Errors
 /// `Unresolved` if a limit was reached.
@@ -64,7 +64,7 @@ pub(crate) fn check_resolved(py: Python<'_>, answer: &PathRow) -> PyResult<()> {
     Err(with_attribute(py, error, "safe_until", until))
 }
 
-/// Returns the bounds of a least distance as an object of Python, with what they say of a clearance.
+/// Returns the bounds of a least distance as a Python object, with the verdict on a clearance.
 pub(crate) fn approach_object<'py>(
     py: Python<'py>,
     answer: &PathRow,
@@ -83,7 +83,7 @@ pub(crate) fn approach_object<'py>(
     class.call1((lower, upper, nearest, limit, answer.tolerance, verdict))
 }
 
-/// Returns whether a deadline ended a question, or the search for the witnesses of its contact.
+/// Returns whether a deadline ended a question, or the search for witness points of its contact.
 pub(crate) fn ended_by_deadline(found: &Result<PathRow, PathError>) -> bool {
     found.as_ref().is_ok_and(|answer| {
         let lacks_witnesses = answer.row.item_a.is_some() && answer.row.witness_a[0].is_none();

@@ -7,14 +7,14 @@ use crate::errors::input_error;
 use pyo3::prelude::*;
 use rigid_ccd_robot::{JointCurve, PathPoint, Robot};
 
-/// A path as Python gives it: configurations, or polynomials.
+/// A path as passed by Python: configurations or polynomials.
 pub(crate) enum GivenPath {
     Configurations(PathArray),
     Curve(JointCurve),
 }
 
 impl GivenPath {
-    /// Reads a curve, or an array of configurations; one of one dimension is one configuration.
+    /// Reads a curve, or an array of configurations. An array of one dimension is a single configuration.
     pub(crate) fn read(values: &Bound<'_, PyAny>, robot: &Robot) -> PyResult<Self> {
         if let Some(curve) = read_curve(values, robot)? {
             return Ok(GivenPath::Curve(curve));
@@ -29,7 +29,7 @@ impl GivenPath {
         }
     }
 
-    /// Returns what a function finds first in the configurations, or in those of a curve at its times.
+    /// Returns the first result of `find` among the configurations; for a curve, among those at its breakpoints.
     pub(crate) fn find_configuration<T>(&self, find: impl Fn(&[f64]) -> Option<T>) -> Option<T> {
         match self {
             GivenPath::Configurations(array) => array.configurations().into_iter().find_map(find),
@@ -37,7 +37,7 @@ impl GivenPath {
         }
     }
 
-    /// Returns the time of a point: that of the curve, rounded down, or segments of one unit of time each.
+    /// Returns the time of a point: the time on a curve, rounded down, or a number of segments on other paths.
     pub(crate) fn time(&self, at: PathPoint) -> f64 {
         match self {
             GivenPath::Configurations(_) => at.time(),
@@ -62,7 +62,7 @@ impl GivenPath {
     }
 }
 
-/// Many paths as Python gives them.
+/// Many paths as passed by Python.
 pub(crate) enum GivenPaths {
     /// Paths of equally many configurations.
     Array(PathArray),
@@ -80,7 +80,7 @@ impl GivenPaths {
         Ok(GivenPaths::Array(array))
     }
 
-    /// Returns what a function finds first in the configurations, or in those of curves at their times.
+    /// Returns the first result of `find` among the configurations; for curves, among those at their breakpoints.
     pub(crate) fn find_configuration<T>(&self, find: impl Fn(&[f64]) -> Option<T>) -> Option<T> {
         match self {
             GivenPaths::Array(array) => array.configurations().into_iter().find_map(find),
@@ -145,7 +145,7 @@ impl PathArray {
     }
 
     fn new(positions: Vec<f64>, shape: Vec<usize>, what: &str) -> PyResult<Self> {
-        // There may be no paths, but each has configurations.
+        // There may be no paths, but each path needs a configuration.
         let is_too_short = |shape: &[usize]| shape[shape.len().saturating_sub(2)..].contains(&0);
         if shape.is_empty() || shape.len() > 3 || is_too_short(&shape) {
             return Err(input_error(format!(
@@ -155,12 +155,12 @@ impl PathArray {
         Ok(PathArray { positions, shape })
     }
 
-    /// Returns the configurations of one path; an array of one dimension is one configuration.
+    /// Returns the configurations of one path. An array of one dimension is a single configuration.
     pub(crate) fn configurations(&self) -> Vec<&[f64]> {
         self.positions.chunks_exact(self.joint_count()).collect()
     }
 
-    /// Refuses an array of another shape than (paths, configurations, `joints`).
+    /// Refuses an array whose shape is not (paths, configurations, `joints`).
     pub(crate) fn check_shape_of_paths(&self, joints: usize) -> PyResult<()> {
         if self.shape.len() == 3 && self.joint_count() == joints {
             return Ok(());

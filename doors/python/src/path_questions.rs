@@ -1,4 +1,4 @@
-//! Asks a cell a question about one path, and makes objects of Python of the answer.
+//! Answers questions of Python about one path in a cell.
 
 use crate::cell_remarks::{Asked, warn_of_question};
 use crate::cell_solver::CellWithCachedSolvers;
@@ -14,8 +14,8 @@ use rigid_ccd_robot::{ClearanceRange, PathError, RangeSettings};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The time after which a question goes on, from its start, on a thread that Ctrl-C can end. To start one for each question
-/// would cost more than most questions do.
+/// The time limit of a first attempt on this thread. After it the question is repeated from its start on a thread that
+/// Ctrl-C can end. Starting a thread for every question would take longer than most questions.
 const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(5);
 
 /// Answers a question about a path, after reading its configurations.
@@ -62,7 +62,7 @@ pub(crate) fn ask_path(
     found.map_err(input_error)
 }
 
-/// Makes the exception of an interrupted question, which has what was known by then.
+/// Makes the exception for an interrupted question, with the bounds known so far.
 fn interruption(
     py: Python<'_>,
     cause: PyErr,
@@ -79,7 +79,7 @@ fn interruption(
     time_interruption(py, cause, known.and_then(|row| row.time))
 }
 
-/// Divides a path into ranges, as objects of Python.
+/// Divides a path into ranges, as Python objects.
 pub(crate) fn path_ranges<'py>(
     py: Python<'py>,
     solvers: &CellWithCachedSolvers,
@@ -117,7 +117,7 @@ fn range_objects<'py>(
     ranges: &[ClearanceRange],
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let class = py.import("rigid_ccd")?.getattr("PathRange")?;
-    // What is proven does not reach beyond the times that are told.
+    // Times are rounded so that a reported range is within the proven one.
     let mut start = path.start_time();
     let ranges = ranges.iter().map(|range| {
         let (clearance, end) = match range.verdict {

@@ -16,7 +16,7 @@ use rigid_ccd::Settings;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// The arguments of a question about many paths, other than the paths.
+/// The arguments of a question about many paths, except for the paths.
 pub(crate) struct GivenQuestion<'a, 'py> {
     pub(crate) ask: &'a str,
     pub(crate) threads: Option<&'a Bound<'py, PyAny>>,
@@ -24,7 +24,7 @@ pub(crate) struct GivenQuestion<'a, 'py> {
     pub(crate) settings: Option<&'a Bound<'py, PyDict>>,
 }
 
-/// Answers a question about each path on all cores; Ctrl-C ends it with the rows answered by then.
+/// Answers a question about each path on all cores. Ctrl-C ends it with the rows answered so far.
 pub(crate) fn answer_paths(
     py: Python<'_>,
     solvers: &CellWithCachedSolvers,
@@ -66,7 +66,7 @@ pub(crate) fn answer_paths(
     results_or_interruption(py, PyTable { batch }, seen)
 }
 
-/// A question about many paths that may be stopped.
+/// A question about many paths, which a flag can stop.
 struct Task<'a> {
     question: PathQuestion,
     settings: &'a Settings,
@@ -76,7 +76,7 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// Returns the rows of all paths, or of the first ones if the flag `stop` is set meanwhile.
+    /// Returns the rows of all paths. If the flag `stop` is set meanwhile, returns the first rows only.
     fn answer(
         &self,
         solvers: &CellWithCachedSolvers,
@@ -107,7 +107,7 @@ impl Task<'_> {
         groups.flat_map(|group| group.rows).collect()
     }
 
-    /// Returns a row, unless the flag is set before it is answered: a question that was stopped has no answer.
+    /// Returns a row, or `None` if the flag is set by the end: the question may have been stopped.
     fn unless_stopped(&self, answer: impl FnOnce() -> ResultRow) -> Option<ResultRow> {
         let is_stopped = || self.stop.load(Ordering::Relaxed);
         let row = (!is_stopped()).then(answer).filter(|_| !is_stopped())?;
@@ -116,7 +116,7 @@ impl Task<'_> {
     }
 }
 
-/// The rows of some paths in a row, up to the first one without an answer.
+/// The rows of consecutive paths, up to the first path without an answer.
 struct Group {
     rows: Vec<ResultRow>,
     is_whole: bool,

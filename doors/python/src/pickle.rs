@@ -1,11 +1,11 @@
-//! Pickles an object as the constructor and the arguments that made it, so that it is unpickled to the same bits.
+//! Pickles an object as its constructor and arguments, so that unpickling gives the same bits.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 
-/// How pickle recreates an object: the class or the class method to call, and the arguments.
+/// The call by which pickle recreates an object: the class or class method, and the arguments.
 pub(crate) struct ConstructorCall {
-    /// The name of the class method; `None` for the class itself.
+    /// The name of the class method, or `None` for the class itself.
     constructor_name: Option<&'static str>,
     arguments: Py<PyTuple>,
 }

@@ -1,4 +1,4 @@
-//! Runs long work that Ctrl-C can interrupt, and tells a Python program how far it is.
+//! Runs long work that Ctrl-C can interrupt, and reports its progress to Python.
 
 use crate::errors::interruption_error;
 use crate::interruptible::run_interruptibly;
@@ -6,14 +6,15 @@ use pyo3::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// The argument `progress` of a call, and how much there is to do, if that is known.
+/// The argument `progress` of a call, and the total amount of work, if known.
 #[derive(Clone, Copy)]
 pub(crate) struct GivenProgress<'a, 'py> {
     pub(crate) progress: Option<&'a Bound<'py, PyAny>>,
     pub(crate) total: Option<usize>,
 }
 
-/// Runs `work`, which adds to a counter what is done, as [`run_interruptibly`] does, and tells the progress meanwhile and at the end.
+/// Runs `work` as [`run_interruptibly`] does. `work` increases a counter; this function reports the counter meanwhile
+/// and at the end.
 pub(crate) fn run_with_progress<T: Send>(
     py: Python<'_>,
     GivenProgress { progress, total }: GivenProgress<'_, '_>,
@@ -41,7 +42,7 @@ pub(crate) fn run_with_progress<T: Send>(
     found
 }
 
-/// Returns the results of work, or an exception that has those of interrupted work.
+/// Returns the results of work. If it was interrupted, returns an exception with the results so far.
 pub(crate) fn results_or_interruption<'py, T: IntoPyObject<'py>>(
     py: Python<'py>,
     results: T,

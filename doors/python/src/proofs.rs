@@ -26,7 +26,7 @@ use rigid_ccd_robot::{Cell, PathAnswer, PathError, PathOutcome};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Makes Python `Proof`s of the same meshes.
+/// Makes Python `Proof`s that share the same meshes.
 fn proof_objects<'a, 'py>(
     py: Python<'py>,
     proofs: &[Proof],
@@ -35,21 +35,22 @@ fn proof_objects<'a, 'py>(
     static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     let bytes = |bytes: &[u8]| PyBytes::new(py, bytes);
     let pair = |body: &Body| (bytes(body.mesh()), bytes(body.certificate()));
-    // All share the bytes of the meshes.
+    // All proofs share the bytes of the meshes.
     let meshes: Vec<_> = meshes.into_iter().map(pair).collect();
     let class = CLASS.import(py, "rigid_ccd._proofs", "Proof")?;
     let object = |proof: &Proof| class.call1((bytes(&proof.bytes), meshes.clone()));
     proofs.iter().map(object).collect()
 }
 
-/// Finds the first contact of two moving bodies, and proves the answer: that nothing touches before it, or at all.
+/// Finds the first contact of two moving bodies, and proves the answer: nothing touches before it, or nothing touches
+/// at all.
 ///
-/// Arguments and exceptions are those of `first_contact`, but for motions, each a `Motion` or None. The proof is of the
-/// triangles: of a body inside another one it says nothing.
+/// Arguments and exceptions are those of `first_contact`, except that each motion is a `Motion` or None. The proof is
+/// about triangles only, and does not exclude that a body is inside another one.
 ///
 /// Raises:
 ///     InputError: a body has no triangles, the bodies touch at the start, or the answer cannot be proven.
-///     Unresolved: a limit was reached first; its `results` has the proof of what is known, if there is one.
+///     Unresolved: a limit was reached first. `results` has the proof until `safe_until`, if there is one.
 ///
 /// >>> from rigid_ccd import Body, Motion, prove
 /// >>> wall = Body.box(0.1, 5, 5)
@@ -117,7 +118,7 @@ pub(crate) fn prove<'py>(
     }
 }
 
-/// Finds the first contact of a cell on a path of configurations, and proves the answer, a proof for each segment.
+/// Finds the first contact of a cell on a path of configurations, and writes a proof for each segment.
 pub(crate) fn prove_path<'py>(
     py: Python<'py>,
     cell: &Cell,
@@ -137,7 +138,7 @@ pub(crate) fn prove_path<'py>(
     };
     let mut path = path.configurations();
     if let [only] = path[..] {
-        // A configuration alone is a rest there.
+        // A single configuration is a robot at rest.
         path.push(only);
     }
     let progress = GivenProgress {
@@ -165,25 +166,25 @@ pub(crate) fn prove_path<'py>(
     }
 }
 
-/// The proofs of the segments of a path, up to where one is missing.
+/// The proofs of the segments of a path, up to the first missing one.
 struct PathProofs {
     meshes: Vec<Body>,
     proofs: Vec<Proof>,
     fault: Option<Fault>,
 }
 
-/// Why a proof is missing.
+/// The reason why a proof is missing.
 enum Fault {
     Path(PathError),
     Proof(PathNotProven),
-    /// Two bodies touch at a time, but nothing shows it to a checker.
+    /// Two bodies touch at a time, but no proof can show it.
     Contact([String; 2], f64),
-    /// A limit was reached; the path is free until a time.
+    /// A limit was reached. The path is free until a time.
     Limit(String, f64),
 }
 
 impl Fault {
-    /// Returns why proofs do not show an outcome to its end; `None` if they do.
+    /// Returns the reason why proofs do not cover an answer to its end, or `None` if they do.
     fn of_answer(answer: &PathAnswer<'_>, proofs: &[Proof]) -> Option<Self> {
         match &answer.outcome {
             PathOutcome::Free => None,
@@ -219,7 +220,7 @@ impl Fault {
 }
 
 impl PathProofs {
-    /// There are none: another thread has stopped the work before the first one.
+    /// No proofs, because another thread stopped the work before the first one.
     const STOPPED: PathProofs = PathProofs {
         meshes: Vec::new(),
         proofs: Vec::new(),
@@ -229,7 +230,7 @@ impl PathProofs {
         })),
     };
 
-    /// Searches a path, and proves the answer; adds to `done` each segment that is proven.
+    /// Searches a path, and proves the answer. Counts proven segments in `done`.
     fn find(
         cell: &Cell,
         path: &[&[f64]],
@@ -267,7 +268,7 @@ impl PathProofs {
     }
 }
 
-/// Reads a motion at constant velocities, of which alone there are proofs.
+/// Reads a motion at constant velocities. Only these have proofs.
 fn constant_motion((_, motion): GivenBodyAndMotion<'_, '_>, what: &str) -> PyResult<Motion> {
     match (GivenMovement::extract(motion, what)?, motion) {
         (GivenMovement::Motion(motion, _), _) => Ok(motion),
@@ -276,14 +277,15 @@ fn constant_motion((_, motion): GivenBodyAndMotion<'_, '_>, what: &str) -> PyRes
     }
 }
 
-/// Checks a proof with the crate `ccd-check`, which shares no code with what found and wrote it.
+/// Checks a proof with the crate `ccd-check`, which shares no code with the engine or the prover.
 ///
 /// Args:
 ///     proof: the bytes of the proof.
-///     meshes: for each mesh its bytes, and those of its tree; more may be given than the proof needs.
+///     meshes: for each mesh its bytes and the bytes of its tree. Meshes that the proof does not need are ignored.
 ///
 /// Returns:
-///     "holds", or why it does not: "broken: …", or "unverifiable: …" for numbers beyond the range of the checker.
+///     "holds", or the reason why it does not: "broken: …", or "unverifiable: …" for numbers beyond the range of the
+///         checker.
 #[pyfunction]
 pub(crate) fn check_proof(
     py: Python<'_>,
@@ -301,8 +303,8 @@ pub(crate) fn check_proof(
     Ok(verdict.map_or_else(|stop| stop.to_string(), |()| "holds".to_owned()))
 }
 
-/// Returns what a proof states for a program: until when nothing touches, whether a contact ends it, and the digests of its meshes; an
-/// error if the bytes are no proof.
+/// Returns the statement of a proof: the time until which nothing touches, whether a contact ends it, and the digests
+/// of its meshes. Fails if the bytes are not a proof.
 #[pyfunction]
 pub(crate) fn read_proof(proof: &[u8]) -> PyResult<(f64, bool, Vec<String>)> {
     let statement = read_statement(proof)?;
@@ -319,7 +321,7 @@ fn read_statement(proof: &[u8]) -> PyResult<Statement> {
     Statement::read(proof).ok_or_else(|| input_error("this is no proof"))
 }
 
-/// Returns what a proof states, in words; an error if the bytes are no proof.
+/// Returns the statement of a proof as a text. Fails if the bytes are not a proof.
 #[pyfunction]
 pub(crate) fn proof_statement(proof: &[u8]) -> PyResult<String> {
     Ok(read_statement(proof)?.to_string())

@@ -22,19 +22,19 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The work limit of a first attempt, about a tenth of a second. A query with more to do is asked again on a thread of
-/// its own, while this one looks for Ctrl-C.
+/// The budget of a first attempt, about a tenth of a second. A query that needs more is repeated on another thread,
+/// while this thread checks for Ctrl-C.
 const FIRST_ATTEMPT_BUDGET: u64 = 100_000;
 
-/// The time limit of a first attempt, needed because a path has a work limit for each of its segments.
+/// The time limit of a first attempt. It is needed because a path has a budget for each of its segments.
 const FIRST_ATTEMPT_TIME_LIMIT: Duration = Duration::from_millis(100);
 
 thread_local! {
-    /// The solver of this thread, whose memory is reused from query to query. A panic leaves a new one.
+    /// The solver of this thread. Its memory is reused between queries. After a panic there is a new one.
     static SOLVER: Cell<Solver> = Cell::new(Solver::new());
 }
 
-/// Two moving bodies, and the question about them.
+/// Two moving bodies, and a question about them.
 struct PairQuestion<'a> {
     question: Question,
     bodies: [MovingBody<'a>; 2],
@@ -100,7 +100,7 @@ impl PairQuestion<'_> {
         let (found, seen) = run_interruptibly(py, work, |_| Ok(()))?;
         seen.map_err(|cause| self.interruption(py, cause, &found))?;
         let found = found.map_err(input_error)?;
-        // If little time is left, the first answer may be better.
+        // If little time is left, the first answer may be better than the second.
         Ok(match &found.outcome {
             Outcome::Unresolved(known) if until > self.proven_bound(known) => first,
             _ => found,
@@ -152,7 +152,7 @@ pub(crate) fn ask(
     asked.run(py, settings)
 }
 
-/// Returns the contact in an answer; `None` if the bodies stay apart.
+/// Returns the contact in an answer, or `None` if the bodies stay apart.
 fn hit_of_answer(py: Python<'_>, answer: Answer) -> PyResult<Option<Hit>> {
     answer.hit().map_err(|known| unresolved_error(py, &known))
 }
@@ -169,23 +169,25 @@ fn distance_of_answer<'py>(
     }
 }
 
-/// Finds the first contact of two moving bodies, from time 0 to `duration`; None if they stay apart.
+/// Finds the first contact of two moving bodies, from time 0 to `duration`. Returns None if they stay apart.
 ///
-/// Nothing touches before its time, and without a contact nothing touches at all: that is proven, in floating point.
+/// Nothing touches before the time of the contact. If the result is None, nothing touches at all. Both are proven, in
+/// floating point.
 ///
 /// Args:
 ///     a, b: the bodies.
-///     motion_a, motion_b: a Motion, a Path, or a LinkMotion; None rests at the world's origin.
-///     duration: the end, in the motions' unit of time; by default that of a path, a link or `Motion.between`, else 1.
+///     motion_a, motion_b: a Motion, a Path, or a LinkMotion; None is a static body at the world's origin.
+///     duration: the end of the query, in the motions' unit of time. The default is the end of a path, a link's motion
+///         or `Motion.between`, and 1 for other motions.
 ///     tolerance: a contact is reported at a distance of at most margin + tolerance, in your unit of length; 0.001 by
 ///         default.
-///     margin: a distance to keep; 0 by default.
-///     budget: the work after which a query is given up, of a path that between two poses; a million takes about a
-///         second.
-///     deadline: seconds after which a query is given up.
+///     margin: the distance at which bodies count as touching; 0 by default.
+///     budget: the largest amount of work; a million takes about a second. Along a path it is for each segment between
+///         two poses.
+///     deadline: the seconds after which the query ends without an answer.
 ///
 /// Raises:
-///     Unresolved: a limit was reached; its `safe_until` is proven.
+///     Unresolved: a limit was reached. Nothing touches before `safe_until`.
 ///     InputError: a number is out of range.
 ///
 /// >>> from rigid_ccd import Body, Motion, first_contact
@@ -211,7 +213,7 @@ pub(crate) fn first_contact<'py>(
     hit.map(|hit| answers::contact(py, &hit)).transpose()
 }
 
-/// Returns whether two moving bodies stay apart, by more than the margin.
+/// Returns whether two moving bodies always stay farther apart than the margin.
 ///
 /// True is proven. False may also mean that they come within margin + tolerance. Arguments and exceptions are those of
 /// `first_contact`.
@@ -232,15 +234,15 @@ pub(crate) fn is_free(
     Ok(hit_of_answer(py, answer)?.is_none())
 }
 
-/// Brackets the least distance of two moving bodies, to within the tolerance.
+/// Computes bounds of the least distance of two moving bodies, to within the tolerance.
 ///
 /// Arguments and exceptions are those of `first_contact`, without a margin. `Unresolved` has `lower` and `upper`.
 ///
-/// With a `clearance`, it ends as soon as that is proven to be kept, or seen to be violated: the answer says which, and
-/// its bounds are no closer than that takes.
+/// With a `clearance`, the query ends as soon as it is proven that the clearance is kept or violated. The answer tells
+/// which. Its bounds are then only as narrow as this decision requires.
 ///
-/// Bounds are those of the shapes: what the bodies exceed them by, their `excess`, is in the upper one. A clearance is
-/// violated only where the shapes certainly come nearer.
+/// Bounds are those of the shapes: the upper bound includes the `excess` of the bodies over their shapes. A clearance
+/// is violated only if the shapes certainly come nearer.
 ///
 /// >>> from rigid_ccd import Body, Motion, closest_approach
 /// >>> ball, passes = Body.sphere(0.5), Motion([-3, 1.2, 0], velocity=[6, 0, 0])
@@ -263,7 +265,8 @@ pub(crate) fn closest_approach<'py>(
     distance_of_answer(py, &answer, &settings)
 }
 
-/// Brackets the distance of two bodies at rest, each at a pose as in `Motion.between`; None is the world's origin.
+/// Computes bounds of the distance of two static bodies. Each pose takes the forms of `Motion.between`; None is the
+/// world's origin.
 ///
 /// >>> from rigid_ccd import Body, distance
 /// >>> ball = Body.sphere(0.5)

@@ -24,13 +24,14 @@ use std::sync::Arc;
 
 /// A robot: a tree of links and joints, and the pairs of links that are checked.
 ///
-/// A configuration has one position for each of `joint_names`, in that order: radians, or metres for joints that slide. A
-/// robot comes from a file, `Robot.from_urdf` or `Robot.from_mjcf`, or from its joints:
+/// A configuration has one position for each of `joint_names`, in that order: radians for revolute joints, metres for
+/// prismatic ones. Make a robot from a file with `Robot.from_urdf` or `Robot.from_mjcf`, or from its joints:
 ///
 /// Args:
-///     joints: the joints, in the order in which configurations have positions.
-///     bodies: a dict of what is fixed to links: a Body, or a list of pairs of a Body and its pose in the link.
-///     may_touch: pairs of links that are not checked, besides neighbours.
+///     joints: the joints, in the order of positions in configurations.
+///     bodies: a dict from names of links to the bodies fixed to them. Each value is a Body, or a list of pairs of a
+///         Body and its pose in the link's frame.
+///     may_touch: pairs of links that are not checked. Neighbours are never checked either.
 ///
 /// >>> from rigid_ccd import Body, Joint, Robot, first_contact
 /// >>> shoulder = Joint.revolute("shoulder", "base", "upper arm")
@@ -58,7 +59,7 @@ impl PyRobot {
         bodies: Option<Bound<'_, PyMapping>>,
         may_touch: Vec<(String, String)>,
     ) -> PyResult<Self> {
-        // Collect one by one, because an object may report a wrong length.
+        // Collects one by one, because an object may report a wrong length.
         let given = joints
             .try_iter()?
             .map(|joint| Ok(joint?.cast_into::<PyJoint>()?.unbind()));
@@ -81,19 +82,19 @@ impl PyRobot {
         })
     }
 
-    /// Reads a robot from a URDF file and the mesh files that it names. Warns of what is probably a mistake in them, as `remarks`
-    /// tells it.
+    /// Reads a robot from a URDF file and the mesh files that it names. Warns of probable mistakes in them, which
+    /// `remarks` lists.
     ///
     /// Args:
     ///     path: the URDF file.
-    ///     srdf: an SRDF file that names pairs of links which are not checked.
-    ///     packages: a folder, or a list of them, that are searched first for `package://` names, before ROS_PACKAGE_PATH, AMENT_PREFIX_PATH
-    ///         and the folders above the file.
-    ///     geometry: "collision" or "visual", the elements of links that become bodies.
-    ///     meshes: "exact", or "hull" for the convex hull of each mesh, which encloses it.
+    ///     srdf: an SRDF file that lists pairs of links not to be checked.
+    ///     packages: a folder or a list of folders to search for `package://` names, before ROS_PACKAGE_PATH,
+    ///         AMENT_PREFIX_PATH and the folders above the file.
+    ///     geometry: the elements of links that become bodies: "collision" or "visual".
+    ///     meshes: "exact", or "hull" to replace each mesh by its convex hull, which encloses it.
     ///
     /// Raises:
-    ///     InputError: the file is no robot, or a mesh is missing; the message names the link or the joint.
+    ///     InputError: the file is not a valid robot, or a mesh is missing; the message names the link or the joint.
     #[classmethod]
     #[pyo3(signature = (path, srdf = None, packages = None, geometry = "collision", meshes = "exact"))]
     fn from_urdf(
@@ -113,20 +114,21 @@ impl PyRobot {
 
     /// Reads a robot from an MJCF file of MuJoCo and the mesh files that it names.
     ///
-    /// Bodies become links, and the world the link "world". The pairs of links that are checked are those of MuJoCo. A joint
-    /// follows another one if an element ``equality`` makes its position a linear function of the other's; other constraints
-    /// leave joints independent. Ranges of ball joints and margins are left out. The positions of a free joint are those of its
-    /// body in the world. A shape that is fitted to a mesh, a plane on a body that moves, and an element that is not known are errors.
+    /// Bodies of MuJoCo become links, and the world becomes the link "world". The pairs of links that are checked are
+    /// those of MuJoCo. A joint follows another one if an element ``equality`` makes its position a linear function of
+    /// the other's; other constraints leave joints independent. Ranges of ball joints and margins are left out. The
+    /// positions of a free joint are those of its body in the world. A shape that is fitted to a mesh, a plane on a
+    /// body that moves, and an element that is not known are errors.
     ///
     /// Args:
     ///     path: the MJCF file.
-    ///     srdf: an SRDF file that names further pairs of links which are not checked.
-    ///     geometry: "collision" for geoms that can collide, or "visual" for those of the groups 0 to 2.
-    ///     meshes: "exact", or "hull" for the convex hull of each mesh, which is what MuJoCo takes. A mesh that is exact is free
-    ///         in its hollows, where MuJoCo finds contacts.
+    ///     srdf: an SRDF file that lists further pairs of links not to be checked.
+    ///     geometry: "collision" for geoms that can collide, or "visual" for geoms of the groups 0 to 2.
+    ///     meshes: "exact", or "hull" to replace each mesh by its convex hull, as MuJoCo does. The concavities of an
+    ///         exact mesh are free; MuJoCo finds contacts there.
     ///
     /// Raises:
-    ///     InputError: the file is no robot, or a mesh is missing; the message names the link or the joint.
+    ///     InputError: the file is not a valid robot, or a mesh is missing; the message names the link or the joint.
     #[classmethod]
     #[pyo3(signature = (path, srdf = None, geometry = "collision", meshes = "exact"))]
     fn from_mjcf(
@@ -147,8 +149,9 @@ impl PyRobot {
     ///
     /// Args:
     ///     text: the text.
-    ///     path: where the file would be; relative names of meshes and messages are of it.
-    ///     srdf, packages, geometry, meshes: as of `from_urdf`.
+    ///     path: the path that the file would have. Relative names of meshes are resolved against it, and messages name
+    ///         it.
+    ///     srdf, packages, geometry, meshes: as for `from_urdf`.
     #[classmethod]
     #[pyo3(signature = (text, path = PathBuf::from("robot.urdf"), srdf = None, packages = None, geometry = "collision", meshes = "exact"))]
     fn from_urdf_text(
@@ -167,11 +170,11 @@ impl PyRobot {
         PyRobot::read(class.py(), file, srdf, constructor_call)
     }
 
-    /// Reads a robot that yourdfpy has loaded. Its meshes are found as yourdfpy finds them.
+    /// Reads a robot that yourdfpy has loaded. Mesh files are those that yourdfpy has found.
     ///
     /// Args:
     ///     urdf: a yourdfpy.URDF.
-    ///     srdf, geometry, meshes: as of `from_urdf`.
+    ///     srdf, geometry, meshes: as for `from_urdf`.
     #[classmethod]
     #[pyo3(signature = (urdf, srdf = None, geometry = "collision", meshes = "exact"))]
     fn from_yourdfpy(
@@ -181,27 +184,28 @@ impl PyRobot {
         geometry: &str,
         meshes: &str,
     ) -> PyResult<Self> {
-        // Names of mesh files in this text are the paths at which yourdfpy finds them.
+        // In this text, names of mesh files are the paths that yourdfpy has found.
         let text: Vec<u8> = urdf.call_method0("write_xml_string")?.extract()?;
         let text = String::from_utf8(text).map_err(input_error)?;
         let path = PathBuf::from("robot.urdf");
         PyRobot::from_urdf_text(class, &text, path, srdf, None, geometry, meshes)
     }
 
-    /// Combines robots to one, whose base is a link "world". Their links and joints have the robots' names before theirs: the joint
-    /// "elbow" of the robot "left" is "left/elbow". A configuration has the positions of the first robot, then those of the
-    /// second, and so on. The robots are checked against each other.
+    /// Combines several robots into one robot, whose base is a link "world". Names of links and joints get the robot's
+    /// name as a prefix: the joint "elbow" of the robot "left" is "left/elbow". A configuration has the positions of
+    /// the first robot, then those of the second, and so on. The robots are checked against each other.
     ///
-    /// A base may move: "planar" has positions "left/base/x", "left/base/y" and "left/base/yaw" before those of the robot,
-    /// "floating" also "z", "pitch" and "roll". An obstacle that moves is such a robot: `Robot([], {"ball": Body.sphere(1)})`.
+    /// A base may move. A "planar" base adds the positions "left/base/x", "left/base/y" and "left/base/yaw" before
+    /// those of the robot, and a "floating" base also "z", "pitch" and "roll". Use a robot without joints as a moving
+    /// obstacle: `Robot([], {"ball": Body.sphere(1)})`.
     ///
     /// Args:
     ///     robots: a dict of robots by name. The name "" keeps the robot's own names.
-    ///     poses: a dict of poses of their bases, in the world or on the links that carry them; those of bases that move are where
-    ///         their positions are 0.
-    ///     bases: a dict of "fixed", "planar" or "floating"; a base that is not named is fixed.
-    ///     carriers: a dict of the links that carry bases, by their names among all robots: {"gripper": "arm/flange"}. A base that
-    ///         is not named is in the world.
+    ///     poses: a dict of the poses of bases, in the frame of the world or of the link that carries the base. For a
+    ///         moving base, it is the pose at positions 0.
+    ///     bases: a dict with "fixed", "planar" or "floating" for each base. Bases are fixed by default.
+    ///     carriers: a dict of the links that carry bases, with their names in the combined robot: {"gripper":
+    ///         "arm/flange"}. By default a base is in the world.
     ///
     /// >>> from rigid_ccd import Body, Cell, Robot
     /// >>> ball = Robot([], {"body": Body.sphere(1)})
@@ -226,7 +230,7 @@ impl PyRobot {
         let given: Vec<(String, Py<PyRobot>)> = given.collect::<PyResult<_>>()?;
         let names: Vec<String> = given.iter().map(|(name, _)| name.clone()).collect();
         let robot_bases = RobotBase::read_all(&names, poses, bases, carriers)?;
-        // What was read is kept for pickle, and not what the caller may change.
+        // Keeps the values that were read for pickle, because the caller may change the arguments.
         let read = [(); 4].map(|()| PyDict::new(py));
         let mut placed = Vec::new();
         for ((name, robot), base) in given.iter().zip(&robot_bases) {
@@ -277,7 +281,7 @@ impl PyRobot {
         Ok(array.reshape([self.robot.limits().len(), 2])?.into_any())
     }
 
-    /// The pairs of links that are checked, by their names.
+    /// The pairs of links that are checked, as pairs of names.
     #[getter]
     fn checked_pairs(&self) -> Vec<(&str, &str)> {
         let name = |link: usize| self.robot.links()[link].name.as_str();
@@ -285,15 +289,16 @@ impl PyRobot {
         pairs.map(|[a, b]| (name(a), name(b))).collect()
     }
 
-    /// What is probably a mistake, then what is not checked, as texts: elements of files that are left out, an SRDF of another
-    /// robot, sizes and angles in another unit; links without bodies, and pairs of links by reason.
+    /// Remarks as texts. The first are on probable mistakes: elements of files that are left out, an SRDF of another
+    /// robot, sizes and angles in another unit. The others are on what is not checked: links without bodies, and pairs
+    /// of links by reason.
     #[getter]
     fn remarks(&self) -> Vec<String> {
         remark_texts(&self.pairs.remarks(&self.robot))
     }
 
-    /// Finds the column of a joint among the names of columns, with a prefix before its name: the name, and whether its positions
-    /// are in degrees.
+    /// Finds the column of a joint among names of columns. The name is the prefix, then the joint's name. Returns the
+    /// name, and whether its positions are in degrees.
     fn _joint_column(
         &self,
         names: Vec<String>,
@@ -317,20 +322,21 @@ impl PyRobot {
         Ok(pose_matrix(py, &pose))
     }
 
-    /// Returns the motion of a link while each joint moves at a constant rate from its position in `start` to that in `end`,
-    /// as along an edge of a motion planner's roadmap.
+    /// Returns the motion of a link while each joint moves at a constant rate from its position in `start` to its
+    /// position in `end`, as along an edge of a motion planner's roadmap.
     ///
-    /// It stands for a `Motion` in all queries: the proof is about the link's own curve, not about steps of it.
+    /// All queries take it in place of a `Motion`. Answers are about the exact curve of the link, and not about sampled
+    /// steps.
     ///
     /// Args:
     ///     link: the name of the link.
-    ///     start, end: configurations; no rates.
-    ///     duration: the time from one to the other.
-    ///     seen_from: a link in whose frame the motion is; None for the base. Query it against that link's body at rest:
-    ///         witnesses and normals are in that frame, too.
+    ///     start, end: configurations.
+    ///     duration: the time from `start` to `end`.
+    ///     seen_from: the link in whose frame the motion is; None for the base. Query the motion against that link's
+    ///         body as a static body. Witness points and normals are in that frame too.
     ///
     /// Raises:
-    ///     InputError: a position is outside of its joint's limits, or there are more or fewer than joints.
+    ///     InputError: a position exceeds its joint's limits, or the number of positions is not that of joints.
     #[pyo3(signature = (link, start, end, duration = 1.0, seen_from = None))]
     fn motion(
         slf: &Bound<'_, Self>,
@@ -354,23 +360,25 @@ impl PyRobot {
         slf.get().constructor_call.reduce_tuple(slf.get_type())
     }
 
-    /// Decides for each pair of links with bodies whether they never touch, always, or sometimes, within the limits of all
-    /// joints. "never" and "always" are proofs. "sometimes" is shown by two configurations, which `ccd acm --report` writes.
+    /// Decides for each pair of links with bodies whether they touch never, always, or sometimes, within the limits of
+    /// all joints. "never" and "always" are proven. "sometimes" is shown by two configurations, which `ccd acm
+    /// --report` writes.
     ///
     /// Args:
-    ///     max_boxes: the number of boxes of joint positions that are examined for a pair in the mean, each of some microseconds.
-    ///     srdf: an SRDF file to write, in which the pairs are disabled that need no check, each with the evidence: neighbours that
-    ///         this robot does not check, and pairs that touch never or always.
-    ///     progress: a function of the numbers of pairs that are decided, and of all pairs, called again and again; a bar of
-    ///         tqdm, or True for one.
+    ///     max_boxes: the average number of boxes of joint positions to examine for a pair. Each takes some
+    ///         microseconds.
+    ///     srdf: an SRDF file to write. It disables the pairs that need no check, with the evidence for each:
+    ///         neighbours that this robot does not check, and pairs that touch never or always.
+    ///     progress: a function, called repeatedly with the number of decided pairs and the number of all pairs; a bar
+    ///         of tqdm; or True for a new bar.
     ///
-    /// Ctrl-C raises `Interrupted`, whose `results` is the table with what is decided by then.
+    /// Ctrl-C raises `Interrupted`, whose `results` is the table of the pairs decided so far.
     ///
     /// Returns:
-    ///     A table with a row for each pair: `link_a`, `link_b`, `evidence` ("never", "always",
-    ///     "always-as-enclosed" if the shapes that bodies enclose may not touch, "sometimes" or
-    ///     "undecided"); for an undecided pair `apart` and `undecided`, the shares of the configurations for which it is proven
-    ///     apart, and nothing is proven, and `least_distance`, the least one that was found.
+    ///     A table with a row for each pair: `link_a`, `link_b`, and `evidence`, which is "never", "always",
+    ///     "always-as-enclosed", "sometimes" or "undecided". "always-as-enclosed" means that the bounding shapes always
+    ///     touch, but the shapes inside may not. For undecided pairs, `apart` is the share of configurations that are
+    ///     proven apart, `undecided` the share without a proof, and `least_distance` the least distance found.
     #[pyo3(signature = (max_boxes = 100_000, *, srdf = None, progress = None))]
     fn acm(
         &self,

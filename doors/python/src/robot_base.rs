@@ -1,4 +1,4 @@
-//! Where the bases of robots are that are combined, and how they move.
+//! The bases of combined robots: their poses and how they move.
 
 use crate::errors::input_error;
 use crate::motion::{GivenPose, read_given_pose};
@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 use rigid_ccd_robot::CompoundKind;
 
-/// The place of a robot's base in the world or on a link, and how it moves, by the names that Python gives.
+/// The pose of a robot's base, in the world or on a link, and how it moves, in the names of Python.
 pub(crate) struct RobotBase {
     pub(crate) carrier: Option<String>,
     pub(crate) pose: GivenPose,
@@ -14,7 +14,7 @@ pub(crate) struct RobotBase {
 }
 
 impl RobotBase {
-    /// Reads the bases of robots with these names from dicts of the poses, the motions and the carriers of some of them.
+    /// Reads the bases of the robots `names`. The dicts have poses, kinds of bases and carriers for some of them.
     pub(crate) fn read_all(
         names: &[String],
         poses: Option<&Bound<'_, PyMapping>>,
@@ -43,7 +43,7 @@ impl RobotBase {
         Ok(bases)
     }
 
-    /// Returns how the base moves; `None` if it rests.
+    /// Returns how the base moves, or `None` if it is fixed.
     pub(crate) fn motion(&self) -> PyResult<Option<CompoundKind>> {
         match self.motion_name.as_str() {
             "fixed" => Ok(None),

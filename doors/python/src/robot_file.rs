@@ -1,4 +1,4 @@
-//! Reads robots from files, with options by their names in Python.
+//! Reads robots from files, with the options of Python.
 
 use crate::errors::{input_error, wrong_type_error};
 use crate::interruptible::run_or_leave;
@@ -45,11 +45,11 @@ pub(crate) fn read_robot(
         let pairs = file.link_pairs(&robot, srdf.as_deref());
         Ok((robot, pairs.map_err(input_error)?))
     };
-    // The files of its meshes are not known yet.
+    // The sizes of mesh files are not known yet, so the work runs on another thread.
     run_or_leave(py, u64::MAX, read)?
 }
 
-/// Refuses the text of a robot where the path of its file is needed.
+/// Refuses the text of a robot in place of a path.
 pub(crate) fn check_path(path: &Path) -> PyResult<()> {
     if path.to_string_lossy().trim_start().starts_with('<') {
         return Err(input_error(
@@ -59,7 +59,7 @@ pub(crate) fn check_path(path: &Path) -> PyResult<()> {
     Ok(())
 }
 
-/// Refuses the path of a file where the text of a robot is needed.
+/// Refuses the path of a file in place of the text of a robot.
 pub(crate) fn check_text(text: &str) -> PyResult<()> {
     if text.contains('<') {
         return Ok(());
@@ -69,7 +69,7 @@ pub(crate) fn check_text(text: &str) -> PyResult<()> {
     ))
 }
 
-/// Reads one folder, or a list of them.
+/// Reads a folder or a list of folders.
 pub(crate) fn read_folders(given: &Bound<'_, PyAny>) -> PyResult<Option<Vec<PathBuf>>> {
     if given.is_none() {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! Links of robots that are made in Python, and what is fixed to them.
+//! Links of robots made in Python, and the bodies fixed to them.
 
 use crate::body::{PyBody, extract_body};
 use crate::motion::{GivenPose, read_given_pose};
@@ -7,8 +7,8 @@ use pyo3::types::{PyDict, PyMapping};
 use rigid_ccd_robot::{Joint, Link, LinkBody};
 use std::sync::Arc;
 
-/// Makes the links that joints name, and those that have bodies. Also returns the bodies as they were read, for pickle: the caller may
-/// change what was given.
+/// Makes the links that joints name, and the links that have bodies. Also returns the bodies as they were read, for
+/// pickle, because the caller may change the arguments.
 pub(crate) fn read_links<'py>(
     py: Python<'py>,
     joints: &[Joint],
@@ -38,7 +38,7 @@ pub(crate) fn read_links<'py>(
     Ok((links, read))
 }
 
-/// Returns the link that has a name, which is new if there is none.
+/// Returns the link with a name. Adds it if there is none.
 fn find_or_add_link<'a>(links: &'a mut Vec<Link>, name: &str) -> &'a mut Link {
     let number = links.iter().position(|link| link.name == name);
     let number = number.unwrap_or_else(|| {
@@ -48,7 +48,7 @@ fn find_or_add_link<'a>(links: &'a mut Vec<Link>, name: &str) -> &'a mut Link {
     &mut links[number]
 }
 
-/// Reads what is fixed to a link: a body, or pairs of a body and its pose.
+/// Reads the bodies fixed to a link: one body, or pairs of a body and its pose.
 fn read_link_bodies(held: &Bound<'_, PyAny>) -> PyResult<Vec<(Py<PyBody>, GivenPose)>> {
     let body = |given: &Bound<'_, PyAny>| -> PyResult<Py<PyBody>> {
         extract_body(given, "bodies")?;

@@ -8,22 +8,23 @@ use pyo3::types::PyDict;
 use rigid_ccd::{Question, Setting, SettingField, Settings, StartPolicy};
 use std::time::Duration;
 
-/// What questions about two bodies, proofs and ranges do not take: pairs in contact at their start are always reported.
+/// The settings that questions about two bodies, proofs and ranges do not take: they always report pairs in contact at
+/// the start.
 pub(crate) const REPORTING_START: &[&str] = &["start"];
 
-/// Returns the names of the settings of a question, but for some.
+/// Returns the names of the settings of a question, except for `left_out`.
 pub(crate) fn names(question: Question, left_out: &[&str]) -> Vec<&'static str> {
     let names = Setting::taken_by(question).map(|setting| setting.name);
     names.filter(|name| !left_out.contains(name)).collect()
 }
 
-/// The names of the settings that only a table query has, which are parameters of its function.
+/// The names of settings that only table queries have. They are parameters of the function.
 pub(crate) const TABLE_SETTING_NAMES: &[&str] = &["threads", "progress", "micros"];
 
-/// The maximum number of threads, the same as in the command.
+/// The largest number of threads, the same as in the command.
 const MAX_THREADS: u16 = 1024;
 
-/// Reads the settings of a query; a keyword that is not in `known` is an error.
+/// Reads the settings of a query. A keyword that is not in `known` is an error.
 pub(crate) fn read(
     given: Option<&Bound<'_, PyDict>>,
     known: &[&'static str],
@@ -54,7 +55,7 @@ pub(crate) fn read(
     Ok(settings)
 }
 
-/// Reads the number of threads of a table query; `None` stands for one thread for each core.
+/// Reads the number of threads of a table query. `None` stands for one thread on each core.
 pub(crate) fn read_thread_count(given: Option<&Bound<'_, PyAny>>) -> PyResult<Option<u16>> {
     let threads = |given| whole_number(given, "threads", 1..=MAX_THREADS);
     given.map(threads).transpose()
@@ -75,13 +76,13 @@ where
     })
 }
 
-/// Reads what happens to pairs in contact at the start.
+/// Reads the start policy: how pairs in contact at the start are treated.
 fn start_policy(name: &str) -> PyResult<StartPolicy> {
     StartPolicy::from_name(name)
         .ok_or_else(|| input_error(format!("start: '{name}' is not report or leave")))
 }
 
-/// Reads a time limit in seconds; infinity gives `None`, which is no limit.
+/// Reads a time limit in seconds. Infinity gives `None`, which is no limit.
 fn deadline(seconds: Option<f64>) -> PyResult<Option<Duration>> {
     let finite = seconds.filter(|&seconds| seconds != f64::INFINITY);
     let deadline = finite.map(Duration::try_from_secs_f64).transpose();

@@ -27,10 +27,10 @@ use std::sync::Arc;
 
 /// A table whose columns are Arrow arrays.
 ///
-/// It speaks the Arrow PyCapsule protocol: `pyarrow.table(t)`, `polars.DataFrame(t)`, `pandas.DataFrame.from_arrow(t)`
-/// take it without a copy, and duckdb queries it by its variable's name. `t["time"]` is a column as a NumPy array: of
-/// numbers a view that cannot be written, with NaN in empty cells; of text an array of str and None. `dict(t)` has all
-/// columns.
+/// It supports the Arrow PyCapsule protocol: `pyarrow.table(t)`, `polars.DataFrame(t)` and
+/// `pandas.DataFrame.from_arrow(t)` take it without a copy, and duckdb queries it by its variable's name. `t["time"]`
+/// is a column as a NumPy array. A column of numbers is a read-only view, with NaN in empty cells. A column of text is
+/// an array of str and None. `dict(t)` has all columns.
 #[pyclass(name = "Table", module = "rigid_ccd", frozen, mapping)]
 pub(crate) struct PyTable {
     pub(crate) batch: RecordBatch,
@@ -38,7 +38,7 @@ pub(crate) struct PyTable {
 
 #[pymethods]
 impl PyTable {
-    /// Makes a table of any Arrow table, or of a dict of arrays.
+    /// Makes a table from any Arrow table, or from a dict of arrays.
     #[new]
     fn new(py: Python<'_>, table: &Bound<'_, PyAny>) -> PyResult<Self> {
         let reader = input::open(table)?;
@@ -63,8 +63,8 @@ impl PyTable {
         self.column_names()
     }
 
-    /// Returns a table of the rows with the given indices, in their order, or of the rows at which a boolean array is
-    /// true.
+    /// Returns a table of selected rows: those with the given indices, in that order, or those at which a boolean array
+    /// is true.
     fn take(&self, rows: &Bound<'_, PyAny>) -> PyResult<Self> {
         let all = self.batch.num_rows();
         let rows = row_indices(rows, all)?;
@@ -78,8 +78,8 @@ impl PyTable {
         Ok(PyTable { batch })
     }
 
-    /// Makes a table from its pickled form.
-    /// Returns a table with a column of this one, then all columns of another one of as many rows.
+    /// Makes a table from its pickled form. Returns a table with one column of this table, then all columns of another
+    /// table of equal length.
     fn _column_before(&self, name: &str, other: &Bound<'_, PyTable>) -> PyResult<Self> {
         let index = self.batch.schema().index_of(name).map_err(refuse)?;
         let (schema, others) = (self.batch.schema(), &other.get().batch);
@@ -137,7 +137,7 @@ impl PyTable {
         }
     }
 
-    /// Refuses the conversion to an array: NumPy and pandas would take the column names as values.
+    /// Refuses the conversion to an array, because NumPy and pandas would take the column names as values.
     #[pyo3(signature = (*_args, **_how))]
     fn __array__(
         &self,
@@ -196,7 +196,7 @@ impl PyTable {
         (Arc::new(field.with_metadata(metadata)), columns)
     }
 
-    /// Returns a text that says how many rows have each status; empty for a table without statuses.
+    /// Returns a text with the number of rows of each status. It is empty for a table without statuses.
     fn describe_status_counts(&self) -> String {
         let column = self.batch.column_by_name("status");
         let Some(column) = column.and_then(|column| column.as_string_opt::<i32>()) else {

@@ -17,7 +17,8 @@ use pyo3::types::PyDict;
 use rigid_ccd::Question;
 use rigid_ccd::Settings;
 
-/// Answers a question about each row of a table of motions; called by `rigid_ccd.first_contacts` and its siblings.
+/// Answers a question about each row of a table of motions. `rigid_ccd.first_contacts` and the other table functions
+/// call it.
 #[pyfunction]
 #[pyo3(signature = (question, a, b, motions, *, clearance = None, threads = None, progress = None, micros = true, **settings))]
 #[allow(clippy::too_many_arguments, reason = "keyword arguments of Python")]
@@ -48,7 +49,7 @@ pub(crate) fn answer_table(
         thread_count: settings::read_thread_count(threads)?,
         has_micros: micros,
     };
-    // One query checks the settings, whose error each row would only repeat.
+    // Checks the settings once, because each row would repeat the same error.
     check_table_settings(asked)?;
     let reader = input::open(motions)?;
     let progress = GivenProgress {
@@ -104,7 +105,7 @@ fn check_table_settings(asked: TableQuestion<'_>) -> PyResult<()> {
                 "clearance: only the least distance is compared with one; use margin, or distance_upper",
             ));
         }
-        // Written so that NaN is refused.
+        // The comparison is written so that NaN is refused.
         Some(clearance) if !(clearance >= 0.0 && clearance.is_finite()) => {
             return Err(refuse(format!("clearance: {clearance} is no distance")));
         }

@@ -18,21 +18,21 @@
 // The settings that `rccd_settings_default` fills in: `rccd_settings settings = RCCD_SETTINGS_INIT;`.
 #define RCCD_SETTINGS_INIT {sizeof(rccd_settings), 0.001, 0.0, 4194304, HUGE_VAL, RCCD_START_POLICY_REPORT, RCCD_CONTACT_NORMALS_REFINED, NULL}
 
-// Whether a call has worked.
+// The status of a call.
 enum rccd_status
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // The call has worked. A query that reached a limit has worked too: its answer is unresolved.
+    // Success. A query that reaches a limit also succeeds: its outcome is unresolved.
     RCCD_STATUS_OK = 0,
-    // An argument is null, or no value of its type.
+    // An argument is null where null is not allowed, or is not a value of its type.
     RCCD_STATUS_INVALID_ARGUMENT = 1,
     // A number, such as a radius or a duration, is out of range.
     RCCD_STATUS_INVALID_INPUT = 2,
-    // A body cannot be made from the mesh or file.
+    // The mesh or file does not give a body.
     RCCD_STATUS_INVALID_BODY = 3,
-    // A defect of this library. The objects of the call may be freed, and nothing else.
+    // A defect of this library. Only free the objects of the call; any other use of them is not allowed.
     RCCD_STATUS_PANIC = 4,
 };
 #ifndef __cplusplus
@@ -43,26 +43,26 @@ typedef int32_t rccd_status;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What a query has found.
+// The outcome of a query.
 enum rccd_outcome
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // A limit was reached before the answer was known; until `safe_until` nothing touches. It is 0: an answer of zeros, which no
-    // call has filled, proves nothing.
+    // A limit was reached first. Nothing touches until `safe_until`. The value is 0, so that an answer of zeros that no
+    // call has filled proves nothing.
     RCCD_OUTCOME_UNRESOLVED = 0,
     // The bodies stay apart over the whole duration.
     RCCD_OUTCOME_FREE = 1,
-    // The bodies are in contact at `time`; for a first contact nothing touches before.
+    // The bodies are in contact at `time`. In answers about the first contact, nothing touches before.
     RCCD_OUTCOME_CONTACT = 2,
     // The bodies are within margin + tolerance at the start.
     RCCD_OUTCOME_TOUCHING = 3,
     // The bodies overlap at the start.
     RCCD_OUTCOME_OVERLAPPING = 4,
-    // The bodies are in contact at `time` first, and at `last_time` last.
+    // The first contact is at `time`, and the last one at `last_time`.
     RCCD_OUTCOME_INTERVAL = 5,
-    // The least distance is from `lower` to `upper`, the latter at `time`.
+    // The least distance is between `lower` and `upper`. At `time` the distance is at most `upper`.
     RCCD_OUTCOME_LEAST_DISTANCE = 6,
 };
 #ifndef __cplusplus
@@ -73,7 +73,7 @@ typedef int32_t rccd_outcome;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// The limit that has ended a query.
+// The limit that ended a query.
 enum rccd_limit
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
@@ -89,11 +89,11 @@ enum rccd_limit
     RCCD_LIMIT_STOPPED = 3,
     // No further step can be certified.
     RCCD_LIMIT_STALLED = 4,
-    // The distance of two pieces could not be computed.
+    // The oracle could not compute the distance of two pieces.
     RCCD_LIMIT_ORACLE_GAVE_UP = 5,
-    // Rounding leaves it undecided whether the bodies overlap at the start.
+    // Because of rounding it is undecided whether the bodies overlap at the start.
     RCCD_LIMIT_OVERLAP_UNDECIDED = 6,
-    // A limit that this interface has no name for.
+    // A limit without a name in this interface.
     RCCD_LIMIT_OTHER = 255,
 };
 #ifndef __cplusplus
@@ -104,13 +104,13 @@ typedef int32_t rccd_limit;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// The kind of a feature, which says what its indices mean.
+// The kind of a feature. It determines the meaning of the indices.
 enum rccd_feature_kind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // There is no feature: both indices are 0.
+    // No feature. Both indices are 0.
     RCCD_FEATURE_KIND_NONE = 0,
     // The vertex `first` of the mesh.
     RCCD_FEATURE_KIND_VERTEX = 1,
@@ -118,7 +118,7 @@ enum rccd_feature_kind
     RCCD_FEATURE_KIND_EDGE = 2,
     // The face `first` of the mesh.
     RCCD_FEATURE_KIND_FACE = 3,
-    // The piece `first`, whose facets are unknown or no faces of the mesh.
+    // The convex piece `first`. Its facets are unknown, or are not faces of the mesh.
     RCCD_FEATURE_KIND_PIECE = 4,
 };
 #ifndef __cplusplus
@@ -129,19 +129,20 @@ typedef uint32_t rccd_feature_kind;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// How triangles in arrays become a body.
+// How a body is made of triangles in arrays.
 enum rccd_detail
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // The fewest exact pieces: one hull for a convex solid, else patches or triangles, whichever is faster.
+    // The fewest pieces that represent the mesh exactly: one hull for a convex solid, else patches or triangles,
+    // whichever are faster.
     RCCD_DETAIL_AUTO = 0,
     // One piece for each triangle. A closed mesh is solid.
     RCCD_DETAIL_TRIANGLES = 1,
     // One piece for each triangle. A closed mesh is hollow.
     RCCD_DETAIL_SURFACE = 2,
-    // One piece, the convex hull. It encloses any mesh, and queries account for what it exceeds.
+    // One piece: the convex hull, which encloses any mesh. Bounds in answers account for its excess.
     RCCD_DETAIL_OUTER_HULL = 3,
 };
 #ifndef __cplusplus
@@ -152,7 +153,7 @@ typedef uint32_t rccd_detail;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// What to do about bodies that are in contact at the start.
+// How queries treat bodies that are in contact at the start.
 enum rccd_start_policy
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -160,8 +161,8 @@ enum rccd_start_policy
  {
     // The contact is the answer.
     RCCD_START_POLICY_REPORT = 0,
-    // The contact is ignored until the bodies approach: of motions at constant velocities, in questions about the first or any
-    // contact. In others the contact is the answer.
+    // Ignores the contact until the bodies approach. Holds for two bodies at constant velocities, and for paths in a
+    // cell, in questions about the first or any contact. In other questions about two bodies the contact is the answer.
     RCCD_START_POLICY_LEAVE = 1,
 };
 #ifndef __cplusplus
@@ -178,11 +179,11 @@ enum rccd_contact_normals
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-    // Where bodies touch up to rounding, the normal is that of the surfaces around them. To find it may take some hundred
-    // microseconds beyond a deadline, and allocates.
+    // Where bodies touch up to rounding, the normal comes from the surfaces around the contact. Computing it may exceed
+    // the deadline by some hundred microseconds, and allocates memory.
     RCCD_CONTACT_NORMALS_REFINED = 0,
-    // The normal is that of the two triangles or convex pieces, which is mostly rounding where they touch. For queries that keep
-    // a deadline or must not allocate. Questions about paths in a cell always use these.
+    // The normal is that of the two triangles or convex pieces. Where they touch, it is mostly rounding error. Use it
+    // for queries that must keep a deadline or must not allocate. Questions about paths in a cell always use it.
     RCCD_CONTACT_NORMALS_OF_PIECES = 1,
 };
 #ifndef __cplusplus
@@ -193,72 +194,75 @@ typedef uint32_t rccd_contact_normals;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// A body: the shape that moves. Many queries and threads may share it.
+// A body: a rigid shape. Many queries and threads may share it.
 typedef struct rccd_body rccd_body;
 
-// A robot among obstacles that rest in the frame of its base. Obstacles and bodies that the robot holds have names, which no
-// link has. A change of the cell ends its solvers: their questions are errors from then on, and a new solver takes some 30 µs.
+// A cell (planning scene): a robot among obstacles that are static in the frame of its base. Each obstacle and each
+// held body has a name of its own, different from the names of links. Changing the cell invalidates its solvers: their
+// questions fail from then on. Making a new solver takes about 30 µs.
 typedef struct rccd_cell rccd_cell;
 
-// A solver for paths in a cell, until the cell is changed: from then on its questions are errors. It keeps memory from one
-// question to the next. Each thread needs its own.
+// A solver for paths in a cell. After a change of the cell its questions fail. It reuses memory between questions. Each
+// thread needs its own.
 typedef struct rccd_cell_solver rccd_cell_solver;
 
-// A path of a robot whose joints follow polynomials of the time. Many questions and threads may share it.
+// A curve in joint space: the path of a robot whose joints follow polynomials in time. Many questions and threads may
+// share it.
 typedef struct rccd_joint_curve rccd_joint_curve;
 
-// A solver: settings, and memory that it reuses from query to query. Each thread needs its own.
+// A solver: settings, and memory that is reused between queries. Each thread needs its own.
 typedef struct rccd_solver rccd_solver;
 
-// A flag that stops the queries of all solvers whose settings name it. Any thread may set and clear it at any time.
+// A flag that stops the queries of all solvers whose settings point to it. Any thread may set or clear it at any time.
 typedef struct rccd_stop rccd_stop;
 
-// A trajectory. Many queries and threads may share it.
+// The trajectory of a body. Many queries and threads may share it.
 typedef struct rccd_trajectory rccd_trajectory;
 
-// A text in UTF-8 that belongs to a cell or to a solver, and that does not end with a zero.
+// A text in UTF-8 without a terminating zero. It is owned by a cell or a solver.
 typedef struct rccd_text {
-    // The first byte; null for no text.
+    // The first byte; null if there is no text.
     const char *data;
     // The number of bytes.
     size_t length;
 } rccd_text;
 
-// A position and an orientation of a body in the world.
+// The pose of a body in the world.
 typedef struct rccd_pose {
     // The position of the body's origin.
     double position[3];
-    // The orientation as a quaternion in the order x, y, z, w, of any length but zero.
+    // The orientation as a quaternion in the order x, y, z, w. It need not be normalised, but must not be zero.
     double orientation[4];
 } rccd_pose;
 
-// The settings of queries. Set `size`, call `rccd_settings_default`, then change what differs.
+// The settings of queries. Set `size`, call `rccd_settings_default`, then change fields.
 typedef struct rccd_settings {
-    // The size of this struct in the caller's header; set it first.
+    // The size of this struct in the caller's header. Set it first.
     size_t size;
-    // A contact is reported at a distance of at most margin + tolerance. In the unit of length of the bodies.
+    // The accuracy of contacts: a contact is reported at a distance of at most margin + tolerance. In the unit of
+    // length of the bodies.
     double tolerance;
     // The distance at which bodies count as touching; 0 reports actual contact.
     double margin;
-    // The largest amount of work, in visits of about a microsecond or less. Along a trajectory it is for each part between two
-    // poses or pieces of a curve. A visit of a curve of a high degree takes longer. In a cell it is for each query of two bodies;
-    // a question about a path takes at most 8 budgets for each segment, all pairs together, and the closest approach up to half
-    // as much again.
+    // The largest number of visits of a query. A visit takes about a microsecond or less, and longer for curves of a
+    // high degree. Along a trajectory the budget is for each segment between two poses, or for each polynomial of a
+    // curve. In a cell it is for each query of two bodies: a question about a path takes at most 8 budgets for each
+    // segment, all pairs together, and the closest approach at most 12.
     uint64_t budget;
-    // The time in seconds after which a query ends as unresolved, from 0 to 1e19; infinity for none.
+    // The time in seconds after which a query ends as unresolved, from 0 to 1e19; infinity for no deadline.
     double deadline;
     // One of `rccd_start_policy`.
     uint32_t start_policy;
     // One of `rccd_contact_normals`.
     uint32_t contact_normals;
-    // A flag that stops queries, or null. Solvers share it: it may be freed.
+    // A flag that stops queries, or null. Solvers share its ownership: the caller may free it at any time.
     const struct rccd_stop *stop;
 } rccd_settings;
 
-// A path of a robot: either configurations one after the other, between which all joints move at constant rates, or a curve.
-// One configuration is a robot at rest, two are an edge.
+// A path of a robot: either a sequence of configurations or a curve. Between configurations all joints move at constant
+// rates. One configuration is a static robot, two are an edge.
 typedef struct rccd_path {
-    // The positions of the robot's free joints, for each configuration; null for a curve.
+    // For each configuration, the positions of the robot's free joints; null for a curve.
     const double *configurations;
     // The number of configurations.
     size_t configuration_count;
@@ -266,50 +270,52 @@ typedef struct rccd_path {
     const struct rccd_joint_curve *curve;
 } rccd_path;
 
-// A feature of a body, by the numbers of the mesh, from 0.
+// A feature of a body. Indices are those of the mesh and start at 0.
 typedef struct rccd_feature {
-    // What the indices mean.
+    // The kind of the feature.
     rccd_feature_kind kind;
-    // The vertex, face or piece; the first vertex of an edge.
+    // The index of the vertex, face or piece, or of the first vertex of an edge.
     uint32_t first;
-    // The second vertex of an edge; 0 for others.
+    // The index of the second vertex of an edge; 0 for other kinds.
     uint32_t second;
 } rccd_feature;
 
-// An answer about a path. Numbers that the outcome does not have are NaN, and names are null.
+// An answer about a path. Numbers that do not apply to the outcome are NaN, and such names are null.
 typedef struct rccd_path_answer {
-    // The size of this struct in the caller's header; set it before the call.
+    // The size of this struct in the caller's header. Set it before the call.
     size_t size;
-    // What was found: free, a contact, the least distance, or unresolved.
+    // The outcome: free, contact, least distance, or unresolved.
     rccd_outcome outcome;
-    // The limit that has ended the search.
+    // The limit that ended the search.
     rccd_limit limit;
-    // The number of the segment of the contact, or of the least distance found; the first segment is 0. For a free path it
-    // is the last one, and for an unresolved one it is that until whose `share` the path is free.
+    // The index of the segment, from 0, of the contact or of the least distance found. For a free path it is the last
+    // segment. For an unresolved one, the path is free up to `share` of this segment.
     size_t segment;
-    // The share of that segment that is passed, from 0 to 1. Nothing touches before a first contact.
+    // The position within that segment, from 0 at its start to 1 at its end. Nothing touches before a first contact.
     double share;
-    // A lower bound of the distance: at the contact, or on the whole path.
+    // A lower bound of the distance at the contact, or of the least distance on the whole path.
     double lower;
-    // An upper bound of it.
+    // An upper bound of the same distance.
     double upper;
-    // The link, held body or obstacle that touches or is nearest; it belongs to the solver.
+    // The name of the first item of the pair: a link, held body or obstacle that touches or is nearest. The solver owns
+    // the text.
     struct rccd_text item_a;
-    // The other one.
+    // The name of the second item of the pair.
     struct rccd_text item_b;
-    // The point of the first one that is nearest to the other, in the frame of the robot's base.
+    // The point of the first item that is nearest to the second, in the frame of the robot's base.
     double witness_a[3];
-    // The point of the other one that is nearest to the first.
+    // The point of the second item that is nearest to the first, in the same frame.
     double witness_b[3];
-    // What of the first one's mesh is in contact.
+    // The feature of the first item that is in contact.
     struct rccd_feature feature_a;
-    // What of the other one's mesh is in contact.
+    // The feature of the second item that is in contact.
     struct rccd_feature feature_b;
-    // The tolerance that the answer meets: that of the settings, unless the rounding of positions allows only a larger one.
+    // The tolerance that the answer meets: that of the settings, or a larger one if rounding of positions does not
+    // allow less.
     double tolerance;
 } rccd_path_answer;
 
-// A motion at constant velocities: the centre of rotation moves straight, and the body turns about it.
+// A motion at constant velocities: the centre of rotation moves on a straight line, and the body rotates about it.
 typedef struct rccd_motion {
     // The pose at time 0.
     struct rccd_pose start;
@@ -321,7 +327,7 @@ typedef struct rccd_motion {
     double centre[3];
 } rccd_motion;
 
-// A body and what moves it: a motion or a trajectory. With neither the body rests at the origin.
+// A body with a motion or a trajectory. With neither, the body is static at the origin.
 typedef struct rccd_moving_body {
     // The body.
     const struct rccd_body *body;
@@ -331,47 +337,47 @@ typedef struct rccd_moving_body {
     const struct rccd_trajectory *trajectory;
 } rccd_moving_body;
 
-// An answer. Numbers that the outcome does not have are NaN.
+// An answer. Numbers that do not apply to the outcome are NaN.
 typedef struct rccd_answer {
-    // The size of this struct in the caller's header; set it before the call.
+    // The size of this struct in the caller's header. Set it before the call.
     size_t size;
-    // What the query has found.
+    // The outcome of the query.
     rccd_outcome outcome;
-    // The limit that has ended it, also if what was found until then is enough for the outcome.
+    // The limit that ended the query. It is also set if the outcome was already certain.
     rccd_limit limit;
     // The time of the contact, or of the least distance found.
     double time;
     // The time of the last contact of an interval.
     double last_time;
-    // The time until which nothing touches: the duration for free bodies, the time of a first contact, or what was proven
-    // before a limit.
+    // The time until which nothing touches: the duration if the bodies stay free, the time of a first contact, or the
+    // time proven free before a limit.
     double safe_until;
-    // A lower bound of the distance that was asked for; for contacts, of the distance at all times.
+    // A lower bound of the requested distance; for contacts, of the distance at all times.
     double lower;
-    // An upper bound of that distance; infinite if none is known.
+    // An upper bound of the same distance; infinity if none is known.
     double upper;
-    // The unit normal from the first body to the second at the contact or at the least distance, in the world.
+    // The unit normal from the first body to the second, in world coordinates, at the contact or at the least distance.
     double normal[3];
     // The point of the first body that is nearest to the second one.
     double witness_a[3];
     // The point of the second body that is nearest to the first one.
     double witness_b[3];
-    // What of the first body is in contact.
+    // The feature of the first body that is in contact.
     struct rccd_feature feature_a;
-    // What of the second body is in contact.
+    // The feature of the second body that is in contact.
     struct rccd_feature feature_b;
-    // The distance beyond the margin within which a contact is reported; for distances, their accuracy.
+    // For contacts, the largest distance beyond the margin at which one is reported; for distances, their accuracy.
     double tolerance;
-    // The work that the query took, in the unit of the budget.
+    // The number of visits that the query took, in the unit of the budget.
     uint64_t work;
 } rccd_answer;
 
-// How a body turns while its origin follows a curve: orientations, each at its time, in ascending order, and between two of
-// them the shortest rotation at a constant rate.
+// The rotation of a body whose origin follows a curve: orientations at ascending times. Between two orientations the
+// body takes the shortest rotation at a constant rate.
 typedef struct rccd_turns {
     // The times.
     const double *times;
-    // For each time a quaternion in the order x, y, z, w.
+    // A quaternion for each time, in the order x, y, z, w.
     const double *orientations;
     // The number of times.
     size_t count;
@@ -384,42 +390,44 @@ extern "C" {
 // Makes a ball around the origin.
 //
 // # Safety
-// `out` is null, or points to a place for a handle.
+// `out` is null, or points to memory for a handle.
 rccd_status rccd_body_sphere(double radius, struct rccd_body **out);
 
 // Makes a capsule along z: the points within `radius` of the segment from `−half_length` to `half_length`.
 //
 // # Safety
-// `out` is null, or points to a place for a handle.
+// `out` is null, or points to memory for a handle.
 rccd_status rccd_body_capsule(double radius, double half_length, struct rccd_body **out);
 
-// Makes a box around the origin, from half of its length along x, y and z.
+// Makes a box around the origin. The arguments are half of its lengths along x, y and z.
 //
 // # Safety
-// `out` is null, or points to a place for a handle.
+// `out` is null, or points to memory for a handle.
 rccd_status rccd_body_box(double half_x, double half_y, double half_z, struct rccd_body **out);
 
-// Makes a cylinder along z, as a polytope about it. Queries account for what the polytope exceeds.
+// Makes a cylinder along z. It is represented by a polytope that encloses it; bounds in answers account for the excess.
 //
 // # Safety
-// `out` is null, or points to a place for a handle.
-rccd_status rccd_body_cylinder(double radius, double half_length, struct rccd_body **out);
+// `out` is null, or points to memory for a handle.
+rccd_status rccd_body_cylinder(double radius,
+                               double half_length,
+                               struct rccd_body **out);
 
-// Makes a cone along z, as a polytope about it, with its base at `−half_length` and its apex at `half_length`. Queries
-// account for what the polytope exceeds.
+// Makes a cone along z, with its base at `−half_length` and its apex at `half_length`. It is represented by a polytope
+// that encloses it; bounds in answers account for the excess.
 //
 // # Safety
-// `out` is null, or points to a place for a handle.
+// `out` is null, or points to memory for a handle.
 rccd_status rccd_body_cone(double radius,
                            double half_length,
                            struct rccd_body **out);
 
-// Makes a body of triangles. `vertices` has three numbers for each vertex, `triangles` three indices of vertices for each
-// triangle; `detail` is one of `rccd_detail`. A mesh that is not closed is a surface: see `rccd_body_is_solid`.
+// Makes a body of triangles. `vertices` has three coordinates for each vertex, and `triangles` three vertex indices for
+// each triangle. `detail` is one of `rccd_detail`. A mesh that is not closed is a surface: see `rccd_body_is_solid`.
 //
 // # Safety
-// `vertices` is null or points to `3 · vertex_count` numbers, `triangles` is null or points to `3 · triangle_count` indices,
-// and `out` is null or points to a place for a handle.
+// `vertices` is null or points to `3 · vertex_count` numbers, `triangles` is null or points to `3 · triangle_count`
+// indices, and `out` is null or points to memory for a handle.
 rccd_status rccd_body_from_triangles(const double *vertices,
                                      size_t vertex_count,
                                      const uint32_t *triangles,
@@ -427,11 +435,12 @@ rccd_status rccd_body_from_triangles(const double *vertices,
                                      uint32_t detail,
                                      struct rccd_body **out);
 
-// Prepares a body of triangles, and stores it in a file, by convention `NAME.ccd`. `rccd_body_load` reads it without the work
-// of the preparation, and gives the same answers. The arguments are those of `rccd_body_from_triangles`.
+// Prepares a body of triangles, and stores it in a file, by convention `NAME.ccd`. `rccd_body_load` reads the file
+// without repeating the preparation. The loaded body gives the same answers. The arguments are those of
+// `rccd_body_from_triangles`.
 //
 // # Safety
-// Those of `rccd_body_from_triangles`; `path` is null or a text that ends with a zero.
+// As for `rccd_body_from_triangles`; `path` is null or a text that ends with a zero.
 rccd_status rccd_body_prepare(const double *vertices,
                               size_t vertex_count,
                               const uint32_t *triangles,
@@ -439,14 +448,15 @@ rccd_status rccd_body_prepare(const double *vertices,
                               uint32_t detail,
                               const char *path);
 
-// Loads a body from a file: OBJ, STL, PLY, OFF, glTF, GLB, DAE, or one that `rccd_body_prepare` or `ccd decompose` has stored.
+// Loads a body from a file: OBJ, STL, PLY, OFF, glTF, GLB, DAE, or a file written by `rccd_body_prepare` or `ccd
+// decompose`.
 //
 // # Safety
-// `path` is null or a text that ends with a zero, and `out` is null or points to a place for a handle.
+// `path` is null or a text that ends with a zero, and `out` is null or points to memory for a handle.
 rccd_status rccd_body_load(const char *path,
                            struct rccd_body **out);
 
-// Frees a body; null is nothing.
+// Frees a body. Does nothing for null.
 //
 // # Safety
 // The handle is null, or comes from this library, is not in use, and has not been freed.
@@ -455,71 +465,73 @@ void rccd_body_free(struct rccd_body *body);
 // Stores the number of convex pieces of a body.
 //
 // # Safety
-// `body` is null or a handle; `out` is null or points to a place for a number.
+// `body` is null or a handle; `out` is null or points to memory for a number.
 rccd_status rccd_body_piece_count(const struct rccd_body *body, size_t *out);
 
-// Stores whether a body is solid, 1, or a surface, 0. What is inside a surface does not touch it. A mesh is solid if it is closed
-// and its triangles are turned the same way.
+// Stores 1 if a body is solid, and 0 if it is a surface. Something inside a surface does not touch it. A mesh is solid
+// if it is closed and its triangles are consistently oriented.
 //
 // # Safety
-// `body` is null or a handle; `out` is null or points to a place for a number.
+// `body` is null or a handle; `out` is null or points to memory for a number.
 rccd_status rccd_body_is_solid(const struct rccd_body *body,
                                int32_t *out);
 
-// Stores by how much a body exceeds the shape that it was made of, at most: cylinders, cones and outer hulls do.
+// Stores an upper bound of how far a body extends beyond the shape that it represents. Only cylinders, cones and outer
+// hulls do.
 //
 // # Safety
-// `body` is null or a handle; `out` is null or points to a place for a number.
+// `body` is null or a handle; `out` is null or points to memory for a number.
 rccd_status rccd_body_excess(const struct rccd_body *body,
                              double *out);
 
-// Loads the robot of a URDF or MJCF file, with its meshes, as a cell without obstacles. All pairs of links are checked but
-// neighbours, links that never move relative to each other, and those that an SRDF file disables; null stands for no such
-// file. `package_folder` is searched first for `package://` names; null stands for none. Meshes are taken as they are; MuJoCo takes
-// their convex hulls, so that it finds contacts in hollows that are free here.
+// Loads the robot of a URDF or MJCF file, with its meshes, as a cell without obstacles. All pairs of links are checked
+// except neighbours, links that never move relative to each other, and pairs that the SRDF file disables. `srdf` may be
+// null. `package_folder` is the folder searched first for `package://` names; it may be null. Meshes are used as they
+// are. MuJoCo uses their convex hulls instead, so it finds contacts in concavities that are free here.
 //
 // # Safety
-// Each text is null or ends with a zero; `out` is null or points to a place for a handle.
+// Each text is null or ends with a zero; `out` is null or points to memory for a handle.
 rccd_status rccd_cell_load(const char *robot,
                            const char *srdf,
                            const char *package_folder,
                            struct rccd_cell **out);
 
-// Makes a cell of the text of a URDF or MJCF, such as ROS's parameter `robot_description`. `folder` is where meshes with relative
-// names are; null stands for the working folder. The other arguments are those of `rccd_cell_load`.
+// Makes a cell from the text of a URDF or MJCF, such as ROS's parameter `robot_description`. Relative names of meshes
+// are resolved in `folder`, or in the working folder if it is null. The other arguments are those of `rccd_cell_load`.
 //
 // # Safety
-// Each text is null or ends with a zero; `out` is null or points to a place for a handle.
+// Each text is null or ends with a zero; `out` is null or points to memory for a handle.
 rccd_status rccd_cell_from_text(const char *robot,
                                 const char *folder,
                                 const char *srdf,
                                 const char *package_folder,
                                 struct rccd_cell **out);
 
-// Frees a cell; null is nothing. Its solvers go on to answer.
+// Frees a cell. Its solvers stay usable. Does nothing for null.
 //
 // # Safety
 // The handle is null, or comes from this library, is not in use, and has not been freed.
 void rccd_cell_free(struct rccd_cell *cell);
 
-// Stores the number of free joints, which is the number of positions of a configuration.
+// Stores the number of free joints. A configuration has one position for each of them.
 //
 // # Safety
-// `cell` is null or a handle; `out` is null or points to a place for a number.
+// `cell` is null or a handle; `out` is null or points to memory for a number.
 rccd_status rccd_cell_joint_count(const struct rccd_cell *cell, size_t *out);
 
-// Stores the name and the limits of a free joint, by its number in configurations. Joints without limits have infinite ones.
-// The name is valid until the cell is freed.
+// Stores the name and the limits of a free joint. `number` is its index in configurations. Limits are infinite for
+// joints without limits. The name is valid until the cell is freed.
 //
 // # Safety
-// `cell` is null or a handle; `name`, `lower` and `upper` are null or point to places for their values.
+// `cell` is null or a handle; `name`, `lower` and `upper` are null or point to memory for their values.
 rccd_status rccd_cell_joint(const struct rccd_cell *cell,
                             size_t number,
                             struct rccd_text *name,
                             double *lower,
                             double *upper);
 
-// Adds an obstacle at a pose in the frame of the robot's base. The cell shares the body, which may be freed.
+// Adds an obstacle at a pose in the frame of the robot's base. The cell shares ownership of the body: the caller may
+// free it.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero; `body` is null or a
@@ -544,8 +556,9 @@ rccd_status rccd_cell_move_obstacle(struct rccd_cell *cell,
 // `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero.
 rccd_status rccd_cell_remove_obstacle(struct rccd_cell *cell, const char *name);
 
-// Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. It may touch that link,
-// links that no joint moves against it, and the links, held bodies and obstacles that are named.
+// Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. The body may touch
+// that link, links that are rigidly attached to it, and the items named in `may_touch`: links, held bodies and
+// obstacles.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `name` and `link` are null or texts that end with a zero; `body` is null
@@ -558,14 +571,14 @@ rccd_status rccd_cell_attach(struct rccd_cell *cell,
                              const char *const *may_touch,
                              size_t may_touch_count);
 
-// Removes a body that is attached to a link.
+// Detaches a body from its link, and removes it.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero.
 rccd_status rccd_cell_detach(struct rccd_cell *cell, const char *name);
 
-// Allows two items to touch, also if they have a clearance: two links, or a link, a held body and an obstacle. What is removed
-// takes this away, and so do `rccd_cell_forbid_contact` and `rccd_cell_set_clearance`.
+// Allows two items to touch, even if they have a clearance. An item is a link, a held body or an obstacle. The
+// permission ends when one of them is removed, and by `rccd_cell_forbid_contact` and `rccd_cell_set_clearance`.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
@@ -573,30 +586,33 @@ rccd_status rccd_cell_allow_contact(struct rccd_cell *cell,
                                     const char *a,
                                     const char *b);
 
-// Compares two items again that were allowed to touch, or two links that were not checked.
+// Checks two items again that were allowed to touch, or checks two links that were not checked before.
 //
 // # Safety
-// That of `rccd_cell_allow_contact`.
+// As for `rccd_cell_allow_contact`.
 rccd_status rccd_cell_forbid_contact(struct rccd_cell *cell, const char *a, const char *b);
 
-// Stores what of the cell is checked, as lines of text: counts, then all remarks on the cell. A line that begins with `warning: `
-// says that something is probably a mistake, such as a size in another unit or an SRDF of another robot, or that most of the robot
-// is not checked. The other lines say what is not checked and why. The text is valid until the next such call for the cell, or
-// until the cell is freed.
+// Stores a summary of what is checked in the cell, as lines of text: counts, then all remarks. A line that begins with
+// `warning: ` reports a probable mistake, such as a size in another unit or the SRDF of another robot, or that most of
+// the robot is not checked. The other lines tell what is not checked, and why. The text is valid until the next such
+// call for the cell, or until the cell is freed.
 //
 // # Safety
-// `cell` is null or a handle that no other call uses; `out` is null or points to a place for a text.
+// `cell` is null or a handle that no other call uses; `out` is null or points to memory for a text.
 rccd_status rccd_cell_check_summary(struct rccd_cell *cell,
                                     struct rccd_text *out);
 
-// Sets how much farther than the margin obstacles have to stay from a link; 0 takes it back.
+// Sets the padding of a link: the distance, in addition to the margin, that obstacles have to keep from it. 0 removes
+// it.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `link` is null or a text that ends with a zero.
-rccd_status rccd_cell_set_padding(struct rccd_cell *cell, const char *link, double distance);
+rccd_status rccd_cell_set_padding(struct rccd_cell *cell,
+                                  const char *link,
+                                  double distance);
 
-// Sets the distance at which two links, held bodies or obstacles count as touching, instead of margin and paddings. Two links
-// that were not checked are checked from now on, and so are two items that were allowed to touch.
+// Sets the distance at which two items count as touching. It replaces margin and paddings for this pair of links, held
+// bodies or obstacles. The pair is checked from now on, even if it was not checked or was allowed to touch.
 //
 // # Safety
 // `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
@@ -605,35 +621,35 @@ rccd_status rccd_cell_set_clearance(struct rccd_cell *cell,
                                     const char *b,
                                     double distance);
 
-// Makes a solver for a cell with these settings; null stands for the default ones. The margin is the distance at which bodies
-// count as touching, and a deadline is for a whole question. A cell of which no pair is compared is an error: links that a joint
-// connects are not, unless `rccd_cell_set_clearance` names them. Normals of contacts play no role.
+// Makes a solver for a cell. If `settings` is null, it uses the defaults. The margin is the distance at which bodies
+// count as touching. The deadline is for a whole question. A cell without a pair to check is an error: links that a
+// joint connects are checked only if `rccd_cell_set_clearance` names them. `contact_normals` has no effect.
 //
-// With the start policy `RCCD_START_POLICY_LEAVE` pairs in contact at the start may part or slide, but not come nearer, in questions
-// about the first or any contact; that about the closest approach is an error.
+// With the start policy `RCCD_START_POLICY_LEAVE`, pairs in contact at the start may separate or slide, but not come
+// nearer. This is for questions about the first or any contact. `rccd_cell_closest_approach` is an error with it.
 //
 // # Safety
-// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points
-// to a place for a handle.
+// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null
+// or points to memory for a handle.
 rccd_status rccd_cell_solver_new(const struct rccd_cell *cell,
                                  const struct rccd_settings *settings,
                                  struct rccd_cell_solver **out);
 
-// Changes the settings of the questions that follow; null stands for the default ones.
+// Changes the settings of later questions. If `settings` is null, sets the defaults.
 //
 // # Safety
 // `solver` is null or a handle that no other call uses; `settings` is null or points to settings, whose flag is null or a handle.
 rccd_status rccd_cell_solver_set_settings(struct rccd_cell_solver *solver,
                                           const struct rccd_settings *settings);
 
-// Frees a solver; null is nothing.
+// Frees a solver. Does nothing for null.
 //
 // # Safety
 // The handle is null, or comes from this library, is not in use, and has not been freed.
 void rccd_cell_solver_free(struct rccd_cell_solver *solver);
 
-// Finds the first contact on a path. Nothing touches before it; if a limit is reached, nothing touches before the point of the
-// answer.
+// Finds the first contact on a path. Nothing touches before it. If a limit is reached, nothing touches before the
+// segment and share in the answer.
 //
 // # Safety
 // `solver` is null or a handle that no other call uses; `path` is null or points to a path, whose configurations are null or
@@ -643,44 +659,45 @@ rccd_status rccd_cell_first_contact(struct rccd_cell_solver *solver,
                                     const struct rccd_path *path,
                                     struct rccd_path_answer *answer);
 
-// Finds some contact on a path, perhaps not the first one, or proves that there is none: what a planner asks about an edge. If
-// a limit is reached, nothing is known of the path.
+// Finds some contact on a path, not necessarily the first one, or proves that there is none. Planners ask this about
+// edges. If a limit is reached, nothing is known about the path.
 //
 // # Safety
-// That of `rccd_cell_first_contact`.
+// As for `rccd_cell_first_contact`.
 rccd_status rccd_cell_any_contact(struct rccd_cell_solver *solver,
                                   const struct rccd_path *path,
                                   struct rccd_path_answer *answer);
 
-// Brackets how near any pair comes to touching on a path, to within the tolerance. Margin, paddings and clearances play no
-// role.
+// Computes bounds of the least distance of any pair on a path, to within the tolerance. Margin, paddings and clearances
+// have no effect.
 //
 // # Safety
-// That of `rccd_cell_first_contact`.
+// As for `rccd_cell_first_contact`.
 rccd_status rccd_cell_closest_approach(struct rccd_cell_solver *solver,
                                        const struct rccd_path *path,
                                        struct rccd_path_answer *answer);
 
-// Writes a record of an answer to `rccd_cell_first_contact` to a file, as JSON: the path and the settings in full, digests of
-// all bodies of the cell, the answer. `ccd replay` asks the same again, without the deadline, and says whether the answer holds.
-// The cell is to be as it was when the solver was made. Null stands for the default settings.
+// Writes a JSON record of an answer to `rccd_cell_first_contact` to a file. The record has the path, the settings,
+// digests of all bodies of the cell, and the answer. `ccd replay` repeats the question without the deadline, and
+// reports whether the answer holds. The cell must be as it was when the solver was made. If `settings` is null, the
+// defaults are recorded.
 //
 // # Safety
-// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `path` is as in
-// `rccd_cell_first_contact`; `answer` is null or points to an answer of it, whose solver lives; `file` is null or a text that
-// ends with a zero.
+// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `path` is as
+// for `rccd_cell_first_contact`; `answer` is null or points to an answer to it, whose solver is not freed; `file` is
+// null or a text that ends with a zero.
 rccd_status rccd_evidence_write(const struct rccd_cell *cell,
                                 const struct rccd_settings *settings,
                                 const struct rccd_path *path,
                                 const struct rccd_path_answer *answer,
                                 const char *file);
 
-// Makes a curve through configurations, each at its time, in ascending order: cubic polynomials with the given velocities
-// there, or quintic ones if accelerations are given, too. Null stands for no accelerations.
+// Makes a curve through configurations at ascending times, with given velocities. Segments are cubic polynomials, or
+// quintic ones if `accelerations` is not null.
 //
 // # Safety
 // `times` is null or points to `count` numbers; `positions`, `velocities` and `accelerations` are null or point to
-// `count · joint_count` numbers, those of a configuration one after the other; `out` is null or points to a place for a handle.
+// `count · joint_count` numbers, configuration by configuration; `out` is null or points to memory for a handle.
 rccd_status rccd_joint_curve_through(const double *times,
                                      const double *positions,
                                      const double *velocities,
@@ -689,13 +706,13 @@ rccd_status rccd_joint_curve_through(const double *times,
                                      size_t joint_count,
                                      struct rccd_joint_curve **out);
 
-// Makes a curve from polynomials of the time since each segment's start, of a degree of at most 9: for each segment, and for
-// each joint within it, `degree + 1` coefficients, that of the lowest power first. `times` are the ends of all segments, one
-// more than segments.
+// Makes a curve from polynomials in the time since each segment's start. The degree is at most 9. `coefficients` has
+// `degree + 1` numbers for each joint of each segment, lowest power first. `times` are the boundaries of the segments:
+// one more than segments.
 //
 // # Safety
-// `times` is null or points to `segment_count + 1` numbers; `coefficients` is null or points to
-// `segment_count · joint_count · (degree + 1)` numbers; `out` is null or points to a place for a handle.
+// `times` is null or points to `segment_count + 1` numbers; `coefficients` is null or points to `segment_count ·
+// joint_count · (degree + 1)` numbers; `out` is null or points to memory for a handle.
 rccd_status rccd_joint_curve_from_polynomials(const double *times,
                                               const double *coefficients,
                                               size_t segment_count,
@@ -703,49 +720,50 @@ rccd_status rccd_joint_curve_from_polynomials(const double *times,
                                               size_t degree,
                                               struct rccd_joint_curve **out);
 
-// Frees a curve; null is nothing.
+// Frees a curve. Does nothing for null.
 //
 // # Safety
 // The handle is null, or comes from this library, is not in use, and has not been freed.
 void rccd_joint_curve_free(struct rccd_joint_curve *curve);
 
-// Returns the motion of a body that rests at the origin, to be changed before use.
+// Returns the motion of a static body at the origin. Change its fields before use.
 struct rccd_motion rccd_motion_at_rest(void);
 
-// Computes the motion from one pose at time 0 to another at time `duration`, by the shortest rotation about `centre`, a
-// point in the body's frame that moves straight. Null stands for the body's origin.
+// Computes the motion from one pose at time 0 to another at time `duration`, by the shortest rotation. `centre` is the
+// point in the body's frame that moves on a straight line; null stands for the body's origin.
 //
 // # Safety
-// `start` and `end` are null or point to poses, `centre` is null or points to three numbers, and `out` is null or points
-// to a place for a motion.
+// `start` and `end` are null or point to poses, `centre` is null or points to three numbers, and `out` is null or
+// points to memory for a motion.
 rccd_status rccd_motion_between(const struct rccd_pose *start,
                                 const struct rccd_pose *end,
                                 const double *centre,
                                 double duration,
                                 struct rccd_motion *out);
 
-// Fills settings, whose `size` is set, with the default ones: tolerance 0.001, margin 0, contacts at the start reported, a
-// budget of 4,194,304, no deadline.
+// Fills settings with the defaults: tolerance 0.001, margin 0, contacts at the start reported, budget 4,194,304, no
+// deadline. Set `size` before.
 //
 // # Safety
-// `settings` is null or points to a place of the size that its first field says.
+// `settings` is null or points to memory of the size in its first field.
 rccd_status rccd_settings_default(struct rccd_settings *settings);
 
-// Makes a solver with these settings; null stands for the default ones.
+// Makes a solver. If `settings` is null, it uses the defaults.
 //
 // # Safety
-// `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points to a place for a handle.
+// `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points to memory for a
+// handle.
 rccd_status rccd_solver_new(const struct rccd_settings *settings,
                             struct rccd_solver **out);
 
-// Changes the settings of the queries that follow; null stands for the default ones.
+// Changes the settings of later queries. If `settings` is null, sets the defaults.
 //
 // # Safety
 // `solver` is null or a handle that no other call uses; `settings` is null or points to settings, whose flag is null or a handle.
 rccd_status rccd_solver_set_settings(struct rccd_solver *solver,
                                      const struct rccd_settings *settings);
 
-// Frees a solver; null is nothing.
+// Frees a solver. Does nothing for null.
 //
 // # Safety
 // The handle is null, or comes from this library, is not in use, and has not been freed.
@@ -762,44 +780,44 @@ rccd_status rccd_first_contact(struct rccd_solver *solver,
                                double duration,
                                struct rccd_answer *answer);
 
-// Finds some contact of two moving bodies, perhaps not the first one, or proves that there is none. For bodies that touch
-// it costs less than the first contact.
+// Finds some contact of two moving bodies, not necessarily the first one, or proves that there is none. If the bodies
+// touch, this takes less work than the first contact.
 //
 // # Safety
-// That of `rccd_first_contact`.
+// As for `rccd_first_contact`.
 rccd_status rccd_any_contact(struct rccd_solver *solver,
                              const struct rccd_moving_body *a,
                              const struct rccd_moving_body *b,
                              double duration,
                              struct rccd_answer *answer);
 
-// Finds when two moving bodies first and last touch. They do not touch before the first time nor after the last.
+// Finds the first and the last contact of two moving bodies. They do not touch before the first time or after the last.
 //
 // # Safety
-// That of `rccd_first_contact`.
+// As for `rccd_first_contact`.
 rccd_status rccd_contact_interval(struct rccd_solver *solver,
                                   const struct rccd_moving_body *a,
                                   const struct rccd_moving_body *b,
                                   double duration,
                                   struct rccd_answer *answer);
 
-// Brackets the least distance of two moving bodies to within the tolerance. With a duration of 0 it is the distance at the
-// start.
+// Computes bounds of the least distance of two moving bodies, to within the tolerance. With a duration of 0, it is the
+// distance at the start.
 //
 // # Safety
-// That of `rccd_first_contact`.
+// As for `rccd_first_contact`.
 rccd_status rccd_closest_approach(struct rccd_solver *solver,
                                   const struct rccd_moving_body *a,
                                   const struct rccd_moving_body *b,
                                   double duration,
                                   struct rccd_answer *answer);
 
-// Decides whether two moving bodies keep a distance: the outcome is free if they do, and a contact, at a time at which they are
-// nearer, if they do not. If the bounds of the distance are too far apart to decide, it is the least distance. Bodies that may
-// touch keep no distance, not even 0.
+// Decides whether two moving bodies always keep a distance of at least `clearance`. If they do, the outcome is free. If
+// they do not, it is a contact, at a time at which they are nearer. If the bounds are too far apart to decide, it is
+// the least distance. Bodies that possibly touch do not keep a clearance of 0 either.
 //
 // # Safety
-// That of `rccd_first_contact`.
+// As for `rccd_first_contact`.
 rccd_status rccd_keeps_clearance(struct rccd_solver *solver,
                                  const struct rccd_moving_body *a,
                                  const struct rccd_moving_body *b,
@@ -810,17 +828,18 @@ rccd_status rccd_keeps_clearance(struct rccd_solver *solver,
 // Returns the version of the library, such as `0.1.0`.
 const char *rccd_version(void);
 
-// Returns the message of the last call of this thread that has not worked, in UTF-8; it is empty before. The text is valid
-// until the next call of this thread that does not work: ask for it after the call, in a statement of its own.
+// Returns the message of this thread's last failed call, in UTF-8; empty if no call has failed. The text is valid until
+// this thread's next failed call. Call this in a statement of its own, after the failed call.
 const char *rccd_last_error(void);
 
-// Makes a flag, which is not set.
+// Makes a flag that is not set.
 //
 // # Safety
-// `out` is null, or points to a place for a handle.
+// `out` is null, or points to memory for a handle.
 rccd_status rccd_stop_new(struct rccd_stop **out);
 
-// Sets the flag: queries end as unresolved, and further ones do, until it is cleared. A question that takes no search is still answered.
+// Sets the flag. Running and later queries end as unresolved until it is cleared. A question that needs no search is
+// still answered.
 //
 // # Safety
 // `stop` is null or a handle.
@@ -832,56 +851,56 @@ rccd_status rccd_stop_set(const struct rccd_stop *stop);
 // `stop` is null or a handle.
 rccd_status rccd_stop_clear(const struct rccd_stop *stop);
 
-// Frees a flag; null is nothing. Solvers whose settings name it keep it as it is.
+// Frees a flag. Solvers that use it keep its last value. Does nothing for null.
 //
 // # Safety
 // The handle is null, or comes from this library, is not in use, and has not been freed.
 void rccd_stop_free(struct rccd_stop *stop);
 
-// Makes a path through poses, each at its time, in ascending order. Between two poses the body's origin moves straight,
-// and the body takes the shortest rotation. It rests before the first pose and after the last one.
+// Makes a trajectory through poses at ascending times. Between two poses the body's origin moves on a straight line,
+// and the body takes the shortest rotation. The body is at rest before the first pose and after the last one.
 //
 // # Safety
-// `times` and `poses` are null or point to `count` values; `out` is null or points to a place for a handle.
+// `times` and `poses` are null or point to `count` values; `out` is null or points to memory for a handle.
 rccd_status rccd_trajectory_through_poses(const double *times,
                                           const struct rccd_pose *poses,
                                           size_t count,
                                           struct rccd_trajectory **out);
 
-// Makes the trajectory of a thrown body: a motion whose centre accelerates, in free fall for instance.
+// Makes the trajectory of a thrown body: a motion whose centre has a constant acceleration, as in free fall.
 //
 // # Safety
-// `thrown` is null or points to a motion, `acceleration` is null or points to three numbers, and `out` is null or points to
-// a place for a handle.
+// `thrown` is null or points to a motion, `acceleration` is null or points to three numbers, and `out` is null or
+// points to memory for a handle.
 rccd_status rccd_trajectory_thrown(const struct rccd_motion *thrown,
                                    const double *acceleration,
                                    struct rccd_trajectory **out);
 
-// Makes the trajectory of a body whose origin follows a Bézier curve of any degree from time 0 to `duration`. `points` are the
-// control points, three numbers each. With null for `turns` the body does not turn.
+// Makes the trajectory of a body whose origin follows a Bézier curve of any degree from time 0 to `duration`. `points`
+// are the control points, three numbers each. If `turns` is null, the body does not rotate.
 //
 // # Safety
-// `points` is null or points to `3 · count` numbers; `turns` is null or points to turns, whose times and orientations are null
-// or point to as many numbers as their count says; `out` is null or points to a place for a handle.
+// `points` is null or points to `3 · count` numbers; `turns` is null or points to turns, whose times and orientations
+// are null or point to as many numbers as their count says; `out` is null or points to memory for a handle.
 rccd_status rccd_trajectory_bezier(const double *points,
                                    size_t count,
                                    double duration,
                                    const struct rccd_turns *turns,
                                    struct rccd_trajectory **out);
 
-// Makes the trajectory of a body whose origin follows a uniform cubic B-spline from time 0 to `duration`. `points` are at least
-// four control points, three numbers each: the curve begins near the second one and ends near the last but one. With null for
-// `turns` the body does not turn.
+// Makes the trajectory of a body whose origin follows a uniform cubic B-spline from time 0 to `duration`. `points` are
+// at least four control points, three numbers each. The curve begins near the second one and ends near the last but
+// one. If `turns` is null, the body does not rotate.
 //
 // # Safety
-// That of `rccd_trajectory_bezier`.
+// As for `rccd_trajectory_bezier`.
 rccd_status rccd_trajectory_b_spline(const double *points,
                                      size_t count,
                                      double duration,
                                      const struct rccd_turns *turns,
                                      struct rccd_trajectory **out);
 
-// Frees a trajectory; null is nothing.
+// Frees a trajectory. Does nothing for null.
 //
 // # Safety
 // The handle is null, or comes from this library, is not in use, and has not been freed.

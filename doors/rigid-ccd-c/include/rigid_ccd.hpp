@@ -1,6 +1,6 @@
-// Certified continuous collision detection of rigid bodies, for C++17: handles that free themselves, and exceptions or expected
-// values by choice. Header only, over rigid_ccd.h, where the structs and the meaning of their fields are. Robots are in
-// rigid_ccd_cell.hpp.
+// Certified continuous collision detection of rigid bodies, for C++17. Handles free themselves. Failures are exceptions
+// or expected values, by choice. This header is a wrapper around rigid_ccd.h, which documents the structs and their
+// fields. Robots are in rigid_ccd_cell.hpp.
 #ifndef RIGID_CCD_HPP
 #define RIGID_CCD_HPP
 
@@ -24,7 +24,8 @@
 #define RIGID_CCD_HAS_EIGEN 1
 #endif
 
-// Files of a program may differ in whether failures are exceptions: what they link has the choice in its names.
+// Source files of one program may choose differently between exceptions and expected values: an inline namespace keeps
+// their symbols apart.
 #ifdef RIGID_CCD_EXPECTED
 #define RIGID_CCD_FAILURES with_expected
 #else
@@ -34,10 +35,10 @@
 namespace rigid_ccd {
 inline namespace RIGID_CCD_FAILURES {
 
-// A failure of a call. A query that reaches a limit is none: its answer is unresolved.
+// A failed call. A query that reaches a limit does not fail: its outcome is unresolved.
 class Error : public std::runtime_error {
 public:
-    // The failure of the last call of this thread.
+    // Takes the message of this thread's last failed call.
     explicit Error(rccd_status status) : Error(status, rccd_last_error()) {}
     Error(rccd_status status, const std::string &message) : std::runtime_error(message), status_(status) {}
     rccd_status status() const noexcept { return status_; }
@@ -47,7 +48,7 @@ private:
 };
 
 #ifdef RIGID_CCD_EXPECTED
-// A value or the error instead of it, with the names of std::expected of C++23.
+// Either a value or an error, with the interface of std::expected of C++23.
 template <typename T>
 class [[nodiscard]] Expected {
 public:
@@ -55,29 +56,29 @@ public:
     Expected(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
     bool has_value() const noexcept { return content_.index() == 0; }
     explicit operator bool() const noexcept { return has_value(); }
-    // What follows needs a value.
+    // Precondition of the next four functions: there is a value.
     T &operator*() { return *std::get_if<0>(&content_); }
     const T &operator*() const { return *std::get_if<0>(&content_); }
     T *operator->() { return std::get_if<0>(&content_); }
     const T *operator->() const { return std::get_if<0>(&content_); }
-    // Needs an error.
+    // Precondition: there is an error.
     const Error &error() const { return *std::get_if<1>(&content_); }
 
 private:
     std::variant<T, Error> content_;
 };
 
-// What a function returns that can fail: a value, or the error. Nothing throws.
+// The result of a function that can fail: a value or an error. No function throws.
 template <typename T>
 using Result = Expected<T>;
 #else
-// What a function returns that can fail: the value. A failure is an exception, rigid_ccd::Error. With RIGID_CCD_EXPECTED
-// defined before this header is included, it is Expected<T> instead, and the header works without exceptions.
+// The result of a function that can fail: its value. A failure throws rigid_ccd::Error. If RIGID_CCD_EXPECTED is defined
+// before this header is included, the result is Expected<T> instead, and the header works without exceptions.
 template <typename T>
 using Result = T;
 #endif
 
-// What a function returns that can fail and has no value.
+// The value of a function that can fail and otherwise returns nothing.
 struct Done {};
 
 namespace detail {
@@ -91,7 +92,7 @@ Result<T> fail(Error error) {
 #endif
 }
 
-// Returns what a function makes after a call has worked.
+// Returns the result of `make` if a call has succeeded, and the error otherwise.
 template <typename Make>
 auto after(rccd_status status, Make &&make) -> Result<decltype(make())> {
     if (status != RCCD_STATUS_OK) return fail<decltype(make())>(Error(status));
@@ -102,7 +103,7 @@ inline Result<Done> done(rccd_status status) {
     return after(status, [] { return Done{}; });
 }
 
-// Returns an object around a handle that a call gives.
+// Calls `give` to make a handle, and returns an object that owns it.
 template <typename Object, typename Handle, typename Give>
 Result<Object> hold(Give &&give) {
     Handle *handle = nullptr;
@@ -110,17 +111,17 @@ Result<Object> hold(Give &&give) {
     return after(status, [&] { return Object(handle); });
 }
 
-// Returns the error of numbers of which there are too many or too few.
+// Returns the error for an array of the wrong length.
 inline Error wrong_count(const std::string &what, std::size_t needed, std::size_t given) {
     return {RCCD_STATUS_INVALID_ARGUMENT, what + ": " + std::to_string(needed) + " numbers are needed, not " + std::to_string(given)};
 }
 
-// Returns a text for a call; null, which is an error there, if a zero would end it too early.
+// `c_text` returns the text for a call in C. If the text contains a zero, it returns null, which the call refuses.
 inline bool has_zero(const std::string &text) { return text.find('\0') != std::string::npos; }
 inline const char *c_text(const std::string &text) { return has_zero(text) ? nullptr : text.c_str(); }
 
-// Whether a container has its values one after the other, in an order that is no question. Types of Eigen say so: a matrix is in
-// memory column by column or row by row, and a row of one has gaps.
+// Whether the values of a container are contiguous in memory and in one dimension. Types of Eigen tell this: matrices
+// have two dimensions, and a row of a matrix may have a stride.
 template <typename Container, typename = void>
 struct InOneRow : std::true_type {};
 template <typename Container>
@@ -129,13 +130,13 @@ struct InOneRow<Container, std::void_t<decltype(Container::InnerStrideAtCompileT
 
 } // namespace detail
 
-// An array that belongs to somebody else, as std::span of C++20.
+// An array that the caller owns, as std::span of C++20.
 template <typename T>
 class View {
 public:
     View() = default;
     View(const T *data, std::size_t size) : data_(data), size_(size) {}
-    // Values in braces live as long as the call to which they are passed, which GCC does not know.
+    // Silences a warning of GCC: values in braces live until the end of the call that they are passed to.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Winit-list-lifetime"
@@ -146,8 +147,8 @@ public:
 #endif
     template <std::size_t SIZE>
     View(const T (&values)[SIZE]) : data_(values), size_(SIZE) {}
-    // Anything with data() and size(): std::vector, std::array, std::span, vectors of Eigen without gaps. Of a matrix pass data()
-    // and size(), if its columns or rows are in memory one after the other as you mean them.
+    // Takes any container with data() and size(): std::vector, std::array, std::span, and vectors of Eigen without a
+    // stride. For a matrix pass data() and size() yourself, after a check that its storage order is the intended one.
     template <typename Container, typename Data = decltype(std::declval<const Container &>().data()),
               typename = std::enable_if_t<std::is_convertible_v<Data, const T *> && detail::InOneRow<Container>::value>>
     View(const Container &values) : data_(values.data()), size_(values.size()) {}
@@ -165,20 +166,20 @@ using Pose = rccd_pose;
 using Motion = rccd_motion;
 using Outcome = rccd_outcome;
 
-// Returns a pose with the world's orientation.
+// Returns the pose at a position, without rotation.
 inline Pose pose_at(const Vector &position) {
     return {{position[0], position[1], position[2]}, {0, 0, 0, 1}};
 }
 
-// Returns the motion of a body that rests at a pose, to be changed before use.
+// Returns the motion of a body that is static at a pose. Change its fields to make it move.
 inline Motion at_rest(const Pose &pose) {
     Motion motion = rccd_motion_at_rest();
     motion.start = pose;
     return motion;
 }
 
-// Returns the motion from one pose at time 0 to another at time `duration`, by the shortest rotation about a point of the
-// body, in its frame, that moves straight.
+// Returns the motion from one pose at time 0 to another at time `duration`, by the shortest rotation. `centre` is the
+// point in the body's frame that moves on a straight line.
 inline Result<Motion> between(const Pose &start, const Pose &end, double duration, const Vector &centre = {0, 0, 0}) {
     Motion motion;
     const rccd_status status = rccd_motion_between(&start, &end, centre.data(), duration, &motion);
@@ -186,11 +187,11 @@ inline Result<Motion> between(const Pose &start, const Pose &end, double duratio
 }
 
 #ifdef RIGID_CCD_HAS_EIGEN
-// Converts a pose of Eigen. One that scales or mirrors is an error: each number of a rotation is right to a millionth.
+// Converts a pose of Eigen. Fails if its linear part scales or mirrors: each entry must be accurate to a millionth.
 inline Result<Pose> to_pose(const Eigen::Isometry3d &pose) {
     const Eigen::Matrix3d linear = pose.linear();
     const Eigen::Matrix3d skew = linear.transpose() * linear - Eigen::Matrix3d::Identity();
-    // Written so that NaN is an error.
+    // The comparison is written so that NaN is an error.
     if (!(skew.cwiseAbs().maxCoeff() <= 2e-6 && linear.determinant() > 0))
         return detail::fail<Pose>({RCCD_STATUS_INVALID_ARGUMENT, "the linear part of a pose is no rotation"});
     const Eigen::Quaterniond turned(linear);
@@ -199,7 +200,7 @@ inline Result<Pose> to_pose(const Eigen::Isometry3d &pose) {
 }
 #endif
 
-// A body: the shape that moves. Copies share it, threads may too.
+// A body: a rigid shape. Copies share it, and so may threads.
 class Body {
 public:
     static Result<Body> sphere(double radius) {
@@ -217,7 +218,7 @@ public:
     static Result<Body> cone(double radius, double half_length) {
         return make([&](rccd_body **out) { return rccd_body_cone(radius, half_length, out); });
     }
-    // Makes a body of triangles, which are indices of vertices.
+    // Makes a body of triangles. Each triangle is three indices of vertices.
     static Result<Body> from_triangles(View<Vector> vertices, View<Triangle> triangles,
                                        std::uint32_t detail = static_cast<std::uint32_t>(RCCD_DETAIL_AUTO)) {
         return make([&](rccd_body **out) {
@@ -225,7 +226,7 @@ public:
                                             detail, out);
         });
     }
-    // Prepares a body of triangles, and stores it in a file that `load` reads without that work.
+    // Prepares a body of triangles, and stores it in a file. `load` reads the file without repeating the preparation.
     static Result<Done> prepare(View<Vector> vertices, View<Triangle> triangles, const std::string &path,
                                 std::uint32_t detail = static_cast<std::uint32_t>(RCCD_DETAIL_AUTO)) {
         return detail::done(rccd_body_prepare(numbers(vertices), vertices.size(), numbers(triangles),
@@ -240,19 +241,19 @@ public:
         const rccd_status status = rccd_body_piece_count(get(), &count);
         return detail::after(status, [&] { return count; });
     }
-    // Returns whether the body is solid; what is inside a surface does not touch it.
+    // Returns whether the body is solid. If not, it is a surface: something inside does not touch it.
     Result<bool> is_solid() const {
         std::int32_t solid = 0;
         const rccd_status status = rccd_body_is_solid(get(), &solid);
         return detail::after(status, [&] { return solid != 0; });
     }
-    // Returns by how much the body exceeds the shape that it was made of, at most.
+    // Returns an upper bound of how far the body extends beyond the shape that it represents.
     Result<double> excess() const {
         double excess = 0;
         const rccd_status status = rccd_body_excess(get(), &excess);
         return detail::after(status, [&] { return excess; });
     }
-    // Takes a handle.
+    // Takes ownership of a handle.
     explicit Body(rccd_body *handle) : handle_(handle, rccd_body_free) {}
     const rccd_body *get() const noexcept { return handle_.get(); }
 
@@ -269,10 +270,10 @@ private:
     std::shared_ptr<const rccd_body> handle_;
 };
 
-// A trajectory that is no motion at constant velocities. Copies share it, threads may too.
+// A trajectory with velocities that change. Copies share it, and so may threads.
 class Trajectory {
 public:
-    // A path through poses, each at its time, in ascending order.
+    // Makes a trajectory through poses at ascending times.
     static Result<Trajectory> through_poses(View<double> times, View<Pose> poses) {
         if (times.size() != poses.size())
             return detail::fail<Trajectory>({RCCD_STATUS_INVALID_ARGUMENT, "as many times as poses are needed"});
@@ -280,29 +281,29 @@ public:
             return rccd_trajectory_through_poses(times.data(), poses.data(), poses.size(), out);
         });
     }
-    // A motion whose centre accelerates, in free fall for instance.
+    // Makes a motion whose centre has a constant acceleration, as in free fall.
     static Result<Trajectory> thrown(const Motion &thrown, const Vector &acceleration) {
         return make([&](rccd_trajectory **out) {
             return rccd_trajectory_thrown(&thrown, acceleration.data(), out);
         });
     }
-    // A body whose origin follows a Bézier curve by its control points.
+    // Makes the trajectory of a body whose origin follows the Bézier curve of these control points.
     static Result<Trajectory> bezier(View<Vector> points, double duration, const rccd_turns *turns = nullptr) {
         const double *numbers = points.size() ? points.data()->data() : nullptr;
         return make([&](rccd_trajectory **out) {
             return rccd_trajectory_bezier(numbers, points.size(), duration, turns, out);
         });
     }
-    // A body whose origin follows a uniform cubic B-spline by its control points.
+    // Makes the trajectory of a body whose origin follows the uniform cubic B-spline of these control points.
     static Result<Trajectory> b_spline(View<Vector> points, double duration, const rccd_turns *turns = nullptr) {
         const double *numbers = points.size() ? points.data()->data() : nullptr;
         return make([&](rccd_trajectory **out) {
             return rccd_trajectory_b_spline(numbers, points.size(), duration, turns, out);
         });
     }
-    // Takes a handle.
+    // Takes ownership of a handle.
     explicit Trajectory(rccd_trajectory *handle) : handle_(handle, rccd_trajectory_free) {}
-    // A move is a copy: without a trajectory a body rests.
+    // Moving copies: a moved-from object without a trajectory would be static.
     Trajectory(const Trajectory &) = default;
     Trajectory &operator=(const Trajectory &) = default;
     const rccd_trajectory *get() const noexcept { return handle_.get(); }
@@ -315,13 +316,15 @@ private:
     std::shared_ptr<const rccd_trajectory> handle_;
 };
 
-// A body and what moves it; with neither motion nor trajectory it rests at the origin. It keeps both alive.
+// A body with a motion or a trajectory. With neither, the body is static at the origin. Shares ownership of the body and
+// of the trajectory.
 class MovingBody {
 public:
     MovingBody(const Body &body) : body_(body) {}
     MovingBody(const Body &body, const Motion &motion) : body_(body), motion_(motion) {}
     MovingBody(const Body &body, const Trajectory &along) : body_(body), along_(along) {}
-    // Returns what a call takes; it refers to this object. Without a trajectory's handle there is no body either, which is an error.
+    // Returns the argument of a call in C. It points into this object. If the trajectory has lost its handle, the body is
+    // null too, which the call refuses.
     rccd_moving_body get() const noexcept {
         const rccd_trajectory *along = along_ ? along_->get() : nullptr;
         const bool lost = along_ && along == nullptr;
@@ -346,7 +349,7 @@ struct Answer : rccd_answer {
     }
 };
 
-// Settings, which begin as the default ones.
+// Settings. The constructor sets the defaults.
 struct Settings : rccd_settings {
     Settings() : rccd_settings{} {
         size = sizeof(rccd_settings);
@@ -354,13 +357,14 @@ struct Settings : rccd_settings {
     }
 };
 
-// A flag that stops the queries of all solvers whose settings name it: `settings.stop = flag.get()`. Any thread may use it.
+// A flag that stops the queries of all solvers whose settings point to it: `settings.stop = flag.get()`. Any thread may
+// use it.
 class Stop {
 public:
     static Result<Stop> make() { return detail::hold<Stop, rccd_stop>(rccd_stop_new); }
-    // Takes a handle.
+    // Takes ownership of a handle.
     explicit Stop(rccd_stop *handle) : handle_(handle, rccd_stop_free) {}
-    // A move is a copy: without a flag nothing is stopped.
+    // Moving copies: a moved-from object without a flag would stop nothing.
     Stop(const Stop &) = default;
     Stop &operator=(const Stop &) = default;
     void set() const noexcept { rccd_stop_set(get()); }
@@ -371,13 +375,13 @@ private:
     std::shared_ptr<const rccd_stop> handle_;
 };
 
-// A solver: settings, and memory that it reuses from query to query. Each thread needs its own.
+// A solver: settings, and memory that is reused between queries. Each thread needs its own.
 class Solver {
 public:
     static Result<Solver> make(const Settings &settings = {}) {
         return detail::hold<Solver, rccd_solver>([&](rccd_solver **out) { return rccd_solver_new(&settings, out); });
     }
-    // Takes a handle.
+    // Takes ownership of a handle.
     explicit Solver(rccd_solver *handle) : handle_(handle, rccd_solver_free) {}
 #ifndef RIGID_CCD_EXPECTED
     explicit Solver(const Settings &settings = {}) : Solver(make(settings)) {}
@@ -389,19 +393,19 @@ public:
     Result<Answer> first_contact(const MovingBody &a, const MovingBody &b, double duration) {
         return ask(rccd_first_contact, a, b, duration);
     }
-    // Finds some contact, perhaps not the first one, or proves that there is none.
+    // Finds some contact, not necessarily the first one, or proves that there is none.
     Result<Answer> any_contact(const MovingBody &a, const MovingBody &b, double duration) {
         return ask(rccd_any_contact, a, b, duration);
     }
-    // Finds when the bodies first and last touch.
+    // Finds the first and the last contact.
     Result<Answer> contact_interval(const MovingBody &a, const MovingBody &b, double duration) {
         return ask(rccd_contact_interval, a, b, duration);
     }
-    // Brackets the least distance; with a duration of 0 the distance at the start.
+    // Computes bounds of the least distance. With a duration of 0, that is the distance at the start.
     Result<Answer> closest_approach(const MovingBody &a, const MovingBody &b, double duration) {
         return ask(rccd_closest_approach, a, b, duration);
     }
-    // Decides whether the bodies keep a distance.
+    // Decides whether the bodies always keep a distance of at least `clearance`.
     Result<Answer> keeps_clearance(const MovingBody &a, const MovingBody &b, double duration, double clearance) {
         Answer answer;
         const rccd_moving_body moving_a = a.get(), moving_b = b.get();

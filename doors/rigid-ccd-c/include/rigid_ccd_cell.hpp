@@ -1,5 +1,5 @@
-// Robots among obstacles, for C++17: are the edges of a planner, and the motions of a controller, free?
-// Header only, over rigid_ccd.h and rigid_ccd.hpp.
+// Robots among obstacles, for C++17: checks the edges of planners and the motions of controllers. This header is a
+// wrapper around rigid_ccd.h, and needs rigid_ccd.hpp.
 #ifndef RIGID_CCD_CELL_HPP
 #define RIGID_CCD_CELL_HPP
 
@@ -16,7 +16,8 @@ inline namespace RIGID_CCD_FAILURES {
 
 namespace detail {
 
-// Returns the error of numbers that are no configurations of so many joints, or no edges of twice as many.
+// Returns the error for an array whose length is not a multiple of `length`: the number of joints, or twice that for
+// edges.
 inline Error wrong_configurations(std::size_t length, std::size_t given) {
     return {RCCD_STATUS_INVALID_ARGUMENT, "configurations: a multiple of " + std::to_string(length) + " numbers is needed, not " +
                                               std::to_string(given)};
@@ -24,18 +25,18 @@ inline Error wrong_configurations(std::size_t length, std::size_t given) {
 
 } // namespace detail
 
-// A free joint. Limits that it does not have are infinite.
+// A free joint. Its limits are infinite if it has none.
 struct Joint {
     std::string name;
     double lower, upper;
 };
 
-// A robot among obstacles that rest in the frame of its base. A change of the cell ends its solvers: their questions fail from
-// then on, and a new solver takes some 30 µs.
+// A cell (planning scene): a robot among obstacles that are static in the frame of its base. Changing the cell
+// invalidates its solvers: their questions fail from then on. Making a new solver takes about 30 µs.
 class Cell {
 public:
-    // Loads the robot of a URDF or MJCF file, with its meshes. The SRDF file and the folder that is searched first for
-    // `package://` names may be empty.
+    // Loads the robot of a URDF or MJCF file, with its meshes. `package_folder` is the folder searched first for
+    // `package://` names. Empty texts stand for no SRDF file and no folder.
     static Result<Cell> load(const std::string &robot, const std::string &srdf = "",
                              const std::string &package_folder = "") {
         if (detail::has_zero(srdf) || detail::has_zero(package_folder)) return zero_in_path();
@@ -43,8 +44,8 @@ public:
             return rccd_cell_load(detail::c_text(robot), or_null(srdf), or_null(package_folder), out);
         });
     }
-    // Makes a cell of the text of a URDF or MJCF. `folder` is where meshes with relative names are; the working folder if it is
-    // empty.
+    // Makes a cell from the text of a URDF or MJCF. Relative names of meshes are resolved in `folder`, or in the working
+    // folder if it is empty.
     static Result<Cell> from_text(const std::string &robot, const std::string &folder = "", const std::string &srdf = "",
                                   const std::string &package_folder = "") {
         if (detail::has_zero(folder) || detail::has_zero(srdf) || detail::has_zero(package_folder)) return zero_in_path();
@@ -52,15 +53,15 @@ public:
             return rccd_cell_from_text(detail::c_text(robot), or_null(folder), or_null(srdf), or_null(package_folder), out);
         });
     }
-    // Takes a handle.
+    // Takes ownership of a handle.
     explicit Cell(rccd_cell *handle) : handle_(handle, rccd_cell_free) {}
-    // Returns the number of positions of a configuration.
+    // Returns the number of free joints. A configuration has one position for each.
     std::size_t joint_count() const {
         std::size_t count = 0;
         rccd_cell_joint_count(get(), &count);
         return count;
     }
-    // Returns a free joint by its number in configurations.
+    // Returns a free joint. `number` is its index in configurations.
     Result<Joint> joint(std::size_t number) const {
         rccd_text name{};
         Joint joint{};
@@ -79,8 +80,9 @@ public:
     Result<Done> remove_obstacle(const std::string &name) {
         return detail::done(rccd_cell_remove_obstacle(handle_.get(), detail::c_text(name)));
     }
-    // Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. It may touch that link,
-    // links that no joint moves against it, and the links, held bodies and obstacles that are named.
+    // Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. The body may
+    // touch that link, links that are rigidly attached to it, and the items named in `may_touch`: links, held bodies and
+    // obstacles.
     Result<Done> attach(const std::string &name, const Body &body, const std::string &link, const Pose &pose,
                         const std::vector<std::string> &may_touch = {}) {
         std::vector<const char *> links;
@@ -89,25 +91,27 @@ public:
                                              links.data(), links.size()));
     }
     Result<Done> detach(const std::string &name) { return detail::done(rccd_cell_detach(handle_.get(), detail::c_text(name))); }
-    // Allows two items to touch: two links, or a link, a held body and an obstacle. What is removed takes this away.
+    // Allows two items to touch. An item is a link, a held body or an obstacle. The permission ends when one of them is
+    // removed.
     Result<Done> allow_contact(const std::string &a, const std::string &b) {
         return detail::done(rccd_cell_allow_contact(handle_.get(), detail::c_text(a), detail::c_text(b)));
     }
-    // Compares two items again that were allowed to touch, or two links that were not checked.
+    // Checks two items again that were allowed to touch, or checks two links that were not checked before.
     Result<Done> forbid_contact(const std::string &a, const std::string &b) {
         return detail::done(rccd_cell_forbid_contact(handle_.get(), detail::c_text(a), detail::c_text(b)));
     }
-    // Returns what is checked, as lines: counts, then all remarks on the cell; those on probable mistakes begin with `warning: `.
+    // Returns a summary of what is checked, as lines: counts, then all remarks. Lines about probable mistakes begin with
+    // `warning: `.
     Result<std::string> check_summary() {
         rccd_text text{};
         const rccd_status status = rccd_cell_check_summary(handle_.get(), &text);
         return detail::after(status, [&] { return std::string(text.data, text.length); });
     }
-    // Sets how much farther than the margin obstacles have to stay from a link.
+    // Sets the padding of a link: the distance, in addition to the margin, that obstacles have to keep from it.
     Result<Done> set_padding(const std::string &link, double distance) {
         return detail::done(rccd_cell_set_padding(handle_.get(), detail::c_text(link), distance));
     }
-    // Sets the distance at which a pair counts as touching, instead of margin and paddings.
+    // Sets the distance at which a pair counts as touching. It replaces margin and paddings.
     Result<Done> set_clearance(const std::string &a, const std::string &b, double distance) {
         return detail::done(rccd_cell_set_clearance(handle_.get(), detail::c_text(a), detail::c_text(b), distance));
     }
@@ -121,11 +125,11 @@ private:
     std::unique_ptr<rccd_cell, void (*)(rccd_cell *)> handle_;
 };
 
-// A path whose joints follow polynomials of the time. Copies share it, threads may too.
+// A curve in joint space: joints follow polynomials in time. Copies share it, and so may threads.
 class JointCurve {
 public:
-    // A curve through configurations, one after the other in one array, each at its time, with the velocities there: cubic
-    // polynomials, or quintic ones with accelerations.
+    // Makes a curve through configurations at ascending times, with given velocities. Arrays hold the values of one
+    // configuration after the other. Segments are cubic polynomials, or quintic ones if accelerations are given.
     static Result<JointCurve> through(View<double> times, View<double> positions, View<double> velocities,
                                       View<double> accelerations = {}) {
         const std::size_t joints = times.size() ? positions.size() / times.size() : 0;
@@ -143,7 +147,7 @@ public:
                                             joints, out);
         });
     }
-    // Takes a handle.
+    // Takes ownership of a handle.
     explicit JointCurve(rccd_joint_curve *handle) : handle_(handle, rccd_joint_curve_free) {}
     const rccd_joint_curve *get() const noexcept { return handle_.get(); }
 
@@ -166,21 +170,21 @@ private:
     }
 };
 
-// How much of an edge is certainly free, with the names of Drake's EdgeMeasure.
+// The certified free part of an edge, with the names of Drake's EdgeMeasure.
 class EdgeMeasure {
 public:
     explicit EdgeMeasure(double alpha) : alpha_(alpha) {}
     bool completely_free() const noexcept { return alpha_ >= 1; }
-    // Returns whether at least the start of the edge is free.
+    // Returns whether some initial part of the edge is certainly free.
     bool partially_free() const noexcept { return alpha_ > 0; }
-    // Returns the share of the edge that is free; 0 if not even its start is known to be.
+    // Returns the share of the edge, from its start, that is certainly free. Returns 0 if no part of it is.
     double alpha() const noexcept { return alpha_; }
 
 private:
     double alpha_;
 };
 
-// A solver for paths in a cell. It keeps memory from one question to the next; each thread needs its own.
+// A solver for paths in a cell. It reuses memory between questions. Each thread needs its own.
 class CellSolver {
 public:
     static Result<CellSolver> make(const Cell &cell, const Settings &settings = {}) {
@@ -188,7 +192,7 @@ public:
         const rccd_status status = rccd_cell_solver_new(cell.get(), &settings, &handle);
         return detail::after(status, [&] { return CellSolver(handle, cell.joint_count()); });
     }
-    // Takes a handle of a solver for a robot of so many free joints.
+    // Takes ownership of the handle of a solver for a robot with `joint_count` free joints.
     CellSolver(rccd_cell_solver *handle, std::size_t joint_count)
         : handle_(handle, rccd_cell_solver_free), joint_count_(joint_count), edge_(2 * joint_count) {}
 #ifndef RIGID_CCD_EXPECTED
@@ -197,24 +201,24 @@ public:
     Result<Done> set_settings(const Settings &settings) {
         return detail::done(rccd_cell_solver_set_settings(handle_.get(), &settings));
     }
-    // Finds the first contact on a path: configurations, one after the other in one array, or a curve.
+    // Finds the first contact on a path. A path is an array of configurations, one after the other, or a curve.
     Result<PathAnswer> first_contact(View<double> configurations) { return ask(rccd_cell_first_contact, configurations); }
     Result<PathAnswer> first_contact(const JointCurve &curve) { return ask(rccd_cell_first_contact, curve); }
-    // Finds some contact on such a path, perhaps not the first one, or proves that there is none.
+    // Finds some contact on a path, not necessarily the first one, or proves that there is none.
     Result<PathAnswer> any_contact(View<double> configurations) { return ask(rccd_cell_any_contact, configurations); }
     Result<PathAnswer> any_contact(const JointCurve &curve) { return ask(rccd_cell_any_contact, curve); }
-    // Brackets how near any pair comes to touching on such a path.
+    // Computes bounds of the least distance of any pair on a path.
     Result<PathAnswer> closest_approach(View<double> configurations) {
         return ask(rccd_cell_closest_approach, configurations);
     }
     Result<PathAnswer> closest_approach(const JointCurve &curve) { return ask(rccd_cell_closest_approach, curve); }
-    // Returns how much of the edge between two configurations is certainly free.
+    // Returns the certified free part of the edge between two configurations.
     Result<EdgeMeasure> measure_edge(View<double> start, View<double> end) {
         if (start.size() != joint_count_)
             return detail::fail<EdgeMeasure>(detail::wrong_count("start", joint_count_, start.size()));
         if (end.size() != joint_count_)
             return detail::fail<EdgeMeasure>(detail::wrong_count("end", joint_count_, end.size()));
-        // A solver that was moved away has none.
+        // A moved-from solver has no memory for an edge.
         edge_.resize(2 * joint_count_);
         std::copy(start.data(), start.data() + joint_count_, edge_.begin());
         std::copy(end.data(), end.data() + joint_count_, edge_.begin() + static_cast<std::ptrdiff_t>(joint_count_));
@@ -247,7 +251,7 @@ private:
     std::vector<double> edge_;
 };
 
-// Writes a record of an answer to `first_contact` to a file, which `ccd replay` asks again.
+// Writes a record of an answer to `first_contact` to a file. `ccd replay` repeats the question.
 inline Result<Done> write_evidence(const Cell &cell, const Settings &settings, View<double> configurations,
                                    const PathAnswer &answer, const std::string &file) {
     const std::size_t joints = cell.joint_count(), count = joints ? configurations.size() / joints : 0;
@@ -263,23 +267,23 @@ inline Result<Done> write_evidence(const Cell &cell, const Settings &settings, c
 }
 
 #ifndef RIGID_CCD_EXPECTED
-// The solvers of a cell, of which each call takes one: planners may have many threads. The cell is not to change while the pool
-// lives.
+// A pool of solvers of one cell, for planners with many threads: each call borrows a solver. Do not change the cell while
+// the pool lives.
 class SolverPool {
 public:
     explicit SolverPool(const Cell &cell, const Settings &settings = {}) : cell_(cell), settings_(settings) {}
-    // The cell has to live as long as the pool.
+    // Refuses temporaries: the cell must outlive the pool.
     explicit SolverPool(Cell &&cell, const Settings &settings = {}) = delete;
 
-    // Calls a function with a solver of its own.
+    // Calls a function with a solver that no other call uses.
     template <typename Call>
     auto with_solver(Call &&call) {
         Loan loan(*this);
         return call(loan.solver);
     }
 
-    // Measures edges on several threads: for each edge the configurations of its start and of its end, one after the other. Where
-    // the system starts no more threads, fewer do the work.
+    // Measures edges on several threads. `edges` holds the start and the end configuration of each edge, one after the
+    // other. If the system cannot start all threads, fewer do the work.
     std::vector<EdgeMeasure> measure_edges(View<double> edges, unsigned thread_count) {
         const std::size_t joints = cell_.joint_count(), count = joints ? edges.size() / (2 * joints) : 0;
         if (edges.size() != 2 * joints * count) throw detail::wrong_configurations(2 * joints, edges.size());

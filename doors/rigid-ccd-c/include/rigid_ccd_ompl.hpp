@@ -1,5 +1,5 @@
-// A motion validator for OMPL that no motion in contact passes: planners get certified edges, and the last valid state is
-// certified too. For state spaces of joint positions, which interpolate linearly: RealVectorStateSpace.
+// A motion validator and a state checker for OMPL. Valid motions are certified free of contact, and so is the last valid
+// state. The state space must hold joint positions and interpolate linearly, as RealVectorStateSpace does.
 #ifndef RIGID_CCD_OMPL_HPP
 #define RIGID_CCD_OMPL_HPP
 
@@ -19,7 +19,7 @@
 namespace rigid_ccd {
 inline namespace RIGID_CCD_FAILURES {
 
-// Accepts an edge if nothing touches on all of it. The cell is not to change while the validator lives.
+// Accepts an edge if it is certified free. Do not change the cell while the validator lives.
 class OmplMotionValidator : public ompl::base::MotionValidator {
 public:
     OmplMotionValidator(const ompl::base::SpaceInformationPtr &space, const Cell &cell, const Settings &settings = {})
@@ -30,7 +30,7 @@ public:
         return count(free_share(from, to) >= 1.0);
     }
 
-    // The last valid state is the last one before which the edge is certainly free.
+    // The last valid state is the end of the certified free part of the edge.
     bool checkMotion(const ompl::base::State *from, const ompl::base::State *to,
                      std::pair<ompl::base::State *, double> &last_valid) const override {
         const double share = free_share(from, to);
@@ -54,7 +54,7 @@ private:
     mutable SolverPool pool_;
 };
 
-// Accepts a state if the robot touches nothing there.
+// Accepts a state if the robot touches nothing and the state is within the bounds of the space.
 class OmplStateValidityChecker : public ompl::base::StateValidityChecker {
 public:
     OmplStateValidityChecker(const ompl::base::SpaceInformationPtr &space, const Cell &cell, const Settings &settings = {})

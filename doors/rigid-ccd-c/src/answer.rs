@@ -1,4 +1,4 @@
-//! Answers as one struct for all questions.
+//! Answers to questions about two bodies: one struct for all questions.
 
 use crate::feature::RccdFeature;
 use crate::growing::Growing;
@@ -7,28 +7,28 @@ use rigid_ccd::answer::{ClearanceVerdict, Contact, Limit, Overlap};
 use rigid_ccd::{Answer, Outcome};
 use rigid_ccd_robot::PathOutcome;
 
-/// What a query has found.
+/// The outcome of a query.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RccdOutcome {
-    /// A limit was reached before the answer was known; until `safe_until` nothing touches. It is 0: an answer of zeros, which no
-    /// call has filled, proves nothing.
+    /// A limit was reached first. Nothing touches until `safe_until`. The value is 0, so that an answer of zeros that no
+    /// call has filled proves nothing.
     Unresolved = 0,
     /// The bodies stay apart over the whole duration.
     Free = 1,
-    /// The bodies are in contact at `time`; for a first contact nothing touches before.
+    /// The bodies are in contact at `time`. In answers about the first contact, nothing touches before.
     Contact = 2,
     /// The bodies are within margin + tolerance at the start.
     Touching = 3,
     /// The bodies overlap at the start.
     Overlapping = 4,
-    /// The bodies are in contact at `time` first, and at `last_time` last.
+    /// The first contact is at `time`, and the last one at `last_time`.
     Interval = 5,
-    /// The least distance is from `lower` to `upper`, the latter at `time`.
+    /// The least distance is between `lower` and `upper`. At `time` the distance is at most `upper`.
     LeastDistance = 6,
 }
 
-/// The limit that has ended a query.
+/// The limit that ended a query.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RccdLimit {
@@ -42,48 +42,48 @@ pub enum RccdLimit {
     Stopped = 3,
     /// No further step can be certified.
     Stalled = 4,
-    /// The distance of two pieces could not be computed.
+    /// The oracle could not compute the distance of two pieces.
     OracleGaveUp = 5,
-    /// Rounding leaves it undecided whether the bodies overlap at the start.
+    /// Because of rounding it is undecided whether the bodies overlap at the start.
     OverlapUndecided = 6,
-    /// A limit that this interface has no name for.
+    /// A limit without a name in this interface.
     Other = 255,
 }
 
-/// An answer. Numbers that the outcome does not have are NaN.
+/// An answer. Numbers that do not apply to the outcome are NaN.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RccdAnswer {
-    /// The size of this struct in the caller's header; set it before the call.
+    /// The size of this struct in the caller's header. Set it before the call.
     pub size: usize,
-    /// What the query has found.
+    /// The outcome of the query.
     pub outcome: RccdOutcome,
-    /// The limit that has ended it, also if what was found until then is enough for the outcome.
+    /// The limit that ended the query. It is also set if the outcome was already certain.
     pub limit: RccdLimit,
     /// The time of the contact, or of the least distance found.
     pub time: f64,
     /// The time of the last contact of an interval.
     pub last_time: f64,
-    /// The time until which nothing touches: the duration for free bodies, the time of a first contact, or what was proven
-    /// before a limit.
+    /// The time until which nothing touches: the duration if the bodies stay free, the time of a first contact, or the
+    /// time proven free before a limit.
     pub safe_until: f64,
-    /// A lower bound of the distance that was asked for; for contacts, of the distance at all times.
+    /// A lower bound of the requested distance; for contacts, of the distance at all times.
     pub lower: f64,
-    /// An upper bound of that distance; infinite if none is known.
+    /// An upper bound of the same distance; infinity if none is known.
     pub upper: f64,
-    /// The unit normal from the first body to the second at the contact or at the least distance, in the world.
+    /// The unit normal from the first body to the second, in world coordinates, at the contact or at the least distance.
     pub normal: [f64; 3],
     /// The point of the first body that is nearest to the second one.
     pub witness_a: [f64; 3],
     /// The point of the second body that is nearest to the first one.
     pub witness_b: [f64; 3],
-    /// What of the first body is in contact.
+    /// The feature of the first body that is in contact.
     pub feature_a: RccdFeature,
-    /// What of the second body is in contact.
+    /// The feature of the second body that is in contact.
     pub feature_b: RccdFeature,
-    /// The distance beyond the margin within which a contact is reported; for distances, their accuracy.
+    /// For contacts, the largest distance beyond the margin at which one is reported; for distances, their accuracy.
     pub tolerance: f64,
-    /// The work that the query took, in the unit of the budget.
+    /// The number of visits that the query took, in the unit of the budget.
     pub work: u64,
 }
 
@@ -99,7 +99,7 @@ impl RccdOutcome {
 }
 
 impl RccdLimit {
-    /// Returns the name of a limit by its number, as Rust displays it.
+    /// Returns the name of a limit from its value in C, as Rust displays it.
     pub(crate) fn name_of(number: i32) -> String {
         let limits = [
             Limit::Budget,
@@ -114,13 +114,13 @@ impl RccdLimit {
     }
 }
 
-// SAFETY: it is `repr(C)`, begins with its size, and is of the first version.
+// SAFETY: the struct is `repr(C)`, begins with its size, and has the fields of the first version.
 unsafe impl Growing for RccdAnswer {
     const FIRST_SIZE: usize = size_of::<RccdAnswer>();
 }
 
 impl RccdAnswer {
-    /// Converts the answer to whether bodies keep a clearance.
+    /// Converts the answer to the question whether bodies keep a clearance.
     pub(crate) fn about_clearance(answer: &Answer, duration: f64, clearance: f64) -> Self {
         let measured = RccdAnswer::new(answer, duration);
         match answer.outcome.clearance_verdict(clearance) {
@@ -145,7 +145,7 @@ impl RccdAnswer {
         }
     }
 
-    /// Converts the answer to a query over a duration.
+    /// Converts the answer to a query from time 0 to `duration`.
     pub(crate) fn new(answer: &Answer, duration: f64) -> Self {
         let outcome = &answer.outcome;
         let (kind, safe_until) = kind_and_safe_until(outcome, duration);
@@ -194,7 +194,7 @@ fn kind_and_safe_until(outcome: &Outcome, duration: f64) -> (RccdOutcome, f64) {
         Outcome::Touching { .. } => (RccdOutcome::Touching, 0.0),
         Outcome::Overlapping { .. } => (RccdOutcome::Overlapping, 0.0),
         Outcome::Interval { first, .. } => (RccdOutcome::Interval, first.time),
-        // Written so that NaN proves nothing.
+        // The comparison is written so that NaN proves nothing.
         Outcome::LeastDistance { lower, .. } if lower > 0.0 => {
             (RccdOutcome::LeastDistance, duration)
         }
@@ -203,7 +203,8 @@ fn kind_and_safe_until(outcome: &Outcome, duration: f64) -> (RccdOutcome, f64) {
     }
 }
 
-/// Returns the pieces in contact, if there are any; an error with the common point if one body is inside the other.
+/// Returns the contact of two pieces, or `None` if there is none. If one body is inside the other, returns the common
+/// point as `Err`.
 fn contact(outcome: &Outcome) -> Result<Option<Contact>, [f64; 3]> {
     match *outcome {
         Outcome::Overlapping {

@@ -1,4 +1,4 @@
-//! Follows the pointers that C passes.
+//! Dereferences the pointers that C passes.
 
 use crate::status::Failure;
 use std::ffi::{CStr, c_char};
@@ -13,7 +13,7 @@ pub(crate) unsafe fn reference<'a, T>(name: &str, pointer: *const T) -> Result<&
     unsafe { pointer.as_ref() }.ok_or_else(|| null(name))
 }
 
-/// Returns the value that a pointer points to, to change it.
+/// Returns mutable access to the value that a pointer points to.
 ///
 /// # Safety
 /// The pointer is null, or points to a value that nobody else uses during the call.
@@ -23,7 +23,7 @@ pub(crate) unsafe fn exclusive<'a, T>(name: &str, pointer: *mut T) -> Result<&'a
     unsafe { pointer.as_mut() }.ok_or_else(|| null(name))
 }
 
-/// Returns an array; an empty one may be null.
+/// Returns an array as a slice. The pointer to an empty array may be null.
 ///
 /// # Safety
 /// The pointer is null, or points to `count` values that nobody changes during the call.
@@ -50,7 +50,7 @@ pub(crate) unsafe fn array<'a, T>(
     Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
 }
 
-/// Returns a text in UTF-8.
+/// Returns a text, which must be UTF-8.
 ///
 /// # Safety
 /// The pointer is null, or points to a text that ends with a zero and that nobody changes during the call.
@@ -64,10 +64,10 @@ pub(crate) unsafe fn text<'a>(name: &str, pointer: *const c_char) -> Result<&'a 
         .map_err(|_| Failure::argument(format!("{name} is not UTF-8")))
 }
 
-/// Returns a text in UTF-8, or `None` for null.
+/// Returns a text, which must be UTF-8, or `None` for null.
 ///
 /// # Safety
-/// That of [`text`].
+/// As for [`text`].
 pub(crate) unsafe fn text_or_none<'a>(
     name: &str,
     pointer: *const c_char,
@@ -79,32 +79,32 @@ pub(crate) unsafe fn text_or_none<'a>(
     unsafe { text(name, pointer) }.map(Some)
 }
 
-/// Moves a value to the heap, and stores the handle where `out` points to.
+/// Moves a value to the heap, and stores its handle in `*out`.
 ///
 /// # Safety
-/// `out` is null, or points to a place for a handle.
+/// `out` is null, or points to memory for a handle.
 pub(crate) unsafe fn give<T>(out: *mut *mut T, value: T) -> Result<(), Failure> {
     check_place("the place for the result", out)?;
-    // SAFETY: the caller's contract; the place is neither null nor misaligned.
+    // SAFETY: the caller's contract; `out` is neither null nor misaligned.
     unsafe { out.write(Box::into_raw(Box::new(value))) };
     Ok(())
 }
 
-/// Stores a value in a place that need not hold one yet.
+/// Stores a value in memory that may be uninitialised.
 ///
 /// # Safety
-/// `out` is null, or points to a place for the value.
+/// `out` is null, or points to memory for the value.
 pub(crate) unsafe fn store<T>(name: &str, out: *mut T, value: T) -> Result<(), Failure> {
     check_place(name, out)?;
-    // SAFETY: the caller's contract; the place is neither null nor misaligned.
+    // SAFETY: the caller's contract; `out` is neither null nor misaligned.
     unsafe { out.write(value) };
     Ok(())
 }
 
-/// Frees what [`give`] has given; null is nothing.
+/// Frees a handle made by [`give`]. Does nothing for null.
 ///
 /// # Safety
-/// The handle is null, or comes from [`give`] and has not been freed.
+/// The handle is null, or was made by [`give`] and has not been freed.
 pub(crate) unsafe fn free<T>(handle: *mut T) {
     if !handle.is_null() {
         // SAFETY: the caller's contract.

@@ -1,4 +1,4 @@
-//! Bodies: shapes, triangles in arrays, and files.
+//! Bodies made from shapes, from triangles in arrays, and from files.
 
 use crate::arguments::{array, free, give, reference, store, text};
 use crate::status::{Failure, RccdStatus, status_of};
@@ -8,27 +8,28 @@ use rigid_ccd::{Body, InputError, load};
 use std::ffi::c_char;
 use std::sync::Arc;
 
-/// A body: the shape that moves. Many queries and threads may share it.
+/// A body: a rigid shape. Many queries and threads may share it.
 pub struct RccdBody(pub(crate) Arc<Body>);
 
-/// How triangles in arrays become a body.
+/// How a body is made of triangles in arrays.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RccdDetail {
-    /// The fewest exact pieces: one hull for a convex solid, else patches or triangles, whichever is faster.
+    /// The fewest pieces that represent the mesh exactly: one hull for a convex solid, else patches or triangles,
+    /// whichever are faster.
     Auto = 0,
     /// One piece for each triangle. A closed mesh is solid.
     Triangles = 1,
     /// One piece for each triangle. A closed mesh is hollow.
     Surface = 2,
-    /// One piece, the convex hull. It encloses any mesh, and queries account for what it exceeds.
+    /// One piece: the convex hull, which encloses any mesh. Bounds in answers account for its excess.
     OuterHull = 3,
 }
 
 /// Makes a ball around the origin.
 ///
 /// # Safety
-/// `out` is null, or points to a place for a handle.
+/// `out` is null, or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_sphere(radius: f64, out: *mut *mut RccdBody) -> RccdStatus {
     // SAFETY: the contract of this function.
@@ -38,7 +39,7 @@ pub unsafe extern "C" fn rccd_body_sphere(radius: f64, out: *mut *mut RccdBody) 
 /// Makes a capsule along z: the points within `radius` of the segment from `−half_length` to `half_length`.
 ///
 /// # Safety
-/// `out` is null, or points to a place for a handle.
+/// `out` is null, or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_capsule(
     radius: f64,
@@ -49,10 +50,10 @@ pub unsafe extern "C" fn rccd_body_capsule(
     unsafe { give_shape(Body::capsule(radius, half_length), out) }
 }
 
-/// Makes a box around the origin, from half of its length along x, y and z.
+/// Makes a box around the origin. The arguments are half of its lengths along x, y and z.
 ///
 /// # Safety
-/// `out` is null, or points to a place for a handle.
+/// `out` is null, or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_box(
     half_x: f64,
@@ -64,10 +65,10 @@ pub unsafe extern "C" fn rccd_body_box(
     unsafe { give_shape(Body::cuboid([half_x, half_y, half_z]), out) }
 }
 
-/// Makes a cylinder along z, as a polytope about it. Queries account for what the polytope exceeds.
+/// Makes a cylinder along z. It is represented by a polytope that encloses it; bounds in answers account for the excess.
 ///
 /// # Safety
-/// `out` is null, or points to a place for a handle.
+/// `out` is null, or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_cylinder(
     radius: f64,
@@ -78,11 +79,11 @@ pub unsafe extern "C" fn rccd_body_cylinder(
     unsafe { give_shape(Body::cylinder(radius, half_length), out) }
 }
 
-/// Makes a cone along z, as a polytope about it, with its base at `−half_length` and its apex at `half_length`. Queries
-/// account for what the polytope exceeds.
+/// Makes a cone along z, with its base at `−half_length` and its apex at `half_length`. It is represented by a polytope
+/// that encloses it; bounds in answers account for the excess.
 ///
 /// # Safety
-/// `out` is null, or points to a place for a handle.
+/// `out` is null, or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_cone(
     radius: f64,
@@ -93,12 +94,12 @@ pub unsafe extern "C" fn rccd_body_cone(
     unsafe { give_shape(Body::cone(radius, half_length), out) }
 }
 
-/// Makes a body of triangles. `vertices` has three numbers for each vertex, `triangles` three indices of vertices for each
-/// triangle; `detail` is one of `rccd_detail`. A mesh that is not closed is a surface: see `rccd_body_is_solid`.
+/// Makes a body of triangles. `vertices` has three coordinates for each vertex, and `triangles` three vertex indices for
+/// each triangle. `detail` is one of `rccd_detail`. A mesh that is not closed is a surface: see `rccd_body_is_solid`.
 ///
 /// # Safety
-/// `vertices` is null or points to `3 · vertex_count` numbers, `triangles` is null or points to `3 · triangle_count` indices,
-/// and `out` is null or points to a place for a handle.
+/// `vertices` is null or points to `3 · vertex_count` numbers, `triangles` is null or points to `3 · triangle_count`
+/// indices, and `out` is null or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_from_triangles(
     vertices: *const f64,
@@ -119,11 +120,12 @@ pub unsafe extern "C" fn rccd_body_from_triangles(
     })
 }
 
-/// Prepares a body of triangles, and stores it in a file, by convention `NAME.ccd`. `rccd_body_load` reads it without the work
-/// of the preparation, and gives the same answers. The arguments are those of `rccd_body_from_triangles`.
+/// Prepares a body of triangles, and stores it in a file, by convention `NAME.ccd`. `rccd_body_load` reads the file
+/// without repeating the preparation. The loaded body gives the same answers. The arguments are those of
+/// `rccd_body_from_triangles`.
 ///
 /// # Safety
-/// Those of `rccd_body_from_triangles`; `path` is null or a text that ends with a zero.
+/// As for `rccd_body_from_triangles`; `path` is null or a text that ends with a zero.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_prepare(
     vertices: *const f64,
@@ -144,10 +146,11 @@ pub unsafe extern "C" fn rccd_body_prepare(
     })
 }
 
-/// Loads a body from a file: OBJ, STL, PLY, OFF, glTF, GLB, DAE, or one that `rccd_body_prepare` or `ccd decompose` has stored.
+/// Loads a body from a file: OBJ, STL, PLY, OFF, glTF, GLB, DAE, or a file written by `rccd_body_prepare` or `ccd
+/// decompose`.
 ///
 /// # Safety
-/// `path` is null or a text that ends with a zero, and `out` is null or points to a place for a handle.
+/// `path` is null or a text that ends with a zero, and `out` is null or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_load(
     path: *const c_char,
@@ -162,7 +165,7 @@ pub unsafe extern "C" fn rccd_body_load(
     })
 }
 
-/// Frees a body; null is nothing.
+/// Frees a body. Does nothing for null.
 ///
 /// # Safety
 /// The handle is null, or comes from this library, is not in use, and has not been freed.
@@ -175,7 +178,7 @@ pub unsafe extern "C" fn rccd_body_free(body: *mut RccdBody) {
 /// Stores the number of convex pieces of a body.
 ///
 /// # Safety
-/// `body` is null or a handle; `out` is null or points to a place for a number.
+/// `body` is null or a handle; `out` is null or points to memory for a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_piece_count(
     body: *const RccdBody,
@@ -190,11 +193,11 @@ pub unsafe extern "C" fn rccd_body_piece_count(
     })
 }
 
-/// Stores whether a body is solid, 1, or a surface, 0. What is inside a surface does not touch it. A mesh is solid if it is closed
-/// and its triangles are turned the same way.
+/// Stores 1 if a body is solid, and 0 if it is a surface. Something inside a surface does not touch it. A mesh is solid
+/// if it is closed and its triangles are consistently oriented.
 ///
 /// # Safety
-/// `body` is null or a handle; `out` is null or points to a place for a number.
+/// `body` is null or a handle; `out` is null or points to memory for a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_is_solid(body: *const RccdBody, out: *mut i32) -> RccdStatus {
     status_of(|| {
@@ -206,10 +209,11 @@ pub unsafe extern "C" fn rccd_body_is_solid(body: *const RccdBody, out: *mut i32
     })
 }
 
-/// Stores by how much a body exceeds the shape that it was made of, at most: cylinders, cones and outer hulls do.
+/// Stores an upper bound of how far a body extends beyond the shape that it represents. Only cylinders, cones and outer
+/// hulls do.
 ///
 /// # Safety
-/// `body` is null or a handle; `out` is null or points to a place for a number.
+/// `body` is null or a handle; `out` is null or points to memory for a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_excess(body: *const RccdBody, out: *mut f64) -> RccdStatus {
     status_of(|| {
@@ -222,7 +226,7 @@ pub unsafe extern "C" fn rccd_body_excess(body: *const RccdBody, out: *mut f64) 
 }
 
 /// # Safety
-/// `out` is null, or points to a place for a handle.
+/// `out` is null, or points to memory for a handle.
 unsafe fn give_shape(body: Result<Body, InputError>, out: *mut *mut RccdBody) -> RccdStatus {
     status_of(|| {
         let body = body.map_err(Failure::input)?;
@@ -232,7 +236,8 @@ unsafe fn give_shape(body: Result<Body, InputError>, out: *mut *mut RccdBody) ->
 }
 
 /// # Safety
-/// `vertices` is null or points to three numbers for each vertex, `triangles` is null or points to three for each triangle.
+/// `vertices` is null or points to three numbers for each vertex; `triangles` is null or points to three indices for
+/// each triangle.
 unsafe fn read_mesh(
     vertices: *const f64,
     triangles: *const u32,

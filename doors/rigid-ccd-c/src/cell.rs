@@ -13,23 +13,25 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A robot among obstacles that rest in the frame of its base. Obstacles and bodies that the robot holds have names, which no
-/// link has. A change of the cell ends its solvers: their questions are errors from then on, and a new solver takes some 30 µs.
+/// A cell (planning scene): a robot among obstacles that are static in the frame of its base. Each obstacle and each
+/// held body has a name of its own, different from the names of links. Changing the cell invalidates its solvers: their
+/// questions fail from then on. Making a new solver takes about 30 µs.
 pub struct RccdCell {
     pub(crate) cell: Arc<Cell>,
-    /// The number of changes, which solvers share.
+    /// The number of changes of the cell so far. Solvers share the counter, and so detect changes.
     pub(crate) changes: Arc<AtomicU64>,
-    /// The names that callers are given. Those of `cell` live no longer than the solvers that share it, once it is changed.
+    /// The names of the joints that callers receive. Names inside `cell` do not live long enough: after a change of the
+    /// cell the old content is freed with its last solver.
     joint_names: Vec<String>,
-    /// What is checked, as it was last asked for.
+    /// The last summary that a caller received.
     check_summary: String,
 }
 
-/// A text in UTF-8 that belongs to a cell or to a solver, and that does not end with a zero.
+/// A text in UTF-8 without a terminating zero. It is owned by a cell or a solver.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct RccdText {
-    /// The first byte; null for no text.
+    /// The first byte; null if there is no text.
     pub data: *const c_char,
     /// The number of bytes.
     pub length: usize,
@@ -43,10 +45,10 @@ impl RccdText {
 }
 
 impl RccdText {
-    /// Copies a text that this library has given.
+    /// Copies a text that this library has returned.
     ///
     /// # Safety
-    /// What it belongs to lives.
+    /// The owner of the text has not been freed.
     pub(crate) unsafe fn to_owned(self) -> Result<String, Failure> {
         // SAFETY: the contract of this function.
         let bytes = unsafe { array("a name", self.data.cast::<u8>(), self.length) }?;
@@ -63,13 +65,13 @@ impl From<&str> for RccdText {
     }
 }
 
-/// Loads the robot of a URDF or MJCF file, with its meshes, as a cell without obstacles. All pairs of links are checked but
-/// neighbours, links that never move relative to each other, and those that an SRDF file disables; null stands for no such
-/// file. `package_folder` is searched first for `package://` names; null stands for none. Meshes are taken as they are; MuJoCo takes
-/// their convex hulls, so that it finds contacts in hollows that are free here.
+/// Loads the robot of a URDF or MJCF file, with its meshes, as a cell without obstacles. All pairs of links are checked
+/// except neighbours, links that never move relative to each other, and pairs that the SRDF file disables. `srdf` may be
+/// null. `package_folder` is the folder searched first for `package://` names; it may be null. Meshes are used as they
+/// are. MuJoCo uses their convex hulls instead, so it finds contacts in concavities that are free here.
 ///
 /// # Safety
-/// Each text is null or ends with a zero; `out` is null or points to a place for a handle.
+/// Each text is null or ends with a zero; `out` is null or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_load(
     robot: *const c_char,
@@ -85,11 +87,11 @@ pub unsafe extern "C" fn rccd_cell_load(
     })
 }
 
-/// Makes a cell of the text of a URDF or MJCF, such as ROS's parameter `robot_description`. `folder` is where meshes with relative
-/// names are; null stands for the working folder. The other arguments are those of `rccd_cell_load`.
+/// Makes a cell from the text of a URDF or MJCF, such as ROS's parameter `robot_description`. Relative names of meshes
+/// are resolved in `folder`, or in the working folder if it is null. The other arguments are those of `rccd_cell_load`.
 ///
 /// # Safety
-/// Each text is null or ends with a zero; `out` is null or points to a place for a handle.
+/// Each text is null or ends with a zero; `out` is null or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_from_text(
     robot: *const c_char,
@@ -107,7 +109,7 @@ pub unsafe extern "C" fn rccd_cell_from_text(
     })
 }
 
-/// Frees a cell; null is nothing. Its solvers go on to answer.
+/// Frees a cell. Its solvers stay usable. Does nothing for null.
 ///
 /// # Safety
 /// The handle is null, or comes from this library, is not in use, and has not been freed.
@@ -117,10 +119,10 @@ pub unsafe extern "C" fn rccd_cell_free(cell: *mut RccdCell) {
     unsafe { free(cell) }
 }
 
-/// Stores the number of free joints, which is the number of positions of a configuration.
+/// Stores the number of free joints. A configuration has one position for each of them.
 ///
 /// # Safety
-/// `cell` is null or a handle; `out` is null or points to a place for a number.
+/// `cell` is null or a handle; `out` is null or points to memory for a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_joint_count(
     cell: *const RccdCell,
@@ -134,11 +136,11 @@ pub unsafe extern "C" fn rccd_cell_joint_count(
     })
 }
 
-/// Stores the name and the limits of a free joint, by its number in configurations. Joints without limits have infinite ones.
-/// The name is valid until the cell is freed.
+/// Stores the name and the limits of a free joint. `number` is its index in configurations. Limits are infinite for
+/// joints without limits. The name is valid until the cell is freed.
 ///
 /// # Safety
-/// `cell` is null or a handle; `name`, `lower` and `upper` are null or point to places for their values.
+/// `cell` is null or a handle; `name`, `lower` and `upper` are null or point to memory for their values.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_joint(
     cell: *const RccdCell,
@@ -170,7 +172,8 @@ pub unsafe extern "C" fn rccd_cell_joint(
     })
 }
 
-/// Adds an obstacle at a pose in the frame of the robot's base. The cell shares the body, which may be freed.
+/// Adds an obstacle at a pose in the frame of the robot's base. The cell shares ownership of the body: the caller may
+/// free it.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero; `body` is null or a
@@ -236,8 +239,9 @@ pub unsafe extern "C" fn rccd_cell_remove_obstacle(
     })
 }
 
-/// Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. It may touch that link,
-/// links that no joint moves against it, and the links, held bodies and obstacles that are named.
+/// Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. The body may touch
+/// that link, links that are rigidly attached to it, and the items named in `may_touch`: links, held bodies and
+/// obstacles.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `name` and `link` are null or texts that end with a zero; `body` is null
@@ -273,7 +277,7 @@ pub unsafe extern "C" fn rccd_cell_attach(
     })
 }
 
-/// Removes a body that is attached to a link.
+/// Detaches a body from its link, and removes it.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero.
@@ -287,8 +291,8 @@ pub unsafe extern "C" fn rccd_cell_detach(cell: *mut RccdCell, name: *const c_ch
     })
 }
 
-/// Allows two items to touch, also if they have a clearance: two links, or a link, a held body and an obstacle. What is removed
-/// takes this away, and so do `rccd_cell_forbid_contact` and `rccd_cell_set_clearance`.
+/// Allows two items to touch, even if they have a clearance. An item is a link, a held body or an obstacle. The
+/// permission ends when one of them is removed, and by `rccd_cell_forbid_contact` and `rccd_cell_set_clearance`.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
@@ -302,10 +306,10 @@ pub unsafe extern "C" fn rccd_cell_allow_contact(
     unsafe { change_pair(cell, a, b, Cell::allow_contact) }
 }
 
-/// Compares two items again that were allowed to touch, or two links that were not checked.
+/// Checks two items again that were allowed to touch, or checks two links that were not checked before.
 ///
 /// # Safety
-/// That of `rccd_cell_allow_contact`.
+/// As for `rccd_cell_allow_contact`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_forbid_contact(
     cell: *mut RccdCell,
@@ -316,13 +320,13 @@ pub unsafe extern "C" fn rccd_cell_forbid_contact(
     unsafe { change_pair(cell, a, b, Cell::forbid_contact) }
 }
 
-/// Stores what of the cell is checked, as lines of text: counts, then all remarks on the cell. A line that begins with `warning: `
-/// says that something is probably a mistake, such as a size in another unit or an SRDF of another robot, or that most of the robot
-/// is not checked. The other lines say what is not checked and why. The text is valid until the next such call for the cell, or
-/// until the cell is freed.
+/// Stores a summary of what is checked in the cell, as lines of text: counts, then all remarks. A line that begins with
+/// `warning: ` reports a probable mistake, such as a size in another unit or the SRDF of another robot, or that most of
+/// the robot is not checked. The other lines tell what is not checked, and why. The text is valid until the next such
+/// call for the cell, or until the cell is freed.
 ///
 /// # Safety
-/// `cell` is null or a handle that no other call uses; `out` is null or points to a place for a text.
+/// `cell` is null or a handle that no other call uses; `out` is null or points to memory for a text.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_check_summary(
     cell: *mut RccdCell,
@@ -346,7 +350,8 @@ pub unsafe extern "C" fn rccd_cell_check_summary(
     })
 }
 
-/// Sets how much farther than the margin obstacles have to stay from a link; 0 takes it back.
+/// Sets the padding of a link: the distance, in addition to the margin, that obstacles have to keep from it. 0 removes
+/// it.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `link` is null or a text that ends with a zero.
@@ -364,8 +369,8 @@ pub unsafe extern "C" fn rccd_cell_set_padding(
     })
 }
 
-/// Sets the distance at which two links, held bodies or obstacles count as touching, instead of margin and paddings. Two links
-/// that were not checked are checked from now on, and so are two items that were allowed to touch.
+/// Sets the distance at which two items count as touching. It replaces margin and paddings for this pair of links, held
+/// bodies or obstacles. The pair is checked from now on, even if it was not checked or was allowed to touch.
 ///
 /// # Safety
 /// `cell` is null or a handle that no other call uses; `a` and `b` are null or texts that end with a zero.
@@ -380,10 +385,10 @@ pub unsafe extern "C" fn rccd_cell_set_clearance(
     unsafe { change_pair(cell, a, b, |cell, pair| cell.set_clearance(pair, distance)) }
 }
 
-/// Changes what holds for a pair of items.
+/// Changes the rule for a pair of items.
 ///
 /// # Safety
-/// That of [`rccd_cell_allow_contact`].
+/// As for [`rccd_cell_allow_contact`].
 unsafe fn change_pair(
     cell: *mut RccdCell,
     a: *const c_char,
@@ -406,10 +411,10 @@ pub(crate) fn joint_count(cell: &Cell) -> usize {
     cell.robot().free_joint_names().len()
 }
 
-/// Reads a robot and the pairs of its links, and gives a cell of it.
+/// Reads a robot and the pairs of links to check, and stores a cell of them.
 ///
 /// # Safety
-/// Each text is null or ends with a zero; `out` is null or points to a place for a handle.
+/// Each text is null or ends with a zero; `out` is null or points to memory for a handle.
 unsafe fn give_cell(
     mut robot: RobotFile,
     srdf: *const c_char,
@@ -439,7 +444,7 @@ unsafe fn give_cell(
     unsafe { give(out, cell) }
 }
 
-/// Changes a cell, or a copy of it if a solver has it. Nothing is changed by an error.
+/// Changes a cell. If a solver shares it, changes a copy. An error leaves the cell unchanged.
 ///
 /// # Safety
 /// The pointer is null, or a handle that no other call uses.

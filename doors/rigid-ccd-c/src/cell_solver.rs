@@ -1,4 +1,4 @@
-//! Questions about paths of a robot in a cell.
+//! Solvers for paths of a robot in a cell.
 
 use crate::arguments::{exclusive, free, give, reference};
 use crate::cell::{RccdCell, joint_count};
@@ -13,28 +13,28 @@ use rigid_ccd_robot::{Cell, CellSolver, Path};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A solver for paths in a cell, until the cell is changed: from then on its questions are errors. It keeps memory from one
-/// question to the next. Each thread needs its own.
+/// A solver for paths in a cell. After a change of the cell its questions fail. It reuses memory between questions. Each
+/// thread needs its own.
 pub struct RccdCellSolver {
-    /// It borrows `cell`, and is dropped before.
+    /// Borrows `cell`. As the first field it is dropped before `cell`.
     solver: CellSolver<'static>,
     cell: Arc<Cell>,
-    /// The number of changes of the cell, and what it was when the solver was made.
+    /// The number of changes of the cell; `made_at` is that number when the solver was made.
     changes: Arc<AtomicU64>,
     made_at: u64,
     path: PathMemory,
 }
 
-/// Makes a solver for a cell with these settings; null stands for the default ones. The margin is the distance at which bodies
-/// count as touching, and a deadline is for a whole question. A cell of which no pair is compared is an error: links that a joint
-/// connects are not, unless `rccd_cell_set_clearance` names them. Normals of contacts play no role.
+/// Makes a solver for a cell. If `settings` is null, it uses the defaults. The margin is the distance at which bodies
+/// count as touching. The deadline is for a whole question. A cell without a pair to check is an error: links that a
+/// joint connects are checked only if `rccd_cell_set_clearance` names them. `contact_normals` has no effect.
 ///
-/// With the start policy `RCCD_START_POLICY_LEAVE` pairs in contact at the start may part or slide, but not come nearer, in questions
-/// about the first or any contact; that about the closest approach is an error.
+/// With the start policy `RCCD_START_POLICY_LEAVE`, pairs in contact at the start may separate or slide, but not come
+/// nearer. This is for questions about the first or any contact. `rccd_cell_closest_approach` is an error with it.
 ///
 /// # Safety
-/// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points
-/// to a place for a handle.
+/// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `out` is null
+/// or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_solver_new(
     cell: *const RccdCell,
@@ -48,8 +48,8 @@ pub unsafe extern "C" fn rccd_cell_solver_new(
         // SAFETY: the contract of this function.
         let settings = unsafe { read_settings(settings) }?;
         cell.check_any_compared().map_err(Failure::input)?;
-        // SAFETY: the cell does not move while this struct holds it, nobody changes a shared cell, and the solver, which is the
-        // first field, is dropped before it.
+        // SAFETY: the cell does not move while this struct holds it, and a shared cell never changes. The solver is the
+        // first field, so it is dropped before the cell.
         let borrowed: &'static Cell = unsafe { &*Arc::as_ptr(&cell) };
         let mut solver = borrowed.solver().with_settings(settings);
         solver.prepare();
@@ -65,7 +65,7 @@ pub unsafe extern "C" fn rccd_cell_solver_new(
     })
 }
 
-/// Changes the settings of the questions that follow; null stands for the default ones.
+/// Changes the settings of later questions. If `settings` is null, sets the defaults.
 ///
 /// # Safety
 /// `solver` is null or a handle that no other call uses; `settings` is null or points to settings, whose flag is null or a handle.
@@ -85,7 +85,7 @@ pub unsafe extern "C" fn rccd_cell_solver_set_settings(
     })
 }
 
-/// Frees a solver; null is nothing.
+/// Frees a solver. Does nothing for null.
 ///
 /// # Safety
 /// The handle is null, or comes from this library, is not in use, and has not been freed.
@@ -95,8 +95,8 @@ pub unsafe extern "C" fn rccd_cell_solver_free(solver: *mut RccdCellSolver) {
     unsafe { free(solver) }
 }
 
-/// Finds the first contact on a path. Nothing touches before it; if a limit is reached, nothing touches before the point of the
-/// answer.
+/// Finds the first contact on a path. Nothing touches before it. If a limit is reached, nothing touches before the
+/// segment and share in the answer.
 ///
 /// # Safety
 /// `solver` is null or a handle that no other call uses; `path` is null or points to a path, whose configurations are null or
@@ -112,11 +112,11 @@ pub unsafe extern "C" fn rccd_cell_first_contact(
     unsafe { ask(Question::FirstContact, solver, path, answer) }
 }
 
-/// Finds some contact on a path, perhaps not the first one, or proves that there is none: what a planner asks about an edge. If
-/// a limit is reached, nothing is known of the path.
+/// Finds some contact on a path, not necessarily the first one, or proves that there is none. Planners ask this about
+/// edges. If a limit is reached, nothing is known about the path.
 ///
 /// # Safety
-/// That of `rccd_cell_first_contact`.
+/// As for `rccd_cell_first_contact`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_any_contact(
     solver: *mut RccdCellSolver,
@@ -127,11 +127,11 @@ pub unsafe extern "C" fn rccd_cell_any_contact(
     unsafe { ask(Question::AnyContact, solver, path, answer) }
 }
 
-/// Brackets how near any pair comes to touching on a path, to within the tolerance. Margin, paddings and clearances play no
-/// role.
+/// Computes bounds of the least distance of any pair on a path, to within the tolerance. Margin, paddings and clearances
+/// have no effect.
 ///
 /// # Safety
-/// That of `rccd_cell_first_contact`.
+/// As for `rccd_cell_first_contact`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_closest_approach(
     solver: *mut RccdCellSolver,
@@ -142,10 +142,10 @@ pub unsafe extern "C" fn rccd_cell_closest_approach(
     unsafe { ask(Question::ClosestApproach, solver, path, answer) }
 }
 
-/// Asks a question about a path, and stores the answer.
+/// Answers a question about a path, and stores the answer.
 ///
 /// # Safety
-/// That of [`rccd_cell_first_contact`].
+/// As for [`rccd_cell_first_contact`].
 unsafe fn ask(
     question: Question,
     solver: *mut RccdCellSolver,

@@ -1,4 +1,4 @@
-//! Records of answers about paths, which `ccd replay` asks again.
+//! Records of answers about paths, for `ccd replay`.
 
 use crate::arguments::{reference, text};
 use crate::cell::{RccdCell, joint_count};
@@ -10,14 +10,15 @@ use crate::status::{Failure, RccdStatus, status_of};
 use rigid_ccd_robot::evidence::Evidence;
 use std::ffi::c_char;
 
-/// Writes a record of an answer to `rccd_cell_first_contact` to a file, as JSON: the path and the settings in full, digests of
-/// all bodies of the cell, the answer. `ccd replay` asks the same again, without the deadline, and says whether the answer holds.
-/// The cell is to be as it was when the solver was made. Null stands for the default settings.
+/// Writes a JSON record of an answer to `rccd_cell_first_contact` to a file. The record has the path, the settings,
+/// digests of all bodies of the cell, and the answer. `ccd replay` repeats the question without the deadline, and
+/// reports whether the answer holds. The cell must be as it was when the solver was made. If `settings` is null, the
+/// defaults are recorded.
 ///
 /// # Safety
-/// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `path` is as in
-/// `rccd_cell_first_contact`; `answer` is null or points to an answer of it, whose solver lives; `file` is null or a text that
-/// ends with a zero.
+/// `cell` is null or a handle; `settings` is null or points to settings, whose flag is null or a handle; `path` is as
+/// for `rccd_cell_first_contact`; `answer` is null or points to an answer to it, whose solver is not freed; `file` is
+/// null or a text that ends with a zero.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_evidence_write(
     cell: *const RccdCell,

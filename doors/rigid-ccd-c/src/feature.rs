@@ -2,11 +2,11 @@
 
 use rigid_ccd::answer::Feature;
 
-/// The kind of a feature, which says what its indices mean.
+/// The kind of a feature. It determines the meaning of the indices.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RccdFeatureKind {
-    /// There is no feature: both indices are 0.
+    /// No feature. Both indices are 0.
     None = 0,
     /// The vertex `first` of the mesh.
     Vertex = 1,
@@ -14,19 +14,19 @@ pub enum RccdFeatureKind {
     Edge = 2,
     /// The face `first` of the mesh.
     Face = 3,
-    /// The piece `first`, whose facets are unknown or no faces of the mesh.
+    /// The convex piece `first`. Its facets are unknown, or are not faces of the mesh.
     Piece = 4,
 }
 
-/// A feature of a body, by the numbers of the mesh, from 0.
+/// A feature of a body. Indices are those of the mesh and start at 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RccdFeature {
-    /// What the indices mean.
+    /// The kind of the feature.
     pub kind: RccdFeatureKind,
-    /// The vertex, face or piece; the first vertex of an edge.
+    /// The index of the vertex, face or piece, or of the first vertex of an edge.
     pub first: u32,
-    /// The second vertex of an edge; 0 for others.
+    /// The index of the second vertex of an edge; 0 for other kinds.
     pub second: u32,
 }
 

@@ -1,22 +1,22 @@
-//! Structs that begin with their size, and that later versions of the library extend at their end.
+//! Structs that begin with their size, so that later versions of the library can append fields.
 
 use crate::arguments::check_place;
 use crate::status::Failure;
 
-/// A struct whose first field is its size in the caller's header. Programs that were built against an older header go on to work:
-/// what they do not know is not written, and what they do not set is the default.
+/// A struct whose first field is its size in the caller's header. Programs built against an older header keep working:
+/// fields unknown to them are not written, and are read as the defaults.
 ///
 /// # Safety
-/// It is `repr(C)`, its first field is a `usize`, and its fields up to the first size keep their places for ever.
+/// The struct is `repr(C)`, and its first field is a `usize`. The fields within `FIRST_SIZE` never change their offsets.
 pub(crate) unsafe trait Growing: Copy {
-    /// The size in the first version of the library.
+    /// The size of the struct in the first version of the library.
     const FIRST_SIZE: usize;
 }
 
-/// Reads a struct, whose fields beyond its size are those of `default`.
+/// Reads a struct. Fields beyond the caller's size are taken from `default`.
 ///
 /// # Safety
-/// `pointer` is null, or points to a struct of the size that its first field says, whose fields have values of their types.
+/// `pointer` is null, or points to a struct of the size in its first field, with valid values of all fields.
 pub(crate) unsafe fn read<T: Growing>(
     name: &str,
     pointer: *const T,
@@ -32,7 +32,7 @@ pub(crate) unsafe fn read<T: Growing>(
         )));
     }
     let mut value = default;
-    // SAFETY: the struct has `size` bytes, and the copy at least as many.
+    // SAFETY: the struct has `size` bytes, and the copy has at least as many.
     unsafe {
         let to = (&raw mut value).cast::<u8>();
         to.copy_from_nonoverlapping(pointer.cast::<u8>(), size);
@@ -40,13 +40,13 @@ pub(crate) unsafe fn read<T: Growing>(
     Ok(value)
 }
 
-/// Returns the size that the caller has set in the first field of a place, whose other fields need not hold values yet.
+/// Returns the size that the caller has set in the first field of `out`. The other fields may be uninitialised.
 ///
 /// # Safety
-/// `out` is null, or points to a place that begins with its size.
+/// `out` is null, or points to memory that begins with its size.
 pub(crate) unsafe fn size_of_place<T: Growing>(name: &str, out: *mut T) -> Result<usize, Failure> {
     check_place(name, out)?;
-    // SAFETY: the caller's contract; the place is neither null nor misaligned.
+    // SAFETY: the caller's contract; `out` is neither null nor misaligned.
     let size = unsafe { out.cast::<usize>().read() };
     if size < T::FIRST_SIZE {
         let least = T::FIRST_SIZE;
@@ -57,14 +57,14 @@ pub(crate) unsafe fn size_of_place<T: Growing>(name: &str, out: *mut T) -> Resul
     Ok(size)
 }
 
-/// Stores as much of a value as there is place for. The size in the place stays as it is.
+/// Stores the fields of a value that fit into `size` bytes. The size in `out` itself stays unchanged.
 ///
 /// # Safety
-/// `out` points to a place of `size` bytes, of which [`size_of_place`] has returned the number.
+/// `out` points to `size` bytes, where `size` comes from [`size_of_place`].
 pub(crate) unsafe fn store<T: Growing>(out: *mut T, size: usize, value: &T) {
     let begin = size_of::<usize>();
     let count = size.min(size_of::<T>()) - begin;
-    // SAFETY: both have at least that many bytes after their sizes, and the value is not in the place.
+    // SAFETY: both have at least `count` bytes after their sizes, and they do not overlap.
     unsafe {
         let from = std::ptr::from_ref(value).cast::<u8>().add(begin);
         out.cast::<u8>()
@@ -77,7 +77,7 @@ pub(crate) unsafe fn store<T: Growing>(out: *mut T, size: usize, value: &T) {
 mod tests {
     use super::{Growing, read, size_of_place, store};
 
-    /// A struct as it was first, and as it is now.
+    /// The first version of a struct. `Now` is the current one.
     #[repr(C)]
     #[derive(Clone, Copy, Debug, PartialEq)]
     struct First {
@@ -93,7 +93,7 @@ mod tests {
         work: u64,
     }
 
-    // SAFETY: both are `repr(C)`, begin with a `usize`, and have the same first fields.
+    // SAFETY: both structs are `repr(C)`, begin with a `usize`, and have the same first fields.
     unsafe impl Growing for Now {
         const FIRST_SIZE: usize = size_of::<First>();
     }
@@ -111,7 +111,7 @@ mod tests {
             time: 2.0,
         }; 2];
         let place = old.as_mut_ptr().cast::<Now>();
-        // SAFETY: a struct of the first version, with its size.
+        // SAFETY: the pointer is to a struct of the first version, with its size set.
         unsafe {
             let value = read("settings", place, DEFAULT).ok().unwrap();
             assert_eq!((value.time, value.work), (2.0, 7));
@@ -129,7 +129,7 @@ mod tests {
             size: size_of::<First>(),
             time: 3.0,
         };
-        // What follows the first struct is as it was.
+        // The memory behind the first struct is unchanged.
         assert_eq!(
             old,
             [
@@ -151,7 +151,8 @@ mod tests {
             (32, false, true),
         ] {
             let mut now = Now { size, ..DEFAULT };
-            // SAFETY: nothing beyond the struct is touched: a greater size is refused, or what is stored ends before.
+            // SAFETY: nothing beyond the struct is accessed. Reading refuses a greater size, and storing ends within
+            // the struct.
             unsafe {
                 assert_eq!(
                     read("settings", &now, DEFAULT).is_ok(),

@@ -1,18 +1,19 @@
-//! Paths whose joints follow polynomials of the time.
+//! Curves in joint space: paths whose joints follow polynomials in time.
 
 use crate::arguments::{array, free, give};
 use crate::status::{Failure, RccdStatus, status_of};
 use rigid_ccd_robot::JointCurve;
 
-/// A path of a robot whose joints follow polynomials of the time. Many questions and threads may share it.
+/// A curve in joint space: the path of a robot whose joints follow polynomials in time. Many questions and threads may
+/// share it.
 pub struct RccdJointCurve(pub(crate) JointCurve);
 
-/// Makes a curve through configurations, each at its time, in ascending order: cubic polynomials with the given velocities
-/// there, or quintic ones if accelerations are given, too. Null stands for no accelerations.
+/// Makes a curve through configurations at ascending times, with given velocities. Segments are cubic polynomials, or
+/// quintic ones if `accelerations` is not null.
 ///
 /// # Safety
 /// `times` is null or points to `count` numbers; `positions`, `velocities` and `accelerations` are null or point to
-/// `count · joint_count` numbers, those of a configuration one after the other; `out` is null or points to a place for a handle.
+/// `count · joint_count` numbers, configuration by configuration; `out` is null or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_joint_curve_through(
     times: *const f64,
@@ -46,13 +47,13 @@ pub unsafe extern "C" fn rccd_joint_curve_through(
     })
 }
 
-/// Makes a curve from polynomials of the time since each segment's start, of a degree of at most 9: for each segment, and for
-/// each joint within it, `degree + 1` coefficients, that of the lowest power first. `times` are the ends of all segments, one
-/// more than segments.
+/// Makes a curve from polynomials in the time since each segment's start. The degree is at most 9. `coefficients` has
+/// `degree + 1` numbers for each joint of each segment, lowest power first. `times` are the boundaries of the segments:
+/// one more than segments.
 ///
 /// # Safety
-/// `times` is null or points to `segment_count + 1` numbers; `coefficients` is null or points to
-/// `segment_count · joint_count · (degree + 1)` numbers; `out` is null or points to a place for a handle.
+/// `times` is null or points to `segment_count + 1` numbers; `coefficients` is null or points to `segment_count ·
+/// joint_count · (degree + 1)` numbers; `out` is null or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_joint_curve_from_polynomials(
     times: *const f64,
@@ -87,7 +88,7 @@ pub unsafe extern "C" fn rccd_joint_curve_from_polynomials(
     })
 }
 
-/// Frees a curve; null is nothing.
+/// Frees a curve. Does nothing for null.
 ///
 /// # Safety
 /// The handle is null, or comes from this library, is not in use, and has not been freed.

@@ -1,4 +1,4 @@
-//! The C interface of `rigid-ccd`. Programs include `include/rigid_ccd.h`, which is written from this crate.
+//! The C interface of `rigid-ccd`. Programs include `include/rigid_ccd.h`, which cbindgen generates from this crate.
 //!
 //! | to … | file |
 //! |---|---|
@@ -16,10 +16,10 @@
 //! | record an answer, to be asked again later | `evidence.rs` |
 //!
 //! # Contract of all functions
-//! A function never panics into C, never calls back, and keeps no pointer to its arguments, except that a query borrows
-//! bodies and trajectories while it runs. A pointer is null or points to a value of its type, which lives during the call;
-//! a handle comes from this library and has not been freed. Null where it is not allowed is an error, not undefined. Handles
-//! may be shared between threads as `const` pointers; a solver belongs to one thread at a time.
+//! A function never panics into C and never calls back. It keeps no pointer to its arguments after it returns. Each
+//! pointer argument is null or points to a value of its type that lives during the call. Each handle comes from this
+//! library and has not been freed. Null where it is not allowed is an error, not undefined behaviour. Threads may share
+//! handles as `const` pointers. A solver belongs to one thread at a time.
 
 #![allow(unsafe_code, reason = "pointers from C are followed here")]
 
@@ -57,7 +57,7 @@ pub use status::{RccdStatus, rccd_last_error, rccd_version};
 pub use stop::*;
 pub use trajectory::*;
 
-/// Handles that threads share, and solvers, which may go from one thread to another.
+/// Asserts that threads can share handles, and that solvers can move to another thread.
 const _: () = {
     const fn shared<T: Send + Sync>() {}
     const fn sent<T: Send>() {}

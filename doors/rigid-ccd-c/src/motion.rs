@@ -4,17 +4,17 @@ use crate::arguments::{reference, store};
 use crate::status::{Failure, RccdStatus, status_of};
 use rigid_ccd::{InputError, Motion, Pose};
 
-/// A position and an orientation of a body in the world.
+/// The pose of a body in the world.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RccdPose {
     /// The position of the body's origin.
     pub position: [f64; 3],
-    /// The orientation as a quaternion in the order x, y, z, w, of any length but zero.
+    /// The orientation as a quaternion in the order x, y, z, w. It need not be normalised, but must not be zero.
     pub orientation: [f64; 4],
 }
 
-/// A motion at constant velocities: the centre of rotation moves straight, and the body turns about it.
+/// A motion at constant velocities: the centre of rotation moves on a straight line, and the body rotates about it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RccdMotion {
@@ -53,18 +53,18 @@ impl RccdMotion {
     }
 }
 
-/// Returns the motion of a body that rests at the origin, to be changed before use.
+/// Returns the motion of a static body at the origin. Change its fields before use.
 #[unsafe(no_mangle)]
 pub extern "C" fn rccd_motion_at_rest() -> RccdMotion {
     RccdMotion::from_motion(&Motion::STILL)
 }
 
-/// Computes the motion from one pose at time 0 to another at time `duration`, by the shortest rotation about `centre`, a
-/// point in the body's frame that moves straight. Null stands for the body's origin.
+/// Computes the motion from one pose at time 0 to another at time `duration`, by the shortest rotation. `centre` is the
+/// point in the body's frame that moves on a straight line; null stands for the body's origin.
 ///
 /// # Safety
-/// `start` and `end` are null or point to poses, `centre` is null or points to three numbers, and `out` is null or points
-/// to a place for a motion.
+/// `start` and `end` are null or point to poses, `centre` is null or points to three numbers, and `out` is null or
+/// points to memory for a motion.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_motion_between(
     start: *const RccdPose,

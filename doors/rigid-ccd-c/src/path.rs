@@ -1,4 +1,4 @@
-//! Paths that questions are about.
+//! Paths of a robot, as arguments of questions.
 
 use crate::arguments::{array, reference};
 use crate::joint_curve::RccdJointCurve;
@@ -6,12 +6,12 @@ use crate::status::Failure;
 use rigid_ccd_robot::Path;
 use rigid_ccd_robot::evidence::RecordedPath;
 
-/// A path of a robot: either configurations one after the other, between which all joints move at constant rates, or a curve.
-/// One configuration is a robot at rest, two are an edge.
+/// A path of a robot: either a sequence of configurations or a curve. Between configurations all joints move at constant
+/// rates. One configuration is a static robot, two are an edge.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct RccdPath {
-    /// The positions of the robot's free joints, for each configuration; null for a curve.
+    /// For each configuration, the positions of the robot's free joints; null for a curve.
     pub configurations: *const f64,
     /// The number of configurations.
     pub configuration_count: usize,
@@ -19,14 +19,15 @@ pub struct RccdPath {
     pub curve: *const RccdJointCurve,
 }
 
-/// The largest number of configurations of a robot without free joints: no memory of the caller's bounds it.
+/// The largest number of configurations of a robot without free joints. Such configurations take no memory, so the
+/// caller's array does not bound their number.
 const MAX_EMPTY_CONFIGURATIONS: usize = 1 << 16;
 
-/// The memory for the configurations of a path, which a solver keeps from one call to the next.
+/// Memory for the configurations of a path. A solver reuses it between calls.
 #[derive(Default)]
 pub(crate) struct PathMemory(Vec<Configuration>);
 
-/// A configuration of the caller's, for the time of a call.
+/// A configuration in the caller's array, borrowed during one call.
 struct Configuration {
     positions: *const f64,
     count: usize,
@@ -34,24 +35,26 @@ struct Configuration {
 
 impl AsRef<[f64]> for Configuration {
     fn as_ref(&self) -> &[f64] {
-        // SAFETY: it is made from a slice, is used within the call that made it, and is removed at its end.
+        // SAFETY: the pointer and the count come from a slice. They are used only within the call that made them, and
+        // are removed at its end.
         unsafe { std::slice::from_raw_parts(self.positions, self.count) }
     }
 }
 
-/// What a path of the interface points to.
+/// The content of a path of the interface.
 enum Pointed<'a> {
     Curve(&'a RccdJointCurve),
-    /// As many as the number says; none of them has positions if the robot has no free joint.
+    /// The positions of all configurations, and the number of configurations. There are no positions if the robot has no
+    /// free joint.
     Configurations(&'a [f64], usize),
 }
 
 impl RccdPath {
-    /// Follows the pointers of a path of a robot that has `joint_count` free joints.
+    /// Dereferences the pointers of a path. The robot has `joint_count` free joints.
     ///
     /// # Safety
-    /// `path` is null or points to a path, whose pointers are null or point to values of their types and numbers, which nobody
-    /// changes during the call.
+    /// `path` is null or points to a path. Each of its pointers is null or points to as many values as the path says,
+    /// which nobody changes during the call.
     unsafe fn follow<'a>(
         path: *const RccdPath,
         joint_count: usize,
@@ -88,7 +91,7 @@ impl RccdPath {
     /// Copies a path to a record.
     ///
     /// # Safety
-    /// That of [`RccdPath::follow`].
+    /// As for [`RccdPath::follow`].
     pub(crate) unsafe fn record(
         path: *const RccdPath,
         joint_count: usize,
@@ -105,10 +108,10 @@ impl RccdPath {
 }
 
 impl PathMemory {
-    /// Calls a function with a path of a robot that has `joint_count` free joints.
+    /// Calls a function with the path. The robot has `joint_count` free joints.
     ///
     /// # Safety
-    /// That of [`RccdPath::follow`].
+    /// As for [`RccdPath::follow`].
     pub(crate) unsafe fn with_path<R>(
         &mut self,
         path: *const RccdPath,
@@ -132,7 +135,7 @@ impl PathMemory {
     }
 }
 
-/// Returns configurations that are one after the other.
+/// Splits an array of positions into configurations.
 fn rows(positions: &[f64], count: usize, length: usize) -> impl Iterator<Item = &[f64]> {
     (0..count).map(move |k| &positions[k * length..(k + 1) * length])
 }

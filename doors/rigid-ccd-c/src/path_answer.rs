@@ -1,4 +1,4 @@
-//! Answers about paths as one struct for all questions.
+//! Answers about paths: one struct for all questions.
 
 use crate::answer::{RccdLimit, RccdOutcome};
 use crate::arguments::check_place;
@@ -11,42 +11,44 @@ use rigid_ccd::glam::DVec3;
 use rigid_ccd_robot::evidence::RecordedAnswer;
 use rigid_ccd_robot::{PathAnswer, PathContact, PathOutcome, PathPoint};
 
-/// An answer about a path. Numbers that the outcome does not have are NaN, and names are null.
+/// An answer about a path. Numbers that do not apply to the outcome are NaN, and such names are null.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct RccdPathAnswer {
-    /// The size of this struct in the caller's header; set it before the call.
+    /// The size of this struct in the caller's header. Set it before the call.
     pub size: usize,
-    /// What was found: free, a contact, the least distance, or unresolved.
+    /// The outcome: free, contact, least distance, or unresolved.
     pub outcome: RccdOutcome,
-    /// The limit that has ended the search.
+    /// The limit that ended the search.
     pub limit: RccdLimit,
-    /// The number of the segment of the contact, or of the least distance found; the first segment is 0. For a free path it
-    /// is the last one, and for an unresolved one it is that until whose `share` the path is free.
+    /// The index of the segment, from 0, of the contact or of the least distance found. For a free path it is the last
+    /// segment. For an unresolved one, the path is free up to `share` of this segment.
     pub segment: usize,
-    /// The share of that segment that is passed, from 0 to 1. Nothing touches before a first contact.
+    /// The position within that segment, from 0 at its start to 1 at its end. Nothing touches before a first contact.
     pub share: f64,
-    /// A lower bound of the distance: at the contact, or on the whole path.
+    /// A lower bound of the distance at the contact, or of the least distance on the whole path.
     pub lower: f64,
-    /// An upper bound of it.
+    /// An upper bound of the same distance.
     pub upper: f64,
-    /// The link, held body or obstacle that touches or is nearest; it belongs to the solver.
+    /// The name of the first item of the pair: a link, held body or obstacle that touches or is nearest. The solver owns
+    /// the text.
     pub item_a: RccdText,
-    /// The other one.
+    /// The name of the second item of the pair.
     pub item_b: RccdText,
-    /// The point of the first one that is nearest to the other, in the frame of the robot's base.
+    /// The point of the first item that is nearest to the second, in the frame of the robot's base.
     pub witness_a: [f64; 3],
-    /// The point of the other one that is nearest to the first.
+    /// The point of the second item that is nearest to the first, in the same frame.
     pub witness_b: [f64; 3],
-    /// What of the first one's mesh is in contact.
+    /// The feature of the first item that is in contact.
     pub feature_a: RccdFeature,
-    /// What of the other one's mesh is in contact.
+    /// The feature of the second item that is in contact.
     pub feature_b: RccdFeature,
-    /// The tolerance that the answer meets: that of the settings, unless the rounding of positions allows only a larger one.
+    /// The tolerance that the answer meets: that of the settings, or a larger one if rounding of positions does not
+    /// allow less.
     pub tolerance: f64,
 }
 
-// SAFETY: it is `repr(C)`, begins with its size, and has grown by its last field.
+// SAFETY: the struct is `repr(C)` and begins with its size. Only its last field was appended after the first version.
 unsafe impl Growing for RccdPathAnswer {
     const FIRST_SIZE: usize = std::mem::offset_of!(RccdPathAnswer, tolerance);
 }
@@ -69,7 +71,7 @@ impl RccdPathAnswer {
         tolerance: f64::NAN,
     };
 
-    /// Converts the answer to a question.
+    /// Converts an answer from Rust. `question` is the question that it answers.
     pub(crate) fn new(question: Question, answer: &PathAnswer<'_>) -> Self {
         let outcome = &answer.outcome;
         let found = RccdPathAnswer {
@@ -91,7 +93,7 @@ impl RccdPathAnswer {
         let PathPoint { segment, share } = answer.free_until;
         match outcome {
             PathOutcome::Contact(_) => found,
-            // All of the last segment, also if the robot rests and passes no share of any.
+            // A free path is free to the end of its last segment, even if it has one configuration only.
             PathOutcome::Free => RccdPathAnswer {
                 segment,
                 share: 1.0,
@@ -131,7 +133,7 @@ impl RccdPathAnswer {
     /// Copies an answer to a record.
     ///
     /// # Safety
-    /// `answer` is null or points to an answer of this library, whose solver lives.
+    /// `answer` is null or points to an answer of this library whose solver has not been freed.
     pub(crate) unsafe fn record(answer: *const RccdPathAnswer) -> Result<RecordedAnswer, Failure> {
         // SAFETY: the contract of this function. Outcome and limit are read as numbers, for the caller may have set any.
         // Only an answer about a distance has bounds without a contact.

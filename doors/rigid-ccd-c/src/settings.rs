@@ -1,4 +1,4 @@
-//! Settings: tolerance, margin, and limits of the work.
+//! Settings: tolerance, margin, and limits of work and time.
 
 use crate::arguments::reference;
 use crate::growing::{self, Growing};
@@ -8,14 +8,14 @@ use rigid_ccd::{ContactNormals, Settings, StartPolicy};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// What to do about bodies that are in contact at the start.
+/// How queries treat bodies that are in contact at the start.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RccdStartPolicy {
     /// The contact is the answer.
     Report = 0,
-    /// The contact is ignored until the bodies approach: of motions at constant velocities, in questions about the first or any
-    /// contact. In others the contact is the answer.
+    /// Ignores the contact until the bodies approach. Holds for two bodies at constant velocities, and for paths in a
+    /// cell, in questions about the first or any contact. In other questions about two bodies the contact is the answer.
     Leave = 1,
 }
 
@@ -23,46 +23,47 @@ pub enum RccdStartPolicy {
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RccdContactNormals {
-    /// Where bodies touch up to rounding, the normal is that of the surfaces around them. To find it may take some hundred
-    /// microseconds beyond a deadline, and allocates.
+    /// Where bodies touch up to rounding, the normal comes from the surfaces around the contact. Computing it may exceed
+    /// the deadline by some hundred microseconds, and allocates memory.
     Refined = 0,
-    /// The normal is that of the two triangles or convex pieces, which is mostly rounding where they touch. For queries that keep
-    /// a deadline or must not allocate. Questions about paths in a cell always use these.
+    /// The normal is that of the two triangles or convex pieces. Where they touch, it is mostly rounding error. Use it
+    /// for queries that must keep a deadline or must not allocate. Questions about paths in a cell always use it.
     OfPieces = 1,
 }
 
-/// The settings of queries. Set `size`, call `rccd_settings_default`, then change what differs.
+/// The settings of queries. Set `size`, call `rccd_settings_default`, then change fields.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RccdSettings {
-    /// The size of this struct in the caller's header; set it first.
+    /// The size of this struct in the caller's header. Set it first.
     pub size: usize,
-    /// A contact is reported at a distance of at most margin + tolerance. In the unit of length of the bodies.
+    /// The accuracy of contacts: a contact is reported at a distance of at most margin + tolerance. In the unit of
+    /// length of the bodies.
     pub tolerance: f64,
     /// The distance at which bodies count as touching; 0 reports actual contact.
     pub margin: f64,
-    /// The largest amount of work, in visits of about a microsecond or less. Along a trajectory it is for each part between two
-    /// poses or pieces of a curve. A visit of a curve of a high degree takes longer. In a cell it is for each query of two bodies;
-    /// a question about a path takes at most 8 budgets for each segment, all pairs together, and the closest approach up to half
-    /// as much again.
+    /// The largest number of visits of a query. A visit takes about a microsecond or less, and longer for curves of a
+    /// high degree. Along a trajectory the budget is for each segment between two poses, or for each polynomial of a
+    /// curve. In a cell it is for each query of two bodies: a question about a path takes at most 8 budgets for each
+    /// segment, all pairs together, and the closest approach at most 12.
     pub budget: u64,
-    /// The time in seconds after which a query ends as unresolved, from 0 to 1e19; infinity for none.
+    /// The time in seconds after which a query ends as unresolved, from 0 to 1e19; infinity for no deadline.
     pub deadline: f64,
     /// One of `rccd_start_policy`.
     pub start_policy: u32,
     /// One of `rccd_contact_normals`.
     pub contact_normals: u32,
-    /// A flag that stops queries, or null. Solvers share it: it may be freed.
+    /// A flag that stops queries, or null. Solvers share its ownership: the caller may free it at any time.
     pub stop: *const RccdStop,
 }
 
-// SAFETY: it is `repr(C)`, begins with its size, and is of the first version.
+// SAFETY: the struct is `repr(C)`, begins with its size, and has the fields of the first version.
 unsafe impl Growing for RccdSettings {
     const FIRST_SIZE: usize = size_of::<RccdSettings>();
 }
 
 impl RccdSettings {
-    /// Converts the settings, and shares their flag.
+    /// Converts the settings. The result shares ownership of the flag.
     ///
     /// # Safety
     /// `stop` is null or a handle.
@@ -133,11 +134,11 @@ impl RccdSettings {
     }
 }
 
-/// Fills settings, whose `size` is set, with the default ones: tolerance 0.001, margin 0, contacts at the start reported, a
-/// budget of 4,194,304, no deadline.
+/// Fills settings with the defaults: tolerance 0.001, margin 0, contacts at the start reported, budget 4,194,304, no
+/// deadline. Set `size` before.
 ///
 /// # Safety
-/// `settings` is null or points to a place of the size that its first field says.
+/// `settings` is null or points to memory of the size in its first field.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_settings_default(settings: *mut RccdSettings) -> RccdStatus {
     status_of(|| {

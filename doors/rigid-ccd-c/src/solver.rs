@@ -1,4 +1,4 @@
-//! Solvers, and the questions about two moving bodies.
+//! Solvers for questions about two moving bodies.
 
 use crate::answer::RccdAnswer;
 use crate::arguments::{exclusive, free, give, reference};
@@ -11,13 +11,13 @@ use crate::trajectory::RccdTrajectory;
 use ccd_core::MovingBody;
 use rigid_ccd::{Answer, InputError, Motion, Question, Settings, Solver};
 
-/// A solver: settings, and memory that it reuses from query to query. Each thread needs its own.
+/// A solver: settings, and memory that is reused between queries. Each thread needs its own.
 pub struct RccdSolver {
     solver: Solver,
     settings: Settings,
 }
 
-/// A body and what moves it: a motion or a trajectory. With neither the body rests at the origin.
+/// A body with a motion or a trajectory. With neither, the body is static at the origin.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct RccdMovingBody {
@@ -29,10 +29,11 @@ pub struct RccdMovingBody {
     pub trajectory: *const RccdTrajectory,
 }
 
-/// Makes a solver with these settings; null stands for the default ones.
+/// Makes a solver. If `settings` is null, it uses the defaults.
 ///
 /// # Safety
-/// `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points to a place for a handle.
+/// `settings` is null or points to settings, whose flag is null or a handle; `out` is null or points to memory for a
+/// handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_solver_new(
     settings: *const RccdSettings,
@@ -50,7 +51,7 @@ pub unsafe extern "C" fn rccd_solver_new(
     })
 }
 
-/// Changes the settings of the queries that follow; null stands for the default ones.
+/// Changes the settings of later queries. If `settings` is null, sets the defaults.
 ///
 /// # Safety
 /// `solver` is null or a handle that no other call uses; `settings` is null or points to settings, whose flag is null or a handle.
@@ -69,7 +70,7 @@ pub unsafe extern "C" fn rccd_solver_set_settings(
     })
 }
 
-/// Frees a solver; null is nothing.
+/// Frees a solver. Does nothing for null.
 ///
 /// # Safety
 /// The handle is null, or comes from this library, is not in use, and has not been freed.
@@ -96,11 +97,11 @@ pub unsafe extern "C" fn rccd_first_contact(
     unsafe { ask(Question::FirstContact, solver, [a, b], duration, answer) }
 }
 
-/// Finds some contact of two moving bodies, perhaps not the first one, or proves that there is none. For bodies that touch
-/// it costs less than the first contact.
+/// Finds some contact of two moving bodies, not necessarily the first one, or proves that there is none. If the bodies
+/// touch, this takes less work than the first contact.
 ///
 /// # Safety
-/// That of `rccd_first_contact`.
+/// As for `rccd_first_contact`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_any_contact(
     solver: *mut RccdSolver,
@@ -113,10 +114,10 @@ pub unsafe extern "C" fn rccd_any_contact(
     unsafe { ask(Question::AnyContact, solver, [a, b], duration, answer) }
 }
 
-/// Finds when two moving bodies first and last touch. They do not touch before the first time nor after the last.
+/// Finds the first and the last contact of two moving bodies. They do not touch before the first time or after the last.
 ///
 /// # Safety
-/// That of `rccd_first_contact`.
+/// As for `rccd_first_contact`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_contact_interval(
     solver: *mut RccdSolver,
@@ -129,11 +130,11 @@ pub unsafe extern "C" fn rccd_contact_interval(
     unsafe { ask(Question::ContactInterval, solver, [a, b], duration, answer) }
 }
 
-/// Brackets the least distance of two moving bodies to within the tolerance. With a duration of 0 it is the distance at the
-/// start.
+/// Computes bounds of the least distance of two moving bodies, to within the tolerance. With a duration of 0, it is the
+/// distance at the start.
 ///
 /// # Safety
-/// That of `rccd_first_contact`.
+/// As for `rccd_first_contact`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_closest_approach(
     solver: *mut RccdSolver,
@@ -146,12 +147,12 @@ pub unsafe extern "C" fn rccd_closest_approach(
     unsafe { ask(Question::ClosestApproach, solver, [a, b], duration, answer) }
 }
 
-/// Decides whether two moving bodies keep a distance: the outcome is free if they do, and a contact, at a time at which they are
-/// nearer, if they do not. If the bounds of the distance are too far apart to decide, it is the least distance. Bodies that may
-/// touch keep no distance, not even 0.
+/// Decides whether two moving bodies always keep a distance of at least `clearance`. If they do, the outcome is free. If
+/// they do not, it is a contact, at a time at which they are nearer. If the bounds are too far apart to decide, it is
+/// the least distance. Bodies that possibly touch do not keep a clearance of 0 either.
 ///
 /// # Safety
-/// That of `rccd_first_contact`.
+/// As for `rccd_first_contact`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_keeps_clearance(
     solver: *mut RccdSolver,
@@ -175,10 +176,10 @@ pub unsafe extern "C" fn rccd_keeps_clearance(
     unsafe { ask_with(solver, [a, b], answer, to_answer, question) }
 }
 
-/// Asks a question, and stores the answer.
+/// Answers a question about two moving bodies, and stores the answer.
 ///
 /// # Safety
-/// That of [`rccd_first_contact`].
+/// As for [`rccd_first_contact`].
 unsafe fn ask(
     question: Question,
     solver: *mut RccdSolver,
@@ -195,10 +196,10 @@ unsafe fn ask(
     }
 }
 
-/// Asks a question by a function, and stores what another one makes of its answer.
+/// Answers by calling `question`, and stores the answer converted by `to_answer`.
 ///
 /// # Safety
-/// That of [`rccd_first_contact`].
+/// As for [`rccd_first_contact`].
 unsafe fn ask_with(
     solver: *mut RccdSolver,
     bodies: [*const RccdMovingBody; 2],
@@ -214,7 +215,8 @@ unsafe fn ask_with(
         // SAFETY: the contract of this function.
         let size = unsafe { growing::size_of_place("the answer", out) }?;
         let found = question(solver, a, b);
-        // By reference: an answer is large, and a short question takes little longer than a few copies of it.
+        // Passes the answer by reference: it is large, and a few copies of it would take about as long as a short
+        // query.
         let answer = to_answer(found.as_ref().map_err(Failure::input)?);
         // SAFETY: the contract of this function.
         unsafe { growing::store(out, size, &answer) };
@@ -222,7 +224,7 @@ unsafe fn ask_with(
     })
 }
 
-/// Reads a moving body; `name` is for errors.
+/// Reads a moving body. Errors name it as `name`.
 ///
 /// # Safety
 /// The pointer is null, or points to a moving body whose pointers are null or point to values of their types.
@@ -253,7 +255,7 @@ unsafe fn moving_body<'a>(
     }
 }
 
-/// Reads settings; null stands for the default ones.
+/// Reads settings. Null stands for the defaults.
 ///
 /// # Safety
 /// `settings` is null or points to settings, whose flag is null or a handle.

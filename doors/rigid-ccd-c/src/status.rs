@@ -1,27 +1,27 @@
-//! What calls return: a status, and a message that the thread can read.
+//! The status that calls return, and the message of the last failure of a thread.
 
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
 use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Whether a call has worked.
+/// The status of a call.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RccdStatus {
-    /// The call has worked. A query that reached a limit has worked too: its answer is unresolved.
+    /// Success. A query that reaches a limit also succeeds: its outcome is unresolved.
     Ok = 0,
-    /// An argument is null, or no value of its type.
+    /// An argument is null where null is not allowed, or is not a value of its type.
     InvalidArgument = 1,
     /// A number, such as a radius or a duration, is out of range.
     InvalidInput = 2,
-    /// A body cannot be made from the mesh or file.
+    /// The mesh or file does not give a body.
     InvalidBody = 3,
-    /// A defect of this library. The objects of the call may be freed, and nothing else.
+    /// A defect of this library. Only free the objects of the call; any other use of them is not allowed.
     Panic = 4,
 }
 
-/// The reason why a call has not worked.
+/// The reason why a call failed.
 #[derive(Debug)]
 pub(crate) struct Failure {
     status: RccdStatus,
@@ -52,13 +52,14 @@ impl Failure {
 }
 
 thread_local! {
-    /// The message of the last failed call of this thread.
+    /// The message of this thread's last failed call.
     static MESSAGE: RefCell<CString> = RefCell::default();
 }
 
-/// Runs the body of a function of the interface, and turns a failure or a panic into a status with a message.
+/// Runs the body of a function of the interface. Converts a failure or a panic to a status, and keeps its message.
 pub(crate) fn status_of(call: impl FnOnce() -> Result<(), Failure>) -> RccdStatus {
-    // A query that panics leaves its solver with memory of no use; the status forbids to use it again.
+    // A query that panics leaves its solver in an undefined state. `RCCD_STATUS_PANIC` forbids any use of it except
+    // freeing.
     let failure = match catch_unwind(AssertUnwindSafe(call)) {
         Ok(Ok(())) => return RccdStatus::Ok,
         Ok(Err(failure)) => failure,
@@ -68,7 +69,7 @@ pub(crate) fn status_of(call: impl FnOnce() -> Result<(), Failure>) -> RccdStatu
         },
     };
     let text = failure.message.replace('\0', " ");
-    // A thread that ends has no place for a message any more.
+    // Fails while the thread ends, when its message is already destroyed.
     let _ = MESSAGE.try_with(|message| message.replace(CString::new(text).unwrap_or_default()));
     failure.status
 }
@@ -92,8 +93,8 @@ pub extern "C" fn rccd_version() -> *const c_char {
     VERSION.as_ptr()
 }
 
-/// Returns the message of the last call of this thread that has not worked, in UTF-8; it is empty before. The text is valid
-/// until the next call of this thread that does not work: ask for it after the call, in a statement of its own.
+/// Returns the message of this thread's last failed call, in UTF-8; empty if no call has failed. The text is valid until
+/// this thread's next failed call. Call this in a statement of its own, after the failed call.
 #[unsafe(no_mangle)]
 pub extern "C" fn rccd_last_error() -> *const c_char {
     let message = MESSAGE.try_with(|message| message.borrow().as_ptr());

@@ -1,24 +1,25 @@
-//! Flags by which another thread stops a query.
+//! Flags that let another thread stop a query.
 
 use crate::arguments::{free, give, reference};
 use crate::status::{RccdStatus, status_of};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A flag that stops the queries of all solvers whose settings name it. Any thread may set and clear it at any time.
+/// A flag that stops the queries of all solvers whose settings point to it. Any thread may set or clear it at any time.
 pub struct RccdStop(pub(crate) Arc<AtomicBool>);
 
-/// Makes a flag, which is not set.
+/// Makes a flag that is not set.
 ///
 /// # Safety
-/// `out` is null, or points to a place for a handle.
+/// `out` is null, or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_stop_new(out: *mut *mut RccdStop) -> RccdStatus {
     // SAFETY: the contract of this function.
     status_of(|| unsafe { give(out, RccdStop(Arc::default())) })
 }
 
-/// Sets the flag: queries end as unresolved, and further ones do, until it is cleared. A question that takes no search is still answered.
+/// Sets the flag. Running and later queries end as unresolved until it is cleared. A question that needs no search is
+/// still answered.
 ///
 /// # Safety
 /// `stop` is null or a handle.
@@ -38,7 +39,7 @@ pub unsafe extern "C" fn rccd_stop_clear(stop: *const RccdStop) -> RccdStatus {
     unsafe { store_flag(stop, false) }
 }
 
-/// Frees a flag; null is nothing. Solvers whose settings name it keep it as it is.
+/// Frees a flag. Solvers that use it keep its last value. Does nothing for null.
 ///
 /// # Safety
 /// The handle is null, or comes from this library, is not in use, and has not been freed.

@@ -1,4 +1,4 @@
-//! Trajectories that are no motion at constant velocities.
+//! Trajectories with velocities that change: poses, throws and curves.
 
 use crate::arguments::{array, free, give, reference};
 use crate::motion::{RccdMotion, RccdPose};
@@ -6,7 +6,7 @@ use crate::status::{Failure, RccdStatus, status_of};
 use rigid_ccd::InputError;
 use rigid_ccd::trajectory::{Ballistic, Curve, OrientationCurve, Poses, Spline, Trajectory};
 
-/// A trajectory. Many queries and threads may share it.
+/// The trajectory of a body. Many queries and threads may share it.
 pub struct RccdTrajectory(Box<dyn Trajectory + Send + Sync>);
 
 impl RccdTrajectory {
@@ -15,11 +15,11 @@ impl RccdTrajectory {
     }
 }
 
-/// Makes a path through poses, each at its time, in ascending order. Between two poses the body's origin moves straight,
-/// and the body takes the shortest rotation. It rests before the first pose and after the last one.
+/// Makes a trajectory through poses at ascending times. Between two poses the body's origin moves on a straight line,
+/// and the body takes the shortest rotation. The body is at rest before the first pose and after the last one.
 ///
 /// # Safety
-/// `times` and `poses` are null or point to `count` values; `out` is null or points to a place for a handle.
+/// `times` and `poses` are null or point to `count` values; `out` is null or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_trajectory_through_poses(
     times: *const f64,
@@ -41,11 +41,11 @@ pub unsafe extern "C" fn rccd_trajectory_through_poses(
     })
 }
 
-/// Makes the trajectory of a thrown body: a motion whose centre accelerates, in free fall for instance.
+/// Makes the trajectory of a thrown body: a motion whose centre has a constant acceleration, as in free fall.
 ///
 /// # Safety
-/// `thrown` is null or points to a motion, `acceleration` is null or points to three numbers, and `out` is null or points to
-/// a place for a handle.
+/// `thrown` is null or points to a motion, `acceleration` is null or points to three numbers, and `out` is null or
+/// points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_trajectory_thrown(
     thrown: *const RccdMotion,
@@ -64,25 +64,25 @@ pub unsafe extern "C" fn rccd_trajectory_thrown(
     })
 }
 
-/// How a body turns while its origin follows a curve: orientations, each at its time, in ascending order, and between two of
-/// them the shortest rotation at a constant rate.
+/// The rotation of a body whose origin follows a curve: orientations at ascending times. Between two orientations the
+/// body takes the shortest rotation at a constant rate.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct RccdTurns {
     /// The times.
     pub times: *const f64,
-    /// For each time a quaternion in the order x, y, z, w.
+    /// A quaternion for each time, in the order x, y, z, w.
     pub orientations: *const f64,
     /// The number of times.
     pub count: usize,
 }
 
-/// Makes the trajectory of a body whose origin follows a Bézier curve of any degree from time 0 to `duration`. `points` are the
-/// control points, three numbers each. With null for `turns` the body does not turn.
+/// Makes the trajectory of a body whose origin follows a Bézier curve of any degree from time 0 to `duration`. `points`
+/// are the control points, three numbers each. If `turns` is null, the body does not rotate.
 ///
 /// # Safety
-/// `points` is null or points to `3 · count` numbers; `turns` is null or points to turns, whose times and orientations are null
-/// or point to as many numbers as their count says; `out` is null or points to a place for a handle.
+/// `points` is null or points to `3 · count` numbers; `turns` is null or points to turns, whose times and orientations
+/// are null or point to as many numbers as their count says; `out` is null or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_trajectory_bezier(
     points: *const f64,
@@ -96,12 +96,12 @@ pub unsafe extern "C" fn rccd_trajectory_bezier(
     unsafe { give_spline(points, count, curve, turns, out) }
 }
 
-/// Makes the trajectory of a body whose origin follows a uniform cubic B-spline from time 0 to `duration`. `points` are at least
-/// four control points, three numbers each: the curve begins near the second one and ends near the last but one. With null for
-/// `turns` the body does not turn.
+/// Makes the trajectory of a body whose origin follows a uniform cubic B-spline from time 0 to `duration`. `points` are
+/// at least four control points, three numbers each. The curve begins near the second one and ends near the last but
+/// one. If `turns` is null, the body does not rotate.
 ///
 /// # Safety
-/// That of `rccd_trajectory_bezier`.
+/// As for `rccd_trajectory_bezier`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_trajectory_b_spline(
     points: *const f64,
@@ -115,7 +115,7 @@ pub unsafe extern "C" fn rccd_trajectory_b_spline(
     unsafe { give_spline(points, count, curve, turns, out) }
 }
 
-/// Frees a trajectory; null is nothing.
+/// Frees a trajectory. Does nothing for null.
 ///
 /// # Safety
 /// The handle is null, or comes from this library, is not in use, and has not been freed.
@@ -126,7 +126,7 @@ pub unsafe extern "C" fn rccd_trajectory_free(trajectory: *mut RccdTrajectory) {
 }
 
 /// # Safety
-/// That of [`rccd_trajectory_bezier`].
+/// As for [`rccd_trajectory_bezier`].
 unsafe fn give_spline(
     points: *const f64,
     count: usize,

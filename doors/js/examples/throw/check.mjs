@@ -1,4 +1,4 @@
-// Throws the part of the page by pointer. `.ci/doors` adds it to a copy of the page; faults go to the console.
+// Throws the part of the page by pointer events. `.ci/doors` adds it to a copy of the page; faults go to the console.
 
 import { Vector3 } from "three";
 import { camera } from "./stage.js";
@@ -17,7 +17,7 @@ function send(type, x) {
 
 while (page.stepping !== "drawn") await pause(50);
 const [before] = texts();
-// From its contact with the sheet it is taken away, and thrown back after a while.
+// Drags the part away from its contact with the sheet, and throws it back after a while.
 send("pointerdown", 0.04);
 send("pointermove", 0.9);
 await pause(200);

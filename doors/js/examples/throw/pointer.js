@@ -3,15 +3,16 @@
 import { Plane, Raycaster, Vector2, Vector3 } from "three";
 import { camera } from "./stage.js";
 
-// A pointer that misses a part by this takes it, and a key moves it this far, in metres.
+// In metres: the largest distance by which a pointer may miss a part that it takes, and the step of an arrow key.
 const [NEAR, STEP] = [0.05, 0.02];
-// The velocity is that of the last milliseconds. It is none over a shorter time, or when it is slower, in metres per second.
+// The velocity is measured over the last `RECENT` milliseconds. There is none if the pointer was held for less than
+// `SHORTEST` milliseconds, or is slower than `SLOWEST` metres per second.
 const [RECENT, SHORTEST, SLOWEST] = [100, 8, 0.4];
 const ARROWS = { ArrowLeft: [-STEP, 0, 0], ArrowRight: [STEP, 0, 0], ArrowUp: [0, STEP, 0], ArrowDown: [0, -STEP, 0] };
 
-/** Calls `grab()`, `hold(position)` and `release(velocity)`, which has none when the part is put down; for a key `move(step)`. */
+/** Calls `grab()`, `hold(position)` and `release(velocity)` for the pointer, and `move(step)` for a key. A part that is put down has no velocity. */
 export function makeThrowable({ canvas, part, controls }, { grab, hold, release, move }) {
-  // It comes before that of the controls, which turn the view.
+  // This listener runs before that of the controls, which turn the view.
   canvas.addEventListener("pointerdown", (event) => {
     const { center, radius } = part.geometry.boundingSphere;
     const near = ray(event).distanceToPoint(part.localToWorld(center.clone())) < Math.max(radius, NEAR);
@@ -46,7 +47,7 @@ export function makeThrowable({ canvas, part, controls }, { grab, hold, release,
     move(new Vector3(...ARROWS[event.key]).applyQuaternion(camera.quaternion));
   });
 
-  // Through the part and the middle of the target, as square to the eye as that allows.
+  // Returns the plane through the part and the middle of the target that faces the camera most.
   function dragPlane() {
     const eye = camera.getWorldDirection(new Vector3());
     const across = eye.clone().projectOnPlane(part.position);

@@ -1,18 +1,18 @@
-// What is asked about a throw, and the answers in words.
+// The questions about a throw, and the answers in words.
 
 import { firstContact } from "rigid-ccd";
 
-/** Of every throw, in seconds. */
+/** The duration of every throw, in seconds. */
 export const DURATION = 1;
 // The distance, in metres, at which parts count as touching.
 const TOLERANCE = 1e-6;
 
-/** Asks once about the whole second: nothing touches before the contact that is returned. */
+/** Asks one question about the whole second. Nothing touches before the returned contact. */
 export function certify({ thrown, target }, motion) {
   return firstContact(thrown.body, target.body, { motionA: motion, duration: DURATION, tolerance: TOLERANCE });
 }
 
-/** Asks at each step about one instant. Returns the time of the first step in contact, or null. It proves nothing between steps. */
+/** Asks about one instant at each step. Returns the time of the first step in contact, or null. Proves nothing between steps. */
 export function firstStepInContact({ thrown, target }, motion, rate) {
   for (let step = 0; step <= rate * DURATION; step += 1) {
     const motionA = motion.pose(step / rate);
@@ -29,7 +29,7 @@ export function certifiedText({ kind, time, safeUntil }) {
   return `They are ${kind} at the start.`;
 }
 
-/** Says what steps make of a throw. It is wrong if a contact is missed, or seen late by more than a millisecond. */
+/** Describes the result of stepping. It is wrong if it misses a contact, or finds it late by more than a millisecond. */
 export function steppingText({ kind, time }, seen, rate, speed) {
   const late = seen - time;
   if (kind !== "contact") {
@@ -43,6 +43,6 @@ export function steppingText({ kind, time }, seen, rate, speed) {
   return { text: `Sees the contact at ${seconds(seen)}: ${(1000 * late).toPrecision(3)} ms late, ${far} farther on.`, wrong: late > 1e-3 };
 }
 
-// Rounded down, so that what is proven before a time is proven before the time that is shown.
+// Rounds down, so that a proof up to the exact time also holds up to the displayed time.
 const seconds = (time) => `${(Math.floor(1e6 * time) / 1e6).toFixed(6)} s`;
 const length = (metres) => (metres < 0.01 ? `${(1000 * metres).toPrecision(3)} mm` : `${(100 * metres).toPrecision(3)} cm`);

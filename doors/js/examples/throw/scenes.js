@@ -13,7 +13,7 @@ const ball = () => sphere(0.12);
 const post = () => capsule(0.015, 0.9);
 const sheet = () => box(0.002, 0.8, 0.8);
 
-/** The part starts at `position`, with a velocity in metres and turns per second. The target rests at the origin. */
+/** The part starts at `position`, with a velocity in metres and turns per second. The target is static at the origin. */
 export const SCENES = [
   { name: "A bullet and a sheet of 2 mm", part: bullet, target: sheet, position: [1.02, 0.05, 0.05], velocity: [-9.4, 0, 0], turns: 1 },
   { name: "A coin and a post", part: coin, target: post, position: [1.1, 0.02, 0.1], velocity: [-7, 0, 0], turns: 3 },
@@ -22,7 +22,7 @@ export const SCENES = [
   { name: "Two knots", part: knot, target: knot, position: [1.1, 0.1, 0.1], velocity: [-2.5, 0, 0], turns: 2 },
 ];
 
-/** Bodies have half extents, geometries have whole ones. */
+/** Bodies take half extents, and geometries whole ones. */
 function box(...size) {
   return part(Body.box(size.map((length) => length / 2)), new BoxGeometry(...size));
 }
@@ -31,12 +31,12 @@ function sphere(radius) {
   return part(Body.sphere(radius), new SphereGeometry(radius));
 }
 
-/** A capsule along z; those of three.js are along y. `height` is between the centres of its caps. */
+/** Makes a capsule along z. Capsules of three.js are along y. `height` is the distance between the centres of the caps. */
 function capsule(radius, height) {
   return part(Body.capsule(radius, height / 2), new CapsuleGeometry(radius, height, 12, 32).rotateX(Math.PI / 2));
 }
 
-/** The knot of three.js has seams. Normals and texture coordinates keep their vertices apart. */
+/** The knot of three.js has seams. Normals and texture coordinates keep the vertices of a seam apart. */
 function knot() {
   const geometry = new TorusKnotGeometry(0.2, 0.05, 180, 16).deleteAttribute("normal").deleteAttribute("uv");
   return mesh(mergeVertices(geometry));
@@ -54,7 +54,7 @@ function rectangle(width, height) {
   return [new Vector2(-x, -y), new Vector2(x, -y), new Vector2(x, y), new Vector2(-x, y)];
 }
 
-/** A part from a file, scaled to half a metre around its centre. */
+/** Reads a part from a file, and scales it to half a metre around its centre. */
 export function partOfFile(name, bytes) {
   const { positions, indices } = readMesh(name, bytes, { unit: "m" });
   const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3)).setIndex(new BufferAttribute(indices, 1));
@@ -64,7 +64,7 @@ export function partOfFile(name, bytes) {
   return mesh(geometry.scale(scale, scale, scale));
 }
 
-/** A body of the triangles of a geometry, which are drawn flat. Only the body needs double precision. */
+/** Makes a part of the triangles of a geometry, with flat shading. Only the body needs double precision. */
 function mesh(geometry) {
   const { position } = geometry.attributes;
   const body = Body.fromMesh(position.array, geometry.index?.array);
@@ -74,7 +74,7 @@ function mesh(geometry) {
   return part(body, flat);
 }
 
-/** `reach` is how far the part is from its origin at most. */
+/** `reach` is the largest distance of the part's points from its origin. */
 function part(body, geometry) {
   geometry.computeBoundingSphere();
   const { center, radius } = geometry.boundingSphere;

@@ -1,10 +1,10 @@
-// One side of the page: the target, the part, where it comes from, and a contact. Both sides are seen by one camera.
+// One side of the page: the target, the part, its earlier positions, and a contact. Both sides share one camera.
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 const [GREEN, RED, YELLOW] = ["#3a9d6e", "#d55e00", "#e6c229"];
-// More ghosts than this hide what they show.
+// The largest number of ghosts. More of them would hide each other.
 const GHOSTS = 20;
 
 export const camera = new THREE.PerspectiveCamera(40, 5 / 4, 0.01, 200);
@@ -13,7 +13,7 @@ camera.position.set(0.9, -1.9, 0.85);
 const middle = new THREE.Vector3(0.4, 0, 0);
 
 export class Stage {
-  /** `turned` is called when the view is turned, on either side. */
+  /** Calls `turned` when the view is turned, on either side. */
   constructor(canvas, turned) {
     this.canvas = canvas;
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -50,7 +50,7 @@ export class Stage {
     this.mark(contact ?? {});
   }
 
-  /** Marks the witness points by balls and the normal by an arrow, in front of everything. */
+  /** Draws the witness points as balls and the normal as an arrow, in front of everything. */
   mark({ witnessA, witnessB, normal }) {
     this.marks.traverse((object) => { object.geometry?.dispose(); object.material?.dispose(); });
     this.marks.clear();

@@ -1,4 +1,5 @@
-// The page: a part is thrown at a target that rests at the origin, and both sides show what they know of it.
+// The page. A part is thrown at a static target at the origin. One side shows the certified contact, and the other
+// one fixed steps.
 
 import { init, Motion } from "rigid-ccd";
 import { Vector3 } from "three";
@@ -7,9 +8,9 @@ import { makeThrowable } from "./pointer.js";
 import { partOfFile, SCENES } from "./scenes.js";
 import { Stage } from "./stage.js";
 
-// How many times slower than it is a throw is played.
+// The factor by which a throw is slowed down on the page.
 const SLOWER = 4;
-// A scene is first shown this long after its contact, in seconds.
+// The time after its contact at which a scene is first shown, in seconds.
 const SHOWN_AFTER = 0.06;
 const SPIN_AXIS = new Vector3(0.36, 0.48, 0.8);
 
@@ -21,12 +22,12 @@ const stepBefore = (time) => Math.floor(time * rate() + 1e-9);
 
 const parts = { thrown: null, target: null };
 let [certified, stepping] = [null, null];
-// The throw, and a time of it that is shown.
+// The throw, and the time of it that is shown.
 let [position, velocity, motion, now] = [null, null, null, 0];
-// When the part stops on either side, and the frame that is to be played.
+// The times at which the part stops on each side, and the next animation frame.
 let [certifiedEnd, steppingEnd, frame] = [DURATION, DURATION, null];
 
-/** Asks both sides about the throw as it stands, and shows it at a time. */
+/** Asks both sides about the present throw, and shows it at a time. */
 function ask(time) {
   const spin = SPIN_AXIS.clone().multiplyScalar(2 * Math.PI * number("spin"));
   motion?.free();
@@ -117,7 +118,7 @@ async function openFile() {
   }
 }
 
-/** Takes parts in place of those before, whose memory ends, and throws as a scene says. */
+/** Replaces the parts, frees the old ones, and throws the new part as the scene tells. */
 function begin(others, scene) {
   for (const [role, part] of Object.entries(others)) {
     parts[role]?.body.free();

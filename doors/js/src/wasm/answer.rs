@@ -18,7 +18,7 @@ pub enum AnswerKind {
     Touching,
     /// The bodies overlap at the start.
     Overlapping,
-    /// The first and the last time of contact.
+    /// The first and the last contact.
     Interval,
     /// Bounds of the least distance.
     LeastDistance,

@@ -26,17 +26,17 @@ pub struct Body {
 #[derive(Debug)]
 pub struct Mesh {
     mesh: TriangleMesh,
-    /// The unit of the coordinates, if it is asked for or the file states one.
+    /// The unit of the coordinates: the requested one, or the one that the file states.
     unit: Option<Unit>,
 }
 
 #[wasm_bindgen]
 impl Mesh {
-    /// Reads a mesh in the format of its file name, converts it to a unit if it states another one, and multiplies its coordinates
-    /// by a factor.
+    /// Reads a mesh file in the format that its name tells. Converts coordinates to `unit` if the file states another
+    /// unit, then multiplies them by `scale`.
     ///
     /// # Errors
-    /// What is wrong with the file, with its line or element.
+    /// The defect of the file, with its line or element.
     pub fn read(name: &str, bytes: &[u8], scale: f64, unit: Option<String>) -> Result<Self, Fault> {
         let in_file = |fault: MeshFault| Fault::plain(format!("{name}: {fault}"));
         let asked = unit.map(|unit| unit.parse::<Unit>()).transpose()?;
@@ -55,7 +55,7 @@ impl Mesh {
             } else {
                 mesh
             };
-            // Of other numbers the unit is the caller's.
+            // After scaling, the unit of the coordinates is known to the caller only.
             Ok(Mesh {
                 mesh,
                 unit: unit.filter(|_| !is_scaled),
@@ -68,18 +68,18 @@ impl Mesh {
         Ok(made)
     }
 
-    /// Returns the unit of the coordinates; `None` if the file states none.
+    /// Returns the unit of the coordinates, or `None` if it is unknown.
     pub fn unit(&self) -> Option<String> {
         self.unit.map(|unit| unit.to_string())
     }
 
-    /// Returns the vertices, three numbers each.
+    /// Returns the vertices, three coordinates each.
     pub fn positions(&self) -> Vec<f64> {
         let vertices = self.mesh.vertices().iter();
         vertices.flat_map(|vertex| vertex.to_array()).collect()
     }
 
-    /// Returns the triangles, three vertex numbers each.
+    /// Returns the triangles, three vertex indices each.
     pub fn indices(&self) -> Vec<u32> {
         self.mesh.faces().concat()
     }
@@ -87,7 +87,7 @@ impl Mesh {
 
 #[wasm_bindgen]
 impl Body {
-    /// Makes a body of vertices, three numbers each, and of triangles, three vertex numbers each.
+    /// Makes a body from vertices, three coordinates each, and triangles, three vertex indices each.
     ///
     /// # Errors
     /// The first vertex or triangle that is not valid.
@@ -102,15 +102,15 @@ impl Body {
         Body::from_triangles(&mesh, detail(pieces, is_surface)?)
     }
 
-    /// Makes a body of a mesh that was read.
+    /// Makes a body from a mesh that was read from a file.
     ///
     /// # Errors
-    /// A mesh that has no pieces of the kind.
+    /// A mesh that cannot be represented by pieces of this kind.
     pub fn from_read_mesh(mesh: &Mesh, pieces: &str, is_surface: bool) -> Result<Self, Fault> {
         Body::from_triangles(&mesh.mesh, detail(pieces, is_surface)?)
     }
 
-    /// Makes a box about its origin, of half extents.
+    /// Makes a box about its origin. The arguments are half extents.
     ///
     /// # Errors
     /// An extent that is not positive and finite.
@@ -140,7 +140,7 @@ impl Body {
         Body::from_shape(rigid_ccd::Body::capsule(radius, half_height), report)
     }
 
-    /// Makes a polytope around a cylinder along z.
+    /// Makes a cylinder along z. The body is a polytope that encloses it.
     ///
     /// # Errors
     /// A length that is not positive and finite, or an excess out of range.
@@ -149,7 +149,7 @@ impl Body {
         Body::solid_of_revolution("cylinder", &shape, [radius, half_height], excess)
     }
 
-    /// Makes a polytope around a cone along z with its apex up.
+    /// Makes a cone along z with its apex up. The body is a polytope that encloses it.
     ///
     /// # Errors
     /// A length that is not positive and finite, or an excess out of range.
@@ -158,12 +158,12 @@ impl Body {
         Body::solid_of_revolution("cone", &shape, [radius, half_height], excess)
     }
 
-    /// Returns whether the body fills its inside.
+    /// Returns whether the body is solid.
     pub fn is_solid(&self) -> bool {
         self.body.solidity() == Solidity::Solid
     }
 
-    /// Returns how far the body may exceed its shape.
+    /// Returns an upper bound of how far the body extends beyond its shape.
     pub fn excess(&self) -> f64 {
         self.body.excess()
     }
@@ -232,7 +232,7 @@ fn detail(pieces: &str, is_surface: bool) -> Result<Detail, Fault> {
         "patches" => Ok(Detail::Patches(Default::default())),
         "hull" => Ok(Detail::Hull),
         "outer-hull" => Ok(Detail::OuterHull),
-        // `doors/js/module/body.js` refuses it by its name.
+        // `doors/js/module/body.js` has refused unknown names before.
         _ => Err(Fault::plain(format!("pieces: {pieces:?}"))),
     }
 }

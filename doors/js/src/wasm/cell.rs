@@ -14,7 +14,7 @@ use self_cell::self_cell;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 self_cell!(
-    /// A cell with a solver that keeps its memory from one question to the next.
+    /// A cell with its solver, which reuses memory between questions.
     struct CellWithSolver {
         owner: rigid_ccd_robot::Cell,
         #[not_covariant]
@@ -22,10 +22,10 @@ self_cell!(
     }
 );
 
-/// A robot among obstacles that rest in the frame of its base.
+/// A robot among obstacles that are static in the frame of its base.
 #[wasm_bindgen]
 pub struct Cell {
-    /// `None` only while the cell is changed.
+    /// `None` only during a change of the cell.
     cell: Option<CellWithSolver>,
 }
 
@@ -85,7 +85,7 @@ impl Cell {
     /// Adds an obstacle.
     ///
     /// # Errors
-    /// A name that is taken, or a pose that is not valid.
+    /// A name that is taken, or an invalid pose.
     pub fn add(&mut self, name: &str, body: &Body, pose: &[f64]) -> Result<(), Fault> {
         let pose = pose_from_numbers(pose)?;
         self.change(|cell| {
@@ -97,7 +97,7 @@ impl Cell {
     /// Moves an obstacle.
     ///
     /// # Errors
-    /// No such obstacle, or a pose that is not valid.
+    /// An unknown obstacle, or an invalid pose.
     pub fn move_to(&mut self, name: &str, pose: &[f64]) -> Result<(), Fault> {
         let pose = pose_from_numbers(pose)?;
         self.change(|cell| cell.move_obstacle(name, pose))
@@ -106,7 +106,7 @@ impl Cell {
     /// Removes an obstacle.
     ///
     /// # Errors
-    /// No such obstacle.
+    /// An unknown obstacle.
     pub fn remove(&mut self, name: &str) -> Result<(), Fault> {
         self.change(|cell| cell.remove_obstacle(name))
     }
@@ -114,7 +114,7 @@ impl Cell {
     /// Attaches a body to a link.
     ///
     /// # Errors
-    /// A name that is taken, an unknown link, or a pose that is not valid.
+    /// A name that is taken, an unknown link, or an invalid pose.
     pub fn attach(
         &mut self,
         name: &str,
@@ -131,10 +131,10 @@ impl Cell {
         })
     }
 
-    /// Removes a body that is attached to a link.
+    /// Detaches a body from its link, and removes it.
     ///
     /// # Errors
-    /// No such body.
+    /// An unknown attached body.
     pub fn detach(&mut self, name: &str) -> Result<(), Fault> {
         self.change(|cell| cell.detach(name))
     }
@@ -142,23 +142,23 @@ impl Cell {
     /// Allows two items to touch.
     ///
     /// # Errors
-    /// An unknown name, or a pair that is never compared.
+    /// An unknown name, or a pair that is never checked.
     pub fn allow_contact(&mut self, a: &str, b: &str) -> Result<(), Fault> {
         self.change(|cell| cell.allow_contact([cell.item_named(a)?, cell.item_named(b)?]))
     }
 
-    /// Compares two items again.
+    /// Checks two items again.
     ///
     /// # Errors
-    /// An unknown name, or a pair that is never compared.
+    /// An unknown name, or a pair that is never checked.
     pub fn forbid_contact(&mut self, a: &str, b: &str) -> Result<(), Fault> {
         self.change(|cell| cell.forbid_contact([cell.item_named(a)?, cell.item_named(b)?]))
     }
 
-    /// Returns two texts for each remark, of which the first is "warning" or "remark".
+    /// Returns two texts for each remark: "warning" or "remark", then the remark itself.
     ///
     /// # Errors
-    /// A cell that was lost.
+    /// A cell that was lost by a fault during a change.
     pub fn remarks(&self) -> Result<Vec<String>, Fault> {
         let cell = self.cell.as_ref().ok_or_else(lost)?.borrow_owner();
         Ok(remark_texts(cell.remarks()))
@@ -183,10 +183,10 @@ impl Cell {
         })
     }
 
-    /// Returns the names of the links that are checked, two for each pair.
+    /// Returns the checked pairs of links, two names for each pair.
     ///
     /// # Errors
-    /// A cell that was lost.
+    /// A cell that was lost by a fault during a change.
     pub fn checked_pairs(&self) -> Result<Vec<String>, Fault> {
         let cell = self.cell.as_ref().ok_or_else(lost)?.borrow_owner();
         Ok(names_of_pairs(cell.robot(), cell.link_pairs()))
@@ -195,7 +195,7 @@ impl Cell {
     /// Answers a question about a path of so many configurations, one after another in `path`.
     ///
     /// # Errors
-    /// A configuration or a setting that is not valid.
+    /// An invalid configuration or setting.
     pub fn ask(
         &mut self,
         question: Question,
@@ -208,11 +208,11 @@ impl Cell {
         })
     }
 
-    /// Divides a path into ranges that keep the margin, violate it, or are not verified. Each has three numbers: its start and its
-    /// end in segments, and 0, 1 or 2.
+    /// Divides a path into ranges that keep the margin, violate it, or are unverified. Each range has three numbers:
+    /// its start and its end in segments, and 0, 1 or 2 for these three cases.
     ///
     /// # Errors
-    /// Those of [`Cell::ask`].
+    /// As for [`Cell::ask`].
     pub fn clearance_ranges(
         &mut self,
         path: &[f64],
@@ -255,7 +255,7 @@ impl Cell {
         self.cell.take().ok_or_else(lost)
     }
 
-    /// Calls a function with the solver, and with the configurations of a path.
+    /// Calls a function with the solver and the configurations of a path.
     fn with_solver_for<T>(
         &mut self,
         (path, count): (&[f64], usize),

@@ -1,6 +1,7 @@
-//! Errors as JavaScript has them: a `RangeError` for a number that is out of range, else an `Error`.
+//! Errors of JavaScript: a `RangeError` for a number that is out of range, and an `Error` for anything else.
 //!
-//! A `TypeError`, for a value of another type or an option that there is not, is thrown by the modules in `doors/js/module` before they call.
+//! The modules in `doors/js/module` throw a `TypeError` before they call, for a value of a wrong type or an unknown
+//! option.
 
 use rigid_ccd::mesh::{MeshError, MeshFault};
 use rigid_ccd::{Error, InputError};
@@ -21,7 +22,7 @@ extern "C" {
     fn new(text: &str) -> PlainError;
 }
 
-/// What a call throws.
+/// The error that a call throws.
 #[derive(Debug)]
 pub struct Fault {
     text: String,
@@ -29,7 +30,7 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// Makes an `Error` with a text.
+    /// Makes an `Error` with a message.
     #[expect(clippy::needless_pass_by_value, reason = "errors are mapped by it")]
     pub(crate) fn plain(text: impl ToString) -> Self {
         Fault {
@@ -38,7 +39,7 @@ impl Fault {
         }
     }
 
-    /// Makes a `RangeError` with a text.
+    /// Makes a `RangeError` with a message.
     pub(crate) fn of_range(text: impl ToString) -> Self {
         Fault {
             is_about_range: true,
@@ -46,7 +47,7 @@ impl Fault {
         }
     }
 
-    /// Writes the element in front of the text.
+    /// Returns a function that puts the name of the element in front of a message.
     pub(crate) fn of_element<E: AnyError + 'static>(element: impl ToString) -> impl Fn(E) -> Self {
         move |error| {
             let Fault {

@@ -1,29 +1,29 @@
-//! What JavaScript is told beside answers: remarks on what is probably a mistake, and the text of a fault that ends the engine.
+//! Messages to JavaScript besides answers: remarks on probable mistakes, and the text of a fault that ends the engine.
 
 use rigid_ccd::Remark;
 use rigid_ccd::text::Number;
 use rigid_ccd_robot::CellRemark;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-// `doors/js/module/wasm.js` has this object.
+// `doors/js/module/wasm.js` implements these functions.
 #[wasm_bindgen(js_namespace = host)]
 extern "C" {
     fn remark(kind: &str, text: &str);
     fn fault(text: &str);
 }
 
-/// Tells JavaScript the text of a fault, after which nothing in the memory can be relied on.
+/// Installs a panic hook, which passes the text of a fault to JavaScript. After a fault the memory is not reliable.
 #[wasm_bindgen(start)]
 pub fn start() {
     std::panic::set_hook(Box::new(|info| fault(&info.to_string())));
 }
 
-/// Tells JavaScript remarks, each with its text without numbers, which names its kind.
+/// Passes remarks to JavaScript. The kind of a remark is its text without numbers.
 pub(crate) fn tell(remarks: impl IntoIterator<Item = Remark>) {
     for told in remarks {
         let kind = told.general_text();
         match told {
-            // A quaternion has w last here.
+            // Quaternions have w last here.
             Remark::NonUnitQuaternion {
                 quaternion_components: [w, x, y, z],
                 ..
@@ -45,7 +45,8 @@ pub(crate) fn tell(remarks: impl IntoIterator<Item = Remark>) {
     }
 }
 
-/// Tells JavaScript the warnings among the remarks on a robot or a cell. Those on input are one of each kind.
+/// Passes the warnings among the remarks on a robot or a cell to JavaScript. Of remarks on input, passes one of each
+/// kind.
 pub(crate) fn tell_warnings(remarks: impl IntoIterator<Item = CellRemark>) {
     for told in remarks.into_iter().filter(CellRemark::is_warning) {
         let text = told.to_string();

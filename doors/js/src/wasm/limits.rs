@@ -1,4 +1,4 @@
-//! Reasons why a question is not answered.
+//! The limits that leave a question unresolved.
 
 use rigid_ccd::answer::Limit;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -12,7 +12,7 @@ const LIMITS: [Limit; 6] = [
     Limit::OverlapUndecided,
 ];
 
-/// Returns the number by which JavaScript asks for a limit.
+/// Returns the number of a limit. JavaScript passes it to [`limit_name`] and [`limit_advice`].
 pub(crate) fn limit_number(limit: Limit) -> usize {
     let number = LIMITS.iter().position(|other| *other == limit);
     number.unwrap_or(LIMITS.len())
@@ -24,7 +24,7 @@ pub fn limit_name(number: usize) -> String {
     LIMITS.get(number).copied().map_or("other".into(), name)
 }
 
-/// Returns what can be done about the limit with a number, by the names of JavaScript.
+/// Returns advice about the limit with a number, in the names of JavaScript.
 #[wasm_bindgen]
 pub fn limit_advice(number: usize) -> String {
     LIMITS.get(number).copied().map_or(String::new(), advice)
@@ -34,7 +34,7 @@ pub(crate) fn name(limit: Limit) -> String {
     limit.to_string()
 }
 
-/// Returns what can be done about a limit, by the names of JavaScript.
+/// Returns advice about a limit, in the names of JavaScript.
 pub(crate) fn advice(limit: Limit) -> String {
     let advice = match limit {
         Limit::Budget => {

@@ -1,4 +1,4 @@
-//! What moves a body: constant velocities, poses at times, a throw, the link of a robot.
+//! Movements of bodies: constant velocities, poses at times, a throw, the link of a robot.
 
 use super::fault::Fault;
 use super::poses::{POSE_LENGTH, pose_from_numbers, pose_to_numbers};
@@ -9,10 +9,10 @@ use rigid_ccd_robot::ChainBetween;
 use std::rc::Rc;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// The number of numbers of a motion: pose, velocity, angular velocity, centre.
+/// The number of values of a motion: pose, velocity, angular velocity, centre.
 pub(crate) const MOTION_LENGTH: usize = POSE_LENGTH + 9;
 
-/// What moves a body. Clones share it.
+/// The movement of a body. Clones share it.
 #[wasm_bindgen]
 #[derive(Clone, Debug)]
 pub struct Movement(Rc<MovementKind>);
@@ -20,7 +20,7 @@ pub struct Movement(Rc<MovementKind>);
 #[derive(Debug)]
 enum MovementKind {
     Motion(Motion),
-    /// A motion between two poses, and the time of the second.
+    /// A motion between two poses, and the time of the second pose.
     Between(Motion, f64),
     Throw(Ballistic),
     Poses(Poses),
@@ -31,17 +31,17 @@ enum MovementKind {
 #[derive(Debug)]
 pub(crate) struct LinkMotion {
     pub(crate) chain: ChainBetween,
-    /// The positions of the chain's joints at both ends.
+    /// The positions of the chain's joints at the start and at the end.
     pub(crate) ends: [Vec<f64>; 2],
     pub(crate) duration: f64,
 }
 
 #[wasm_bindgen]
 impl Movement {
-    /// Makes a motion at constant velocities of its numbers.
+    /// Makes a motion at constant velocities from its numbers.
     ///
     /// # Errors
-    /// A number that is not finite, or a quaternion of length 0.
+    /// A number that is not finite, or a zero quaternion.
     pub fn from_velocities(numbers: &[f64]) -> Result<Self, Fault> {
         Ok(Movement::new(MovementKind::Motion(motion_from_numbers(
             numbers,
@@ -51,7 +51,7 @@ impl Movement {
     /// Makes a motion from one pose to another.
     ///
     /// # Errors
-    /// A number that is not finite, a quaternion of length 0, or a duration that is not positive.
+    /// A number that is not finite, a zero quaternion, or a duration that is not positive.
     pub fn between(
         start: &[f64],
         end: &[f64],
@@ -64,19 +64,20 @@ impl Movement {
         Ok(Movement::new(MovementKind::Between(motion, duration)))
     }
 
-    /// Makes a throw of the numbers of a motion, and of an acceleration.
+    /// Makes a throw from the numbers of a motion and an acceleration.
     ///
     /// # Errors
-    /// Those of [`Movement::from_velocities`].
+    /// As for [`Movement::from_velocities`].
     pub fn thrown(numbers: &[f64], acceleration: &[f64]) -> Result<Self, Fault> {
         let thrown = Ballistic::new(motion_from_numbers(numbers)?, vector(acceleration))?;
         Ok(Movement::new(MovementKind::Throw(thrown)))
     }
 
-    /// Makes a path through poses at times, with an angular velocity from each to the next or none at all.
+    /// Makes a path through poses at times. `spins` has an angular velocity for each pair of consecutive poses, or is
+    /// `None`.
     ///
     /// # Errors
-    /// The number of a pose that is not valid; times that do not increase; wrong angular velocities.
+    /// An invalid pose, by its index; times that do not increase; wrong angular velocities.
     pub fn through_poses(
         times: &[f64],
         poses: &[f64],
@@ -97,7 +98,7 @@ impl Movement {
         Ok(Movement::new(MovementKind::Poses(poses)))
     }
 
-    /// Returns the time at which the movement ends; `None` if it goes on.
+    /// Returns the time at which the movement ends, or `None` if it has no end.
     pub fn end(&self) -> Option<f64> {
         match &*self.0 {
             MovementKind::Motion(_) | MovementKind::Throw(_) => None,
@@ -107,7 +108,7 @@ impl Movement {
         }
     }
 
-    /// Returns the numbers of the pose at a time.
+    /// Returns the pose at a time as numbers.
     ///
     /// # Errors
     /// A time that is not finite.
@@ -130,13 +131,13 @@ impl Movement {
         Movement(Rc::new(kind))
     }
 
-    /// Makes the movement of a link, if its positions are within the limits.
+    /// Makes the movement of a link. Fails if positions exceed the limits of joints.
     pub(crate) fn from_link(link: LinkMotion) -> Result<Self, InputError> {
         link.trajectory()?;
         Ok(Movement::new(MovementKind::Link(link)))
     }
 
-    /// Returns the latest duration of a query: joints would go on beyond their limits.
+    /// Returns the largest duration of a query. After it, joints could exceed their limits.
     pub(crate) fn latest_duration(&self) -> f64 {
         match &*self.0 {
             MovementKind::Link(link) => link.duration,
@@ -144,7 +145,7 @@ impl Movement {
         }
     }
 
-    /// Returns the angular velocity of a motion at constant velocities.
+    /// Returns the angular velocity if this is a motion at constant velocities.
     pub(crate) fn constant_spin(&self) -> Option<DVec3> {
         match &*self.0 {
             MovementKind::Motion(motion) | MovementKind::Between(motion, _) => Some(motion.spin()),
@@ -152,7 +153,7 @@ impl Movement {
         }
     }
 
-    /// Calls a function with the moving body.
+    /// Calls a function with the body that moves by this movement.
     pub(crate) fn with_body<T>(
         &self,
         body: &Body,
@@ -177,7 +178,7 @@ impl LinkMotion {
     }
 }
 
-/// Makes a motion of its numbers.
+/// Makes a motion from its numbers.
 pub(crate) fn motion_from_numbers(numbers: &[f64]) -> Result<Motion, InputError> {
     let at = |from: usize| vector(numbers.get(from..).unwrap_or_default());
     Motion::about(

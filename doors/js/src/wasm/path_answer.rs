@@ -8,7 +8,7 @@ use rigid_ccd_robot as robot;
 use robot::PathOutcome;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// An answer about a path. Times count the segments of the path.
+/// An answer about a path. Time is counted in segments: segment k is from k to k + 1.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct PathAnswer {
@@ -20,25 +20,25 @@ pub struct PathAnswer {
     pub lower: f64,
     /// An upper bound of the distance.
     pub upper: f64,
-    /// The tolerance that is met.
+    /// The tolerance that the answer meets.
     pub tolerance: f64,
     limit: Option<Limit>,
     nearest: Option<PathContact>,
 }
 
-/// The pair of an answer that touches or is nearest.
+/// The pair that touches or is nearest.
 #[wasm_bindgen]
 #[derive(Clone, Debug)]
 pub struct PathContact {
-    /// The number of the segment.
+    /// The index of the segment.
     pub segment: usize,
-    /// The share of the segment that is passed.
+    /// The position within the segment, from 0 to 1.
     pub share: f64,
-    /// The segment and the share together.
+    /// The sum of segment and share.
     pub time: f64,
-    /// A lower bound of the distance of the pair there.
+    /// A lower bound of the distance of the pair at that time.
     pub lower: f64,
-    /// An upper bound of it.
+    /// An upper bound of the same distance.
     pub upper: f64,
     names: [String; 2],
     witnesses: [DVec3; 2],
@@ -47,17 +47,17 @@ pub struct PathContact {
 
 #[wasm_bindgen]
 impl PathAnswer {
-    /// Returns the name of the limit that was reached, if one was.
+    /// Returns the name of the limit that was reached, or `None`.
     pub fn limit(&self) -> Option<String> {
         self.limit.map(name)
     }
 
-    /// Returns what can be done about the limit.
+    /// Returns advice about the limit.
     pub fn advice(&self) -> Option<String> {
         self.limit.map(advice)
     }
 
-    /// Returns the pair that touches or is nearest, if there is one.
+    /// Returns the pair that touches or is nearest, or `None`.
     pub fn nearest(&self) -> Option<PathContact> {
         self.nearest.clone()
     }
@@ -65,32 +65,32 @@ impl PathAnswer {
 
 #[wasm_bindgen]
 impl PathContact {
-    /// Returns the name of the first one of the pair.
+    /// Returns the name of the first item of the pair.
     pub fn a(&self) -> String {
         self.names[0].clone()
     }
 
-    /// Returns the name of the second one.
+    /// Returns the name of the second item of the pair.
     pub fn b(&self) -> String {
         self.names[1].clone()
     }
 
-    /// Returns the point of the first one that is nearest to the second.
+    /// Returns the point of the first item that is nearest to the second.
     pub fn witness_a(&self) -> Vec<f64> {
         self.witnesses[0].to_array().to_vec()
     }
 
-    /// Returns the point of the second one that is nearest to the first.
+    /// Returns the point of the second item that is nearest to the first.
     pub fn witness_b(&self) -> Vec<f64> {
         self.witnesses[1].to_array().to_vec()
     }
 
-    /// Returns the feature of the first one's mesh at its point, if it has one.
+    /// Returns the feature of the first item's mesh at its witness point, or `None`.
     pub fn feature_a(&self) -> Option<String> {
         self.features[0].clone()
     }
 
-    /// Returns the feature of the second one's mesh at its point, if it has one.
+    /// Returns the feature of the second item's mesh at its witness point, or `None`.
     pub fn feature_b(&self) -> Option<String> {
         self.features[1].clone()
     }

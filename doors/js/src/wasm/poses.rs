@@ -4,10 +4,10 @@ use super::host::tell;
 use rigid_ccd::glam::DQuat;
 use rigid_ccd::{InputError, Pose, Remark};
 
-/// The number of numbers of a pose.
+/// The number of values of a pose.
 pub(crate) const POSE_LENGTH: usize = 7;
 
-/// Makes a pose of numbers, and normalises its quaternion.
+/// Makes a pose from numbers, and normalises its quaternion.
 pub(crate) fn pose_from_numbers(numbers: &[f64]) -> Result<Pose, InputError> {
     let number = |k: usize| numbers.get(k).copied().unwrap_or(f64::NAN);
     let [x, y, z, w] = [3, 4, 5, 6].map(number);
@@ -17,7 +17,7 @@ pub(crate) fn pose_from_numbers(numbers: &[f64]) -> Result<Pose, InputError> {
     Pose::new([number(0), number(1), number(2)], rotation)
 }
 
-/// Returns the numbers of a pose.
+/// Returns a pose as numbers.
 pub(crate) fn pose_to_numbers(pose: &Pose) -> Vec<f64> {
     let position = pose.translation().to_array();
     [&position[..], &pose.rotation().to_array()].concat()

@@ -10,7 +10,7 @@ use rigid_ccd::trajectory::{self, JointKind};
 use rigid_ccd_robot::{CellRemark, Joint, Link, LinkBody, LinkPairs, PositionRule, SkipReason};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// A robot, with the pairs of its links that are checked.
+/// A robot, and the pairs of its links that are checked.
 #[wasm_bindgen]
 #[derive(Clone, Debug)]
 pub struct Robot {
@@ -35,11 +35,11 @@ impl RobotBuilder {
         RobotBuilder::default()
     }
 
-    /// Adds a fixed, revolute or prismatic joint and its links. Numbers are the pose of the joint in its parent, the axis, and the
-    /// least and the greatest position.
+    /// Adds a fixed, revolute or prismatic joint and its links. `numbers` are the pose of the joint in the frame of its
+    /// parent, the axis, and the least and the greatest position.
     ///
     /// # Errors
-    /// An unknown kind, and numbers that are out of range.
+    /// An unknown kind, or numbers that are out of range.
     pub fn add_joint(
         &mut self,
         kind: &str,
@@ -55,7 +55,7 @@ impl RobotBuilder {
             "fixed" => Ok(trajectory::Joint::fixed(origin)),
             "revolute" => trajectory::Joint::revolute(origin, axis),
             "prismatic" => trajectory::Joint::prismatic(origin, axis),
-            // `doors/js/module/robot.js` refuses it by its name.
+            // `doors/js/module/robot.js` has refused unknown names before.
             _ => return Err(Fault::plain(format!("joint {name:?}: type {kind:?}"))),
         };
         let joint = joint.map_err(&in_joint)?;
@@ -71,7 +71,7 @@ impl RobotBuilder {
         Ok(())
     }
 
-    /// Lets the joint that was added last follow another one.
+    /// Makes the last added joint follow another joint.
     pub fn follow(&mut self, joint: &str, multiplier: f64, offset: f64) {
         if let Some(last) = self.joints.last_mut() {
             last.position_rule = PositionRule::Follows {
@@ -82,10 +82,10 @@ impl RobotBuilder {
         }
     }
 
-    /// Fixes a body to a link, at a pose.
+    /// Fixes a body to a link, at a pose in the link's frame.
     ///
     /// # Errors
-    /// A pose that is not valid.
+    /// An invalid pose.
     pub fn add_body(&mut self, link: &str, body: &Body, pose: &[f64]) -> Result<(), Fault> {
         let pose =
             pose_from_numbers(pose).map_err(Fault::of_element(format!("body of {link:?}")))?;
@@ -102,7 +102,7 @@ impl RobotBuilder {
     /// Builds the robot.
     ///
     /// # Errors
-    /// The link or the joint that is not valid.
+    /// The invalid link or joint.
     pub fn build(self) -> Result<Robot, Fault> {
         let robot = rigid_ccd_robot::Robot::new(self.links, self.joints)?;
         let mut pairs = LinkPairs::from_robot(&robot);
@@ -115,7 +115,7 @@ impl RobotBuilder {
 }
 
 impl RobotBuilder {
-    /// Returns the link with a name, which is added if there is none.
+    /// Returns the link with a name. Adds it if there is none.
     fn link(&mut self, name: &str) -> &mut Link {
         let found = self.links.iter().position(|link| link.name == name);
         let number = found.unwrap_or_else(|| {
@@ -128,7 +128,7 @@ impl RobotBuilder {
 
 #[wasm_bindgen]
 impl Robot {
-    /// Returns the names of the positions of a configuration.
+    /// Returns the names of the joints with a position, in the order of configurations.
     pub fn joint_names(&self) -> Vec<String> {
         self.robot.free_joint_names().map(str::to_owned).collect()
     }
@@ -144,28 +144,28 @@ impl Robot {
         self.robot.limits().flatten().collect()
     }
 
-    /// Returns the names of the links that are checked, two for each pair.
+    /// Returns the checked pairs of links, two names for each pair.
     pub fn checked_pairs(&self) -> Vec<String> {
         names_of_pairs(&self.robot, &self.pairs)
     }
 
-    /// Returns two texts for each remark, of which the first is "warning" or "remark".
+    /// Returns two texts for each remark: "warning" or "remark", then the remark itself.
     pub fn remarks(&self) -> Vec<String> {
         remark_texts(self.pairs.remarks(&self.robot))
     }
 
-    /// Returns the numbers of the pose of a link.
+    /// Returns the pose of a link as numbers.
     ///
     /// # Errors
-    /// An unknown link, or a configuration that is not valid.
+    /// An unknown link, or an invalid configuration.
     pub fn pose(&self, link: &str, configuration: &[f64]) -> Result<Vec<f64>, Fault> {
         Ok(pose_to_numbers(&self.robot.pose(link, configuration)?))
     }
 
-    /// Returns the motion of a link in the frame of another one, or of the base.
+    /// Returns the motion of a link in the frame of another link, or of the base.
     ///
     /// # Errors
-    /// An unknown link, a configuration or a duration that is not valid.
+    /// An unknown link, or an invalid configuration or duration.
     pub fn motion(
         &self,
         link: &str,
@@ -196,13 +196,13 @@ impl Robot {
     }
 }
 
-/// Returns the names of the links that are checked, two for each pair.
+/// Returns the checked pairs of links, two names for each pair.
 pub(crate) fn names_of_pairs(robot: &rigid_ccd_robot::Robot, pairs: &LinkPairs) -> Vec<String> {
     let links = pairs.checked_pairs().flatten();
     links.map(|link| robot.links()[link].name.clone()).collect()
 }
 
-/// Returns two texts for each remark: "warning" or "remark", and what it says.
+/// Returns two texts for each remark: "warning" or "remark", then the remark itself.
 pub(crate) fn remark_texts(remarks: Vec<CellRemark>) -> Vec<String> {
     let texts = remarks.into_iter().flat_map(|remark| {
         let kind = if remark.is_warning() {

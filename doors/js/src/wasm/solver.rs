@@ -46,15 +46,15 @@ impl Numbers {
 #[wasm_bindgen]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
-    /// When they first touch.
+    /// When do the bodies first touch?
     FirstContact,
-    /// Whether they touch.
+    /// Do the bodies touch at all?
     AnyContact,
-    /// When they first and when they last touch.
+    /// When do the bodies first touch, and when last?
     ContactInterval,
-    /// How near they come.
+    /// How near do the bodies come?
     ClosestApproach,
-    /// Whether they keep a clearance.
+    /// Do the bodies keep a clearance?
     KeptClearance,
 }
 
@@ -63,13 +63,13 @@ pub enum Question {
 pub struct Solver {
     solver: rigid_ccd::Solver,
     numbers: Box<Numbers>,
-    /// What moves the bodies of the next question in place of the motions among the numbers.
+    /// The movements that replace the motions among the numbers in the next question.
     movements: [Option<Movement>; 2],
 }
 
 #[wasm_bindgen]
 impl Solver {
-    /// Creates a solver, whose memory holds the default settings.
+    /// Creates a solver with the default settings.
     #[wasm_bindgen(constructor)]
     pub fn new() -> Self {
         let Settings {
@@ -91,12 +91,12 @@ impl Solver {
         }
     }
 
-    /// Returns the address of the numbers.
+    /// Returns the address of the array of numbers.
     pub fn numbers_address(&self) -> usize {
         std::ptr::from_ref(&*self.numbers) as usize
     }
 
-    /// Returns how many numbers there are.
+    /// Returns the length of the array of numbers.
     pub fn number_count(&self) -> usize {
         size_of::<Numbers>() / size_of::<f64>()
     }
@@ -116,7 +116,7 @@ impl Solver {
         fields.collect::<Vec<String>>().join("\n")
     }
 
-    /// Lets a movement move body 0 or 1 in the next question.
+    /// Sets the movement of body 0 or 1 for the next question.
     pub fn move_by(&mut self, body: usize, movement: &Movement) {
         if let Some(place) = self.movements.get_mut(body) {
             *place = Some(movement.clone());
@@ -174,7 +174,7 @@ impl Solver {
     }
 }
 
-/// Calls a function with a body that a movement moves, or else a motion.
+/// Calls a function with a body and its movement, or its motion if there is no movement.
 fn with_moving<T>(
     movement: Option<Movement>,
     motion: Result<Motion, InputError>,

@@ -23,7 +23,7 @@ pub(crate) struct TableQuestion<'a> {
     pub(crate) bodies: BodyPair<'a>,
     pub(crate) question: Question,
     pub(crate) settings: &'a Settings,
-    /// The number of threads; `None` is one for each core.
+    /// The number of threads; `None` stands for one on each core.
     pub(crate) thread_count: Option<u16>,
     /// Whether the results have a column with the time of each query.
     pub(crate) has_micros: bool,
@@ -37,7 +37,7 @@ pub(crate) struct TableAnswers {
     pub(crate) remarks: Vec<Remark>,
 }
 
-/// Answers the rows of a table on all threads, until the flag `stop` is set. Counts them in `done` meanwhile.
+/// Answers the rows of a table on all threads, until the flag `stop` is set. Counts answered rows in `done`.
 ///
 /// # Errors
 /// The columns cannot be used.
@@ -71,7 +71,7 @@ pub(crate) fn answer(
         .into_iter()
         .collect::<Result<_, _>>()
         .map_err(unreadable_error)?;
-    // The first rows of the piece that was stopped have answers.
+    // In a chunk that was stopped, the first rows have answers.
     let stopped = found.iter().position(|&(_, is_whole)| !is_whole);
     let first = stopped.map_or(found.len(), |stopped| stopped + 1);
     let answered: Vec<RecordBatch> = found
@@ -86,10 +86,10 @@ pub(crate) fn answer(
     })
 }
 
-/// Answers the rows of one piece of the table, until the flag `stop` is set.
+/// Answers the rows of one chunk of the table, until the flag `stop` is set.
 ///
-/// All rows are read before the first is asked about, and results are made after the last: in turn, each of the three
-/// would start with cold caches.
+/// Reads all rows first, then answers all, then makes all results. Done row by row, each of the three steps would start
+/// with cold caches.
 fn answer_rows(
     asked: TableQuestion<'_>,
     piece: &RowChunk,
@@ -116,10 +116,10 @@ fn settings_with_stop(asked: TableQuestion<'_>, stop: &Arc<AtomicBool>) -> Setti
     }
 }
 
-/// The answer of a row, or what is wrong with it.
+/// The answer of a row, or the defect of the row.
 type RowAnswer = Result<TimedAnswer, RowProblem>;
 
-/// Answers one row; `None` if the query was stopped by the flag.
+/// Answers one row. Returns `None` if the flag stopped the query.
 fn answer_row(asked: TableQuestion<'_>, row: &CourseRow, solver: &mut Solver) -> Option<RowAnswer> {
     let answer = match row {
         Ok((_, course)) => answer_timed(asked, course, solver).map_err(RowProblem::from),
@@ -144,7 +144,7 @@ fn answer_timed(
     Ok(TimedAnswer { answer, micros })
 }
 
-/// Returns the row of results for one row of the table, from its answer or its error.
+/// Returns the row of results from the answer or the error of one row of the table.
 fn result_row(asked: TableQuestion<'_>, row: &CourseRow, answer: &RowAnswer) -> ResultRow {
     let TableQuestion {
         bodies,

@@ -1,4 +1,4 @@
-//! Converts rows of Arrow columns to the form that the library reads.
+//! Converts rows of Arrow columns to the input of the library.
 
 use super::input::{ID_COLUMN, Reader, TIME_COLUMN};
 use arrow_array::cast::AsArray;
@@ -20,7 +20,7 @@ pub(crate) struct Batch {
     /// The index of the batch's first row in the table.
     pub(crate) first: usize,
     pub(crate) row_count: usize,
-    /// The column `id` with the caller's own values.
+    /// The column `id` with the caller's values.
     id_column: Option<ArrayRef>,
     id_reading: IdReading,
     /// The other columns as numbers; `None` in the place of `id`.
@@ -35,7 +35,7 @@ struct NumberColumn {
     inexact_integers: Option<HashMap<usize, String>>,
 }
 
-/// Whether the ids of rows are read as text; results have the caller's own values in either case.
+/// Whether the ids of rows are read as text. Results have the caller's values in either case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum IdReading {
     AsText,
@@ -79,7 +79,7 @@ pub(crate) fn check_column_types(schema: &Schema) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the field of the results' column of ids: the table's own ids, or else row indices.
+/// Returns the field of the results' column of ids: the table's ids, or row indices if it has none.
 pub(crate) fn id_field(schema: &Schema) -> Field {
     match schema.field_with_name(ID_COLUMN) {
         Ok(field) => field
@@ -100,8 +100,8 @@ fn decoded_type(kind: &DataType) -> &DataType {
     }
 }
 
-/// Converts a column to the type `kind`, without dictionary or run encoding. A column of nulls or of runs takes a few
-/// bytes whatever its length, so that the result may be much larger.
+/// Converts a column to the type `kind`, without dictionary or run encoding. The result may be much larger than the
+/// column, because a column of nulls or runs takes a few bytes whatever its length.
 fn decoded_column(column: &ArrayRef, kind: &DataType) -> Result<ArrayRef, ArrowError> {
     if column.data_type() == kind {
         return Ok(Arc::clone(column));
@@ -110,7 +110,7 @@ fn decoded_column(column: &ArrayRef, kind: &DataType) -> Result<ArrayRef, ArrowE
         column.data_type(),
         DataType::Null | DataType::RunEndEncoded(..)
     );
-    // Text in run encoding may exceed this, but not by much more than the number of rows.
+    // Text in run encoding may exceed this size, but not by much more than the number of rows.
     let rows = column.len();
     if is_short && Vec::<f64>::new().try_reserve_exact(rows).is_err() {
         return Err(ArrowError::MemoryError(format!(
@@ -163,7 +163,7 @@ impl Batch {
         })
     }
 
-    /// Returns the ids of `rows` rows from `at` on; in a table without ids, the row indices.
+    /// Returns the ids of `rows` rows from index `at` on. In a table without ids, they are the row indices.
     pub(crate) fn ids(&self, at: usize, rows: usize) -> ArrayRef {
         match &self.id_column {
             Some(id) => id.slice(at, rows),
@@ -249,7 +249,7 @@ impl Record for Row {
     }
 }
 
-/// Reads a whole table as one batch, or its first rows if the flag `stop` is set meanwhile.
+/// Reads a whole table as one batch. If the flag `stop` is set meanwhile, returns the first rows only.
 pub(crate) fn read_whole_table(
     reader: Reader,
     stop: &AtomicBool,
@@ -275,7 +275,7 @@ fn decoded_batch(batch: &RecordBatch, schema: &SchemaRef) -> Result<RecordBatch,
     RecordBatch::try_new(Arc::clone(schema), columns.collect::<Result<_, _>>()?)
 }
 
-/// An iterator over the rows of a table of paths, which are in one batch.
+/// An iterator over the rows of a table of paths, held in one batch.
 pub(crate) struct PathRowReader {
     header: Vec<String>,
     current_row: Row,
@@ -284,7 +284,7 @@ pub(crate) struct PathRowReader {
 }
 
 impl PathRowReader {
-    /// Creates the iterator over all rows of a table; ids are read as text.
+    /// Creates the iterator over all rows of a table. Ids are read as text.
     pub(crate) fn new(table: &RecordBatch) -> Result<Self, TableError> {
         let batch = Arc::new(Batch::new(table, 0, IdReading::AsText)?);
         Ok(PathRowReader {
@@ -297,7 +297,7 @@ impl PathRowReader {
         })
     }
 
-    /// Returns the batch with all of the rows.
+    /// Returns the batch with all rows.
     pub(crate) fn row_batch(&self) -> Arc<Batch> {
         Arc::clone(&self.current_row.batch)
     }

@@ -9,8 +9,8 @@ use pyo3_arrow::PyRecordBatch;
 
 /// Reads a batch from the Arrow capsules of a Python object.
 ///
-/// An object that hands over the same capsules twice is refused: their array is released, and its memory may be
-/// somebody else's.
+/// Refuses an object that passes the same capsules twice: after the first time their array is released, and its memory
+/// may be reused.
 pub(super) fn batch(of: &Bound<'_, PyAny>) -> PyResult<RecordBatch> {
     let capsules = of.call_method0("__arrow_c_array__")?;
     let (schema, array): (Bound<'_, PyCapsule>, Bound<'_, PyCapsule>) = capsules.extract()?;

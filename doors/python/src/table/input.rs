@@ -51,8 +51,8 @@ fn open_without_catching_panics(motions: &Bound<'_, PyAny>) -> PyResult<Reader> 
     }
 }
 
-/// Wraps a reader so that it returns an error where it would panic. It panics if a batch does not fit its schema, or an
-/// error has no message.
+/// Wraps a reader so that it returns an error instead of a panic. Readers panic if a batch does not fit its schema, or
+/// an error has no message.
 fn catch_reader_panics(mut reader: Reader) -> Reader {
     let schema = reader.schema();
     let next = move || {
@@ -66,7 +66,7 @@ fn catch_reader_panics(mut reader: Reader) -> Reader {
     Box::new(RecordBatchIterator::new(from_fn(next), schema))
 }
 
-/// Returns the name of the library that a data frame's class, or its base class, is from; `None` for other objects.
+/// Returns the name of the library that defines a data frame's class or base class, or `None` for other objects.
 fn library_of_frame(motions: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     for class in motions.get_type().mro() {
         let module: String = class.getattr("__module__")?.extract()?;
@@ -78,8 +78,8 @@ fn library_of_frame(motions: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     Ok(None)
 }
 
-/// Returns a polars frame whose columns of type null are cast to another type. Arrow arrays of type null have no
-/// buffers, but those that polars makes have one.
+/// Returns a polars frame with its columns of type null cast to another type. Arrow arrays of type null have no
+/// buffers, but polars makes them with one.
 fn frame_without_null_types<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let polars = frame.py().import("polars")?;
     let types = PyDict::new(frame.py());
@@ -101,7 +101,7 @@ fn frame_without_null_types<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'p
     }
 }
 
-/// Returns a pandas frame whose index is a column if it has a name, and is left out otherwise.
+/// Returns a pandas frame without an index. An index with a name becomes a column, and other indices are dropped.
 fn frame_with_index_reset<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let names = frame.getattr("index")?.getattr("names")?;
     let names: Vec<_> = names.try_iter()?.collect::<PyResult<_>>()?;
@@ -110,7 +110,7 @@ fn frame_with_index_reset<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py,
     frame.call_method("reset_index", (), Some(&how))
 }
 
-/// Returns the number of answers to expect; `None` if the table does not know its number of rows, or has paths.
+/// Returns the expected number of answers, or `None` if the table does not know its number of rows, or has paths.
 pub(crate) fn expected_answer_count(motions: &Bound<'_, PyAny>, reader: &Reader) -> Option<usize> {
     if reader.schema().field_with_name(TIME_COLUMN).is_ok() {
         return None;
@@ -177,13 +177,13 @@ fn read_column(name: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     }
 }
 
-/// Reads ids, which must be all texts or all whole numbers; None stands for a row without an id.
+/// Reads ids. They must be all texts or all whole numbers. None stands for a row without an id.
 fn ids(values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
     let (mut texts, mut numbers) = (Vec::new(), Vec::new());
     for id in values.try_iter()? {
         let id = id?;
         let text: Option<String> = id.extract().ok();
-        // A failed conversion makes an exception, which takes longer than the rest of a row.
+        // Avoids failed conversions: the exception takes longer than the rest of a row.
         let number: Option<i64> = if text.is_some() || id.is_instance_of::<PyBool>() {
             None
         } else {

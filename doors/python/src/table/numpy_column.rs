@@ -12,7 +12,7 @@ use pyo3_arrow::buffer::PyArrowBuffer;
 
 /// Converts a column to an array: numbers to a view, other values to an array of objects.
 ///
-/// Empty cells of float64 are NaN, and so are those of whole numbers, unless some have more digits than a float64.
+/// Empty cells are NaN in columns of float64, and of whole numbers that float64 can represent.
 pub(crate) fn to_numpy<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     match column.data_type() {
         DataType::Float64 => floats_to_numpy(py, column.as_primitive()),
@@ -38,13 +38,13 @@ fn floats_to_numpy<'py>(py: Python<'py>, numbers: &Float64Array) -> PyResult<Bou
     Ok(numpy::PyArray1::from_vec(py, values).into_any())
 }
 
-/// Returns a view of a column of numbers, in which nulls have arbitrary values.
+/// Returns a view of a column of numbers. Null cells have arbitrary values.
 fn number_view<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, PyAny>> {
     let numpy = py.import("numpy")?;
-    // Arrow's names of these types are NumPy's, but for the capital letters.
+    // Arrow and NumPy have the same names for these types, except for capital letters.
     let dtype = column.data_type().to_string().to_lowercase();
     match column.len() {
-        // NumPy accepts no empty buffer.
+        // NumPy does not accept an empty buffer.
         0 => numpy.call_method1("empty", (0, dtype)),
         rows => {
             let buffer = PyArrowBuffer::new(column.to_data().buffers()[0].clone());
@@ -57,7 +57,7 @@ fn array_with_empty_cells<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<B
     if column.data_type().is_integer() {
         let wide = cast(column, &DataType::Float64).map_err(refuse)?;
         let wide: &Float64Array = wide.as_primitive();
-        // A float64 cannot represent all integers from 2^53 on.
+        // Beyond 2^53, float64 cannot represent all integers.
         let most = (1_u64 << 53) as f64;
         if wide.iter().flatten().all(|whole| whole.abs() < most) {
             return floats_to_numpy(py, wide);
@@ -78,7 +78,7 @@ fn object_array<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, 
             "there are no objects of Python for values of type {kind}; take the table through Arrow, as pyarrow.table(t)"
         )));
     }
-    // Everything is allocated at once, and an array of nulls may claim a length that exceeds memory.
+    // Reserves all memory first: an array of nulls may claim a length that exceeds memory.
     let mut room = Vec::<usize>::new();
     if room.try_reserve_exact(column.len()).is_err() {
         let rows = column.len();
@@ -90,7 +90,7 @@ fn object_array<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, 
     let values = array
         .call_method0("to_pylist")
         .map_err(|error| input_error_from(py, "a value", error))?;
-    // NumPy would convert lists of lists to an array of more dimensions.
+    // NumPy would convert nested lists to an array with more dimensions.
     let objects = py
         .import("numpy")?
         .call_method1("empty", (column.len(), "object"))?;
@@ -98,7 +98,7 @@ fn object_array<'py>(py: Python<'py>, column: &ArrayRef) -> PyResult<Bound<'py, 
     Ok(objects)
 }
 
-/// Returns the type, nested in a column's type, whose values `to_pylist` cannot convert; `None` if it can convert all.
+/// Returns the type, nested in a column's type, that `to_pylist` cannot convert, or `None` if it can convert all.
 fn unconvertible_type(kind: &DataType) -> Option<&DataType> {
     match kind {
         DataType::ListView(_)

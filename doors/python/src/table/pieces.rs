@@ -1,4 +1,4 @@
-//! Splits a table into pieces, each answered by one thread.
+//! Splits a table into chunks, each answered by one thread.
 
 use super::batch::{
     Batch, IdReading, PathRowReader, Row, check_column_types, header, read_whole_table,
@@ -19,13 +19,13 @@ use std::time::Duration;
 
 /// The rows that a thread answers in one task.
 pub(crate) enum RowChunk {
-    /// Some rows of a table of motions, as a range in a batch.
+    /// Rows of a table of motions, as a range in a batch.
     Motions(Arc<Batch>, Range<usize>),
     /// A path and its id.
     Path(Box<CourseRow>, ArrayRef),
 }
 
-/// An iterator over the pieces of a table, in order, until the flag `stop` is set.
+/// An iterator over the chunks of a table, in order, until the flag `stop` is set.
 pub(crate) struct RowChunks<'p> {
     source: RowSource,
     chunk_size: &'p ChunkSize,
@@ -46,23 +46,23 @@ enum RowSource {
     Paths(Box<MovementRows<PathRowReader>>, Arc<Batch>),
 }
 
-/// The number of rows in a piece, adapted to the time that pieces take.
+/// The number of rows in a chunk, adapted to the time that chunks take.
 ///
-/// Many rows in one go keep caches warm: with a quarter of them, a table of bunnies takes 1.5 % more time. Towards the
-/// end of a batch pieces get smaller, so that no thread waits long for the others.
+/// Large chunks keep caches warm: with chunks of a quarter of the size, a table of bunnies takes 1.5 % more time.
+/// Towards the end of a batch chunks get smaller, so that no thread waits long for the others.
 pub(crate) struct ChunkSize {
     row_count: AtomicUsize,
     thread_count: usize,
 }
 
-/// The time that a thread should take to answer one chunk of rows; chunk sizes are adapted to it.
+/// The target time of a thread for one chunk of rows. Chunk sizes are adapted to it.
 const TARGET_CHUNK_DURATION: Duration = Duration::from_millis(20);
 
 /// The maximum number of rows in a chunk.
 const MAX_CHUNK_ROWS: usize = 512;
 
 impl ChunkSize {
-    /// Creates the size for a number of threads; the first pieces have one row.
+    /// Creates the size for a number of threads. The first chunks have one row.
     pub(crate) fn new(threads: usize) -> Self {
         let rows = AtomicUsize::new(1);
         ChunkSize {
@@ -71,15 +71,15 @@ impl ChunkSize {
         }
     }
 
-    /// Returns the number of rows of the next piece, if `left` rows remain.
+    /// Returns the number of rows of the next chunk, if `left` rows remain.
     fn next_row_count(&self, left: usize) -> usize {
         let share = left.div_ceil(2 * self.thread_count);
         self.row_count.load(Ordering::Relaxed).min(share)
     }
 
-    /// Adapts the size of later pieces to the time `taken` that a piece of `rows` rows took.
+    /// Adapts the size of later chunks to the time `taken` by a chunk of `rows` rows.
     pub(crate) fn adapt_chunk_size(&self, rows: usize, taken: Duration) {
-        // A small piece at the end of a batch is no reason for smaller pieces.
+        // A small chunk at the end of a batch must not reduce the size of later chunks.
         if taken < TARGET_CHUNK_DURATION / 2 {
             self.row_count
                 .fetch_max(MAX_CHUNK_ROWS.min(2 * rows), Ordering::Relaxed);
@@ -89,7 +89,7 @@ impl ChunkSize {
     }
 }
 
-/// Checks the columns of a table, and returns the position of each known column.
+/// Checks the columns of a table, and returns the index of each known column.
 pub(crate) fn find_columns(reader: &Reader) -> Result<Columns, TableError> {
     let schema = reader.schema();
     let columns = Columns::of(&header(&schema))?;
@@ -98,7 +98,7 @@ pub(crate) fn find_columns(reader: &Reader) -> Result<Columns, TableError> {
 }
 
 impl<'p> RowChunks<'p> {
-    /// Creates the iterator over the pieces of a table with checked columns. A table of paths is read to its end, or
+    /// Creates the iterator over the chunks of a table with checked columns. Reads a table of paths to its end, or
     /// until the flag `stop` is set.
     pub(crate) fn new(
         (reader, columns): (Reader, &Columns),
@@ -133,7 +133,7 @@ impl<'p> RowChunks<'p> {
 }
 
 impl RowChunks<'_> {
-    /// Returns the remarks about the rows read so far; `columns` collects the remarks about motions.
+    /// Returns the remarks about the rows read so far. `columns` collects the remarks about motions.
     pub(crate) fn remarks(&self, columns: &Columns) -> Vec<Remark> {
         match &self.source {
             RowSource::Motions { .. } => columns.remarks(),
@@ -158,7 +158,7 @@ impl Iterator for RowChunks<'_> {
 }
 
 impl RowSource {
-    /// Returns the next piece, or `None` at the end. A piece is empty only if its batch is.
+    /// Returns the next chunk, or `None` at the end. A chunk is empty only if its batch is.
     fn next(&mut self, size: &ChunkSize) -> Result<Option<RowChunk>, TableError> {
         match self {
             RowSource::Motions {
@@ -200,7 +200,7 @@ impl RowSource {
 }
 
 impl RowChunk {
-    /// Returns the number of rows or paths in the piece.
+    /// Returns the number of rows or paths in the chunk.
     pub(crate) fn row_count(&self) -> usize {
         match self {
             RowChunk::Motions(_, rows) => rows.len(),
@@ -208,7 +208,7 @@ impl RowChunk {
         }
     }
 
-    /// Returns the ids of the piece's first `rows` rows.
+    /// Returns the ids of the chunk's first `rows` rows.
     pub(crate) fn ids(&self, rows: usize) -> ArrayRef {
         match self {
             RowChunk::Motions(batch, range) => batch.ids(range.start, rows),
@@ -216,7 +216,7 @@ impl RowChunk {
         }
     }
 
-    /// Reads the rows of the piece one after another.
+    /// Reads the rows of the chunk one after another.
     pub(crate) fn read_rows<'p>(
         &'p self,
         columns: &'p Columns,

@@ -18,8 +18,8 @@ pub(crate) fn schema(question: Question, id: Field) -> Result<Schema, ArrowError
     Ok(Schema::new(fields))
 }
 
-/// Concatenates batches of results into one batch of the given schema. Ids that are together too long for one column of
-/// their type are cast to the type for long columns.
+/// Concatenates batches of results into one batch of the given schema. If the ids together are too long for a column of
+/// their type, casts them to the type for long columns.
 pub(crate) fn concatenate(
     schema: &Arc<Schema>,
     batches: &[RecordBatch],
@@ -55,7 +55,7 @@ pub(crate) fn batch(
     record_batch(ids.chain(columns_of_rows(&columns[1..], rows)))
 }
 
-/// Converts answers about paths, which have no ids and were not timed, to a batch of columns.
+/// Converts answers about paths to a batch of columns, without ids and times of queries.
 pub(crate) fn path_batch(
     question: Question,
     rows: &[ResultRow],
@@ -86,7 +86,7 @@ fn column_array(cells: CellGetter, rows: &[ResultRow]) -> ArrayRef {
         CellGetter::Text(of) => Arc::new(StringArray::from_iter(rows.iter().map(of))),
         CellGetter::Number(of) => {
             let nulls: NullBuffer = rows.iter().map(|row| of(row).is_some()).collect();
-            // With NaN in empty cells, the values can be read without their validity.
+            // Writes NaN to empty cells, so that values can be read without their validity mask.
             let values = rows.iter().map(|row| of(row).unwrap_or(f64::NAN));
             let values = values.collect::<Vec<f64>>();
             Arc::new(Float64Array::new(values.into(), Some(nulls)))

@@ -19,9 +19,9 @@ pub(super) fn checksum(stored: &[u8]) -> u32 {
     crc32fast::hash(stored)
 }
 
-/// Reads a table from its pickled form, if the checksum of the bytes is right.
+/// Reads a table from its pickled form. Fails if the checksum of the bytes is wrong.
 ///
-/// Where even the checksum was forged, nothing is allocated for what is announced and not there.
+/// Even if the checksum is forged, allocates nothing for data that is announced but missing.
 pub(super) fn read(stored: &[u8], checksum: u32) -> PyResult<RecordBatch> {
     if self::checksum(stored) != checksum {
         return Err(refuse(
