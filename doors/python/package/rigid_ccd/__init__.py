@@ -6,9 +6,10 @@
 >>> hit.kind, round(hit.time, 2)
 ('contact', 0.6)
 
-Nothing touches before the time of a contact, and without one nothing touches at all: that is proven, in floating point.
+Nothing touches before the time of a contact. If the result is None, nothing touches at all. Both are proven, in
+floating point.
 
-Many motions are a table, answered on all cores:
+A table of motions is answered on all cores:
 
 >>> import numpy as np
 >>> from rigid_ccd import first_contacts

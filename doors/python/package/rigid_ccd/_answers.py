@@ -1,4 +1,4 @@
-"""Answers as frozen objects."""
+"""Answers as immutable objects."""
 
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
@@ -8,16 +8,17 @@ Point: TypeAlias = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Contact:
-    """The first contact of two bodies. Nothing touches before its time: that is proven, in floating point.
+    """The first contact of two bodies. It is proven, in floating point, that nothing touches before `time`.
 
     Attributes:
-        time: no contact happens before it.
-        kind: "contact", or at the start "touching" or "overlapping".
-        witness_a: the point of body A nearest to B, in the world at that time.
+        time: the time of the contact. Nothing touches before it.
+        kind: "contact", or "touching" or "overlapping" for a contact at the start.
+        witness_a: the point of body A nearest to B, in world coordinates at that time.
         witness_b: the point of body B nearest to A.
-        normal: the unit vector from A to B; None where one body is inside the other.
-        distance: bounds of the distance at that time; negative for pieces that intersect, None like the normal.
-        feature_a: the feature of A in contact, such as "v7", "e3-7", "f12" or "p0"; None like the normal.
+        normal: the unit normal from A to B; None if one body is inside the other.
+        distance: bounds of the distance at that time, negative for pieces that intersect; None in the same case as
+            `normal`.
+        feature_a: the feature of A in contact, such as "v7", "e3-7", "f12" or "p0"; None in the same case as `normal`.
         feature_b: the feature of B in contact.
     """
 
@@ -36,18 +37,20 @@ class Distance:
     """Bounds of the least distance of two bodies, to within the tolerance, or as narrow as a clearance requires.
 
 
-    Bodies may exceed their shapes by their `excess`. Then the bounds are those of the shapes: what both bodies stick out
-    by is in `upper`, and no clearance is "violated" by the bodies alone.
+    Bodies may extend beyond their shapes by their `excess`. Bounds are those of the shapes: `upper` includes the sum of
+    both excesses, and a clearance is "violated" only if the shapes violate it.
 
     Attributes:
-        lower: the bodies are never nearer than this.
-        upper: at `time` they are at most this far apart; infinite where no distance was measured.
-        time: when they are nearest; 0 where they overlap at the start; None where no distance was measured.
-        is_overlapping: whether they overlap at the start; their shapes are at most `upper` apart then.
-        witness_a: the nearest point of body A, in the world at that time; None where they overlap at the start.
+        lower: a lower bound of the distance at all times.
+        upper: an upper bound of the distance at `time`; infinite if no distance was measured.
+        time: the time of the least distance found; 0 if the bodies overlap at the start; None if no distance was
+            measured.
+        is_overlapping: whether the bodies overlap at the start. If so, their shapes are at most `upper` apart.
+        witness_a: the nearest point of body A, in world coordinates at that time; None if the bodies overlap at the
+            start.
         witness_b: the nearest point of body B.
-        clearance: whether the required clearance is "kept", "violated", or "unverified" within the bounds; None where none
-            was required.
+        clearance: whether the required clearance is "kept", "violated", or left "unverified" by the bounds; None if
+            none was required.
     """
 
     lower: float
@@ -61,20 +64,20 @@ class Distance:
 
 @dataclass(frozen=True)
 class PathContact:
-    """A pair of a cell that touches on a path, or is nearest there.
+    """A pair of items of a cell that touches on a path, or is nearest there.
 
     Attributes:
-        segment: the number of the segment between two configurations, from 0. An edge has only segment 0.
-        share: the share of the segment that is passed, from 0 to 1. Nothing touches before a first contact.
-        time: the segment and the share together: 1.5 is the middle of the second segment. On a curve, its own time.
-        a: the name of the link, or of the body attached to one.
-        b: the name of the other link, attached body or obstacle.
+        segment: the index of the segment between two configurations, from 0. An edge has only segment 0.
+        share: the position within the segment, from 0 to 1. Nothing touches before a first contact.
+        time: the sum of segment and share: 1.5 is the middle of the second segment. On a curve, the time of the curve.
+        a: the name of the first item: a link, or an attached body.
+        b: the name of the second item: a link, an attached body or an obstacle.
         witness_a: the point of `a` nearest to `b`, in the frame of the robot's base.
         witness_b: the point of `b` nearest to `a`.
-        feature_a, feature_b: the vertex, edge or face of the mesh that a witness is on: "v7", "e3-4" or "f5". None for a
-            convex body or a hull, and if one body is inside the other.
-        tolerance: a contact is within this distance beyond the margin: the tolerance that was asked for, unless the rounding of
-            positions allows only a larger one, far from the base or after thousands of turns.
+        feature_a, feature_b: the vertex, edge or face of the mesh that has the witness point: "v7", "e3-4" or "f5".
+            None for a convex body or a hull, and if one body is inside the other.
+        tolerance: a contact is within this distance beyond the margin. It is the tolerance of the settings, or larger
+            if rounding of positions does not allow less, far from the base or after thousands of turns.
     """
 
     segment: int
@@ -93,19 +96,18 @@ class PathContact:
 class PathDistance:
     """Bounds of the least distance on a path, to within the tolerance unless a limit was reached.
 
-    Bodies that exceed their shapes, such as hulls of meshes, may touch where the shapes do not. Then the bounds are 0 and what
-    both bodies of the pair stick out by.
+    Bounding shapes, such as hulls of meshes, may touch although the shapes inside do not. Then `lower` is 0, and `upper`
+    is the sum of both excesses.
 
     Attributes:
-        lower: nothing is ever nearer than this.
-        upper: the nearest pair comes at least as near as this.
+        lower: a lower bound of the distance of all pairs on the whole path.
+        upper: an upper bound of the least distance.
         nearest: the nearest pair; None if no pair was measured.
         limit: the limit that ended the search; None if there was none.
-        tolerance: the bounds differ by at most this and a thousandth of it, and by what the bodies exceed their shapes by,
-            unless a limit was reached: the tolerance that was asked for, unless the rounding of positions allows only a
-            larger one.
-        clearance: whether the required clearance is "kept", "violated", or "unverified" within the bounds; None where none
-            was required.
+        tolerance: unless a limit was reached, the bounds differ by at most 1.001 times this, plus the excesses of the
+            bodies. It is the tolerance of the settings, or larger if rounding of positions does not allow less.
+        clearance: whether the required clearance is "kept", "violated", or left "unverified" by the bounds; None if
+            none was required.
     """
 
     lower: float
@@ -118,12 +120,13 @@ class PathDistance:
 
 @dataclass(frozen=True)
 class PathRange:
-    """A range of a path, and whether all pairs keep their distance in it.
+    """A range of a path, and whether all pairs keep their required distance in it.
 
     Attributes:
-        start, end: where on the path, in segments: 1.5 is the middle of the second one. On a curve, its own times.
-        clearance: "kept", if all pairs keep their distance everywhere in the range; "violated", if some pair is nearer
-            everywhere in it; "unverified", if neither is proven.
+        start, end: the ends of the range, in segments: 1.5 is the middle of the second segment. On a curve, times of
+            the curve.
+        clearance: "kept" if all pairs keep their distance everywhere in the range; "violated" if everywhere in it some
+            pair is nearer; "unverified" if neither is proven.
     """
 
     start: float

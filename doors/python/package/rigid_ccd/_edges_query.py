@@ -1,4 +1,4 @@
-"""A picklable question about a robot's edges, for distributed engines."""
+"""A question about a robot's edges that can be pickled, for distributed engines."""
 
 import copy
 from collections.abc import Iterable, Iterator, Mapping
@@ -14,20 +14,20 @@ PathQuestion: TypeAlias = Literal["is-free", "first-contact", "closest-approach"
 
 
 class EdgesQuery:
-    """A question about a robot's edges that answers one table after another.
+    """A callable that answers a question about a robot's edges, one table after another.
 
-    It is a callable that goes where functions of tables go: Ray Data's `map_batches`, Dask's `map_partitions`, Spark's
-    `mapInArrow`, a pool of processes. It can be pickled, with its cell.
+    Pass it as a function of tables to Ray Data's `map_batches`, Dask's `map_partitions`, Spark's `mapInArrow`, or a
+    pool of processes. It can be pickled, with its cell.
 
-    A table has a column `id`, and for each joint the columns `from_JOINT` and `to_JOINT`, as `ccd edges` reads them: with
-    the end `_deg` they are in degrees. The results are a table of the same kind, with the ids and the columns of
-    `Cell.edges`. Called with an iterator of tables it returns an iterator of tables.
+    A table has a column `id`, and for each joint the columns `from_JOINT` and `to_JOINT`, as for `ccd edges`. With the
+    suffix `_deg` they are in degrees. The results are a table of the same kind, with the ids and the columns of
+    `Cell.edges`. For an iterator of tables, the result is an iterator of tables.
 
     Args:
-        cell: the cell, as it is now; later changes do not count.
+        cell: the cell. It is copied: later changes have no effect.
         ask: "is-free", "first-contact" or "closest-approach".
-        rest: the positions of joints that tables have no columns for.
-        settings: those of `Cell.edges`. Engines start a task for each core: so `threads` is 1 by default.
+        rest: the positions of joints without columns in the tables.
+        settings: those of `Cell.edges`. `threads` is 1 by default, because engines start a task for each core.
 
     >>> from rigid_ccd import Body, Cell, EdgesQuery, Joint, Robot
     >>> slider = Joint.prismatic("x", "rail", "cart", axis=[1, 0, 0])
@@ -40,14 +40,14 @@ class EdgesQuery:
     def __init__(
         self, cell: Cell, ask: PathQuestion = "is-free", *, rest: Mapping[str, float] | None = None, **settings: Any
     ) -> None:
-        # A copy, which later changes of the cell do not reach.
+        # A copy, so that later changes of the cell have no effect.
         self._cell: Cell = copy.copy(cell)
         self._ask, self._rest = ask, {joint: _position(joint, at) for joint, at in (rest or {}).items()}
         self._settings = {"threads": 1, **settings}
         unknown = set(self._rest) - set(cell.robot.joint_names)
         if unknown:
             raise InputError(f"rest: there is no joint {', '.join(sorted(unknown))}")
-        # Invalid settings raise here, not on a worker.
+        # Invalid settings raise an exception here, and not on a worker.
         self._answer(np.zeros((2, 0, len(cell.robot.joint_names))))
 
     def __call__(self, edges: Any) -> Any:
@@ -58,7 +58,7 @@ class EdgesQuery:
         return like(edges, table._column_before("id", self._answer(self._configurations(table))))
 
     def schema(self, edges: Any) -> Any:
-        """Returns an empty table with the columns of the results; for a pyarrow.Schema, a pyarrow.Schema."""
+        """Returns an empty table with the columns of the results. For a pyarrow.Schema, returns a pyarrow.Schema."""
         if hasattr(edges, "empty_table"):
             return self.schema(edges.empty_table()).schema
         empty = self._table(edges).take([])

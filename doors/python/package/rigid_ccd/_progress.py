@@ -1,4 +1,4 @@
-"""How far a call is, told to a function or shown as a bar of tqdm."""
+"""Reports the progress of a call to a function or a bar of tqdm."""
 
 from collections.abc import Callable
 from typing import Any
@@ -9,7 +9,7 @@ Report = Callable[[int, int | None], object]
 
 
 def reporter(progress: Progress) -> tuple[Report | None, Callable[[], object]]:
-    """Returns a function of what is done and of all that there is to do, and a function that ends it."""
+    """Returns two functions. The first reports the amount of work done and the total; the second ends the report."""
     if progress is None or progress is False:
         return None, lambda: None
     if progress is True:

@@ -13,14 +13,14 @@ from ._settings import Progress
 
 @dataclass(frozen=True, repr=False)
 class Proof:
-    """A machine-checkable proof that bodies stay apart, and where they first come near each other.
+    """A machine-checkable proof that bodies stay apart until a time, and of two points that are near each other then.
 
-    The command ``ccd check`` and the crate ``ccd-check`` check the files that `save` writes. What a proof says, and what it
-    does not, is in ``docs/certificates.md``.
+    The command ``ccd check`` and the crate ``ccd-check`` check the files that `save` writes. ``docs/certificates.md``
+    describes what a proof states, and what it does not.
 
     Attributes:
         proof: the statement with its proof, as bytes.
-        meshes: for each mesh its bytes, and those of its tree.
+        meshes: for each mesh its bytes, and the bytes of its tree.
     """
 
     proof: bytes
@@ -28,24 +28,24 @@ class Proof:
 
     @property
     def until(self) -> float:
-        """The time until which nothing touches, in that of the motions; of a segment of a path its share, from 0 to 1."""
+        """The time until which nothing touches; for a segment of a path, the share from 0 to 1."""
         return read_proof(self.proof)[0]
 
     @property
     def outcome(self) -> Literal["free", "contact"]:
-        """What is at that time: "contact" if two bodies come near each other then; else "free"."""
+        """The outcome at the time `until`: "contact" if two bodies are near each other then, and "free" otherwise."""
         return "contact" if read_proof(self.proof)[1] else "free"
 
     def check(self) -> str:
-        """Check the proof by code that shares nothing with what found it: "holds", or why it does not."""
+        """Check the proof with code independent of the engine. Return "holds", or the reason why it does not."""
         return check_proof(self.proof, self.meshes)
 
     def __str__(self) -> str:
-        """Return what is stated: meshes, motions, margins and times."""
+        """Return the statement of the proof: meshes, motions, margins and times."""
         return proof_statement(self.proof)
 
     def __repr__(self) -> str:
-        """Return what is stated in short. It is not checked."""
+        """Return a short form of the statement. Does not check the proof."""
         try:
             until, has_contact, digests = read_proof(self.proof)
         except InputError as error:
@@ -53,10 +53,10 @@ class Proof:
         return f"Proof({'contact at' if has_contact else 'free until'} {until}, {len(digests)} bodies)"
 
     def save(self, folder: str | PathLike[str], name: str, *, overwrite: bool = False) -> None:
-        """Write NAME.proof to a folder, and each mesh with its tree as DIGEST.mesh and DIGEST.body.
+        """Write the proof to NAME.proof in a folder, and each mesh with its tree to DIGEST.mesh and DIGEST.body.
 
         Raises:
-            FileExistsError: there is another proof of that name, and `overwrite` is False.
+            FileExistsError: another proof has that name, and `overwrite` is False.
         """
         folder, file = _files(folder, name)
         if not overwrite and file.exists() and file.read_bytes() != self.proof:
@@ -70,10 +70,10 @@ class Proof:
 
     @classmethod
     def load(cls, folder: str | PathLike[str], name: str) -> "Proof":
-        """Read NAME.proof and its meshes from a folder that `save` or the command ``ccd`` wrote. It is not checked.
+        """Read NAME.proof and its meshes from a folder that `save` or ``ccd`` wrote. Does not check the proof.
 
         Raises:
-            InputError: the file is no proof, or one of its meshes is missing.
+            InputError: the file is not a proof, or one of its meshes is missing.
         """
         folder, file = _files(folder, name)
         return cls._read(file, _meshes(folder))
@@ -88,15 +88,16 @@ class Proof:
 
 
 def check_folder(folder: str | PathLike[str], *, progress: Progress = None) -> dict[str, str]:
-    """Check all proofs of a folder: for each name "holds", or why it does not.
+    """Check all proofs in a folder. Return for each name "holds", or the reason why the proof does not hold.
 
     Args:
         folder: the folder.
-        progress: a function of the numbers of proofs that are checked, and of all proofs; a bar of tqdm, or True for one.
+        progress: a function, called with the number of checked proofs and the number of all proofs; a bar of tqdm; or
+            True for a new bar.
 
     Raises:
-        InputError: there is no proof in the folder, a file is no proof, or a mesh is missing.
-        Interrupted: Ctrl-C; its `results` has what is known of the proofs that were checked by then.
+        InputError: the folder has no proof, a file is not a proof, or a mesh is missing.
+        Interrupted: Ctrl-C was pressed. `results` has the results of the proofs checked so far.
     """
     files = sorted(Path(folder).glob("*.proof"))
     if not files:
@@ -119,7 +120,7 @@ def check_folder(folder: str | PathLike[str], *, progress: Progress = None) -> d
 
 
 def _files(folder: str | PathLike[str], name: str) -> tuple[Path, Path]:
-    """Return a folder, and the file of a proof in it; its name may end in .proof."""
+    """Return a folder, and the path of a proof in it. The name may end in .proof."""
     stem = name.removesuffix(".proof")
     if not stem or Path(stem).name != stem:
         raise InputError(f"name: {name!r} is no name of a file")
@@ -127,7 +128,7 @@ def _files(folder: str | PathLike[str], name: str) -> tuple[Path, Path]:
 
 
 def _meshes(folder: Path) -> dict[str, tuple[bytes, bytes]]:
-    """Read the meshes of a folder with their trees, by the digests of the meshes."""
+    """Read the meshes of a folder and their trees, as a dict by the digests of the meshes."""
     meshes = {}
     for file in sorted(folder.glob("*.mesh")):
         mesh = file.read_bytes()

@@ -1,4 +1,4 @@
-"""A picklable question, for distributed engines."""
+"""A question about two bodies that can be pickled, for distributed engines."""
 
 import os
 import pickle
@@ -14,25 +14,25 @@ BodyOrFile: TypeAlias = Body | str | os.PathLike[str]
 
 
 class TableQuery:
-    """A question about two bodies that answers one table of motions after another.
+    """A callable that answers a question about two bodies, one table of motions after another.
 
-    It is a callable that goes where functions of tables go: Ray Data's `map_batches`, Dask's `map_partitions`, Spark's
-    `mapInArrow`, a pool of processes. It can be pickled. Each process loads or unpickles a body once.
+    Pass it as a function of tables to Ray Data's `map_batches`, Dask's `map_partitions`, Spark's `mapInArrow`, or a
+    pool of processes. It can be pickled. Each process loads or unpickles a body once.
 
-    Called with a table it returns the results as a table of the same kind: pyarrow, pandas, polars, a dict of NumPy
-    arrays, else a `Table`. Called with an iterator of tables it returns an iterator of tables. The types of columns do
-    not depend on their values, except in a dict. A pandas frame keeps its index.
+    For a table, the results are a table of the same kind: pyarrow, pandas, polars or a dict of NumPy arrays. For other
+    tables, they are a `Table`. For an iterator of tables, the result is an iterator of tables. The types of columns do
+    not depend on values, except in a dict. A pandas frame keeps its index.
 
-    Engines cut a table anywhere, and return the parts in any order. So a column id is needed.
+    Tables need a column `id`, because engines split a table anywhere, and return the parts in any order.
 
     Args:
         a, b: bodies, or the paths of mesh files or prepared bodies (`Body.save`), which each process reads.
         ask: "first-contact", "is-free", "contact-interval", "closest-approach" or
             "distance".
-        paths: a table with a column t is refused: a path that is cut in two has a stretch that nobody looks at. "whole"
-            says that all rows of an id are in one table, as after a group-by.
-        settings: those of `first_contacts` or `closest_approaches`. Engines start a task for each core: so `threads` is
-            1 by default. `micros` is False: equal answers are equal tables.
+        paths: "refused" refuses tables with a column t. If an engine split a path, the interval between its parts would
+            not be checked. "whole" asserts that all rows of an id are in one table, as after a group-by.
+        settings: those of `first_contacts` or `closest_approaches`. `threads` is 1 by default, because engines start a
+            task for each core. `micros` is False by default, so that equal answers give equal tables.
 
     >>> import pickle
     >>> from rigid_ccd import Body, TableQuery
@@ -52,7 +52,7 @@ class TableQuery:
     ) -> None:
         self._a, self._b, self._ask, self._paths = a, b, ask, paths
         self._settings = {"threads": 1, "micros": False, **settings}
-        # Invalid arguments raise here, not on a worker. Files may exist on the workers alone.
+        # Invalid arguments raise an exception here, and not on a worker. Files need to exist on the workers only.
         for body in (a, b):
             if not isinstance(body, (Body, str, os.PathLike)):
                 raise TypeError(f"a, b: a Body or the path of a file is needed, not {type(body).__name__}")
@@ -70,7 +70,7 @@ class TableQuery:
     def schema(self, motions: Any) -> Any:
         """Returns an empty table with the columns of the results, without loading the bodies.
 
-        The table has the same kind as `motions`; for a pyarrow.Schema, the result is a pyarrow.Schema.
+        The table has the same kind as `motions`. For a pyarrow.Schema, returns a pyarrow.Schema.
         """
         if hasattr(motions, "empty_table"):
             return self.schema(motions.empty_table()).schema
@@ -139,7 +139,7 @@ def _unpickle(body: bytes) -> Body:
 
 
 def _library(motions: Any) -> str:
-    """Returns the library of a table, also for a derived class."""
+    """Returns the name of the library that defines the class of a table, or its base class."""
     modules = [of.__module__.partition(".")[0] for of in type(motions).__mro__]
     return next((name for name in modules if name in ("pyarrow", "pandas", "polars")), modules[0])
 
@@ -161,7 +161,7 @@ def like(motions: Any, results: Table) -> Any:
 
 
 def _frame(motions: Any, results: Table) -> Any:
-    """Makes a pandas frame, with types independent of values, so that parts of a table can be concatenated."""
+    """Makes a pandas frame. Its types do not depend on values, so that parts of a table can be concatenated."""
     text = "str" if int(sys.modules["pandas"].__version__.partition(".")[0]) >= 3 else "string"
     types = {name: text for name in ("status", "a", "b", "feature_a", "feature_b", "reason")}
     types |= {name: "Int64" for name in ("iterations", "oracle_calls")}

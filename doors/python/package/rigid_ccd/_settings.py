@@ -11,7 +11,7 @@ class _Bar(Protocol):
 
 
 Progress: TypeAlias = Callable[[int, int | None], object] | _Bar | bool | None
-"""A function of the rows answered and of all rows, a bar of tqdm, True for such a bar, or None."""
+"""A function of the numbers of answered rows and of all rows, a bar of tqdm, True for a new bar, or None."""
 
 
 class OfDistances(TypedDict, total=False):
@@ -29,7 +29,7 @@ class OfContacts(OfDistances, total=False):
 
 
 class OfPathContacts(OfContacts, total=False):
-    """Settings of a query that looks for contacts on a path: with "leave" pairs in contact at its start may part."""
+    """Settings of a query that looks for contacts on a path."""
 
     start: Literal["report", "leave"]
 
@@ -41,7 +41,7 @@ class OfApproaches(OfDistances, total=False):
 
 
 class OfPaths(OfPathContacts, total=False):
-    """Of `Cell.edges` and `Cell.paths`: `clearance` is for closest approaches, `margin` and `start` for the other questions."""
+    """Settings of `Cell.edges` and `Cell.paths`. `clearance` is for closest approaches, the others for contacts."""
 
     clearance: float | None
 

@@ -8,7 +8,7 @@
 >>> setup.setStateValidityChecker(StateValidityChecker(information, cell))  # doctest: +SKIP
 >>> information.setMotionValidator(MotionValidator(information, cell))      # doctest: +SKIP
 
-Each edge of a path that a planner returns is then proven free, between all steps.
+Each edge of a path that the planner returns is then proven free along its whole length.
 """
 
 from collections.abc import Mapping
@@ -24,7 +24,7 @@ from ._settings import OfContacts
 
 
 class _States:
-    """The states of a real vector space as configurations of a robot, and questions about them."""
+    """Converts states of a real vector space to configurations of a robot, and answers questions about them."""
 
     def __init__(self, cell: Cell, held: Mapping[str, float] | None, settings: OfContacts) -> None:
         held = held or {}
@@ -54,7 +54,7 @@ def space_of(cell: Cell, held: Mapping[str, float] | None = None) -> Any:
 
     Args:
         cell: the cell with the robot.
-        held: positions of joints that do not move, by their names.
+        held: the positions of joints that do not move, by their names.
     """
     planned = _States(cell, held, {}).planned
     limits = cell.robot.limits[planned]
@@ -69,12 +69,12 @@ def space_of(cell: Cell, held: Mapping[str, float] | None = None) -> Any:
 
 
 class StateValidityChecker(base.StateValidityChecker):  # type: ignore[misc, unused-ignore]
-    """Finds a state valid if the robot touches nothing there.
+    """Accepts a state if the robot touches nothing.
 
     Args:
-        information: the space information, of a real vector space with a dimension for each joint that is not held.
+        information: the information of a real vector space that has a dimension for each joint not in `held`.
         cell: the cell, which may change between calls.
-        held: positions of joints that do not move, by their names.
+        held: the positions of joints that do not move, by their names.
         settings: those of `Cell.is_free`.
     """
 
@@ -93,7 +93,7 @@ class StateValidityChecker(base.StateValidityChecker):  # type: ignore[misc, unu
 
 
 class MotionValidator(base.MotionValidator):  # type: ignore[misc, unused-ignore]
-    """Finds a motion valid if the robot touches nothing between its two states: proven, not sampled.
+    """Accepts a motion if it is proven that the robot touches nothing between its two states.
 
     The arguments are those of `StateValidityChecker`.
     """
@@ -112,9 +112,9 @@ class MotionValidator(base.MotionValidator):  # type: ignore[misc, unused-ignore
         return self._states.is_free(start, end)
 
     def last_valid(self, start: Any, end: Any) -> float:
-        """Returns the share of the motion before which nothing touches; 1 if all of it is free.
+        """Returns the share of the motion that is free, from its start; 1 if all of it is free.
 
-        OMPL's interface to Python has no third argument of `checkMotion`, which asks for this.
+        It replaces the third argument of `checkMotion` in C++, which OMPL's interface to Python does not have.
         """
         contact = self._states.first_contact(start, end)
         return 1.0 if contact is None else contact.share
