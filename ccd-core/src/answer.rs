@@ -340,7 +340,7 @@ impl Outcome {
 
 impl Stats {
     /// Returns the work that the [budget](crate::Settings::budget) limits: iterations, plus one for every
-    /// [`EVALUATIONS_WORTH_A_VISIT`] evaluations of points.
+    /// `EVALUATIONS_WORTH_A_VISIT` evaluations of points.
     #[inline]
     pub fn budgeted_work(&self) -> u64 {
         self.iterations + self.point_evaluations / EVALUATIONS_WORTH_A_VISIT

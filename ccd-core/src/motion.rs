@@ -103,7 +103,7 @@ impl Motion {
     ///
     /// Velocities are derived from the poses and rounded. A query over at most `duration` accounts for that rounding:
     /// its certificate holds for the motion between the poses as given
-    /// ([`rounding::distance_rounding`](crate::rounding::distance_rounding)).
+    /// (`rounding::distance_rounding`).
     ///
     /// At half a turn both directions are shortest. The motion turns counterclockwise about the
     /// vector part of `end · start⁻¹`, computed from the quaternions as given: the negative of

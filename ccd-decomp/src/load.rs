@@ -43,7 +43,11 @@ pub fn load_body(
     }
 }
 
-fn load_stored_body(file: &Path, adjustments: &Adjustments) -> Result<PreparedBody, BodyError> {
+/// Loads a stored body, whatever the name of its file.
+pub(crate) fn load_stored_body(
+    file: &Path,
+    adjustments: &Adjustments,
+) -> Result<PreparedBody, BodyError> {
     if adjustments.has_mesh_only_adjustment() {
         return Err(AdjustedStoredBody { file: file.into() }.into());
     }

@@ -5,7 +5,7 @@ mod mesh_source;
 
 use crate::file::has_stored_body_extension;
 use crate::load::error::{AdjustedStoredBody, BodyError};
-use crate::load::load_body;
+use crate::load::load_stored_body;
 use crate::load::mesh_source::MeshSource;
 use crate::mesh::adjustments::Adjustments;
 use crate::mesh::mesh_file::source_paths;
@@ -133,7 +133,7 @@ impl BodySource {
                 &SolidOfRevolution::cone(radius, half_height)?,
                 excess,
             )?,
-            BodySource::StoredBody(ref file) => return load_body(file, adjustments, detail),
+            BodySource::StoredBody(ref file) => return load_stored_body(file, adjustments),
             BodySource::Mesh(ref source) => {
                 let adjustments = source.adjustments.combined_with(adjustments)?;
                 let source = MeshSource {

@@ -1,7 +1,9 @@
 //! Tests that the same query gives the same bits again, with a fresh schedule and with one that answered other queries.
 
-use ccd_core::schedule::{BestFirst, Naive};
-use ccd_core::{DistanceOracle, OrElse, Schedule};
+use ccd_core::schedule::{
+    BestFirst, EngineOptions, Naive, Shortcut, Shortcuts, VectorInstructions,
+};
+use ccd_core::{DistanceOracle, OrElse, Outcome, Schedule};
 use ccd_distance_gjk::{ClosedForm, Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use ccd_tests::backends::for_each_setup;
@@ -73,6 +75,55 @@ fn check_reused_as_fresh<O: DistanceOracle + Default, S: Schedule<O> + Default>(
             assert_eq!(used, fresh, "{}", case.to_toml());
         }
     }
+}
+
+/// Tests that other vector instructions change no bit of an answer, and that no shortcut changes whether there is a contact.
+#[test]
+fn how_the_engine_computes_changes_no_answer() {
+    let none = (Shortcut::ALL.iter()).fold(Shortcuts::ALL, |left, &each| left.without(each));
+    let (mut schedule, mut oracle) = (BestFirst::default(), Direct::default());
+    let (mut contacts, mut free, mut changed) = (0, 0, 0);
+    for case in sample_cases(300) {
+        let query = case.query();
+        let bodies = query.bodies_of_triangles();
+        let settings = case.config();
+        let mut answer = |options| {
+            let problem = query
+                .problem(&bodies, &settings)
+                .with_engine_options(options);
+            schedule.first_contact(&problem, &mut oracle).unwrap()
+        };
+        let default = answer(EngineOptions::DEFAULT);
+        let baseline = answer(EngineOptions {
+            vector_instructions: VectorInstructions::Baseline,
+            ..EngineOptions::DEFAULT
+        });
+        let (texts, name) = (
+            [default, baseline].map(|answer| format!("{answer:?}")),
+            case.to_toml(),
+        );
+        assert_eq!(texts[0], texts[1], "{name}");
+        let searched = answer(EngineOptions {
+            shortcuts: none,
+            ..EngineOptions::DEFAULT
+        });
+        changed += u32::from(searched.stats != default.stats);
+        match (default.outcome, searched.outcome) {
+            (Outcome::Unresolved(_), _) | (_, Outcome::Unresolved(_)) => {}
+            (one, other) => {
+                let kinds = [one, other].map(|outcome| std::mem::discriminant(&outcome));
+                assert_eq!(kinds[0], kinds[1], "{name}");
+                match one {
+                    Outcome::Free { .. } => free += 1,
+                    _ => contacts += 1,
+                }
+            }
+        }
+    }
+    assert!(
+        contacts > 50 && free > 50 && changed > 50,
+        "{contacts} {free} {changed}"
+    );
 }
 
 fn sample_cases(count: u32) -> Vec<Case> {

@@ -16,7 +16,7 @@ const ALLOWED: [(&str, &str); 4] = [
         "calls the interface as C does",
     ),
     (
-        "doors/rigid-ccd-cli/src/standard_output.rs",
+        "doors/rigid-ccd-cli/src/console/standard_output.rs",
         "looks at a stream before the runtime does",
     ),
     (

@@ -197,7 +197,7 @@ impl ConvexCombination {
     }
 
     /// Adds a point of the piece, by its index, with a weight. Weights that are not positive, or outside of
-    /// [`WEIGHT_RANGE`], are dropped. Equal indices are merged. Terms beyond four distinct indices are dropped.
+    /// `WEIGHT_RANGE`, are dropped. Equal indices are merged. Terms beyond four distinct indices are dropped.
     pub fn add_weighted_point(&mut self, index: u32, weight: f64) {
         // A NaN is in no range.
         if !WEIGHT_RANGE.contains(&weight) {

@@ -57,7 +57,7 @@ impl SupportMap {
     ///
     /// # Guarantee
     /// No point of the piece is farther by more than the rounding of two heights, each of which is
-    /// [`HEIGHT_ERROR_F64`](crate::rounding::HEIGHT_ERROR_F64) of the direction's 1-norm and the largest
+    /// `HEIGHT_ERROR_F64` of the direction's 1-norm and the largest
     /// coordinate. A direction that is not finite gives some point.
     #[inline]
     pub fn extremal_point(&self, direction: DVec3) -> u32 {

@@ -1,36 +1,41 @@
 // Converts answers about two bodies to plain objects.
 
+import { layout } from "./layout.js";
 import { classes } from "./wasm.js";
 
 /** The names of the kinds of answers. Indices are values of `AnswerKind` in `doors/js/src/wasm/answer.rs`. */
 export const KINDS = ["free", "contact", "touching", "overlapping", "interval", "leastDistance", "unresolved"];
-/** Indices in the numbers of an answer, and in the numbers of a contact. `doors/js/src/wasm/answer.rs` writes both. */
-const CONTACTS = 7;
-const CONTACT_LENGTH = 21;
+/** The first number of an overlap for which only a point inside both bodies is known. */
 const POINT_ONLY = 1;
 
-/** Reads an answer of a kind. Its numbers start at index `at`. */
-export function answerOf(kind, numbers, at) {
+/** Reads an answer of a kind. Its numbers begin at index `start`. */
+export function answerOf(kind, numbers, start) {
+  const { answer } = layout();
   const name = KINDS[kind];
-  const tolerance = numbers[at];
-  const nearest = at + CONTACTS;
+  const value = (field) => numbers[start + answer[field]];
+  const hit = (hitKind, field) => hitOf(hitKind, numbers, start + answer[field], value("tolerance"));
   switch (name) {
     case "free":
-      return { kind: name, safeUntil: numbers[at + 3], provenGap: numbers[at + 1], tolerance };
+      return { kind: name, safeUntil: value("safeUntil"), provenGap: value("lower"), tolerance: value("tolerance") };
     case "contact":
     case "touching":
     case "overlapping":
-      return hitOf(name, numbers, nearest, tolerance);
+      return hit(name, "first");
     case "interval": {
-      const first = hitOf(KINDS[numbers[at + 5]], numbers, nearest, tolerance);
-      const last = hitOf(KINDS[numbers[at + 6]], numbers, nearest + CONTACT_LENGTH, tolerance);
-      return { kind: name, first, last, tolerance };
+      const [first, last] = [hit(KINDS[value("firstKind")], "first"), hit(KINDS[value("lastKind")], "last")];
+      return { kind: name, first, last, tolerance: value("tolerance") };
     }
     case "leastDistance":
-      return { kind: name, lower: numbers[at + 1], upper: numbers[at + 2], ...nearestOf(numbers, nearest), tolerance };
+      return { kind: name, ...boundsOf(numbers, start), ...nearestOf(numbers, start + answer.first), tolerance: value("tolerance") };
     default:
-      return unresolvedOf(numbers, at, tolerance);
+      return unresolvedOf(numbers, start);
   }
+}
+
+/** Returns the bounds of the distance in an answer. */
+export function boundsOf(numbers, start) {
+  const { lower, upper } = layout().answer;
+  return { lower: numbers[start + lower], upper: numbers[start + upper] };
 }
 
 /** Returns the name of a limit and the advice about it, from its number. */
@@ -59,43 +64,46 @@ function vectorAt(numbers, at) {
   return [numbers[at], numbers[at + 1], numbers[at + 2]];
 }
 
-function unresolvedOf(numbers, at, tolerance) {
-  const nearest = at + CONTACTS;
-  const safeFrom = numbers[at + 4];
+function unresolvedOf(numbers, start) {
+  const { answer, contact } = layout();
+  const value = (field) => numbers[start + answer[field]];
+  const nearest = start + answer.first;
   return {
     kind: "unresolved",
-    ...limitOf(numbers[at + 5]),
-    safeUntil: numbers[at + 3],
-    safeFrom: safeFrom === Infinity ? null : safeFrom,
-    lower: numbers[at + 1],
-    upper: numbers[at + 2],
-    nearest: numbers[nearest] === 0 ? null : nearestOf(numbers, nearest),
-    tolerance,
+    ...limitOf(value("limit")),
+    safeUntil: value("safeUntil"),
+    safeFrom: value("safeFrom") === Infinity ? null : value("safeFrom"),
+    ...boundsOf(numbers, start),
+    nearest: numbers[nearest + contact.known] === 0 ? null : nearestOf(numbers, nearest),
+    tolerance: value("tolerance"),
   };
 }
 
-function hitOf(kind, numbers, at, tolerance) {
-  const pointOnly = numbers[at] === POINT_ONLY;
+function hitOf(kind, numbers, start, tolerance) {
+  const { contact } = layout();
+  const { time, witnessA, witnessB, normal, featureA, featureB } = nearestOf(numbers, start);
+  const pointOnly = numbers[start + contact.known] === POINT_ONLY;
   return {
     kind,
-    time: numbers[at + 1],
-    witnessA: vectorAt(numbers, at + 2),
-    witnessB: vectorAt(numbers, at + 5),
-    normal: pointOnly ? null : vectorAt(numbers, at + 8),
-    distance: pointOnly ? null : [numbers[at + 11], numbers[at + 12]],
-    featureA: pointOnly ? null : featureOf(numbers, at + 13),
-    featureB: pointOnly ? null : featureOf(numbers, at + 16),
+    time,
+    witnessA,
+    witnessB,
+    normal: pointOnly ? null : normal,
+    distance: pointOnly ? null : [numbers[start + contact.lower], numbers[start + contact.upper]],
+    featureA: pointOnly ? null : featureA,
+    featureB: pointOnly ? null : featureB,
     tolerance,
   };
 }
 
-function nearestOf(numbers, at) {
+function nearestOf(numbers, start) {
+  const { contact } = layout();
   return {
-    time: numbers[at + 1],
-    witnessA: vectorAt(numbers, at + 2),
-    witnessB: vectorAt(numbers, at + 5),
-    normal: vectorAt(numbers, at + 8),
-    featureA: featureOf(numbers, at + 13),
-    featureB: featureOf(numbers, at + 16),
+    time: numbers[start + contact.time],
+    witnessA: vectorAt(numbers, start + contact.witnessA),
+    witnessB: vectorAt(numbers, start + contact.witnessB),
+    normal: vectorAt(numbers, start + contact.normal),
+    featureA: featureOf(numbers, start + contact.featureA),
+    featureB: featureOf(numbers, start + contact.featureB),
   };
 }

@@ -1,21 +1,13 @@
 // Questions about two bodies.
 
-import { answerOf } from "./answer.js";
+import { answerOf, boundsOf } from "./answer.js";
 import { bodyOf } from "./body.js";
 import { Movement } from "./movement.js";
 import { checkNames, choiceOf, settingNumber } from "./numbers.js";
+import { layout } from "./layout.js";
 import { Owned } from "./owned.js";
-import { MOTION_LENGTH, writeMotion, writeRest } from "./places.js";
+import { writeMotion, writeRest } from "./places.js";
 import { classes, engine, numbersAt } from "./wasm.js";
-
-/** Indices in the numbers of the solver. `doors/js/src/wasm/solver.rs` has the same. */
-const TOLERANCE = 0;
-const MARGIN = 1;
-const CLEARANCE = 2;
-const BUDGET = 3;
-const DURATION = 4;
-const MOTIONS = 5;
-const ANSWER = MOTIONS + 2 * MOTION_LENGTH;
 
 /** The names of the options of questions about contacts, about distances, and about time 0 only. */
 const OF_CONTACTS = ["motionA", "motionB", "duration", "tolerance", "margin", "budget"];
@@ -23,7 +15,8 @@ const OF_DISTANCES = OF_CONTACTS.filter((name) => name !== "margin");
 const AT_REST = OF_DISTANCES.filter((name) => name !== "duration");
 
 const startOf = choiceOf(["report", "leave"]);
-const PLACES = { tolerance: TOLERANCE, margin: MARGIN, budget: BUDGET, duration: DURATION };
+/** The names of the options that are numbers. */
+const NUMBERS = ["tolerance", "margin", "budget", "duration"];
 
 /** The engine that the solver belongs to. */
 let home = null;
@@ -69,7 +62,7 @@ export function distance(a, b, options) {
 
 export function keepsClearance(a, b, clearance, options) {
   const answer = ask(classes().Question.KeptClearance, a, b, options, OF_DISTANCES, settingNumber(clearance, "clearance"));
-  const [lower, upper] = [numbers[ANSWER + 1], numbers[ANSWER + 2]];
+  const { lower, upper } = boundsOf(numbers, layout().solver.answer);
   if (lower >= clearance && lower > 0) return true;
   if (upper < clearance || upper <= 0) return false;
   if (answer.kind === "unresolved") throw new UnresolvedError({ limit: answer.limit, advice: answer.advice, lower, upper });
@@ -81,15 +74,14 @@ export function keepsClearance(a, b, clearance, options) {
   throw new UnresolvedError({ ...known, lower, upper });
 }
 
-/** Returns the settings of a question about a path: tolerance, margin, 1 or 0 for the start policy "leave" or "report", and budget. The caller reads the other options. */
+/** Returns the settings of a question about a path. The caller reads the other options. */
 export function settingsOf(options, known) {
   if (options !== undefined) checkNames(options, "options", known);
-  const settings = Float64Array.from(defaultSettings());
-  for (const name of ["tolerance", "margin", "budget"]) {
-    if (known.includes(name) && options?.[name] !== undefined) settings[PLACES[name]] = settingNumber(options[name], name);
-  }
-  settings[CLEARANCE] = options?.start !== undefined && startOf(options.start, "start") === "leave" ? 1 : 0;
-  return settings;
+  const { solver: at } = layout();
+  const value = (name) => (known.includes(name) && options?.[name] !== undefined ? settingNumber(options[name], name) : defaultSettings()[at[name]]);
+  const [tolerance, margin, budget] = ["tolerance", "margin", "budget"].map(value);
+  const leaves = options?.start !== undefined && startOf(options.start, "start") === "leave";
+  return new (classes().PathSettings)(tolerance, margin, budget, leaves);
 }
 
 function unresolvedContact({ limit, advice, safeUntil }) {
@@ -99,31 +91,31 @@ function unresolvedContact({ limit, advice, safeUntil }) {
 function ask(question, a, b, options, known, clearance = 0) {
   for (const [body, what] of [[a, "a"], [b, "b"]]) bodyOf(body, what);
   const { given, moveA, moveB } = readOptions(options, known);
-  given[CLEARANCE] = clearance;
+  given[layout().solver.clearance] = clearance;
   // From here on no getter of the caller runs. A getter could ask other questions or free objects.
   solverNumbers().set(given);
   const moves = [moveA, moveB].map((move) => move && Owned.inner(move));
   const [bodyA, bodyB] = [bodyOf(a, "a"), bodyOf(b, "b")];
   moves.forEach((move, k) => move && solver.move_by(k, move));
   const kind = solver.ask(question, bodyA, bodyB);
-  return answerOf(kind, solverNumbers(), ANSWER);
+  return answerOf(kind, solverNumbers(), layout().solver.answer);
 }
 
 /** Reads the options of a question about two bodies. Returns the numbers that the solver takes, and the movements of the bodies. */
 function readOptions(options, known) {
-  const given = new Float64Array(ANSWER);
+  const { solver: at } = layout();
+  const given = new Float64Array(at.answer);
   given.set(defaultSettings());
-  given[DURATION] = NaN;
+  given[at.duration] = NaN;
   if (options !== undefined) checkNames(options, "options", known);
   for (const name of known) {
-    const place = PLACES[name];
-    const value = place === undefined ? undefined : options?.[name];
-    if (value !== undefined) given[place] = settingNumber(value, name);
+    const value = NUMBERS.includes(name) ? options?.[name] : undefined;
+    if (value !== undefined) given[at[name]] = settingNumber(value, name);
   }
-  const moveA = movementOf(options?.motionA, "motionA", given, MOTIONS);
-  const moveB = movementOf(options?.motionB, "motionB", given, MOTIONS + MOTION_LENGTH);
-  if (known === AT_REST) given[DURATION] = 0;
-  else if (Number.isNaN(given[DURATION])) given[DURATION] = endOf(moveA, moveB);
+  const moveA = movementOf(options?.motionA, "motionA", given, at.motionA);
+  const moveB = movementOf(options?.motionB, "motionB", given, at.motionB);
+  if (known === AT_REST) given[at.duration] = 0;
+  else if (Number.isNaN(given[at.duration])) given[at.duration] = endOf(moveA, moveB);
   return { given, moveA, moveB };
 }
 
@@ -154,6 +146,6 @@ function solverNumbers() {
 }
 
 function defaultSettings() {
-  defaults ??= solverNumbers().slice(0, DURATION);
+  defaults ??= solverNumbers().slice(0, layout().solver.duration);
   return defaults;
 }

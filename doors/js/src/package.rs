@@ -16,13 +16,14 @@ use wasm_bindgen_cli_support::Bindgen;
 const WASM_TARGET: &str = "wasm32-unknown-unknown";
 
 /// The parts of the module. Each comes after the parts that it imports.
-const PARTS: [&str; 13] = [
+const PARTS: [&str; 14] = [
     include_str!("../module/words.js"),
     include_str!("../module/numbers.js"),
     include_str!("../module/places.js"),
     include_str!("../module/inflate.js"),
     include_str!("../module/wasm.js"),
     include_str!("../module/owned.js"),
+    include_str!("../module/layout.js"),
     include_str!("../module/answer.js"),
     include_str!("../module/body.js"),
     include_str!("../module/movement.js"),

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `body` | bodies from shapes, arrays and files |
 //! | `movement`, `poses` | movements of bodies: constant velocities, poses, a throw, the link of a robot |
-//! | `solver`, `answer` | questions about two bodies, and their answers as numbers |
+//! | `solver`, `answer`, `fields` | questions about two bodies, and their answers as numbers with names |
 //! | `robot`, `cell`, `path_answer` | robots and mechanisms, and questions about their paths |
 //! | `fault` | errors as JavaScript has them |
 //! | `limits` | the limits that leave a question unresolved |
@@ -17,6 +17,7 @@ mod answer;
 mod body;
 mod cell;
 mod fault;
+mod fields;
 mod host;
 mod limits;
 mod movement;
@@ -27,7 +28,7 @@ mod solver;
 
 pub use answer::AnswerKind;
 pub use body::{Body, Mesh};
-pub use cell::Cell;
+pub use cell::{Cell, PathSettings};
 pub use host::start;
 pub use limits::{limit_advice, limit_name};
 pub use movement::Movement;

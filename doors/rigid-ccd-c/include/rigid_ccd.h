@@ -11,8 +11,12 @@
 #ifndef RIGID_CCD_H
 #define RIGID_CCD_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+
+// The settings that `rccd_settings_default` fills in: `rccd_settings settings = RCCD_SETTINGS_INIT;`.
+#define RCCD_SETTINGS_INIT {sizeof(rccd_settings), 0.001, 0.0, 4194304, HUGE_VAL, RCCD_START_POLICY_REPORT, RCCD_CONTACT_NORMALS_REFINED, NULL}
 
 // The status of a call.
 enum rccd_status
@@ -820,6 +824,9 @@ rccd_status rccd_keeps_clearance(struct rccd_solver *solver,
                                  double duration,
                                  double clearance,
                                  struct rccd_answer *answer);
+
+// Returns the version of the library, such as `0.1.0`.
+const char *rccd_version(void);
 
 // Returns the message of this thread's last failed call, in UTF-8; empty if no call has failed. The text is valid until
 // this thread's next failed call. Call this in a statement of its own, after the failed call.

@@ -53,7 +53,7 @@ pub use path::RccdPath;
 pub use path_answer::RccdPathAnswer;
 pub use settings::{RccdContactNormals, RccdSettings, RccdStartPolicy, rccd_settings_default};
 pub use solver::*;
-pub use status::{RccdStatus, rccd_last_error};
+pub use status::{RccdStatus, rccd_last_error, rccd_version};
 pub use stop::*;
 pub use trajectory::*;
 

@@ -1,7 +1,7 @@
 //! The status that calls return, and the message of the last failure of a thread.
 
 use std::cell::RefCell;
-use std::ffi::{CString, c_char};
+use std::ffi::{CStr, CString, c_char};
 use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -78,6 +78,19 @@ fn panic_message(panic: &dyn std::any::Any) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
     text.unwrap_or_else(|| "a panic".to_owned())
+}
+
+/// The version of this crate, as a text for C.
+const VERSION: &CStr =
+    match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {
+        Ok(version) => version,
+        Err(_) => c"",
+    };
+
+/// Returns the version of the library, such as `0.1.0`.
+#[unsafe(no_mangle)]
+pub extern "C" fn rccd_version() -> *const c_char {
+    VERSION.as_ptr()
 }
 
 /// Returns the message of this thread's last failed call, in UTF-8; empty if no call has failed. The text is valid until

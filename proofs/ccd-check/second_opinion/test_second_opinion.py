@@ -440,8 +440,8 @@ class Free(Case):
                 self.holds(self.M, made)
             else:
                 self.fails("too short to be split", self.M, made)
-        # The middle is rounded down: three ticks are split after the first one. The second half may be checked from one
-        # tick before. B is beside A from 1.5 ticks before the middle and above A until 0.5 after it, or only one.
+        # The middle is rounded down. B is beside A from 1.5 ticks before the middle, and above A until 0.5 ticks after
+        # it. That is enough, as the second half may be checked from one tick before. With only one of both it is not.
         for duration, middle in ((2.0, 1), (3.0, 1), (4.0, 2), (5.0, 2), (8.0, 4)):
             for above, beside in ((middle + 0.5, middle - 1.5), (middle - 0.5, middle - 1.5),
                                   (middle + 0.5, middle + 0.5)):

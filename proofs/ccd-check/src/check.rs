@@ -95,20 +95,17 @@ fn check_witness(reader: &mut Reader<'_>, [unit, time]: [i64; 2], links: &Links,
     // The time is rounded up by at most 1. The error bound covers the motion in that time.
     let states = links.over_interval(reader.magnitude(time, [0, FRACTION])?, 0).states;
     // The margin, both radii and the tolerance are rounded up by at most 1 each.
-    let (mut difference, mut limit) = (ZERO, margin + reader.magnitude(unit, [LENGTH, 0])? - 4);
+    let (mut offset, mut limit) = (ZERO, margin + reader.magnitude(unit, [LENGTH, 0])? - 4);
     for Part { body, link, .. } in bodies {
         let corners = body.triangles[reader.index(body.triangles.len())?];
         let weights = reader.array(|reader| Ok(reader.unsigned(7)? as i64))?;
         reader.require(weights.iter().sum::<i64>() == 1 << WEIGHT, "the weights of a witness do not add up to 1")?;
         let [x, y, z, radius] = [0, 1, 2, 3].map(|k| (dot(weights, corners.map(|corner| corner[k])) >> WEIGHT) as i64);
         let arm = sub([x, y, z], links.all[link].centre);
-        difference = sub(add(states[link].position, rotated(states[link].rotation, arm)), difference);
+        offset = sub(add(states[link].position, rotated(states[link].rotation, arm)), offset);
         limit += radius - 3 * links.error_bound(length_bound(arm)) as i64;
     }
-    reader.require(
-        limit >= 0 && dot(difference, difference) <= product(limit, limit),
-        "the points of the witness are too far apart",
-    )
+    reader.require(limit >= 0 && dot(offset, offset) <= product(limit, limit), "the points of the witness are too far apart")
 }
 
 #[cfg(test)]
@@ -173,7 +170,7 @@ mod tests {
             check(core::slice::from_ref(&body), &proof)
         };
         assert_eq!(verdict(63), Ok(()));
-        assert_eq!(verdict(64), Err(Stop::Unverifiable("the links turn or reach too far in total")));
+        assert_eq!(verdict(64), Err(Stop::Unverifiable("the links turn or reach too far")));
     }
 
     /// Tests a link whose sum of lengths overflows 64 bits. A sum that wraps around would give a small error bound, and two triangles
@@ -188,7 +185,7 @@ mod tests {
                 let mut proof = proof_of_moving(&[long], (links, &body));
                 proof.extend(leaf(0));
                 let verdict = check(core::slice::from_ref(&body), &proof);
-                assert_eq!(verdict, Err(Stop::Unverifiable("the links turn or reach too far in total")));
+                assert_eq!(verdict, Err(Stop::Unverifiable("the links turn or reach too far")));
             }
         }
     }

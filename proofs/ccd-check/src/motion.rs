@@ -49,8 +49,10 @@ impl Links {
             let turn = parameter.map(|x| scaled(axis, x, FRACTION));
             links.rotation_error += (3 + ((parameter[0].abs() + parameter[1].abs()) >> RADIAN)) << 10;
             links.arm_sum = arm.as_flattened().iter().fold(links.arm_sum, |sum, x| sum.saturating_add(x.abs()));
-            let is_in_range = links.rotation_error <= ONE >> 30 && links.arm_sum <= 1 << (LENGTH + 6);
-            verifiable(is_in_range, "the links turn or reach too far in total")?;
+            verifiable(
+                links.rotation_error <= ONE >> 30 && links.arm_sum <= 1 << (LENGTH + 6),
+                "the links turn or reach too far",
+            )?;
             links.all.push(Link { parent, centre, start, arm, turn });
         }
         Ok(links)
@@ -119,8 +121,7 @@ impl RelativeMotion {
     /// Computes the motion of the link `to` relative to the link `from`. Returns `None` if the joints between them turn by more
     /// than 2 radians in total. The lemmas prove nothing beyond that.
     pub(crate) fn new(Interval { links, states }: &Interval<'_>, from: usize, to: usize) -> Option<RelativeMotion> {
-        let (mut motion, mut left, mut entered) = (RelativeMotion::default(), from, to);
-        let mut path = Vec::with_capacity(8);
+        let (mut motion, mut left, mut entered, mut path) = (RelativeMotion::default(), from, to, Vec::with_capacity(8));
         while left != entered {
             if left > entered {
                 motion.add_turn(&states[left], -1)?;

@@ -40,7 +40,7 @@ const CHEAP_LEAF_COST: usize = 30;
 /// Estimated checking cost of a task that no leaf proves yet.
 const UNPROVEN_COST: usize = 800;
 
-/// The maximum number of link states in the cache, which take about 100 MB. The checker's cache has the same maximum.
+/// The maximum number of link states in the cache, which take about 100 MB; the intervals that are kept beside them take up to 150 MB. The checker's cache has the same maximum.
 pub(crate) const MAX_CACHED_STATES: usize = 1 << 19;
 
 /// The steps of a proof while they are written. Their leaves cover all pairs of triangles at all times.

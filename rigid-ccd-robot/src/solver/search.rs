@@ -176,7 +176,7 @@ impl<'c> PathSearch<'c> {
                     let parts = [pair.a, pair.b].map(|part| &self.cell.parts()[part as usize]);
                     parts[0].excess_over_shape + parts[1].excess_over_shape
                 };
-                // If no pair was result, there is no upper bound.
+                // If no pair was measured, there is no upper bound.
                 result
                     .nearest
                     .map_or(0.0, |(_, pair)| upper - lower - excess(pair))

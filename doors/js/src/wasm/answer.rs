@@ -1,14 +1,10 @@
-//! Answers about two bodies as an array of numbers. `doors/js/module/answer.js` reads them by index.
+//! Answers about two bodies as numbers. JavaScript reads them by the names of the fields.
 
+use super::fields::field_indices;
 use super::limits::limit_number;
 use rigid_ccd::answer::{Contact, Feature, HitKind, Overlap, Unresolved};
-use rigid_ccd::glam::DVec3;
 use rigid_ccd::{Answer, Hit, Outcome};
 use wasm_bindgen::prelude::wasm_bindgen;
-
-/// The length of an answer: seven numbers, then two contacts.
-pub(crate) const ANSWER_LENGTH: usize = 7 + 2 * CONTACT_LENGTH;
-const CONTACT_LENGTH: usize = 21;
 
 /// The kind of an answer, or of the first or last contact of an interval.
 #[wasm_bindgen]
@@ -30,101 +26,155 @@ pub enum AnswerKind {
     Unresolved,
 }
 
-/// Writes an answer to a query from time 0 to `duration` as numbers, and returns its kind.
-///
-/// The first seven numbers are: the tolerance, the lower and the upper bound of the distance, the time before which
-/// nothing touches, the time after which nothing touches, the number of the limit or the kind of the first contact of
-/// an interval, and the kind of its last contact. Then follow the first or nearest contact, and the last contact. The
-/// first number of a contact is 0 if there is none, 1 if only a point inside both bodies is known, and otherwise 2.
-pub(crate) fn write(answer: &Answer, duration: f64, numbers: &mut [f64]) -> AnswerKind {
-    numbers[..ANSWER_LENGTH].fill(0.0);
-    let (values, contacts) = numbers.split_at_mut(7);
-    let (nearest, last) = contacts.split_at_mut(CONTACT_LENGTH);
-    let outcome = &answer.outcome;
-    [values[0], values[1], values[2]] = [answer.tolerance, outcome.lower(), outcome.upper()];
-    match *outcome {
-        Outcome::Free { .. } => {
-            values[3] = duration;
-            AnswerKind::Free
+/// An answer to a query from time 0 to a duration.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
+pub(crate) struct AnswerNumbers {
+    tolerance: f64,
+    /// Bounds of the distance.
+    lower: f64,
+    upper: f64,
+    /// The time before which nothing touches, and the time after which nothing touches.
+    safe_until: f64,
+    safe_from: f64,
+    /// The number of the limit.
+    limit: f64,
+    /// The kinds of the first and the last contact of an interval.
+    first_kind: f64,
+    last_kind: f64,
+    /// The first or nearest contact.
+    first: ContactNumbers,
+    /// The last contact of an interval.
+    last: ContactNumbers,
+}
+
+/// A contact.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
+pub(crate) struct ContactNumbers {
+    /// 0 if there is no contact, 1 if only a point inside both bodies is known, and otherwise 2.
+    known: f64,
+    time: f64,
+    witness_a: [f64; 3],
+    witness_b: [f64; 3],
+    normal: [f64; 3],
+    /// Bounds of the distance.
+    lower: f64,
+    upper: f64,
+    /// The kind of a feature, and its mesh indices.
+    feature_a: [f64; 3],
+    feature_b: [f64; 3],
+}
+
+impl AnswerNumbers {
+    /// The index of each field among the numbers.
+    pub(crate) const FIELDS: [(&str, usize); 10] = field_indices!(
+        AnswerNumbers: tolerance, lower, upper, safe_until, safe_from, limit, first_kind, last_kind, first, last
+    );
+
+    /// Writes an answer to a query from time 0 to `duration`, and returns its kind.
+    pub(crate) fn write(&mut self, answer: &Answer, duration: f64) -> AnswerKind {
+        let outcome = &answer.outcome;
+        *self = AnswerNumbers {
+            tolerance: answer.tolerance,
+            lower: outcome.lower(),
+            upper: outcome.upper(),
+            ..AnswerNumbers::default()
+        };
+        match *outcome {
+            Outcome::Free { .. } => {
+                self.safe_until = duration;
+                AnswerKind::Free
+            }
+            Outcome::Contact { time, contact } => {
+                self.first = ContactNumbers::of_contact(time, &contact);
+                AnswerKind::Contact
+            }
+            Outcome::Touching { contact } => {
+                self.first = ContactNumbers::of_contact(0.0, &contact);
+                AnswerKind::Touching
+            }
+            Outcome::Overlapping { overlap, .. } => {
+                self.first = ContactNumbers::of_overlap(0.0, &overlap);
+                AnswerKind::Overlapping
+            }
+            Outcome::Interval { first, last } => {
+                (self.first_kind, self.first) = numbers_of_hit(&first);
+                (self.last_kind, self.last) = numbers_of_hit(&last);
+                AnswerKind::Interval
+            }
+            Outcome::LeastDistance { time, contact, .. } => {
+                self.first = ContactNumbers::of_contact(time, &contact);
+                AnswerKind::LeastDistance
+            }
+            Outcome::Unresolved(known) => {
+                self.write_unresolved(&known);
+                AnswerKind::Unresolved
+            }
         }
-        Outcome::Contact { time, contact } => {
-            write_contact(time, &contact, nearest);
-            AnswerKind::Contact
-        }
-        Outcome::Touching { contact } => {
-            write_contact(0.0, &contact, nearest);
-            AnswerKind::Touching
-        }
-        Outcome::Overlapping { overlap, .. } => {
-            write_overlap(0.0, &overlap, nearest);
-            AnswerKind::Overlapping
-        }
-        Outcome::Interval { first, last: until } => {
-            values[5] = write_hit(&first, nearest) as u8 as f64;
-            values[6] = write_hit(&until, last) as u8 as f64;
-            AnswerKind::Interval
-        }
-        Outcome::LeastDistance { time, contact, .. } => {
-            write_contact(time, &contact, nearest);
-            AnswerKind::LeastDistance
-        }
-        Outcome::Unresolved(known) => {
-            write_unresolved(&known, values, nearest);
-            AnswerKind::Unresolved
+    }
+
+    fn write_unresolved(&mut self, known: &Unresolved) {
+        [self.safe_until, self.safe_from] = [known.safe_until, known.safe_from];
+        self.limit = limit_number(known.limit) as f64;
+        if let Some((time, contact)) = known.nearest_contact {
+            self.first = ContactNumbers::of_contact(time, &contact);
         }
     }
 }
 
-fn write_unresolved(known: &Unresolved, values: &mut [f64], nearest: &mut [f64]) {
-    [values[3], values[4]] = [known.safe_until, known.safe_from];
-    values[5] = limit_number(known.limit) as f64;
-    if let Some((time, contact)) = known.nearest_contact {
-        write_contact(time, &contact, nearest);
-    }
-}
-
-fn write_hit(hit: &Hit, numbers: &mut [f64]) -> AnswerKind {
-    match &hit.kind {
+/// Returns the kind of a contact, and the contact as numbers.
+fn numbers_of_hit(hit: &Hit) -> (f64, ContactNumbers) {
+    let (kind, numbers) = match &hit.kind {
         HitKind::Contact(contact) => {
-            write_contact(hit.time, contact, numbers);
-            AnswerKind::Contact
+            let numbers = ContactNumbers::of_contact(hit.time, contact);
+            (AnswerKind::Contact, numbers)
         }
         HitKind::Touching(contact) => {
-            write_contact(hit.time, contact, numbers);
-            AnswerKind::Touching
+            let numbers = ContactNumbers::of_contact(hit.time, contact);
+            (AnswerKind::Touching, numbers)
         }
         HitKind::Overlapping(overlap) => {
-            write_overlap(hit.time, overlap, numbers);
-            AnswerKind::Overlapping
+            let numbers = ContactNumbers::of_overlap(hit.time, overlap);
+            (AnswerKind::Overlapping, numbers)
+        }
+    };
+    (f64::from(kind as u8), numbers)
+}
+
+impl ContactNumbers {
+    /// The index of each field among the numbers of a contact.
+    pub(crate) const FIELDS: [(&str, usize); 9] = field_indices!(
+        ContactNumbers: known, time, witness_a, witness_b, normal, lower, upper, feature_a, feature_b
+    );
+
+    fn of_contact(time: f64, contact: &Contact) -> Self {
+        let separation = &contact.separation;
+        ContactNumbers {
+            known: 2.0,
+            time,
+            witness_a: separation.witness_a.to_array(),
+            witness_b: separation.witness_b.to_array(),
+            normal: separation.normal.to_array(),
+            lower: separation.lower,
+            upper: separation.upper,
+            feature_a: feature_numbers(contact.feature_a),
+            feature_b: feature_numbers(contact.feature_b),
         }
     }
-}
 
-fn write_overlap(time: f64, overlap: &Overlap, numbers: &mut [f64]) {
-    match overlap {
-        Overlap::Pieces(contact) => write_contact(time, contact, numbers),
-        Overlap::AInsideB(point) | Overlap::BInsideA(point) => {
-            [numbers[0], numbers[1]] = [1.0, time];
-            write_vector(*point, &mut numbers[2..]);
-            write_vector(*point, &mut numbers[5..]);
+    fn of_overlap(time: f64, overlap: &Overlap) -> Self {
+        match overlap {
+            Overlap::Pieces(contact) => ContactNumbers::of_contact(time, contact),
+            Overlap::AInsideB(point) | Overlap::BInsideA(point) => ContactNumbers {
+                known: 1.0,
+                time,
+                witness_a: point.to_array(),
+                witness_b: point.to_array(),
+                ..ContactNumbers::default()
+            },
         }
     }
-}
-
-fn write_contact(time: f64, contact: &Contact, numbers: &mut [f64]) {
-    let separation = &contact.separation;
-    [numbers[0], numbers[1]] = [2.0, time];
-    write_vector(separation.witness_a, &mut numbers[2..]);
-    write_vector(separation.witness_b, &mut numbers[5..]);
-    write_vector(separation.normal, &mut numbers[8..]);
-    [numbers[11], numbers[12]] = [separation.lower, separation.upper];
-    numbers[13..16].copy_from_slice(&feature_numbers(contact.feature_a));
-    numbers[16..19].copy_from_slice(&feature_numbers(contact.feature_b));
-    [numbers[19], numbers[20]] = [contact.piece_a, contact.piece_b].map(f64::from);
-}
-
-fn write_vector(vector: DVec3, numbers: &mut [f64]) {
-    numbers[..3].copy_from_slice(&vector.to_array());
 }
 
 /// Returns the index of the feature's kind, in the order of [`Feature`], and its mesh indices.

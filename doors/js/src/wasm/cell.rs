@@ -29,6 +29,47 @@ pub struct Cell {
     cell: Option<CellWithSolver>,
 }
 
+/// The settings of a question about a path.
+#[wasm_bindgen]
+#[derive(Clone, Copy, Debug)]
+pub struct PathSettings {
+    tolerance: f64,
+    margin: f64,
+    budget: f64,
+    leaves_start_contacts: bool,
+}
+
+#[wasm_bindgen]
+impl PathSettings {
+    /// Creates settings. The start policy is to leave or to report contacts at the start.
+    #[wasm_bindgen(constructor)]
+    pub fn new(tolerance: f64, margin: f64, budget: f64, leaves_start_contacts: bool) -> Self {
+        PathSettings {
+            tolerance,
+            margin,
+            budget,
+            leaves_start_contacts,
+        }
+    }
+}
+
+impl From<PathSettings> for Settings {
+    fn from(given: PathSettings) -> Self {
+        Settings {
+            tolerance: given.tolerance,
+            margin: given.margin,
+            // The cast saturates: a larger number is the largest budget.
+            budget: given.budget as u64,
+            start_policy: if given.leaves_start_contacts {
+                StartPolicy::Leave
+            } else {
+                StartPolicy::Report
+            },
+            ..Settings::DEFAULT
+        }
+    }
+}
+
 #[wasm_bindgen]
 impl Cell {
     /// Creates a cell without obstacles.
@@ -151,8 +192,7 @@ impl Cell {
         Ok(names_of_pairs(cell.robot(), cell.link_pairs()))
     }
 
-    /// Answers a question about a path. `path` has its configurations one after another. Settings are the tolerance,
-    /// the margin, the start policy (0 for report, 1 for leave), and the budget.
+    /// Answers a question about a path. `path` has its configurations one after another.
     ///
     /// # Errors
     /// An invalid configuration or setting.
@@ -161,7 +201,7 @@ impl Cell {
         question: Question,
         path: &[f64],
         count: usize,
-        settings: &[f64],
+        settings: PathSettings,
     ) -> Result<PathAnswer, Fault> {
         self.with_solver_for((path, count), settings, |solver, path| {
             Ok(solver.answer(question.into(), path)?.into())
@@ -177,7 +217,7 @@ impl Cell {
         &mut self,
         path: &[f64],
         count: usize,
-        settings: &[f64],
+        settings: PathSettings,
         resolution: f64,
         max_pose_error: f64,
     ) -> Result<Vec<f64>, Fault> {
@@ -219,7 +259,7 @@ impl Cell {
     fn with_solver_for<T>(
         &mut self,
         (path, count): (&[f64], usize),
-        settings: &[f64],
+        settings: PathSettings,
         then: impl FnOnce(&mut CellSolver<'_>, &[&[f64]]) -> Result<T, PathError>,
     ) -> Result<T, Fault> {
         let mut cell = self.taken()?;
@@ -228,23 +268,14 @@ impl Cell {
             0 => vec![&[]; count],
             _ => path.chunks(joints).collect(),
         };
-        tell_warnings(cell.borrow_owner().remark_on_tolerance(settings[0]));
+        tell_warnings(cell.borrow_owner().remark_on_tolerance(settings.tolerance));
         let robot = cell.borrow_owner().robot();
         let mut remarks = configurations
             .iter()
             .filter_map(|at| robot.remark_on_configuration(at));
         tell_warnings(remarks.next());
         let answer = cell.with_dependent_mut(|_, solver| {
-            solver.set_settings(Settings {
-                tolerance: settings[0],
-                margin: settings[1],
-                budget: settings[3] as u64,
-                start_policy: match settings[2] {
-                    0.0 => StartPolicy::Report,
-                    _ => StartPolicy::Leave,
-                },
-                ..Settings::DEFAULT
-            });
+            solver.set_settings(settings.into());
             then(solver, &configurations)
         });
         self.cell = Some(cell);

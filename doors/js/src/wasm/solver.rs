@@ -1,19 +1,46 @@
 //! Questions about two bodies.
 
-use super::answer::{self, ANSWER_LENGTH, AnswerKind};
+use super::answer::{AnswerKind, AnswerNumbers, ContactNumbers};
 use super::body::Body;
 use super::fault::Fault;
+use super::fields::field_indices;
 use super::host::tell;
 use super::movement::{MOTION_LENGTH, Movement, motion_from_numbers};
 use rigid_ccd::trajectory::MovingBody;
 use rigid_ccd::{Answer, InputError, Motion, Remark, Settings};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Indices in the numbers of a solver. `doors/js/module/solver.js` has the same.
-const SETTINGS: usize = 0;
-const DURATION: usize = 4;
-const MOTIONS: [usize; 2] = [5, 5 + MOTION_LENGTH];
-const ANSWER: usize = 5 + 2 * MOTION_LENGTH;
+/// The numbers of a question and of its answer. JavaScript reads and writes them by the names of the fields.
+#[derive(Debug, Default)]
+#[repr(C)]
+struct Numbers {
+    tolerance: f64,
+    margin: f64,
+    clearance: f64,
+    budget: f64,
+    duration: f64,
+    motion_a: [f64; MOTION_LENGTH],
+    motion_b: [f64; MOTION_LENGTH],
+    answer: AnswerNumbers,
+}
+
+impl Numbers {
+    /// The index of each field among the numbers.
+    const FIELDS: [(&str, usize); 8] = field_indices!(
+        Numbers: tolerance, margin, clearance, budget, duration, motion_a, motion_b, answer
+    );
+
+    fn settings(&self, question: Question) -> Settings {
+        Settings {
+            tolerance: self.tolerance,
+            margin: self.margin,
+            clearance: (question == Question::KeptClearance).then_some(self.clearance),
+            // The cast saturates: a larger number is the largest budget.
+            budget: self.budget as u64,
+            ..Settings::DEFAULT
+        }
+    }
+}
 
 /// A question about two bodies.
 #[wasm_bindgen]
@@ -31,15 +58,13 @@ pub enum Question {
     KeptClearance,
 }
 
-/// Answers questions about two bodies. Numbers are passed in an array in its memory.
-///
-/// The shared array. JavaScript writes tolerance, margin, clearance, budget, duration, and the numbers of two motions.
-/// A question writes the numbers of its answer behind them.
+/// Answers questions about two bodies. JavaScript writes the numbers of a question to the solver's memory, and reads
+/// those of the answer there.
 #[wasm_bindgen]
 pub struct Solver {
     solver: rigid_ccd::Solver,
-    numbers: Box<[f64; ANSWER + ANSWER_LENGTH]>,
-    /// The movements of the bodies in the next question. Each replaces a motion in `numbers`.
+    numbers: Box<Numbers>,
+    /// The movements of the bodies in the next question. Each replaces a motion among the numbers.
     movements: [Option<Movement>; 2],
 }
 
@@ -48,14 +73,18 @@ impl Solver {
     /// Creates a solver with the default settings.
     #[wasm_bindgen(constructor)]
     pub fn new() -> Self {
-        let mut numbers = Box::new([0.0; ANSWER + ANSWER_LENGTH]);
         let Settings {
             tolerance,
             margin,
             budget,
             ..
         } = Settings::DEFAULT;
-        numbers[SETTINGS..DURATION].copy_from_slice(&[tolerance, margin, 0.0, budget as f64]);
+        let numbers = Box::new(Numbers {
+            tolerance,
+            margin,
+            budget: budget as f64,
+            ..Numbers::default()
+        });
         Solver {
             solver: rigid_ccd::Solver::new(),
             numbers,
@@ -65,12 +94,27 @@ impl Solver {
 
     /// Returns the address of the array of numbers.
     pub fn numbers_address(&self) -> usize {
-        self.numbers.as_ptr() as usize
+        std::ptr::from_ref(&*self.numbers) as usize
     }
 
     /// Returns the length of the array of numbers.
     pub fn number_count(&self) -> usize {
-        self.numbers.len()
+        size_of::<Numbers>() / size_of::<f64>()
+    }
+
+    /// Returns the names and indices of the numbers of the solver, of an answer and of a contact, as lines such as
+    /// `contact.witness_a 2`.
+    pub fn layout() -> String {
+        let groups = [
+            ("solver", &Numbers::FIELDS[..]),
+            ("answer", &AnswerNumbers::FIELDS),
+            ("contact", &ContactNumbers::FIELDS),
+        ];
+        let fields = groups.into_iter().flat_map(|(group, fields)| {
+            let line = move |(name, index): &(&str, usize)| format!("{group}.{name} {index}");
+            fields.iter().map(line)
+        });
+        fields.collect::<Vec<String>>().join("\n")
     }
 
     /// Sets the movement of body 0 or 1 for the next question.
@@ -87,12 +131,11 @@ impl Solver {
     pub fn ask(&mut self, question: Question, a: &Body, b: &Body) -> Result<AnswerKind, Fault> {
         let answer = self.answer(question, a, b)?;
         tell(Remark::remark_on_tolerance(
-            self.numbers[SETTINGS],
+            self.numbers.tolerance,
             [a.size, b.size],
         ));
-        let duration = self.numbers[DURATION];
-        let numbers = &mut self.numbers[ANSWER..];
-        Ok(answer::write(&answer, duration, numbers))
+        let duration = self.numbers.duration;
+        Ok(self.numbers.answer.write(&answer, duration))
     }
 }
 
@@ -105,7 +148,7 @@ impl Default for Solver {
 impl Solver {
     fn answer(&mut self, question: Question, a: &Body, b: &Body) -> Result<Answer, Fault> {
         let [move_a, move_b] = std::mem::take(&mut self.movements);
-        let duration = self.numbers[DURATION];
+        let duration = self.numbers.duration;
         for movement in [&move_a, &move_b].into_iter().flatten() {
             let latest = movement.latest_duration();
             if duration > latest {
@@ -114,10 +157,10 @@ impl Solver {
                 )));
             }
         }
-        self.solver
-            .set_settings(settings(question, &self.numbers[SETTINGS..DURATION]));
-        let motion = |k: usize| motion_from_numbers(&self.numbers[MOTIONS[k]..][..MOTION_LENGTH]);
-        let (solver, motion_a, motion_b) = (&mut self.solver, motion(0), motion(1));
+        self.solver.set_settings(self.numbers.settings(question));
+        let [motion_a, motion_b] = [&self.numbers.motion_a, &self.numbers.motion_b]
+            .map(|numbers| motion_from_numbers(numbers));
+        let solver = &mut self.solver;
         let by_numbers = [(&move_a, &motion_a), (&move_b, &motion_b)].into_iter();
         let spins = by_numbers.filter_map(|(movement, motion)| match movement {
             Some(movement) => movement.constant_spin(),
@@ -155,17 +198,5 @@ impl From<Question> for rigid_ccd::Question {
                 rigid_ccd::Question::ClosestApproach
             }
         }
-    }
-}
-
-/// Reads the settings of a question: tolerance, margin, clearance and budget.
-fn settings(question: Question, numbers: &[f64]) -> Settings {
-    Settings {
-        tolerance: numbers[0],
-        margin: numbers[1],
-        clearance: (question == Question::KeptClearance).then_some(numbers[2]),
-        // A cast saturates: a larger number is the largest budget.
-        budget: numbers[3] as u64,
-        ..Settings::DEFAULT
     }
 }

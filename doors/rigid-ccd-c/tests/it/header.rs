@@ -28,6 +28,14 @@ fn a_program_in_c_answers() {
 }
 
 #[test]
+fn the_initial_settings_are_the_default_ones() {
+    for (compiler, standard) in [("cc", "-std=c99"), ("c++", "-std=c++17")] {
+        let printed = build_and_run(compiler, &[standard], "tests/programs/init.c", &[]);
+        assert_eq!(printed.trim_end(), env!("CARGO_PKG_VERSION"), "{standard}");
+    }
+}
+
+#[test]
 fn a_program_in_cpp_answers() {
     let printed = build_and_run("c++", &["-std=c++17"], "examples/first_contact.cpp", &[]);
     assert!(printed.starts_with("contact at 0.99"), "{printed}");
@@ -53,7 +61,7 @@ fn no_handle_is_lost() {
 
 #[test]
 fn robots_in_cpp_answer() {
-    let arm = folder().join("../rigid-ccd-robot/examples/edges/arm.urdf");
+    let arm = folder().join("../../rigid-ccd-robot/examples/edges/arm.urdf");
     let arguments = [arm.to_str().unwrap(), "link7"];
     let printed = build_and_run(
         "c++",
@@ -84,7 +92,7 @@ fn the_robot_of_the_documentation_prints_what_is_shown() {
 
 #[test]
 fn threads_in_cpp_share() {
-    let arm = folder().join("../rigid-ccd-robot/examples/edges/arm.urdf");
+    let arm = folder().join("../../rigid-ccd-robot/examples/edges/arm.urdf");
     let arguments = [arm.to_str().unwrap()];
     let program = "tests/programs/threads.cpp";
     let printed = build_and_run("c++", &["-std=c++17"], program, &arguments);

@@ -18,7 +18,7 @@ fn pose(random: &mut impl Rng, size: f64) -> Pose {
 }
 
 fn bodies() -> Vec<Body> {
-    let bracket = rigid_ccd::load("../rigid-ccd/examples/bracket.obj").unwrap();
+    let bracket = rigid_ccd::load("../../rigid-ccd/examples/bracket.obj").unwrap();
     vec![
         Body::sphere(0.4).unwrap(),
         Body::cuboid([0.1, 0.7, 0.4]).unwrap(),
@@ -159,7 +159,7 @@ fn bodies_are_drawn_by_their_surface() {
             .reduce(ccd_core::order::greater)
             .is_some_and(|z| z > 0.69 && z < 0.7 + 1e-9)
     );
-    let mesh = ccd_decomp::TriangleMesh::read("../rigid-ccd/examples/bracket.obj").unwrap();
+    let mesh = ccd_decomp::TriangleMesh::read("../../rigid-ccd/examples/bracket.obj").unwrap();
     assert_eq!(bracket.faces.len(), mesh.faces().len());
     for mesh in [ball, cuboid, capsule, bracket] {
         let most = mesh.vertices.len() as u32;

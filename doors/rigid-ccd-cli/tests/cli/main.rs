@@ -211,7 +211,7 @@ fn the_same_file_twice_is_loaded_once() {
 }
 
 #[test]
-fn threads_repetitions_and_instructions_change_no_bit_and_shortcuts_no_status() {
+fn threads_and_repetitions_change_no_bit() {
     let scene = Scene::new("threads");
     let mesh = scene.file("tetrahedron.obj", TETRAHEDRON_OBJ);
     let bodies = ["--a", mesh.to_str().unwrap(), "--b", "capsule:0.2,0.7"];
