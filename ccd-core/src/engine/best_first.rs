@@ -12,6 +12,7 @@ use super::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
 use super::subproblems::{OutcomeWithTolerance, Subproblems};
 use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
+use crate::motion::free_time::FreeTime;
 use crate::problem::Problem;
 use std::borrow::Cow;
 use std::ops::ControlFlow::{self, Break, Continue};
@@ -240,14 +241,14 @@ impl<O: DistanceOracle> SearchHandler<O> for FirstContact {
         oracle: &mut O,
         meter: &mut Meter,
         advance: AdvanceResult,
-    ) -> ControlFlow<Self::Conclusion, f64> {
+    ) -> ControlFlow<Self::Conclusion, FreeTime> {
         let AdvanceResult {
             clock,
             step_outcome: step,
             ..
         } = advance;
         self.proven_facts
-            .next_clock_or_outcome(problem, oracle, meter, step, clock)
+            .free_time_or_outcome(problem, oracle, meter, step, clock)
             .map_break(Break)
     }
 

@@ -85,7 +85,7 @@ impl BoundTightener {
             && split.lane_mask == u8::MAX
         {
             let profiles = &mut meter.scratch_memory().screw_profile_cache;
-            siblings.finish_if_kept_apart(|pair| screw.keeps_apart(problem, profiles, pair, s));
+            siblings.finish_proven_pairs(|pair| screw.free_time(problem, profiles, pair, s));
         }
     }
 }

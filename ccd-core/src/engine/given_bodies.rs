@@ -6,8 +6,7 @@ use crate::answer::{Contact, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::distance::separation::support_gap;
 use crate::engine::meter::Meter;
-use crate::engine::pieces::pair;
-use crate::engine::pieces::snapshot::Snapshot;
+use crate::engine::pieces::placed_pair::PlacedPair;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{distance, unit};
 use crate::problem::Problem;
@@ -68,16 +67,16 @@ fn replace_uncertain_normal(
     if !is_direction_uncertain(distance(witnesses[0], witnesses[1]), problem.rounding) {
         return contact;
     }
-    let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, s);
-    let pieces = &snapshot.pieces;
+    let placed = PlacedPair::new(problem, [contact.piece_a, contact.piece_b], s);
+    let pieces = &placed.pieces;
     // Rounded pieces are skipped: their cores are apart.
     if pieces.a.radius + pieces.b.radius > 0.0 {
         return contact;
     }
-    let [frame, _] = &snapshot.frames;
+    let [frame, _] = &placed.frames;
     let points = witnesses.map(|at| frame.inverse_transform_point(problem.to_problem_point(at)));
     let towards = frame.inverse_transform_vector(seen.normal);
-    let Some(axis) = common_normal(&snapshot, points, towards, meter) else {
+    let Some(axis) = common_normal(&placed, points, towards, meter) else {
         return contact;
     };
     let gap = support_gap(pieces, axis, points[0]) - problem.rounding;
@@ -104,20 +103,20 @@ fn remeasure_contact<O: DistanceOracle>(
     s: f64,
 ) -> Contact {
     let ids = [contact.piece_a, contact.piece_b];
-    let snapshot = Snapshot::new(given, ids[0], ids[1], s);
+    let placed = PlacedPair::new(given, ids, s);
     let bound = contact.separation.lower;
-    let checked = snapshot.query_oracle(oracle, &mut O::Cache::default(), meter);
+    let checked = placed.query_oracle(oracle, &mut O::Cache::default(), meter);
     match checked.filter(|checked| checked.upper <= within) {
-        Some(checked) => pair::contact(&snapshot, ids, &checked).cap_lower_bound(bound),
+        Some(checked) => placed.contact(ids, &checked).cap_lower_bound(bound),
         // The oracle finds less for the pieces than for their surfaces. The result for the surfaces remains, with the
         // bounds that its normal proves for the pieces.
         None => {
-            let axis = snapshot.frames[0].inverse_transform_vector(contact.separation.normal);
-            let from = snapshot.frames[0]
+            let axis = placed.frames[0].inverse_transform_vector(contact.separation.normal);
+            let from = placed.frames[0]
                 .inverse_transform_point(given.to_problem_point(contact.separation.witness_a));
-            let radii = snapshot.pieces.a.radius + snapshot.pieces.b.radius;
+            let radii = placed.pieces.a.radius + placed.pieces.b.radius;
             contact
-                .cap_lower_bound(support_gap(&snapshot.pieces, axis, from) - radii - given.rounding)
+                .cap_lower_bound(support_gap(&placed.pieces, axis, from) - radii - given.rounding)
         }
     }
 }

@@ -4,8 +4,7 @@ use super::meter::Meter;
 use super::nodes::common::NodeContext;
 use super::nodes::expand::bound_child_distances;
 use super::nodes::siblings::{NextStep, Siblings};
-use super::pieces::pair::contact;
-use super::pieces::snapshot::Snapshot;
+use super::pieces::placed_pair::PlacedPair;
 use super::queue::{QueueFull, Rank, Worklist};
 use super::search_buffers::SearchBuffers;
 use crate::answer::{Contact, Limit};
@@ -144,16 +143,16 @@ impl<'p> NearestSearch<'p> {
         meter: &mut Meter,
     ) -> ControlFlow<EarlyEndReason> {
         let problem = self.problem;
-        let snapshot = Snapshot::new(problem, ids[0], ids[1], self.clock);
-        let Some(checked) = snapshot.query_oracle(oracle, &mut O::Cache::default(), meter) else {
+        let placed = PlacedPair::new(problem, ids, self.clock);
+        let Some(checked) = placed.query_oracle(oracle, &mut O::Cache::default(), meter) else {
             return ControlFlow::Break(EarlyEndReason::Limit(Limit::OracleGaveUp));
         };
         let inner = &mut meter.scratch_memory().expanding_polytope;
-        match overlap::decide_intersection(&snapshot.pieces, &checked, problem.rounding, inner) {
+        match overlap::decide_intersection(&placed.pieces, &checked, problem.rounding, inner) {
             Intersection::Certain => {
                 return ControlFlow::Break(EarlyEndReason::Overlap(
                     ids,
-                    contact(&snapshot, ids, &checked),
+                    placed.contact(ids, &checked),
                 ));
             }
             Intersection::Undecided => self.is_intersection_undecided = true,
@@ -165,7 +164,7 @@ impl<'p> NearestSearch<'p> {
         }
         self.lower = lesser(self.lower, checked.lower);
         if checked.upper < self.upper_bound() {
-            self.nearest_pair = Some((ids, contact(&snapshot, ids, &checked)));
+            self.nearest_pair = Some((ids, placed.contact(ids, &checked)));
         }
         ControlFlow::Continue(())
     }

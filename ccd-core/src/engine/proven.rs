@@ -1,11 +1,12 @@
 //! The facts that are proven about two bodies in the course of a search.
 
 use super::meter::Meter;
-use super::pieces::pair::PairStep;
+use super::pieces::contact_rule::PairStep;
 use super::start::{classify_start_contact, overlap_outcome};
 use crate::answer::{Contact, Limit, Outcome};
 use crate::distance::containment::containment_at_start;
 use crate::distance::oracle::DistanceOracle;
+use crate::motion::free_time::FreeTime;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
 use std::ops::ControlFlow;
@@ -18,21 +19,21 @@ pub(crate) struct ProvenFacts {
 }
 
 impl ProvenFacts {
-    /// Processes the advance of a pair of pieces at clock `s`: returns the pair's next clock, or the outcome of the
-    /// query.
+    /// Processes the advance of a pair of pieces at clock `s`: returns for how long the pair stays apart, or the
+    /// outcome of the query.
     ///
     /// A pair that touches at the start is not the answer yet: another one may be nearer, or overlap.
-    pub(crate) fn next_clock_or_outcome<O: DistanceOracle>(
+    pub(crate) fn free_time_or_outcome<O: DistanceOracle>(
         &self,
         problem: &Problem<'_>,
         oracle: &mut O,
         meter: &mut Meter,
         step: PairStep,
         s: f64,
-    ) -> ControlFlow<Outcome, f64> {
+    ) -> ControlFlow<Outcome, FreeTime> {
         let unresolved = |reason| Outcome::unresolved(problem.time_of_clock(s), reason);
         ControlFlow::Break(match step {
-            PairStep::FreeUntil(clock) => return ControlFlow::Continue(clock),
+            PairStep::Free(free) => return ControlFlow::Continue(free),
             PairStep::Contact(contact) if s > 0.0 => self.contact_outcome(problem, contact, s),
             PairStep::Contact(contact) => classify_start_contact(problem, oracle, meter, contact),
             PairStep::Overlap(contact) => overlap_outcome(contact),

@@ -4,11 +4,13 @@ use super::meter::Meter;
 use super::nodes::common::NodeContext;
 use super::nodes::expand::expand;
 use super::nodes::siblings::{NextStep, Siblings};
-use super::pieces::pair::{Pair, PairStep};
+use super::pieces::contact_rule::PairStep;
+use super::pieces::pair::Pair;
 use super::queue::{QueueFull, Rank, Worklist};
 use crate::answer::Limit;
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::closer_look::BoundTightener;
+use crate::motion::free_time::FreeTime;
 use crate::problem::Problem;
 use std::ops::ControlFlow;
 
@@ -43,14 +45,15 @@ pub(crate) trait SearchHandler<O: DistanceOracle> {
         ControlFlow::Continue(())
     }
 
-    /// Processes the advance of a pair of pieces: returns the pair's next clock, or the result.
+    /// Processes the advance of a pair of pieces: returns for how long the pair stays apart, or the result. A pair that
+    /// stays apart to the end is dropped.
     fn on_advance(
         &mut self,
         problem: &Problem<'_>,
         oracle: &mut O,
         meter: &mut Meter,
         advance: AdvanceResult,
-    ) -> ControlFlow<Self::Conclusion, f64>;
+    ) -> ControlFlow<Self::Conclusion, FreeTime>;
 
     /// Returns the result of a search that reaches a limit at clock `s`.
     fn on_limit(&mut self, problem: &Problem<'_>, s: f64, limit: Limit) -> Self::Conclusion;
@@ -65,7 +68,7 @@ pub(crate) struct AdvanceResult {
     pub(crate) piece_pair: [u32; 2],
     /// The clock at which the pair was examined.
     pub(crate) clock: f64,
-    /// The new clock, the contact, or the failure of the pair.
+    /// The free time, the contact, or the failure of the pair.
     pub(crate) step_outcome: PairStep,
 }
 
@@ -146,7 +149,8 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
         let siblings = match item {
             WaitingItem::Pieces(pair) => {
                 let advance = advance(problem, *oracle, meter, pair, s);
-                match question.on_advance(problem, *oracle, meter, advance)? {
+                let free = question.on_advance(problem, *oracle, meter, advance)?;
+                match free.clock_after(s) {
                     clock if clock >= 1.0 => waiting.remove_next(),
                     clock => waiting.postpone(clock),
                 }
@@ -172,7 +176,8 @@ impl<'s, O: DistanceOracle, W: Worklist<WaitingItem<O::Cache>>> Search<'s, O, W>
             NextStep::MeasurePieces(a, b) => {
                 let mut pair = Pair::new(a, b);
                 let advance = advance(problem, *oracle, meter, &mut pair, s);
-                let clock = question.on_advance(problem, *oracle, meter, advance)?;
+                let free = question.on_advance(problem, *oracle, meter, advance)?;
+                let clock = free.clock_after(s);
                 self.requeue_rest_and_push(rest, clock, WaitingItem::Pieces(pair))
             }
         };

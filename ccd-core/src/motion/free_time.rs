@@ -1,5 +1,7 @@
 //! A time for which two pieces are proven to stay apart.
 
+use crate::math::order::greater;
+
 /// A time for which two pieces certainly stay apart from the present clock on.
 ///
 /// Times are ordered: up to the end is longest.
@@ -26,6 +28,16 @@ impl FreeTime {
         }
     }
 
+    /// Returns up to the end if that is proven, and no time otherwise.
+    #[inline]
+    pub(crate) fn to_end_if(proven: bool) -> Self {
+        if proven {
+            FreeTime::ToEnd
+        } else {
+            FreeTime::NONE
+        }
+    }
+
     /// Returns the longer one of this time and what another proof gives. The proof gets the time so far, and is not
     /// tried if that is up to the end.
     #[inline]
@@ -35,6 +47,16 @@ impl FreeTime {
         };
         let other = prove(free);
         if other > self { other } else { self }
+    }
+
+    /// Returns the clock until which the pieces stay apart, if the present clock is `s`. The end of the query is 1.
+    #[inline]
+    pub(crate) fn clock_after(self, s: f64) -> f64 {
+        match self {
+            // One step down undoes the rounding of the sum.
+            FreeTime::AtLeast(time) => greater(s, (s + time).next_down()),
+            FreeTime::ToEnd => 1.0,
+        }
     }
 
     /// Returns the time; `None` up to the end.
@@ -64,6 +86,18 @@ mod tests {
         }
         let untried = FreeTime::ToEnd.or_longer(|_| panic!("nothing is longer"));
         assert_eq!(untried, FreeTime::ToEnd);
+    }
+
+    #[test]
+    fn a_clock_is_no_later_than_the_free_time_and_no_earlier_than_now() {
+        for (free, clock) in [
+            (FreeTime::NONE, 0.25),
+            (FreeTime::AtLeast(f64::NAN), 0.25),
+            (FreeTime::AtLeast(0.5), 0.75f64.next_down()),
+            (FreeTime::ToEnd, 1.0),
+        ] {
+            assert_eq!(free.clock_after(0.25), clock, "{free:?}");
+        }
     }
 
     #[test]

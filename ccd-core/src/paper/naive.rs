@@ -7,7 +7,7 @@ use crate::engine::answer::{EngineSchedule, answer};
 use crate::engine::capacity::clear_and_shrink;
 use crate::engine::meter::Meter;
 use crate::engine::pieces::pair::Pair;
-use crate::engine::pieces::snapshot::Snapshot;
+use crate::engine::pieces::placed_pair::PlacedPair;
 use crate::engine::proven::ProvenFacts;
 use crate::engine::scratch::Scratch;
 use crate::math::order::lesser;
@@ -91,23 +91,19 @@ impl<O: DistanceOracle> Naive<O> {
         while s < 1.0 {
             meter.stats.advancements += 1;
             let mut next = f64::INFINITY;
-            let snapshot = Snapshot::new(problem, 0, 0, s);
+            let placed = PlacedPair::new(problem, [0, 0], s);
             for pair in &mut self.pairs {
                 if let Err(limit) = meter.count_visit_and_check_limits(problem) {
                     return unresolved(s, limit);
                 }
-                let snapshot = snapshot.with_pieces(problem.pieces([pair.a, pair.b]));
+                let placed = placed.with_pieces(problem.pieces([pair.a, pair.b]));
                 let reaches = [reaches[0][pair.a as usize], reaches[1][pair.b as usize]];
-                let step = pair.advance_with_free_time(
-                    &snapshot,
-                    oracle,
-                    meter,
-                    |snapshot, checked, kept| {
-                        snapshot.free_time_along_axis(checked, kept, self.velocity_bound, reaches)
-                    },
-                );
-                match proven.next_clock_or_outcome(problem, oracle, meter, step, s) {
-                    ControlFlow::Continue(clock) => next = lesser(next, clock),
+                let step =
+                    pair.advance_with_free_time(&placed, oracle, meter, |placed, checked, kept| {
+                        placed.free_time_along_axis(checked, kept, self.velocity_bound, reaches)
+                    });
+                match proven.free_time_or_outcome(problem, oracle, meter, step, s) {
+                    ControlFlow::Continue(free) => next = lesser(next, free.clock_after(s)),
                     ControlFlow::Break(outcome) => return outcome,
                 }
             }

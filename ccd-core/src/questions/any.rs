@@ -4,13 +4,14 @@ use crate::answer::{Answer, Limit, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::answer::answer_by_unordered_search;
 use crate::engine::meter::Meter;
-use crate::engine::pieces::pair::PairStep;
+use crate::engine::pieces::contact_rule::PairStep;
 use crate::engine::proven::ProvenFacts;
 use crate::engine::search::{AdvanceResult, Search, SearchHandler};
 use crate::engine::shortcuts::bounding_volumes::free_outcome_by_bounding_volumes;
 use crate::engine::start::overlap_outcome;
 use crate::error::InputError;
 use crate::math::order::lesser;
+use crate::motion::free_time::FreeTime;
 use crate::problem::Problem;
 use crate::query::Query;
 use crate::questions::depth_first::DepthFirst;
@@ -104,11 +105,11 @@ struct AnyContactSearch {
 impl AnyContactSearch {
     /// Drops a pair that cannot be proven apart any further, and records its clock; the search goes on, since another
     /// pair may be in contact.
-    fn give_up_pair(&mut self, s: f64, limit: Limit) -> ControlFlow<Outcome, f64> {
+    fn give_up_pair(&mut self, s: f64, limit: Limit) -> ControlFlow<Outcome, FreeTime> {
         if self.first_unproven_clock.is_none_or(|(first, _)| s < first) {
             self.first_unproven_clock = Some((s, limit));
         }
-        ControlFlow::Continue(f64::INFINITY)
+        ControlFlow::Continue(FreeTime::ToEnd)
     }
 
     fn unresolved_outcome(&self, problem: &Problem<'_>, s: f64, reason: Limit) -> Outcome {
@@ -128,14 +129,14 @@ impl<O: DistanceOracle> SearchHandler<O> for AnyContactSearch {
         _: &mut O,
         _: &mut Meter,
         advance: AdvanceResult,
-    ) -> ControlFlow<Outcome, f64> {
+    ) -> ControlFlow<Outcome, FreeTime> {
         let AdvanceResult {
             clock: s,
             step_outcome: step,
             ..
         } = advance;
         ControlFlow::Break(match step {
-            PairStep::FreeUntil(clock) => return ControlFlow::Continue(clock),
+            PairStep::Free(free) => return ControlFlow::Continue(free),
             // A pair that keeps its distance gives no bound for the other pairs.
             PairStep::Contact(contact) => Outcome::Contact {
                 time: problem.time_of_clock(s),

@@ -1,7 +1,7 @@
 //! Finds a common normal of two bodies' surfaces around a contact.
 
 use crate::engine::meter::Meter;
-use crate::engine::pieces::snapshot::Snapshot;
+use crate::engine::pieces::placed_pair::PlacedPair;
 use crate::rounding::{ADJACENCY_DISTANCE_PER_ROUNDING, LEVEL_HEIGHT_PER_ROUNDING};
 use glam::DVec3;
 
@@ -9,14 +9,14 @@ use glam::DVec3;
 /// to the nearest. Returns `None` unless the vector between both points is along that normal, up to rounding. The
 /// points, of A and of B without their radii, and the directions are in A's frame.
 pub(super) fn common_normal(
-    snapshot: &Snapshot<'_>,
+    placed: &PlacedPair<'_>,
     points: [DVec3; 2],
     towards: DVec3,
     meter: &mut Meter,
 ) -> Option<DVec3> {
-    let Snapshot {
+    let PlacedPair {
         problem, pieces, ..
-    } = snapshot;
+    } = placed;
     let reach = ADJACENCY_DISTANCE_PER_ROUNDING * problem.rounding;
     let (mut looks, turn) = (0, pieces.b_to_a.rotation);
     let normals = &mut meter.scratch_memory().normals;

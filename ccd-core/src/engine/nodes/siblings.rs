@@ -5,6 +5,7 @@ use super::free_times::FreeTimes;
 use super::split::Split;
 use crate::body::tree::{LANES, NodeId};
 use crate::math::order::greater;
+use crate::motion::free_time::FreeTime;
 use crate::problem::{BodyWithPath, Problem, WhichBody};
 use crate::rounding::UNIT_ROUNDOFF_F64;
 
@@ -121,19 +122,19 @@ impl Siblings {
         }
     }
 
-    /// Marks the pairs for which `keeps_apart` returns `true` as finished, since they stay apart to the end. If it
-    /// returns `false`, the pair will be split and not visited again: most of its children stay apart.
-    pub(crate) fn finish_if_kept_apart(
+    /// Marks the pairs with a free time up to the end as finished. A pair with a shorter one will be split and not
+    /// visited again: most of its children stay apart. A pair without a free time is left as it is.
+    pub(crate) fn finish_proven_pairs(
         &mut self,
-        mut keeps_apart: impl FnMut([NodeId; 2]) -> Option<bool>,
+        mut free_time: impl FnMut([NodeId; 2]) -> Option<FreeTime>,
     ) {
         let horizon = (1.0 - self.start_clock) as f32;
         for lane in 0..LANES {
             // The other pairs are already certified to the end.
             if self.free_times.time_of_lane(lane) < horizon {
-                match keeps_apart(self.node_pair_of_lane(lane)) {
-                    Some(true) => self.free_times.finish_lane(lane),
-                    Some(false) => self.revisit_mask &= !(1 << lane),
+                match free_time(self.node_pair_of_lane(lane)) {
+                    Some(FreeTime::ToEnd) => self.free_times.finish_lane(lane),
+                    Some(FreeTime::AtLeast(_)) => self.revisit_mask &= !(1 << lane),
                     None => {}
                 }
             }

@@ -1,7 +1,8 @@
 //! Handles pieces that touch while the plane of the contact at the start keeps them apart. An inner edge of flat ground
 //! is therefore no obstacle.
 
-use super::snapshot::{SeparatingPlane, Snapshot};
+use super::placed_pair::PlacedPair;
+use super::planes::SeparatingPlane;
 use crate::answer::{Contact, Separation};
 use crate::body::facing::Facing;
 use crate::distance::oracle::DistanceOracle;
@@ -35,8 +36,8 @@ impl TouchingPlane {
     ) -> Option<Self> {
         let given = problem.with_given_bodies();
         let problem = given.as_ref().unwrap_or(problem);
-        let snapshot = Snapshot::new(problem, contact.piece_a, contact.piece_b, 0.0);
-        let [frame_a, frame_b] = &snapshot.frames;
+        let placed = PlacedPair::new(problem, [contact.piece_a, contact.piece_b], 0.0);
+        let [frame_a, frame_b] = &placed.frames;
         let Separation {
             mut normal,
             upper,
@@ -47,12 +48,12 @@ impl TouchingPlane {
         let resting = MIN_APPROACH_PER_ROUNDING * problem.rounding;
         // Not from the witnesses, which far from the world's origin are rounded by more.
         let distance = upper - problem.rounding;
-        let mut gap = snapshot.gap_along_normal(normal, from);
+        let mut gap = placed.gap_along_normal(normal, from);
         // A tilted normal loses some of the distance. A rotation may undo the tilt, and so hide that the bodies approach.
         if gap < distance - 0.5 * resting
-            && let Some(checked) = snapshot.query_oracle(oracle, &mut O::Cache::default(), meter)
+            && let Some(checked) = placed.query_oracle(oracle, &mut O::Cache::default(), meter)
         {
-            let better = improve_axis(&snapshot.pieces, &checked, problem.rounding);
+            let better = improve_axis(&placed.pieces, &checked, problem.rounding);
             if better.lower > gap {
                 (normal, gap) = (frame_a.rotation * better.axis, better.lower);
             }
@@ -65,7 +66,7 @@ impl TouchingPlane {
     }
 }
 
-impl Snapshot<'_> {
+impl PlacedPair<'_> {
     /// Chooses the body with which the touching plane moves, so that it keeps two pieces apart for longest; `None` if
     /// it does so with neither. The heights of pieces are measured from a point in A's frame.
     ///

@@ -2,7 +2,8 @@
 //! a few percent than the time for which points are followed, and takes a tenth of the instructions.
 
 use super::heights::MAX_TRACKED_POINTS;
-use super::snapshot::{SeparatingPlane, Snapshot};
+use super::placed_pair::PlacedPair;
+use super::planes::SeparatingPlane;
 use crate::body::piece::Piece;
 use crate::math::order::greater;
 use crate::math::vector::length;
@@ -22,7 +23,7 @@ struct RiseBound {
     second_derivative: f64,
 }
 
-impl Snapshot<'_> {
+impl PlacedPair<'_> {
     /// Returns a time for which the gap along a plane's fixed normal certainly stays above the required gap. `None` says
     /// that following the points is worth it: the time is short because the rate may change, or a piece has too many points.
     ///

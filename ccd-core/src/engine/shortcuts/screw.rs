@@ -18,6 +18,7 @@ use crate::body::tree::{GroupHeader, NodeChildren, NodeId, NodeOrTriangle};
 use crate::engine::capacity::clear_and_shrink;
 use crate::math::order::lesser;
 use crate::math::vector::length;
+use crate::motion::free_time::FreeTime;
 use crate::problem::{BodyWithPath, Problem, WhichBody};
 use crate::rounding::{RATE_ERROR_F64, SCREW_VELOCITY_ERROR_F64};
 use crate::tuning::{CLOSED_GAP_TOLERANCE_SHARE, MAX_SCREW_DRIFT, MIN_SCREW_ADVANCE};
@@ -104,41 +105,42 @@ impl Screw {
         })
     }
 
-    /// Returns whether a node of A and a node of B certainly keep the required gap from clock `s` to the end; `None` if
-    /// one of them surrounds the axis, or nearly does.
-    pub(crate) fn keeps_apart(
+    /// Returns [`FreeTime::ToEnd`] if a node of A and a node of B certainly keep the required gap from clock `s` on, and
+    /// [`FreeTime::NONE`] otherwise; `None` if one of them surrounds the axis, or nearly does.
+    pub(crate) fn free_time(
         &self,
         problem: &Problem<'_>,
         profiles: &mut ProfileCache,
         [a, b]: [NodeId; 2],
         s: f64,
-    ) -> Option<bool> {
-        if self.keeps_nodes_apart(problem, profiles, [a, b], s)? {
-            return Some(true);
+    ) -> Option<FreeTime> {
+        if self.free_time_of_nodes(problem, profiles, [a, b], s)? == FreeTime::ToEnd {
+            return Some(FreeTime::ToEnd);
         }
         let of_a = triangle_ids(&problem.a, a);
         let of_b = triangle_ids(&problem.b, b);
         let (Some(of_a), Some(of_b)) = (of_a, of_b) else {
-            return Some(false);
+            return Some(FreeTime::NONE);
         };
         // In groups with overlapping outlines, hardly any two triangles have overlapping outlines. Comparing
         // triangles costs less than splitting the groups.
         let mut of_a = of_a;
-        Some(of_a.all(|x| {
-            let mut apart = |pair| self.keeps_nodes_apart(problem, profiles, pair, s) == Some(true);
+        let all_apart = of_a.all(|x| {
+            let mut apart =
+                |pair| self.free_time_of_nodes(problem, profiles, pair, s) == Some(FreeTime::ToEnd);
             apart([x, b]) || of_b.clone().all(|y| apart([x, y]))
-        }))
+        });
+        Some(FreeTime::to_end_if(all_apart))
     }
 
-    /// Returns whether the nodes certainly keep the required gap, like [`Screw::keeps_apart`], but without a test of
-    /// the triangles below the nodes.
-    fn keeps_nodes_apart(
+    /// Like [`Screw::free_time`], but without a test of the triangles below the nodes.
+    fn free_time_of_nodes(
         &self,
         problem: &Problem<'_>,
         ProfileCache([of_a, of_b]): &mut ProfileCache,
         [a, b]: [NodeId; 2],
         s: f64,
-    ) -> Option<bool> {
+    ) -> Option<FreeTime> {
         let a = of_a.profile_of_node(&problem.a, a, &self.axis)?;
         let b = of_b.profile_of_node(&problem.b, b, &self.axis)?;
         let (turning, still) = match self.turning_body {
@@ -150,7 +152,8 @@ impl Screw {
             angle_range: [s * end, end],
             ..self.path
         };
-        Some(profiles_keep_apart(turning, still, &self.axis, &way))
+        let apart = profiles_keep_apart(turning, still, &self.axis, &way);
+        Some(FreeTime::to_end_if(apart))
     }
 }
 

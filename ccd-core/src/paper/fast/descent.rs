@@ -7,12 +7,11 @@ use super::traversal_tree::{Node, TraversalPair, TraversalTree};
 use crate::answer::{Contact, Outcome};
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
-use crate::engine::pieces::pair::PairStep;
-use crate::engine::pieces::snapshot::Snapshot;
+use crate::engine::pieces::contact_rule::PairStep;
+use crate::engine::pieces::placed_pair::PlacedPair;
 use crate::engine::proven::ProvenFacts;
 use crate::math::order::lesser;
 use crate::motion::bound::VelocityBound;
-use crate::motion::free_time::FreeTime;
 use crate::problem::Problem;
 use crate::settings::StartPolicy;
 use crate::tuning::{JOIN_DISTANCE_RATIO, MIN_OVERLAP_TO_SPLIT};
@@ -53,7 +52,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
     /// the least distance are split, and pairs that no longer may are joined. Pairs that stay apart to the end are
     /// skipped.
     pub(super) fn step(&mut self, s: f64) -> ControlFlow<Outcome, f64> {
-        let snapshot = Snapshot::from_pieces(self.problem, self.hulls.hulls([0, 0]), s);
+        let placed = PlacedPair::from_pieces(self.problem, self.hulls.hulls([0, 0]), s);
         let mut found = DescentState {
             distance_bound: f64::INFINITY,
             contact: None,
@@ -63,7 +62,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             if self.traversal_tree.node(at).stays_apart() {
                 continue;
             }
-            self.measure_pair(&snapshot, at, &mut found)?;
+            self.measure_pair(&placed, at, &mut found)?;
         }
         while let Some(OpenPair {
             lower,
@@ -77,74 +76,67 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             let Some(first) = self.traversal_tree.split(self.hulls, at) else {
                 continue;
             };
-            self.measure_pair(&snapshot, first, &mut found)?;
-            self.measure_pair(&snapshot, first + 1, &mut found)?;
+            self.measure_pair(&placed, first, &mut found)?;
+            self.measure_pair(&placed, first + 1, &mut found)?;
         }
         if let Some(contact) = found.contact {
             return ControlFlow::Break(self.proven_facts.contact_outcome(self.problem, contact, s));
         }
         let next = self.traversal_tree.least_clock();
-        self.merge_far_pairs(&snapshot, &mut found, next)?;
+        self.merge_far_pairs(&placed, &mut found, next)?;
         ControlFlow::Continue(next)
     }
 
     /// Measures a pair in the front, and updates its clock and the results of the descent.
     fn measure_pair(
         &mut self,
-        snapshot: &Snapshot<'p>,
+        placed: &PlacedPair<'p>,
         at: u32,
         found: &mut DescentState,
     ) -> ControlFlow<Outcome> {
         if let Err(reason) = self.meter.count_visit_and_check_limits(self.problem) {
             return ControlFlow::Break(Outcome::unresolved(
-                self.problem.time_of_clock(snapshot.clock),
+                self.problem.time_of_clock(placed.clock),
                 reason,
             ));
         }
         match self.traversal_tree.node(at).traversal_pair {
             TraversalPair::Nodes(_) => {
-                self.measure_nodes(snapshot, at, found);
+                self.measure_nodes(placed, at, found);
                 ControlFlow::Continue(())
             }
-            TraversalPair::Pieces(_) => self.measure_pieces(snapshot, at, found),
+            TraversalPair::Pieces(_) => self.measure_pieces(placed, at, found),
         }
     }
 
-    fn measure_nodes(&mut self, snapshot: &Snapshot<'p>, at: u32, found: &mut DescentState) {
-        let (problem, s) = (self.problem, snapshot.clock);
+    fn measure_nodes(&mut self, placed: &PlacedPair<'p>, at: u32, found: &mut DescentState) {
+        let (problem, s) = (self.problem, placed.clock);
         let node = self.traversal_tree.node(at);
         let TraversalPair::Nodes(cache) = &mut node.traversal_pair else {
             return;
         };
-        let snapshot = snapshot.with_pieces(self.hulls.hulls(node.pair));
-        let depth = snapshot.relative_overlap_along_centre_line();
+        let placed = placed.with_pieces(self.hulls.hulls(node.pair));
+        let depth = placed.relative_overlap_along_centre_line();
         // The search for a common point takes longer than the search for a distance, and its result is of no use
         // here.
         if depth.is_some_and(|depth| depth > MIN_OVERLAP_TO_SPLIT) {
-            self.meter.stats.point_evaluations += snapshot.pieces.points_per_support_search();
+            self.meter.stats.point_evaluations += placed.pieces.points_per_support_search();
             found.open_pairs.push(node.reset_unmeasured_pair(at, s));
             return;
         }
-        let Some(checked) = snapshot.query_oracle(self.oracle, cache, self.meter) else {
+        let Some(checked) = placed.query_oracle(self.oracle, cache, self.meter) else {
             // Smaller hulls may be easier.
             found.open_pairs.push(node.reset_unmeasured_pair(at, s));
             return;
         };
         let reaches = self
             .axis_distance_cache
-            .max_axis_distances(problem, node.pair, &snapshot);
-        let free = snapshot.free_time_along_axis(
-            &checked,
-            problem.kept_gap(),
-            self.velocity_bound,
-            reaches,
-        );
+            .max_axis_distances(problem, node.pair, &placed);
+        let free =
+            placed.free_time_along_axis(&checked, problem.kept_gap(), self.velocity_bound, reaches);
         node.distance_lower_bound = checked.lower;
         node.features_on_bridges = self.hulls.features_on_bridges(node.pair, &checked.claim);
-        node.certified_until = match free {
-            FreeTime::AtLeast(free) => (s + free).next_down(),
-            FreeTime::ToEnd => f64::INFINITY,
-        };
+        node.certified_until = free.clock_after(s);
         let contact = problem.contact_distance();
         // Contacts at the start are found at the start, or never.
         let reach = if s > 0.0 { problem.kept_gap() } else { contact };
@@ -168,29 +160,29 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
 
     fn measure_pieces(
         &mut self,
-        snapshot: &Snapshot<'p>,
+        placed: &PlacedPair<'p>,
         at: u32,
         found: &mut DescentState,
     ) -> ControlFlow<Outcome> {
-        let (problem, bound, s) = (self.problem, self.velocity_bound, snapshot.clock);
+        let (problem, bound, s) = (self.problem, self.velocity_bound, placed.clock);
         let node = self.traversal_tree.node(at);
         let TraversalPair::Pieces(pair) = &mut node.traversal_pair else {
             return ControlFlow::Continue(());
         };
-        let snapshot = snapshot.with_pieces(problem.pieces([pair.a, pair.b]));
+        let placed = placed.with_pieces(problem.pieces([pair.a, pair.b]));
         let reaches = self
             .axis_distance_cache
-            .max_axis_distances(problem, node.pair, &snapshot);
+            .max_axis_distances(problem, node.pair, &placed);
         // Pairs that rest on each other do not count for the distance of the bodies.
         node.distance_lower_bound = f64::NEG_INFINITY;
         let step = pair.advance_with_free_time(
-            &snapshot,
+            &placed,
             self.oracle,
             self.meter,
-            |snapshot, checked, kept| {
+            |placed, checked, kept| {
                 node.distance_lower_bound = checked.lower;
                 found.distance_bound = lesser(found.distance_bound, checked.upper);
-                snapshot.free_time_along_axis(checked, kept, bound, reaches)
+                placed.free_time_along_axis(checked, kept, bound, reaches)
             },
         );
         if let PairStep::Contact(contact) = step
@@ -199,9 +191,10 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             found.record_contact(contact);
             return ControlFlow::Continue(());
         }
-        node.certified_until =
+        let free =
             self.proven_facts
-                .next_clock_or_outcome(problem, self.oracle, self.meter, step, s)?;
+                .free_time_or_outcome(problem, self.oracle, self.meter, step, s)?;
+        node.certified_until = free.clock_after(s);
         ControlFlow::Continue(())
     }
 
@@ -209,7 +202,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
     /// smaller. The pair that covers both must be as far apart as the bodies, and apart until the next clock.
     fn merge_far_pairs(
         &mut self,
-        snapshot: &Snapshot<'p>,
+        placed: &PlacedPair<'p>,
         found: &mut DescentState,
         next: f64,
     ) -> ControlFlow<Outcome> {
@@ -226,7 +219,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             if !far || self.traversal_tree.node(at).max_join_distance <= distance {
                 continue;
             }
-            self.measure_pair(snapshot, at, found)?;
+            self.measure_pair(placed, at, found)?;
             let node = self.traversal_tree.node(at);
             if node.distance_lower_bound >= distance && node.certified_until >= next {
                 self.traversal_tree.remove_child_leaves(at);

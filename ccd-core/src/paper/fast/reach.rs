@@ -1,6 +1,6 @@
 //! Caches the distances of nodes from their body's axis of rotation for one query.
 
-use crate::engine::pieces::snapshot::Snapshot;
+use crate::engine::pieces::placed_pair::PlacedPair;
 use crate::problem::Problem;
 
 #[derive(Debug, Default)]
@@ -16,16 +16,16 @@ impl AxisDistanceCache {
         self.query_number += 1;
     }
 
-    /// Returns for both nodes of a pair the largest distance of their points from the axis of rotation; `snapshot` has
+    /// Returns for both nodes of a pair the largest distance of their points from the axis of rotation; `placed` has
     /// their hulls.
     pub(super) fn max_axis_distances(
         &mut self,
         problem: &Problem<'_>,
         pair: [u32; 2],
-        snapshot: &Snapshot<'_>,
+        placed: &PlacedPair<'_>,
     ) -> [f64; 2] {
         let paths = [&problem.a.path, &problem.b.path];
-        let points = [snapshot.pieces.a.points, snapshot.pieces.b.points];
+        let points = [placed.pieces.a.points, placed.pieces.b.points];
         [0, 1].map(|k| {
             let (known, at) = (&mut self.cached_distances[k], pair[k] as usize);
             if known.len() <= at {

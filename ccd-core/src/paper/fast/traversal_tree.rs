@@ -146,7 +146,7 @@ impl<C: Clone + Default> TraversalTree<C> {
 impl<C> Node<C> {
     /// Returns whether the pair is certified apart to the end of the query.
     pub(super) fn stays_apart(&self) -> bool {
-        self.certified_until == f64::INFINITY
+        self.certified_until >= 1.0
     }
 }
 

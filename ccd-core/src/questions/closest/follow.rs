@@ -3,8 +3,7 @@
 use super::NearestPair;
 use crate::distance::oracle::DistanceOracle;
 use crate::engine::meter::Meter;
-use crate::engine::pieces::pair;
-use crate::engine::pieces::snapshot::Snapshot;
+use crate::engine::pieces::placed_pair::PlacedPair;
 use crate::math::order::lesser;
 use crate::problem::Problem;
 use crate::tuning::{FOLLOW_TOLERANCE_SHARE, MAX_FOLLOW_MEASUREMENTS, MAX_FOLLOW_ROTATION};
@@ -54,16 +53,16 @@ impl<O: DistanceOracle> Descent<'_, O> {
             return None;
         }
         let pieces @ [a, b] = self.nearest_pair.pieces;
-        let snapshot = Snapshot::new(self.problem, a, b, clock);
-        let checked = snapshot.query_oracle(self.oracle, &mut self.cache, self.meter)?;
+        let placed = PlacedPair::new(self.problem, [a, b], clock);
+        let checked = placed.query_oracle(self.oracle, &mut self.cache, self.meter)?;
         if checked.upper < self.nearest_pair.contact.separation.upper {
             self.nearest_pair = NearestPair {
                 time: clock,
                 pieces,
-                contact: pair::contact(&snapshot, pieces, &checked),
+                contact: placed.contact(pieces, &checked),
             };
         }
-        let frame = &snapshot.frames[0];
+        let frame = &placed.frames[0];
         let [on_a, on_b] = [checked.witness_a, checked.witness_b].map(|w| frame.transform_point(w));
         let velocity = self.problem.b.path.velocity_at(on_b, clock)
             - self.problem.a.path.velocity_at(on_a, clock);

@@ -8,11 +8,12 @@ use crate::distance::oracle::DistanceOracle;
 use crate::engine::closer_look::BoundTightener;
 use crate::engine::meter::Meter;
 use crate::engine::nodes::common::NodeContext;
-use crate::engine::pieces::pair::PairStep;
+use crate::engine::pieces::contact_rule::PairStep;
 use crate::engine::proven::ProvenFacts;
 use crate::engine::search::{AdvanceResult, Search, SearchHandler};
 use crate::engine::start::overlap_outcome;
 use crate::math::order::lesser;
+use crate::motion::free_time::FreeTime;
 use crate::problem::Problem;
 use crate::questions::depth_first::Stack;
 use std::ops::ControlFlow;
@@ -147,9 +148,9 @@ impl<O: DistanceOracle> SearchHandler<O> for LeastDistanceSearch {
         oracle: &mut O,
         meter: &mut Meter,
         advance: AdvanceResult,
-    ) -> ControlFlow<Self::Conclusion, f64> {
+    ) -> ControlFlow<Self::Conclusion, FreeTime> {
         match advance.step_outcome {
-            PairStep::FreeUntil(clock) => ControlFlow::Continue(clock),
+            PairStep::Free(free) => ControlFlow::Continue(free),
             PairStep::Contact(contact) => {
                 let seen = NearestPair {
                     time: advance.clock,
@@ -158,16 +159,16 @@ impl<O: DistanceOracle> SearchHandler<O> for LeastDistanceSearch {
                 };
                 self.nearest_pair = Some(follow_to_minimum(problem, oracle, meter, seen));
                 // The pair is examined again, since it keeps a smaller distance.
-                ControlFlow::Continue(advance.clock)
+                ControlFlow::Continue(FreeTime::NONE)
             }
             PairStep::Overlap(contact) => ControlFlow::Break(Ok(overlap_outcome(contact))),
             PairStep::Stalled => {
                 self.first_failure = Some(Limit::Stalled);
-                ControlFlow::Continue(f64::INFINITY)
+                ControlFlow::Continue(FreeTime::ToEnd)
             }
             PairStep::GaveUp => {
                 self.first_failure = Some(Limit::OracleGaveUp);
-                ControlFlow::Continue(f64::INFINITY)
+                ControlFlow::Continue(FreeTime::ToEnd)
             }
         }
     }

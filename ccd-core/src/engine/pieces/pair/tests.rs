@@ -7,8 +7,9 @@ use crate::distance::oracle::{Claim, GiveUpReason};
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
 use crate::query::MovingBody;
-use crate::settings::Settings;
+use crate::settings::{Settings, StartPolicy};
 use crate::tests::oracle::{ConstantOracle, ExhaustiveOracle};
+use glam::DVec3;
 
 /// Calls `then` with the problem of two balls of radius 1: one at `x` that moves along −x at `speed`, one at rest at
 /// the origin.
@@ -35,7 +36,8 @@ fn advance_to_last_step(problem: &Problem<'_>) -> (f64, PairStep) {
     let mut s = 0.0;
     for _ in 0..128 {
         match pair.advance(problem, &mut ExhaustiveOracle, &mut Meter::new(problem), s) {
-            PairStep::FreeUntil(clock) if clock < 1.0 => {
+            PairStep::Free(free @ FreeTime::AtLeast(_)) => {
+                let clock = free.clock_after(s);
                 assert!(clock > s);
                 s = clock;
             }
@@ -58,7 +60,7 @@ fn two_balls_meet_when_they_do() {
 fn a_pair_that_recedes_is_done_with() {
     let (s, step) = with_two_balls(4.0, -4.0, &Settings::DEFAULT, advance_to_last_step);
     assert_eq!(s, 0.0);
-    assert!(matches!(step, PairStep::FreeUntil(clock) if clock > 1.0));
+    assert!(matches!(step, PairStep::Free(FreeTime::ToEnd)));
 }
 
 #[test]
@@ -89,9 +91,9 @@ fn pairs_that_touch_at_the_start_are_let_go_unless_they_approach() {
     // Pairs that begin with a gap are handled by the search, which uses half of the gap.
     let x = 2.0;
     let (_, step) = with_two_balls(x, -1.0, &config, advance_to_last_step);
-    assert!(matches!(step, PairStep::FreeUntil(_)), "parting");
+    assert!(matches!(step, PairStep::Free(_)), "parting");
     let (_, step) = with_two_balls(x, 0.0, &config, advance_to_last_step);
-    assert!(matches!(step, PairStep::FreeUntil(_)), "resting");
+    assert!(matches!(step, PairStep::Free(_)), "resting");
     let (s, step) = with_two_balls(x, 1.0, &config, advance_to_last_step);
     assert!(matches!(step, PairStep::Contact(_)), "approaching");
     // The contact is never late, except for the rounding of resting.
@@ -155,7 +157,10 @@ fn a_dishonest_oracle_cannot_make_a_pair_late() {
         });
         // A pair of points has only one axis, which the check finds for any claim.
         match step {
-            PairStep::FreeUntil(clock) => assert!(clock <= 0.5, "{axis}: {clock}"),
+            PairStep::Free(free) => {
+                let clock = free.clock_after(0.0);
+                assert!(clock <= 0.5, "{axis}: {clock}");
+            }
             PairStep::Stalled => {}
             _ => panic!("neither contact nor overlap"),
         }

@@ -13,17 +13,17 @@ fn times_are_proven_and_hardly_shorter_than_those_of_points_that_are_followed() 
         let scene = scene(&mut rng, kind, 2).with_occasional_accelerations(&mut rng);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.0..1.0);
-        let snapshot = Snapshot::new(&problem, 0, 0, clock);
+        let placed = PlacedPair::new(&problem, [0, 0], clock);
         let normal = random_direction(&mut rng);
         let plane = SeparatingPlane {
             normal,
             gap_excess: random_power_of_ten(&mut rng, -9.0, 0.0),
         };
         all += 1;
-        let Some(free) = snapshot.free_time_at_present_rate(&plane) else {
+        let Some(free) = placed.free_time_at_present_rate(&plane) else {
             continue;
         };
-        let followed = snapshot
+        let followed = placed
             .fixed_plane_free_time(normal, plane.gap_excess)
             .bounded();
         let left = 1.0 - clock;

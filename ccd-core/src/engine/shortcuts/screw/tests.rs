@@ -140,8 +140,8 @@ fn nodes_said_to_stay_apart_do_so_at_sampled_times() {
         };
         let s = [0.0, 0.5 * passage.passage_clock][rng.random_range(0..2)];
         for ids in all_node_pairs(&problem) {
-            match screw.keeps_apart(&problem, &mut profiles, ids, s) {
-                Some(true) => {
+            match screw.free_time(&problem, &mut profiles, ids, s) {
+                Some(FreeTime::ToEnd) => {
                     proven += 1;
                     let least = sampled_least_distance(&problem, ids, s, passage.passage_clock);
                     assert!(
@@ -183,8 +183,8 @@ fn later_turns_count() {
         let mut profiles = ProfileCache::default();
         let screw = Screw::for_problem(&problem, &mut profiles).unwrap();
         assert_eq!(
-            screw.keeps_apart(&problem, &mut profiles, [1, 1], 0.0),
-            Some(apart),
+            screw.free_time(&problem, &mut profiles, [1, 1], 0.0),
+            Some(FreeTime::to_end_if(apart)),
             "{turns}"
         );
     }
@@ -226,8 +226,8 @@ fn any_number_of_turns_is_one_look() {
         let mut profiles = ProfileCache::default();
         let screw = Screw::for_problem(&problem, &mut profiles).unwrap();
         assert_eq!(
-            screw.keeps_apart(&problem, &mut profiles, [1, 1], 0.0),
-            Some(apart),
+            screw.free_time(&problem, &mut profiles, [1, 1], 0.0),
+            Some(FreeTime::to_end_if(apart)),
             "{pitch} {turns} {r} {tall}"
         );
     }
@@ -314,8 +314,8 @@ fn tall_nodes_far_along_an_oblique_axis_meet_what_is_at_their_tips() {
         // Each of the tall nodes passes each of the others on its path.
         for pair in all_node_pairs(&problem) {
             assert_ne!(
-                screw.keeps_apart(&problem, &mut profiles, pair, 0.0),
-                Some(true),
+                screw.free_time(&problem, &mut profiles, pair, 0.0),
+                Some(FreeTime::ToEnd),
                 "{length} {high} {depth}"
             );
             pairs += 1;

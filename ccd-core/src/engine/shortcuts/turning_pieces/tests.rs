@@ -8,7 +8,8 @@ use crate::body::Body;
 use crate::body::polytope::Polytope;
 use crate::distance::oracle::PiecePair;
 use crate::distance::separation::support_gap;
-use crate::engine::pieces::snapshot::{SeparatingPlane, Snapshot};
+use crate::engine::pieces::placed_pair::PlacedPair;
+use crate::engine::pieces::planes::SeparatingPlane;
 use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
@@ -96,8 +97,8 @@ fn scene_of_random_polytopes(rng: &mut Pcg64, kind: SceneKind) -> Scene {
 }
 
 fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen: &mut CaseCounts) {
-    let snapshot = Snapshot::new(problem, 0, 0, clock);
-    let members = snapshot.moving_pieces();
+    let placed = PlacedPair::new(problem, [0, 0], clock);
+    let members = placed.moving_pieces();
     let (own, other) = (&members[holder], &members[1 - holder]);
     if !own.body_with_path.path.is_turning() {
         return;
@@ -112,7 +113,7 @@ fn check(rng: &mut Pcg64, problem: &Problem<'_>, clock: f64, holder: usize, seen
     };
     let local = own.frame.inverse_transform_vector(towards);
     let gap_at = |s: f64| {
-        let PiecePair { a, b, b_to_a } = Snapshot::new(problem, 0, 0, s).pieces;
+        let PiecePair { a, b, b_to_a } = PlacedPair::new(problem, [0, 0], s).pieces;
         let in_a = match holder {
             0 => local,
             _ => -(b_to_a.rotation * local),
@@ -163,8 +164,8 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
         let grain = f64::from(1 << 20);
         let [clock, tau] =
             [0.5, 0.5].map(|most| (rng.random_range(0.0..most) * grain).floor() / grain);
-        let snapshot = Snapshot::new(&problem, 0, 0, clock);
-        let members = snapshot.moving_pieces();
+        let placed = PlacedPair::new(&problem, [0, 0], clock);
+        let members = placed.moving_pieces();
         for holder in [0, 1] {
             let (own, other) = (&members[holder], &members[1 - holder]);
             if !own.body_with_path.path.is_turning() {
@@ -246,28 +247,28 @@ fn a_large_plate_turns_past_a_small_ball_at_once() {
             (plate, ball)
         };
         let problem = Problem::of_moving_bodies(a, b, 1.0, &Settings::DEFAULT).unwrap();
-        let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
+        let placed = PlacedPair::new(&problem, [0, 0], 0.0);
         let normal = if swapped { -DVec3::Z } else { DVec3::Z };
         let plane = SeparatingPlane {
             normal,
             gap_excess: 0.3,
         };
-        let still = snapshot
+        let still = placed
             .fixed_plane_free_time(plane.normal, plane.gap_excess)
             .bounded()
             .unwrap();
         assert!(still < 0.01, "{still}");
         // 0.5 (1 − cos τ) uses up 0.3 after 1.16.
         assert_eq!(
-            snapshot.turning_plane_free_time(&snapshot.moving_pieces(), &plane, still),
+            placed.turning_plane_free_time(&placed.moving_pieces(), &plane, still),
             FreeTime::ToEnd
         );
         let closer = SeparatingPlane {
             normal,
             gap_excess: 0.1,
         };
-        let free = snapshot
-            .turning_plane_free_time(&snapshot.moving_pieces(), &closer, still)
+        let free = placed
+            .turning_plane_free_time(&placed.moving_pieces(), &closer, still)
             .bounded()
             .unwrap();
         let exact = 0.8f64.acos();
@@ -282,8 +283,8 @@ fn no_slack_is_no_time() {
     for _ in 0..500 {
         let scene = scene_of_random_polytopes(&mut rng, SceneKind::NearRim);
         let problem = scene.problem();
-        let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
-        let [a, b] = snapshot.moving_pieces();
+        let placed = PlacedPair::new(&problem, [0, 0], 0.5);
+        let [a, b] = placed.moving_pieces();
         for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
             let free = PieceMotionToTurningPlane::new(
                 &a,

@@ -4,7 +4,7 @@
 //! everything from there on exactly. Earlier rounding is that of distances, which is counted separately.
 
 use super::super::{HeightTerms, PieceMotionToTurningPlane};
-use crate::engine::pieces::snapshot::Snapshot;
+use crate::engine::pieces::placed_pair::PlacedPair;
 use crate::math::vector::unit;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
@@ -122,8 +122,8 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
     let motions = [motion(tape)?, motion(tape)?];
     let [a, b] = [0, 1].map(|k| (&bodies[k], motions[k]));
     let problem = Problem::of_moving_bodies(a, b, 1.0, &Settings::DEFAULT).ok()?;
-    let snapshot = Snapshot::new(&problem, 0, 0, tape.next_fraction());
-    let [own, other] = snapshot.moving_pieces();
+    let placed = PlacedPair::new(&problem, [0, 0], tape.next_fraction());
+    let [own, other] = placed.moving_pieces();
     let normal = unit(tape.vector(-40..=0).into())?;
     if !own.body_with_path.path.is_turning() {
         return None;

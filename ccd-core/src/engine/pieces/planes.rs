@@ -1,105 +1,31 @@
-//! Two pieces at one instant, and how long planes keep them apart from then on.
+//! How long planes keep two placed pieces apart: fixed planes, and planes that turn with one of the bodies.
 
 use super::heights::{Heights, PointHeight, least_free_time, least_free_time_of_many_points};
-use crate::body::facing::Facing;
-use crate::body::piece::Piece;
-use crate::distance::oracle::{DistanceOracle, PiecePair};
-use crate::distance::separation::{self, CheckedClaim};
-use crate::engine::meter::Meter;
+use super::placed_pair::PlacedPair;
+use crate::distance::separation::CheckedClaim;
 use crate::engine::shortcuts::turning_pieces::{MovingPiece, PieceMotionToTurningPlane};
 use crate::math::order::lesser;
 use crate::math::vector::{length, unit};
 use crate::motion::bound::{VelocityBound, published_bound, sound_bound};
 use crate::motion::free_time::FreeTime;
 use crate::motion::gap::{Gap, first_possible_crossing};
-use crate::motion::pose::Frame;
 use crate::problem::Problem;
-use crate::rounding::{MIN_APPROACH_PER_ROUNDING, RATE_ERROR_F64};
+use crate::rounding::RATE_ERROR_F64;
 use crate::settings::Shortcut;
-use crate::tuning::{
-    ASSUMED_ORACLE_STEPS, MAX_NEWTON_STEPS, MIN_ROTATION_GAP_SHARE, RESTING_SLACK_PER_ROUNDING,
-    SUFFICIENT_FIRST_FREE_TIME,
-};
+use crate::tuning::{MAX_NEWTON_STEPS, MIN_ROTATION_GAP_SHARE, SUFFICIENT_FIRST_FREE_TIME};
 use glam::DVec3;
-use std::cell::Cell;
 use std::iter;
 
-/// Two pieces at the poses of one clock.
-pub(crate) struct Snapshot<'p> {
-    pub(crate) problem: &'p Problem<'p>,
-    /// The poses of A and B, in the problem's coordinates.
-    pub(crate) frames: [Frame; 2],
-    pub(crate) pieces: PiecePair<'p>,
-    pub(crate) clock: f64,
-    /// The number of heights of points that this snapshot has evaluated.
-    height_evaluation_count: Cell<u64>,
+/// A plane that keeps two pieces apart.
+pub(crate) struct SeparatingPlane {
+    /// The unit normal from A to B, in the problem's coordinates.
+    pub(crate) normal: DVec3,
+    /// The present excess of the gap over the required gap.
+    pub(crate) gap_excess: f64,
 }
 
-impl<'p> Snapshot<'p> {
-    /// Creates the snapshot of piece `a` of A and piece `b` of B at a clock.
-    pub(crate) fn new(problem: &'p Problem<'_>, a: u32, b: u32, clock: f64) -> Self {
-        Snapshot::from_pieces(problem, problem.pieces([a, b]), clock)
-    }
-
-    /// Creates the snapshot of any two convex pieces, of A and of B, at a clock.
-    pub(crate) fn from_pieces(
-        problem: &'p Problem<'_>,
-        [a, b]: [Piece<'p>; 2],
-        clock: f64,
-    ) -> Self {
-        let frames = [problem.a.path.frame(clock), problem.b.path.frame(clock)];
-        let b_to_a = frames[0].transform_from(&frames[1]);
-        Snapshot {
-            problem,
-            frames,
-            pieces: PiecePair { a, b, b_to_a },
-            clock,
-            height_evaluation_count: Cell::new(0),
-        }
-    }
-
-    /// Creates the snapshot of two other pieces at the same clock.
-    pub(crate) fn with_pieces(&self, [a, b]: [Piece<'p>; 2]) -> Self {
-        Snapshot {
-            pieces: PiecePair {
-                a,
-                b,
-                ..self.pieces
-            },
-            height_evaluation_count: Cell::new(0),
-            ..*self
-        }
-    }
-
-    /// Calls the oracle, and checks its claim; `None` if the oracle gave up.
-    pub(crate) fn query_oracle<O: DistanceOracle>(
-        &self,
-        oracle: &mut O,
-        cache: &mut O::Cache,
-        meter: &mut Meter,
-    ) -> Option<CheckedClaim> {
-        let stats = &mut meter.stats;
-        stats.oracle_calls += 1;
-        let before = oracle.effort().steps;
-        let claim = oracle.separation(&self.pieces, cache);
-        stats.point_evaluations += match oracle.effort().steps.saturating_sub(before) {
-            0 => ASSUMED_ORACLE_STEPS * self.pieces.points_per_support_search(),
-            steps => ASSUMED_ORACLE_STEPS * steps,
-        };
-        match claim {
-            Ok(claim) => Some(separation::check_claim(
-                &self.pieces,
-                &claim,
-                self.problem.rounding,
-            )),
-            Err(_) => {
-                stats.give_ups += 1;
-                None
-            }
-        }
-    }
-
-    /// Like [`Snapshot::free_time`], for the first visit of two pieces. If the fixed plane perpendicular to the claim's
+impl PlacedPair<'_> {
+    /// Like [`PlacedPair::free_time`], for the first visit of two pieces. If the fixed plane perpendicular to the claim's
     /// axis keeps them apart for a while at the present rate, no point is followed, and no other plane is tried. Most
     /// pairs are visited only once.
     pub(crate) fn first_visit_free_time(&self, checked: &CheckedClaim, kept: f64) -> FreeTime {
@@ -146,117 +72,11 @@ impl<'p> Snapshot<'p> {
         free
     }
 
-    /// Like [`Snapshot::free_time`], along the claim's axis alone, by a bound of each body's velocity along it `[FAST06
-    /// §4.2]`. `reaches` are the largest distances of the pieces' points from their body's axis of rotation.
-    ///
-    /// # Guarantee
-    /// No guarantee with [`VelocityBound::Published`].
-    pub(crate) fn free_time_along_axis(
-        &self,
-        checked: &CheckedClaim,
-        kept: f64,
-        bound: VelocityBound,
-        reaches: [f64; 2],
-    ) -> FreeTime {
-        let Problem { a, b, .. } = self.problem;
-        let normal = self.frames[0].rotation * checked.axis;
-        let sides = [
-            (a, normal, self.pieces.a, &self.frames[0], reaches[0]),
-            (b, -normal, self.pieces.b, &self.frames[1], reaches[1]),
-        ];
-        let (mut rate, mut speed) = (0.0, 0.0);
-        for (side, n, piece, frame, reach) in sides {
-            let motion = side.path.velocities();
-            rate += match bound {
-                VelocityBound::Sound => sound_bound(&motion, n, reach),
-                VelocityBound::Published => published_bound(&motion, n, |c| {
-                    let farthest = piece.extremal_position(frame.inverse_transform_vector(c));
-                    frame.rotation * (farthest - side.path.centre)
-                }),
-            };
-            speed += length(motion.linear_velocity) + side.path.angular_speed * reach;
-        }
-        let gap = Gap {
-            gap: checked.lower - kept,
-            rate: rate + RATE_ERROR_F64 * speed,
-            second_derivative: 0.0,
-        };
-        FreeTime::up_to(gap.free_time(), self.time_left())
-    }
-
-    /// Returns the overlap of two pieces of many points along the axis between their middles, as a share of the smaller
-    /// bounding radius. It is negative if the pieces are apart along the axis; `None` if a piece has few points.
-    #[cfg(feature = "hull-tree")]
-    pub(crate) fn relative_overlap_along_centre_line(&self) -> Option<f64> {
-        let pair = &self.pieces;
-        let ((a, radius_a), (b, radius_b)) = (pair.a.bounding_ball()?, pair.b.bounding_ball()?);
-        let axis = unit(pair.b_to_a.transform_point(b) - a)?;
-        let gap = separation::support_gap(pair, axis, a) - pair.a.radius - pair.b.radius;
-        Some(-gap / lesser(radius_a, radius_b))
-    }
-
-    /// Like [`Snapshot::free_time`], for two pieces with these indices that rest on each other.
-    ///
-    /// A plane keeps triangles in it apart on either side, though they may be about to pass into each other. If one
-    /// of them bounds a solid, the plane keeps them apart on the outside only.
-    pub(crate) fn free_time_when_touching(
-        &self,
-        checked: &CheckedClaim,
-        kept: f64,
-        [a, b]: [u32; 2],
-    ) -> FreeTime {
-        let rounding = self.problem.rounding;
-        let slack = |axis| self.gap_along(axis, checked.witness_a) - kept;
-        // Written so that NaN counts as no slack.
-        let is_left = |slack: f64| slack > RESTING_SLACK_PER_ROUNDING * rounding;
-        let anyhow = || {
-            if is_left(checked.lower - kept) {
-                self.free_time(checked, kept)
-            } else {
-                FreeTime::NONE
-            }
-        };
-        // This includes pieces that have passed the plane by the rounding of resting.
-        let in_one_plane = slack(-checked.axis) >= -MIN_APPROACH_PER_ROUNDING * rounding;
-        if !in_one_plane {
-            return anyhow();
-        }
-        let turn = self.pieces.b_to_a.rotation;
-        let along = |axis: DVec3| match slack(axis) {
-            slack if is_left(slack) => {
-                self.fixed_plane_free_time(self.frames[0].rotation * axis, slack)
-            }
-            _ => FreeTime::NONE,
-        };
-        match (self.problem.a.body.facing(a), self.problem.b.body.facing(b)) {
-            // The side to keep to is unknown, and the pieces are not let go.
-            (Facing::Unclear, _) | (_, Facing::Unclear) => FreeTime::NONE,
-            (Facing::OutwardNormal(n), Facing::OutwardNormal(m)) => match -(turn * m) {
-                // The solids are on the same side of the plane: their faces slide, and cannot meet.
-                into_b if n.dot(into_b) < 0.0 => {
-                    let other = along(into_b);
-                    along(n).or_longer(|_| other)
-                }
-                _ => along(n),
-            },
-            (Facing::OutwardNormal(n), Facing::NoOutwardSide) => along(n),
-            (Facing::NoOutwardSide, Facing::OutwardNormal(m)) => along(-(turn * m)),
-            (Facing::NoOutwardSide, Facing::NoOutwardSide) => anyhow(),
-        }
-    }
-
     /// Returns a time for which a plane certainly keeps the pieces apart. The plane is fixed, or turns with one of the
     /// bodies.
     pub(crate) fn plane_free_time(&self, plane: &SeparatingPlane) -> FreeTime {
         self.fixed_plane_free_time(plane.normal, plane.gap_excess)
             .or_longer(|free| self.turning_plane_free_time(&self.moving_pieces(), plane, free))
-    }
-
-    /// Returns the gap of the pieces along a unit vector, minus rounding. The vector, and the point from which heights
-    /// are measured, are in A's frame.
-    pub(crate) fn gap_along(&self, axis: DVec3, from: DVec3) -> f64 {
-        let radii = self.pieces.a.radius + self.pieces.b.radius;
-        separation::support_gap(&self.pieces, axis, from) - radii - self.problem.rounding
     }
 
     /// Returns the plane perpendicular to the claim's axis.
@@ -289,7 +109,7 @@ impl<'p> Snapshot<'p> {
         })
     }
 
-    /// Like [`Snapshot::fixed_plane_free_time`], with planes that turn with one of the bodies. Returns [`FreeTime::NONE`] if such a plane is
+    /// Like [`PlacedPair::fixed_plane_free_time`], with planes that turn with one of the bodies. Returns [`FreeTime::NONE`] if such a plane is
     /// not worth trying: the rotation of that body does not use up the slack within `free`.
     pub(crate) fn turning_plane_free_time(
         &self,
@@ -319,30 +139,6 @@ impl<'p> Snapshot<'p> {
             }
         }
         longest
-    }
-
-    /// Returns the pieces of A and of B with their motions.
-    pub(crate) fn moving_pieces(&self) -> [MovingPiece<'_>; 2] {
-        let Problem { a, b, .. } = self.problem;
-        let [frame_a, frame_b] = &self.frames;
-        [
-            MovingPiece::new(a, frame_a, self.pieces.a, self.clock),
-            MovingPiece::new(b, frame_b, self.pieces.b, self.clock),
-        ]
-    }
-
-    /// Returns the number of heights of points that this snapshot has evaluated.
-    pub(crate) fn evaluations(&self) -> u64 {
-        self.height_evaluation_count.get()
-    }
-
-    fn record_evaluations(&self, points: u64) {
-        self.height_evaluation_count
-            .set(self.height_evaluation_count.get() + points);
-    }
-
-    pub(super) fn time_left(&self) -> f64 {
-        1.0 - self.clock
     }
 
     /// Returns a time for which the gap along a fixed unit vector certainly stays above the required gap. `slack` is the
@@ -425,14 +221,44 @@ impl<'p> Snapshot<'p> {
         };
         descents().is_some_and(|descents| left - descents > 0.0)
     }
-}
 
-/// A plane that keeps two pieces apart.
-pub(crate) struct SeparatingPlane {
-    /// The unit normal from A to B, in the problem's coordinates.
-    pub(crate) normal: DVec3,
-    /// The present excess of the gap over the required gap.
-    pub(crate) gap_excess: f64,
+    /// Like [`PlacedPair::free_time`], along the claim's axis alone, by a bound of each body's velocity along it `[FAST06
+    /// §4.2]`. `reaches` are the largest distances of the pieces' points from their body's axis of rotation.
+    ///
+    /// # Guarantee
+    /// No guarantee with [`VelocityBound::Published`].
+    pub(crate) fn free_time_along_axis(
+        &self,
+        checked: &CheckedClaim,
+        kept: f64,
+        bound: VelocityBound,
+        reaches: [f64; 2],
+    ) -> FreeTime {
+        let Problem { a, b, .. } = self.problem;
+        let normal = self.frames[0].rotation * checked.axis;
+        let sides = [
+            (a, normal, self.pieces.a, &self.frames[0], reaches[0]),
+            (b, -normal, self.pieces.b, &self.frames[1], reaches[1]),
+        ];
+        let (mut rate, mut speed) = (0.0, 0.0);
+        for (side, n, piece, frame, reach) in sides {
+            let motion = side.path.velocities();
+            rate += match bound {
+                VelocityBound::Sound => sound_bound(&motion, n, reach),
+                VelocityBound::Published => published_bound(&motion, n, |c| {
+                    let farthest = piece.extremal_position(frame.inverse_transform_vector(c));
+                    frame.rotation * (farthest - side.path.centre)
+                }),
+            };
+            speed += length(motion.linear_velocity) + side.path.angular_speed * reach;
+        }
+        let gap = Gap {
+            gap: checked.lower - kept,
+            rate: rate + RATE_ERROR_F64 * speed,
+            second_derivative: 0.0,
+        };
+        FreeTime::up_to(gap.free_time(), self.time_left())
+    }
 }
 
 /// Returns the least value of `rate τ + linear_acceleration τ²/2` for τ up to a horizon.

@@ -5,7 +5,8 @@ use crate::answer::Effort;
 use crate::body::Body;
 #[cfg(feature = "hull-tree")]
 use crate::body::polytope::Polytope;
-use crate::distance::oracle::{Claim, GiveUpReason};
+use crate::distance::oracle::{Claim, DistanceOracle, GiveUpReason, PiecePair};
+use crate::engine::meter::Meter;
 use crate::math::order::greater;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
@@ -15,6 +16,7 @@ use crate::tests::scene::{
     Pcg64, RngExt, SceneKind, body, random_direction, random_point_in_ball, random_power_of_ten,
     random_rotation, rng, scene,
 };
+use crate::tuning::ASSUMED_ORACLE_STEPS;
 use glam::DQuat;
 
 /// An oracle that counts its steps.
@@ -53,28 +55,28 @@ impl DistanceOracle for FailingOracle {
 fn looks_of_an_oracle_are_its_steps_or_else_points() {
     let scene = scene(&mut rng(4), SceneKind::RandomMotion, 1);
     let problem = scene.problem();
-    let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
+    let placed = PlacedPair::new(&problem, [0, 0], 0.5);
     let mut meter = Meter::new(&problem);
     assert!(
-        snapshot
+        placed
             .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .is_some()
     );
     assert_eq!(
         meter.stats.point_evaluations,
-        ASSUMED_ORACLE_STEPS * snapshot.pieces.points_per_support_search()
+        ASSUMED_ORACLE_STEPS * placed.pieces.points_per_support_search()
     );
     let mut meter = Meter::new(&problem);
     let mut telling = CountingOracle { steps: 7 };
     assert!(
-        snapshot
+        placed
             .query_oracle(&mut telling, &mut (), &mut meter)
             .is_some()
     );
     assert_eq!(meter.stats.point_evaluations, ASSUMED_ORACLE_STEPS * 5);
     assert_eq!((meter.stats.oracle_calls, meter.stats.give_ups), (1, 0));
     assert!(
-        snapshot
+        placed
             .query_oracle(&mut FailingOracle, &mut (), &mut meter)
             .is_none()
     );
@@ -95,9 +97,9 @@ fn the_plane_of_the_longest_time_counts() {
         let scene = scene(&mut rng, kind, 2).with_occasional_accelerations(&mut rng);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.9..1.0);
-        let snapshot = Snapshot::new(&problem, 0, 0, clock);
+        let placed = PlacedPair::new(&problem, [0, 0], clock);
         let mut meter = Meter::new(&problem);
-        let checked = snapshot
+        let checked = placed
             .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .unwrap();
         let kept = problem.kept_gap();
@@ -105,23 +107,23 @@ fn the_plane_of_the_longest_time_counts() {
             continue;
         }
         let direct = SeparatingPlane {
-            normal: snapshot.frames[0].rotation * checked.axis,
+            normal: placed.frames[0].rotation * checked.axis,
             gap_excess: checked.lower - kept,
         };
-        let passing = snapshot.plane_of_closest_approach(&checked, kept);
-        check_closest_approach_plane(&snapshot, &checked, kept, passing.as_ref());
+        let passing = placed.plane_of_closest_approach(&checked, kept);
+        check_closest_approach_plane(&placed, &checked, kept, passing.as_ref());
         let planes: Vec<&SeparatingPlane> = iter::once(&direct).chain(&passing).collect();
         let along = |plane: &&SeparatingPlane| {
-            free_time_or_infinity(snapshot.fixed_plane_free_time(plane.normal, plane.gap_excess))
+            free_time_or_infinity(placed.fixed_plane_free_time(plane.normal, plane.gap_excess))
         };
-        let members = snapshot.moving_pieces();
+        let members = placed.moving_pieces();
         let attached = |plane: &&SeparatingPlane| {
-            free_time_or_infinity(snapshot.turning_plane_free_time(&members, plane, f64::INFINITY))
+            free_time_or_infinity(placed.turning_plane_free_time(&members, plane, f64::INFINITY))
         };
         let fixed = planes.iter().map(along).fold(0.0, greater);
         let all = planes.iter().map(attached).fold(fixed, greater);
         // A plane that turns is tried only if a body's turning uses up the slack.
-        let free = snapshot.free_time(&checked, kept);
+        let free = placed.free_time(&checked, kept);
         assert!(
             (fixed..=all).contains(&free_time_or_infinity(free)),
             "{free:?} of {fixed}, {all}"
@@ -129,13 +131,13 @@ fn the_plane_of_the_longest_time_counts() {
         turning += usize::from(free_time_or_infinity(free) > fixed);
         passes += usize::from(fixed > along(&&direct));
         let sufficient = |time: &f64| *time >= SUFFICIENT_FIRST_FREE_TIME;
-        let at_present_rate = snapshot.free_time_at_present_rate(&direct);
+        let at_present_rate = placed.free_time_at_present_rate(&direct);
         let expected = at_present_rate
             .map(free_time_or_infinity)
             .filter(sufficient)
             .or(Some(along(&&direct)).filter(sufficient))
             .unwrap_or(free_time_or_infinity(free));
-        let first = free_time_or_infinity(snapshot.first_visit_free_time(&checked, kept));
+        let first = free_time_or_infinity(placed.first_visit_free_time(&checked, kept));
         assert_eq!(first, expected, "{:?}", direct.normal);
         at_once[usize::from(first < free_time_or_infinity(free))] += 1;
     }
@@ -159,14 +161,14 @@ fn the_plane_between_rounded_pieces_leaves_room_for_their_radii() {
         .unwrap();
         let sides = ((&bar, motion), (&ball, Motion::STILL));
         let problem = Problem::of_moving_bodies(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
-        let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
+        let placed = PlacedPair::new(&problem, [0, 0], 0.0);
         let mut meter = Meter::new(&problem);
-        let checked = snapshot
+        let checked = placed
             .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .unwrap();
         let kept = problem.kept_gap();
-        let plane = snapshot.plane_of_closest_approach(&checked, kept);
-        check_closest_approach_plane(&snapshot, &checked, kept, plane.as_ref());
+        let plane = placed.plane_of_closest_approach(&checked, kept);
+        check_closest_approach_plane(&placed, &checked, kept, plane.as_ref());
         planes += usize::from(plane.is_some());
     }
     assert!((100..500).contains(&planes), "{planes}");
@@ -188,16 +190,16 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
         let chased = velocity * rng.random_range(1.0..1.1);
         let sides = ((&a, moving(away, chased)), (&b, moving(-away, velocity)));
         let problem = Problem::of_moving_bodies(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
-        let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
+        let placed = PlacedPair::new(&problem, [0, 0], 0.0);
         let rate = -away.dot(chased - velocity);
         let slack = 0.1 * rate;
-        let free = snapshot.fixed_plane_free_time(-away, slack);
+        let free = placed.fixed_plane_free_time(-away, slack);
         let free = free.bounded().unwrap();
         let speed = chased.length() + velocity.length();
         let allowed = (slack / free - rate) / (RATE_ERROR_F64 * speed);
         assert!((0.4..3.0).contains(&allowed), "{allowed} {rate} {speed}");
-        let points = snapshot.pieces.points_per_support_search();
-        assert_eq!(snapshot.evaluations(), 2 * points);
+        let points = placed.pieces.points_per_support_search();
+        assert_eq!(placed.evaluations(), 2 * points);
     }
 }
 
@@ -214,23 +216,23 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
             scene.motions[0] = Motion::new(start, velocity, DVec3::ZERO).unwrap();
         }
         let problem = scene.problem();
-        let snapshot = Snapshot::new(&problem, 0, 0, scene.clock * rng.random_range(0.0..1.0));
-        let (horizon, normal) = (snapshot.time_left(), random_direction(&mut rng));
+        let placed = PlacedPair::new(&problem, [0, 0], scene.clock * rng.random_range(0.0..1.0));
+        let (horizon, normal) = (placed.time_left(), random_direction(&mut rng));
         let a = Heights::new(
             &problem.a,
-            &snapshot.pieces.a,
-            &snapshot.frames[0],
+            &placed.pieces.a,
+            &placed.frames[0],
             -normal,
-            snapshot.clock,
+            placed.clock,
         );
         let b = Heights::new(
             &problem.b,
-            &snapshot.pieces.b,
-            &snapshot.frames[1],
+            &placed.pieces.b,
+            &placed.frames[1],
             normal,
-            snapshot.clock,
+            placed.clock,
         );
-        let passes = |slack: f64| snapshot.stays_apart_despite_rotation(&a, &b, slack);
+        let passes = |slack: f64| placed.stays_apart_despite_rotation(&a, &b, slack);
         let descents = a
             .max_rotational_descent_until(horizon)
             .zip(b.max_rotational_descent_until(horizon));
@@ -288,18 +290,18 @@ fn a_drift_is_least_at_an_end_or_where_it_turns() {
 
 /// Checks that a plane is perpendicular to the vector between two points on straight paths at their closest approach.
 fn check_closest_approach_plane(
-    snapshot: &Snapshot<'_>,
+    placed: &PlacedPair<'_>,
     checked: &CheckedClaim,
     kept: f64,
     plane: Option<&SeparatingPlane>,
 ) {
-    let Problem { a, b, .. } = snapshot.problem;
+    let Problem { a, b, .. } = placed.problem;
     let [x, y] =
-        [checked.witness_a, checked.witness_b].map(|p| snapshot.frames[0].transform_point(p));
-    let [v, w] = [(a, x), (b, y)].map(|(side, p)| side.path.velocity_at(p, snapshot.clock));
+        [checked.witness_a, checked.witness_b].map(|p| placed.frames[0].transform_point(p));
+    let [v, w] = [(a, x), (b, y)].map(|(side, p)| side.path.velocity_at(p, placed.clock));
     let way = |tau: f64| (y - x) + (w - v) * tau;
     // The distance of two points on straight paths falls, and then rises.
-    let (mut low, mut high) = (0.0, 1.0 - snapshot.clock);
+    let (mut low, mut high) = (0.0, 1.0 - placed.clock);
     for _ in 0..200 {
         let [one, other] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
         if way(one).length() < way(other).length() {
@@ -317,34 +319,34 @@ fn check_closest_approach_plane(
     let exact = nearest.normalize();
     // The slack is that along the plane's own normal.
     let normal = plane.map_or(exact, |plane| plane.normal);
-    let tilt = 1e-4 + 4.0 * snapshot.problem.rounding / nearest.length();
+    let tilt = 1e-4 + 4.0 * placed.problem.rounding / nearest.length();
     assert!(normal.cross(exact).length() < tilt, "{normal} {exact}");
-    let height = |k: usize, p: &DVec3| normal.dot(snapshot.frames[k].transform_point(*p));
-    let top = snapshot
+    let height = |k: usize, p: &DVec3| normal.dot(placed.frames[k].transform_point(*p));
+    let top = placed
         .pieces
         .a
         .points
         .iter()
         .map(|p| height(0, p))
         .fold(f64::NEG_INFINITY, greater);
-    let foot = snapshot
+    let foot = placed
         .pieces
         .b
         .points
         .iter()
         .map(|p| height(1, p))
         .fold(f64::INFINITY, lesser);
-    let radii = snapshot.pieces.a.radius + snapshot.pieces.b.radius;
-    let slack = foot - top - radii - kept - snapshot.problem.rounding;
-    let [a, b] = [snapshot.pieces.a.points, snapshot.pieces.b.points];
-    let placed = a
+    let radii = placed.pieces.a.radius + placed.pieces.b.radius;
+    let slack = foot - top - radii - kept - placed.problem.rounding;
+    let [a, b] = [placed.pieces.a.points, placed.pieces.b.points];
+    let points = a
         .iter()
-        .map(|p| snapshot.frames[0].transform_point(*p))
-        .chain(b.iter().map(|p| snapshot.frames[1].transform_point(*p)));
-    let size = placed.map(DVec3::length).fold(0.0, greater);
+        .map(|p| placed.frames[0].transform_point(*p))
+        .chain(b.iter().map(|p| placed.frames[1].transform_point(*p)));
+    let size = points.map(DVec3::length).fold(0.0, greater);
     match plane {
         Some(plane) => assert!(
-            (plane.gap_excess - slack).abs() <= snapshot.problem.rounding,
+            (plane.gap_excess - slack).abs() <= placed.problem.rounding,
             "{} {slack}",
             plane.gap_excess
         ),
@@ -379,14 +381,14 @@ fn depth_is_measured_between_the_middles_of_many_points() {
         );
         let sides = ((&a, motion), (&b, Motion::STILL));
         let problem = Problem::of_moving_bodies(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
-        let snapshot = Snapshot::new(&problem, 0, 0, 0.0);
-        let pair = &snapshot.pieces;
+        let placed = PlacedPair::new(&problem, [0, 0], 0.0);
+        let pair = &placed.pieces;
         let [(from, large), (to, small)] = [
             pair.a.bounding_ball().unwrap(),
             pair.b.bounding_ball().unwrap(),
         ];
-        let placed = |p: DVec3| pair.b_to_a.transform_point(p);
-        let axis = (placed(to) - from).normalize();
+        let in_a = |p: DVec3| pair.b_to_a.transform_point(p);
+        let axis = (in_a(to) - from).normalize();
         let heights = |p: DVec3| axis.dot(p);
         let top = pair
             .a
@@ -398,10 +400,10 @@ fn depth_is_measured_between_the_middles_of_many_points() {
             .b
             .points
             .iter()
-            .map(|&p| heights(placed(p)))
+            .map(|&p| heights(in_a(p)))
             .fold(f64::INFINITY, lesser);
         let expected = (top - foot + 0.075) / lesser(large, small);
-        let depth = snapshot.relative_overlap_along_centre_line().unwrap();
+        let depth = placed.relative_overlap_along_centre_line().unwrap();
         assert!((depth - expected).abs() < 1e-9, "{depth} {expected}");
         inside += usize::from(depth > 0.0);
     }

@@ -2,9 +2,10 @@
 
 mod directed;
 mod planes;
-mod resting;
 
 use super::*;
+use crate::distance::separation;
+use crate::engine::meter::Meter;
 use crate::tests::nearest::nearest_points;
 use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{RngExt, SceneKind, random_direction, random_power_of_ten, rng, scene};
@@ -20,10 +21,10 @@ fn an_axis_separates_for_as_long_as_it_says() {
         let scene = scene(&mut rng, kind, 2);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.0..1.0);
-        let snapshot = Snapshot::new(&problem, 0, 0, clock);
+        let placed = PlacedPair::new(&problem, [0, 0], clock);
         let mut normal = random_direction(&mut rng);
         let heights = |s: f64, normal: DVec3| {
-            let now = Snapshot::new(&problem, 0, 0, s);
+            let now = PlacedPair::new(&problem, [0, 0], s);
             let axis = now.frames[0].inverse_transform_vector(normal);
             separation::support_gap(&now.pieces, axis, now.pieces.a.points[0])
         };
@@ -33,7 +34,7 @@ fn an_axis_separates_for_as_long_as_it_says() {
         let gap = heights(clock, normal);
         // The slack is the part of the gap that may be used up.
         let slack = gap.abs() * random_power_of_ten(&mut rng, -3.0, 0.0);
-        let free = snapshot.fixed_plane_free_time(normal, slack).bounded();
+        let free = placed.fixed_plane_free_time(normal, slack).bounded();
         let until = free.map_or(1.0, |free| clock + free);
         let least = gap - slack - 3.0 * problem.rounding;
         for k in 0..=SAMPLE_COUNT {
@@ -67,9 +68,9 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
         let scene = scene(&mut rng, kind, 2);
         let problem = scene.problem();
         let clock = scene.clock * rng.random_range(0.9..1.0);
-        let snapshot = Snapshot::new(&problem, 0, 0, clock);
+        let placed = PlacedPair::new(&problem, [0, 0], clock);
         let mut meter = Meter::new(&problem);
-        let checked = snapshot
+        let checked = placed
             .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .unwrap();
         assert_eq!(meter.stats.oracle_calls, 1);
@@ -77,7 +78,7 @@ fn pieces_stay_apart_for_as_long_as_the_better_axis_says() {
         if checked.lower <= kept {
             continue;
         }
-        let free = snapshot.free_time(&checked, kept).bounded();
+        let free = placed.free_time(&checked, kept).bounded();
         let until = free.map_or(1.0, |free| clock + free);
         for k in 0..=SAMPLE_COUNT {
             let s = clock + (until - clock) * f64::from(k) / f64::from(SAMPLE_COUNT);
@@ -115,12 +116,12 @@ fn no_slack_is_no_time() {
     for _ in 0..500 {
         let scene = scene(&mut rng, SceneKind::RandomMotion, 1);
         let problem = scene.problem();
-        let snapshot = Snapshot::new(&problem, 0, 0, 0.5);
+        let placed = PlacedPair::new(&problem, [0, 0], 0.5);
         for slack in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-            let free = snapshot.fixed_plane_free_time(random_direction(&mut rng), slack);
+            let free = placed.fixed_plane_free_time(random_direction(&mut rng), slack);
             assert_eq!(free, FreeTime::NONE, "{slack}");
         }
-        let free = snapshot.fixed_plane_free_time(DVec3::NAN, 1.0);
+        let free = placed.fixed_plane_free_time(DVec3::NAN, 1.0);
         assert_eq!(free, FreeTime::NONE);
     }
 }

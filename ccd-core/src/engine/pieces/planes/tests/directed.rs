@@ -1,23 +1,21 @@
 //! Tests that a free time along an axis is the gap divided by the sum of both bodies' velocity bounds.
 
 use super::super::*;
+use crate::engine::meter::Meter;
 use crate::tests::oracle::ExhaustiveOracle;
 use crate::tests::scene::{RngExt, SceneKind, rng, scene};
 
 /// Returns the sum of both bodies' velocity bounds along a normal from A to B.
-fn rate(snapshot: &Snapshot<'_>, normal: DVec3, bound: VelocityBound, reaches: [f64; 2]) -> f64 {
-    let Problem { a, b, .. } = snapshot.problem;
-    let sides = [
-        (a, normal, snapshot.pieces.a),
-        (b, -normal, snapshot.pieces.b),
-    ];
+fn rate(placed: &PlacedPair<'_>, normal: DVec3, bound: VelocityBound, reaches: [f64; 2]) -> f64 {
+    let Problem { a, b, .. } = placed.problem;
+    let sides = [(a, normal, placed.pieces.a), (b, -normal, placed.pieces.b)];
     let mut sum = 0.0;
     for (k, (side, n, piece)) in sides.into_iter().enumerate() {
         let motion = side.path.velocities();
         let arms = piece
             .points
             .iter()
-            .map(|&x| snapshot.frames[k].rotation * (x - side.path.centre));
+            .map(|&x| placed.frames[k].rotation * (x - side.path.centre));
         let farthest = |along: DVec3| {
             let all = arms.clone();
             all.max_by(|p, q| along.dot(*p).total_cmp(&along.dot(*q)))
@@ -49,9 +47,9 @@ fn a_directed_time_is_the_gap_over_both_advances() {
         let kind = SceneKind::passing(number);
         let scene = scene(&mut rng, kind, 2);
         let problem = scene.problem();
-        let snapshot = Snapshot::new(&problem, 0, 0, scene.clock * rng.random_range(0.0..1.0));
+        let placed = PlacedPair::new(&problem, [0, 0], scene.clock * rng.random_range(0.0..1.0));
         let mut meter = Meter::new(&problem);
-        let checked = snapshot
+        let checked = placed
             .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
             .unwrap();
         let kept = problem.kept_gap();
@@ -62,16 +60,16 @@ fn a_directed_time_is_the_gap_over_both_advances() {
             side.path
                 .max_distance_from_axis(side.body.pieces().points())
         });
-        let normal = snapshot.frames[0].rotation * checked.axis;
+        let normal = placed.frames[0].rotation * checked.axis;
         let allowance = RATE_ERROR_F64 * max_speed_sum(&problem, reaches);
         for (k, bound) in [VelocityBound::Sound, VelocityBound::Published]
             .into_iter()
             .enumerate()
         {
-            let rate = rate(&snapshot, normal, bound, reaches);
+            let rate = rate(&placed, normal, bound, reaches);
             let expected = (checked.lower - kept) / rate;
-            let horizon = 1.0 - snapshot.clock;
-            let time = snapshot.free_time_along_axis(&checked, kept, bound, reaches);
+            let horizon = 1.0 - placed.clock;
+            let time = placed.free_time_along_axis(&checked, kept, bound, reaches);
             let time = time.bounded();
             match time {
                 Some(time) => {

@@ -1,10 +1,11 @@
 //! Tests for two triangles in one plane on which side of it each is kept, and for how long.
 
-use super::super::*;
+use super::*;
 use crate::body::{Body, Solidity};
 use crate::distance::separation::sharp::improve_axis;
 use crate::motion::Motion;
 use crate::motion::pose::Pose;
+use crate::problem::Problem;
 use crate::settings::Settings;
 use crate::tests::meshes::{cube, translated_triangles};
 use crate::tests::nearest::Triangle;
@@ -88,14 +89,13 @@ fn free_time([a, b]: [&RestingBody; 2], whole: DQuat, speed: f64, k: f64) -> Opt
         (&b.body, Motion::new(tilted, velocity, DVec3::ZERO).unwrap()),
     );
     let problem = Problem::of_moving_bodies(sides.0, sides.1, 1.0, &Settings::DEFAULT).unwrap();
-    let snapshot = Snapshot::new(&problem, a.piece, b.piece, 0.0);
+    let placed = PlacedPair::new(&problem, [a.piece, b.piece], 0.0);
     let mut meter = Meter::new(&problem);
-    let checked = snapshot
+    let checked = placed
         .query_oracle(&mut ExhaustiveOracle, &mut (), &mut meter)
         .unwrap();
-    let checked = improve_axis(&snapshot.pieces, &checked, problem.rounding);
-    let free =
-        snapshot.free_time_when_touching(&checked, -k * problem.rounding, [a.piece, b.piece]);
+    let checked = improve_axis(&placed.pieces, &checked, problem.rounding);
+    let free = placed.free_time_when_touching(&checked, -k * problem.rounding, [a.piece, b.piece]);
     // The unit is the time in which B moves by a rounding.
     free.bounded()
         .map(|free| free * speed.abs() / problem.rounding)
