@@ -56,7 +56,7 @@ fn unsafe_code_is_found() {
     }
     for line in [
         "// unsafe",
-        "let a = \"unsafe\";",
+        &format!("let a = {:?};", "unsafe"),
         "#![forbid(unsafe_code)]",
         "f(); // unsafe",
     ] {

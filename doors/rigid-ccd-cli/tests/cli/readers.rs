@@ -449,7 +449,7 @@ fn records() {
                 "\"hand\",",
                 "\"hand\", \"hand\",",
                 Refused,
-                "stop.json: no record",
+                "stop.json: not a record",
             ),
             (
                 "\"segment\": 0",

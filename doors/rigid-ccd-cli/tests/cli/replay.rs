@@ -123,7 +123,7 @@ fn another_cell_and_what_is_no_record_are_bad_input() {
     fs::write(scene.directory.join("nothing.json"), "{").unwrap();
     let both = replay(&scene, "nothing.json").args(&["--record", "record.json"]);
     let output = both.run_expecting_code(2);
-    assert_contains(&crate::stderr(&output), "nothing.json: no record");
+    assert_contains(&crate::stderr(&output), "nothing.json: not a record");
     assert_contains(&String::from_utf8(output.stdout).unwrap(), "same answer");
     let cell = fs::read_to_string(scene.directory.join("cell.toml")).unwrap();
     let moved = cell.replace("-0.12", "-0.13");

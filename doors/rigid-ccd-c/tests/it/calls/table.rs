@@ -100,6 +100,7 @@ pub(super) const FUNCTIONS: &[Function] = functions! {
     rccd_closest_approach 32 status (solver, moving, moving, duration, answer);
     rccd_keeps_clearance 32 status (solver, moving, moving, duration, clearance, answer);
     rccd_last_error 4 value ();
+    rccd_version 4 value ();
     rccd_stop_new 8 status (new_handle);
     rccd_stop_set 4 status (handle);
     rccd_stop_clear 16 status (handle);
