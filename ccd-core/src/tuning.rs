@@ -152,6 +152,7 @@ pub(crate) const INTERIOR_PROBE_DEPTHS: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
 /// The ratio of the distances of two sibling pairs of the front to the bodies' distance, from which on a descent tries
 /// to join the pairs. It tries again once the bodies' distance has shrunk by the same factor. Joining saves measuring
 /// both pairs, and costs measuring one more.
+#[cfg(feature = "hull-tree")]
 pub(crate) const JOIN_DISTANCE_RATIO: f64 = 2.0;
 
 /// The depth of overlap of two hulls beyond which the schedule `Fast` splits them without a measurement. It is along
@@ -159,6 +160,7 @@ pub(crate) const JOIN_DISTANCE_RATIO: f64 = 2.0;
 /// splits hulls that have a distance, a larger one searches for common points in vain. Measured on rings and bunnies
 /// that fall: a half takes two thirds of the time on rings, where hulls overlap, and costs nothing on bunnies; a
 /// quarter measures a seventh more pairs of bunnies.
+#[cfg(feature = "hull-tree")]
 pub(crate) const MIN_OVERLAP_TO_SPLIT: f64 = 0.5;
 
 /// The largest number of points of a piece that are scanned for an extremal point; for more points, edges are climbed.
