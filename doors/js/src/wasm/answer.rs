@@ -1,6 +1,6 @@
 //! Answers about two bodies as numbers. JavaScript reads them by the names of the fields.
 
-use super::fields::field_indices;
+use super::fields::named_numbers;
 use super::limits::limit_number;
 use rigid_ccd::answer::{Contact, Feature, HitKind, Overlap, Unresolved};
 use rigid_ccd::{Answer, Hit, Outcome};
@@ -26,52 +26,47 @@ pub enum AnswerKind {
     Unresolved,
 }
 
-/// An answer to a query from time 0 to a duration.
-#[derive(Clone, Copy, Debug, Default)]
-#[repr(C)]
-pub(crate) struct AnswerNumbers {
-    tolerance: f64,
-    /// Bounds of the distance.
-    lower: f64,
-    upper: f64,
-    /// The time before which nothing touches, and the time after which nothing touches.
-    safe_until: f64,
-    safe_from: f64,
-    /// The number of the limit.
-    limit: f64,
-    /// The kinds of the first and the last contact of an interval.
-    first_kind: f64,
-    last_kind: f64,
-    /// The first or nearest contact.
-    first: ContactNumbers,
-    /// The last contact of an interval.
-    last: ContactNumbers,
+named_numbers! {
+    /// An answer to a query from time 0 to a duration.
+    pub(crate) struct AnswerNumbers {
+        tolerance: f64,
+        /// Bounds of the distance.
+        lower: f64,
+        upper: f64,
+        /// The time before which nothing touches, and the time after which nothing touches.
+        safe_until: f64,
+        safe_from: f64,
+        /// The number of the limit.
+        limit: f64,
+        /// The kinds of the first and the last contact of an interval.
+        first_kind: f64,
+        last_kind: f64,
+        /// The first or nearest contact.
+        first: ContactNumbers,
+        /// The last contact of an interval.
+        last: ContactNumbers,
+    }
 }
 
-/// A contact.
-#[derive(Clone, Copy, Debug, Default)]
-#[repr(C)]
-pub(crate) struct ContactNumbers {
-    /// 0 if there is no contact, 1 if only a point inside both bodies is known, and otherwise 2.
-    known: f64,
-    time: f64,
-    witness_a: [f64; 3],
-    witness_b: [f64; 3],
-    normal: [f64; 3],
-    /// Bounds of the distance.
-    lower: f64,
-    upper: f64,
-    /// The kind of a feature, and its mesh indices.
-    feature_a: [f64; 3],
-    feature_b: [f64; 3],
+named_numbers! {
+    /// A contact.
+    pub(crate) struct ContactNumbers {
+        /// 0 if there is no contact, 1 if only a point inside both bodies is known, and otherwise 2.
+        known: f64,
+        time: f64,
+        witness_a: [f64; 3],
+        witness_b: [f64; 3],
+        normal: [f64; 3],
+        /// Bounds of the distance.
+        lower: f64,
+        upper: f64,
+        /// The kind of a feature, and its mesh indices.
+        feature_a: [f64; 3],
+        feature_b: [f64; 3],
+    }
 }
 
 impl AnswerNumbers {
-    /// The index of each field among the numbers.
-    pub(crate) const FIELDS: [(&str, usize); 10] = field_indices!(
-        AnswerNumbers: tolerance, lower, upper, safe_until, safe_from, limit, first_kind, last_kind, first, last
-    );
-
     /// Writes an answer to a query from time 0 to `duration`, and returns its kind.
     pub(crate) fn write(&mut self, answer: &Answer, duration: f64) -> AnswerKind {
         let outcome = &answer.outcome;
@@ -143,11 +138,6 @@ fn numbers_of_hit(hit: &Hit) -> (f64, ContactNumbers) {
 }
 
 impl ContactNumbers {
-    /// The index of each field among the numbers of a contact.
-    pub(crate) const FIELDS: [(&str, usize); 9] = field_indices!(
-        ContactNumbers: known, time, witness_a, witness_b, normal, lower, upper, feature_a, feature_b
-    );
-
     fn of_contact(time: f64, contact: &Contact) -> Self {
         let separation = &contact.separation;
         ContactNumbers {

@@ -1,9 +1,20 @@
 //! Names of the numbers that JavaScript reads and writes in the memory of the engine.
 
-/// Returns the name of each field of a struct of numbers, with the index of its first number.
-macro_rules! field_indices {
-    ($numbers:ty: $($field:ident),+) => {
-        [$((stringify!($field), std::mem::offset_of!($numbers, $field) / size_of::<f64>())),+]
+/// Defines a struct of numbers, and `FIELDS`: the name of each field, with the index of its first number.
+macro_rules! named_numbers {
+    (
+        $(#[$about:meta])*
+        $visible:vis struct $name:ident { $($(#[$about_field:meta])* $field:ident: $kind:ty),+ $(,)? }
+    ) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, Default)]
+        #[repr(C)]
+        $visible struct $name { $($(#[$about_field])* $field: $kind),+ }
+
+        impl $name {
+            pub(super) const FIELDS: &[(&str, usize)] =
+                &[$((stringify!($field), std::mem::offset_of!($name, $field) / size_of::<f64>())),+];
+        }
     };
 }
-pub(super) use field_indices;
+pub(super) use named_numbers;

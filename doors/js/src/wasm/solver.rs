@@ -3,33 +3,28 @@
 use super::answer::{AnswerKind, AnswerNumbers, ContactNumbers};
 use super::body::Body;
 use super::fault::Fault;
-use super::fields::field_indices;
+use super::fields::named_numbers;
 use super::host::tell;
 use super::movement::{MOTION_LENGTH, Movement, motion_from_numbers};
 use rigid_ccd::trajectory::MovingBody;
 use rigid_ccd::{Answer, InputError, Motion, Remark, Settings};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// The numbers of a question and of its answer. JavaScript reads and writes them by the names of the fields.
-#[derive(Debug, Default)]
-#[repr(C)]
-struct Numbers {
-    tolerance: f64,
-    margin: f64,
-    clearance: f64,
-    budget: f64,
-    duration: f64,
-    motion_a: [f64; MOTION_LENGTH],
-    motion_b: [f64; MOTION_LENGTH],
-    answer: AnswerNumbers,
+named_numbers! {
+    /// The numbers of a question and of its answer. JavaScript reads and writes them by the names of the fields.
+    struct Numbers {
+        tolerance: f64,
+        margin: f64,
+        clearance: f64,
+        budget: f64,
+        duration: f64,
+        motion_a: [f64; MOTION_LENGTH],
+        motion_b: [f64; MOTION_LENGTH],
+        answer: AnswerNumbers,
+    }
 }
 
 impl Numbers {
-    /// The index of each field among the numbers.
-    const FIELDS: [(&str, usize); 8] = field_indices!(
-        Numbers: tolerance, margin, clearance, budget, duration, motion_a, motion_b, answer
-    );
-
     fn settings(&self, question: Question) -> Settings {
         Settings {
             tolerance: self.tolerance,
@@ -106,9 +101,9 @@ impl Solver {
     /// `contact.witness_a 2`.
     pub fn layout() -> String {
         let groups = [
-            ("solver", &Numbers::FIELDS[..]),
-            ("answer", &AnswerNumbers::FIELDS),
-            ("contact", &ContactNumbers::FIELDS),
+            ("solver", Numbers::FIELDS),
+            ("answer", AnswerNumbers::FIELDS),
+            ("contact", ContactNumbers::FIELDS),
         ];
         let fields = groups.into_iter().flat_map(|(group, fields)| {
             let line = move |(name, index): &(&str, usize)| format!("{group}.{name} {index}");
