@@ -7,7 +7,7 @@
 mod settings;
 
 use ccd_bench::scene::model::Model;
-use ccd_decomp::{Detail, PatchOrder, TriangleMesh, body_from_mesh, decompose};
+use ccd_decomp::{PatchOrder, PieceChoice, TriangleMesh, body_from_mesh, decompose};
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
@@ -69,13 +69,13 @@ fn benchmark_body_creation(criterion: &mut Criterion) {
     group.sample_size(10).sampling_mode(SamplingMode::Flat);
     for (name, mesh) in &knot_meshes() {
         group.throughput(Throughput::Elements(mesh.faces().len() as u64));
-        for (detail, id) in [
-            (Detail::Triangles, "triangles"),
-            (Detail::Patches(PatchOrder::Cresting), "patches"),
-            (Detail::Auto, "auto"),
+        for (choice, id) in [
+            (PieceChoice::Triangles, "triangles"),
+            (PieceChoice::Patches(PatchOrder::Cresting), "patches"),
+            (PieceChoice::Auto, "auto"),
         ] {
             group.bench_with_input(BenchmarkId::new(id, name), mesh, |bencher, mesh| {
-                bencher.iter(|| body_from_mesh(black_box(mesh), detail).expect("a knot is a body"));
+                bencher.iter(|| body_from_mesh(black_box(mesh), choice).expect("a knot is a body"));
             });
         }
     }

@@ -9,7 +9,7 @@ mod settings;
 
 use ccd_bench::scene::model::torus_knot;
 use ccd_core::glam::{DQuat, DVec3};
-use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
+use ccd_decomp::{PieceChoice, TriangleMesh, body_from_mesh};
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -71,7 +71,7 @@ fn terrain_height(x: f64, y: f64) -> f64 {
 
 /// Returns the body of the hills, followed by the four flying bodies: a sphere, a box, a capsule and a torus knot.
 fn hills_and_bodies() -> anyhow::Result<[Body; 5]> {
-    let of_mesh = |mesh: &TriangleMesh| anyhow::Ok(body_from_mesh(mesh, Detail::Auto)?.body);
+    let of_mesh = |mesh: &TriangleMesh| anyhow::Ok(body_from_mesh(mesh, PieceChoice::Auto)?.body);
     let (cells, half) = TERRAIN_SIDE_CELLS_AND_HALF_WIDTH;
     let row = cells + 1;
     let vertices = (0..row * row).map(|k| {

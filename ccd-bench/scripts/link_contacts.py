@@ -144,7 +144,7 @@ def check(referee: Referee, rows: list[dict[str, str]], kind: str) -> list[float
     prefix, found = kind + "_", []
     for row in rows:
         positions = {name[len(prefix) :]: value for name, value in row.items() if name.startswith(prefix)}
-        positions.pop("share", None)
+        positions.pop("fraction", None)
         if all(positions.values()):
             numbers = {joint: float(value) for joint, value in positions.items()}
             found.append(referee.distance((row["link1"], row["link2"]), numbers))
@@ -154,7 +154,7 @@ def check(referee: Referee, rows: list[dict[str, str]], kind: str) -> list[float
 def main() -> None:
     folder, ccd = Path(sys.argv[1]), sys.argv[2]
     seconds = float(sys.argv[3]) if len(sys.argv) > 3 else 60.0
-    columns = ["robot", "file", "pairs", *CLASSES, "largest_undecided_share", "touching_witnesses"]
+    columns = ["robot", "file", "pairs", *CLASSES, "largest_undecided_fraction", "touching_witnesses"]
     columns += ["touching_farthest", "apart_witnesses", "apart_nearest", "samples", "never_but_sampled", "cpu_seconds"]
     table = csv.writer(sys.stdout)
     table.writerow(columns)
@@ -162,9 +162,9 @@ def main() -> None:
         rows, cpu = decide(ccd, folder / file, folder, seconds)
         referee = Referee(folder / file, package_folders(folder))
         counts = [sum(row["class"] == kind for row in rows) for kind in CLASSES]
-        shares = [float(row["undecided_share"]) for row in rows if row["class"] == "undecided"]
+        fractions = [float(row["undecided_fraction"]) for row in rows if row["class"] == "undecided"]
         touching, apart = (check(referee, rows, kind) for kind in ("touching", "apart"))
-        row = [name, file, len(rows), *counts, f"{max(shares, default=0):.3g}"]
+        row = [name, file, len(rows), *counts, f"{max(fractions, default=0):.3g}"]
         row += [len(touching), f"{max(touching, default=0):.2g}", len(apart), f"{min(apart, default=0):.2g}"]
         never = [(row["link1"], row["link2"]) for row in rows if row["class"] == "never"]
         table.writerow([*row, SAMPLES, referee.touching(never, SAMPLES), f"{cpu:.1f}"])

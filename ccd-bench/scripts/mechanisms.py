@@ -20,7 +20,7 @@ TURN = 2 * math.pi
 
 def at(*position: float) -> tuple[list[float], list[float]]:
     """Returns a pose without rotation."""
-    return [*position, *[0.0] * (3 - len(position))], [1, 0, 0, 0]
+    return [*position, *[0.0] * (3 - len(position))], [0, 0, 0, 1]
 
 
 @dataclass
@@ -61,7 +61,7 @@ def gear(module: float, teeth: int, thickness: float, points: int = 40) -> tuple
     around = np.array(profile)
     count = len(around)
     levels = [np.column_stack([around, np.full(count, z)]) for z in (-thickness / 2, thickness / 2)]
-    centres = [[0, 0, -thickness / 2], [0, 0, thickness / 2]]
+    centers = [[0, 0, -thickness / 2], [0, 0, thickness / 2]]
     following = (np.arange(count) + 1) % count
     here = np.arange(count)
     faces = np.concatenate(
@@ -75,7 +75,7 @@ def gear(module: float, teeth: int, thickness: float, points: int = 40) -> tuple
     # The chord of an arc of an involute is off by its length squared, over eight radii of curvature.
     step = rolls[1] - rolls[0]
     sagitta = max(base * (roll + step) ** 2 * step**2 / (8 * roll) for roll in rolls[:-1] if roll > 0)
-    return Body(np.vstack([*levels, centres]), faces), sagitta
+    return Body(np.vstack([*levels, centers]), faces), sagitta
 
 
 def gear_pair() -> Mechanism:
@@ -101,7 +101,7 @@ def hinge_with_stop() -> Mechanism:
     hinge = Joint.revolute("hinge", "frame", "lid")
     cell = Cell(Robot([hinge], {"lid": [(Body.capsule(0.02, 0.2), at(0.3))]}))
     stop = math.radians(46)
-    cell.add("stop", Body.sphere(0.005), at(0.3 * math.cos(stop), 0.3 * math.sin(stop)))
+    cell.add_obstacle("stop", Body.sphere(0.005), at(0.3 * math.cos(stop), 0.3 * math.sin(stop)))
     exact = 2 * 0.3 * math.sin(math.radians(3)) - 0.025
     return Mechanism("hinge with a stop", cell, [[-math.pi / 2], [math.radians(40)]], exact)
 
@@ -122,7 +122,7 @@ def crank_slider() -> Mechanism:
     ]
     bodies: dict[str, Any] = {"crank": rod(crank, 0.02), "rod": rod(length, 0.04), "slider": Body.box(0.02, 0.02, 0.01)}
     cell = Cell(Robot(joints, bodies, [("rod", "slider"), ("crank", "slider")]))
-    cell.add("wall", Body.box(0.01, 0.1, 0.1), at(crank + length + 0.02 + gap + 0.01))
+    cell.add_obstacle("wall", Body.box(0.01, 0.1, 0.1), at(crank + length + 0.02 + gap + 0.01))
     turn = np.linspace(-math.pi, math.pi, 2001)
     tilt = -np.arcsin(crank / length * np.sin(turn))
     slide = crank * np.cos(turn) + length * np.cos(tilt)
@@ -162,7 +162,7 @@ def four_bar() -> Mechanism:
         "rocker": rod(rocker, 0.04),
     }
     cell = Cell(Robot(joints, bodies, [("coupler", "rocker")]))
-    cell.add("ball", Body.sphere(0.005), at(*rest, 0.06))
+    cell.add_obstacle("ball", Body.sphere(0.005), at(*rest, 0.06))
     turn = np.linspace(0, TURN, 4001)
     tilt, swing = closed(turn)
     path = np.column_stack([turn, tilt - turn, np.unwrap(swing)])

@@ -16,7 +16,7 @@ JSON as in `src/method/wire.rs`. Methods:
   fcl-naive      FCL's continuousCollide, tests at equal steps, as many as for coal-steps
 
 FCL moves a body as `ccd` does: with CCDM_LINEAR its origin moves straight, and the body turns about it at a
-constant rate, the shorter way. The meshes are therefore shifted so that their origin is the centre of
+constant rate, the shorter way. The meshes are therefore shifted so that their origin is the center of
 rotation, and motions are cut into stretches of less than half a turn. FCL's screws are other motions, and its
 splines take no poses. Its meshes are BVHs of OBBRSS, the only kind that the package makes. Ray shooting is
 not implemented for them, and the polynomial solver needs vertices of two frames and changes the meshes.
@@ -79,15 +79,15 @@ def opened(method, a, b):
 
 
 class Motion:
-    """A motion: the centre has a constant velocity, and the body rotates about it at a constant rate."""
+    """A motion: the center has a constant velocity, and the body rotates about it at a constant rate."""
 
     def __init__(self, numbers):
-        position, quaternion, self.velocity, self.spin, self.centre = np.split(np.array(numbers), [3, 7, 10, 13])
+        position, quaternion, self.velocity, self.spin, self.center = np.split(np.array(numbers), [3, 7, 10, 13])
         self.rotation = Rotation.from_quat(quaternion)
-        self.start = position + self.rotation.apply(self.centre)
+        self.start = position + self.rotation.apply(self.center)
 
     def at(self, when):
-        """Returns the rotation and the position of the centre."""
+        """Returns the rotation and the position of the center."""
         return Rotation.from_rotvec(self.spin * when) * self.rotation, self.start + when * self.velocity
 
 
@@ -98,7 +98,7 @@ class Query:
         *motions, self.duration = row
         self.a, self.b = map(Motion, motions)
         turning = sum(
-            np.linalg.norm(motion.spin) * radius(motion.centre)
+            np.linalg.norm(motion.spin) * radius(motion.center)
             for motion, radius in zip((self.a, self.b), reach)
         )
         self.way = (np.linalg.norm(self.a.velocity - self.b.velocity) + turning) * self.duration
@@ -129,9 +129,9 @@ class Coal:
         return model
 
     def pose(self, motion, when):
-        rotation, centre = motion.at(when)
+        rotation, center = motion.at(when)
         turn = rotation.as_matrix()
-        return self.coal.Transform3s(turn, centre - turn @ motion.centre)
+        return self.coal.Transform3s(turn, center - turn @ motion.center)
 
     def distance(self, row, _tolerance):
         query = Query(row, self.reach)
@@ -166,21 +166,21 @@ class Fcl:
         self.reach = [reach_of(vertices) for vertices, _ in (a, b)]
         self.models = {}
 
-    def model(self, k, centre):
-        """Returns the mesh with the centre as its origin, made once for each centre."""
-        key = (k, *centre)
+    def model(self, k, center):
+        """Returns the mesh with the center as its origin, made once for each center."""
+        key = (k, *center)
         if key not in self.models:
             vertices, faces = self.meshes[k]
             model = self.fcl.BVHModel()
             model.beginModel(len(vertices), len(faces))
-            model.addSubModel(vertices - centre, faces)
+            model.addSubModel(vertices - center, faces)
             model.endModel()
             self.models[key] = model
         return self.models[key]
 
     def transform(self, motion, when):
-        rotation, centre = motion.at(when)
-        return self.fcl.Transform(rotation.as_quat(scalar_first=True), centre)
+        rotation, center = motion.at(when)
+        return self.fcl.Transform(rotation.as_quat(scalar_first=True), center)
 
     def advance(self, row, tolerance):
         return self.collide(row, tolerance, self.fcl.CCDSolverType.CCDC_CONSERVATIVE_ADVANCEMENT)
@@ -206,7 +206,7 @@ class Fcl:
             ends = [query.duration * (k + j) / stretches for j in (0, 1)]
             first, last = ([self.transform(m, when) for m in motions] for when in ends)
             a, b = (
-                self.fcl.CollisionObject(self.model(j, motions[j].centre), first[j]) for j in (0, 1)
+                self.fcl.CollisionObject(self.model(j, motions[j].center), first[j]) for j in (0, 1)
             )
             result = self.fcl.ContinuousCollisionResult()
             begin = time.perf_counter()
@@ -227,9 +227,9 @@ def read_obj(path):
 
 
 def reach_of(vertices):
-    """Returns a bound of the distance of the body's points from a centre."""
+    """Returns a bound of the distance of the body's points from a center."""
     low, high = vertices.min(axis=0), vertices.max(axis=0)
-    return lambda centre: np.linalg.norm(np.maximum(abs(low - centre), abs(high - centre)))
+    return lambda center: np.linalg.norm(np.maximum(abs(low - center), abs(high - center)))
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ pub use listing::{SceneDescription, scene_descriptions};
 use crate::scene::model::Model;
 use anyhow::{Context, Result};
 use ccd_core::Body;
-use ccd_decomp::{Detail, PatchOrder, PrepareError, TriangleMesh, body_from_mesh, prepare};
+use ccd_decomp::{PatchOrder, PieceChoice, PrepareError, TriangleMesh, body_from_mesh, prepare};
 use ccd_tables::batch::BodyPair;
 use ccd_tables::motions::Motions;
 use std::collections::HashMap;
@@ -76,12 +76,12 @@ impl PieceKind {
     /// # Errors
     /// If the mesh does not allow such pieces.
     pub fn make_body(self, mesh: &TriangleMesh) -> Result<Body, PrepareError> {
-        let detail = match self {
-            PieceKind::FewestPieces => Detail::Auto,
-            PieceKind::Triangles => Detail::Triangles,
-            PieceKind::Patches => Detail::Patches(PatchOrder::Cresting),
+        let choice = match self {
+            PieceKind::FewestPieces => PieceChoice::Auto,
+            PieceKind::Triangles => PieceChoice::Triangles,
+            PieceKind::Patches => PieceChoice::Patches(PatchOrder::Cresting),
         };
-        let model = prepare(mesh, detail)?;
+        let model = prepare(mesh, choice)?;
         match self {
             PieceKind::Patches => model.with_hull_tree()?.body(),
             PieceKind::FewestPieces | PieceKind::Triangles => model.body(),
@@ -139,7 +139,7 @@ impl ModelBodyCache {
         let of_model = || format!("model {}", model.name());
         let mesh = model.load_or_generate(self.model_folder.as_deref());
         let mesh = mesh.with_context(of_model)?;
-        let prepared = body_from_mesh(&mesh, Detail::Auto).with_context(of_model)?;
+        let prepared = body_from_mesh(&mesh, PieceChoice::Auto).with_context(of_model)?;
         let body = SceneBody {
             body: Arc::new(prepared.body),
             mesh: Arc::new(mesh),

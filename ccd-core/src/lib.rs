@@ -7,12 +7,12 @@
 //! in separate crates: this one contains no backend, no file format, no IO.
 //!
 //! # Example
-//! When do two balls meet whose paths pass each other off centre?
+//! When do two balls meet whose paths pass each other off center?
 //!
 //! ```
 //! use ccd_core::{glam::DVec3, schedule::{BestFirst, Schedule}, *};
 //!
-//! /// Measures two balls: the way from one centre to the other is all there is to know.
+//! /// Measures two balls: the way from one center to the other is all there is to know.
 //! struct Balls;
 //!
 //! impl DistanceOracle for Balls {
@@ -31,7 +31,7 @@
 //! let query = Query::new((&ball, a), (&ball, b), 2.0, &settings)?;
 //! let answer = BestFirst::default().first_contact(&query, &mut Balls)?;
 //! let Outcome::Contact { time, contact } = answer.outcome else { panic!("they meet") };
-//! // Centres that are 0.6 apart sideways are 1 apart when they are 0.8 apart along x: at 5.2 / 4.
+//! // Centers that are 0.6 apart sideways are 1 apart when they are 0.8 apart along x: at 5.2 / 4.
 //! assert!(time <= 1.3 && time > 1.3 - 1e-6);
 //! assert!(contact.separation.upper <= 1e-6);
 //! # Ok::<(), InputError>(())

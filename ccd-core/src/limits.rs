@@ -11,7 +11,7 @@ pub const DEFAULT_BUDGET: u64 = 1 << 22;
 /// underflow of f64 (2.2e-308).
 pub const LEAST_TOLERANCE: f64 = 1e-100;
 
-/// The largest coordinate of points, positions and centres, and the largest travel, margin and tolerance, in the
+/// The largest coordinate of points, positions and centers, and the largest travel, margin and tolerance, in the
 /// scene's unit of length. Squares of distances, and of speeds at the [largest turn](MAX_ROTATION_ANGLE), stay below
 /// the overflow of f32 (3.4e38).
 pub const MAX_COORDINATE: f64 = 1e12;

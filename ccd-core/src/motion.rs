@@ -1,4 +1,4 @@
-//! Motions with constant velocity of a centre and constant angular velocity about it.
+//! Motions with constant velocity of a center and constant angular velocity about it.
 
 pub(crate) mod bound;
 pub(crate) mod free_time;
@@ -19,10 +19,10 @@ use crate::math::vector::length;
 use glam::{DQuat, DVec3};
 use pose::{Frame, Pose};
 
-/// A motion with constant linear velocity of a chosen centre, and constant angular velocity about it, for any number of
+/// A motion with constant linear velocity of a chosen center, and constant angular velocity about it, for any number of
 /// turns `[FAST06 §4.1]`.
 ///
-/// `x(t) = R(t)(x − c) + C₀ + v t`, with `R(t) = exp(t [ω]×) R₀`, `c` the centre in the body's
+/// `x(t) = R(t)(x − c) + C₀ + v t`, with `R(t) = exp(t [ω]×) R₀`, `c` the center in the body's
 /// frame and `C₀` its position in the world at `t = 0`. Angular velocity is in radians per unit of
 /// time, along the world's axes; lengths are in the scene's unit.
 ///
@@ -36,7 +36,7 @@ pub struct Motion {
     start: Pose,
     velocity: DVec3,
     spin: DVec3,
-    centre: DVec3,
+    center: DVec3,
 }
 
 impl Motion {
@@ -45,7 +45,7 @@ impl Motion {
         start: Pose::IDENTITY,
         velocity: DVec3::ZERO,
         spin: DVec3::ZERO,
-        centre: DVec3::ZERO,
+        center: DVec3::ZERO,
     };
 
     /// Creates the motion of a body that rests at a pose.
@@ -70,7 +70,7 @@ impl Motion {
         Motion::about(start, velocity, spin, DVec3::ZERO)
     }
 
-    /// Creates a motion about `centre`, a point in the body's frame, from the pose at `t = 0` and the velocities per
+    /// Creates a motion about `center`, a point in the body's frame, from the pose at `t = 0` and the velocities per
     /// unit of time. `velocity` is the velocity of that point.
     ///
     /// # Errors
@@ -79,14 +79,14 @@ impl Motion {
         start: Pose,
         velocity: impl Into<[f64; 3]>,
         spin: impl Into<[f64; 3]>,
-        centre: impl Into<[f64; 3]>,
+        center: impl Into<[f64; 3]>,
     ) -> Result<Self, InputError> {
-        let [velocity, spin, centre] =
-            [velocity.into(), spin.into(), centre.into()].map(DVec3::from_array);
+        let [velocity, spin, center] =
+            [velocity.into(), spin.into(), center.into()].map(DVec3::from_array);
         for (what, part) in [
             ("velocity", velocity),
             ("angular velocity", spin),
-            ("centre", centre),
+            ("center", center),
         ] {
             check_finite(what, part.is_finite())?;
         }
@@ -94,12 +94,12 @@ impl Motion {
             start,
             velocity,
             spin,
-            centre,
+            center,
         })
     }
 
     /// Creates a motion from the poses at `t = 0` and `t = duration`. The body takes the shortest rotation about
-    /// `centre`, a point in the body's frame that moves on a straight line.
+    /// `center`, a point in the body's frame that moves on a straight line.
     ///
     /// Velocities are derived from the poses and rounded. A query over at most `duration` accounts for that rounding:
     /// its certificate holds for the motion between the poses as given
@@ -117,17 +117,17 @@ impl Motion {
     pub fn between(
         start: Pose,
         end: Pose,
-        centre: impl Into<[f64; 3]>,
+        center: impl Into<[f64; 3]>,
         duration: f64,
     ) -> Result<Self, InputError> {
-        let centre = DVec3::from_array(centre.into());
+        let center = DVec3::from_array(center.into());
         let allowed = duration > 0.0 && duration.is_finite();
         check("duration", duration, allowed, "positive and finite")?;
         // The differences are computed first: positions far from the world's origin lose no accuracy.
         let turned = Frame::from(end).rotation - Frame::from(start).rotation;
-        let travel = (end.translation() - start.translation()) + turned * centre;
+        let travel = (end.translation() - start.translation()) + turned * center;
         let turn = shortest_rotation_vector(end.rotation() * start.rotation().conjugate());
-        Motion::about(start, travel / duration, turn / duration, centre)
+        Motion::about(start, travel / duration, turn / duration, center)
     }
 
     /// Returns the body's pose at `t = 0`.
@@ -135,26 +135,26 @@ impl Motion {
         self.start
     }
 
-    /// Returns the velocity of the [centre](Motion::centre), per unit of time.
+    /// Returns the velocity of the [center](Motion::center), per unit of time.
     pub fn velocity(&self) -> DVec3 {
         self.velocity
     }
 
     /// Returns the angular velocity in radians per unit of time, in the world's frame.
-    pub fn spin(&self) -> DVec3 {
+    pub fn angular_velocity(&self) -> DVec3 {
         self.spin
     }
 
-    /// Returns the centre of rotation, a point in the body's frame that moves on a straight line.
-    pub fn centre(&self) -> DVec3 {
-        self.centre
+    /// Returns the center of rotation, a point in the body's frame that moves on a straight line.
+    pub fn center(&self) -> DVec3 {
+        self.center
     }
 
     /// Returns the body's pose at time `t`.
     pub fn pose(&self, t: f64) -> Pose {
         let rotation = DQuat::from_scaled_axis(t * self.spin) * self.start.rotation();
-        // The displacement of the centre, minus that of the origin by the turn about the centre.
-        let turned = rotation * self.centre - self.start.rotation() * self.centre;
+        // The displacement of the center, minus that of the origin by the turn about the center.
+        let turned = rotation * self.center - self.start.rotation() * self.center;
         Pose::from_unit_quaternion(
             self.start.translation() + (t * self.velocity - turned),
             rotation,

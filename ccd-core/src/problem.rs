@@ -95,7 +95,7 @@ impl<'a> Problem<'a> {
         Problem::with_accelerations(bodies, [DVec3::ZERO; 2], duration, terms)
     }
 
-    /// Creates the problem of two bodies whose centres may accelerate, for schedules that handle
+    /// Creates the problem of two bodies whose centers may accelerate, for schedules that handle
     /// [accelerations](crate::engine::answer::EngineSchedule::handles_accelerations).
     pub(crate) fn with_accelerations(
         [a, b]: [(&'a Body, Motion); 2],
@@ -116,7 +116,7 @@ impl<'a> Problem<'a> {
         };
         for (_, motion) in [&a, &b] {
             check_coordinates("position", motion.start().translation())?;
-            check_coordinates("centre", motion.centre())?;
+            check_coordinates("center", motion.center())?;
         }
         let [of_a, of_b] = accelerations;
         let (a, b) = (side(a, b.0, of_a), side(b, a.0, of_b));
@@ -124,9 +124,9 @@ impl<'a> Problem<'a> {
             side.check()?;
         }
         let rounding = rounding::distance_rounding(
-            [a.extent_with_centre(), b.extent_with_centre()],
+            [a.extent_with_center(), b.extent_with_center()],
             [a.path.angular_speed, b.path.angular_speed],
-            distance(a.path.centre_at(0.0), b.path.centre_at(0.0))
+            distance(a.path.center_at(0.0), b.path.center_at(0.0))
                 + a.path.speed_bound()
                 + b.path.speed_bound()
                 + terms.margin,
@@ -342,13 +342,13 @@ impl BodyWithPath<'_> {
         if self.given_body.is_some() { 0 } else { piece }
     }
 
-    /// Returns the span of the body plus twice the distance of its centre of rotation from its origin.
-    pub(crate) fn extent_with_centre(&self) -> f64 {
-        self.body.tree().max_distance_from_origin() + 2.0 * length(self.path.centre)
+    /// Returns the span of the body plus twice the distance of its center of rotation from its origin.
+    pub(crate) fn extent_with_center(&self) -> f64 {
+        self.body.tree().max_distance_from_origin() + 2.0 * length(self.path.center)
     }
 
     pub(crate) fn check(&self) -> Result<(), InputError> {
-        let travel = self.path.speed_bound() + length(self.path.centre_at(0.0));
+        let travel = self.path.speed_bound() + length(self.path.center_at(0.0));
         check(
             "travel",
             travel,

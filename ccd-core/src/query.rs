@@ -150,7 +150,7 @@ impl<'a> Query<'a> {
     /// - a negative duration, margin or clearance, and a tolerance that is not positive;
     /// - a turn beyond [`MAX_ROTATION_ANGLE`](crate::limits::MAX_ROTATION_ANGLE), and lengths beyond
     ///   [`MAX_COORDINATE`](crate::limits::MAX_COORDINATE): the tolerance, the margin, and for motions each body's
-    ///   position at the start, its centre, and the distance from B's position to that centre at all times;
+    ///   position at the start, its center, and the distance from B's position to that center at all times;
     /// - along trajectories, a duration above [`MAX_DURATION`].
     pub fn new(
         a: impl Into<MovingBody<'a>>,

@@ -32,7 +32,7 @@ pub(crate) const EXTREME_VECTOR_SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 
 /// Returns a bound of the rounding error of distances computed in f64: by how much a support gap or the distance of two
 /// witnesses may differ from the exact value. The exact distance is that of the bodies as posed: the given points,
-/// poses, centres and velocities, or end poses.
+/// poses, centers and velocities, or end poses.
 ///
 /// All numbers are in units of `u`. The error of a matrix is the largest displacement of a unit
 /// vector. A point `x` of a body is placed at `R(s)(x − c) + C(s)`, with `R = cos·A + sin·B + C`:
@@ -41,7 +41,7 @@ pub(crate) const EXTREME_VECTOR_SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 /// - the axis of rotation is off by 4.5, so that `C` is off by 15, `B` by 8, and their share in `R`
 ///   by 31; sine and cosine add 3, the angle `ω s` adds `5ω`, the four operations of an entry add
 ///   6;
-/// - `R x`, `R c` and the sums add 7 of `|x|` and of `|c|` each, and 6 of the centre's
+/// - `R x`, `R c` and the sums add 7 of `|x|` and of `|c|` each, and 6 of the center's
 ///   displacement;
 /// - another rotation leads into A's frame; it differs from the inverse of A's by at most 67, apart
 ///   from an error that only turns A; its products and sums add 12, of the displacement and of both
@@ -65,7 +65,7 @@ pub(crate) const EXTREME_VECTOR_SCALE: f64 = f64::from_bits((1023 + 700) << 52);
 ///   π: 73.
 ///
 /// The sum is at most `300 + 5ω` of a body's span, which counts `|c|` twice, and 96 of `way`, the distance of the
-/// centres at the start and along their travel. If neither body turns, the 40 of axis, sine, cosine and sums fall away
+/// centers at the start and along their travel. If neither body turns, the 40 of axis, sine, cosine and sums fall away
 /// twice, in `R` and in the rotation into A's frame, and so do 28 of the turn (a turn between poses may be lost in
 /// rounding): 192 of the 300 are left, and 56 of the 96. The constant term covers coordinates so small that their
 /// squares underflow: a length is then off by 3e-162, squared rates may multiply that by 1e12, and 1e-130 is far above.
@@ -80,7 +80,7 @@ pub(crate) fn distance_rounding(spans: [f64; 2], turns: [f64; 2], way: f64) -> f
 }
 
 /// Returns the contribution of one body to [`distance_rounding`], for any motion of the other body. The sum of the
-/// shares of two bodies, with the ways of their centres from the world's origin, is no less than the rounding of their
+/// shares of two bodies, with the ways of their centers from the world's origin, is no less than the rounding of their
 /// distance.
 pub(crate) fn body_distance_rounding(span: f64, turn: f64, way: f64) -> f64 {
     UNIT_ROUNDOFF_F64 * ((300.0 + 5.0 * turn) * span + 96.0 * way) + UNDERFLOW_ERROR_BOUND
@@ -92,17 +92,17 @@ pub(crate) fn margin_rounding(margin: f64) -> f64 {
 }
 
 /// The least rotation during a query, in radians, with which a body counts as turning. A lesser one displaces a point by
-/// less than 1e-100 of its distance from the centre, far below [`UNIT_ROUNDOFF_F64`] of it.
+/// less than 1e-100 of its distance from the center, far below [`UNIT_ROUNDOFF_F64`] of it.
 ///
 /// A part of a path turns by its share of the rotation. That must not underflow, as the other coefficients do not: it
 /// stays above 1e-300 for shares above 1e-200.
 pub(crate) const LEAST_ROTATION: f64 = 1e-100;
 
 /// The relative error of a motion's pose that is computed for a time other than its start. It is relative to the
-/// lengths of its position, its centre and its travel; as an angle, it is relative to a radian more than its rotation.
+/// lengths of its position, its center and its travel; as an angle, it is relative to a radian more than its rotation.
 ///
 /// In units of `u`: the angle is off by 1 of the turn, its sine and cosine by 2, the product of two
-/// quaternions by 6, and normalising by 4: an angle of twice that, 24 and 2 of the turn. Turning the centre
+/// quaternions by 6, and normalising by 4: an angle of twice that, 24 and 2 of the turn. Turning the center
 /// takes 18 of it, twice, and the sums 3 of all lengths: 39. As much again is left for the rounding of the
 /// pose that it is computed from: 80 are taken.
 pub const RETIMED_POSE_ERROR_F64: f64 = 80.0 * UNIT_ROUNDOFF_F64;
@@ -110,13 +110,13 @@ pub const RETIMED_POSE_ERROR_F64: f64 = 80.0 * UNIT_ROUNDOFF_F64;
 /// Returns a bound of the error of one body's positions in a part of its path, such as one of many periods; it is added
 /// to [`distance_rounding`]. It also bounds the error of bounds that are taken over from one period to others.
 ///
-/// In units of `u`, of a point at `reach` from the centre, with a turn of `ω` over the whole path:
+/// In units of `u`, of a point at `reach` from the center, with a turn of `ω` over the whole path:
 /// - sine and cosine of the angle at which the part begins add 3, their products and sums 6, that angle `ω`, and the
 ///   product of rate and time `2ω`;
 /// - the number of turns in a period is off by `4ω` over all periods, and by `4ω` more since the rate is;
 /// - the time of a contact is rounded down by up to 17 of the part's, see [`RATE_ERROR_F64`]: `17ω`.
 ///
-/// That is `9 + 28ω`. The centre begins with an error of 4 of its place and of its travel; the time takes 17 of the
+/// That is `9 + 28ω`. The center begins with an error of 4 of its place and of its travel; the time takes 17 of the
 /// latter, products 2, and the difference of two velocities 4: 27 of this `way`. 32 are taken of each.
 pub(crate) fn position_rounding(reach: f64, turn: f64, way: f64) -> f64 {
     32.0 * UNIT_ROUNDOFF_F64 * ((1.0 + turn) * reach + way)
@@ -138,7 +138,7 @@ pub(crate) fn least_tolerance(rounding: f64) -> f64 {
 /// The error of a support gap between two nodes computed in f32, relative to the distance of the unsplit node from the
 /// origin of the split node's group.
 ///
-/// In units of `u = 2⁻²⁴`: the distance is rounded once (1), the child's centre subtracted (1),
+/// In units of `u = 2⁻²⁴`: the distance is rounded once (1), the child's center subtracted (1),
 /// projected by three operations (3), the reaches subtracted (2), and the gap divided by the axis's
 /// length: a root and a quotient (3), and a product (1). That is 11u; 12u are taken.
 pub(crate) const GAP_ERROR_PER_DISTANCE_F32: f32 = 12.0 * UNIT_ROUNDOFF_F32;
@@ -164,8 +164,8 @@ pub(crate) const GAP_ERROR_PER_RADIUS_F32: f32 = 32.0 * UNIT_ROUNDOFF_F32;
 pub(crate) const RATE_ERROR_F32: f32 = 2e-6;
 
 /// The share of a node's distance from the origin of the split node's group that is added to its distance from the
-/// centre of rotation, when the largest speed is computed. That vector, the arm, is the difference of two positions, a
-/// node's and that of its body's centre of rotation, each rounded by 1u. The share is 4u of the 33u of
+/// center of rotation, when the largest speed is computed. That vector, the arm, is the difference of two positions, a
+/// node's and that of its body's center of rotation, each rounded by 1u. The share is 4u of the 33u of
 /// [`RATE_ERROR_F32`].
 pub(crate) const ARM_INCREASE_PER_DISTANCE: f64 = 1.0 / 8.0;
 
@@ -204,7 +204,7 @@ pub(crate) const RATE_ERROR_F64: f64 = 16.0 * UNIT_ROUNDOFF_F64;
 
 /// Returns the relative error of heights and rates of one body's points along an axis that turns with the other body,
 /// computed in f64. It comes in addition to the error of their positions. Heights are relative to the farthest distance
-/// from the turning body's centre, and rates to the largest speed past it. `turns` is the sum of both bodies'
+/// from the turning body's center, and rates to the largest speed past it. `turns` is the sum of both bodies'
 /// rotations.
 ///
 /// In units of `u`: an angle is off by `4ω` (its rate by 3, a product adds 1), sine and cosine by 4
@@ -282,7 +282,7 @@ pub(crate) const HEIGHT_ERROR_F64: f64 = 4.0 * UNIT_ROUNDOFF_F64;
 /// size. The height is along a direction whose largest component is 1.
 ///
 /// In units of `u = 2⁻²⁴`, with lengths of points and of the direction at most √3: the direction is
-/// rounded (3u); the centre is projected by five operations (12u); radius and thickness are
+/// rounded (3u); the center is projected by five operations (12u); radius and thickness are
 /// multiplied by lengths of at most √3 (6u and 12u); the normal is not exactly perpendicular to the
 /// part across it (12u); the sums add 14u. That is 59u; 96u are taken.
 pub(crate) const DISC_HEIGHT_ERROR_F32: f32 = 96.0 * UNIT_ROUNDOFF_F32;
@@ -293,7 +293,7 @@ pub(crate) const DISC_HEIGHT_ERROR_F32: f32 = 96.0 * UNIT_ROUNDOFF_F32;
 pub(crate) const DISC_TILT_ERROR_F32: f32 = 64.0 * UNIT_ROUNDOFF_F32;
 
 /// The relative error of the least height of a body's points along an axis while the body turns. It is relative to the
-/// sum of the points' farthest distances from the centre of rotation and from the body's origin.
+/// sum of the points' farthest distances from the center of rotation and from the body's origin.
 ///
 /// The axis in the body's frame is off by the direction of the angular velocity (2u), two products with it
 /// (6u), sine and cosine (4u), their products and sums (4u), and the rotation into that frame (7u):
@@ -335,10 +335,10 @@ pub(crate) const TURN_COUNT_WIDENING: f64 = 1e-9;
 
 /// Returns a bound of the rounding of the values of `f = a r + b ζ` over a node, computed in f64.
 /// `engine/shortcuts/screw/profile.rs` explains `f`. The values `n` are `|a|` and `|b|`; `arm` is the distance of the node's
-/// centre from the rotation's centre, and `radius` that of its points from it; `tilt` is the advance per radian,
+/// center from the rotation's center, and `radius` that of its points from it; `tilt` is the advance per radian,
 /// divided by the distance from the axis.
 ///
-/// In units of `u`: a centre's offset is rounded (1), its height taken (4) and taken off (2), and the
+/// In units of `u`: a center's offset is rounded (1), its height taken (4) and taken off (2), and the
 /// rest measured (4), which is 11 of an arm in `z` and in `r`. The azimuth is off by that in units
 /// of the distance from the axis, and by 8 of a half turn: 37 of an arm times the tilt. Products and
 /// sums add 4 of each. Gradients are off by 12 of a radius, in their part along `ζ` times `1 + tilt`.

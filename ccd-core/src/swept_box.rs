@@ -116,7 +116,7 @@ fn swept_box_of_stretch(
     terms: &QuerySettings<'_>,
 ) -> Result<SweptBox, InputError> {
     let swept = swept_box_of_motion(body, &stretch.motion, time, terms)?;
-    let reach = body.tree().max_distance_from(stretch.motion.centre());
+    let reach = body.tree().max_distance_from(stretch.motion.center());
     let moved = 0.5 * (time * (time * length(stretch.acceleration)));
     let room = (moved + stretch.deviation_bound.at_reach(reach)) * (1.0 + RETIMED_POSE_ERROR_F64);
     // A value that is no bound is NaN. Then the body may be anywhere.
@@ -136,7 +136,7 @@ fn swept_box_of_motion(
     terms: &QuerySettings<'_>,
 ) -> Result<SweptBox, InputError> {
     check_coordinates("position", motion.start().translation())?;
-    check_coordinates("centre", motion.centre())?;
+    check_coordinates("center", motion.center())?;
     let side = BodyWithPath {
         body,
         given_body: None,
@@ -145,7 +145,7 @@ fn swept_box_of_motion(
     side.check()?;
     let BodyWithPath { path, .. } = &side;
     let (low, high) = box_of_all_orientations(&side);
-    // As seen from the centre of rotation, which moves straight, the body only turns.
+    // As seen from the center of rotation, which moves straight, the body only turns.
     let way = path.velocity;
     let room = DVec3::splat(box_padding(&side, terms));
     Ok(SweptBox {
@@ -155,12 +155,12 @@ fn swept_box_of_motion(
 }
 
 /// Returns a box, by its least and greatest corner, that contains the body in all orientations of its motion with its
-/// centre of rotation held at the start.
+/// center of rotation held at the start.
 fn box_of_all_orientations(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
     let path = &side.path;
     let whole = side.body.tree().body_box();
     let frame = path.frame(0.0);
-    let centre = frame.transform_point(whole.centre);
+    let center = frame.transform_point(whole.center);
     let reach = DVec3::AXES.map(|axis| {
         let along = frame.inverse_transform_vector(axis);
         let half = (whole.axes.transpose() * along)
@@ -169,14 +169,14 @@ fn box_of_all_orientations(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
             + whole.slack;
         lesser(half, whole.radius)
     });
-    // No point is farther from the centre of rotation.
-    let arm = distance(whole.centre, path.centre) + whole.radius;
+    // No point is farther from the center of rotation.
+    let arm = distance(whole.center, path.center) + whole.radius;
     let swing = lesser(path.angular_speed, 2.0) * arm;
     let reach = DVec3::from_array(reach) + swing;
-    let (pivot, arm) = (path.centre_at(0.0), DVec3::splat(arm));
+    let (pivot, arm) = (path.center_at(0.0), DVec3::splat(arm));
     (
-        componentwise_max(centre - reach, pivot - arm),
-        componentwise_min(centre + reach, pivot + arm),
+        componentwise_max(center - reach, pivot - arm),
+        componentwise_min(center + reach, pivot + arm),
     )
 }
 
@@ -184,8 +184,8 @@ fn box_of_all_orientations(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
 /// contact distance is the margin plus the tolerance, which may be raised to the least that can be certified.
 fn box_padding(side: &BodyWithPath<'_>, terms: &QuerySettings<'_>) -> f64 {
     let path = &side.path;
-    let way = length(path.centre_at(0.0)) + path.speed_bound() + terms.margin;
-    let rounding = body_distance_rounding(side.extent_with_centre(), path.angular_speed, way);
+    let way = length(path.center_at(0.0)) + path.speed_bound() + terms.margin;
+    let rounding = body_distance_rounding(side.extent_with_center(), path.angular_speed, way);
     // The box takes no more operations than a distance, and its sums round by a few units of the greatest number.
     0.5 * (terms.margin + terms.tolerance) + least_tolerance(rounding) + 2.0 * rounding
 }

@@ -110,11 +110,11 @@ pub(crate) const ADDED_THICKNESS_PER_RADIUS: f32 = 0.5;
 
 /// The ratio of the radius of a triangle, or of a group of triangles, to that of the node beside it above which the
 /// triangles' edges are sought for the points between which a separating axis is tried. Beside other triangles, their
-/// centres suffice: meshes of similar triangles take 1 % more visits, each of them up to a tenth cheaper. Centres alone
+/// centers suffice: meshes of similar triangles take 1 % more visits, each of them up to a tenth cheaper. Centers alone
 /// would take three times as many for a figure on a board of 12 triangles.
 pub(crate) const MIN_LARGE_TRIANGLE_RATIO: f32 = 4.0;
 
-/// The least height of a triangle that is not thin, in units of its longest edge. The centres of two slivers say nothing
+/// The least height of a triangle that is not thin, in units of its longest edge. The centers of two slivers say nothing
 /// about the way between them.
 pub(crate) const MIN_HEIGHT_OF_FULL_TRIANGLE: f64 = 0.25;
 
@@ -209,7 +209,7 @@ pub(crate) const MAX_SCREW_DRIFT: f64 = 1.0 / 256.0;
 /// smaller body's radius. With a smaller pitch, nodes would span many pitches.
 pub(crate) const MIN_SCREW_ADVANCE: f64 = 1.0 / 65536.0;
 
-/// The least distance of a node from the axis of a screw, as a share of the distance of the node's centre, for which
+/// The least distance of a node from the axis of a screw, as a share of the distance of the node's center, for which
 /// its bounds in screw coordinates are computed. Nodes that extend nearer have profiles too wide to prove anything.
 pub(crate) const MIN_PROFILE_DISTANCE_SHARE: f64 = 0.25;
 

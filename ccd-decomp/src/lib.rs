@@ -6,7 +6,7 @@
 //! | read the parts of a file, convert units | [`MeshFile`], [`Unit`] |
 //! | move, join and measure meshes | [`TriangleMesh::transformed`], [`TriangleMesh::merge`], [`TriangleMesh::bounding_box`] |
 //! | find the faults of a mesh, and skipped content | [`Repairs`], [`Remarks`], [`TopologyDefects`], [`MeshFault`] |
-//! | make a body of a mesh | [`body_from_mesh`], [`Detail`], [`Report`] |
+//! | make a body of a mesh | [`body_from_mesh`], [`PieceChoice`], [`Report`] |
 //! | decompose its surface exactly | [`decompose`], [`Decomposition`] |
 //! | store a prepared body, and load it | [`prepare`](fn@prepare), [`StoredBodyContent::save`], [`StoredBodyContent::load`] |
 //! | load a body from a file, or a part of one | [`load_body`], [`MeshSource`] |
@@ -17,10 +17,10 @@
 //! A body inside this part does not touch it, because the part is not solid. The report names the edges of the hole.
 //!
 //! ```
-//! use ccd_decomp::{Detail, Format, TriangleMesh, body_from_mesh};
+//! use ccd_decomp::{PieceChoice, Format, TriangleMesh, body_from_mesh};
 //! let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
 //! let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes())?;
-//! let report = body_from_mesh(&mesh, Detail::Auto)?.report;
+//! let report = body_from_mesh(&mesh, PieceChoice::Auto)?.report;
 //! assert_eq!(
 //!     report.to_string(),
 //!     "3 triangles, surface only (open; edges with one face: 3 (e0-2, e0-3, e2-3))"
@@ -29,7 +29,7 @@
 //! // The three edges are the rim of a hole. A face closes it, and the body is solid.
 //! let faces = [mesh.faces(), &[[2, 0, 3]]].concat();
 //! let closed = TriangleMesh::new(mesh.vertices().to_vec(), &faces)?;
-//! let report = body_from_mesh(&closed, Detail::Auto)?.report;
+//! let report = body_from_mesh(&closed, PieceChoice::Auto)?.report;
 //! assert_eq!(report.to_string(), "1 convex hull, solid");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -115,7 +115,7 @@ pub use pieces::patches::{Decomposition, Patch, PatchOrder, decompose};
 pub use prepare::error::PrepareError;
 pub use prepare::model::{PreparedBody, StoredBodyContent};
 pub use prepare::report::{EstimatedQueryTimes, PieceReason, PiecesKind, Report};
-pub use prepare::{Detail, body_from_mesh, prepare};
+pub use prepare::{PieceChoice, body_from_mesh, prepare};
 pub use solid::error::{Crossing, DecomposeError};
 pub use solid::topology::{Edge, TopologyDefects};
 pub use source::BodySource;

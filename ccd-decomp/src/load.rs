@@ -5,14 +5,14 @@ pub(crate) mod mesh_source;
 
 use crate::file::has_stored_body_extension;
 use crate::mesh::adjustments::Adjustments;
-use crate::prepare::Detail;
+use crate::prepare::PieceChoice;
 use crate::prepare::model::{PreparedBody, StoredBodyContent};
 use error::{AdjustedStoredBody, BodyError};
 use mesh_source::MeshSource;
 use std::path::Path;
 
 /// Loads the body in a file: a mesh, all parts of it as one body, or a [stored](StoredBodyContent::save) body. The
-/// detail applies to meshes only.
+/// choice applies to meshes only.
 ///
 /// The coordinates of a mesh file that states its unit are [converted](crate::MeshFile::converted_to_unit) to the
 /// target unit of the adjustments. Those of a stored body are taken to be in that unit.
@@ -21,14 +21,14 @@ use std::path::Path;
 /// [`BodyError`], which names the file. A stored body takes no adjustment but a target unit.
 ///
 /// ```
-/// use ccd_decomp::{Adjustments, BodyError, Detail, load_body};
-/// let missing = load_body("no/such/part.stl", &Adjustments::NONE, Detail::Auto);
+/// use ccd_decomp::{Adjustments, BodyError, PieceChoice, load_body};
+/// let missing = load_body("no/such/part.stl", &Adjustments::NONE, PieceChoice::Auto);
 /// assert!(matches!(missing, Err(BodyError::Mesh(_))));
 /// ```
 pub fn load_body(
     file: impl AsRef<Path>,
     adjustments: &Adjustments,
-    detail: Detail,
+    choice: PieceChoice,
 ) -> Result<PreparedBody, BodyError> {
     let file = file.as_ref();
     if has_stored_body_extension(file) {
@@ -39,7 +39,7 @@ pub fn load_body(
             part: None,
             adjustments: *adjustments,
         };
-        source.load(detail)
+        source.load(choice)
     }
 }
 

@@ -76,10 +76,10 @@ impl TriangleMesh {
     /// Creates a mesh from vertices and triangles in memory.
     ///
     /// ```
-    /// use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
+    /// use ccd_decomp::{PieceChoice, TriangleMesh, body_from_mesh};
     /// let vertices = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     /// let mesh = TriangleMesh::new(vertices, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])?;
-    /// let body = body_from_mesh(&mesh, Detail::Auto)?.body;
+    /// let body = body_from_mesh(&mesh, PieceChoice::Auto)?.body;
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///

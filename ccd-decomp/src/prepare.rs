@@ -17,13 +17,13 @@ use crate::work::WorkBudget;
 use ccd_core::Solidity;
 use error::PrepareError;
 use model::{PreparedBody, StoredBodyContent};
-use parts::{PiecesChoice, PiecesOfOneKind, triangle_tree};
+use parts::{ChosenPieces, PiecesOfOneKind, triangle_tree};
 use report::PieceReason;
 
 /// The kind of pieces that a body is made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Detail {
+pub enum PieceChoice {
     /// Chooses the fewest exact pieces: one hull for a convex solid, else patches or triangles, whichever is
     /// estimated to be faster for queries.
     #[default]
@@ -45,7 +45,7 @@ pub enum Detail {
 ///
 /// ```
 /// use ccd_core::glam::dvec3;
-/// use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
+/// use ccd_decomp::{PieceChoice, TriangleMesh, body_from_mesh};
 /// // An L of two boxes, extruded along z: six corners below and six above.
 /// let outline = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)];
 /// let ring = |z| outline.map(|(x, y)| dvec3(x, y, z));
@@ -60,10 +60,10 @@ pub enum Detail {
 /// }
 /// let mesh = TriangleMesh::new(vertices, &faces)?;
 ///
-/// let prepared = body_from_mesh(&mesh, Detail::Triangles)?;
+/// let prepared = body_from_mesh(&mesh, PieceChoice::Triangles)?;
 /// assert_eq!(prepared.report.to_string(), "20 triangles, solid");
 /// // An L is not its own hull: the error names the edge at the inner corner.
-/// let error = body_from_mesh(&mesh, Detail::Hull).unwrap_err();
+/// let error = body_from_mesh(&mesh, PieceChoice::Hull).unwrap_err();
 /// assert_eq!(error.to_string(), "not convex at e3-9; use patches or triangles");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -74,57 +74,65 @@ pub enum Detail {
 /// # Errors
 /// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Hull`] if its
 /// hull cannot be computed, [`PrepareError::Input`] if there are too many pieces.
-pub fn body_from_mesh(mesh: &TriangleMesh, detail: Detail) -> Result<PreparedBody, PrepareError> {
-    prepare(mesh, detail)?.into_prepared_body()
+pub fn body_from_mesh(
+    mesh: &TriangleMesh,
+    choice: PieceChoice,
+) -> Result<PreparedBody, PrepareError> {
+    prepare(mesh, choice)?.into_prepared_body()
 }
 
 /// Makes the convex pieces of a mesh and a hierarchy over them. The result is a model, which can be stored.
 ///
 /// # Guarantee
-/// The pieces cover the mesh. Except with [`Detail::OuterHull`], they touch nothing outside the solid that it bounds.
-/// Except with [`Detail::Surface`], the body is solid exactly when the mesh is closed, neighbouring faces are oriented
+/// The pieces cover the mesh. Except with [`PieceChoice::OuterHull`], they touch nothing outside the solid that it bounds.
+/// Except with [`PieceChoice::Surface`], the body is solid exactly when the mesh is closed, neighbouring faces are oriented
 /// alike, and it is [clear](TopologyDefects::unclear_shells) which shells bound material and which a cavity. Shells that are inside
-/// out are reversed, and the report says so. [`Detail::Auto`] and [`Detail::Triangles`] take any mesh.
+/// out are reversed, and the report says so. [`PieceChoice::Auto`] and [`PieceChoice::Triangles`] take any mesh.
 ///
 /// # Errors
 /// [`PrepareError::Decompose`] if the mesh does not bound the requested kind of solid, [`PrepareError::Hull`] if its
 /// hull cannot be computed, [`PrepareError::Input`] if there are too many pieces.
-pub fn prepare(mesh: &TriangleMesh, detail: Detail) -> Result<StoredBodyContent, PrepareError> {
-    let may_need_triangles = !matches!(detail, Detail::Patches(_) | Detail::OuterHull);
+pub fn prepare(
+    mesh: &TriangleMesh,
+    choice: PieceChoice,
+) -> Result<StoredBodyContent, PrepareError> {
+    let may_need_triangles = !matches!(choice, PieceChoice::Patches(_) | PieceChoice::OuterHull);
     // Both take equally long, and the triangles are nearly always needed.
     let (choice, triangles) = rayon::join(
-        || PiecesChoice::new(mesh, detail),
+        || ChosenPieces::new(mesh, choice),
         || may_need_triangles.then(|| triangle_tree(mesh)),
     );
     choice?.into_model(mesh, triangles.transpose()?)
 }
 
-impl PiecesChoice {
-    fn new(mesh: &TriangleMesh, detail: Detail) -> Result<Self, PrepareError> {
+impl ChosenPieces {
+    fn new(mesh: &TriangleMesh, choice: PieceChoice) -> Result<Self, PrepareError> {
         let (topology, turned) = TopologyDefects::with_reoriented_mesh(mesh);
         let mesh = turned.as_ref().unwrap_or(mesh);
         let requested = |pieces| (pieces, PieceReason::Requested);
-        let (pieces, reason) = match detail {
-            Detail::Auto => {
+        let (pieces, reason) = match choice {
+            PieceChoice::Auto => {
                 choose::choose_pieces(mesh, &topology, &WorkBudget::with_steps(AUTO_WORK_BUDGET))
             }
-            Detail::Triangles | Detail::Surface => requested(PiecesOfOneKind::Triangles),
-            Detail::Patches(order) => requested(PiecesOfOneKind::Patches(decompose(mesh, order)?)),
-            Detail::Hull => {
+            PieceChoice::Triangles | PieceChoice::Surface => requested(PiecesOfOneKind::Triangles),
+            PieceChoice::Patches(order) => {
+                requested(PiecesOfOneKind::Patches(decompose(mesh, order)?))
+            }
+            PieceChoice::Hull => {
                 let polytope = convex_polytope(&solid_surface(mesh)?)?;
                 requested(PiecesOfOneKind::Hull(Box::new(polytope)))
             }
-            Detail::OuterHull => {
+            PieceChoice::OuterHull => {
                 let hull = outer_hull(mesh, &topology)?;
                 requested(PiecesOfOneKind::OuterHull(Box::new(hull)))
             }
         };
-        let volume = if topology.is_solid() && detail != Detail::Surface {
+        let volume = if topology.is_solid() && choice != PieceChoice::Surface {
             Solidity::Solid
         } else {
             Solidity::Surface
         };
-        Ok(PiecesChoice {
+        Ok(ChosenPieces {
             solidity: volume,
             pieces,
             choice_reason: reason,

@@ -22,7 +22,7 @@ use crossings::crossings;
 use error::{Crossing, DecomposeError};
 use manifold::Manifold;
 use shells::check_orientation;
-use star_shaped::star_centre;
+use star_shaped::star_center;
 use topology::TopologyDefects;
 
 /// Returns the surface of the solid that a mesh bounds. Checks every edge, and every pair of nearby triangles.
@@ -46,7 +46,7 @@ pub(crate) fn check_solid(
     manifold: &Manifold<'_>,
     work: &WorkBudget,
 ) -> Result<(), DecomposeError> {
-    if star_centre(manifold).is_some() {
+    if star_center(manifold).is_some() {
         return Ok(());
     }
     let mut pairs = CountWithExamples::default();

@@ -10,7 +10,7 @@ use crate::load::mesh_source::MeshSource;
 use crate::mesh::adjustments::Adjustments;
 use crate::mesh::mesh_file::source_paths;
 use crate::mesh::unit::Unit;
-use crate::prepare::Detail;
+use crate::prepare::PieceChoice;
 use crate::prepare::model::PreparedBody;
 use ccd_core::glam::DVec3;
 use ccd_core::limits::MAX_COORDINATE;
@@ -78,14 +78,14 @@ pub enum BodySource {
 }
 
 impl BodySource {
-    /// Creates the body that the source describes. The detail applies to meshes only. Shapes are single pieces, and a
+    /// Creates the body that the source describes. The choice applies to meshes only. Shapes are single pieces, and a
     /// stored body keeps its pieces.
     ///
     /// # Errors
     /// [`BodyError::Mesh`] and [`BodyError::UnloadableStoredBody`] if the file cannot be read, [`BodyError::FileContent`] if its content
     /// cannot be made into a body, [`BodyError::InvalidShape`] if a length is out of range.
-    pub fn load(&self, detail: Detail) -> Result<PreparedBody, BodyError> {
-        self.load_adjusted(&Adjustments::NONE, detail)
+    pub fn load(&self, choice: PieceChoice) -> Result<PreparedBody, BodyError> {
+        self.load_adjusted(&Adjustments::NONE, choice)
     }
 
     /// Creates the body like [`BodySource::load`], with coordinates in the given unit. The coordinates of a mesh file
@@ -94,8 +94,8 @@ impl BodySource {
     ///
     /// # Errors
     /// Those of [`BodySource::load`].
-    pub fn load_in_unit(&self, unit: Unit, detail: Detail) -> Result<PreparedBody, BodyError> {
-        self.load_adjusted(&Adjustments::NONE.with_target_unit(unit), detail)
+    pub fn load_in_unit(&self, unit: Unit, choice: PieceChoice) -> Result<PreparedBody, BodyError> {
+        self.load_adjusted(&Adjustments::NONE.with_target_unit(unit), choice)
     }
 
     /// Creates the body like [`BodySource::load`], with adjustments to mesh files in addition to those of the
@@ -106,7 +106,7 @@ impl BodySource {
     pub fn load_adjusted(
         &self,
         adjustments: &Adjustments,
-        detail: Detail,
+        choice: PieceChoice,
     ) -> Result<PreparedBody, BodyError> {
         let prepared = match *self {
             BodySource::Box { half_extents } => {
@@ -140,7 +140,7 @@ impl BodySource {
                     adjustments,
                     ..source.clone()
                 };
-                return source.load(detail);
+                return source.load(choice);
             }
         };
         let unit = adjustments.target_unit;

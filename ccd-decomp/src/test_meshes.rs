@@ -148,7 +148,7 @@ pub(crate) fn comb(heights: &[f64]) -> TriangleMesh {
     prism_with_caps(&outline, &caps)
 }
 
-/// Returns the outline of a quarter disc with a toothed rim. The first corner is its centre. All corners are visible
+/// Returns the outline of a quarter disc with a toothed rim. The first corner is its center. All corners are visible
 /// from it, so that the fans of the caps are exact.
 pub(crate) fn toothed_quadrant_outline(count: u32) -> Vec<DVec3> {
     let corner = |k: u32| {

@@ -10,7 +10,7 @@ pub(crate) use rounding::*;
 /// Unit: places. Larger: slower to build. With 16, or with exact nearest neighbours, queries took no fewer visits.
 pub(crate) const MORTON_SEARCH_RADIUS: usize = 8;
 
-/// How far the centres are moved along each coordinate for each further Morton curve. What is near in space is near along one of
+/// How far the centers are moved along each coordinate for each further Morton curve. What is near in space is near along one of
 /// the curves: multiples of a third are not on borders of large cells together.
 ///
 /// Unit: the size of all pieces. With one curve and 32 places, queries took 3 % more visits in the mean (knots 4 to 7 %), and
@@ -128,9 +128,9 @@ pub(crate) const DIRECTION_BINS_PER_UNIT: f64 = 64.0;
 /// Unit: pieces. Fewer: tasks cost more than they gain. More: a core idles at the end.
 pub(crate) const MIN_PARALLEL_PIECES: usize = 256;
 
-/// The maximum number of piece centres from which the split axis of a hull tree node is computed.
+/// The maximum number of piece centers from which the split axis of a hull tree node is computed.
 ///
-/// Unit: pieces. Larger: hardly better axes; the hulls of 1,024 centres at all nodes took as long as the
+/// Unit: pieces. Larger: hardly better axes; the hulls of 1,024 centers at all nodes took as long as the
 /// tree's own.
 pub(crate) const MAX_SPREAD_SAMPLES: usize = 64;
 
@@ -149,7 +149,7 @@ pub(crate) const BOXES_BEFORE_ORIENTED_TESTS: usize = 32;
 /// Unit: pairs. The fan of a non-convex polygon may have as many as the square of its corners.
 pub(crate) const MAX_CROSSINGS: usize = 1000;
 
-/// The work budget of `Detail::Auto` for checking that a mesh bounds a solid, and for making patches.
+/// The work budget of `PieceChoice::Auto` for checking that a mesh bounds a solid, and for making patches.
 ///
 /// Unit: exact predicates, about, of 10 to 40 ns: half a second at most.
 pub(crate) const AUTO_WORK_BUDGET: u64 = 1 << 24;

@@ -77,7 +77,7 @@ impl<'c> Item<'c> {
 
 /// A body of a cell, and the link that carries it.
 #[derive(Clone, Copy, Debug)]
-pub struct CarriedBody<'c> {
+pub struct AttachedBody<'c> {
     /// The link, attached body or obstacle that the body belongs to.
     pub item: Item<'c>,
     /// The body.
@@ -273,7 +273,7 @@ impl Cell {
     }
 
     /// Returns all bodies, each with the link that carries it. The order is that of [`Cell::placed_bodies`].
-    pub fn carried_bodies(&self) -> impl ExactSizeIterator<Item = CarriedBody<'_>> {
+    pub fn carried_bodies(&self) -> impl ExactSizeIterator<Item = AttachedBody<'_>> {
         let bodies = self.bodies.iter().enumerate();
         bodies.map(|(index, placed)| {
             let placement = self.robot_body_placements.get(index);
@@ -281,7 +281,7 @@ impl Cell {
             let (link, pose) = placement.map_or(on_base, |placement| {
                 (placement.link, placement.pose_in_link)
             });
-            CarriedBody {
+            AttachedBody {
                 item: self.item_of_body(index),
                 body: &placed.body,
                 link,

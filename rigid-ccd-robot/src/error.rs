@@ -226,7 +226,7 @@ pub enum PathError {
         error: RobotError,
     },
     /// A curve has the wrong number of joints, or a joint leaves its limits on it.
-    #[error("segment {}, after {} of it: {error}", .at.segment, .at.share)]
+    #[error("segment {}, after {} of it: {error}", .at.segment, .at.fraction)]
     InvalidCurvePoint {
         /// The point of the curve.
         at: PathPoint,

@@ -105,7 +105,7 @@ pub enum RecordedAnswer {
         /// The index of the point's segment.
         segment: usize,
         /// The fraction of the segment before the point.
-        share: f64,
+        fraction: f64,
         /// The names of both items.
         items: [String; 2],
     },
@@ -116,7 +116,7 @@ pub enum RecordedAnswer {
         /// The index of the point's segment.
         segment: usize,
         /// The fraction of the segment before the point.
-        share: f64,
+        fraction: f64,
     },
 }
 
@@ -157,18 +157,18 @@ impl TryFrom<&PathAnswer<'_>> for RecordedAnswer {
         if !answer.is_free_until_contact() {
             return Err(EvidenceError::NoFirstContact);
         }
-        let PathPoint { segment, share } = answer.free_until;
+        let PathPoint { segment, fraction } = answer.free_until;
         match &answer.outcome {
             PathOutcome::Free => Ok(RecordedAnswer::Free),
             PathOutcome::Contact(contact) => Ok(RecordedAnswer::Contact {
                 segment,
-                share,
+                fraction,
                 items: contact.items.map(|item| item.name().to_owned()),
             }),
             PathOutcome::Unresolved(known) => Ok(RecordedAnswer::Unresolved {
                 limit: known.limit.to_string(),
                 segment,
-                share,
+                fraction,
             }),
             PathOutcome::LeastDistance { .. } => Err(EvidenceError::NoFirstContact),
         }
@@ -180,10 +180,12 @@ impl RecordedAnswer {
     pub fn free_until(&self) -> Option<PathPoint> {
         match *self {
             RecordedAnswer::Free => None,
-            RecordedAnswer::Contact { segment, share, .. }
-            | RecordedAnswer::Unresolved { segment, share, .. } => {
-                Some(PathPoint { segment, share })
+            RecordedAnswer::Contact {
+                segment, fraction, ..
             }
+            | RecordedAnswer::Unresolved {
+                segment, fraction, ..
+            } => Some(PathPoint { segment, fraction }),
         }
     }
 }

@@ -193,9 +193,9 @@ impl JointCurve {
                     let ends = [segment, segment + 1].map(|row| {
                         let mut scale = DoubleDouble::from(1.0);
                         derivatives.map(|rows| {
-                            let by_share = DoubleDouble::from(rows[row].as_ref()[joint]) * scale;
+                            let by_fraction = DoubleDouble::from(rows[row].as_ref()[joint]) * scale;
                             scale = scale * duration;
-                            by_share
+                            by_fraction
                         })
                     });
                     interpolate(ends)
@@ -274,24 +274,24 @@ impl JointCurve {
     /// Returns the time of a point, rounded down, so that it is not after the point.
     pub fn time(&self, point: PathPoint) -> f64 {
         let [from, to] = self.time_span(point);
-        if point.share >= 1.0 {
+        if point.fraction >= 1.0 {
             return to;
         }
         greater(
             from,
-            from + point.share * (to - from) - time_rounding([from, to]),
+            from + point.fraction * (to - from) - time_rounding([from, to]),
         )
     }
 
     /// Returns the time of a point, rounded up.
     pub fn latest_time(&self, point: PathPoint) -> f64 {
         let [from, to] = self.time_span(point);
-        if point.share <= 0.0 {
+        if point.fraction <= 0.0 {
             return from;
         }
         lesser(
             to,
-            from + point.share * (to - from) + time_rounding([from, to]),
+            from + point.fraction * (to - from) + time_rounding([from, to]),
         )
     }
 
@@ -306,10 +306,10 @@ impl JointCurve {
         let later = &self.times[1..self.segment_count()];
         let segment = later.partition_point(|&start| start <= time);
         let [from, to] = [self.times[segment], self.times[segment + 1]];
-        let share = ((time - from) / (to - from)).clamp(0.0, 1.0);
+        let fraction = ((time - from) / (to - from)).clamp(0.0, 1.0);
         let joints = 0..self.joint_count;
         joints
-            .map(|joint| self.polynomial(segment, joint).value(share))
+            .map(|joint| self.polynomial(segment, joint).value(fraction))
             .collect()
     }
 
@@ -331,7 +331,7 @@ impl JointCurve {
     pub(crate) fn check_for_robot(&self, robot: &Robot) -> Result<(), PathError> {
         let start = PathPoint {
             segment: 0,
-            share: 0.0,
+            fraction: 0.0,
         };
         let refused = |at: PathPoint, error| Err(PathError::InvalidCurvePoint { at, error });
         if let Err(error) = robot.check_position_count(self.joint_count) {
@@ -343,7 +343,8 @@ impl JointCurve {
             }
             for (joint, [low, high]) in robot.limits().enumerate() {
                 let polynomial = self.polynomial(segment, joint);
-                let Some((share, position)) = find_limit_violation(&polynomial, [low, high]) else {
+                let Some((fraction, position)) = find_limit_violation(&polynomial, [low, high])
+                else {
                     continue;
                 };
                 let error = InputError::JointOutOfLimits {
@@ -351,10 +352,13 @@ impl JointCurve {
                     joint_position: position,
                     limits: [low, high],
                 };
-                let joint = robot.free_joint_names().nth(joint).unwrap_or_default();
+                let joint = robot
+                    .independent_joint_names()
+                    .nth(joint)
+                    .unwrap_or_default();
                 let joint = joint.to_owned();
                 let error = RobotError::InvalidPosition { joint, error };
-                return refused(PathPoint { segment, share }, error);
+                return refused(PathPoint { segment, fraction }, error);
             }
         }
         Ok(())
@@ -367,16 +371,16 @@ fn time_rounding([from, to]: [f64; 2]) -> f64 {
     4.0 * f64::EPSILON * greater(from.abs(), to.abs())
 }
 
-/// Finds a point where a polynomial exceeds limits by more than its rounding error: returns its share of the segment
+/// Finds a point where a polynomial exceeds limits by more than its rounding error: returns its fraction of the segment
 /// and the value there. Searches by halving, down to a millionth of the segment. No proof depends on it.
 fn find_limit_violation(polynomial: &Polynomial, [low, high]: [f64; 2]) -> Option<(f64, f64)> {
     let rounding = polynomial.rounding_of_coefficients();
     let [low, high] = [low - rounding, high + rounding];
-    for share in [0.0, 1.0] {
-        let value = polynomial.value(share);
+    for fraction in [0.0, 1.0] {
+        let value = polynomial.value(fraction);
         // Written so that NaN is outside the limits.
         if !(low <= value && value <= high) {
-            return Some((share, value));
+            return Some((fraction, value));
         }
     }
     let mut open = SmallVec::<[_; MAX_LIMIT_HALVINGS as usize + 1]>::new();

@@ -15,7 +15,7 @@
 //!     position_rule: PositionRule::Independent,
 //! }];
 //! let robot = Robot::new(links, joints)?;
-//! assert_eq!(robot.free_joint_names().collect::<Vec<_>>(), ["hinge"]);
+//! assert_eq!(robot.independent_joint_names().collect::<Vec<_>>(), ["hinge"]);
 //! assert_eq!(robot.pose("arm", &[0.5])?.translation().z, 1.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -88,7 +88,7 @@ mod units;
 #[path = "../../ccd-core/src/tests/worst.rs"]
 mod worst;
 
-pub use cell::{CarriedBody, Cell, Item};
+pub use cell::{AttachedBody, Cell, Item};
 pub use check_summary::{CheckSummary, Surroundings};
 pub use combine::PlacedRobot;
 pub use error::{CurveError, NothingCompared, PathError, RobotError};

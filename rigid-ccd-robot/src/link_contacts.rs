@@ -46,9 +46,9 @@ pub enum LinkContactClass {
     /// A limit was reached before a proof.
     Undecided {
         /// The fraction of the configuration space, by volume, where the links are proven apart.
-        proven_apart_share: f64,
+        proven_apart_fraction: f64,
         /// The fraction of the configuration space where nothing is proven.
-        undecided_share: f64,
+        undecided_fraction: f64,
         /// The least distance that was measured: 0 if the links touch, infinite if nothing was measured.
         least_distance: f64,
         /// A configuration where they touch, if one was found.
@@ -98,7 +98,7 @@ impl Robot {
     ///
     /// First, witness configurations are searched at random and by descent to lower distances. Then a branch and bound
     /// search covers the positions of the joints between the links with boxes. For each box, the distance at its
-    /// centre is compared with a bound of how far the links move within it. Undecided boxes are halved, the largest
+    /// center is compared with a bound of how far the links move within it. Undecided boxes are halved, the largest
     /// first.
     ///
     /// The search runs in rounds, with more boxes for each pair from round to round. Pairs with the smallest undecided
@@ -137,8 +137,8 @@ impl Robot {
                 .collect();
             open.sort_by(|&a, &b| {
                 records[a]
-                    .undecided_share
-                    .total_cmp(&records[b].undecided_share)
+                    .undecided_fraction
+                    .total_cmp(&records[b].undecided_fraction)
             });
             let quotas = open.iter().map_while(|&pair| {
                 let quota = lesser(quota_of(pair), left);

@@ -6,20 +6,20 @@ pub struct PathPoint {
     /// The index of the segment. Segment 0 is between the first two configurations.
     pub segment: usize,
     /// The elapsed fraction of the segment, from 0 to 1.
-    pub share: f64,
+    pub fraction: f64,
 }
 
 impl PathPoint {
     /// The start of a path.
     pub const START: PathPoint = PathPoint {
         segment: 0,
-        share: 0.0,
+        fraction: 0.0,
     };
 
     /// Returns the time of this point if each segment takes one unit of time: index plus fraction.
     pub fn time(self) -> f64 {
-        // This is exact, because the share was computed from this sum.
-        self.segment as f64 + self.share
+        // This is exact, because the fraction was computed from this sum.
+        self.segment as f64 + self.fraction
     }
 
     /// Converts a position in segments. The end of a path belongs to its last segment.
@@ -27,7 +27,7 @@ impl PathPoint {
         let segment = (at as usize).min(segments.saturating_sub(1));
         PathPoint {
             segment,
-            share: at - segment as f64,
+            fraction: at - segment as f64,
         }
     }
 }

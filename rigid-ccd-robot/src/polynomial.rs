@@ -51,23 +51,23 @@ impl Polynomial {
     }
 
     /// Returns the polynomial expanded about another fraction: its Taylor series there, by Horner's scheme.
-    pub(crate) fn expanded_about(mut self, share: f64) -> Self {
-        let share = DoubleDouble::from(share);
+    pub(crate) fn expanded_about(mut self, fraction: f64) -> Self {
+        let fraction = DoubleDouble::from(fraction);
         for lowest in 0..self.degree {
             for power in (lowest..self.degree).rev() {
                 self.coefficients[power] =
-                    self.coefficients[power] + share * self.coefficients[power + 1];
+                    self.coefficients[power] + fraction * self.coefficients[power + 1];
             }
         }
         self
     }
 
     /// Returns the value at an offset from the expansion point, by Horner's scheme, rounded to f64.
-    pub(crate) fn value(&self, share: f64) -> f64 {
-        let share = DoubleDouble::from(share);
+    pub(crate) fn value(&self, fraction: f64) -> f64 {
+        let fraction = DoubleDouble::from(fraction);
         let all = self.coefficients[..=self.degree].iter().rev();
         let zero = DoubleDouble::default();
-        all.fold(zero, |value, &own| own + share * value).value()
+        all.fold(zero, |value, &own| own + fraction * value).value()
     }
 
     #[cfg(test)]

@@ -20,7 +20,7 @@ use tree::Tree;
 ///
 /// A *configuration* has one position for each joint with a position of its own: radians for revolute joints, a length
 /// for prismatic ones. Fixed joints and joints that follow another one have no position of their own. The order is
-/// that of [`Robot::free_joint_names`], which is the order in which the joints were given.
+/// that of [`Robot::independent_joint_names`], which is the order in which the joints were given.
 #[derive(Clone, Debug)]
 pub struct Robot {
     name: String,
@@ -30,7 +30,7 @@ pub struct Robot {
     /// For each joint, how its position is computed from a configuration; `None` for a fixed joint.
     position_sources: Vec<Option<PositionSource>>,
     /// The indices of the joints with a position of their own, in the order of a configuration.
-    free_joints: Vec<usize>,
+    independent_joints: Vec<usize>,
     /// For each link, the link nearest to the base to which only fixed joints connect it.
     rigid_roots: Vec<usize>,
     /// Remarks on the file from which the robot was read.
@@ -230,7 +230,7 @@ impl Robot {
             }
         }
         let tree = Tree::new(&links, &joints)?;
-        let (sources, free_joints) = position_sources_and_free_joints(&joints)?;
+        let (sources, independent_joints) = position_sources_and_independent_joints(&joints)?;
         let mut rigid_roots: Vec<usize> = (0..links.len()).collect();
         for (link, parent, joint) in tree.links_parents_first() {
             if sources[joint].is_none() {
@@ -249,7 +249,7 @@ impl Robot {
             joints,
             tree,
             position_sources: sources,
-            free_joints,
+            independent_joints,
             file_remarks: Vec::new(),
             name: String::new(),
         })
@@ -294,14 +294,14 @@ impl Robot {
     }
 
     /// Returns the names of the joints with a position of their own, in the order of a configuration.
-    pub fn free_joint_names(&self) -> impl ExactSizeIterator<Item = &str> {
-        let free = self.free_joints.iter();
+    pub fn independent_joint_names(&self) -> impl ExactSizeIterator<Item = &str> {
+        let free = self.independent_joints.iter();
         free.map(|&joint| self.joints[joint].name.as_str())
     }
 
     /// Returns the limits of the positions, in the order of a configuration.
     pub fn limits(&self) -> impl ExactSizeIterator<Item = [f64; 2]> {
-        self.free_joints.iter().map(|&joint| {
+        self.independent_joints.iter().map(|&joint| {
             let limits = self.joints[joint].geometry.limits();
             [*limits.start(), *limits.end()]
         })
@@ -384,7 +384,7 @@ impl Robot {
     /// Checks the number of positions of a configuration, and that each is within its joint's limits.
     pub(crate) fn check_configuration(&self, configuration: &[f64]) -> Result<(), RobotError> {
         self.check_position_count(configuration.len())?;
-        for (&joint, &position) in self.free_joints.iter().zip(configuration) {
+        for (&joint, &position) in self.independent_joints.iter().zip(configuration) {
             let Joint {
                 name,
                 geometry: joint,
@@ -414,14 +414,17 @@ impl Robot {
 
     /// Checks the number of positions of a configuration.
     pub(crate) fn check_position_count(&self, count: usize) -> Result<(), RobotError> {
-        let expected = self.free_joints.len();
+        let expected = self.independent_joints.len();
         if count == expected {
             return Ok(());
         }
         Err(RobotError::WrongPositionCount {
             given_count: count,
             expected_count: expected,
-            joint_names: self.free_joint_names().collect::<Vec<_>>().join(", "),
+            joint_names: self
+                .independent_joint_names()
+                .collect::<Vec<_>>()
+                .join(", "),
         })
     }
 
@@ -444,13 +447,14 @@ impl Robot {
 }
 
 /// Computes how each joint's position depends on a configuration, and lists the joints with a position of their own.
-fn position_sources_and_free_joints(
+fn position_sources_and_independent_joints(
     joints: &[Joint],
 ) -> Result<(Vec<Option<PositionSource>>, Vec<usize>), RobotError> {
     let is_free = |joint: &Joint| {
         joint.position_rule == PositionRule::Independent && !joint.geometry.is_fixed()
     };
-    let free_joints: Vec<usize> = (0..joints.len()).filter(|&k| is_free(&joints[k])).collect();
+    let independent_joints: Vec<usize> =
+        (0..joints.len()).filter(|&k| is_free(&joints[k])).collect();
     let sources = joints.iter().map(|joint| {
         if joint.geometry.is_fixed() {
             return Ok(None);
@@ -461,7 +465,9 @@ fn position_sources_and_free_joints(
         for follow_count in 0..=joints.len() as u32 {
             match &at.position_rule {
                 PositionRule::Independent => {
-                    let number = free_joints.iter().position(|&k| joints[k].name == at.name);
+                    let number = independent_joints
+                        .iter()
+                        .position(|&k| joints[k].name == at.name);
                     return number
                         .map(|number| {
                             Some(PositionSource {
@@ -498,7 +504,7 @@ fn position_sources_and_free_joints(
         }
         Err(unfollowable_joint_error(joint, &at.name))
     });
-    Ok((sources.collect::<Result<_, _>>()?, free_joints))
+    Ok((sources.collect::<Result<_, _>>()?, independent_joints))
 }
 
 fn unfollowable_joint_error(joint: &Joint, followed: &str) -> RobotError {

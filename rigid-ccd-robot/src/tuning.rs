@@ -15,7 +15,7 @@ pub(crate) const MIN_ENGINE_HALVINGS: u32 = 4;
 /// pair is then measured only if its bounding boxes intersect there.
 pub(crate) const MIN_BOX_TEST_DISPLACEMENT: f64 = 0.1;
 
-/// The squared distance, in square metres, below which a centre counts as inside an obstacle's box. The offset between
+/// The squared distance, in square metres, below which a center counts as inside an obstacle's box. The offset between
 /// the two is then no initial direction.
 pub(crate) const MIN_SQUARED_OFFSET: f64 = 1e-6;
 
@@ -76,5 +76,5 @@ pub(crate) const FIRST_ROUND_BOXES: usize = 1000;
 pub(crate) const ROUND_FACTOR: usize = 4;
 
 /// After this number of boxes, the search for a pair of links ends if they touched without overlapping at every
-/// centre.
+/// center.
 pub(crate) const MAX_BOXES_WITHOUT_DEPTH: usize = 4000;

@@ -41,8 +41,8 @@ impl Robot {
                     let radius = DVec3::splat(piece.radius);
                     let points = piece.points.iter();
                     points.flat_map(move |&point| {
-                        let centre = pose.transform_point(point);
-                        [centre - radius, centre + radius]
+                        let center = pose.transform_point(point);
+                        [center - radius, center + radius]
                     })
                 })
             })
@@ -51,7 +51,7 @@ impl Robot {
 
     /// Returns a remark if a revolute joint's position is many turns and a round number of degrees.
     pub fn remark_on_configuration(&self, configuration: &[f64]) -> Option<CellRemark> {
-        let named = self.free_joint_names().zip(configuration);
+        let named = self.independent_joint_names().zip(configuration);
         let mut remarks = named.filter_map(|(name, &position)| {
             let remark = Remark::remark_on_joint(position)?;
             let mut joints = self.joints().iter();

@@ -6,7 +6,7 @@
 //! The clearance is bracketed for each degree, so that nothing in between is missed.
 
 use rigid_ccd::glam::{DQuat, DVec3};
-use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
+use rigid_ccd::mesh::{PieceChoice, TriangleMesh, body_from_mesh};
 use rigid_ccd::{Body, Motion, Pose, Settings, Solver};
 use std::f64::consts::PI;
 use std::io::Write;
@@ -76,7 +76,7 @@ impl Gear {
             faces.extend([[k, next, count + next], [k, count + next, count + k]]);
         }
         let mesh = TriangleMesh::new(vertices, &faces)?;
-        Ok(body_from_mesh(&mesh, Detail::Auto)?.body)
+        Ok(body_from_mesh(&mesh, PieceChoice::Auto)?.body)
     }
 }
 

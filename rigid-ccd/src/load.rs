@@ -2,7 +2,7 @@
 
 use ccd_core::Body;
 use ccd_decomp::{
-    Adjustments, BodyError, Detail, MeshFile, NamedMesh, Unit, body_from_mesh, load_body,
+    Adjustments, BodyError, MeshFile, NamedMesh, PieceChoice, Unit, body_from_mesh, load_body,
 };
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use std::path::Path;
 ///
 /// Coordinates keep the [unit of the file](MeshFile::unit). All parts of a file make one body: [`load_parts`] makes one of each.
 /// A mesh becomes the fewest convex pieces that are exact: one hull, convex patches or triangles
-/// ([`Detail::Auto`]). To choose the pieces, or to get a report of defects, use
+/// ([`PieceChoice::Auto`]). To choose the pieces, or to get a report of defects, use
 /// [`mesh::body_from_mesh`](ccd_decomp::body_from_mesh).
 ///
 /// # Errors
@@ -56,7 +56,7 @@ pub fn load_in_unit(path: impl AsRef<Path>, unit: Unit) -> Result<Body, BodyErro
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn load_adjusted(path: impl AsRef<Path>, adjustments: &Adjustments) -> Result<Body, BodyError> {
-    Ok(load_body(path, adjustments, Detail::Auto)?.body)
+    Ok(load_body(path, adjustments, PieceChoice::Auto)?.body)
 }
 
 /// Loads each part of a mesh file as a body, with its name or, without one, its number from 0. Parts are the nodes with
@@ -80,7 +80,7 @@ pub fn load_parts(path: impl AsRef<Path>) -> Result<Vec<(String, Body)>, BodyErr
     let loaded = parts.enumerate().map(|(number, NamedMesh { name, mesh })| {
         let name = name.unwrap_or_else(|| number.to_string());
         let prepared =
-            body_from_mesh(&mesh, Detail::Auto).map_err(|error| BodyError::FileContent {
+            body_from_mesh(&mesh, PieceChoice::Auto).map_err(|error| BodyError::FileContent {
                 file: format!("{}#{name}", path.display()).into(),
                 error,
             })?;

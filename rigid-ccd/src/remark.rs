@@ -55,7 +55,7 @@ pub enum Remark {
     },
     /// A quaternion is far from unit length.
     NonUnitQuaternion {
-        /// The components w, x, y, z as given.
+        /// The components x, y, z, w as given.
         quaternion_components: [f64; 4],
         /// The length of the quaternion, which should be 1.
         quaternion_norm: f64,
@@ -160,9 +160,9 @@ impl Remark {
         is_odd.then_some(Remark::RollPitchYawInDegrees { angles })
     }
 
-    /// Returns a remark if a quaternion w, x, y, z is far from unit length.
+    /// Returns a remark if a quaternion x, y, z, w is far from unit length.
     pub fn remark_on_quaternion(parts: [f64; 4]) -> Option<Self> {
-        let [w, x, y, z] = parts;
+        let [x, y, z, w] = parts;
         let length = length(DVec3::new(w, length(DVec3::new(x, y, z)), 0.0));
         let is_unit = (length - 1.0).abs() <= MAX_UNIT_LENGTH_DEVIATION;
         (!is_unit).then_some(Remark::NonUnitQuaternion {
@@ -188,7 +188,7 @@ impl Remark {
                 "roll, pitch or yaw is more than a turn; these angles are in radians"
             }
             Remark::NonUnitQuaternion { .. } => {
-                "a quaternion is far from unit length, and was taken as one of length 1; is it w, x, y, z?"
+                "a quaternion is far from unit length, and was taken as one of length 1; is it x, y, z, w?"
             }
             Remark::SurfaceOnly { .. } => {
                 "a mesh is not closed: it is a surface, and another body inside it is not found; close it, or say that it is \
@@ -277,10 +277,10 @@ impl fmt::Display for Remark {
                 quaternion_components,
                 quaternion_norm,
             } => {
-                let [w, x, y, z] = quaternion_components.map(Number);
+                let [x, y, z, w] = quaternion_components.map(Number);
                 write!(
                     f,
-                    "({w}, {x}, {y}, {z}) has the length {}",
+                    "({x}, {y}, {z}, {w}) has the length {}",
                     Number(rounded(quaternion_norm))
                 )
             }

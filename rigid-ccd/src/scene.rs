@@ -164,7 +164,9 @@ impl<'a> Scene<'a> {
     ) -> Result<(), FixedBodyError> {
         let (member, movement) = (&mut self.members[index], movement.into());
         let rests = match movement {
-            Movement::Motion(motion) => [motion.velocity(), motion.spin()] == [DVec3::ZERO; 2],
+            Movement::Motion(motion) => {
+                [motion.velocity(), motion.angular_velocity()] == [DVec3::ZERO; 2]
+            }
             Movement::Trajectory(_) => false,
         };
         if member.mobility == Mobility::Fixed && !rests {

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | turns and advances along an axis | [`screw`], exact |
 //! | hangs on a joint | [`Joint::motion`], exact |
-//! | follows the poses of a planner or of a simulator's log | [`Poses`], exact between two poses |
+//! | follows the poses of a planner or of a simulator's log | [`PosePath`], exact between two poses |
 //! | is thrown | [`Ballistic`] |
 //! | follows a Bézier curve or a B-spline | [`Spline`] of a [`Curve`] and of [`OrientationCurve`] |
 //! | is the link of an arm whose joints all move | [`LinkTrajectory`] of a [`Chain`] |
@@ -39,7 +39,7 @@ pub use chain::Chain;
 pub use curve::Curve;
 pub use joint::{Joint, JointKind};
 pub use link::LinkTrajectory;
-pub use poses::Poses;
+pub use poses::PosePath;
 pub use screw::screw;
 pub use spline::Spline;
 pub use turns::OrientationCurve;

@@ -117,7 +117,7 @@ impl FeatureContactCase {
         let Outcome::Touching { contact } = outcome else {
             panic!("{outcome:?} at {}", self.gap);
         };
-        // Any of the pieces that are nearest, up to a share of their distance, is a right answer.
+        // Any of the pieces that are nearest, up to a fraction of their distance, is a right answer.
         let way = self.check(&contact.separation);
         assert!(
             way.is_some() || self.gap > 1e-9,
@@ -210,8 +210,8 @@ impl SupportFeature {
             .collect();
         let face = outer[rng.random_range(0..outer.len())];
         let [a, b, c] = mesh.triangle(face);
-        let share = [0.0, 1.0, 0.5, rng.random_range(0.1..0.9)][rng.random_range(0..4)];
-        let on_edge = a + share * (b - a);
+        let fraction = [0.0, 1.0, 0.5, rng.random_range(0.1..0.9)][rng.random_range(0..4)];
+        let on_edge = a + fraction * (b - a);
         let size = rng.random_range(0..3);
         let [normal, point] = match size {
             0 => {

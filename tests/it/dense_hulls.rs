@@ -3,12 +3,12 @@
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::BestFirst;
 use ccd_core::{Answer, Body, Motion, MovingBody, Outcome, Pose, Schedule, Settings};
-use ccd_decomp::{Detail, body_from_mesh};
+use ccd_decomp::{PieceChoice, body_from_mesh};
 use ccd_distance_gjk::{Direct, Gjk};
 use ccd_tests::models::{Mesh, icosphere, torus};
 
-fn body(mesh: &Mesh, detail: Detail) -> Body {
-    body_from_mesh(&mesh.to_triangle_mesh(), detail)
+fn body(mesh: &Mesh, choice: PieceChoice) -> Body {
+    body_from_mesh(&mesh.to_triangle_mesh(), choice)
         .unwrap()
         .body
 }
@@ -44,10 +44,11 @@ fn contact_time(answer: &Answer) -> f64 {
 fn a_dense_solid_answers_like_its_triangles() {
     let ball = icosphere(1.0, 4).mesh;
     let ring = torus(1.0, 0.4, 32, 16).mesh;
-    let [one, triangles] = [Detail::Hull, Detail::Triangles].map(|detail| body(&ball, detail));
+    let [one, triangles] =
+        [PieceChoice::Hull, PieceChoice::Triangles].map(|choice| body(&ball, choice));
     assert!(one.pieces().len() == 1 && one.pieces().points().len() > 1_000);
     let others = [
-        body(&ring, Detail::Triangles),
+        body(&ring, PieceChoice::Triangles),
         one.clone(),
         triangles.clone(),
     ];
@@ -81,10 +82,10 @@ fn a_dense_solid_answers_like_its_triangles() {
 #[test]
 fn a_solid_against_many_triangles_costs_as_much_as_triangles() {
     let ball = icosphere(1.0, 4).mesh;
-    let ring = body(&torus(1.0, 0.4, 32, 16).mesh, Detail::Triangles);
+    let ring = body(&torus(1.0, 0.4, 32, 16).mesh, PieceChoice::Triangles);
     let spin = DVec3::new(0.5, 1.0, 0.0);
-    let [one, triangles] = [Detail::Auto, Detail::Triangles].map(|detail| {
-        let answer = answer(&body(&ball, detail), &ring, DVec3::new(4.0, 0.0, 0.0), spin);
+    let [one, triangles] = [PieceChoice::Auto, PieceChoice::Triangles].map(|choice| {
+        let answer = answer(&body(&ball, choice), &ring, DVec3::new(4.0, 0.0, 0.0), spin);
         answer.stats.oracle_calls
     });
     assert!(one <= 2 * triangles, "{one} {triangles}");

@@ -88,9 +88,9 @@ fn fold_squared_edge_distances<const N: usize>(
 #[inline(always)]
 fn squared_distance(point: DVec3, [a, b]: [DVec3; 2]) -> f64 {
     let along = b - a;
-    let share = (point - a).dot(along) / along.dot(along);
-    let foot = if share > 0.0 {
-        a + lesser(share, 1.0) * along
+    let fraction = (point - a).dot(along) / along.dot(along);
+    let foot = if fraction > 0.0 {
+        a + lesser(fraction, 1.0) * along
     } else {
         a
     };

@@ -8,38 +8,40 @@ use proptest::strategy::{Strategy, ValueTree};
 
 #[test]
 fn cases_hit_and_miss() {
-    let shares = OutcomeCounts::count_outcomes(&cases());
+    let fractions = OutcomeCounts::count_outcomes(&cases());
     assert!(
-        shares.hit_count >= 60 && shares.miss_count >= 50,
-        "{shares:?}"
+        fractions.hit_count >= 60 && fractions.miss_count >= 50,
+        "{fractions:?}"
     );
-    assert!(shares.undecided_count <= 2, "{shares:?}");
+    assert!(fractions.undecided_count <= 2, "{fractions:?}");
 }
 
 #[test]
 fn convex_cases_hit_and_miss() {
-    let shares = OutcomeCounts::count_outcomes(&convex_cases());
+    let fractions = OutcomeCounts::count_outcomes(&convex_cases());
     assert!(
-        shares.hit_count >= 60 && shares.miss_count >= 50,
-        "{shares:?}"
+        fractions.hit_count >= 60 && fractions.miss_count >= 50,
+        "{fractions:?}"
     );
 }
 
 #[test]
 fn crowded_cases_overlap() {
-    let shares = OutcomeCounts::count_outcomes(&crowded_cases());
+    let fractions = OutcomeCounts::count_outcomes(&crowded_cases());
     assert!(
-        shares.start_contact_count >= 50 && shares.nested_count >= 2 && shares.hit_count >= 20,
-        "{shares:?}"
+        fractions.start_contact_count >= 50
+            && fractions.nested_count >= 2
+            && fractions.hit_count >= 20,
+        "{fractions:?}"
     );
 }
 
 #[test]
 fn remote_cases_hit_and_miss() {
-    let shares = OutcomeCounts::count_outcomes(&scaled_and_remote_cases());
+    let fractions = OutcomeCounts::count_outcomes(&scaled_and_remote_cases());
     assert!(
-        shares.hit_count >= 60 && shares.miss_count >= 50,
-        "{shares:?}"
+        fractions.hit_count >= 60 && fractions.miss_count >= 50,
+        "{fractions:?}"
     );
 }
 
@@ -56,22 +58,22 @@ struct OutcomeCounts {
 
 impl OutcomeCounts {
     fn count_outcomes(strategy: &impl Strategy<Value = Case>) -> OutcomeCounts {
-        let mut shares = OutcomeCounts::default();
+        let mut fractions = OutcomeCounts::default();
         let mut runner = runner(1);
         for _ in 0..200 {
             let case = strategy.new_tree(&mut runner).expect("a case").current();
             let query = case.query();
             let judge = Judge::new(&query, &case.config());
-            let share = match judge.finding() {
-                _ if judge.are_nested() => &mut shares.nested_count,
-                Finding::ContactAtStart => &mut shares.start_contact_count,
-                Finding::Hit { .. } => &mut shares.hit_count,
-                Finding::Free { .. } => &mut shares.miss_count,
-                Finding::Graze { .. } => &mut shares.graze_count,
-                Finding::Undecided { .. } => &mut shares.undecided_count,
+            let fraction = match judge.finding() {
+                _ if judge.are_nested() => &mut fractions.nested_count,
+                Finding::ContactAtStart => &mut fractions.start_contact_count,
+                Finding::Hit { .. } => &mut fractions.hit_count,
+                Finding::Free { .. } => &mut fractions.miss_count,
+                Finding::Graze { .. } => &mut fractions.graze_count,
+                Finding::Undecided { .. } => &mut fractions.undecided_count,
             };
-            *share += 1;
+            *fraction += 1;
         }
-        shares
+        fractions
     }
 }

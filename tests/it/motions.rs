@@ -1,4 +1,4 @@
-//! Tests that the engine and the referee move bodies as specified, about any centre.
+//! Tests that the engine and the referee move bodies as specified, about any center.
 //!
 //! The tests of `ccd-core` have motions through two poses, and of several turns.
 
@@ -16,7 +16,7 @@ fn pose() -> impl Strategy<Value = Pose> {
 }
 
 #[test]
-fn the_centre_moves_on_a_line_and_the_rest_around_it() {
+fn the_center_moves_on_a_line_and_the_rest_around_it() {
     let inputs = (
         pose(),
         direction(),
@@ -26,14 +26,14 @@ fn the_centre_moves_on_a_line_and_the_rest_around_it() {
         0.0..1.0f64,
     );
     runner(2_000)
-        .run(&inputs, |(start, velocity, axis, centre, turn, t)| {
-            let motion = Motion::about(start, velocity, turn * axis, centre).expect("finite");
+        .run(&inputs, |(start, velocity, axis, center, turn, t)| {
+            let motion = Motion::about(start, velocity, turn * axis, center).expect("finite");
             let pose = motion.pose(t);
             let size = 2.0 + start.translation().length();
-            let line = start.transform_point(centre) + t * velocity;
-            prop_assert!(pose.transform_point(centre).distance(line) <= 1e-13 * size);
+            let line = start.transform_point(center) + t * velocity;
+            prop_assert!(pose.transform_point(center).distance(line) <= 1e-13 * size);
             let arm =
-                |pose: &Pose| pose.transform_point(DVec3::ZERO) - pose.transform_point(centre);
+                |pose: &Pose| pose.transform_point(DVec3::ZERO) - pose.transform_point(center);
             let turned = DQuat::from_axis_angle(axis, turn * t) * arm(&start);
             prop_assert!(arm(&pose).distance(turned) <= 1e-12 * size);
             Ok(())
@@ -53,10 +53,10 @@ fn the_referee_moves_bodies_as_the_engine_does() {
     );
     let cube = || cuboid(DVec3::splat(0.5));
     runner(1_000)
-        .run(&inputs, |(start_a, start_b, axis, centre, turn, t)| {
+        .run(&inputs, |(start_a, start_b, axis, center, turn, t)| {
             let moving = |start, sign: f64| MovingShape {
                 shape: cube(),
-                motion: Motion::about(start, sign * centre, sign * turn * axis, centre)
+                motion: Motion::about(start, sign * center, sign * turn * axis, center)
                     .expect("finite"),
             };
             let query = Query::new(moving(start_a, 1.0), moving(start_b, -1.0));

@@ -13,7 +13,7 @@ use ccd_tests::strategies::seeds;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use rigid_ccd::Solver;
-use rigid_ccd::trajectory::Poses;
+use rigid_ccd::trajectory::PosePath;
 use samples::{DistanceSamples, ROUNDING, Scene};
 use std::io::Write;
 
@@ -316,7 +316,7 @@ fn an_approach_within_the_tolerance_at_a_knot_is_a_contact_for_all_questions() {
     );
     let stops = [(0.0, -1.68), (0.4, -1.532), (0.41, -1.65), (1.0, -1.61)];
     let stops = stops.map(|(time, x)| (time, Pose::at([x, 0.0, 0.0]).unwrap()));
-    let path = Poses::new(stops.to_vec()).unwrap();
+    let path = PosePath::new(stops.to_vec()).unwrap();
     for margin in [0.0, 0.2] {
         let beside = Motion::still(Pose::at([margin, 0.0, 0.0]).unwrap());
         let mut solver = Solver::new().with_settings(Settings {

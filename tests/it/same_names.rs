@@ -3,7 +3,7 @@
 use ccd_core::glam::{DQuat, DVec2};
 use ccd_core::order::{greater, lesser};
 use ccd_core::{Feature, Motion, MovingBody, Pose, Settings};
-use ccd_decomp::{Detail, PatchOrder, PreparedBody, TriangleMesh, body_from_mesh};
+use ccd_decomp::{PatchOrder, PieceChoice, PreparedBody, TriangleMesh, body_from_mesh};
 use ccd_tests::models::{Mesh, divided_cube, divided_l_prism};
 
 /// Returns a mesh in which no two faces share a vertex, as in an STL file.
@@ -26,8 +26,11 @@ struct Body {
 impl Body {
     fn new(mesh: Mesh) -> Self {
         let good = TriangleMesh::new(mesh.vertices.clone(), &mesh.faces).expect("a mesh");
-        let made = [Detail::Triangles, Detail::Patches(PatchOrder::default())]
-            .map(|detail| body_from_mesh(&good, detail).expect("a solid"));
+        let made = [
+            PieceChoice::Triangles,
+            PieceChoice::Patches(PatchOrder::default()),
+        ]
+        .map(|choice| body_from_mesh(&good, choice).expect("a solid"));
         Body {
             mesh,
             prepared_bodies: made,

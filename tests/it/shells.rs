@@ -3,7 +3,7 @@
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Schedule};
 use ccd_core::{Body, Motion, MovingBody, Outcome, Pose, Settings, StartPolicy};
-use ccd_decomp::{Detail, PatchOrder, prepare};
+use ccd_decomp::{PatchOrder, PieceChoice, prepare};
 use ccd_distance_gjk::Direct;
 use ccd_tests::exact::{ConvexCombination, Location, Solid};
 use ccd_tests::models::{Mesh, Shape, boulder, cuboid, icosphere, torus};
@@ -11,10 +11,10 @@ use ccd_tests::strategies::random_direction;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-const DETAILS: [Detail; 3] = [
-    Detail::Triangles,
-    Detail::Patches(PatchOrder::Cresting),
-    Detail::Auto,
+const DETAILS: [PieceChoice; 3] = [
+    PieceChoice::Triangles,
+    PieceChoice::Patches(PatchOrder::Cresting),
+    PieceChoice::Auto,
 ];
 
 /// Returns a random closed shell around the origin that fits into a ball of radius 1 and contains a ball of radius
@@ -56,8 +56,8 @@ fn with_random_windings(shells: &[(Mesh, usize)], rng: &mut Pcg64) -> Mesh {
     all
 }
 
-fn body(mesh: &Mesh, detail: Detail) -> Body {
-    let model = prepare(&mesh.to_triangle_mesh(), detail).expect("a body");
+fn body(mesh: &Mesh, choice: PieceChoice) -> Body {
+    let model = prepare(&mesh.to_triangle_mesh(), choice).expect("a body");
     model.body().expect("a body")
 }
 
@@ -90,8 +90,8 @@ fn a_body_inside_overlaps_for_any_winding_of_shells() {
         let shells = nested_shells(&mut rng);
         let mesh = with_random_windings(&shells, &mut rng);
         let solids: Vec<Solid<'_>> = shells.iter().map(|(mesh, _)| Solid::new(mesh)).collect();
-        for detail in DETAILS {
-            let outer = body(&mesh, detail);
+        for choice in DETAILS {
+            let outer = body(&mesh, choice);
             for _ in 0..10 {
                 let (near, _) = &shells[rng.random_range(0..shells.len())];
                 let at = near.vertices[0].lerp(near.vertices[1], rng.random())
@@ -103,14 +103,14 @@ fn a_body_inside_overlaps_for_any_winding_of_shells() {
                 let inside = around.count() % 2 == 1;
                 let speck = body(
                     &cuboid(DVec3::splat(1e-7)).moved(at).mesh,
-                    Detail::Triangles,
+                    PieceChoice::Triangles,
                 );
                 let outcome = solve(&outer, &speck, DVec3::ZERO, StartPolicy::Report);
                 if matches!(outcome, Outcome::Touching { .. }) {
                     continue;
                 }
                 let overlaps = matches!(outcome, Outcome::Overlapping { .. });
-                assert_eq!(overlaps, inside, "case {case} {detail:?} {at} {outcome:?}");
+                assert_eq!(overlaps, inside, "case {case} {choice:?} {at} {outcome:?}");
                 counts[usize::from(inside)] += 1;
             }
         }
@@ -142,7 +142,7 @@ fn a_body_resting_on_a_face_may_leave_it_outside_only() {
                 vertices: small.to_vec(),
                 faces: vec![[0, 1, 2]],
             };
-            let sheet = body(&sheet, Detail::Triangles);
+            let sheet = body(&sheet, PieceChoice::Triangles);
             let speed = 0.02 * size;
             let solve =
                 |b: &Body, way: f64| solve(&outer, b, way * speed * out, StartPolicy::Leave);
@@ -179,12 +179,12 @@ fn a_body_resting_on_a_face_may_leave_it_outside_only() {
 }
 
 /// Returns the tetrahedron of a triangle and a tip on one side of it.
-fn tetrahedron(triangle: [DVec3; 3], tip: DVec3, detail: Detail) -> Body {
+fn tetrahedron(triangle: [DVec3; 3], tip: DVec3, choice: PieceChoice) -> Body {
     let mesh = Mesh {
         vertices: [triangle.as_slice(), &[tip]].concat(),
         faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
     };
-    body(&mesh, detail)
+    body(&mesh, choice)
 }
 
 /// Tests that two equal solids at the same pose overlap, although every corner is on the other body's surface.
@@ -197,7 +197,7 @@ fn equal_bodies_overlap() {
     ] {
         for one in DETAILS {
             for other in DETAILS {
-                let [a, b] = [one, other].map(|detail| body(&shape.mesh, detail));
+                let [a, b] = [one, other].map(|choice| body(&shape.mesh, choice));
                 let outcome = solve(&a, &b, DVec3::ZERO, StartPolicy::Report);
                 let overlaps = matches!(outcome, Outcome::Overlapping { .. });
                 assert!(overlaps, "{one:?} {other:?} {outcome:?}");
@@ -218,10 +218,10 @@ fn one_part_of_many_that_is_inside_is_found() {
         let at = DVec3::new(1.05 + 0.3 * f64::from(k), 0.0, 0.0);
         many.append(&cuboid(DVec3::splat(0.05)).moved(at).mesh);
     }
-    let a = body(&outer.mesh, Detail::Triangles);
+    let a = body(&outer.mesh, PieceChoice::Triangles);
     let touching = solve(
         &a,
-        &body(&many, Detail::Triangles),
+        &body(&many, PieceChoice::Triangles),
         DVec3::ZERO,
         StartPolicy::Report,
     );
@@ -231,7 +231,7 @@ fn one_part_of_many_that_is_inside_is_found() {
     many.append(&inner);
     let overlapping = solve(
         &a,
-        &body(&many, Detail::Triangles),
+        &body(&many, PieceChoice::Triangles),
         DVec3::ZERO,
         StartPolicy::Report,
     );

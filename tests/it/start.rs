@@ -183,8 +183,8 @@ fn inside_the_margin_sliding_is_free_and_approaching_is_a_contact() {
         ..settings_with_leave(4e-8)
     };
     for margin in [3.4e-3, 0.1] {
-        for share in [1.0, 0.5, 1e-3, 0.0] {
-            let gap = share * margin;
+        for fraction in [1.0, 0.5, 1e-3, 0.0] {
+            let gap = fraction * margin;
             let at = |velocity: DVec3| {
                 Query::new(
                     MovingShape::still(floor.clone(), DVec3::ZERO),

@@ -59,15 +59,15 @@ pub struct MovingModel {
     /// The rotation at the start, as a rotation vector in radians.
     #[serde(default)]
     pub turned: [f64; 3],
-    /// The velocity of the centre of rotation, per unit of time.
+    /// The velocity of the center of rotation, per unit of time.
     #[serde(default)]
     pub velocity: [f64; 3],
     /// The angular velocity in the world, in radians per unit of time.
     #[serde(default)]
     pub spin: [f64; 3],
-    /// The centre of rotation, in the body's frame.
+    /// The center of rotation, in the body's frame.
     #[serde(default)]
-    pub centre: [f64; 3],
+    pub center: [f64; 3],
 }
 
 /// A shape, given by the name and the arguments of a function in `models`.
@@ -165,14 +165,14 @@ impl MovingModel {
             turned: [0.0; 3],
             velocity: [0.0; 3],
             spin: [0.0; 3],
-            centre: [0.0; 3],
+            center: [0.0; 3],
         }
     }
 
     fn moving_shape(&self) -> MovingShape {
         let turned = DQuat::from_scaled_axis(self.turned.into());
         let start = Pose::new(self.position, turned).expect("a pose");
-        let motion = Motion::about(start, self.velocity, self.spin, self.centre);
+        let motion = Motion::about(start, self.velocity, self.spin, self.center);
         MovingShape {
             shape: self.shape.shape().scaled(self.scale),
             motion: motion.expect("finite velocities"),

@@ -214,7 +214,7 @@ pub fn check_contact(
         ..
     } = contact.separation;
     let placements = RelativeMotion::pair(query);
-    // Placements are relative to A's centre, but witnesses are not.
+    // Placements are relative to A's center, but witnesses are not.
     let drift = placements[0].origin() + time * query.a.motion.velocity();
     let side_a = ContactSide {
         moving_shape: &query.a,

@@ -8,7 +8,7 @@ use ccd_core::{
 use rand::RngExt;
 use rand_pcg::Pcg64;
 use rigid_ccd::trajectory::{
-    Ballistic, Chain, Curve, Joint, OrientationCurve, Poses, Spline, screw,
+    Ballistic, Chain, Curve, Joint, OrientationCurve, PosePath, Spline, screw,
 };
 
 /// The names of the kinds of trajectories.
@@ -103,11 +103,11 @@ fn poses(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError>
         time += [0.01, 0.15, 0.4][rng.random_range(0..3)] * rng.random_range(0.5..1.5);
     }
     Ok(Box::new(
-        Poses::new(stops)?.about(random_vector(rng, 0.3 * reach))?,
+        PosePath::new(stops)?.about(random_vector(rng, 0.3 * reach))?,
     ))
 }
 
-/// Returns a body whose centre follows a Bézier curve, and whose orientation follows a slerp.
+/// Returns a body whose center follows a Bézier curve, and whose orientation follows a slerp.
 fn bezier_trajectory(rng: &mut Pcg64, reach: f64) -> Result<Box<dyn Trajectory>, InputError> {
     let count = rng.random_range(1..6);
     let curve = Curve::bezier(&points(rng, count, reach), rng.random_range(0.5..1.5))?;
@@ -144,12 +144,12 @@ fn random_motion(rng: &mut Pcg64, reach: f64) -> Result<Motion, InputError> {
     // Some rotate so often that they repeat their poses.
     let turns = [0.0, 1.0, 6.0, 90.0][rng.random_range(0..4)];
     let spin = random_vector(rng, 1.0) * turns;
-    let centre = random_vector(rng, 0.3 * reach);
+    let center = random_vector(rng, 0.3 * reach);
     Motion::about(
         pose(rng, reach)?,
         random_vector(rng, 2.0 * reach),
         spin,
-        centre,
+        center,
     )
 }
 
@@ -265,7 +265,7 @@ impl Trajectory for Zigzag {
         let rounding = 1e-15 * reach.fold(0.0, ccd_core::order::greater);
         Ok(Stretch {
             deviation_bound: DeviationBound {
-                centre_deviation: shift + 8.0 * rounding,
+                center_deviation: shift + 8.0 * rounding,
                 max_deviation_angle: 0.0,
             },
             ..Stretch::exact(motion)

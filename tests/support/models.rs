@@ -25,7 +25,7 @@ pub use voxels::pile;
 
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::{Body, Facet, FacetOrigin, InputError, Pieces, Polytope, Solidity};
-use ccd_decomp::{Detail, PatchOrder, TriangleMesh, build_hull_tree, prepare};
+use ccd_decomp::{PatchOrder, PieceChoice, TriangleMesh, build_hull_tree, prepare};
 
 /// A triangle mesh, the common input of the referee and of the engine.
 #[derive(Clone, Debug, PartialEq)]
@@ -202,13 +202,13 @@ impl Shape {
                 let tree = build_hull_tree(body.pieces()).expect("a hull tree");
                 body.with_hull_tree(tree).expect("its own hull tree")
             }
-            PieceKind::Patches => self.prepare_body(Detail::Patches(PatchOrder::Cresting)),
-            PieceKind::Hull => self.prepare_body(Detail::Hull),
+            PieceKind::Patches => self.prepare_body(PieceChoice::Patches(PatchOrder::Cresting)),
+            PieceKind::Hull => self.prepare_body(PieceChoice::Hull),
         }
     }
 
-    fn prepare_body(&self, detail: Detail) -> Body {
-        let model = prepare(&self.mesh.to_triangle_mesh(), detail).expect("a closed mesh");
+    fn prepare_body(&self, choice: PieceChoice) -> Body {
+        let model = prepare(&self.mesh.to_triangle_mesh(), choice).expect("a closed mesh");
         let model = model.with_hull_tree().expect("a hull tree");
         model.body().expect("a good body")
     }
@@ -240,10 +240,10 @@ impl Mesh {
     }
 
     /// Returns the largest distance of a vertex from a point.
-    pub fn radius_about(&self, centre: DVec3) -> f64 {
+    pub fn radius_about(&self, center: DVec3) -> f64 {
         self.vertices
             .iter()
-            .map(|v| v.distance(centre))
+            .map(|v| v.distance(center))
             .fold(0.0, greater)
     }
 

@@ -175,10 +175,10 @@ impl MovingShape {
             .fold(0.0, greater);
         let radius = points
             .chain(&self.shape.mesh.vertices)
-            .map(|p| p.distance(motion.centre()))
-            .fold(motion.centre().length(), greater);
+            .map(|p| p.distance(motion.center()))
+            .fold(motion.center().length(), greater);
         let travel = duration * motion.velocity().length();
-        let turn = 1.0 + duration * motion.spin().length();
+        let turn = 1.0 + duration * motion.angular_velocity().length();
         motion.start().translation().length() + travel + turn * (radius + radii)
     }
 
@@ -198,8 +198,8 @@ impl MovingShape {
             motion: Motion::about(
                 start,
                 turn * motion.velocity(),
-                turn * motion.spin(),
-                motion.centre(),
+                turn * motion.angular_velocity(),
+                motion.center(),
             )
             .expect("finite"),
         }
@@ -210,8 +210,13 @@ impl MovingShape {
         let end = motion.pose(duration);
         MovingShape {
             shape: self.shape.clone(),
-            motion: Motion::about(end, -motion.velocity(), -motion.spin(), motion.centre())
-                .expect("finite"),
+            motion: Motion::about(
+                end,
+                -motion.velocity(),
+                -motion.angular_velocity(),
+                motion.center(),
+            )
+            .expect("finite"),
         }
     }
 }

@@ -19,8 +19,8 @@ pub struct MotionAsSmoothTrajectory(pub Motion);
 impl SmoothTrajectory for MotionAsSmoothTrajectory {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
         let MotionAsSmoothTrajectory(motion) = self;
-        let (velocity, spin) = (motion.velocity(), motion.spin());
-        Motion::about(motion.pose(time), velocity, spin, motion.centre())
+        let (velocity, spin) = (motion.velocity(), motion.angular_velocity());
+        Motion::about(motion.pose(time), velocity, spin, motion.center())
     }
 
     fn acceleration_bounds(&self, _from: f64, _to: f64) -> AccelerationBounds {

@@ -49,7 +49,7 @@ pub enum Finding {
 /// The judge of the first contact in one query.
 pub struct Referee<'a> {
     query: &'a Query,
-    motions_about_centre_of_a: [RelativeMotion; 2],
+    motions_about_center_of_a: [RelativeMotion; 2],
     margin: f64,
 }
 
@@ -66,7 +66,7 @@ impl<'a> Referee<'a> {
     pub fn with_margin(query: &'a Query, margin: f64) -> Self {
         Referee {
             query,
-            motions_about_centre_of_a: RelativeMotion::pair(query),
+            motions_about_center_of_a: RelativeMotion::pair(query),
             margin,
         }
     }
@@ -95,7 +95,7 @@ impl<'a> Referee<'a> {
         contains(
             posed.mesh(),
             posed.points(),
-            point - self.motions_about_centre_of_a[0].origin(),
+            point - self.motions_about_center_of_a[0].origin(),
         )
     }
 
@@ -123,7 +123,7 @@ impl<'a> Referee<'a> {
 
     /// Returns an upper bound on the rate of change of the distance.
     pub fn distance_rate_bound(&self) -> f64 {
-        let [a, b] = &self.motions_about_centre_of_a;
+        let [a, b] = &self.motions_about_center_of_a;
         (b.velocity() - a.velocity()).length() + a.max_rotational_speed() + b.max_rotational_speed()
     }
 
@@ -153,7 +153,7 @@ impl<'a> Referee<'a> {
     }
 
     fn size(&self) -> f64 {
-        self.motions_about_centre_of_a
+        self.motions_about_center_of_a
             .iter()
             .map(RelativeMotion::radius)
             .fold(0.0, greater)
@@ -166,7 +166,7 @@ impl<'a> Referee<'a> {
                 mesh,
                 mesh.vertices
                     .iter()
-                    .map(|&p| self.motions_about_centre_of_a[k].point_position_at(time, p))
+                    .map(|&p| self.motions_about_center_of_a[k].point_position_at(time, p))
                     .collect(),
             )
         };

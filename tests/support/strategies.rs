@@ -85,7 +85,7 @@ pub fn scaled_and_remote_cases() -> impl Strategy<Value = Case> {
                 let position = DVec3::from(part.position) + offset * towards;
                 part.position = (scale * position).into();
                 part.velocity = (scale * DVec3::from(part.velocity)).into();
-                part.centre = (scale * DVec3::from(part.centre)).into();
+                part.center = (scale * DVec3::from(part.center)).into();
             }
             case
         })
@@ -115,7 +115,7 @@ fn aimed_cases(
         |(a, mut b, aim, tolerance, drift)| {
             let (towards, apart, side, miss, haste) = aim;
             let position = apart * towards;
-            // From the start of B to a point that misses A's centre by up to `miss`.
+            // From the start of B to a point that misses A's center by up to `miss`.
             let travel = haste * (miss * side - position);
             b.position = position.into();
             let mut case = Case {
@@ -151,11 +151,11 @@ fn drift() -> impl Strategy<Value = Option<DVec3>> {
 }
 
 fn moving_model(model: impl Strategy<Value = Model>) -> impl Strategy<Value = MovingModel> {
-    (model, vector_up_to_length(PI), spin(), centre()).prop_map(|(shape, turned, spin, centre)| {
+    (model, vector_up_to_length(PI), spin(), center()).prop_map(|(shape, turned, spin, center)| {
         MovingModel {
             turned: turned.into(),
             spin: spin.into(),
-            centre: centre.into(),
+            center: center.into(),
             ..MovingModel::new(shape)
         }
     })
@@ -171,7 +171,7 @@ fn spin() -> impl Strategy<Value = DVec3> {
     ]
 }
 
-fn centre() -> impl Strategy<Value = DVec3> {
+fn center() -> impl Strategy<Value = DVec3> {
     prop_oneof![2 => Just(DVec3::ZERO), 1 => vector_up_to_length(1.0)]
 }
 

@@ -100,10 +100,10 @@ fn add_obstacle(
     };
     let pose = RccdPose {
         position: [x, y, z],
-        orientation: [qx, qy, qz, qw],
+        rotation: [qx, qy, qz, qw],
     };
     let name = format!("{}{number}", words[0]);
-    rust.add_obstacle(&name, in_rust, Pose::new(pose.position, pose.orientation)?)?;
+    rust.add_obstacle(&name, in_rust, Pose::new(pose.position, pose.rotation)?)?;
     let name = CString::new(name)?;
     // SAFETY: the pointers are to values that live here.
     check(unsafe { rccd_cell_add_obstacle(cell.0, name.as_ptr(), body.0, &pose) })
@@ -192,21 +192,21 @@ pub(crate) fn numbers_of(motion: &Motion) -> RccdMotion {
     RccdMotion {
         start: RccdPose {
             position: motion.start().translation().to_array(),
-            orientation: motion.start().rotation().to_array(),
+            rotation: motion.start().rotation().to_array(),
         },
         velocity: motion.velocity().to_array(),
-        spin: motion.spin().to_array(),
-        centre: motion.centre().to_array(),
+        angular_velocity: motion.angular_velocity().to_array(),
+        center: motion.center().to_array(),
     }
 }
 
 /// Makes a motion of Rust from the numbers of one of the interface.
 pub(crate) fn motion_of(numbers: &RccdMotion) -> Result<Motion> {
-    let start = Pose::new(numbers.start.position, numbers.start.orientation)?;
+    let start = Pose::new(numbers.start.position, numbers.start.rotation)?;
     Ok(Motion::about(
         start,
         numbers.velocity,
-        numbers.spin,
-        numbers.centre,
+        numbers.angular_velocity,
+        numbers.center,
     )?)
 }

@@ -51,7 +51,7 @@ struct Chunk {
 
 pub(crate) fn run(args: &Args) -> Result<()> {
     let (cell, rust) = cells(&args.folder, &args.meshes, &args.cell)?;
-    let joints = rust.robot().free_joint_names().len();
+    let joints = rust.robot().independent_joint_names().len();
     let chunks = read_chunks(args, &rust, joints)?;
     let deadline = args.deadline.map(|micros| micros * 1e-6);
     let settings = RccdSettings {
@@ -66,10 +66,10 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         check(unsafe { rccd_cell_solver_set_settings(solver.0.0, &settings) })?;
         solvers.push(solver);
     }
-    let share = args.chunks / solvers.len();
+    let fraction = args.chunks / solvers.len();
     let chunks = &chunks;
     let work = solvers.into_iter().enumerate().map(|(number, solver)| {
-        move || check_chunks(&solver, chunks, joints, (number as u64, share), deadline)
+        move || check_chunks(&solver, chunks, joints, (number as u64, fraction), deadline)
     });
     let tallies = on_threads(work)?;
     let limit = args
@@ -145,7 +145,7 @@ fn check_chunks(
                 Ok(answer) => {
                     let answer = Answered {
                         outcome: answer.outcome,
-                        free_until: answer.segment as f64 + answer.share,
+                        free_until: answer.segment as f64 + answer.fraction,
                         end: (waypoints - 1) as f64,
                     };
                     tally.judge(answer, chunk.touches_at - first as f64);

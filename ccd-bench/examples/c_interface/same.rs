@@ -130,7 +130,7 @@ pub(crate) fn compare_edges(folder: &Path, meshes: &Path, repeat: usize) -> Resu
     for name in ["A", "B"] {
         let (cell, rust) = cells(folder, meshes, name)?;
         let (_, copy) = cells(folder, meshes, name)?;
-        let joints = rust.robot().free_joint_names().len();
+        let joints = rust.robot().independent_joint_names().len();
         let tolerance = 1e-6;
         let settings = RccdSettings {
             tolerance,
@@ -182,7 +182,7 @@ fn compare_edge(
         PathOutcome::Contact(contact) => {
             let bits = |point: [f64; 3]| point.map(f64::to_bits);
             answer.outcome == RccdOutcome::Contact
-                && answer.share.to_bits() == contact.at.share.to_bits()
+                && answer.fraction.to_bits() == contact.at.fraction.to_bits()
                 && contact.witnesses.is_some_and(|[a, b]| {
                     bits(answer.witness_a) == bits(a.to_array())
                         && bits(answer.witness_b) == bits(b.to_array())

@@ -149,7 +149,7 @@ pub(crate) fn report(name: &str, tallies: &[Tally]) {
         let Some(last) = micros.len().checked_sub(1) else {
             return;
         };
-        let at = |share: f64| micros[(share * last as f64) as usize];
+        let at = |fraction: f64| micros[(fraction * last as f64) as usize];
         println!(
             "  microseconds {name}: p50 {:.1}, p99 {:.1}, p99.9 {:.1}, p99.99 {:.1}, max {:.1}",
             at(0.5),

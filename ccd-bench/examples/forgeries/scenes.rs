@@ -5,7 +5,7 @@ use anyhow::{Context, Result};
 use ccd_core::glam::DVec3;
 use ccd_core::{Motion, Pose};
 use ccd_prove::{AxisKind, Body, Joint, Link, Pair, Proof, ProvenPair, Scene, SceneBody, prove};
-use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
+use rigid_ccd::mesh::{PieceChoice, TriangleMesh, body_from_mesh};
 use rigid_ccd::{Settings, Solver};
 use std::f64::consts::TAU;
 
@@ -58,15 +58,15 @@ fn torus(count: usize, radius: f64) -> Mesh {
 fn flight(random: &mut Random) -> Result<Motion> {
     let turn = [(); 4].map(|()| random.number());
     let start = Pose::new(random.vector(2.0), turn)?;
-    let [velocity, spin, centre] = [3.0, 2.0, 0.3].map(|size| random.vector(size));
-    Ok(Motion::about(start, velocity, spin, centre)?)
+    let [velocity, spin, center] = [3.0, 2.0, 0.3].map(|size| random.vector(size));
+    Ok(Motion::about(start, velocity, spin, center)?)
 }
 
 /// Computes the first contact of two rings, and proves the answer. Returns `None` for a contact at the start.
 fn two(rings: &[Mesh; 2], margin: f64, motions: [Motion; 2]) -> Result<Option<Files>> {
     let engine = |(vertices, faces): &Mesh| -> Result<_> {
         let mesh = TriangleMesh::new(vertices.clone(), faces)?;
-        Ok(body_from_mesh(&mesh, Detail::Surface)?.body)
+        Ok(body_from_mesh(&mesh, PieceChoice::Surface)?.body)
     };
     let [a, b] = [engine(&rings[0])?, engine(&rings[1])?];
     let settings = Settings {

@@ -110,17 +110,17 @@ impl Scene {
 
 /// Transforms a point of a link to the frame of the parent.
 fn on_parent(link: &StatedLink, point: DVec3, time: f64) -> DVec3 {
-    let [position, centre, velocity, axis] =
-        [link.position, link.centre, link.velocity, link.axis].map(DVec3::from_array);
+    let [position, center, velocity, axis] =
+        [link.position, link.center, link.velocity, link.axis].map(DVec3::from_array);
     let start = DQuat::from_array(link.quaternion).normalize();
     let by = link.start + time * link.rate;
     if link.axes == 1 {
         // The velocity and the axis are in the frame of the joint, so its rotation is applied last.
-        let arm = DQuat::from_scaled_axis(axis * by) * (point - centre);
-        return position + start * (centre + velocity * by + arm);
+        let arm = DQuat::from_scaled_axis(axis * by) * (point - center);
+        return position + start * (center + velocity * by + arm);
     }
-    let arm = DQuat::from_scaled_axis(axis * by) * (start * (point - centre));
-    position + start * centre + velocity * by + arm
+    let arm = DQuat::from_scaled_axis(axis * by) * (start * (point - center));
+    position + start * center + velocity * by + arm
 }
 
 /// Returns false if two triangles are nearer than `least`. Corners outside the range, and NaN, count as apart.

@@ -37,8 +37,8 @@ pub(crate) fn step_to_first_contacts(
 
 /// Returns the motion that takes a body from `start` to its present pose in the given duration.
 pub(crate) fn motion_since(start: Pose, body: &RigidBody, duration: f64) -> Result<Motion> {
-    let centre = body.mass_properties().local_mprops.local_com.to_array();
-    Ok(Motion::between(start, body_pose(body)?, centre, duration)?)
+    let center = body.mass_properties().local_mprops.local_com.to_array();
+    Ok(Motion::between(start, body_pose(body)?, center, duration)?)
 }
 
 /// Converts the pose of a rapier body to this engine's type.

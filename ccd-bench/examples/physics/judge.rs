@@ -83,7 +83,7 @@ impl BodyPair<'_> {
         }
         let [a, b] = self.body_indices.map(|k| self.motions[k].0);
         let travel = (a.velocity() - b.velocity()).length() * duration;
-        let turn = (a.spin().length() + b.spin().length()) * duration;
+        let turn = (a.angular_velocity().length() + b.angular_velocity().length()) * duration;
         let samples = 2.0 * (travel + turn) / self.world.min_thickness;
         let samples = samples.clamp(4.0, 20_000.0) as u32;
         (1..samples).any(|k| self.overlaps(duration * f64::from(k) / f64::from(samples)))

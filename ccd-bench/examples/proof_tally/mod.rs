@@ -106,7 +106,12 @@ impl Display for Tally {
             let mut numbers = numbers.clone();
             numbers.sort_by(f64::total_cmp);
             let last = numbers.len().saturating_sub(1);
-            let at = |share: usize| numbers.get(last * share / 100).copied().unwrap_or(f64::NAN);
+            let at = |fraction: usize| {
+                numbers
+                    .get(last * fraction / 100)
+                    .copied()
+                    .unwrap_or(f64::NAN)
+            };
             write!(f, " {name} {:.1} {:.1} {:.1};", at(50), at(90), at(100))?;
         }
         for text in self.failed.iter().take(3) {

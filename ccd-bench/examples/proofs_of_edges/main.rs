@@ -55,7 +55,7 @@ fn main() -> Result<()> {
     let numbers: Vec<f64> = (bytes.chunks_exact(8))
         .map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap_or_default()))
         .collect();
-    let joints = cell.robot().free_joint_names().len();
+    let joints = cell.robot().independent_joint_names().len();
     if let Some(folder) = &args.write {
         for (number, body) in proven.meshes().enumerate() {
             fs::write(folder.join(format!("{number}.mesh")), body.mesh())?;

@@ -9,7 +9,7 @@ use anyhow::Result;
 use ccd_prove::ProvenPair;
 use ccd_tables::motions::MotionTable;
 use clap::Parser;
-use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
+use rigid_ccd::mesh::{PieceChoice, TriangleMesh, body_from_mesh};
 use rigid_ccd::{Outcome, Settings, Solver};
 use std::fs::{File, write};
 use std::path::PathBuf;
@@ -61,7 +61,7 @@ fn run_pair(args: &Args, names: [&str; 2], motions: &str) -> Result<()> {
     let meshes: Vec<TriangleMesh> = meshes.into_iter().collect::<Result<_, _>>()?;
     let engine = meshes
         .iter()
-        .map(|mesh| body_from_mesh(mesh, Detail::Surface));
+        .map(|mesh| body_from_mesh(mesh, PieceChoice::Surface));
     let engine: Vec<_> = engine.collect::<Result<_, _>>()?;
     let [a, b] = [&engine[0].body, &engine[1].body];
     let proven = ProvenPair::new(a, b)?;

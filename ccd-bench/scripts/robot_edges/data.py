@@ -46,8 +46,8 @@ class Obstacle:
         if self.mesh:
             return mesh(self.mesh)
         match self.kind, self.sizes:
-            case "capsule", [radius, half_length]:
-                return library.Capsule(radius, 2 * half_length)
+            case "capsule", [radius, half_height]:
+                return library.Capsule(radius, 2 * half_height)
             case "sphere", [radius]:
                 return library.Sphere(radius)
         return library.Box(*[2 * size for size in self.sizes])

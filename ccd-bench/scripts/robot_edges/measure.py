@@ -59,10 +59,10 @@ def halving_order(steps: int) -> list[int]:
 
 def at_steps(is_free: Callable[[Configuration], bool], steps: int) -> Measure:
     """Measures tests of configurations at equal steps of an edge, without its start, which is known to be free."""
-    shares = [step / steps for step in halving_order(steps)]
+    fractions = [step / steps for step in halving_order(steps)]
 
     def edge_is_free(start: Configuration, end: Configuration) -> bool:
         way = end - start
-        return all(is_free(start + share * way) for share in shares)
+        return all(is_free(start + fraction * way) for fraction in fractions)
 
     return one_by_one(edge_is_free)

@@ -4,7 +4,7 @@ use super::inputs::QueryTableArgs;
 use anyhow::{Context, Result, ensure};
 use ccd_core::schedule::{EngineOptions, Shortcut, Shortcuts, VectorInstructions};
 use ccd_core::{Body, DistanceOracle, Query, Question, Settings};
-use ccd_decomp::{Detail, body_from_mesh};
+use ccd_decomp::{PieceChoice, body_from_mesh};
 use ccd_distance_gjk::{ClosedForm, Gjk};
 use ccd_tables::batch::median;
 use ccd_tables::motions::Motions;
@@ -75,7 +75,7 @@ fn shortcut_parser() -> impl TypedValueParser<Value = Shortcut> {
 
 pub(super) fn run(args: &CostArgs) -> Result<RunOutcome> {
     let [a, b] = args.input.meshes.read_meshes()?;
-    let body = |mesh| Ok::<_, anyhow::Error>(body_from_mesh(mesh, Detail::Auto)?.body);
+    let body = |mesh| Ok::<_, anyhow::Error>(body_from_mesh(mesh, PieceChoice::Auto)?.body);
     let bodies = [body(&a)?, body(&b)?];
     let rows = read_rows(&args.input.motions)?;
     let shortcuts = (args.without.iter()).fold(Shortcuts::ALL, |left, &each| left.without(each));

@@ -47,8 +47,8 @@ pub fn format_query(query: &Motions) -> String {
             start.translation().to_array().as_slice(),
             &start.rotation().to_array(),
             &motion.velocity().to_array(),
-            &motion.spin().to_array(),
-            &motion.centre().to_array(),
+            &motion.angular_velocity().to_array(),
+            &motion.center().to_array(),
         ]
         .concat()
     };

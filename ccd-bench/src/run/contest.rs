@@ -211,8 +211,8 @@ fn are_coprime(a: usize, b: usize) -> bool {
     }
 }
 
-/// Returns a percentile of sorted values, where the percentile is a share from 0 to 1; NaN without values.
-fn percentile(sorted: &[f64], share: f64) -> f64 {
-    let within = (share * sorted.len() as f64).ceil() as usize;
+/// Returns a percentile of sorted values, where the percentile is a fraction from 0 to 1; NaN without values.
+fn percentile(sorted: &[f64], fraction: f64) -> f64 {
+    let within = (fraction * sorted.len() as f64).ceil() as usize;
     within.checked_sub(1).map_or(f64::NAN, |k| sorted[k])
 }

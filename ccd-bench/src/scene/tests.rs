@@ -33,8 +33,10 @@ fn shots_pass_the_origin_within_their_distance_aside() {
 fn the_first_shots_do_not_turn_and_the_others_do() {
     let queries = shot_generator().queries().unwrap();
     let (still, turning) = queries.split_at(80);
-    assert!(still.iter().all(|q| q.a.spin() == DVec3::ZERO));
-    let real_turns = turning.iter().filter(|q| q.a.spin().length() > 1e-3);
+    assert!(still.iter().all(|q| q.a.angular_velocity() == DVec3::ZERO));
+    let real_turns = turning
+        .iter()
+        .filter(|q| q.a.angular_velocity().length() > 1e-3);
     assert!(real_turns.count() > 110);
 }
 

@@ -63,8 +63,8 @@ pub(super) struct BodyMotion {
     pub(super) orientation: DQuat,
     pub(super) velocity: DVec3,
     pub(super) angular_velocity: DVec3,
-    /// The centre of rotation, in the body's frame.
-    pub(super) rotation_centre: DVec3,
+    /// The center of rotation, in the body's frame.
+    pub(super) rotation_center: DVec3,
 }
 
 /// The rotations by which a whole scene is turned to repeat its queries, as pairs of an axis and an angle in radians.
@@ -90,7 +90,7 @@ impl BodyMotion {
         orientation: DQuat::IDENTITY,
         velocity: DVec3::ZERO,
         angular_velocity: DVec3::ZERO,
-        rotation_centre: DVec3::ZERO,
+        rotation_center: DVec3::ZERO,
     };
 
     /// The motion of a body that falls from z = 3 to z = −1.
@@ -128,7 +128,7 @@ impl BodyMotion {
         }
     }
 
-    /// Returns the same motion with another angular velocity about the centre.
+    /// Returns the same motion with another angular velocity about the center.
     pub(super) fn with_spin(self, spin: DVec3) -> Self {
         BodyMotion {
             angular_velocity: spin,
@@ -140,7 +140,7 @@ impl BodyMotion {
         let start = Pose::new(world * self.start_position, world * self.orientation)?;
         let velocity = world * self.velocity / duration;
         let spin = world * self.angular_velocity / duration;
-        Motion::about(start, velocity, spin, self.rotation_centre)
+        Motion::about(start, velocity, spin, self.rotation_center)
     }
 }
 

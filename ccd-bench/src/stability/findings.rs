@@ -25,7 +25,7 @@ pub(super) type StepVerdict = (f64, Verdict);
 /// How many steps of a family a method solves, from the easiest, and where it first fails.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SolvedRange {
-    /// The share of the family's steps, from the easiest, before the first wrong answer.
+    /// The fraction of the family's steps, from the easiest, before the first wrong answer.
     pub(super) solved_fraction: f64,
     /// The easiest step with a wrong answer; `None` if all answers are right.
     pub(super) first_failure: Option<StepVerdict>,
@@ -66,7 +66,7 @@ impl<'j> Findings<'j> {
         self.families.is_empty() || self.methods.is_empty()
     }
 
-    /// Returns the share of a family's steps that a method solves, from the easiest step on, and its first failure.
+    /// Returns the fraction of a family's steps that a method solves, from the easiest step on, and its first failure.
     /// Returns `None` if the journal has no answers of the method to the family.
     pub(super) fn solved_range(&self, family: &Family, method: &str) -> Option<SolvedRange> {
         let answer = |&value: &f64| {

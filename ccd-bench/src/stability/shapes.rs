@@ -54,7 +54,7 @@ pub(super) fn cone(sides: u32, radius: f64) -> Result<TriangleMesh, MeshError> {
     TriangleMesh::new(vertices, &faces.collect::<Vec<_>>())
 }
 
-/// The width of a comb's tooth, as a share of the distance from one tooth to the next.
+/// The width of a comb's tooth, as a fraction of the distance from one tooth to the next.
 pub(super) const TOOTH_WIDTH_SHARE: f64 = 0.4;
 
 /// Returns a comb of depth 1 along y: a bar from z = 0 to 1 below teeth that reach to z = 2. The first tooth

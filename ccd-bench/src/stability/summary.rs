@@ -61,7 +61,7 @@ pub fn first_failure_table(findings: &Findings<'_>) -> TextTable {
     table
 }
 
-/// Returns the heat map of the share of each family that each method solves before its first wrong answer.
+/// Returns the heat map of the fraction of each family that each method solves before its first wrong answer.
 pub fn solved_range_heat_map(findings: &Findings<'_>) -> HeatMap {
     make_heat_map(findings, SOLVED_RANGE_TEXTS, |family, method| {
         let reach = findings.solved_range(family, method)?;

@@ -1,7 +1,7 @@
 //! Approximates the motions of both bodies by straight lines within an interval of time, and bounds the error.
 //!
 //! All is relative to a frame that has B's position and orientation at the instant m, moves along
-//! with B's centre in a straight line and does not turn. There, for |s| ≤ h,
+//! with B's center in a straight line and does not turn. There, for |s| ≤ h,
 //!
 //! - a point p of A is at a(m) + s ȧ(m) to within ½|ω|²ρh², the deviation of a circle from its
 //!   tangent,
@@ -32,9 +32,9 @@ pub(super) struct TimeSpan {
 pub(super) struct LinearizedMotions {
     /// The map from A's body frame to the common frame, at the middle time.
     placement: AffineMap,
-    /// The map from a point of A to its velocity, relative to B's centre.
+    /// The map from a point of A to its velocity, relative to B's center.
     velocity_map_a: AffineMap,
-    /// The map from a point of B to its velocity, relative to B's centre.
+    /// The map from a point of B to its velocity, relative to B's center.
     velocity_map_b: AffineMap,
     /// Half the length of the interval.
     half_duration: f64,
@@ -46,10 +46,10 @@ pub(super) struct LinearizedMotions {
     /// The bounds on the extents of two boxes along B's axes; the next field has those along A's axes.
     extent_matrices_along_b: ExtentMatrices,
     extent_matrices_along_a: ExtentMatrices,
-    /// The vector from B's centre of rotation to A's centre of rotation; the next field is its rate of change.
-    rotation_centre_b_to_a: DVec3,
-    centre_offset_rate: DVec3,
-    /// The sum of the bodies' greatest distances from their centres of rotation.
+    /// The vector from B's center of rotation to A's center of rotation; the next field is its rate of change.
+    rotation_center_b_to_a: DVec3,
+    center_offset_rate: DVec3,
+    /// The sum of the bodies' greatest distances from their centers of rotation.
     radius_sum: f64,
 }
 
@@ -109,17 +109,17 @@ impl LinearizedMotions {
             placement,
             velocity_map_a: rate_a,
             velocity_map_b: rate_b,
-            rotation_centre_b_to_a: exactly.centre_offset.midpoint(),
-            centre_offset_rate: exactly.velocity.midpoint(),
-            radius_sum: a.max_distance_from_centre + b.max_distance_from_centre,
+            rotation_center_b_to_a: exactly.center_offset.midpoint(),
+            center_offset_rate: exactly.velocity.midpoint(),
+            radius_sum: a.max_distance_from_center + b.max_distance_from_center,
         }
     }
 
-    /// Returns true if the bodies stay apart whatever their rotation, because their centres are far from each other.
+    /// Returns true if the bodies stay apart whatever their rotation, because their centers are far from each other.
     pub(super) fn are_bodies_far_apart(&self) -> bool {
         let (d, w) = (
-            self.rotation_centre_b_to_a,
-            self.half_duration * self.centre_offset_rate,
+            self.rotation_center_b_to_a,
+            self.half_duration * self.center_offset_rate,
         );
         // The point of the segment from d − w to d + w that is nearest to 0.
         let s = (-d.dot(w) / w.length_squared()).clamp(-1.0, 1.0);
@@ -133,9 +133,9 @@ impl LinearizedMotions {
     /// Returns a bound on the relative displacement of two boxes; `None` if one of their six face normals separates them
     /// over the whole interval.
     pub(super) fn travel_bound_unless_apart(&self, a: &Node, b: &Node) -> Option<f64> {
-        let apart = self.placement.apply(a.box_centre) - b.box_centre;
+        let apart = self.placement.apply(a.box_center) - b.box_center;
         let moved = self.half_duration
-            * (self.velocity_map_a.apply(a.box_centre) - self.velocity_map_b.apply(b.box_centre));
+            * (self.velocity_map_a.apply(a.box_center) - self.velocity_map_b.apply(b.box_center));
         let gaps_b = self
             .extent_matrices_along_b
             .axis_gap_lower_bounds(apart, moved, a, b);
@@ -156,7 +156,7 @@ impl LinearizedMotions {
 
     /// Returns a lower bound of the distance of two boxes at the middle time; it does not hold over the interval.
     pub(super) fn box_distance_lower_bound(&self, a: &Node, b: &Node) -> f64 {
-        let apart = self.placement.apply(a.box_centre) - b.box_centre;
+        let apart = self.placement.apply(a.box_center) - b.box_center;
         let none = DVec3::ZERO;
         let gaps_b = self
             .extent_matrices_along_b
@@ -249,7 +249,7 @@ pub(super) struct IntervalMaps {
     pub(super) placement: (IntervalMatrix, IntervalVector),
     velocity_map_a: (IntervalMatrix, IntervalVector),
     velocity_map_b: (IntervalMatrix, IntervalVector),
-    centre_offset: IntervalVector,
+    center_offset: IntervalVector,
     velocity: IntervalVector,
 }
 
@@ -258,19 +258,19 @@ impl IntervalMaps {
         let (at_a, at_b) = (a.placement_at(time), b.placement_at(time));
         let back = at_b.rotation.transpose();
         let rotation = &back * &at_a.rotation;
-        let centres = &back * &(at_a.centre - at_b.centre);
+        let centers = &back * &(at_a.center - at_b.center);
         // a = R (p − c_a) + (C_a − C_b) + c_b
-        let offset = centres - &rotation * &a.centre + b.centre;
+        let offset = centers - &rotation * &a.center + b.center;
         let velocity = &back * &(a.velocity - b.velocity);
         // ȧ = v + ω_a × R (p − c_a), ḃ = ω_b × (q − c_b); the constant of B is moved to A's side.
         let swirl_a = &(&back * &a.spin).cross_matrix() * &rotation;
         let swirl_b = (&back * &b.spin).cross_matrix();
-        let drift = velocity - &swirl_a * &a.centre + &swirl_b * &b.centre;
+        let drift = velocity - &swirl_a * &a.center + &swirl_b * &b.center;
         IntervalMaps {
             placement: (rotation, offset),
             velocity_map_a: (swirl_a, drift),
             velocity_map_b: (swirl_b, IntervalVector([point_interval(0.0); 3])),
-            centre_offset: centres,
+            center_offset: centers,
             velocity,
         }
     }

@@ -18,7 +18,7 @@ pub(super) type Triangle = [DVec3; 3];
 /// A node of the tree: a box around some triangles, with its two children or its single triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    pub(super) box_centre: DVec3,
+    pub(super) box_center: DVec3,
     /// Half the extents of the box, rounded so that it contains all its triangles.
     pub(super) half_extents: DVec3,
     /// Half the diagonal of the box.
@@ -75,11 +75,11 @@ impl Surface {
         let root = self
             .nodes
             .first()
-            .map(|node| (node.box_centre, node.half_extents));
-        root.into_iter().flat_map(|(centre, half)| {
+            .map(|node| (node.box_center, node.half_extents));
+        root.into_iter().flat_map(|(center, half)| {
             (0..8).map(move |corner| {
                 let side = |bit| if corner & bit == 0 { -1.0 } else { 1.0 };
-                centre + half * DVec3::new(side(1), side(2), side(4))
+                center + half * DVec3::new(side(1), side(2), side(4))
             })
         })
     }
@@ -120,10 +120,10 @@ impl Surface {
             low = low.min(corner);
             high = high.max(corner);
         }
-        let centre = low.midpoint(high);
-        let half = (high - centre).max(centre - low) * ROUND_UP_FACTOR;
+        let center = low.midpoint(high);
+        let half = (high - center).max(center - low) * ROUND_UP_FACTOR;
         Node {
-            box_centre: centre,
+            box_center: center,
             half_extents: half,
             half_diagonal: half.length(),
             content: NodeContent::Triangle(0),

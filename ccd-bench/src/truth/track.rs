@@ -10,9 +10,9 @@ use ccd_core::glam::{DMat3, DVec3};
 /// The motion of a body in intervals: x(t) = c₀ + v t + R(ω t) R₀ (p − c).
 #[derive(Clone, Debug)]
 pub(super) struct EnclosedMotion {
-    /// The centre of rotation c, in the body's frame.
-    pub(super) centre: IntervalVector,
-    /// The velocity v of the centre, in the world frame.
+    /// The center of rotation c, in the body's frame.
+    pub(super) center: IntervalVector,
+    /// The velocity v of the center, in the world frame.
     pub(super) velocity: IntervalVector,
     /// The angular velocity ω, in the world frame.
     pub(super) spin: IntervalVector,
@@ -20,44 +20,44 @@ pub(super) struct EnclosedMotion {
     spin_floats: DVec3,
     /// The orientation R₀ at the start.
     orientation: IntervalMatrix,
-    /// The position c₀ of the centre at the start, in the world frame.
-    start_centre: IntervalVector,
-    /// An upper bound of the distance of the body's points from the centre c.
-    pub(super) max_distance_from_centre: f64,
+    /// The position c₀ of the center at the start, in the world frame.
+    start_center: IntervalVector,
+    /// An upper bound of the distance of the body's points from the center c.
+    pub(super) max_distance_from_center: f64,
     /// An upper bound |ω|²ρ of the acceleration of the point that is farthest from the axis, at distance ρ.
     pub(super) max_acceleration: f64,
 }
 
-/// The placement of a body at an instant: x = `centre` + `rotation` (p − c).
+/// The placement of a body at an instant: x = `center` + `rotation` (p − c).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placement {
     pub(super) rotation: IntervalMatrix,
-    pub(super) centre: IntervalVector,
+    pub(super) center: IntervalVector,
 }
 
 impl EnclosedMotion {
     pub(super) fn new(motion: &Motion, surface: &Surface) -> Self {
         let start = motion.start();
         let orientation = IntervalMatrix::from_quaternion(start.rotation());
-        let centre = IntervalVector::from(motion.centre());
+        let center = IntervalVector::from(motion.center());
         let mut track = EnclosedMotion {
-            centre,
+            center,
             velocity: IntervalVector::from(motion.velocity()),
-            spin: IntervalVector::from(motion.spin()),
-            spin_floats: motion.spin(),
-            start_centre: IntervalVector::from(start.translation()) + &orientation * &centre,
+            spin: IntervalVector::from(motion.angular_velocity()),
+            spin_floats: motion.angular_velocity(),
+            start_center: IntervalVector::from(start.translation()) + &orientation * &center,
             orientation,
-            max_distance_from_centre: 0.0,
+            max_distance_from_center: 0.0,
             max_acceleration: 0.0,
         };
         // The axis is fixed in the body's frame. The distance from it is convex there, so it is
         // largest at a corner of the box around the body.
-        let axis = DMat3::from_quat(start.rotation()).transpose() * motion.spin();
-        let rate = motion.spin().length();
+        let axis = DMat3::from_quat(start.rotation()).transpose() * motion.angular_velocity();
+        let rate = motion.angular_velocity().length();
         for corner in surface.box_corners() {
-            let arm = corner - motion.centre();
-            track.max_distance_from_centre = nan_propagating_max(
-                track.max_distance_from_centre,
+            let arm = corner - motion.center();
+            track.max_distance_from_center = nan_propagating_max(
+                track.max_distance_from_center,
                 arm.length() * ROUND_UP_FACTOR,
             );
             // The sum covers the rounding of the cross product, which is relative to its factors.
@@ -71,7 +71,7 @@ impl EnclosedMotion {
     pub(super) fn placement_at(&self, time: f64) -> Placement {
         Placement {
             rotation: &IntervalMatrix::rotation_after(self.spin_floats, time) * &self.orientation,
-            centre: self.start_centre + self.velocity.scaled(point_interval(time)),
+            center: self.start_center + self.velocity.scaled(point_interval(time)),
         }
     }
 }

@@ -86,13 +86,13 @@ fn nearest_points_of_segments([p, p_end]: [DVec3; 2], [q, q_end]: [DVec3; 2]) ->
     let (u, v, r) = (p_end - p, q_end - q, p - q);
     let (uu, vv, uv) = (u.length_squared(), v.length_squared(), u.dot(v));
     let (ur, vr) = (u.dot(r), v.dot(r));
-    let share = |x: f64| if x.is_nan() { 0.0 } else { x.clamp(0.0, 1.0) };
-    let s = share((uv * vr - vv * ur) / (uu * vv - uv * uv));
+    let fraction = |x: f64| if x.is_nan() { 0.0 } else { x.clamp(0.0, 1.0) };
+    let s = fraction((uv * vr - vv * ur) / (uu * vv - uv * uv));
     // Each parameter is the best for the other one fixed. A second round corrects the effect of clamping the
     // first.
-    let t = share((uv * s + vr) / vv);
-    let s = share((uv * t - ur) / uu);
-    let t = share((uv * s + vr) / vv);
+    let t = fraction((uv * s + vr) / vv);
+    let s = fraction((uv * t - ur) / uu);
+    let t = fraction((uv * s + vr) / vv);
     (p + s * u, q + t * v)
 }
 

@@ -63,10 +63,10 @@ impl Hierarchy {
         }
     }
 
-    /// Builds a hierarchy by recursive splits at the median of the pieces' centres, along the longest side of their
+    /// Builds a hierarchy by recursive splits at the median of the pieces' centers, along the longest side of their
     /// box.
     pub fn median_split(pieces: &Pieces) -> Self {
-        let centres: Vec<DVec3> = pieces
+        let centers: Vec<DVec3> = pieces
             .iter()
             .map(|piece| {
                 let (lo, hi) = bounding_box(piece.points.iter().copied());
@@ -82,11 +82,11 @@ impl Hierarchy {
                 nodes[node] = HierarchyNode::Leaf(*piece);
                 continue;
             }
-            let (lo, hi) = bounding_box(range.iter().map(|&k| centres[k as usize]));
+            let (lo, hi) = bounding_box(range.iter().map(|&k| centers[k as usize]));
             let axis = (hi - lo).max_position();
             let half = range.len() / 2;
             range.select_nth_unstable_by(half, |&a, &b| {
-                centres[a as usize][axis].total_cmp(&centres[b as usize][axis])
+                centers[a as usize][axis].total_cmp(&centers[b as usize][axis])
             });
             let left = nodes.len();
             nodes.extend([HierarchyNode::Leaf(0); 2]);

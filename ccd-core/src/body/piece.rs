@@ -134,7 +134,7 @@ impl<'a> Piece<'a> {
         self.points[self.extremal_point(direction) as usize]
     }
 
-    /// Returns the centre and radius of a ball around the points; `None` if no search structure stores one.
+    /// Returns the center and radius of a ball around the points; `None` if no search structure stores one.
     #[inline]
     pub(crate) fn bounding_ball(&self) -> Option<(DVec3, f64)> {
         self.support_map.and_then(SupportMap::bounding_ball)

@@ -36,7 +36,7 @@ impl Body {
         })
     }
 
-    /// Creates a solid box with its centre at the origin, given by half of each side's length.
+    /// Creates a solid box with its center at the origin, given by half of each side's length.
     ///
     /// Corner `k` has a positive x, y, z if bit 0, 1, 2 of `k` is set. Faces 0 to 5 have the
     /// outward normals −x, +x, −y, +y, −z, +z.

@@ -11,7 +11,7 @@ use crate::rounding::{LEAST_POSITIVE_F64, POLYGON_ENLARGEMENT};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// A cylinder or a cone along z, with its centre at the origin.
+/// A cylinder or a cone along z, with its center at the origin.
 ///
 /// A circle is not the hull of finitely many points. The body is therefore a polytope about the shape, an
 /// [`EnclosingPolytope`].

@@ -79,7 +79,7 @@ impl SupportMap {
         }
     }
 
-    /// Returns the centre and radius of a ball around the points, if one is stored.
+    /// Returns the center and radius of a ball around the points, if one is stored.
     #[inline]
     pub(crate) fn bounding_ball(&self) -> Option<(DVec3, f64)> {
         match self {

@@ -111,15 +111,15 @@ impl Tree {
         self.max_distance_from_origin
     }
 
-    /// Returns the centre and radius of a ball around all pieces, in the body's frame.
+    /// Returns the center and radius of a ball around all pieces, in the body's frame.
     pub(crate) fn bounding_ball(&self) -> (DVec3, f64) {
-        (self.nodes[0].centre, f64::from(self.nodes[0].radius))
+        (self.nodes[0].center, f64::from(self.nodes[0].radius))
     }
 
     /// Returns an upper bound of the distances of all points of the body from a point, by the ball around all pieces.
     pub(crate) fn max_distance_from(&self, point: DVec3) -> f64 {
-        let (centre, radius) = self.bounding_ball();
-        centre.distance(point) * (1.0 + f64::EPSILON) + radius
+        let (center, radius) = self.bounding_ball();
+        center.distance(point) * (1.0 + f64::EPSILON) + radius
     }
 
     /// Returns the radius of the ball around all pieces.

@@ -78,7 +78,7 @@ fn child_ids(tree: &Tree, at: NodeId) -> std::ops::Range<NodeId> {
 
 /// The bounding volume of a node or triangle, in A's frame: a ball, with a box or the triangle itself.
 struct BoundingVolume {
-    centre: DVec3,
+    center: DVec3,
     radius: f64,
     /// The candidates for a separating axis: the axes of the box, or the normal of the triangle.
     axes: [DVec3; 3],
@@ -99,7 +99,7 @@ impl BoundingVolume {
                 // Axes rounded to f32 are not exactly orthonormal.
                 let more = f64::from(node.rounding_radius) + RAY_BOX_WIDENING_F64 * radius;
                 BoundingVolume {
-                    centre: to_a.transform_point(node.centre),
+                    center: to_a.transform_point(node.center),
                     radius,
                     axes: node.axes.map(|axis| to_a.rotation * axis.as_dvec3()),
                     shape: BoxOrTriangle::Box(node.half_extents.map(|half| f64::from(half) + more)),
@@ -108,10 +108,10 @@ impl BoundingVolume {
             NodeOrTriangle::Triangle(piece) => {
                 let corners = side.body.pieces().triangle(piece as usize);
                 let corners = corners.map(|corner| to_a.transform_point(corner));
-                let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-                let arm = |corner: DVec3| corner.distance(centre);
+                let center = (corners[0] + corners[1] + corners[2]) / 3.0;
+                let arm = |corner: DVec3| corner.distance(center);
                 BoundingVolume {
-                    centre,
+                    center,
                     radius: corners.map(arm).into_iter().fold(0.0, greater),
                     axes: [normal(corners).unwrap_or(DVec3::ZERO); 3],
                     shape: BoxOrTriangle::Triangle(corners),
@@ -125,7 +125,7 @@ impl BoundingVolume {
         match &self.shape {
             BoxOrTriangle::Box(half) => {
                 let reach = |k: usize| half[k] * self.axes[k].dot(n).abs();
-                let (middle, reach) = (self.centre.dot(n), reach(0) + reach(1) + reach(2));
+                let (middle, reach) = (self.center.dot(n), reach(0) + reach(1) + reach(2));
                 [middle - reach, middle + reach]
             }
             BoxOrTriangle::Triangle(corners) => {
@@ -137,9 +137,9 @@ impl BoundingVolume {
 }
 
 /// Returns whether two nodes are certainly farther apart than `reach`. It tries their balls, the axes of both nodes,
-/// and the vector between their centres. Written so that NaN counts as near.
+/// and the vector between their centers. Written so that NaN counts as near.
 fn are_certainly_apart([a, b]: &[BoundingVolume; 2], reach: f64) -> bool {
-    let way = b.centre - a.centre;
+    let way = b.center - a.center;
     let distance = length(way);
     if distance > a.radius + b.radius + reach {
         return true;

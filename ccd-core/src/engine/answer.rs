@@ -99,7 +99,7 @@ pub(crate) fn run_metered<O: DistanceOracle, T>(
 
 /// A schedule that answers queries in normalised units.
 pub(crate) trait EngineSchedule<O: DistanceOracle> {
-    /// Returns whether the schedule handles accelerations of the bodies' centres. Otherwise they count as deviations
+    /// Returns whether the schedule handles accelerations of the bodies' centers. Otherwise they count as deviations
     /// from a straight path.
     fn handles_accelerations(&self) -> bool;
 

@@ -70,7 +70,7 @@ impl PeriodicSearch {
         let tolerance = problem.tolerance;
         let bodies = [&problem.a, &problem.b].map(path_with_radius);
         let [a, b] = bodies.map(|PathWithRadius { path, reach }| {
-            let way = length(path.centre_at(0.0)) + path.speed_bound();
+            let way = length(path.center_at(0.0)) + path.speed_bound();
             position_rounding(reach, path.angular_speed, way)
         });
         let rounding = a + b;
@@ -298,7 +298,7 @@ fn widen_distance_bounds(contact: Contact, rounding: f64) -> Contact {
 fn path_with_radius<'p>(side: &'p BodyWithPath<'_>) -> PathWithRadius<'p> {
     PathWithRadius {
         path: &side.path,
-        reach: side.body.tree().max_distance_from(side.path.centre),
+        reach: side.body.tree().max_distance_from(side.path.center),
     }
 }
 

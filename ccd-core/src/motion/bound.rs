@@ -8,12 +8,12 @@ use crate::math::order::greater;
 use crate::math::vector::length;
 use glam::DVec3;
 
-/// The constant velocity of a centre, and the constant angular velocity about it.
+/// The constant velocity of a center, and the constant angular velocity about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Velocities {
-    /// The velocity of the centre of rotation.
+    /// The velocity of the center of rotation.
     pub(crate) linear_velocity: DVec3,
-    /// The angular velocity about the centre, in radians per unit of time.
+    /// The angular velocity about the center, in radians per unit of time.
     pub(crate) spin: DVec3,
 }
 
@@ -29,7 +29,7 @@ pub enum VelocityBound {
     Sound,
 }
 
-/// Returns `maxᵢ (n×ω)·rᵢ + |v·n|`, the fastest velocity along `n` at this instant over the arms `rᵢ` from the centre.
+/// Returns `maxᵢ (n×ω)·rᵢ + |v·n|`, the fastest velocity along `n` at this instant over the arms `rᵢ` from the center.
 /// `farthest` returns the arm that is farthest along a direction `[FAST06 §4.2 Eq. 5]`.
 ///
 /// The bound is **unsound over a step**: the arms turn with the body. It is for comparison only.

@@ -8,7 +8,7 @@ pub(crate) trait MotionKind: Copy {
     const SPLIT_BODY: Turning;
     /// Whether the other body turns.
     const OTHER_BODY: Turning;
-    /// Whether one centre may accelerate relative to the other.
+    /// Whether one center may accelerate relative to the other.
     const MAY_ACCELERATE: bool = false;
     /// Whether the bodies stand still in their poses. Gaps then count as closing at one unit of length per unit of
     /// time, so that free times are distances.

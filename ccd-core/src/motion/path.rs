@@ -10,8 +10,8 @@ use crate::math::vector::{length, unit};
 use crate::rounding::LEAST_ROTATION;
 use glam::{DMat3, DVec3};
 
-/// A motion in a problem's units, with the rotation `R(s) = cos(ω s) A + sin(ω s) B + C` about a centre at `start + s ·
-/// velocity` `[FAST06 §4.1]`. On a stretch of a trajectory the centre is displaced by `s²/2 · acceleration` as well.
+/// A motion in a problem's units, with the rotation `R(s) = cos(ω s) A + sin(ω s) B + C` about a center at `start + s ·
+/// velocity` `[FAST06 §4.1]`. On a stretch of a trajectory the center is displaced by `s²/2 · acceleration` as well.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Path {
     /// The coefficient of the cosine, `A = R₀ − C`.
@@ -20,13 +20,13 @@ pub(crate) struct Path {
     sine_coefficient: DMat3,
     /// The constant part, `C = u uᵀ R₀`.
     constant_part: DMat3,
-    /// The centre of rotation, in the body's frame.
-    pub(crate) centre: DVec3,
-    /// The centre's position at `s = 0`.
+    /// The center of rotation, in the body's frame.
+    pub(crate) center: DVec3,
+    /// The center's position at `s = 0`.
     start_position: DVec3,
-    /// The centre's velocity at `s = 0`, per unit of `s`.
+    /// The center's velocity at `s = 0`, per unit of `s`.
     pub(crate) velocity: DVec3,
-    /// The centre's acceleration, which is constant; zero except on stretches of trajectories.
+    /// The center's acceleration, which is constant; zero except on stretches of trajectories.
     pub(crate) acceleration: DVec3,
     /// The angular velocity per unit of `s`, in the world's frame.
     pub(crate) spin: DVec3,
@@ -41,7 +41,7 @@ pub(crate) struct Path {
 impl Path {
     pub(crate) fn new(motion: &Motion, origin: DVec3, duration: f64) -> Self {
         let start = Frame::from(motion.start());
-        let spin = motion.spin() * duration;
+        let spin = motion.angular_velocity() * duration;
         // A lesser rotation is lost in any rounding of positions, and that of a part of the path would underflow.
         let turns = length(spin) >= LEAST_ROTATION;
         let spin = if turns { spin } else { DVec3::ZERO };
@@ -60,8 +60,8 @@ impl Path {
             cosine_coefficient: cosine,
             sine_coefficient: sine,
             constant_part: constant,
-            centre: motion.centre(),
-            start_position: (start.translation - origin) + start.rotation * motion.centre(),
+            center: motion.center(),
+            start_position: (start.translation - origin) + start.rotation * motion.center(),
             velocity,
             acceleration: DVec3::ZERO,
             spin,
@@ -71,7 +71,7 @@ impl Path {
         }
     }
 
-    /// Sets the acceleration of the centre, per unit of `s` squared.
+    /// Sets the acceleration of the center, per unit of `s` squared.
     pub(crate) fn with_acceleration(self, acceleration: DVec3) -> Self {
         Path {
             acceleration,
@@ -87,8 +87,8 @@ impl Path {
         Path {
             cosine_coefficient: self.cosine_coefficient * cos + self.sine_coefficient * sin,
             sine_coefficient: self.sine_coefficient * cos - self.cosine_coefficient * sin,
-            start_position: self.centre_at(from),
-            velocity: self.centre_velocity_at(from) * time,
+            start_position: self.center_at(from),
+            velocity: self.center_velocity_at(from) * time,
             acceleration: self.acceleration * (time * time),
             spin: self.spin * time,
             local_angular_velocity: self.local_angular_velocity * time,
@@ -117,28 +117,28 @@ impl Path {
         };
         Frame {
             rotation,
-            translation: self.centre_at(s) - rotation * self.centre,
+            translation: self.center_at(s) - rotation * self.center,
         }
     }
 
     /// Returns the position of the body's point `x` at time 0.
     pub(crate) fn point_at_start(&self, x: DVec3) -> DVec3 {
-        self.start_position + (self.cosine_coefficient + self.constant_part) * (x - self.centre)
+        self.start_position + (self.cosine_coefficient + self.constant_part) * (x - self.center)
     }
 
-    /// Returns the position of the centre of rotation at `s`.
+    /// Returns the position of the center of rotation at `s`.
     #[inline(always)]
-    pub(crate) fn centre_at(&self, s: f64) -> DVec3 {
+    pub(crate) fn center_at(&self, s: f64) -> DVec3 {
         self.start_position + (self.velocity + self.acceleration * (0.5 * s)) * s
     }
 
-    /// Returns the velocity of the centre of rotation at `s`.
+    /// Returns the velocity of the center of rotation at `s`.
     #[inline(always)]
-    pub(crate) fn centre_velocity_at(&self, s: f64) -> DVec3 {
+    pub(crate) fn center_velocity_at(&self, s: f64) -> DVec3 {
         self.velocity + self.acceleration * s
     }
 
-    /// Returns an upper bound of the speed of the centre of rotation at any time.
+    /// Returns an upper bound of the speed of the center of rotation at any time.
     pub(crate) fn speed_bound(&self) -> f64 {
         length(self.velocity) + length(self.acceleration)
     }
@@ -146,10 +146,10 @@ impl Path {
     /// Returns the velocity at `s` of the body's point that is then at the position `x`.
     #[inline]
     pub(crate) fn velocity_at(&self, x: DVec3, s: f64) -> DVec3 {
-        self.centre_velocity_at(s) + self.spin.cross(x - self.centre_at(s))
+        self.center_velocity_at(s) + self.spin.cross(x - self.center_at(s))
     }
 
-    /// Returns the centre's velocity at `s = 0` and the angular velocity, per unit of `s`. An acceleration is not
+    /// Returns the center's velocity at `s = 0` and the angular velocity, per unit of `s`. An acceleration is not
     /// included.
     pub(crate) fn velocities(&self) -> Velocities {
         Velocities {
@@ -167,7 +167,7 @@ impl Path {
         let axis = unit(self.local_angular_velocity).unwrap_or(DVec3::ZERO);
         let squares = points
             .iter()
-            .map(|&x| axis.cross(x - self.centre).length_squared());
+            .map(|&x| axis.cross(x - self.center).length_squared());
         squares.fold(0.0, greater).sqrt()
     }
 

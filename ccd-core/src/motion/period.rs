@@ -2,7 +2,7 @@
 //!
 //! After a time `T`, a body that turns at a rate `ω` has its former orientation, turned by `ε = |ω T − 2π p|` for the
 //! nearest whole number of turns `p`; after `k` such times, turned by `k ε`. A point at a distance of at most `ρ`
-//! from the centre of rotation is then within `k ε ρ` of its former place, relative to the centre. The centre of one
+//! from the center of rotation is then within `k ε ρ` of its former place, relative to the center. The center of one
 //! body moves relative to the other's by at most `(|v| + |a|) k T` in that time, with `v` and `a` the difference of
 //! their velocities and accelerations, and times from 0 to 1. No distance of a point of one body from a point of the
 //! other changes by more than the sum, which is `k` times that of a period. A bound of all distances in one period
@@ -26,7 +26,7 @@ pub(crate) struct Period {
     pub(crate) max_distance_change: f64,
 }
 
-/// A body's path, with the largest distance of its points from the centre of rotation.
+/// A body's path, with the largest distance of its points from the center of rotation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PathWithRadius<'p> {
     pub(crate) path: &'p Path,

@@ -14,16 +14,16 @@ use glam::{DMat3, DVec3};
 #[derive(Clone, Debug)]
 pub(crate) struct RelativePath {
     motion_terms: RelativeMotionTerms,
-    /// The centre of rotation of the seeing body, in that body's frame.
-    centre: PaddedVec3,
-    other_rotation_centre: PaddedVec3,
+    /// The center of rotation of the seeing body, in that body's frame.
+    center: PaddedVec3,
+    other_rotation_center: PaddedVec3,
 }
 
 #[derive(Clone, Debug)]
 enum RelativeMotionTerms {
     AtMostOneTurns {
         rotation: RotatingQuantity<[PaddedVec3; 3]>,
-        /// The vector between the centres of rotation at `s = 0`, in the seeing body's frame over time.
+        /// The vector between the centers of rotation at `s = 0`, in the seeing body's frame over time.
         offset: RotatingQuantity<PaddedVec3>,
         offset_rate: RotatingQuantity<PaddedVec3>,
         acceleration: Option<RotatingQuantity<PaddedVec3>>,
@@ -53,11 +53,11 @@ struct RotatingQuantity<T> {
 pub(crate) struct RelativeState<L: Simd> {
     /// The rotation from the seen body's frame to the seeing body's.
     pub(crate) rotation: PackedMatrix<L>,
-    /// The vector from the seeing body's centre of rotation to the seen body's.
+    /// The vector from the seeing body's center of rotation to the seen body's.
     pub(crate) offset: PackedVector<L>,
-    /// The velocity of the seeing body's centre of rotation minus that of the seen body's.
+    /// The velocity of the seeing body's center of rotation minus that of the seen body's.
     pub(crate) velocity: PackedVector<L>,
-    /// The derivative of `velocity`; `None` if both centres accelerate equally.
+    /// The derivative of `velocity`; `None` if both centers accelerate equally.
     pub(crate) acceleration: Option<PackedVector<L>>,
     /// The angular velocity of the seen body.
     pub(crate) spin: PackedVector<L>,
@@ -66,7 +66,7 @@ pub(crate) struct RelativeState<L: Simd> {
 impl RelativePath {
     /// Prepares the motion of `other` in the frame of `own`.
     pub(crate) fn new(own: &Path, other: &Path) -> Self {
-        let offset = other.centre_at(0.0) - own.centre_at(0.0);
+        let offset = other.center_at(0.0) - own.center_at(0.0);
         let change = other.velocity - own.velocity;
         let acceleration = other.acceleration - own.acceleration;
         let acceleration = (acceleration != DVec3::ZERO).then_some(acceleration);
@@ -94,8 +94,8 @@ impl RelativePath {
         };
         RelativePath {
             motion_terms: seen,
-            centre: pad_vector(own.centre),
-            other_rotation_centre: pad_vector(other.centre),
+            center: pad_vector(own.center),
+            other_rotation_center: pad_vector(other.center),
         }
     }
 
@@ -158,16 +158,16 @@ impl RelativePath {
         }
     }
 
-    /// Returns the centre of rotation of the body in whose frame the motion is seen.
+    /// Returns the center of rotation of the body in whose frame the motion is seen.
     #[inline(always)]
-    pub(crate) fn rotation_centre<L: Simd>(&self, level: L) -> PackedVector<L> {
-        PackedVector::load(level, &self.centre)
+    pub(crate) fn rotation_center<L: Simd>(&self, level: L) -> PackedVector<L> {
+        PackedVector::load(level, &self.center)
     }
 
-    /// Returns the centre of rotation of the seen body, in its frame.
+    /// Returns the center of rotation of the seen body, in its frame.
     #[inline(always)]
-    pub(crate) fn other_rotation_centre<L: Simd>(&self, level: L) -> PackedVector<L> {
-        PackedVector::load(level, &self.other_rotation_centre)
+    pub(crate) fn other_rotation_center<L: Simd>(&self, level: L) -> PackedVector<L> {
+        PackedVector::load(level, &self.other_rotation_center)
     }
 }
 

@@ -28,15 +28,15 @@ fn between_passes_through_both_poses_and_never_turns_more_than_half() {
             )
             .unwrap()
         });
-        let centre = random_point_in_ball(&mut rng, 3.0);
+        let center = random_point_in_ball(&mut rng, 3.0);
         let duration = random_power_of_ten(&mut rng, -3.0, 3.0);
-        let motion = Motion::between(poses[0], poses[1], centre, duration).unwrap();
+        let motion = Motion::between(poses[0], poses[1], center, duration).unwrap();
         assert!(pose_distance(&motion.pose(0.0), &poses[0]) < 1e-13);
         assert!(pose_distance(&motion.pose(duration), &poses[1]) < 1e-13);
-        assert!(motion.spin().length() * duration <= PI * (1.0 + 1e-15));
-        // The centre moves on a straight line.
-        let half = motion.pose(0.5 * duration).transform_point(centre);
-        let ends = poses.map(|pose| pose.transform_point(centre));
+        assert!(motion.angular_velocity().length() * duration <= PI * (1.0 + 1e-15));
+        // The center moves on a straight line.
+        let half = motion.pose(0.5 * duration).transform_point(center);
+        let ends = poses.map(|pose| pose.transform_point(center));
         assert!(half.distance(0.5 * (ends[0] + ends[1])) < 1e-13);
     }
 }
@@ -55,11 +55,14 @@ fn half_turns_and_tiny_turns_keep_their_digits() {
                 "{angle}"
             );
             // The error of the turn is about the rounding of a unit quaternion, 2e-16.
-            assert!((motion.spin().length() - angle).abs() < 2e-15, "{angle}");
+            assert!(
+                (motion.angular_velocity().length() - angle).abs() < 2e-15,
+                "{angle}"
+            );
         }
         let pose = Pose::new(DVec3::ONE, start).unwrap();
         let still = Motion::between(pose, pose, DVec3::X, 1.0).unwrap();
-        assert!(still.spin().length() < 1e-15);
+        assert!(still.angular_velocity().length() < 1e-15);
     }
 }
 
@@ -70,7 +73,7 @@ fn half_a_turn_goes_about_the_axis_as_it_is_given() {
     let turn = |start: DQuat, end: DQuat| {
         let [start, end] = [start, end].map(|q| Pose::new(DVec3::ZERO, q).unwrap());
         let motion = Motion::between(start, end, DVec3::ZERO, 1.0);
-        motion.unwrap().spin()
+        motion.unwrap().angular_velocity()
     };
     for axis in [DVec3::X, DVec3::Y, DVec3::Z, -DVec3::X] {
         let half = DQuat::from_xyzw(axis.x, axis.y, axis.z, 0.0);
@@ -113,12 +116,12 @@ fn motions_that_are_not_finite_are_refused() {
         let mut vector = random_point_in_ball(&mut rng, 1.0);
         vector[rng.random_range(0..3)] = bad;
         let none = DVec3::ZERO;
-        for (what, velocity, spin, centre) in [
+        for (what, velocity, spin, center) in [
             ("velocity", vector, none, none),
             ("angular velocity", none, vector, none),
-            ("centre", none, none, vector),
+            ("center", none, none, vector),
         ] {
-            let made = Motion::about(Pose::IDENTITY, velocity, spin, centre);
+            let made = Motion::about(Pose::IDENTITY, velocity, spin, center);
             assert_eq!(made, Err(InputError::NotFinite { quantity: what }));
         }
         let between = Motion::between(Pose::IDENTITY, Pose::IDENTITY, none, bad);

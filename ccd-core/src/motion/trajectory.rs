@@ -30,14 +30,14 @@ use glam::DVec3;
 ///             false => Motion::still(at(from)?),
 ///         };
 ///         // A chord is off by at most an eighth of the square of its time, times the acceleration.
-///         let deviation_bound = DeviationBound { centre_deviation: time * time / 8.0 + 1e-15, max_deviation_angle: 0.0 };
+///         let deviation_bound = DeviationBound { center_deviation: time * time / 8.0 + 1e-15, max_deviation_angle: 0.0 };
 ///         Ok(Stretch { deviation_bound, ..Stretch::exact(motion) })
 ///     }
 /// }
 ///
 /// let stretch = Swing.stretch_between(1.0, 1.5)?;
 /// let middle = stretch.motion.pose(0.25).translation();
-/// assert!((middle.x - 1.25f64.cos()).abs() <= stretch.deviation_bound.centre_deviation);
+/// assert!((middle.x - 1.25f64.cos()).abs() <= stretch.deviation_bound.center_deviation);
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait Trajectory: Sync {
@@ -69,13 +69,13 @@ pub trait Trajectory: Sync {
     }
 }
 
-/// A motion that approximates a trajectory between two times, with an acceleration of the centre and a bound of the
+/// A motion that approximates a trajectory between two times, with an acceleration of the center and a bound of the
 /// deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
     /// The approximate motion; its time 0 is the start of the stretch.
     pub motion: Motion,
-    /// The constant acceleration of the motion's centre. After a time `t` it displaces all points by another
+    /// The constant acceleration of the motion's center. After a time `t` it displaces all points by another
     /// `acceleration · t²/2`.
     pub acceleration: DVec3,
     /// A bound of the trajectory's deviation from the accelerated motion.
@@ -107,8 +107,8 @@ impl Stretch {
     /// The trajectory may deviate from it.
     pub(crate) fn velocity_at(&self, x: DVec3, time: f64) -> DVec3 {
         let motion = &self.motion;
-        let arm = x - self.pose(time).transform_point(motion.centre());
-        motion.velocity() + time * self.acceleration + motion.spin().cross(arm)
+        let arm = x - self.pose(time).transform_point(motion.center());
+        motion.velocity() + time * self.acceleration + motion.angular_velocity().cross(arm)
     }
 
     /// Returns the stretch with its time 0 moved to `at`, up to rounding.
@@ -122,7 +122,7 @@ impl Stretch {
         let motion = &self.motion;
         let velocity = motion.velocity() + at * self.acceleration;
         Ok(Stretch {
-            motion: Motion::about(start, velocity, motion.spin(), motion.centre())?,
+            motion: Motion::about(start, velocity, motion.angular_velocity(), motion.center())?,
             ..*self
         })
     }
@@ -130,11 +130,11 @@ impl Stretch {
     /// Returns a bound of the rounding error of the pose when [`Stretch::with_time_origin`] moves the start by a time.
     pub(crate) fn rounding_of_moved_start(&self, time: f64) -> DeviationBound {
         let Stretch { motion, .. } = self;
-        let turned = length(motion.spin()) * time.abs();
+        let turned = length(motion.angular_velocity()) * time.abs();
         let speed = length(motion.velocity()) + length(self.acceleration) * time.abs();
-        let place = length(motion.start().translation()) + 2.0 * length(motion.centre());
+        let place = length(motion.start().translation()) + 2.0 * length(motion.center());
         DeviationBound {
-            centre_deviation: RETIMED_POSE_ERROR_F64 * (place + speed * time.abs()),
+            center_deviation: RETIMED_POSE_ERROR_F64 * (place + speed * time.abs()),
             max_deviation_angle: RETIMED_POSE_ERROR_F64 * (1.0 + turned),
         }
     }
@@ -143,9 +143,9 @@ impl Stretch {
 /// Bounds of the deviation between two motions of a body, in position and orientation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DeviationBound {
-    /// An upper bound of the distance between the centre's positions in both motions at the same time, in the scene's
+    /// An upper bound of the distance between the center's positions in both motions at the same time, in the scene's
     /// unit of length.
-    pub centre_deviation: f64,
+    pub center_deviation: f64,
     /// The largest angle between the two orientations, in radians.
     pub max_deviation_angle: f64,
 }
@@ -153,14 +153,14 @@ pub struct DeviationBound {
 impl DeviationBound {
     /// The deviation of a motion from itself, which is zero.
     pub const ZERO: DeviationBound = DeviationBound {
-        centre_deviation: 0.0,
+        center_deviation: 0.0,
         max_deviation_angle: 0.0,
     };
 
-    /// Returns a bound of the deviation of a point that is at most `reach` from the motion's centre.
+    /// Returns a bound of the deviation of a point that is at most `reach` from the motion's center.
     pub fn at_reach(&self, reach: f64) -> f64 {
         let DeviationBound {
-            centre_deviation: shift,
+            center_deviation: shift,
             max_deviation_angle: turn,
         } = *self;
         if turn > 0.0 {
@@ -180,7 +180,7 @@ impl std::ops::Add for DeviationBound {
 
     fn add(self, other: DeviationBound) -> DeviationBound {
         DeviationBound {
-            centre_deviation: self.centre_deviation + other.centre_deviation,
+            center_deviation: self.center_deviation + other.center_deviation,
             max_deviation_angle: self.max_deviation_angle + other.max_deviation_angle,
         }
     }
@@ -193,7 +193,7 @@ impl std::ops::Add for DeviationBound {
 /// most `∫ |ω(s) − ω(m)| ds ≤ α (t − m)²/2`: the rotation that takes one to the other turns at the
 /// difference of their angular velocities.
 ///
-/// If the linear acceleration of the middle is known as well, and a bound `j` of its rate of change, the centre
+/// If the linear acceleration of the middle is known as well, and a bound `j` of its rate of change, the center
 /// deviates by at most `j |t − m|³/6` from the motion with that acceleration. That shrinks faster with the time:
 /// bodies that pass each other closely take no more stretches than others do.
 ///
@@ -215,14 +215,14 @@ impl std::ops::Add for DeviationBound {
 /// }
 ///
 /// let stretch = Swing.stretch_between(1.0, 1.5)?;
-/// let DeviationBound { centre_deviation, max_deviation_angle } = stretch.deviation_bound;
-/// assert!(centre_deviation > 0.03 && centre_deviation < 0.04 && max_deviation_angle < 1e-13);
+/// let DeviationBound { center_deviation, max_deviation_angle } = stretch.deviation_bound;
+/// assert!(center_deviation > 0.03 && center_deviation < 0.04 && max_deviation_angle < 1e-13);
 /// # Ok::<(), InputError>(())
 /// ```
 pub trait SmoothTrajectory: Sync {
     /// Returns the motion with the trajectory's pose and velocities at a time, which is the motion's time 0.
     ///
-    /// The linear velocity is that of the motion's [centre](Motion::centre).
+    /// The linear velocity is that of the motion's [center](Motion::center).
     ///
     /// # Errors
     /// An [`InputError`] if there is no pose at that time.
@@ -231,7 +231,7 @@ pub trait SmoothTrajectory: Sync {
     /// Returns upper bounds of the magnitudes of the accelerations between two times.
     fn acceleration_bounds(&self, from: f64, to: f64) -> AccelerationBounds;
 
-    /// Returns the tangent motion at a time, with the acceleration of its centre and a bound of the acceleration's
+    /// Returns the tangent motion at a time, with the acceleration of its center and a bound of the acceleration's
     /// derivative between two times. The acceleration is `None` if it is unknown or its derivative is unbounded.
     ///
     /// # Errors
@@ -264,7 +264,7 @@ pub trait SmoothTrajectory: Sync {
 /// Upper bounds of the magnitudes of a trajectory's accelerations, per unit of time squared.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AccelerationBounds {
-    /// A bound of the acceleration of the body's centre, the point whose velocity `tangent_motion` gives, in the
+    /// A bound of the acceleration of the body's center, the point whose velocity `tangent_motion` gives, in the
     /// scene's unit of length.
     pub linear_acceleration: f64,
     /// A bound of the angular acceleration in radians, which is the derivative of the angular velocity.
@@ -281,7 +281,7 @@ pub struct Acceleration {
 }
 
 impl Acceleration {
-    /// Returns a bound of the centre's deviation after a time from the motion with this constant acceleration.
+    /// Returns a bound of the center's deviation after a time from the motion with this constant acceleration.
     fn deviation_bound_after(self, time: f64) -> f64 {
         // The vector, the time and the products are rounded.
         let rounding = RETIMED_POSE_ERROR_F64 * (time * (time * length(self.acceleration_vector)));
@@ -298,7 +298,7 @@ impl AccelerationBounds {
             0.5 * (time * (time * acceleration)) * (1.0 + RETIMED_POSE_ERROR_F64)
         };
         DeviationBound {
-            centre_deviation: deviation(self.linear_acceleration),
+            center_deviation: deviation(self.linear_acceleration),
             max_deviation_angle: deviation(self.angular_acceleration),
         }
     }
@@ -319,10 +319,10 @@ impl<S: SmoothTrajectory + ?Sized> Trajectory for S {
                 .deviation_bound_after(half);
             if let Some(acceleration) = acceleration
                 && acceleration.deviation_bound_after(half)
-                    < tangent.deviation_bound.centre_deviation
+                    < tangent.deviation_bound.center_deviation
             {
                 tangent.acceleration = acceleration.acceleration_vector;
-                tangent.deviation_bound.centre_deviation = acceleration.deviation_bound_after(half);
+                tangent.deviation_bound.center_deviation = acceleration.deviation_bound_after(half);
             }
         }
         let stretch = tangent.with_time_origin(-before)?;

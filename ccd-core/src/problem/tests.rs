@@ -77,13 +77,13 @@ fn coordinates_are_accepted_up_to_one_limit_and_refused_beyond() {
     let pose = |at: f64| Pose::at(at * DVec3::Z).unwrap();
     let refusal = |motion| assert_refused(problem_tolerance(motion, 1.0, &config));
     let good = |motion| problem_tolerance(motion, 1.0, &config).is_ok();
-    let about = |start, centre| Motion::about(start, DVec3::ZERO, DVec3::Y, centre).unwrap();
+    let about = |start, center| Motion::about(start, DVec3::ZERO, DVec3::Y, center).unwrap();
     for sign in [1.0, -1.0] {
         let (most, beyond) = (sign * MAX_COORDINATE, sign * 1e13);
         assert!(good(Motion::still(pose(most))));
         assert_eq!(refusal(Motion::still(pose(beyond))), "position");
         assert!(good(about(Pose::IDENTITY, most * DVec3::X)));
-        assert_eq!(refusal(about(Pose::IDENTITY, beyond * DVec3::X)), "centre");
+        assert_eq!(refusal(about(Pose::IDENTITY, beyond * DVec3::X)), "center");
         // The coordinates are also out of range if they cancel.
         let cancelled = about(pose(beyond), -beyond * DVec3::Z);
         assert_eq!(refusal(cancelled), "position");

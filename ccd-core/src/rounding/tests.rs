@@ -20,7 +20,7 @@ use crate::tests::scene::{
     Pcg64, RngExt, SoupKind, body, random_direction, random_point_in_ball, random_power_of_ten,
     random_rotation, random_triangle_soup, rng,
 };
-use crate::tests::worst::error_share;
+use crate::tests::worst::error_fraction;
 use crate::{Body, Pose};
 use glam::DVec3;
 
@@ -52,7 +52,8 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
         let motions = [(); 2].map(|()| random_motion(&mut rng, world, size, duration));
         worst.far_problem_count +=
             usize::from(far > 1e5 || bodies[0].tree().max_distance_from_origin() > 1e5);
-        worst.turning_problem_count += usize::from(motions[0].spin().length() * duration > 100.0);
+        worst.turning_problem_count +=
+            usize::from(motions[0].angular_velocity().length() * duration > 100.0);
         let moving = |k: usize| MovingBody::from((&bodies[k], motions[k]));
         let problem =
             Problem::of_moving_bodies(moving(0), moving(1), duration, &Settings::DEFAULT).unwrap();
@@ -188,7 +189,7 @@ fn error_shares(
             let off = (DoubleDouble3::from(frames[k].transform_point(p)) - exact).length();
             shares.position_error_share = greater(
                 shares.position_error_share,
-                error_share(off.get(), problem.rounding),
+                error_fraction(off.get(), problem.rounding),
             );
         }
     }
@@ -222,11 +223,11 @@ fn error_shares(
         .unwrap();
     let gap = (lowest - highest).get();
     let rounded = checked.lower + problem.rounding;
-    shares.gap = error_share((rounded - gap).abs(), problem.rounding);
+    shares.gap = error_fraction((rounded - gap).abs(), problem.rounding);
     let distance = (exact[1][j as usize] - exact[0][i as usize]).length();
     let rounded = DoubleDouble::from(checked.upper - problem.rounding);
     let off = (rounded - distance).get().abs();
-    shares.distance = error_share(off, problem.rounding);
+    shares.distance = error_fraction(off, problem.rounding);
     shares
 }
 

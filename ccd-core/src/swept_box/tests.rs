@@ -56,7 +56,7 @@ fn points_stay_in_their_box() {
             tightest = lesser(tightest, excess);
             // In the worst case the box is about a ball.
             let whole = scene.bodies[k].tree().body_box();
-            let ball = distance(whole.centre, path.centre) + whole.radius;
+            let ball = distance(whole.center, path.center) + whole.radius;
             let worst = path.velocity.abs() + 2.0 * (ball + box_growth_of(&scene, k));
             // Coordinates are rounded at their position.
             let rounding = 4.0 * f64::EPSILON * (swept.max.abs() + swept.min.abs());
@@ -135,8 +135,13 @@ fn bodies_whose_boxes_are_apart_are_free() {
         let motion = scene.motions[1];
         let start = motion.start();
         let start = Pose::new(start.translation() + way, start.rotation()).unwrap();
-        scene.motions[1] =
-            Motion::about(start, motion.velocity(), motion.spin(), motion.centre()).unwrap();
+        scene.motions[1] = Motion::about(
+            start,
+            motion.velocity(),
+            motion.angular_velocity(),
+            motion.center(),
+        )
+        .unwrap();
         let [a, b] = swept_boxes(&scene);
         let outcome = BestFirst::default()
             .answer_first_contact(&scene.problem(), &mut ExhaustiveOracle)
@@ -167,8 +172,8 @@ fn the_shares_of_two_bodies_are_no_less_than_the_rounding_of_their_distance() {
             .zip(&scene.motions)
             .map(|(side, motion)| {
                 let path = Path::new(motion, DVec3::ZERO, 1.0);
-                let way = length(path.centre_at(0.0)) + path.speed_bound() + scene.settings.margin;
-                body_distance_rounding(side.extent_with_centre(), path.angular_speed, way)
+                let way = length(path.center_at(0.0)) + path.speed_bound() + scene.settings.margin;
+                body_distance_rounding(side.extent_with_center(), path.angular_speed, way)
             })
             .sum();
         assert!(shares * (1.0 + 1e-12) >= problem.rounding);

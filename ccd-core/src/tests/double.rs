@@ -218,10 +218,10 @@ impl Sub for DoubleDouble3 {
 /// Returns the world position of a body's point at time `s · duration`, by the formula of [`Motion`] term by term.
 pub(crate) fn place(motion: &Motion, duration: f64, s: f64, point: DVec3) -> DoubleDouble3 {
     let time = DoubleDouble::from(duration) * DoubleDouble::from(s);
-    let centre = DoubleDouble3::from(motion.centre());
+    let center = DoubleDouble3::from(motion.center());
     let start = DoubleDouble3::from(motion.start().translation())
-        + centre.rotated(motion.start().rotation());
-    let arm = to_world_vector(motion, duration, s, DoubleDouble3::from(point) - centre);
+        + center.rotated(motion.start().rotation());
+    let arm = to_world_vector(motion, duration, s, DoubleDouble3::from(point) - center);
     start + DoubleDouble3::from(motion.velocity()).scale(time) + arm
 }
 
@@ -229,10 +229,10 @@ pub(crate) fn place(motion: &Motion, duration: f64, s: f64, point: DVec3) -> Dou
 fn to_world_vector(motion: &Motion, duration: f64, s: f64, vector: DoubleDouble3) -> DoubleDouble3 {
     let time = DoubleDouble::from(duration) * DoubleDouble::from(s);
     let vector = vector.rotated(motion.start().rotation());
-    if motion.spin() == DVec3::ZERO {
+    if motion.angular_velocity() == DVec3::ZERO {
         return vector;
     }
-    let spin = DoubleDouble3::from(motion.spin());
+    let spin = DoubleDouble3::from(motion.angular_velocity());
     vector.turned(spin.unit(), spin.length() * time)
 }
 
@@ -241,17 +241,17 @@ fn to_world_vector(motion: &Motion, duration: f64, s: f64, vector: DoubleDouble3
 pub(crate) struct EndPoses {
     pub(crate) positions: [DVec3; 2],
     pub(crate) turned: [DQuat; 2],
-    /// The centre of rotation in the body's frame, which moves on a straight line.
-    pub(crate) centre: DVec3,
+    /// The center of rotation in the body's frame, which moves on a straight line.
+    pub(crate) center: DVec3,
 }
 
 impl EndPoses {
     /// Returns the exact world position of a body's point after the share `share` of the duration.
     pub(crate) fn place(&self, share: DoubleDouble, point: DVec3) -> DoubleDouble3 {
-        let centre = DoubleDouble3::from(self.centre);
+        let center = DoubleDouble3::from(self.center);
         let [start, end] =
-            [0, 1].map(|k| DoubleDouble3::from(self.positions[k]) + centre.rotated(self.turned[k]));
-        let arm = (DoubleDouble3::from(point) - centre).rotated(self.turned[0]);
+            [0, 1].map(|k| DoubleDouble3::from(self.positions[k]) + center.rotated(self.turned[k]));
+        let arm = (DoubleDouble3::from(point) - center).rotated(self.turned[0]);
         let ([x, y, z], w) = self.rotation_from_start_to_end();
         let axis = DoubleDouble3([x, y, z]);
         let sine = axis.length();

@@ -32,20 +32,20 @@ pub(crate) fn ends<R: RngExt>(rng: &mut R, world: DVec3, size: f64) -> EndPoses 
     EndPoses {
         positions: [at(rng), at(rng)],
         turned: [start, end],
-        centre: [DVec3::ZERO, random_point_in_ball(rng, off)][rng.random_range(0..2)],
+        center: [DVec3::ZERO, random_point_in_ball(rng, off)][rng.random_range(0..2)],
     }
 }
 
 /// Creates the motion between two poses that the engine searches, with velocities rounded to f64.
 pub(crate) fn between(ends: &EndPoses, duration: f64) -> Motion {
     let [start, end] = [0, 1].map(|k| Pose::new(ends.positions[k], ends.turned[k]).unwrap());
-    Motion::between(start, end, ends.centre, duration).unwrap()
+    Motion::between(start, end, ends.center, duration).unwrap()
 }
 
-/// Two balls that move between given poses, each with its centre away from its body's origin.
+/// Two balls that move between given poses, each with its center away from its body's origin.
 struct Scene {
     ends: [EndPoses; 2],
-    centres: [DVec3; 2],
+    centers: [DVec3; 2],
     radii: f64,
 }
 
@@ -54,14 +54,14 @@ impl Scene {
         let world = random_direction(rng) * random_power_of_ten(rng, 3.0, 11.9);
         Scene {
             ends: [(); 2].map(|()| ends(rng, world, 1.0)),
-            centres: [(); 2].map(|()| random_point_in_ball(rng, 0.5)),
+            centers: [(); 2].map(|()| random_point_in_ball(rng, 0.5)),
             radii: rng.random_range(0.1..0.4),
         }
     }
 
     /// Returns the exact distance of the balls after the share `share` of the duration.
     fn distance(&self, share: DoubleDouble) -> DoubleDouble {
-        let [a, b] = [0, 1].map(|k| self.ends[k].place(share, self.centres[k]));
+        let [a, b] = [0, 1].map(|k| self.ends[k].place(share, self.centers[k]));
         let way: DoubleDouble3 = b - a;
         way.length() - DoubleDouble::from(self.radii) - DoubleDouble::from(self.radii)
     }
@@ -73,9 +73,9 @@ fn answers_hold_for_the_motion_between_the_poses_as_given() {
     let (mut hits, mut misses) = (0, 0);
     for number in 0..800 {
         let scene = Scene::new(&mut rng);
-        let bodies = scene.centres.map(|centre| {
+        let bodies = scene.centers.map(|center| {
             let ball = crate::body::polytope::Polytope {
-                points: vec![centre],
+                points: vec![center],
                 radius: scene.radii,
                 ..Default::default()
             };

@@ -112,12 +112,12 @@ pub(crate) fn random_triangle_soup(
     let frame = random_rotation(rng);
     (0..count)
         .map(|_| {
-            let centre = random_point_in_ball(rng, size);
+            let center = random_point_in_ball(rng, size);
             let edge = match look {
                 SoupKind::MixedSizes => size * random_power_of_ten(rng, -6.0, 0.0),
                 _ => size * rng.random_range(0.05..1.0),
             };
-            let mut corners = [0; 3].map(|_| centre + random_point_in_ball(rng, edge));
+            let mut corners = [0; 3].map(|_| center + random_point_in_ball(rng, edge));
             if look == SoupKind::Needles {
                 let tip = 0.5 * (corners[0] + corners[1]) + random_point_in_ball(rng, 1e-7 * edge);
                 corners[2] = tip;
@@ -163,25 +163,25 @@ pub(crate) struct MotionThroughPose {
     /// The position of the body's point `middle` at the clock `clock`.
     pub(crate) place: DVec3,
     pub(crate) middle: DVec3,
-    /// The velocity of the centre of rotation; the duration is 1.
+    /// The velocity of the center of rotation; the duration is 1.
     pub(crate) velocity: DVec3,
     pub(crate) spin: DVec3,
-    /// The centre of rotation in the body's frame.
-    pub(crate) centre: DVec3,
+    /// The center of rotation in the body's frame.
+    pub(crate) center: DVec3,
 }
 
 impl MotionThroughPose {
     pub(crate) fn motion(&self) -> Motion {
         let start = DQuat::from_scaled_axis(-self.clock * self.spin) * self.rotation;
         let translation = self.place - self.rotation * self.middle;
-        let centre = self.rotation * self.centre + translation - self.clock * self.velocity;
-        let pose = Pose::new(centre - start * self.centre, start).unwrap();
-        Motion::about(pose, self.velocity, self.spin, self.centre).unwrap()
+        let center = self.rotation * self.center + translation - self.clock * self.velocity;
+        let pose = Pose::new(center - start * self.center, start).unwrap();
+        Motion::about(pose, self.velocity, self.spin, self.center).unwrap()
     }
 
     /// Returns the velocity of the body's point `middle` at the clock `clock`.
     fn velocity_of_middle(&self) -> DVec3 {
-        self.velocity + self.spin.cross(self.rotation * (self.middle - self.centre))
+        self.velocity + self.spin.cross(self.rotation * (self.middle - self.center))
     }
 }
 
@@ -235,8 +235,13 @@ impl Scene {
             let (pose, change) = (motion.start(), clock * *acceleration);
             let start = Pose::new(pose.translation() + 0.5 * clock * change, pose.rotation());
             let velocity = motion.velocity() - change;
-            *motion =
-                Motion::about(start.unwrap(), velocity, motion.spin(), motion.centre()).unwrap();
+            *motion = Motion::about(
+                start.unwrap(),
+                velocity,
+                motion.angular_velocity(),
+                motion.center(),
+            )
+            .unwrap();
         }
         self
     }
@@ -278,7 +283,7 @@ pub(crate) fn sheet(
 /// The kind of motion of two bodies while they are near each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum SceneKind {
-    /// Each body rests, translates or turns at random, about any centre.
+    /// Each body rests, translates or turns at random, about any center.
     RandomMotion,
     /// The bodies overlap, and move apart without turning.
     Receding,
@@ -337,7 +342,7 @@ pub(crate) fn scene(rng: &mut Pcg64, kind: SceneKind, most: usize) -> Scene {
             middle,
             velocity: DVec3::ZERO,
             spin: DVec3::ZERO,
-            centre: DVec3::ZERO,
+            center: DVec3::ZERO,
         };
         draw_velocities(rng, kind, &mut passage, k, way, &sizes);
         velocities[k] = passage.velocity_of_middle();
@@ -391,11 +396,11 @@ fn draw_velocities(
         SceneKind::NearRim => {
             if large {
                 passage.spin = random_direction(rng) * rng.random_range(0.1..20.0);
-                passage.centre = passage.middle + random_point_in_ball(rng, size);
+                passage.center = passage.middle + random_point_in_ball(rng, size);
             } else if rng.random_bool(0.5) {
                 passage.velocity = random_point_in_ball(rng, size);
                 passage.spin = random_point_in_ball(rng, 20.0);
-                passage.centre = passage.middle;
+                passage.center = passage.middle;
             }
         }
         SceneKind::RandomMotion => {
@@ -406,7 +411,7 @@ fn draw_velocities(
             if rng.random_bool(0.7) {
                 let turns = random_power_of_ten(rng, -4.0, 6f64.log10());
                 passage.spin = random_direction(rng) * std::f64::consts::TAU * turns;
-                passage.centre = match rng.random_range(0..4) {
+                passage.center = match rng.random_range(0..4) {
                     0 => DVec3::ZERO,
                     1 | 2 => passage.middle + random_point_in_ball(rng, sizes[side]),
                     _ => {

@@ -7,7 +7,7 @@ use crate::motion::trajectory::{Acceleration, AccelerationBounds, SmoothTrajecto
 use crate::tests::scene::{Pcg64, RngExt, random_direction, random_point_in_ball, random_rotation};
 use glam::{DQuat, DVec3};
 
-/// A trajectory that swings: `centre + drift t + Σ along sin(rate t + phase)`, turned by `turn sin(rate t + phase)`
+/// A trajectory that swings: `center + drift t + Σ along sin(rate t + phase)`, turned by `turn sin(rate t + phase)`
 /// about a fixed axis.
 #[derive(Clone, Debug)]
 pub(crate) struct SwingingTrajectory {
@@ -19,8 +19,8 @@ pub(crate) struct SwingingTrajectory {
     axis: DVec3,
     turn_amplitude: f64,
     start: DQuat,
-    centre: DVec3,
-    /// Whether the trajectory provides the acceleration of its centre, not only bounds of it.
+    center: DVec3,
+    /// Whether the trajectory provides the acceleration of its center, not only bounds of it.
     provides_acceleration: bool,
 }
 
@@ -36,7 +36,7 @@ impl SwingingTrajectory {
             axis: random_direction(rng),
             turn_amplitude: rng.random_range(0.0..3.0),
             start: random_rotation(rng),
-            centre: random_point_in_ball(rng, 1.0),
+            center: random_point_in_ball(rng, 1.0),
             provides_acceleration: rng.random_bool(0.5),
         }
     }
@@ -54,9 +54,9 @@ impl SmoothTrajectory for SwingingTrajectory {
         let turned =
             DQuat::from_scaled_axis(self.axis * (self.turn_amplitude * angle.sin())) * self.start;
         let spin = self.axis * (self.turn_amplitude * self.angular_frequencies[2] * angle.cos());
-        // The centre is at the place, not the origin.
-        let start = Pose::new(at - turned * self.centre, turned)?;
-        Motion::about(start, velocity, spin, self.centre)
+        // The center is at the place, not the origin.
+        let start = Pose::new(at - turned * self.center, turned)?;
+        Motion::about(start, velocity, spin, self.center)
     }
 
     fn acceleration_bounds(&self, _: f64, _: f64) -> AccelerationBounds {

@@ -29,7 +29,7 @@ pub(crate) struct WorstCaseSearch {
 pub(crate) struct LargestError {
     name: &'static str,
     /// The largest error, as a share of the bound.
-    error_share: f64,
+    error_fraction: f64,
     /// Whether the search examined so many cases (more than 1,000) that its largest error should be near the bound.
     is_thorough: bool,
 }
@@ -113,7 +113,7 @@ impl WorstCaseSearch {
         assert!(4 * judged > count, "{name}: {judged} of {count} are cases");
         LargestError {
             name,
-            error_share: share,
+            error_fraction: share,
             is_thorough: self.case_count >= count as f64 && count > 1000,
         }
     }
@@ -122,13 +122,13 @@ impl WorstCaseSearch {
 impl LargestError {
     /// Checks that no error exceeded its bound, and that the largest came within a factor `looseness` of it.
     pub(crate) fn assert_tight_bound(&self, looseness: f64) {
-        let (name, ratio) = (self.name, 1.0 / self.error_share);
+        let (name, ratio) = (self.name, 1.0 / self.error_fraction);
         assert!(
-            self.error_share <= 1.0,
+            self.error_fraction <= 1.0,
             "{name}: only {ratio:e} of an error"
         );
         // A search that examines nothing would prove nothing.
-        let near = self.error_share > 0.0 && ratio <= looseness;
+        let near = self.error_fraction > 0.0 && ratio <= looseness;
         assert!(
             near || !self.is_thorough,
             "{name}: {ratio:e} times all errors"
@@ -137,7 +137,7 @@ impl LargestError {
 }
 
 /// Returns the quotient of an error and its allowance; infinite for an error above an allowance of 0.
-pub(crate) fn error_share(error: f64, allowance: f64) -> f64 {
+pub(crate) fn error_fraction(error: f64, allowance: f64) -> f64 {
     if allowance > 0.0 {
         error / allowance
     } else if error > 0.0 {

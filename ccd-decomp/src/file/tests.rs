@@ -1,6 +1,6 @@
 use super::error::StoreFault;
 use super::frame;
-use crate::{Detail, Format, PatchOrder, StoredBodyContent, TriangleMesh, prepare};
+use crate::{Format, PatchOrder, PieceChoice, StoredBodyContent, TriangleMesh, prepare};
 use proptest::prelude::*;
 use rstest::rstest;
 use std::sync::LazyLock;
@@ -12,9 +12,9 @@ const TETRAHEDRON_OBJ: &str =
 const DENTED_OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv .2 .2 .2\nv 9 9 9\n\
      f 1 3 2\nf 1 2 4\nf 3 1 4\nf 2 3 5\nf 3 4 5\nf 4 2 5\nf 4 2 5\n";
 
-fn model(file: &str, detail: Detail) -> StoredBodyContent {
+fn model(file: &str, choice: PieceChoice) -> StoredBodyContent {
     let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
-    prepare(&mesh, detail).unwrap()
+    prepare(&mesh, choice).unwrap()
 }
 
 fn stored_bytes(model: &StoredBodyContent) -> Vec<u8> {
@@ -32,24 +32,24 @@ fn fault(bytes: &[u8]) -> StoreFault {
 
 /// Stored bodies of every kind of pieces, with and without a hull tree. They are small enough to change every byte.
 static STORED_BODIES: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
-    let patches = model(DENTED_OBJ, Detail::Patches(PatchOrder::Cresting));
+    let patches = model(DENTED_OBJ, PieceChoice::Patches(PatchOrder::Cresting));
     let models = [
-        model(DENTED_OBJ, Detail::Triangles),
+        model(DENTED_OBJ, PieceChoice::Triangles),
         patches.clone(),
         patches.with_hull_tree().unwrap(),
-        model(TETRAHEDRON_OBJ, Detail::Hull),
-        model(TETRAHEDRON_OBJ, Detail::OuterHull),
+        model(TETRAHEDRON_OBJ, PieceChoice::Hull),
+        model(TETRAHEDRON_OBJ, PieceChoice::OuterHull),
     ];
     models.iter().map(stored_bytes).collect()
 });
 
 #[rstest]
-#[case(DENTED_OBJ, Detail::Triangles)]
-#[case(DENTED_OBJ, Detail::Patches(PatchOrder::Cresting))]
-#[case(DENTED_OBJ, Detail::OuterHull)]
-#[case(TETRAHEDRON_OBJ, Detail::Hull)]
-fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) {
-    let model = model(file, detail);
+#[case(DENTED_OBJ, PieceChoice::Triangles)]
+#[case(DENTED_OBJ, PieceChoice::Patches(PatchOrder::Cresting))]
+#[case(DENTED_OBJ, PieceChoice::OuterHull)]
+#[case(TETRAHEDRON_OBJ, PieceChoice::Hull)]
+fn stored_models_are_read_unchanged(#[case] file: &str, #[case] choice: PieceChoice) {
+    let model = model(file, choice);
     let bytes = stored_bytes(&model);
     let again = StoredBodyContent::read(&bytes[..]).unwrap();
     assert_eq!(stored_bytes(&again), bytes);
@@ -59,7 +59,7 @@ fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) 
     let bodies = (again.body().unwrap(), model.body().unwrap());
     assert_eq!(bodies.0.memory_usage(), bodies.1.memory_usage());
     assert_eq!(bodies.0.excess(), model.report.excess);
-    let is_exact = detail != Detail::OuterHull;
+    let is_exact = choice != PieceChoice::OuterHull;
     assert_eq!(bodies.0.excess() == 0.0, is_exact);
     let taken_over = StoredBodyContent::from_body(&bodies.0).unwrap();
     assert_eq!(taken_over.report.excess, bodies.0.excess());
@@ -67,7 +67,7 @@ fn stored_models_are_read_unchanged(#[case] file: &str, #[case] detail: Detail) 
 
 #[test]
 fn a_hull_tree_is_stored_with_its_body() {
-    let model = model(DENTED_OBJ, Detail::Patches(PatchOrder::Cresting))
+    let model = model(DENTED_OBJ, PieceChoice::Patches(PatchOrder::Cresting))
         .with_hull_tree()
         .unwrap();
     let again = StoredBodyContent::read(&stored_bytes(&model)[..]).unwrap();
@@ -82,7 +82,7 @@ fn files_are_named_in_errors() {
     let folder = std::env::temp_dir().join(format!("ccd-store-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let path = folder.join("part.ccd");
-    let model = model(DENTED_OBJ, Detail::Triangles);
+    let model = model(DENTED_OBJ, PieceChoice::Triangles);
     model.save(&path).unwrap();
     assert_eq!(StoredBodyContent::load(&path).unwrap().report, model.report);
     std::fs::write(&path, &stored_bytes(&model)[..40]).unwrap();
@@ -125,7 +125,7 @@ fn a_foreign_file_is_reported() {
 
 #[test]
 fn another_version_is_reported_before_damage() {
-    let mut bytes = stored_bytes(&model(DENTED_OBJ, Detail::Triangles));
+    let mut bytes = stored_bytes(&model(DENTED_OBJ, PieceChoice::Triangles));
     bytes[8] = 0xff;
     assert!(matches!(
         fault(&bytes),
@@ -161,14 +161,14 @@ fn a_file_cut_anywhere_is_an_error() {
 
 #[test]
 fn a_file_with_more_behind_it_is_damaged() {
-    let mut bytes = stored_bytes(&model(DENTED_OBJ, Detail::Triangles));
+    let mut bytes = stored_bytes(&model(DENTED_OBJ, PieceChoice::Triangles));
     bytes.push(0);
     assert!(matches!(fault(&bytes), StoreFault::ChecksumMismatch));
 }
 
 #[test]
 fn every_bit_counts() {
-    let bytes = stored_bytes(&model(TETRAHEDRON_OBJ, Detail::Triangles));
+    let bytes = stored_bytes(&model(TETRAHEDRON_OBJ, PieceChoice::Triangles));
     for at in 0..bytes.len() {
         for bit in 0..8 {
             let mut changed = bytes.clone();
@@ -180,7 +180,7 @@ fn every_bit_counts() {
 
 #[test]
 fn a_length_that_no_memory_holds_is_a_cut_file() {
-    let mut bytes = stored_bytes(&model(DENTED_OBJ, Detail::Triangles));
+    let mut bytes = stored_bytes(&model(DENTED_OBJ, PieceChoice::Triangles));
     bytes[12..20].copy_from_slice(&u64::MAX.to_le_bytes());
     assert!(matches!(fault(&bytes), StoreFault::Truncated));
 }
@@ -188,15 +188,15 @@ fn a_length_that_no_memory_holds_is_a_cut_file() {
 #[test]
 fn parts_that_do_not_belong_together_are_reported() {
     let (mut small, large) = (
-        model(TETRAHEDRON_OBJ, Detail::Triangles),
-        model(DENTED_OBJ, Detail::Triangles),
+        model(TETRAHEDRON_OBJ, PieceChoice::Triangles),
+        model(DENTED_OBJ, PieceChoice::Triangles),
     );
     small.hierarchy = large.hierarchy;
     assert!(matches!(
         fault(&stored_bytes(&small)),
         StoreFault::InvalidContent { .. }
     ));
-    let mut miscounted = model(DENTED_OBJ, Detail::Triangles);
+    let mut miscounted = model(DENTED_OBJ, PieceChoice::Triangles);
     miscounted.report.pieces += 1;
     assert!(matches!(
         fault(&stored_bytes(&miscounted)),
@@ -283,7 +283,7 @@ fn create_empty_folder(name: &str) -> std::path::PathBuf {
 #[test]
 fn threads_save_side_by_side() {
     let folder = create_empty_folder("side-by-side");
-    let models = [TETRAHEDRON_OBJ, DENTED_OBJ].map(|mesh| model(mesh, Detail::Triangles));
+    let models = [TETRAHEDRON_OBJ, DENTED_OBJ].map(|mesh| model(mesh, PieceChoice::Triangles));
     std::thread::scope(|scope| {
         for thread in 0..4 {
             let (model, folder) = (&models[thread % 2], &folder);
@@ -313,7 +313,7 @@ fn threads_save_side_by_side() {
 fn links_are_followed_and_devices_stay_what_they_are() {
     use std::os::unix::fs::{FileTypeExt, symlink};
     let folder = create_empty_folder("links");
-    let body = model(TETRAHEDRON_OBJ, Detail::Hull);
+    let body = model(TETRAHEDRON_OBJ, PieceChoice::Hull);
     let (target, link) = (folder.join("target.ccd"), folder.join("link.ccd"));
     std::fs::write(&target, "old").unwrap();
     symlink(&target, &link).unwrap();
@@ -338,9 +338,9 @@ fn links_are_followed_and_devices_stay_what_they_are() {
 /// Tests that the remarks of a mesh are stored and read back, and that older files load without remarks.
 #[test]
 fn remarks_are_stored() {
-    let plain = model(TETRAHEDRON_OBJ, Detail::Triangles);
+    let plain = model(TETRAHEDRON_OBJ, PieceChoice::Triangles);
     let text = [TETRAHEDRON_OBJ, "l 1 2\nvc 1\n"].concat();
-    let remarked = model(&text, Detail::Triangles);
+    let remarked = model(&text, PieceChoice::Triangles);
     let again = StoredBodyContent::read(&stored_bytes(&remarked)[..]).unwrap();
     assert_eq!(again.report, remarked.report);
     assert_eq!(again.report.repairs.remarks.iter().count(), 2);

@@ -7,7 +7,7 @@ use crate::mesh::error::MeshError;
 use crate::mesh::mesh_file::MeshFile;
 use crate::mesh::unit::Unit;
 use crate::prepare::model::PreparedBody;
-use crate::prepare::{Detail, body_from_mesh};
+use crate::prepare::{PieceChoice, body_from_mesh};
 use std::fmt;
 use std::path::PathBuf;
 
@@ -66,9 +66,9 @@ impl MeshSource {
     ///
     /// # Errors
     /// [`BodyError::Mesh`] if the file cannot be read, [`BodyError::FileContent`] if no body can be made of the mesh.
-    pub fn load(&self, detail: Detail) -> Result<PreparedBody, BodyError> {
+    pub fn load(&self, choice: PieceChoice) -> Result<PreparedBody, BodyError> {
         let (mesh, unit) = self.read()?;
-        match body_from_mesh(&mesh, self.detail(detail)) {
+        match body_from_mesh(&mesh, self.choice(choice)) {
             Ok(prepared) => Ok(PreparedBody { unit, ..prepared }),
             Err(error) => Err(BodyError::FileContent {
                 file: self.to_string().into(),
@@ -77,10 +77,10 @@ impl MeshSource {
         }
     }
 
-    /// Returns `asked`, or `Detail::Surface` if the mesh is to be hollow.
-    pub fn detail(&self, asked: Detail) -> Detail {
+    /// Returns `asked`, or `PieceChoice::Surface` if the mesh is to be hollow.
+    pub fn choice(&self, asked: PieceChoice) -> PieceChoice {
         if self.adjustments.is_hollow {
-            Detail::Surface
+            PieceChoice::Surface
         } else {
             asked
         }

@@ -103,7 +103,7 @@ impl Adjustments {
         }
     }
 
-    /// Treats a closed mesh as a hollow [surface](crate::Detail::Surface), whatever the kind of pieces.
+    /// Treats a closed mesh as a hollow [surface](crate::PieceChoice::Surface), whatever the kind of pieces.
     #[must_use]
     pub fn treated_as_hollow(self) -> Self {
         Adjustments {

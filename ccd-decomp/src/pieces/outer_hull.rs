@@ -10,7 +10,7 @@ use crate::hull::{HullError, hull};
 use crate::mesh::TriangleMesh;
 use crate::pieces::convex::convex_polytope;
 use crate::solid::manifold::Manifold;
-use crate::solid::star_shaped::star_centre;
+use crate::solid::star_shaped::star_center;
 use crate::solid::topology::TopologyDefects;
 use crate::tolerance::EXCESS_TOLERANCE_PER_HALF_DIAGONAL;
 use ccd_core::glam::DVec3;
@@ -73,12 +73,12 @@ fn excess_bound(mesh: &TriangleMesh, topology: &TopologyDefects, hull: &Hull) ->
     let target = EnclosedMesh::new(mesh, topology);
     let mut by_shrinking = f64::INFINITY;
     if let Ok(manifold) = Manifold::without_intersection_check(mesh, topology)
-        && let Some(centre) = star_centre(&manifold)
+        && let Some(center) = star_center(&manifold)
     {
         if convex_polytope(&manifold).is_ok() {
             return 0.0;
         }
-        by_shrinking = shrink::excess_bound(&target, hull, centre).unwrap_or(f64::INFINITY);
+        by_shrinking = shrink::excess_bound(&target, hull, center).unwrap_or(f64::INFINITY);
     }
     if by_shrinking <= EXCESS_TOLERANCE_PER_HALF_DIAGONAL * target.half_diagonal {
         return by_shrinking;

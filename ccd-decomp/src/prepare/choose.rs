@@ -1,4 +1,4 @@
-//! Chooses the fewest exact pieces for `Detail::Auto`.
+//! Chooses the fewest exact pieces for `PieceChoice::Auto`.
 
 use super::parts::PiecesOfOneKind;
 use super::report::{EstimatedQueryTimes, PieceReason};

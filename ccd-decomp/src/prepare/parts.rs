@@ -19,7 +19,7 @@ pub(super) enum PiecesOfOneKind {
 }
 
 /// The kind of pieces chosen for a mesh, with the pieces and the mesh's topology.
-pub(super) struct PiecesChoice {
+pub(super) struct ChosenPieces {
     pub(super) solidity: Solidity,
     pub(super) pieces: PiecesOfOneKind,
     pub(super) choice_reason: PieceReason,
@@ -31,7 +31,7 @@ pub(super) struct PiecesChoice {
 /// The pieces of a body, and a hierarchy over them.
 type PieceTree = (Pieces, Hierarchy);
 
-impl PiecesChoice {
+impl ChosenPieces {
     /// Creates the content from the chosen pieces. `triangles` are those of the mesh before any shell is reversed, if
     /// computed.
     pub(super) fn into_model(

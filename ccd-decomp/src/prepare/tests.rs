@@ -1,4 +1,4 @@
-use crate::{Detail, Format, TriangleMesh, body_from_mesh, prepare};
+use crate::{Format, PieceChoice, TriangleMesh, body_from_mesh, prepare};
 use ccd_core::ConvexCombination;
 use ccd_core::glam::dvec3;
 
@@ -7,7 +7,7 @@ const TETRAHEDRON_OBJ: &str =
 
 fn report(file: &str) -> String {
     let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
-    let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
+    let prepared = body_from_mesh(&mesh, PieceChoice::Auto).unwrap();
     assert_eq!(prepared.body.pieces().len(), prepared.report.pieces);
     assert_eq!(prepared.body.solidity(), prepared.report.volume);
     prepared.report.to_string()
@@ -41,7 +41,7 @@ fn an_open_mesh_is_a_surface_and_says_why() {
 fn features_carry_the_numbers_of_the_file() {
     let file = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 2 3\nf 2 3 4\n";
     let mesh = TriangleMesh::from_reader(Format::Obj, file.as_bytes()).unwrap();
-    let body = body_from_mesh(&mesh, Detail::Triangles).unwrap().body;
+    let body = body_from_mesh(&mesh, PieceChoice::Triangles).unwrap().body;
     let feature = |support: &[u32]| {
         let mut point = ConvexCombination::EMPTY;
         support
@@ -66,7 +66,7 @@ fn hull_trees_of_nearly_flat_meshes_are_proven() {
     let tilt = ccd_core::glam::DQuat::from_axis_angle(dvec3(0.6, 0.0, 0.8), 0.4);
     let turned: Vec<_> = vertices.iter().map(|&p| tilt * p).collect();
     let turned = TriangleMesh::new(turned, step.faces()).unwrap();
-    let model = prepare(&turned, Detail::Triangles).unwrap();
+    let model = prepare(&turned, PieceChoice::Triangles).unwrap();
     let tree = model.with_hull_tree().unwrap().hull_tree.unwrap();
     // The root has points in the middle of its sides, which rounding took outward.
     assert!(tree.hulls().get(0).points.len() > 8);

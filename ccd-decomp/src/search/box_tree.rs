@@ -161,7 +161,7 @@ fn build(nodes: &mut Vec<Node>, elements: &mut [Element], first: usize) {
     });
     if !is_leaf {
         let along = nodes[at].oriented_box.axis_of_largest_spread(elements);
-        let height = |element: &Element| along.dot(element.centre());
+        let height = |element: &Element| along.dot(element.center());
         elements.select_nth_unstable_by(split, |a, b| {
             let order = height(a).total_cmp(&height(b));
             order.then(a.face.cmp(&b.face))

@@ -11,7 +11,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    pub(super) fn centre(&self) -> DVec3 {
+    pub(super) fn center(&self) -> DVec3 {
         let bounds = BoundingBox::enclosing(self.corners);
         0.5 * bounds.lo + 0.5 * bounds.hi
     }

@@ -35,7 +35,7 @@ impl Plane {
     /// Returns whether a box is certainly in front of the plane.
     #[inline]
     pub(super) fn has_box_in_front(&self, oriented: &OrientedBox) -> bool {
-        let offset = oriented.centre - self.point;
+        let offset = oriented.center - self.point;
         let reach = oriented.max_abs_coordinate + 2.0 * self.max_abs_coordinate;
         let height = self.normal.dot(offset) - oriented.support_bound(self.normal);
         // Written so that NaN is not in front.

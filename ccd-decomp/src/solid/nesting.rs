@@ -13,7 +13,7 @@ use crate::mesh::TriangleMesh;
 use crate::search::TriangleBoxes;
 use crate::search::region::Region;
 use crate::tally::CountWithExamples;
-use crate::tolerance::{FACE_CENTRE_ROUNDING, MAX_NESTING_RAYS};
+use crate::tolerance::{FACE_CENTER_ROUNDING, MAX_NESTING_RAYS};
 use crate::work::WorkBudget;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
@@ -181,16 +181,16 @@ impl<'m> Shells<'m> {
         let corners = (0..MAX_NESTING_RAYS).map(|k| (k, face(k)[k % 3]));
         // Shells that share faces touch at all corners.
         let middles = (0..MAX_NESTING_RAYS)
-            .filter_map(|k| Some((k, self.isolated_face_centre(shell, face(k), size)?)));
+            .filter_map(|k| Some((k, self.isolated_face_center(shell, face(k), size)?)));
         corners.chain(middles).find_map(|(k, from)| {
             self.shells_winding_about_start(shell, probe_segment(from, size, k))
         })
     }
 
-    /// Returns the rounded centre of a face; `None` if another shell is so near that rounding may move the centre
+    /// Returns the rounded center of a face; `None` if another shell is so near that rounding may move the center
     /// across it.
-    fn isolated_face_centre(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
-        let (middle, across) = centre_and_points_beside(face, size)?;
+    fn isolated_face_center(&self, shell: u32, face: [DVec3; 3], size: f64) -> Option<DVec3> {
+        let (middle, across) = center_and_points_beside(face, size)?;
         let is_of_shell = |face: u32| self.shell_of_face[face as usize] == shell;
         let misses = |face: u32| {
             is_of_shell(face) || segment_crossing_sign(across, self.mesh.triangle(face)) == Some(0)
@@ -258,13 +258,13 @@ impl<'m> Shells<'m> {
     }
 }
 
-/// Returns the centre of a face, and a nearby point on each side; `None` if the face has no normal. `size` is that of
+/// Returns the center of a face, and a nearby point on each side; `None` if the face has no normal. `size` is that of
 /// the mesh.
-fn centre_and_points_beside([a, b, c]: [DVec3; 3], size: f64) -> Option<(DVec3, [DVec3; 2])> {
+fn center_and_points_beside([a, b, c]: [DVec3; 3], size: f64) -> Option<(DVec3, [DVec3; 2])> {
     let middle = (a + b + c) / 3.0;
     // Far from the origin, rounding exceeds that of the mesh's size.
     let size = size + middle.abs().max_element();
-    let off = unit((b - a).cross(c - a))? * FACE_CENTRE_ROUNDING * size;
+    let off = unit((b - a).cross(c - a))? * FACE_CENTER_ROUNDING * size;
     Some((middle, [middle - off, middle + off]))
 }
 

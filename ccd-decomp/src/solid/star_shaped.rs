@@ -15,16 +15,16 @@ use std::cmp::Ordering;
 ///
 /// # Complexity
 /// O(n).
-pub(crate) fn star_centre(manifold: &Manifold<'_>) -> Option<DVec3> {
-    candidate_centres(manifold).into_iter().find(|&middle| {
+pub(crate) fn star_center(manifold: &Manifold<'_>) -> Option<DVec3> {
+    candidate_centers(manifold).into_iter().find(|&middle| {
         let triangles = || (0..manifold.faces().len() as u32).map(|face| manifold.triangle(face));
         let has_behind = |triangle| side_of_plane(triangle, middle) == Ordering::Less;
         triangles().all(has_behind) && ray_meets_one_triangle(triangles(), middle)
     })
 }
 
-/// Returns candidate points that are likely inside: the mean of all corners, and the centre of mass.
-fn candidate_centres(manifold: &Manifold<'_>) -> [DVec3; 2] {
+/// Returns candidate points that are likely inside: the mean of all corners, and the center of mass.
+fn candidate_centers(manifold: &Manifold<'_>) -> [DVec3; 2] {
     let faces = 0..manifold.faces().len() as u32;
     let near = manifold.triangle(0)[0];
     let (mut sum, mut moment, mut volume) = (DVec3::ZERO, DVec3::ZERO, 0.0);
@@ -49,7 +49,7 @@ fn with_tiny_coordinates_zeroed(p: DVec3) -> DVec3 {
     )
 }
 
-/// Returns whether the ray from `middle` to the centre of the first triangle meets exactly one triangle, and no edge.
+/// Returns whether the ray from `middle` to the center of the first triangle meets exactly one triangle, and no edge.
 fn ray_meets_one_triangle(triangles: impl Iterator<Item = [DVec3; 3]>, middle: DVec3) -> bool {
     let mut triangles = triangles.peekable();
     let Some(&[a, b, c]) = triangles.peek() else {

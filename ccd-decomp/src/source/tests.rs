@@ -1,6 +1,6 @@
 use super::BodySource;
 use super::error::SourceError;
-use crate::{Adjustments, Axis, BodyError, Detail, MeshFault, MeshSource, PreparedBody, Unit};
+use crate::{Adjustments, Axis, BodyError, MeshFault, MeshSource, PieceChoice, PreparedBody, Unit};
 use ccd_core::Solidity;
 use ccd_core::glam::dvec3;
 use rstest::rstest;
@@ -80,7 +80,7 @@ impl TetrahedronFile {
 
 /// Loads the body that a valid text describes.
 fn load(text: &str) -> Result<PreparedBody, BodyError> {
-    text.parse::<BodySource>().unwrap().load(Detail::Auto)
+    text.parse::<BodySource>().unwrap().load(PieceChoice::Auto)
 }
 
 impl Drop for TetrahedronFile {
@@ -123,11 +123,13 @@ fn files_are_taken_as_their_adjustments_say() {
     );
     let text = format!("{}@in", file.0.display());
     let source: BodySource = text.parse().unwrap();
-    let converted = source.load_in_unit(Unit::Millimetre, Detail::Auto).unwrap();
+    let converted = source
+        .load_in_unit(Unit::Millimetre, PieceChoice::Auto)
+        .unwrap();
     assert_eq!(x_range(&converted), [25.4, 76.2]);
     // Combined with the adjustments of all files.
     let doubled = Adjustments::NONE.scaled(2.0).unwrap().mirrored(Axis::X);
-    let both = source.load_adjusted(&doubled, Detail::Auto).unwrap();
+    let both = source.load_adjusted(&doubled, PieceChoice::Auto).unwrap();
     assert_eq!(x_range(&both), [-6.0, -2.0]);
 }
 
@@ -164,10 +166,12 @@ fn a_file_with_the_whole_text_as_its_name_is_that_file() {
 fn a_stored_body_stays_as_it_is() {
     let scaled = Adjustments::NONE.scaled(2.0).unwrap();
     let stored = BodySource::StoredBody("part.ccd".into());
-    let error = stored.load_adjusted(&scaled, Detail::Auto).unwrap_err();
+    let error = stored
+        .load_adjusted(&scaled, PieceChoice::Auto)
+        .unwrap_err();
     assert!(matches!(error, BodyError::AdjustedStoredBody(_)), "{error}");
     let shape = BodySource::Sphere { radius: 1.0 };
-    let ball = shape.load_adjusted(&scaled, Detail::Auto).unwrap();
+    let ball = shape.load_adjusted(&scaled, PieceChoice::Auto).unwrap();
     assert_eq!(ball.body.pieces().get(0).radius, 1.0);
 }
 
@@ -251,7 +255,7 @@ fn faults_reach_the_caller_typed() {
     // A length that comes from code was not checked by the parser.
     let source = BodySource::Sphere { radius: 1e300 };
     assert!(matches!(
-        source.load(Detail::Auto),
+        source.load(PieceChoice::Auto),
         Err(BodyError::InvalidShape(_))
     ));
     match load("no/such/file.ply") {

@@ -3,14 +3,14 @@
 use ccd_core::glam::DVec3;
 use ccd_core::rounding::UNIT_ROUNDOFF_F64;
 
-/// The distance to another shell below which the centre of a face is not used to find the nesting of its shell. It is
-/// relative to the mesh's size and its distance from the origin. Rounding moves the centre off the face by 8
+/// The distance to another shell below which the center of a face is not used to find the nesting of its shell. It is
+/// relative to the mesh's size and its distance from the origin. Rounding moves the center off the face by 8
 /// [`UNIT_ROUNDOFF_F64`] at most, and the face's normal is accurate to a hundredth even for needles of an aspect of
 /// 1e6.
-pub(crate) const FACE_CENTRE_ROUNDING: f64 = 1e-12;
+pub(crate) const FACE_CENTER_ROUNDING: f64 = 1e-12;
 
 /// Returns a bound on the rounding error of the test of a point against an [oriented box](crate::search) along an
-/// axis. `direction` is the axis, of length about 1. It covers the difference of the point and the box's centre, and the
+/// axis. `direction` is the axis, of length about 1. It covers the difference of the point and the box's center, and the
 /// sum of the box's half length and its slack, for coordinates up to `reach`, in the same unit.
 ///
 /// With `u` half a unit in the last place, `d` the sum of the direction's coordinates and `m` the reach: a difference
@@ -44,7 +44,7 @@ pub(crate) const DISTANCE_ERROR_BOUND_PER_HALF_DIAGONAL: f64 = 1e-9;
 /// With `u` half a unit in the last place and `m` the farthest coordinate: at each cut the share of the edge has a
 /// relative error of `3u`, which moves the point by `2√3 · 3u m`, the edge's direction and the product by `2√3 · u m`
 /// each, the sum by `√3 u m`: less than 20u, 120u for six of them. The two dot products of a height above a plane are
-/// off by `6√3 u m` each, the centre of a box by `√3 u m`. 256u are used.
+/// off by `6√3 u m` each, the center of a box by `√3 u m`. 256u are used.
 pub(crate) fn excess_rounding_bound(half_diagonal: f64, farthest: f64) -> f64 {
     DISTANCE_ERROR_BOUND_PER_HALF_DIAGONAL * half_diagonal + 256.0 * UNIT_ROUNDOFF_F64 * farthest
 }

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// The number of pieces in a parallel task. Smaller tasks cost more than they gain.
 const PIECES_PER_TASK: usize = 4096;
 
-/// Builds a binary hierarchy over pieces: sets of pieces whose centres are near each other become siblings.
+/// Builds a binary hierarchy over pieces: sets of pieces whose centers are near each other become siblings.
 ///
 /// # Guarantee
 /// The same pieces give the same hierarchy, on any number of threads. Every piece appears once; no input panics.
@@ -30,18 +30,18 @@ pub fn build_hierarchy(pieces: &Pieces) -> Result<Hierarchy, InputError> {
     Hierarchy::new(agglomerate(clusters_in_unit_cube(pieces)), pieces.len())
 }
 
-/// Creates a cluster for each piece, at the centre of its box. The centres are scaled to the unit cube, so that pieces that are
+/// Creates a cluster for each piece, at the center of its box. The centers are scaled to the unit cube, so that pieces that are
 /// tiny or far from the origin do not coincide in f32.
 fn clusters_in_unit_cube(pieces: &Pieces) -> Vec<Cluster> {
     let all = (0..pieces.len()).into_par_iter();
-    let centre = |piece: usize| {
+    let center = |piece: usize| {
         let points = pieces.get(piece).points.iter().copied();
         let BoundingBox { lo, hi } = BoundingBox::enclosing(points);
         0.5 * lo + 0.5 * hi
     };
-    let centres: Vec<DVec3> = all.with_min_len(PIECES_PER_TASK).map(centre).collect();
+    let centers: Vec<DVec3> = all.with_min_len(PIECES_PER_TASK).map(center).collect();
     // Shares of fixed size do not depend on the number of threads.
-    let shares = centres.par_chunks(PIECES_PER_TASK);
+    let shares = centers.par_chunks(PIECES_PER_TASK);
     let shares: Vec<BoundingBox> = shares
         .map(|share| BoundingBox::enclosing(share.iter().copied()))
         .collect();
@@ -49,13 +49,13 @@ fn clusters_in_unit_cube(pieces: &Pieces) -> Vec<Cluster> {
     let BoundingBox { lo, hi } = BoundingBox::enclosing(corners);
     // A tiny length has no finite reciprocal.
     let scale = Some((hi - lo).max_element().recip()).filter(|scale| scale.is_finite());
-    let cluster = |(piece, &centre): (usize, &DVec3)| Cluster {
-        centre: ((centre - lo) * scale.unwrap_or(1.0)).as_vec3a(),
+    let cluster = |(piece, &center): (usize, &DVec3)| Cluster {
+        center: ((center - lo) * scale.unwrap_or(1.0)).as_vec3a(),
         weight: 1.0,
         node: HierarchyNode::Leaf(piece as u32),
     };
-    let centres = centres.par_iter().with_min_len(PIECES_PER_TASK).enumerate();
-    centres.map(cluster).collect()
+    let centers = centers.par_iter().with_min_len(PIECES_PER_TASK).enumerate();
+    centers.map(cluster).collect()
 }
 
 #[cfg(test)]

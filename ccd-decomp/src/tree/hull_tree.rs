@@ -11,7 +11,7 @@ use split::Splitter;
 
 /// Builds a binary tree of convex hulls over pieces.
 ///
-/// Pieces are split across the longest direction of the hull of their centres: at the middle or, if that leaves too few
+/// Pieces are split across the longest direction of the hull of their centers: at the middle or, if that leaves too few
 /// on one side, at the median. The hull of a node is that of its children's corners.
 ///
 /// # Guarantee

@@ -2,12 +2,12 @@ use super::{PlacedPair, PlacedPolytope};
 use crate::polytope::Polytope;
 use crate::rational::{Exact3, exact_fraction};
 use crate::tolerance::PLACEMENT_ERROR_BOUND;
-use crate::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::{Frame, Piece};
 
-/// Draws three random points around a common centre, which may be far from the origin.
+/// Draws three random points around a common center, which may be far from the origin.
 fn corners(tape: &mut RandomCase) -> [DVec3; 3] {
     let (middle, small) = (DVec3::from(tape.vector(-8..=4)), tape.size(-30..=0));
     [(); 3].map(|()| middle + DVec3::from(tape.vector(-8..=0)) * small)
@@ -62,7 +62,7 @@ fn worst_placing() {
                 .fold(f64::INFINITY, |a, b| -greater(-a, -b))
         });
         (least[0] > 1e-12 * size && least[1] > 1e-12 * size)
-            .then(|| error_share(off, PLACEMENT_ERROR_BOUND * size))
+            .then(|| error_fraction(off, PLACEMENT_ERROR_BOUND * size))
     });
     found.assert_tight_bound(40.0);
 }

@@ -63,7 +63,7 @@ pub(crate) fn assemble_polytope(points: &[DVec3], ends: &[u32], loops: &[Vec<u32
     out
 }
 
-/// Returns the centre of the bounding box of the points with the given numbers.
+/// Returns the center of the bounding box of the points with the given numbers.
 fn middle(points: &[DVec3], numbers: &[u32]) -> DVec3 {
     let used = numbers.iter().map(|&v| points[v as usize]);
     let low = used.clone().reduce(DVec3::min).unwrap_or_default();

@@ -3,7 +3,7 @@
 use super::Polytope;
 use ccd_core::glam::DVec3;
 
-/// A table of extremal vertices along 96 directions: those to the centres of 16 squares on each side of a cube.
+/// A table of extremal vertices along 96 directions: those to the centers of 16 squares on each side of a cube.
 ///
 /// A direction belongs to the square through which it passes. In most polytopes the vertex of the square is one or two
 /// edges from the extremal one.
@@ -22,7 +22,7 @@ impl StartVertexTable {
         let mut corners = [0; CUBE_MAP_SQUARE_COUNT];
         let mut at = 0;
         for (square, corner) in corners.iter_mut().enumerate() {
-            at = polytope.hill_climb(at, square_centre_direction(square));
+            at = polytope.hill_climb(at, square_center_direction(square));
             *corner = at;
         }
         StartVertexTable(corners)
@@ -52,8 +52,8 @@ fn square_index_towards(direction: DVec3) -> usize {
     (side * CUBE_MAP_SQUARES_PER_EDGE + step(u)) * CUBE_MAP_SQUARES_PER_EDGE + step(v)
 }
 
-/// Returns the direction at the centre of a square.
-fn square_centre_direction(square: usize) -> DVec3 {
+/// Returns the direction at the center of a square.
+fn square_center_direction(square: usize) -> DVec3 {
     let (side, u, v) = (
         square / (CUBE_MAP_SQUARES_PER_EDGE * CUBE_MAP_SQUARES_PER_EDGE),
         square / CUBE_MAP_SQUARES_PER_EDGE % CUBE_MAP_SQUARES_PER_EDGE,

@@ -15,7 +15,7 @@ export function compare(ccd, { knot, families }, clock) {
   };
   return families.map(({ name, kind, motions, micros, micros128, times }) => {
     const [body, target] = [make[kind](), make[kind === "capsule" ? "box" : kind]()];
-    const options = motions.map(([position, rotation, velocity, spin]) => ({ motionA: { position, rotation, velocity, spin }, duration: 1 }));
+    const options = motions.map(([position, rotation, velocity, spin]) => ({ motionA: { position, rotation, velocity, angularVelocity: spin }, duration: 1 }));
     let least = Infinity;
     let answers = [];
     for (let round = 0; round < ROUNDS; round += 1) {

@@ -57,7 +57,7 @@ export class Body extends Owned {
     return Owned.inner(this).is_solid();
   }
 
-  get pieces() {
+  get pieceCount() {
     return Owned.inner(this).piece_count();
   }
 

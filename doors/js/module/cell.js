@@ -31,16 +31,16 @@ export class Cell extends Owned {
     this.#joints = robot.jointNames;
   }
 
-  add(name, body, pose = {}) {
-    Owned.inner(this).add(nameOf(name, "name"), bodyOf(body, "body"), poseNumbers(pose, "pose"));
+  addObstacle(name, body, pose = {}) {
+    Owned.inner(this).add_obstacle(nameOf(name, "name"), bodyOf(body, "body"), poseNumbers(pose, "pose"));
   }
 
-  moveTo(name, pose) {
-    Owned.inner(this).move_to(nameOf(name, "name"), poseNumbers(pose, "pose"));
+  moveObstacle(name, pose) {
+    Owned.inner(this).move_obstacle(nameOf(name, "name"), poseNumbers(pose, "pose"));
   }
 
-  remove(name) {
-    Owned.inner(this).remove(nameOf(name, "name"));
+  removeObstacle(name) {
+    Owned.inner(this).remove_obstacle(nameOf(name, "name"));
   }
 
   attach(name, body, link, options) {
@@ -131,10 +131,10 @@ function answerOfPath(answer) {
 /** Converts the pair of an answer to a plain object, and frees it. Returns null if there is no pair. */
 function contactOfPath(pair) {
   if (pair === undefined) return null;
-  const { segment, share, time, lower, upper } = pair;
+  const { segment, fraction, time, lower, upper } = pair;
   const found = {
     segment,
-    share,
+    fraction,
     time,
     a: pair.a(),
     b: pair.b(),

@@ -2,7 +2,7 @@
 
 import { Body, readMesh } from "./body.js";
 import { Cell } from "./cell.js";
-import { LinkMotion, Motion, Movement, Path, Throw } from "./movement.js";
+import { LinkTrajectory, Motion, Movement, PosePath, Ballistic } from "./movement.js";
 import { Robot } from "./robot.js";
 import { anyContact, closestApproach, contactInterval, distance, firstContact, isFree, keepsClearance, UnresolvedError } from "./solver.js";
 import { EngineError, init, memoryUsage } from "./wasm.js";
@@ -19,13 +19,13 @@ export {
   init,
   isFree,
   keepsClearance,
-  LinkMotion,
+  LinkTrajectory,
   memoryUsage,
   Motion,
   Movement,
-  Path,
+  PosePath,
   readMesh,
   Robot,
-  Throw,
+  Ballistic,
   UnresolvedError,
 };

@@ -5,7 +5,7 @@ import { Owned } from "./owned.js";
 import { MOTION_LENGTH, motionNumbers, ORIGIN, poseNumbers, poseOfNumbers, throwNumbers, vectorNumbers } from "./places.js";
 import { classes } from "./wasm.js";
 
-/** The movement of a body: a `Motion`, a `Throw`, a `Path` or a `LinkMotion`. */
+/** The movement of a body: a `Motion`, a `Ballistic`, a `PosePath` or a `LinkTrajectory`. */
 export class Movement extends Owned {
   /** A cache: each query needs the end, which never changes. */
   #end;
@@ -39,37 +39,37 @@ export class Motion extends Movement {
   }
 }
 
-export class Throw extends Movement {
+export class Ballistic extends Movement {
   get [Symbol.toStringTag]() {
-    return "Throw";
+    return "Ballistic";
   }
 
   constructor(motion) {
     const numbers = throwNumbers(motion, "motion");
-    super(classes().Movement.thrown(numbers.subarray(0, MOTION_LENGTH), numbers.subarray(MOTION_LENGTH)));
+    super(classes().Movement.ballistic(numbers.subarray(0, MOTION_LENGTH), numbers.subarray(MOTION_LENGTH)));
   }
 }
 
-export class Path extends Movement {
+export class PosePath extends Movement {
   get [Symbol.toStringTag]() {
-    return "Path";
+    return "PosePath";
   }
 
   constructor(times, poses, options) {
-    const { center, spins } = optionsOf(options, "Path", { center: [vectorNumbers, ORIGIN], spins: [vectorsOf, undefined] });
+    const { center, angularVelocities } = optionsOf(options, "PosePath", { center: [vectorNumbers, ORIGIN], angularVelocities: [vectorsOf, undefined] });
     const [at, through] = [listOfNumbers(times, "times"), listOf(poses, "poses", poseNumbers)];
     if (at.length !== through.length) throw new TypeError(`poses: there are ${through.length}, but ${at.length} times`);
-    super(classes().Movement.through_poses(at, joined(through), center, spins));
+    super(classes().Movement.pose_path(at, joined(through), center, angularVelocities));
   }
 }
 
-export class LinkMotion extends Movement {
+export class LinkTrajectory extends Movement {
   get [Symbol.toStringTag]() {
-    return "LinkMotion";
+    return "LinkTrajectory";
   }
 
   constructor(inner) {
-    if (!(inner instanceof classes().Movement)) throw new TypeError("a LinkMotion is made by Robot.motion");
+    if (!(inner instanceof classes().Movement)) throw new TypeError("a LinkTrajectory is made by Robot.linkTrajectory");
     super(inner);
   }
 }

@@ -78,7 +78,7 @@ const PARTS = {
   position: [writeVector, 0],
   rotation: [writeQuaternion, 3],
   velocity: [writeVector, 7],
-  spin: [writeVector, 10],
+  angularVelocity: [writeVector, 10],
   center: [writeVector, 13],
   acceleration: [writeVector, MOTION_LENGTH],
 };

@@ -1,7 +1,7 @@
 // Robots and mechanisms: links, joints, and the bodies fixed to links.
 
 import { Body, bodyOf } from "./body.js";
-import { LinkMotion } from "./movement.js";
+import { LinkTrajectory } from "./movement.js";
 import { choiceOf, fieldsOf, finiteNumber, isPlain, listOf, listOfNumbers, nameOf, numberOrInfinity, optionsOf, settingNumber, tupleOf } from "./numbers.js";
 import { Owned } from "./owned.js";
 import { NO_OFFSET, poseNumbers, poseOfNumbers, vectorNumbers } from "./places.js";
@@ -47,11 +47,11 @@ export class Robot extends Owned {
     return poseOfNumbers(Owned.inner(this).pose(nameOf(link, "link"), configurationOf(configuration, "configuration", this.jointNames)));
   }
 
-  motion(link, start, end, options) {
-    const { duration, seenFrom } = optionsOf(options, "Robot.motion", { duration: [settingNumber, 1], seenFrom: [nameOf, undefined] });
+  linkTrajectory(link, start, end, options) {
+    const { duration, seenFrom } = optionsOf(options, "Robot.linkTrajectory", { duration: [settingNumber, 1], seenFrom: [nameOf, undefined] });
     const names = this.jointNames;
     const [from, to] = [configurationOf(start, "start", names), configurationOf(end, "end", names)];
-    return new LinkMotion(Owned.inner(this).motion(nameOf(link, "link"), seenFrom, from, to, duration));
+    return new LinkTrajectory(Owned.inner(this).link_trajectory(nameOf(link, "link"), seenFrom, from, to, duration));
   }
 }
 

@@ -31,7 +31,7 @@ function isEmpty(value) {
 
 /** All calls. For each argument and each of its fields: the kind, a valid value, and its name in messages. */
 function calls(ccd) {
-  const { Body, Cell, Motion, Path, Robot, Throw } = ccd;
+  const { Body, Cell, Motion, PosePath, Robot, Ballistic } = ccd;
   const ball = Body.sphere(1);
   const tetrahedron = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1];
   const corners = [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3];
@@ -40,7 +40,7 @@ function calls(ccd) {
   const robot = new Robot({ joints: [slider], bodies: { a: ball, b: ball } });
   const cell = () => {
     const made = new Cell(new Robot({ joints: [slider], bodies: { b: ball } }));
-    made.add("wall", ball, { position: [9, 0, 0] });
+    made.addObstacle("wall", ball, { position: [9, 0, 0] });
     return made;
   };
   const joint = (name) => (value) => new Robot({ joints: [{ ...slider, [name]: value }], bodies: { b: ball } });
@@ -72,25 +72,25 @@ function calls(ccd) {
     ["options", "options", (value) => ccd.readMesh("a.obj", file, value)],
     ["unit", "optionalVector", (value) => ccd.readMesh("a.obj", file, { unit: value })],
     ["motion", "optionalPose", (value) => new Motion(value)],
-    ...["position", "velocity", "spin", "center"].map((name) => [name, "optionalVector", (value) => new Motion({ [name]: value })]),
+    ...["position", "velocity", "angularVelocity", "center"].map((name) => [name, "optionalVector", (value) => new Motion({ [name]: value })]),
     ["rotation", "optionalVector", (value) => new Motion({ rotation: value })],
     ["start", "pose", (value) => Motion.between(value, {})],
     ["end", "pose", (value) => Motion.between({}, value)],
     ["options", "options", (value) => Motion.between({}, {}, value)],
     ["duration", "optionalNumber", (value) => Motion.between({}, {}, { duration: value })],
     ["center", "optionalVector", (value) => Motion.between({}, {}, { center: value })],
-    ["motion", "object", (value) => new Throw(value)],
-    ["acceleration", "vector", (value) => new Throw({ velocity: [1, 0, 0], acceleration: value })],
-    ["velocity", "optionalVector", (value) => new Throw({ velocity: value, acceleration: [0, 0, 1] })],
-    ["times", "numbers", (value) => new Path(value, two)],
-    ["times[1]", "number", (value) => new Path([0, value], two)],
-    ["poses", "list", (value) => new Path([0, 1], value)],
-    ["poses[0]", "pose", (value) => new Path([0, 1], [value, {}])],
-    ["poses[1].position", "optionalVector", (value) => new Path([0, 1], [{}, { position: value }])],
-    ["options", "options", (value) => new Path([0, 1], two, value)],
-    ["center", "optionalVector", (value) => new Path([0, 1], two, { center: value })],
-    ["spins", "optionalList", (value) => new Path([0, 1], two, { spins: value })],
-    ["spins[0]", "vector", (value) => new Path([0, 1], two, { spins: [value] })],
+    ["motion", "object", (value) => new Ballistic(value)],
+    ["acceleration", "vector", (value) => new Ballistic({ velocity: [1, 0, 0], acceleration: value })],
+    ["velocity", "optionalVector", (value) => new Ballistic({ velocity: value, acceleration: [0, 0, 1] })],
+    ["times", "numbers", (value) => new PosePath(value, two)],
+    ["times[1]", "number", (value) => new PosePath([0, value], two)],
+    ["poses", "list", (value) => new PosePath([0, 1], value)],
+    ["poses[0]", "pose", (value) => new PosePath([0, 1], [value, {}])],
+    ["poses[1].position", "optionalVector", (value) => new PosePath([0, 1], [{}, { position: value }])],
+    ["options", "options", (value) => new PosePath([0, 1], two, value)],
+    ["center", "optionalVector", (value) => new PosePath([0, 1], two, { center: value })],
+    ["angularVelocities", "optionalList", (value) => new PosePath([0, 1], two, { angularVelocities: value })],
+    ["angularVelocities[0]", "vector", (value) => new PosePath([0, 1], two, { angularVelocities: [value] })],
     ["time", "number", (value) => new Motion().pose(value)],
     ["a", "object", (value) => ccd.firstContact(value, ball)],
     ["b", "object", (value) => ccd.firstContact(ball, value)],
@@ -122,17 +122,17 @@ function calls(ccd) {
     ["mayTouch[0][1]", "name", (value) => new Robot({ joints: [slider], bodies: { b: ball }, mayTouch: [["a", value]] })],
     ["link", "name", (value) => robot.pose(value, [0])],
     ["configuration", "numbers", (value) => robot.pose("b", value)],
-    ["start", "numbers", (value) => robot.motion("b", value, [1])],
-    ["end[0]", "number", (value) => robot.motion("b", [1], [value])],
-    ["options", "options", (value) => robot.motion("b", [0], [1], value)],
-    ["seenFrom", "optionalName", (value) => robot.motion("b", [0], [1], { seenFrom: value })],
+    ["start", "numbers", (value) => robot.linkTrajectory("b", value, [1])],
+    ["end[0]", "number", (value) => robot.linkTrajectory("b", [1], [value])],
+    ["options", "options", (value) => robot.linkTrajectory("b", [0], [1], value)],
+    ["seenFrom", "optionalName", (value) => robot.linkTrajectory("b", [0], [1], { seenFrom: value })],
     ["robot", "object", (value) => new Cell(value)],
-    ["name", "name", (value) => cell().add(value, ball)],
-    ["body", "object", (value) => cell().add("x", value)],
-    ["pose", "optionalPose", (value) => cell().add("x", ball, value)],
-    ["name", "name", (value) => cell().moveTo(value, {})],
-    ["pose", "pose", (value) => cell().moveTo("wall", value)],
-    ["name", "name", (value) => cell().remove(value)],
+    ["name", "name", (value) => cell().addObstacle(value, ball)],
+    ["body", "object", (value) => cell().addObstacle("x", value)],
+    ["pose", "optionalPose", (value) => cell().addObstacle("x", ball, value)],
+    ["name", "name", (value) => cell().moveObstacle(value, {})],
+    ["pose", "pose", (value) => cell().moveObstacle("wall", value)],
+    ["name", "name", (value) => cell().removeObstacle(value)],
     ["body", "object", (value) => cell().attach("x", value, "b")],
     ["link", "name", (value) => cell().attach("x", ball, value)],
     ["options", "options", (value) => cell().attach("x", ball, "b", value)],
@@ -219,16 +219,16 @@ if (ArrayBuffer.prototype.resize) {
 
 /** All arguments that are lists of three numbers: for each, the name in messages, and a function that returns the numbers read. */
 function entries(ccd) {
-  const { Body, Path, Robot } = ccd;
+  const { Body, PosePath, Robot } = ccd;
   const axes = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
   const joints = axes.map((axis, k) => ({ type: "prismatic", name: `j${k}`, parent: `l${k}`, child: `l${k + 1}`, axis }));
   const robot = new Robot({ joints, bodies: { l3: Body.sphere(1) } });
   const cell = new ccd.Cell(robot);
-  cell.add("far", Body.sphere(1), { position: [0, 0, 1000] });
+  cell.addObstacle("far", Body.sphere(1), { position: [0, 0, 1000] });
   return {
-    "position": (list) => new Path([0, 1], [{ position: list }, {}]).pose(0).position,
+    "position": (list) => new PosePath([0, 1], [{ position: list }, {}]).pose(0).position,
     "velocity": (list) => new ccd.Motion({ velocity: list }).pose(1).position,
-    "acceleration": (list) => new ccd.Throw({ acceleration: list }).pose(2).position.map((one) => one / 2),
+    "acceleration": (list) => new ccd.Ballistic({ acceleration: list }).pose(2).position.map((one) => one / 2),
     "configuration": (list) => robot.pose("l3", list).position,
     "path[0]": (list) => {
       const { lower, upper } = cell.closestApproach([list], { tolerance: 1e-6 });
@@ -237,7 +237,7 @@ function entries(ccd) {
       return lower <= distance + 1e-9 && distance <= upper + 1e-9 && upper - lower < 1e-5 ? found : [lower, upper];
     },
     "times": (list) => {
-      const path = new Path(list, axes.map((_, k) => ({ position: [k, 0, 0] })));
+      const path = new PosePath(list, axes.map((_, k) => ({ position: [k, 0, 0] })));
       const found = copied(list);
       const at = found.map((time) => path.pose(time).position[0]);
       return path.end === found[2] && Math.hypot(at[0], at[1] - 1, at[2] - 2) < 1e-9 ? found : [path.end, ...at];
@@ -326,7 +326,7 @@ export default (ccd, { equal, ok, randomNumbers }) => ({
       [() => new ccd.Motion({ position: { x: 1, y: 2, z: 3, w: 4 } }), /motion\.position/],
       [() => new ccd.Motion({ position: { x: 1, y: 2, z: 3, t: 4 } }), /motion\.position/],
       [() => new ccd.Motion({ rotation: [0, 0, 0, 1, 0] }), /motion\.rotation/],
-      [() => new ccd.Path([0, 1], [{ velocity: [1, 0, 0] }, {}]), /poses\[0\]: there is no "velocity"/],
+      [() => new ccd.PosePath([0, 1], [{ velocity: [1, 0, 0] }, {}]), /poses\[0\]: there is no "velocity"/],
       [() => Body.fromMesh([0, 0, 0, 1, 0, 0, 0, 1, 0, 5], [0, 1, 2]), /positions: 10 numbers/],
       [() => new ccd.Cell(robot({})()).add("a\ud800", ball), /name: .* half of a character/],
     ];

@@ -110,7 +110,7 @@ export default (ccd, { equal, ok, between, throws }) => ({
     const open = indices.slice(6);
     throws(() => ccd.Body.fromMesh(positions, open, { pieces: "hull" }), /close the mesh, or use triangles or an outer hull/);
     const hull = ccd.Body.fromMesh(positions, open, { pieces: "outer-hull" });
-    equal([hull.pieces, ccd.firstContact(ccd.Body.sphere(0.5), hull).kind], [1, "overlapping"]);
+    equal([hull.pieceCount, ccd.firstContact(ccd.Body.sphere(0.5), hull).kind], [1, "overlapping"]);
     ok(hull.excess > 0.5, hull.report);
   },
   "a seam that is open by a rounding says what closes it"() {
@@ -125,12 +125,12 @@ export default (ccd, { equal, ok, between, throws }) => ({
     equal([ccd.Body.sphere(1e-300).report, ccd.Body.box([1e11, 1, 0.25]).report], ["ball of radius 1e-300", "box of half extents 1e11, 1, 0.25"]);
   },
   "errors are about the type, the range or something else"() {
-    const { Body, Motion, Path, Robot } = ccd;
+    const { Body, Motion, PosePath, Robot } = ccd;
     const { positions, indices } = cubeOfThree();
     const joint = { type: "revolute", name: "j", parent: "a", child: "b", limits: [-1, 1] };
     const robot = new Robot({ joints: [joint], bodies: { b: Body.sphere(1) } });
     const cell = new ccd.Cell(robot);
-    cell.add("wall", Body.sphere(1), { position: [9, 0, 0] });
+    cell.addObstacle("wall", Body.sphere(1), { position: [9, 0, 0] });
     const ranges = [
       () => Body.sphere(-1),
       () => Body.box([1, -1, 1]),
@@ -141,13 +141,13 @@ export default (ccd, { equal, ok, between, throws }) => ({
       () => cell.setClearance("b", "wall", -1),
       () => cell.isFree([[0], [2]]),
       () => robot.pose("b", [2]),
-      () => robot.motion("b", [0], [2]),
-      () => robot.motion("b", [0], [1], { duration: 0 }),
+      () => robot.linkTrajectory("b", [0], [2]),
+      () => robot.linkTrajectory("b", [0], [1], { duration: 0 }),
       () => new Robot({ joints: [{ ...joint, limits: [1, -1] }] }),
       () => new Robot({ joints: [{ ...joint, axis: [0, 0, 0] }] }),
       () => Motion.between({}, {}, { duration: 0 }),
-      () => new Path([1, 0], [{}, {}]),
-      () => new Path([], []),
+      () => new PosePath([1, 0], [{}, {}]),
+      () => new PosePath([], []),
       () => new Motion({ position: [NaN, 0, 0] }),
     ];
     const types = [
@@ -158,8 +158,8 @@ export default (ccd, { equal, ok, between, throws }) => ({
     const others = [
       () => Body.fromFile("a.obj", new TextEncoder().encode("v 1 2\n")),
       () => Body.fromMesh(positions, indices.slice(6), { pieces: "hull" }),
-      () => cell.remove("door"),
-      () => cell.add("wall", Body.sphere(1)),
+      () => cell.removeObstacle("door"),
+      () => cell.addObstacle("wall", Body.sphere(1)),
       () => new Robot({ joints: [joint, joint] }),
     ];
     for (const [name, calls] of Object.entries({ RangeError: ranges, TypeError: types, Error: others })) {

@@ -6,7 +6,7 @@ export default (ccd, { equal, justBefore, between, throws }) => {
   function beforeWall() {
     const robot = new ccd.Robot({ joints: [slider], bodies: { carriage: ccd.Body.sphere(0.5) } });
     const cell = new ccd.Cell(robot);
-    cell.add("wall", ccd.Body.box([0.5, 2, 2]), { position: [3, 0, 0] });
+    cell.addObstacle("wall", ccd.Body.box([0.5, 2, 2]), { position: [3, 0, 0] });
     return { robot, cell };
   }
   /** A door leaf of 1 by 0.1 by 2 that turns about z. */
@@ -32,10 +32,10 @@ export default (ccd, { equal, justBefore, between, throws }) => {
       equal([cell.isFree([[0], [1.9]]), cell.isFree([[0], [3]])], [true, false]);
       const hit = cell.firstContact([[0], [1], [3]], { tolerance: 1e-6 });
       equal([hit.kind, hit.segment, hit.a, hit.b], ["contact", 1, "carriage", "wall"]);
-      justBefore(hit.share, 0.5, 1e-6);
-      equal(hit.time, 1 + hit.share);
+      justBefore(hit.fraction, 0.5, 1e-6);
+      equal(hit.time, 1 + hit.fraction);
       between(hit.witnessA[0], 2.499, 2.501);
-      cell.moveTo("wall", { position: [9, 0, 0] });
+      cell.moveObstacle("wall", { position: [9, 0, 0] });
       equal(cell.firstContact([[0], [3], [0]]), { kind: "free", safeUntil: 2 });
       cell.attach("stick", ccd.Body.capsule(0.1, 2), "carriage", { pose: { position: [3, 0, 0] } });
       equal(cell.firstContact([[0], [6]]).a, "stick");
@@ -44,7 +44,7 @@ export default (ccd, { equal, justBefore, between, throws }) => {
     },
     "a cell of which nothing is compared answers nothing"() {
       const { cell } = beforeWall();
-      cell.remove("wall");
+      cell.removeObstacle("wall");
       throws(() => cell.isFree([[0], [9]]), /nothing is compared in this cell: 2 links, 1 without bodies.*0 obstacles/);
       throws(() => cell.closestApproach([[0], [9]]), /nothing is compared/);
       throws(() => cell.clearanceRanges([[0], [9]]), /nothing is compared/);
@@ -66,37 +66,37 @@ export default (ccd, { equal, justBefore, between, throws }) => {
       const { robot, cell } = beforeWall();
       const kinds = (one) => one.remarks.map(({ kind }) => kind);
       equal([kinds(robot), kinds(cell)], [["remark"], ["remark"]]);
-      cell.add("desk", ccd.Body.box([1200, 800, 750]), { position: [9000, 0, 0] });
+      cell.addObstacle("desk", ccd.Body.box([1200, 800, 750]), { position: [9000, 0, 0] });
       equal(kinds(cell), ["warning", "remark"]);
       equal(cell.remarks[0].text.includes("desk is 2400 long, and the robot 1"), true);
       const joints = [{ type: "revolute", name: "hinge", parent: "frame", child: "leaf" }];
       const door = new ccd.Cell(new ccd.Robot({ joints, bodies: { leaf: ccd.Body.box([0.4, 0.02, 1]) } }));
-      door.add("floor", ccd.Body.box([200, 200, 0.1]), { position: [0, 0, -3] });
+      door.addObstacle("floor", ccd.Body.box([200, 200, 0.1]), { position: [0, 0, -3] });
       door.attach("handle", ccd.Body.capsule(0.01, 0.05), "leaf", { pose: { position: [0.3, 0.03, 0] } });
       equal(kinds(door), ["remark"]);
     },
     "a can is lifted from a table"() {
       const lift = { ...slider, axis: [0, 0, 1] };
       const cell = new ccd.Cell(new ccd.Robot({ joints: [lift], bodies: {} }));
-      cell.add("table", ccd.Body.box([1, 1, 0.1]), { position: [0, 0, -0.1] });
-      cell.add("shelf", ccd.Body.box([1, 1, 0.01]), { position: [0, 0, 0.923] });
+      cell.addObstacle("table", ccd.Body.box([1, 1, 0.1]), { position: [0, 0, -0.1] });
+      cell.addObstacle("shelf", ccd.Body.box([1, 1, 0.01]), { position: [0, 0, 0.923] });
       const can = () => cell.attach("can", ccd.Body.box([0.03, 0.03, 0.06]), "carriage", { pose: { position: [0, 0, 0.06] } });
       can();
       const path = [[0], [1]];
       equal(cell.firstContact(path).time, 0);
       const hit = cell.firstContact(path, { start: "leave", tolerance: 1e-6 });
       equal([hit.kind, hit.a, hit.b], ["contact", "can", "shelf"]);
-      justBefore(hit.share, 0.793, 1e-6);
+      justBefore(hit.fraction, 0.793, 1e-6);
       equal([cell.isFree([[0], [0.7]], { start: "leave" }), cell.isFree([[0], [-0.1]], { start: "leave" })], [true, false]);
       throws(() => cell.closestApproach(path, { start: "leave" }), /no "start"/);
       throws(() => cell.isFree(path, { start: "go" }), /^start: "go" is not "report" or "leave"$/);
       cell.allowContact("can", "table");
-      justBefore(cell.firstContact(path, { tolerance: 1e-6 }).share, 0.793, 1e-6);
+      justBefore(cell.firstContact(path, { tolerance: 1e-6 }).fraction, 0.793, 1e-6);
       cell.forbidContact("can", "table");
       equal(cell.firstContact(path).time, 0);
       cell.detach("can");
       cell.attach("can", ccd.Body.box([0.03, 0.03, 0.06]), "carriage", { pose: { position: [0, 0, 0.06] }, mayTouch: ["table"] });
-      justBefore(cell.firstContact(path, { tolerance: 1e-6 }).share, 0.793, 1e-6);
+      justBefore(cell.firstContact(path, { tolerance: 1e-6 }).fraction, 0.793, 1e-6);
       throws(() => cell.setClearance("can", "table", -0.01), /start policy/);
       throws(() => cell.allowContact("table", "shelf"), /never compared/);
     },
@@ -104,7 +104,7 @@ export default (ccd, { equal, justBefore, between, throws }) => {
       const { cell } = beforeWall();
       const closest = cell.closestApproach([[0], [1.25]], { tolerance: 1e-6 });
       equal([closest.kind, closest.nearest.a, closest.nearest.b], ["leastDistance", "carriage", "wall"]);
-      between(closest.nearest.share, 1 - 1e-6, 1);
+      between(closest.nearest.fraction, 1 - 1e-6, 1);
       between(0.75, closest.lower, closest.upper);
       between(closest.upper - closest.lower, 0, 1.01e-6);
       const ranges = cell.clearanceRanges([[0], [2]], { margin: 1 });
@@ -127,13 +127,13 @@ export default (ccd, { equal, justBefore, between, throws }) => {
     },
     "a door swings against a post"() {
       const cell = new ccd.Cell(door());
-      cell.add("post", ccd.Body.sphere(0.2), { position: [0, 0.75, 0] });
+      cell.addObstacle("post", ccd.Body.sphere(0.2), { position: [0, 0.75, 0] });
       const hit = cell.firstContact([[0], [3]], { tolerance: 1e-6 });
       // The ball's middle is 0.25 from the middle plane of the leaf.
-      justBefore(3 * hit.share, Math.acos(0.25 / 0.75), 1e-5);
+      justBefore(3 * hit.fraction, Math.acos(0.25 / 0.75), 1e-5);
     },
     "the motion of a link answers as any other"() {
-      const leaf = door().motion("leaf", [0], [3], { duration: 2 });
+      const leaf = door().linkTrajectory("leaf", [0], [3], { duration: 2 });
       const options = { motionA: leaf, motionB: { position: [0, 0.75, 0] }, tolerance: 1e-6 };
       const bar = ccd.Body.box([1, 0.05, 1]);
       const hit = ccd.firstContact(bar, ccd.Body.sphere(0.2), options);
@@ -146,13 +146,13 @@ export default (ccd, { equal, justBefore, between, throws }) => {
       throws(() => new ccd.Robot({ joints: [{ ...slider, type: "continuous" }] }), /a revolute one without limits/);
       throws(() => new ccd.Robot({ joints: [slider], bodies: { cariage: ccd.Body.sphere(1) } }), /link `cariage` has no joint/);
       throws(() => new ccd.Robot({ joints: [{ ...slider, mimic: { joint: "slidder" } }] }), /follows `slidder`, but there is no such joint/);
-      throws(() => cell.add("", ccd.Body.sphere(1)), /needs a name that is not empty/);
+      throws(() => cell.addObstacle("", ccd.Body.sphere(1)), /needs a name that is not empty/);
       throws(() => cell.attach("", ccd.Body.sphere(1), "carriage"), /needs a name that is not empty/);
       throws(() => new ccd.Robot({ joints: [{ ...slider, limits: [1, 0] }] }), /slider/);
       throws(() => new ccd.Robot({ joints: [{ ...slider, axis: [0, 0, 0] }] }), /joint "slider"/);
       throws(() => new ccd.Robot({ joints: [{ ...slider, child: undefined }] }), /joint "slider": child: a string is needed, not undefined/);
       throws(() => robot.pose("arm", [0]), /arm/);
-      throws(() => robot.motion("carriage", [0], [11]), /end: .*slider/);
+      throws(() => robot.linkTrajectory("carriage", [0], [11]), /end: .*slider/);
       throws(() => cell.isFree([[0], [1, 2]]), /path\[1\]: 2 positions, but 1 joints: slider/);
       throws(() => cell.isFree([[0], [11]]), /slider/);
       throws(() => cell.isFree([[0], [1]], { clearance: 1 }), /no "clearance"/);
@@ -160,9 +160,9 @@ export default (ccd, { equal, justBefore, between, throws }) => {
       throws(() => cell.isFree([[0], [1]], { budget: -1 }), /^budget: -1 is not at least 0/);
       throws(() => cell.clearanceRanges([[0], [1]], { resolution: 0 }), /^resolution: 0 is not/);
       throws(() => cell.clearanceRanges([[0], [1]], { maxPoseError: NaN }), /^maxPoseError: NaN is not/);
-      throws(() => cell.add(undefined, ccd.Body.sphere(1)), /^name: a string is needed, not undefined/);
+      throws(() => cell.addObstacle(undefined, ccd.Body.sphere(1)), /^name: a string is needed, not undefined/);
       throws(() => cell.setClearance("wall", 5, 1), /^b: a string is needed, not 5/);
-      throws(() => cell.add("wall", ccd.Body.sphere(1)), /wall/);
+      throws(() => cell.addObstacle("wall", ccd.Body.sphere(1)), /wall/);
       // The cell answers as before.
       equal(cell.isFree([[0], [1.9]]), true);
     },

@@ -151,23 +151,23 @@ test("what is probably a mistake is said once in the console", async () => {
   const hinge = { type: "revolute", name: "hinge", parent: "frame", child: "leaf" };
   const robot = new Robot({ joints: [hinge], bodies: { leaf: ball } });
   for (let k = 0; k < 2; k += 1) {
-    firstContact(ball, ball, { motionA: { ...far, rotation: [0, 0, 0, 1], spin: [0, 0, 6.28] } });
+    firstContact(ball, ball, { motionA: { ...far, rotation: [0, 0, 0, 1], angularVelocity: [0, 0, 6.28] } });
     check.equal(said.length, 4 * k);
     firstContact(grain, ball, { motionA: far });
-    firstContact(ball, ball, { motionA: { ...far, spin: [0, 0, 90] } });
+    firstContact(ball, ball, { motionA: { ...far, angularVelocity: [0, 0, 90] } });
     firstContact(ball, ball, { motionA: new Motion({ ...far, rotation: [0, 0, 0, 2] }) });
-    robot.motion("leaf", [0], [90]);
+    robot.linkTrajectory("leaf", [0], [90]);
   }
   check.equal(said.length, 4);
   const { Cell } = module;
   const cell = new Cell(robot);
   for (let k = 0; k < 2; k += 1) {
-    cell.add(`wall ${k}`, Body.box([1, 50, 50]), { position: [9, 0, 0] });
+    cell.addObstacle(`wall ${k}`, Body.box([1, 50, 50]), { position: [9, 0, 0] });
     cell.isFree([[0], [6.28]]);
     check.equal(said.length, 4 + k);
     // Warnings of these kinds were already shown.
     cell.isFree([[0], [90]], { tolerance: 1 });
-    cell.add(`desk ${k}`, Body.box([1200, 800, 750]), { position: [9000, 0, 0] });
+    cell.addObstacle(`desk ${k}`, Body.box([1200, 800, 750]), { position: [9000, 0, 0] });
   }
   cell.attach("tool", Body.sphere(0.0005), "leaf", { pose: { position: [0, 0, 2] } });
   console.warn = warn;

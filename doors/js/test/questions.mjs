@@ -16,7 +16,7 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
     },
     "a ball that is thrown lands when it should"() {
       const ground = ccd.Body.box([9, 9, 1]);
-      const thrown = new ccd.Throw({ position: [0, 0, 3], velocity: [1, 0, 0], acceleration: [0, 0, -10] });
+      const thrown = new ccd.Ballistic({ position: [0, 0, 3], velocity: [1, 0, 0], acceleration: [0, 0, -10] });
       const hit = ccd.firstContact(ball, ground, { motionA: thrown, tolerance: 1e-6 });
       justBefore(hit.time, Math.sqrt(0.3), 1e-5);
       between(hit.witnessA[0], hit.time - 1e-5, hit.time + 1e-5);
@@ -34,14 +34,14 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
       equal(ccd.distance(bar, wall, { motionA: turned }).kind, "overlapping");
     },
     "a path is followed pose by pose, and gives the duration"() {
-      const path = new ccd.Path([0, 1, 3], [{ position: [-3, 0, 0] }, { position: [-3, 2, 0] }, { position: [3, 2, 0] }]);
+      const path = new ccd.PosePath([0, 1, 3], [{ position: [-3, 0, 0] }, { position: [-3, 2, 0] }, { position: [3, 2, 0] }]);
       equal([path.end, path.pose(2).position], [3, [0, 2, 0]]);
       const nearest = ccd.closestApproach(ball, ball, { motionA: path });
       between(1, nearest.lower, nearest.upper);
       between(nearest.time, 1.9, 2.1);
-      throws(() => new ccd.Path([0, 0], [{}, {}]), /time of a pose/);
-      throws(() => new ccd.Path([0], [{}, {}]), /there are 2, but 1 times/);
-      const turns = new ccd.Path([0, 1], [{}, {}], { spins: [[0, 0, 4 * Math.PI]] });
+      throws(() => new ccd.PosePath([0, 0], [{}, {}]), /time of a pose/);
+      throws(() => new ccd.PosePath([0], [{}, {}]), /there are 2, but 1 times/);
+      const turns = new ccd.PosePath([0, 1], [{}, {}], { angularVelocities: [[0, 0, 4 * Math.PI]] });
       between(Math.abs(turns.pose(0.25).rotation[2]), 1 - 1e-9, 1);
     },
     "a motion between two poses is asked about until its end"() {
@@ -55,7 +55,7 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
         equal(ccd.isFree(a, b, { ...options, duration: 1 }), true);
         equal(ccd.keepsClearance(a, b, 0.1, options), false);
       }
-      const path = new ccd.Path([0, 3], [{}, {}]);
+      const path = new ccd.PosePath([0, 3], [{}, {}]);
       throws(() => ccd.isFree(ball, wall, { motionA: passes, motionB: path }), /end at different times/);
     },
     "each question has its answers"() {
@@ -84,7 +84,7 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
     },
     "a limit leaves what is proven"() {
       const cone = ccd.Body.cone(1, 1);
-      const turns = { motionA: { position: [-3, 0, 0], velocity: [3, 0, 0], spin: [9, 7, 5] }, budget: 3 };
+      const turns = { motionA: { position: [-3, 0, 0], velocity: [3, 0, 0], angularVelocity: [9, 7, 5] }, budget: 3 };
       const known = ccd.firstContact(cone, cone, turns);
       equal([known.kind, known.limit, known.safeFrom], ["unresolved", "budget", null]);
       ok(known.safeUntil < ccd.firstContact(cone, cone, { ...turns, budget: undefined }).time, "it is proven until a contact");
@@ -104,7 +104,7 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
         },
       });
       equal(ccd.firstContact(ball, ball, asks), plain);
-      const [gone, path] = [ccd.Body.sphere(1), new ccd.Path([0, 1], [{}, {}])];
+      const [gone, path] = [ccd.Body.sphere(1), new ccd.PosePath([0, 1], [{}, {}])];
       const frees = (what) => ({
         motionA: path,
         get motionB() {
@@ -113,7 +113,7 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
         },
       });
       throws(() => ccd.firstContact(gone, ball, frees(gone)), /this Body was freed/);
-      throws(() => ccd.firstContact(ball, ball, frees(path)), /this Path was freed/);
+      throws(() => ccd.firstContact(ball, ball, frees(path)), /this PosePath was freed/);
       equal(ccd.firstContact(ball, ball, options()), plain);
     },
     "settings and motions that are wrong are errors"() {
@@ -149,13 +149,13 @@ export default (ccd, { equal, ok, justBefore, between, throws }) => {
           Object.assign(this, { isEuler: true, x: 1, y: 2, z: 3, order: "XYZ" });
         }
       }
-      ok(throws(() => ccd.firstContact(ball, ball, { motionA: { spin: new Euler() } }), /^motionA\.spin: .*not an object of Euler/) instanceof TypeError, "angles");
-      const path = (end) => new ccd.Path([0, end], [{}, {}]);
+      ok(throws(() => ccd.firstContact(ball, ball, { motionA: { angularVelocity: new Euler() } }), /^motionA\.angularVelocity: .*not an object of Euler/) instanceof TypeError, "angles");
+      const path = (end) => new ccd.PosePath([0, end], [{}, {}]);
       throws(() => ccd.closestApproach(ball, ball, { motionA: path(1), motionB: path(2) }), /end at different times/);
-      throws(() => ccd.closestApproach(ball, ball, { motionA: path(1), motionB: { spin: "fast" } }), /motionB\.spin/);
+      throws(() => ccd.closestApproach(ball, ball, { motionA: path(1), motionB: { angularVelocity: "fast" } }), /motionB\.spin/);
       const freed = path(1);
       freed.free();
-      throws(() => ccd.closestApproach(ball, ball, { motionA: path(1), motionB: freed }), /this Path was freed/);
+      throws(() => ccd.closestApproach(ball, ball, { motionA: path(1), motionB: freed }), /this PosePath was freed/);
       // After an error, no movement remains for the next question.
       equal(ccd.firstContact(ball, ball, { motionA: { position: [5, 0, 0] } }).kind, "free");
     },

@@ -28,7 +28,7 @@ export function answers(ccd, randomNumbers) {
     const position = vector(1.5);
     const velocity = position.map((place) => -2 * place * random(0.7, 1.3));
     const rotation = [...vector(1), 1];
-    found.push(questions[k % 4](a, b, { motionA: { position, rotation, velocity, spin: vector(6) } }));
+    found.push(questions[k % 4](a, b, { motionA: { position, rotation, velocity, angularVelocity: vector(6) } }));
   }
   for (const body of bodies) body.free();
   const kinds = new Set(found.map(({ kind }) => kind));

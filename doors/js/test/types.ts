@@ -1,13 +1,13 @@
 // What TypeScript has to accept, and what it has to refuse.
 
-import { Body, Cell, closestApproach, contactInterval, EngineError, firstContact, init, Motion, Path, readMesh, Robot, Throw, UnresolvedError } from "rigid-ccd";
+import { Body, Cell, closestApproach, contactInterval, EngineError, firstContact, init, Motion, PosePath, readMesh, Robot, Ballistic, UnresolvedError } from "rigid-ccd";
 import type { Feature, Joint, Vector } from "rigid-ccd";
 
 export async function answers(): Promise<string> {
   const { simd }: { simd: boolean } = await init({ simd: false });
   if (simd) return "with vectors";
   const [ball, box] = [Body.sphere(1), Body.box({ x: 1, y: 2, z: 3 })];
-  const hit = firstContact(ball, box, { motionA: new Throw({ acceleration: [0, 0, -9.81] }), tolerance: 1e-6 });
+  const hit = firstContact(ball, box, { motionA: new Ballistic({ acceleration: [0, 0, -9.81] }), tolerance: 1e-6 });
   switch (hit.kind) {
     case "free":
       return `${hit.provenGap} ${hit.safeUntil}`;
@@ -46,10 +46,10 @@ export function mechanisms(mesh: { position: Float32Array; index: Uint16Array })
     { type: "fixed", name: "b", parent: "arm", child: "tool" },
   ];
   const cell = new Cell(new Robot({ joints, bodies: { tool: [{ body: part, pose: { position: [1, 0, 0] } }] } }));
-  cell.add("wall", part);
+  cell.addObstacle("wall", part);
   const closest = cell.closestApproach([[0], new Float64Array([1])]);
   if (closest.kind === "unresolved") throw new Error(closest.advice);
-  return closest.lower + (closest.nearest?.share ?? 0) + cell.clearanceRanges([[0], [1]], { margin: 0.1 }).length;
+  return closest.lower + (closest.nearest?.fraction ?? 0) + cell.clearanceRanges([[0], [1]], { margin: 0.1 }).length;
 }
 
 export function undecided(error: unknown): number | undefined {
@@ -73,7 +73,7 @@ export function refused(ball: Body): void {
   new Body();
   // @ts-expect-error A fixed joint has no limits.
   const joint: Joint = { type: "fixed", name: "a", parent: "b", child: "c", limits: [0, 1] };
-  const interval = contactInterval(ball, ball, { motionA: new Path([0], [{}]), motionB: Motion.between({}, {}) });
+  const interval = contactInterval(ball, ball, { motionA: new PosePath([0], [{}]), motionB: Motion.between({}, {}) });
   // @ts-expect-error Only an interval has a last contact.
   console.log(interval.last, joint);
 }

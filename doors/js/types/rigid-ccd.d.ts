@@ -29,7 +29,7 @@ export function memoryUsage(): number;
 // --- Vectors, poses and bodies
 
 export type Vector = readonly [number, number, number];
-/** A quaternion in the order x, y, z, w, as in three.js. The Python package has w first. */
+/** A quaternion in the order x, y, z, w, as in three.js. */
 export type Quaternion = readonly [x: number, y: number, z: number, w: number];
 /** A vector as a list, or as an object such as a `Vector3` of three.js. */
 export type GivenVector = ArrayLike<number> | { readonly x: number; readonly y: number; readonly z: number };
@@ -115,7 +115,7 @@ export class Body extends Owned {
   static box(halfExtents: GivenVector): Body;
   /** Makes a ball about its origin. */
   static sphere(radius: number): Body;
-  /** Makes a capsule along z. `halfHeight` is the distance from its middle to the centre of either cap. */
+  /** Makes a capsule along z. `halfHeight` is the distance from its middle to the center of either cap. */
   static capsule(radius: number, halfHeight: number): Body;
   /**
    * Makes a cylinder along z. It is represented by an enclosing polytope, which extends beyond it by at most
@@ -127,7 +127,7 @@ export class Body extends Owned {
   /** Whether the body is solid: another body inside it overlaps it. */
   readonly isSolid: boolean;
   /** The number of convex pieces. */
-  readonly pieces: number;
+  readonly pieceCount: number;
   /** A description of the body: the shape and its lengths, or the pieces that represent the mesh, with remarks. */
   readonly report: string;
   /** How far the body may extend beyond its shape; 0 for exact bodies. Contacts may be early because of it, but never late. */
@@ -152,7 +152,7 @@ export interface MotionNumbers extends GivenPose {
   /** The velocity of the center, per unit of time. */
   velocity?: GivenVector;
   /** The angular velocity about the world's axes, in radians per unit of time. */
-  spin?: GivenVector;
+  angularVelocity?: GivenVector;
   /** The center of rotation in the body's frame. The default is the body's origin. */
   center?: GivenVector;
 }
@@ -176,7 +176,7 @@ export class Motion extends Movement {
 }
 
 /** The movement of a thrown body: its center has a constant acceleration, and it rotates at a constant rate. */
-export class Throw extends Movement {
+export class Ballistic extends Movement {
   constructor(motion: MotionNumbers & { acceleration: GivenVector });
 }
 
@@ -184,15 +184,15 @@ export class Throw extends Movement {
  * A path through poses at increasing times. Between two poses the center moves on a straight line, and the body takes
  * the shortest rotation. The body is at rest before the first pose and after the last one.
  *
- * `spins` are angular velocities from each pose to the next, for rotations of more than half a turn. An angular
+ * `angularVelocities` are angular velocities from each pose to the next, for rotations of more than half a turn. An angular
  * velocity may miss the next pose by at most a quarter turn. The rest is added as a second rotation.
  */
-export class Path extends Movement {
-  constructor(times: ArrayLike<number>, poses: readonly GivenPose[], options?: { center?: GivenVector; spins?: readonly GivenVector[] });
+export class PosePath extends Movement {
+  constructor(times: ArrayLike<number>, poses: readonly GivenPose[], options?: { center?: GivenVector; angularVelocities?: readonly GivenVector[] });
 }
 
-/** The motion of a robot's link while all joints move at constant rates. `Robot.motion` makes it. */
-export class LinkMotion extends Movement {
+/** The motion of a robot's link while all joints move at constant rates. `Robot.linkTrajectory` makes it. */
+export class LinkTrajectory extends Movement {
   private constructor();
 }
 
@@ -203,7 +203,7 @@ export interface Settings {
   tolerance?: number;
   /**
    * The largest amount of work of a question, a whole number or infinity. A million takes about a second. Along a
-   * `Path` the budget is for each segment between two poses. In a cell it is for each query of two bodies, and a
+   * `PosePath` the budget is for each segment between two poses. In a cell it is for each query of two bodies, and a
    * question takes at most 8 budgets for each segment of the path.
    */
   budget?: number;
@@ -417,15 +417,15 @@ export class Robot extends Owned {
   /** Returns the pose of a link in the frame of the base. */
   pose(link: string, configuration: Configuration): Pose;
   /** Returns the motion of a link in the frame of the base, or of the link `seenFrom`. The duration is 1 by default. */
-  motion(link: string, start: Configuration, end: Configuration, options?: { duration?: number; seenFrom?: string }): LinkMotion;
+  linkTrajectory(link: string, start: Configuration, end: Configuration, options?: { duration?: number; seenFrom?: string }): LinkTrajectory;
 }
 
 /** A pair of items of a cell, at a point of a path. Witness points are in the frame of the robot's base. */
 export interface Pair {
-  /** The index, from 0, of the segment between two configurations. `share` is the position within it, from 0 to 1. */
+  /** The index, from 0, of the segment between two configurations. `fraction` is the position within it, from 0 to 1. */
   segment: number;
-  share: number;
-  /** The sum of `segment` and `share`: 1.5 is the middle of the second segment. */
+  fraction: number;
+  /** The sum of `segment` and `fraction`: 1.5 is the middle of the second segment. */
   time: number;
   /** The name of the first item: a link, or an attached body. */
   a: string;
@@ -470,9 +470,9 @@ export interface PathSettings extends ContactSettings {
 export class Cell extends Owned {
   constructor(robot: Robot);
   /** Adds an obstacle at a pose in the frame of the robot's base. */
-  add(name: string, body: Body, pose?: GivenPose): void;
-  moveTo(name: string, pose: GivenPose): void;
-  remove(name: string): void;
+  addObstacle(name: string, body: Body, pose?: GivenPose): void;
+  moveObstacle(name: string, pose: GivenPose): void;
+  removeObstacle(name: string): void;
   /**
    * Attaches a body to a link, at a pose in the link's frame. The body may touch that link, and the items named in
    * `mayTouch`: links, attached bodies and obstacles.

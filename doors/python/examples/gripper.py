@@ -18,7 +18,7 @@ from rigid_ccd import Body, Cell, Joint, Robot
 
 BAR, COUPLER, GROUND, RADIUS = 0.050, 0.020, 0.022, 0.004  # crank and rocker are as long, and all bars are as thick
 PAD, PAD_SIZE, BALL, BALL_RADIUS = [-0.006, 0.020, 0], [0.004, 0.030, 0.020], [0, 0.078, 0], 0.015
-UPRIGHT, ALONG_X, TURNED = [1, 0, 0, 0], [0.5**0.5, 0, 0.5**0.5, 0], [0, 0, 1, 0]
+UPRIGHT, ALONG_X, TURNED = [0, 0, 0, 1], [0, 0.5**0.5, 0, 0.5**0.5], [0, 1, 0, 0]
 bar, coupler = [(Body.capsule(RADIUS, size / 2), ([size / 2, 0, 0], ALONG_X)) for size in (BAR, COUPLER)]
 parts = {"crank": [bar], "rocker": [bar], "coupler": [coupler, (Body.box(size=PAD_SIZE), (PAD, UPRIGHT))]}
 joints = [
@@ -49,10 +49,10 @@ cell = Cell(gripper)
 ranges = cell.clearance_ranges(travel, margin=5e-4, max_pose_error=error, tolerance=1e-6)
 print(*(f"{each.clearance:10} {each.start:.3f}° to {each.end:.3f}°" for each in ranges), sep="\n")
 pieces = [PPoly(travel.c[:, k : k + 1], travel.x[k : k + 2]) for k in range(len(stops) - 1)]
-lower = cell.paths(pieces, ask="closest-approach", tolerance=1e-5)["distance_lower"] - 2 * error
+lower = cell.answer_paths(pieces, question="closest-approach", tolerance=1e-5)["distance_lower"] - 2 * error
 
 # %% Where does a pad touch a ball of 30 mm?
-cell.add("ball", Body.sphere(BALL_RADIUS), (BALL, UPRIGHT))
+cell.add_obstacle("ball", Body.sphere(BALL_RADIUS), (BALL, UPRIGHT))
 touch = cell.first_contact(travel, tolerance=1e-6)
 assert touch is not None
 print(f"{touch.a} touches {touch.b} at {touch.time:.3f}°, at {np.round(touch.witness_b, 4)}")
@@ -79,7 +79,7 @@ package = {path.name: path.locate() for path in files("example-robot-data") or [
 arm = Robot.from_urdf(package["ur5_robot.urdf"], package["ur5.srdf"])
 flange = ([0, 0, 0.041], [0.5**0.5, 0.5**0.5, 0, 0])
 both = Cell(Robot.combined({"": arm, "gripper": gripper}, {"gripper": flange}, carriers={"gripper": "tool0"}))
-both.add("wall", Body.box(size=(0.4, 0.02, 0.135)), ([0.55, 0, 0.0325], UPRIGHT))
+both.add_obstacle("wall", Body.box(size=(0.4, 0.02, 0.135)), ([0.55, 0, 0.0325], UPRIGHT))
 pads = [f"gripper/{side}/coupler" for side in ("right", "left")]
 both.attach("ball", Body.sphere(BALL_RADIUS), "gripper/palm", (BALL, UPRIGHT), may_touch=pads)
 ends = [[-0.8, -1.4, 1.9, -2.07, -1.57, 0], [0.8, -1.4, 1.9, -2.07, -1.57, 0]]

@@ -13,7 +13,7 @@ import numpy as np
 
 from rigid_ccd import Body, Cell, Joint, Robot
 
-UPRIGHT, TURNED = [1, 0, 0, 0], [0, 0, 0, 1]
+UPRIGHT, TURNED = [0, 0, 0, 1], [0, 0, 1, 0]
 
 
 def box(size: tuple[float, float, float], x: float = 0, y: float = 0, z: float = 0) -> list[Any]:
@@ -44,8 +44,8 @@ both = Robot.combined({"": arm, "other": arm}, {"other": ([1.25, 0, 0], TURNED)}
 can, in_hand = Body.cylinder(0.033, 0.06), ([0, 0, -0.12], UPRIGHT)
 FINGERS = ["left finger", "right finger"]
 cell = Cell(both)
-cell.add("table", Body.box(0.25, 0.4, 0.01), ([0.62, 0, 0.19], UPRIGHT))
-cell.add("shelf", Body.box(0.12, 0.1, 0.01), ([0.62, -0.22, 0.34], UPRIGHT))
+cell.add_obstacle("table", Body.box(0.25, 0.4, 0.01), ([0.62, 0, 0.19], UPRIGHT))
+cell.add_obstacle("shelf", Body.box(0.12, 0.1, 0.01), ([0.62, -0.22, 0.34], UPRIGHT))
 print(cell)
 ASIDE, IN_THE_WAY = (0, 2), (0.1, 0)  # lift and shoulder of the other arm
 
@@ -59,9 +59,9 @@ PICK, PLACE, OPEN, CLOSED = (0.7, -0.9), (-0.7, 0.9), 0.05, 0.033
 # %% Pick: the fingers come from above, open, and close
 grasp = np.eye(4)
 grasp[:3, 3] = in_hand[0]
-cell.add("can", can, both.pose("hand", at(0, *PICK, OPEN)) @ grasp)
+cell.add_obstacle("can", can, both.pose("hand", at(0, *PICK, OPEN)) @ grasp)
 assert cell.is_free([at(0.3, *PICK, OPEN), at(0, *PICK, OPEN)])
-cell.remove("can")
+cell.remove_obstacle("can")
 cell.attach("can", can, "hand", in_hand, may_touch=FINGERS)
 
 # %% Carry: off the table, over the shelf and down to a millimetre above it
@@ -85,7 +85,7 @@ for name, path in in_the_way.items():
 # %% Place: the can stands on the shelf, the fingers open and leave it
 shelved = at(0.15, *PLACE, CLOSED)
 cell.detach("can")
-cell.add("can", can, both.pose("hand", shelved) @ grasp)
+cell.add_obstacle("can", can, both.pose("hand", shelved) @ grasp)
 for finger in FINGERS:
     cell.allow_contact(finger, "can")
 assert cell.is_free([shelved, at(0.15, *PLACE, OPEN)])

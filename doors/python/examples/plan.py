@@ -19,9 +19,9 @@ from rigid_ccd.ompl import MotionValidator, StateValidityChecker, space_of
 # %% The robot, and a cell with a shelf of thin boards
 package = {path.name: path.locate() for path in files("example-robot-data") or []}
 cell = Cell(Robot.from_urdf(package["panda.urdf"], package["panda.srdf"], meshes="hull"))
-UPRIGHT = [1, 0, 0, 0]
+UPRIGHT = [0, 0, 0, 1]
 for k, height in enumerate([0.2, 0.5, 0.8]):
-    cell.add(f"board {k}", Body.box(size=(0.4, 0.8, 0.004)), ([0.6, 0, height], UPRIGHT))
+    cell.add_obstacle(f"board {k}", Body.box(size=(0.4, 0.8, 0.004)), ([0.6, 0, height], UPRIGHT))
 FINGERS = {"panda_finger_joint1": 0.02}
 start = np.array([-1.2, -0.6, 0.0, -2.3, 0.0, 1.8, 0.8])
 goal = np.array([1.2, -0.2, 0.0, -2.0, 0.0, 1.9, 0.8])
@@ -49,9 +49,9 @@ print(f"a path of {len(path)} configurations is free; it comes within {1000 * ne
 # %% The curve
 # Adds points on the straight lines until the spline is near enough to them to be proven free.
 for count in 2 ** np.arange(0, 7):
-    shares = np.linspace(0, len(path) - 1, count * (len(path) - 1) + 1)
-    points = np.stack([np.interp(shares, np.arange(len(path)), joint) for joint in path.T], axis=1)
-    seconds = 2 * shares
+    fractions = np.linspace(0, len(path) - 1, count * (len(path) - 1) + 1)
+    points = np.stack([np.interp(fractions, np.arange(len(path)), joint) for joint in path.T], axis=1)
+    seconds = 2 * fractions
     curve = CubicSpline(seconds, points, bc_type="clamped")
     contact = cell.first_contact(curve)
     if contact is None:

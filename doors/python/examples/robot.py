@@ -23,7 +23,7 @@ low, high = robot.limits.T
 print(f"{robot!r}: {len(robot.checked_pairs)} pairs of links to check")
 
 # %% The cell around it: boards, a post, and cables of 6 mm
-UPRIGHT = [1, 0, 0, 0]
+UPRIGHT = [0, 0, 0, 1]
 boxes = {  # size, position and rotation
     "table": ((1.6, 1.6, 0.04), [0, 0, -0.05], UPRIGHT),
     "shelf": ((0.4, 0.3, 0.015), [0.45, 0.40, 0.60], UPRIGHT),
@@ -38,39 +38,39 @@ for k in range(12):
     boxes[f"cable {k}"] = (0.006, 0.006, 0.3), at, list(turned / np.linalg.norm(turned))
 cell = Cell(robot)
 for name, (size, position, rotation) in boxes.items():
-    cell.add(name, Body.box(size=size), (position, rotation))
+    cell.add_obstacle(name, Body.box(size=size), (position, rotation))
 
 # %% Edges of a planner
 # Each edge begins where the arm is free, and turns joints by up to 1.5 radians. A certified edge is free along its
 # whole length.
 TOLERANCE = 1e-4  # an edge that keeps this much clearance is certified
 starts = random.uniform(low, high, (1200, len(low)))
-starts = starts[cell.edges(starts, starts, tolerance=TOLERANCE)["status"] == "free"][:400]
+starts = starts[cell.answer_edges(starts, starts, tolerance=TOLERANCE)["status"] == "free"][:400]
 ends = np.clip(starts + random.uniform(-1.5, 1.5, starts.shape), low, high)
-certified = cell.edges(starts, ends, tolerance=TOLERANCE)["status"] == "free"
+certified = cell.answer_edges(starts, ends, tolerance=TOLERANCE)["status"] == "free"
 print(f"{certified.sum()} of {len(starts)} edges are free")
 
 # %% The same edges at equal steps
 for steps in (5, 20, 100):
-    shares = np.linspace(0, 1, steps + 1)[:, None, None]
-    stops = (starts + shares * (ends - starts)).reshape(-1, len(low))
-    is_free = (cell.edges(stops, stops, tolerance=TOLERANCE)["status"] == "free").reshape(steps + 1, -1)
+    fractions = np.linspace(0, 1, steps + 1)[:, None, None]
+    stops = (starts + fractions * (ends - starts)).reshape(-1, len(low))
+    is_free = (cell.answer_edges(stops, stops, tolerance=TOLERANCE)["status"] == "free").reshape(steps + 1, -1)
     missed = np.flatnonzero(is_free.all(axis=0) & ~certified)
     print(f"{steps:3} steps accept {len(missed)} edges that are not free")
     for k in missed[:1]:
         contact = cell.first_contact([starts[k], ends[k]], tolerance=TOLERANCE)
         if contact is not None:
-            print(f"    edge {k}: {contact.a} meets {contact.b} at {contact.share:.4f} of it, at", contact.witness_b)
+            print(f"    edge {k}: {contact.a} meets {contact.b} at {contact.fraction:.4f} of it, at", contact.witness_b)
 
 # %% A whole turn of the base
 # In the interval from one angle to the next, the clearance is never less than `lower`.
 POSE = [0.0, 0.6, -2.6, 1.1, 3.7, 1.6, 0.02]
 angles = np.linspace(low[0], high[0], 241)
 turn = np.column_stack([angles, np.tile(POSE, (len(angles), 1))])
-stretches = cell.edges(turn[:-1], turn[1:], ask="closest-approach", tolerance=TOLERANCE)
+stretches = cell.answer_edges(turn[:-1], turn[1:], question="closest-approach", tolerance=TOLERANCE)
 lower = 1e3 * stretches["distance_lower"]
 stops = turn[::6]
-at_stops = 1e3 * cell.edges(stops, stops, ask="closest-approach", tolerance=TOLERANCE)["distance_upper"]
+at_stops = 1e3 * cell.answer_edges(stops, stops, question="closest-approach", tolerance=TOLERANCE)["distance_upper"]
 print(f"Least clearance over a turn of the base: {lower.min():.1f} mm; it seems {at_stops.min():.1f} mm at 41 steps")
 
 # %% The plot

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
 use rigid_ccd::body::{SolidOfRevolution, Solidity};
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::mesh::{Adjustments, Detail, StoreFault, StoredBodyContent, TriangleMesh, prepare};
+use rigid_ccd::mesh::{Adjustments, PieceChoice, StoreFault, StoredBodyContent, TriangleMesh, prepare};
 use rigid_ccd::text::Number;
 use rigid_ccd::{Body, Remark};
 use std::borrow::Cow;
@@ -92,12 +92,12 @@ impl PyBody {
             .map(DVec3::from)
             .collect();
         let faces = triangles(faces)?;
-        let detail = detail(pieces, surface)?;
+        let choice = choice(pieces, surface)?;
         let bytes = size_of_val(&*faces) as u64;
         let made = run_or_leave(py, bytes, move || {
             let mesh = TriangleMesh::new(points, &faces).map_err(input_error)?;
-            let model = prepare(&mesh, detail).map_err(input_error)?;
-            let remark = Remark::remark_on_mesh(detail, &mesh, &model.report);
+            let model = prepare(&mesh, choice).map_err(input_error)?;
+            let remark = Remark::remark_on_mesh(choice, &mesh, &model.report);
             Ok::<_, PyErr>((PyBody::from_model(model)?, remark))
         });
         let (body, remark) = made??;
@@ -150,7 +150,7 @@ impl PyBody {
             },
             path,
             part,
-            detail: detail(pieces, surface)?,
+            choice: choice(pieces, surface)?,
         };
         // If the file cannot be read, the reader reports it later.
         let file_bytes = std::fs::metadata(&file.path).map_or(0, |file| file.len());
@@ -231,7 +231,7 @@ impl PyBody {
         PyBody::from_shape(Body::sphere(radius), recipe, report)
     }
 
-    /// Makes a capsule along z. `half_height` is the distance from its middle to the centre of either cap.
+    /// Makes a capsule along z. `half_height` is the distance from its middle to the center of either cap.
     #[classmethod]
     fn capsule(
         class: &Bound<'_, PyType>,
@@ -302,7 +302,7 @@ impl PyBody {
 
     /// The number of convex pieces of the body.
     #[getter]
-    fn pieces(&self) -> usize {
+    fn piece_count(&self) -> usize {
         self.body.pieces().len()
     }
 
@@ -413,17 +413,17 @@ fn round_report(name: &str, radius: f64, half_height: f64) -> String {
     format!("{name} of radius {radius} and half height {half_height}")
 }
 
-fn detail(name: &str, surface: bool) -> PyResult<Detail> {
+fn choice(name: &str, surface: bool) -> PyResult<PieceChoice> {
     match name {
-        "auto" | "triangles" if surface => Ok(Detail::Surface),
+        "auto" | "triangles" if surface => Ok(PieceChoice::Surface),
         "patches" | "hull" | "outer-hull" if surface => Err(InputError::new_err(format!(
             "surface: {name} fill a solid; a hollow surface has pieces=\"triangles\""
         ))),
-        "auto" => Ok(Detail::Auto),
-        "triangles" => Ok(Detail::Triangles),
-        "patches" => Ok(Detail::Patches(Default::default())),
-        "hull" => Ok(Detail::Hull),
-        "outer-hull" => Ok(Detail::OuterHull),
+        "auto" => Ok(PieceChoice::Auto),
+        "triangles" => Ok(PieceChoice::Triangles),
+        "patches" => Ok(PieceChoice::Patches(Default::default())),
+        "hull" => Ok(PieceChoice::Hull),
+        "outer-hull" => Ok(PieceChoice::OuterHull),
         _ => Err(InputError::new_err(format!(
             "pieces: {name:?} is none of \"auto\", \"triangles\", \"patches\", \"hull\", \"outer-hull\""
         ))),

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyString;
 use rigid_ccd::Remark;
 use rigid_ccd::mesh::{
-    AdjustedStoredBody, Adjustments, Axis, Detail, MeshSource, STORED_BODY_EXTENSION,
+    AdjustedStoredBody, Adjustments, Axis, PieceChoice, MeshSource, STORED_BODY_EXTENSION,
     StoredBodyContent, Unit, prepare,
 };
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ pub(crate) struct BodyFile {
     pub(crate) path: PathBuf,
     pub(crate) part: Option<String>,
     pub(crate) adjustments: Adjustments,
-    pub(crate) detail: Detail,
+    pub(crate) choice: PieceChoice,
     /// Whether the options allow a prepared body.
     pub(crate) may_be_prepared: bool,
     /// Whether the options have neither a unit nor a factor.
@@ -47,10 +47,10 @@ impl BodyFile {
             adjustments: self.adjustments,
         };
         let (mesh, unit) = source.read().map_err(input_error)?;
-        let prepared = prepare(&mesh, self.detail);
+        let prepared = prepare(&mesh, self.choice);
         let model = prepared.map_err(|error| input_error(format!("{source}: {error}")))?;
         let kept = unit.filter(|_| self.keeps_numbers);
-        let remarks = Remark::remark_on_mesh(self.detail, &mesh, &model.report).into_iter();
+        let remarks = Remark::remark_on_mesh(self.choice, &mesh, &model.report).into_iter();
         Ok((model, remarks.chain(Remark::remark_on_unit(kept)).collect()))
     }
 }

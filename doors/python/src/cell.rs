@@ -65,7 +65,7 @@ impl PyCell {
     /// Adds an obstacle at a pose in the frame of the robot's base. Warns if its size is unlikely compared with the
     /// robot.
     #[pyo3(signature = (name, body, pose = None))]
-    fn add(
+    fn add_obstacle(
         &self,
         name: &str,
         body: &Bound<'_, PyAny>,
@@ -85,12 +85,12 @@ impl PyCell {
     }
 
     /// Moves an obstacle to a pose in the frame of the robot's base.
-    fn move_to(&self, name: &str, pose: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.state.move_to(name, read_given_pose(pose, "pose")?)
+    fn move_obstacle(&self, name: &str, pose: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.state.move_obstacle(name, read_given_pose(pose, "pose")?)
     }
 
     /// Removes an obstacle.
-    fn remove(&self, name: &str) -> PyResult<()> {
+    fn remove_obstacle(&self, name: &str) -> PyResult<()> {
         self.state.remove(name)
     }
 
@@ -161,7 +161,7 @@ impl PyCell {
     ///
     /// Raises:
     ///     InputError: the path does not fit the robot, or the cell has no pair to check.
-    ///     Unresolved: a limit was reached first.
+    ///     UnresolvedError: a limit was reached first.
     #[pyo3(signature = (path, **settings))]
     fn is_free(
         &self,
@@ -177,7 +177,7 @@ impl PyCell {
     /// Returns the first contact on a path, or None. Nothing touches before it. `start="leave"` is as for `is_free`.
     ///
     /// Raises:
-    ///     Unresolved: a limit was reached first. The path is free until `safe_until`, in segments of the path, or as a
+    ///     UnresolvedError: a limit was reached first. The path is free until `safe_until`, in segments of the path, or as a
     ///         time on a curve.
     #[pyo3(signature = (path, **settings))]
     fn first_contact<'py>(
@@ -208,8 +208,8 @@ impl PyCell {
     ///     InputError: a body has no triangles, the path is a curve, or a segment cannot be proven, for instance
     ///         because bodies touch at its start, or one is inside another. `results` has the proofs of the segments
     ///         before.
-    ///     Unresolved: a limit was reached first. `results` has the proofs until `safe_until`.
-    ///     Interrupted: Ctrl-C was pressed. `results` has the proofs so far.
+    ///     UnresolvedError: a limit was reached first. `results` has the proofs until `safe_until`.
+    ///     InterruptError: Ctrl-C was pressed. `results` has the proofs so far.
     #[pyo3(signature = (path, *, progress = None, **settings))]
     fn prove<'py>(
         &self,
@@ -252,7 +252,7 @@ impl PyCell {
     ///     A list of `PathRange`, in the order of the path.
     ///
     /// Raises:
-    ///     Interrupted: Ctrl-C was pressed. `results` has the ranges found so far, and "unverified" for the rest of the
+    ///     InterruptError: Ctrl-C was pressed. `results` has the ranges found so far, and "unverified" for the rest of the
     ///         path.
     #[pyo3(signature = (path, *, resolution = RangeSettings::DEFAULT.resolution, max_pose_error = 0.0, **settings))]
     fn clearance_ranges<'py>(
@@ -276,7 +276,7 @@ impl PyCell {
     /// `is_free`.
     ///
     /// Args:
-    ///     ask: "is-free", "first-contact" or "closest-approach".
+    ///     question: "is-free", "first-contact" or "closest-approach".
     ///     threads: the number of threads; None for one on each core.
     ///     progress: a function, called up to fifty times a second with the number of edges answered and the number of
     ///         all edges; a bar of tqdm; or True for a new bar.
@@ -288,21 +288,21 @@ impl PyCell {
     ///     `clearance`, the status of a closest approach is "kept", "violated" or "unverified".
     ///
     /// Raises:
-    ///     Interrupted: Ctrl-C was pressed. `results` has the rows answered so far, from the first on.
-    #[pyo3(signature = (start, end, /, ask = "is-free", *, threads = None, progress = None, **settings))]
+    ///     InterruptError: Ctrl-C was pressed. `results` has the rows answered so far, from the first on.
+    #[pyo3(signature = (start, end, /, question = "is-free", *, threads = None, progress = None, **settings))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments of Python")]
-    fn edges(
+    fn answer_edges(
         &self,
         py: Python<'_>,
         start: &Bound<'_, PyAny>,
         end: &Bound<'_, PyAny>,
-        ask: &str,
+        question: &str,
         threads: Option<&Bound<'_, PyAny>>,
         progress: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyTable> {
         let given = GivenQuestion {
-            ask,
+            question,
             threads,
             progress,
             settings,
@@ -314,18 +314,18 @@ impl PyCell {
     /// Answers a question about many paths, on all cores. `paths` is an array of shape (N, n, joints), or a list of
     /// curves. The other arguments and the table are those of `edges`. Times are in segments: 1.5 is the middle of the
     /// second segment. For curves, times are their own.
-    #[pyo3(signature = (paths, ask = "is-free", *, threads = None, progress = None, **settings))]
-    fn paths(
+    #[pyo3(signature = (paths, question = "is-free", *, threads = None, progress = None, **settings))]
+    fn answer_paths(
         &self,
         py: Python<'_>,
         paths: &Bound<'_, PyAny>,
-        ask: &str,
+        question: &str,
         threads: Option<&Bound<'_, PyAny>>,
         progress: Option<&Bound<'_, PyAny>>,
         settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyTable> {
         let given = GivenQuestion {
-            ask,
+            question,
             threads,
             progress,
             settings,

@@ -55,7 +55,7 @@ impl CellContents {
         self.obstacles.push((name.to_owned(), body, pose));
     }
 
-    pub(crate) fn move_to(&mut self, name: &str, pose: GivenPose) {
+    pub(crate) fn move_obstacle(&mut self, name: &str, pose: GivenPose) {
         let moved = self.obstacles.iter_mut().find(|(other, ..)| other == name);
         if let Some((_, _, old)) = moved {
             *old = pose;

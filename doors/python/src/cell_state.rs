@@ -39,10 +39,10 @@ impl CellState {
         Ok(())
     }
 
-    pub(crate) fn move_to(&self, name: &str, pose: GivenPose) -> PyResult<()> {
+    pub(crate) fn move_obstacle(&self, name: &str, pose: GivenPose) -> PyResult<()> {
         let place = pose.pose("pose")?;
         self.change(|cell| cell.move_obstacle(name, place))?;
-        self.contents().move_to(name, pose);
+        self.contents().move_obstacle(name, pose);
         Ok(())
     }
 

@@ -176,12 +176,12 @@ fn units_of_names(
     let prefix = PREFIXES.iter().find(|(argument, _)| *argument == what);
     for prefix in ["", prefix.map_or("", |(_, prefix)| prefix)] {
         let mut units = Vec::new();
-        for (number, joint) in robot.free_joint_names().enumerate() {
+        for (number, joint) in robot.independent_joint_names().enumerate() {
             let found = joint_column(&names, robot, (prefix, joint), AngleUnit::Radian);
             let found = found.map_err(|error| input_error(format!("{what}: {error}")))?;
             units.extend(found.filter(|own| own.column == number).map(|own| own.unit));
         }
-        if units.len() == names.len() && units.len() == robot.free_joint_names().len() {
+        if units.len() == names.len() && units.len() == robot.independent_joint_names().len() {
             return Ok(Some(units));
         }
     }
@@ -190,7 +190,7 @@ fn units_of_names(
 
 /// Makes the error for labels that are not the names of the joints.
 fn refusal(labels: &[Bound<'_, PyAny>], robot: &Robot, what: &str) -> PyErr {
-    let joints: Vec<&str> = robot.free_joint_names().collect();
+    let joints: Vec<&str> = robot.independent_joint_names().collect();
     let labels = texts(labels).unwrap_or_else(|_| "no texts".to_owned());
     input_error(format!(
         "{what}: the labels are {labels}, and the joints of a configuration {}: take robot.joint_names, in this order",

@@ -19,15 +19,15 @@ pyo3::create_exception!(
 );
 pyo3::create_exception!(
     rigid_ccd,
-    Unresolved,
+    UnresolvedError,
     PyRuntimeError,
     "A limit was reached before the answer was known. For questions about contacts, nothing touches before the attribute `safe_until`. For distances, `lower` and `upper` are proven bounds. For proofs, `results` has the proofs until the limit. Other attributes are None."
 );
 pyo3::create_exception!(
     rigid_ccd,
-    Interrupted,
+    InterruptError,
     PyKeyboardInterrupt,
-    "Ctrl-C ended a call. The attribute `results` has the answers so far, such as the first rows of a table. For a single question, `safe_until`, or `lower` and `upper`, are as for `Unresolved`. Other attributes are None."
+    "Ctrl-C ended a call. The attribute `results` has the answers so far, such as the first rows of a table. For a single question, `safe_until`, or `lower` and `upper`, are as for `UnresolvedError`. Other attributes are None."
 );
 
 /// Adds the exceptions to the module, and gives their attributes the default value None.
@@ -36,13 +36,13 @@ pub(crate) fn add_exceptions(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let classes = [
         ("InputError", py.get_type::<InputError>(), &["results"][..]),
         (
-            "Unresolved",
-            py.get_type::<Unresolved>(),
+            "UnresolvedError",
+            py.get_type::<UnresolvedError>(),
             &["results", "safe_until", "lower", "upper"],
         ),
         (
-            "Interrupted",
-            py.get_type::<Interrupted>(),
+            "InterruptError",
+            py.get_type::<InterruptError>(),
             &["results", "safe_until", "lower", "upper"],
         ),
     ];
@@ -133,17 +133,17 @@ pub(crate) fn file_error(error: &std::io::Error, path: &std::path::Path) -> PyEr
     }
 }
 
-/// Makes an `Unresolved` for a question about contacts, with the time `safe_until` before which no contact happens.
+/// Makes an `UnresolvedError` for a question about contacts, with the time `safe_until` before which no contact happens.
 pub(crate) fn unresolved_error(py: Python<'_>, known: &answer::Unresolved) -> PyErr {
     let (advice, safe_until) = (known.limit.advice(), known.safe_until);
-    let error = Unresolved::new_err(format!("{advice}; no contact happens before {safe_until}"));
+    let error = UnresolvedError::new_err(format!("{advice}; no contact happens before {safe_until}"));
     with_attribute(py, error, "safe_until", safe_until)
 }
 
-/// Makes an `Unresolved` for a question about a distance, with the bounds `lower` and `upper`.
+/// Makes an `UnresolvedError` for a question about a distance, with the bounds `lower` and `upper`.
 pub(crate) fn unresolved_distance_error(py: Python<'_>, known: &answer::Unresolved) -> PyErr {
     let (advice, lower, upper) = (known.limit.advice(), known.lower, known.upper);
-    let error = Unresolved::new_err(format!("{advice}; the distance is from {lower} to {upper}"));
+    let error = UnresolvedError::new_err(format!("{advice}; the distance is from {lower} to {upper}"));
     let error = with_attribute(py, error, "lower", lower);
     with_attribute(py, error, "upper", upper)
 }
@@ -180,13 +180,13 @@ pub(crate) fn bounds_interruption(py: Python<'_>, cause: PyErr, [lower, upper]: 
     with_attribute(py, error, "upper", upper)
 }
 
-/// Converts the `KeyboardInterrupt` of a Ctrl-C to an `Interrupted`. Returns an exception of a signal handler or a
+/// Converts the `KeyboardInterrupt` of a Ctrl-C to an `InterruptError`. Returns an exception of a signal handler or a
 /// callback unchanged.
 fn interruption(py: Python<'_>, cause: PyErr, text: String) -> PyErr {
     if !cause.get_type(py).is(py.get_type::<PyKeyboardInterrupt>()) {
         return cause;
     }
-    let error = Interrupted::new_err(text);
+    let error = InterruptError::new_err(text);
     error.set_cause(py, Some(cause));
     error
 }

@@ -45,7 +45,7 @@ fn _rigid_ccd(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<motion::PyMotion>()?;
     module.add_class::<path::PyPath>()?;
     module.add_class::<joint::PyJoint>()?;
-    module.add_class::<link_motion::PyLinkMotion>()?;
+    module.add_class::<link_motion::PyLinkTrajectory>()?;
     module.add_class::<robot::PyRobot>()?;
     module.add_class::<cell::PyCell>()?;
     module.add_class::<table::PyTable>()?;

@@ -99,11 +99,11 @@ fn link_contact_table(
     let numbers = |number: usize| -> ArrayRef {
         let found = meetings.iter().map(|(_, meeting)| match meeting {
             LinkContactClass::Undecided {
-                proven_apart_share,
-                undecided_share,
+                proven_apart_fraction,
+                undecided_fraction,
                 least_distance,
                 ..
-            } => Some([*proven_apart_share, *undecided_share, *least_distance][number]),
+            } => Some([*proven_apart_fraction, *undecided_fraction, *least_distance][number]),
             _ => None,
         });
         Arc::new(found.collect::<Float64Array>())

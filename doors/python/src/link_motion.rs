@@ -1,4 +1,4 @@
-//! The Python class `LinkMotion`.
+//! The Python class `LinkTrajectory`.
 
 use crate::configurations::read_configurations;
 use crate::errors::{input_error, warn};
@@ -9,12 +9,12 @@ use rigid_ccd::Remark;
 use rigid_ccd::trajectory::{JointKind, LinkTrajectory, Trajectory};
 use rigid_ccd_robot::{ChainBetween, Robot};
 
-/// The motion of a link of a `Robot` while all joints move at constant rates. `Robot.motion` makes it.
+/// The motion of a link of a `Robot` while all joints move at constant rates. `Robot.link_trajectory` makes it.
 ///
 /// All queries take it in place of a `Motion`. Times and distances are certified, as those of a `Motion`. Witness
 /// points are accurate to the tolerance.
-#[pyclass(name = "LinkMotion", module = "rigid_ccd", frozen)]
-pub(crate) struct PyLinkMotion {
+#[pyclass(name = "LinkTrajectory", module = "rigid_ccd", frozen)]
+pub(crate) struct PyLinkTrajectory {
     /// The Python object whose method `motion` made this motion.
     robot: Py<PyAny>,
     motion_arguments: RobotMotionArguments,
@@ -23,12 +23,12 @@ pub(crate) struct PyLinkMotion {
     ends: [Vec<f64>; 2],
 }
 
-/// The arguments of `Robot.motion`.
+/// The arguments of `Robot.link_trajectory`.
 #[derive(Clone, IntoPyObject)]
 pub(crate) struct RobotMotionArguments(String, Vec<f64>, Vec<f64>, f64, Option<String>);
 
 #[pymethods]
-impl PyLinkMotion {
+impl PyLinkTrajectory {
     /// Returns the pose of the link at a time, as a matrix of shape (4, 4).
     fn pose<'py>(&self, py: Python<'py>, time: f64) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
         let pose = Trajectory::pose(&self.link()?, time);
@@ -54,11 +54,11 @@ impl PyLinkMotion {
         let seen = seen_from
             .as_ref()
             .map_or_else(String::new, |link| format!(", seen_from='{link}'"));
-        format!("LinkMotion('{link}', start={start:?}, end={end:?}, duration={duration}{seen})")
+        format!("LinkTrajectory('{link}', start={start:?}, end={end:?}, duration={duration}{seen})")
     }
 }
 
-impl PyLinkMotion {
+impl PyLinkTrajectory {
     /// Makes the motion of a link. Fails if positions are missing, or exceed the limits of their joints.
     pub(crate) fn new(
         robot: &Bound<'_, PyAny>,
@@ -87,7 +87,7 @@ impl PyLinkMotion {
             .flat_map(|(k, _)| [ends[0][k], ends[1][k]])
             .filter_map(Remark::remark_on_joint);
         warn(robot.py(), remarks.next(), 1)?;
-        let motion = PyLinkMotion {
+        let motion = PyLinkTrajectory {
             robot: robot.clone().unbind(),
             motion_arguments: RobotMotionArguments(link, start, end, duration, seen_from),
             ends,

@@ -13,18 +13,18 @@ use rigid_ccd::{Motion, Pose, Remark};
 /// this size. The engine uses the rotation of the unit quaternion nearest to the matrix.
 const ORTHONORMALITY_TOLERANCE: f64 = 1e-5;
 
-/// A motion: a pose at time 0, a constant velocity of a centre, and a constant angular velocity about it.
+/// A motion: a pose at time 0, a constant velocity of a center, and a constant angular velocity about it.
 ///
 /// Args:
 ///     position: the position of the body's origin at time 0, three numbers.
-///     rotation: a matrix of shape (3, 3), a quaternion (w, x, y, z), or a scipy Rotation; None is no rotation.
-///     velocity: the velocity of the centre, per unit of time.
-///     spin: the angular velocity about the world's axes, in radians per unit of time.
-///     center: the centre of rotation in the body's frame.
+///     rotation: a matrix of shape (3, 3), a quaternion (x, y, z, w), or a scipy Rotation; None is no rotation.
+///     velocity: the velocity of the center, per unit of time.
+///     angular_velocity: the angular velocity about the world's axes, in radians per unit of time.
+///     center: the center of rotation in the body's frame.
 ///
 /// >>> from rigid_ccd import Motion
 /// >>> Motion(position=[0, 0, 3], velocity=[0, 0, -2])
-/// Motion(position=(0, 0, 3), rotation=(1, 0, 0, 0), velocity=(0, 0, -2), spin=(0, 0, 0))
+/// Motion(position=(0, 0, 3), rotation=(0, 0, 0, 1), velocity=(0, 0, -2), angular_velocity=(0, 0, 0))
 #[pyclass(name = "Motion", module = "rigid_ccd", frozen)]
 pub(crate) struct PyMotion {
     pub(crate) motion: Motion,
@@ -37,13 +37,13 @@ pub(crate) struct PyMotion {
 #[pymethods]
 impl PyMotion {
     #[new]
-    #[pyo3(signature = (position = None, rotation = None, velocity = None, spin = None, center = None))]
+    #[pyo3(signature = (position = None, rotation = None, velocity = None, angular_velocity = None, center = None))]
     fn new(
         py: Python<'_>,
         position: Option<&Bound<'_, PyAny>>,
         rotation: Option<&Bound<'_, PyAny>>,
         velocity: Option<&Bound<'_, PyAny>>,
-        spin: Option<&Bound<'_, PyAny>>,
+        angular_velocity: Option<&Bound<'_, PyAny>>,
         center: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let given = |values: Option<&Bound<'_, PyAny>>, what| match values {
@@ -53,8 +53,8 @@ impl PyMotion {
         let turned = rotation.map_or(Ok(DQuat::IDENTITY), read_rotation)?;
         let start = GivenPose(given(position, "position")?, turned);
         let velocity = given(velocity, "velocity")?;
-        let (spin, center) = (given(spin, "spin")?, given(center, "center")?);
-        PyMotion::from_velocities(py, start, velocity, spin, center)
+        let (angular_velocity, center) = (given(angular_velocity, "angular_velocity")?, given(center, "center")?);
+        PyMotion::from_velocities(py, start, velocity, angular_velocity, center)
     }
 
     /// Makes the motion of a static body. `pose` takes the same forms as in `Motion.between`.
@@ -64,7 +64,7 @@ impl PyMotion {
         PyMotion::from_velocities(class.py(), start, [0.0; 3], [0.0; 3], [0.0; 3])
     }
 
-    /// Makes the motion from one pose to another. The centre moves on a straight line, and the body takes the shortest
+    /// Makes the motion from one pose to another. The center moves on a straight line, and the body takes the shortest
     /// rotation.
     ///
     /// A pose is a matrix of shape (4, 4), or a pair of a position and a rotation as `Motion` takes them. Questions
@@ -109,10 +109,10 @@ impl PyMotion {
         let tuple = |v: DVec3| format!("({}, {}, {})", v.x, v.y, v.z);
         let DQuat { x, y, z, w } = start.rotation();
         format!(
-            "Motion(position={}, rotation=({w}, {x}, {y}, {z}), velocity={}, spin={})",
+            "Motion(position={}, rotation=({x}, {y}, {z}, {w}), velocity={}, angular_velocity={})",
             tuple(start.translation()),
             tuple(self.motion.velocity()),
-            tuple(self.motion.spin())
+            tuple(self.motion.angular_velocity())
         )
     }
 }
@@ -122,12 +122,12 @@ impl PyMotion {
         py: Python<'_>,
         start: GivenPose,
         velocity: [f64; 3],
-        spin: [f64; 3],
+        angular_velocity: [f64; 3],
         center: [f64; 3],
     ) -> PyResult<Self> {
-        let motion = Motion::about(start.pose("pose")?, velocity, spin, center);
+        let motion = Motion::about(start.pose("pose")?, velocity, angular_velocity, center);
         let GivenPose(place, turned) = start;
-        let parts = (place, wxyz(turned), velocity, spin, center);
+        let parts = (place, turned.to_array(), velocity, angular_velocity, center);
         Ok(PyMotion {
             motion: motion.map_err(input_error)?,
             end: None,
@@ -157,13 +157,8 @@ impl<'py> IntoPyObject<'py> for GivenPose {
     type Error = PyErr;
 
     fn into_pyobject(self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        (self.0, wxyz(self.1)).into_pyobject(py)
+        (self.0, self.1.to_array()).into_pyobject(py)
     }
-}
-
-fn wxyz(rotation: DQuat) -> [f64; 4] {
-    let DQuat { x, y, z, w } = rotation;
-    [w, x, y, z]
 }
 
 /// Converts a pose to a matrix of shape (4, 4).
@@ -188,15 +183,15 @@ fn read_rotation(value: &Bound<'_, PyAny>) -> PyResult<DQuat> {
     }
     match shape(value, "rotation")?[..] {
         [4] => {
-            let [w, x, y, z] = finite_numbers(value, "rotation")?;
-            let is_zero = [w, x, y, z] == [0.0; 4];
-            let remark = Remark::remark_on_quaternion([w, x, y, z]).filter(|_| !is_zero);
+            let quaternion = finite_numbers(value, "rotation")?;
+            let is_zero = quaternion == [0.0; 4];
+            let remark = Remark::remark_on_quaternion(quaternion).filter(|_| !is_zero);
             warn(value.py(), remark, 1)?;
-            Ok(DQuat::from_xyzw(x, y, z, w))
+            Ok(DQuat::from_array(quaternion))
         }
         [3, 3] => rotation_from_matrix(value, "rotation"),
         _ => Err(input_error(
-            "rotation: a matrix of shape (3, 3), four numbers (w, x, y, z) or a scipy Rotation is needed",
+            "rotation: a matrix of shape (3, 3), four numbers (x, y, z, w) or a scipy Rotation is needed",
         )),
     }
 }

@@ -2,11 +2,11 @@
 
 use crate::body::extract_body;
 use crate::errors::{input_error, wrong_type_error};
-use crate::link_motion::PyLinkMotion;
+use crate::link_motion::PyLinkTrajectory;
 use crate::motion::PyMotion;
 use crate::path::PyPath;
 use pyo3::prelude::*;
-use rigid_ccd::trajectory::{LinkTrajectory, MovingBody, Poses, Trajectory};
+use rigid_ccd::trajectory::{LinkTrajectory, MovingBody, PosePath, Trajectory};
 use rigid_ccd::{Body, Motion, Remark};
 
 /// The movement of a body, as passed by Python.
@@ -14,7 +14,7 @@ pub(crate) enum GivenMovement<'c> {
     /// A motion. A motion between two poses has an end.
     Motion(Motion, Option<f64>),
     Link(LinkTrajectory<'c>, f64),
-    Path(&'c Poses),
+    Path(&'c PosePath),
 }
 
 impl<'c> GivenMovement<'c> {
@@ -27,7 +27,7 @@ impl<'c> GivenMovement<'c> {
             let motion = motion.get();
             return Ok(GivenMovement::Motion(motion.motion, motion.end));
         }
-        if let Ok(link) = given.cast::<PyLinkMotion>() {
+        if let Ok(link) = given.cast::<PyLinkTrajectory>() {
             return Ok(GivenMovement::Link(
                 link.get().link()?,
                 link.get().duration(),
@@ -38,7 +38,7 @@ impl<'c> GivenMovement<'c> {
         }
         Err(wrong_type_error(
             what,
-            "a Motion, a Path or a LinkMotion",
+            "a Motion, a PosePath or a LinkTrajectory",
             given,
         ))
     }
@@ -123,7 +123,7 @@ impl<'c> Pair<'c> {
     pub(crate) fn remarks(&self, duration: f64) -> impl Iterator<Item = Remark> {
         let courses = [&self.a.1, &self.b.1].into_iter();
         courses.filter_map(move |course| match course {
-            GivenMovement::Motion(motion, _) => Remark::remark_on_spin(motion.spin(), duration),
+            GivenMovement::Motion(motion, _) => Remark::remark_on_spin(motion.angular_velocity(), duration),
             GivenMovement::Link(..) | GivenMovement::Path(_) => None,
         })
     }

@@ -5,46 +5,46 @@ use crate::errors::input_error;
 use crate::motion::{GivenPose, pose_matrix, read_given_pose};
 use crate::pickle::{ConstructorCall, Reduced};
 use pyo3::prelude::*;
-use rigid_ccd::trajectory::{Poses, Trajectory};
+use rigid_ccd::trajectory::{PosePath, Trajectory};
 
 /// A path of a body through poses at given times, for example from a planner or a simulator's log.
 ///
 /// From one pose to the next, the center moves on a straight line, and the body takes the shortest rotation about it.
-/// The body is at rest before the first time and after the last one. With `spins`, it may rotate by any number of
+/// The body is at rest before the first time and after the last one. With `angular_velocities`, it may rotate by any number of
 /// turns.
 ///
 /// Args:
 ///     times: increasing times, one for each pose.
 ///     poses: one pose for each time, in the forms of `Motion.between`, for instance an array of shape (n, 4, 4).
 ///     center: the point in the body's frame that moves on straight lines; the body's origin by default.
-///     spins: angular velocities in the world, one from each pose to the next, of shape (n - 1, 3). An angular velocity
+///     angular_velocities: angular velocities in the world, one from each pose to the next, of shape (n - 1, 3). An angular velocity
 ///         may miss the next pose by at most a quarter turn; the rest is added as a second rotation. Zeros stand for
 ///         the shortest rotation.
 ///
 /// >>> import numpy as np
-/// >>> from rigid_ccd import Path
+/// >>> from rigid_ccd import PosePath
 /// >>> stops = np.tile(np.eye(4), (3, 1, 1))
 /// >>> stops[1:, 0, 3] = 1
 /// >>> stops[2, 1, 3] = 2
-/// >>> path = Path([0, 1, 3], stops)
+/// >>> path = PosePath([0, 1, 3], stops)
 /// >>> path.pose(2)[:3, 3]
 /// array([1., 1., 0.])
-#[pyclass(name = "Path", module = "rigid_ccd", frozen)]
+#[pyclass(name = "PosePath", module = "rigid_ccd", frozen)]
 pub(crate) struct PyPath {
-    pub(crate) poses: Poses,
+    pub(crate) poses: PosePath,
     constructor_call: ConstructorCall,
 }
 
 #[pymethods]
 impl PyPath {
     #[new]
-    #[pyo3(signature = (times, poses, center = None, spins = None))]
+    #[pyo3(signature = (times, poses, center = None, angular_velocities = None))]
     fn new(
         py: Python<'_>,
         times: &Bound<'_, PyAny>,
         poses: &Bound<'_, PyAny>,
         center: Option<&Bound<'_, PyAny>>,
-        spins: Option<&Bound<'_, PyAny>>,
+        angular_velocities: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let times = flat_numbers(times, "times")?;
         // Reads one pose more than needed, to detect too many poses of an iterator that may have no end.
@@ -64,17 +64,17 @@ impl PyPath {
         let center = center.map_or(Ok([0.0; 3]), |center| finite_numbers(center, "center"))?;
         let timed = times.iter().zip(&given).enumerate();
         let timed = timed.map(|(k, (&time, pose))| Ok((time, pose.pose(&format!("pose {k}"))?)));
-        let poses = Poses::new(timed.collect::<PyResult<_>>()?).map_err(input_error)?;
+        let poses = PosePath::new(timed.collect::<PyResult<_>>()?).map_err(input_error)?;
         let mut poses = poses.about(center).map_err(input_error)?;
-        let spins = spins.map(|spins| rows::<3>(spins, "spins")).transpose()?;
-        if let Some(spins) = &spins {
+        let angular_velocities = angular_velocities.map(|angular_velocities| rows::<3>(angular_velocities, "angular_velocities")).transpose()?;
+        if let Some(angular_velocities) = &angular_velocities {
             poses = poses
-                .with_angular_velocities(spins.clone())
+                .with_angular_velocities(angular_velocities.clone())
                 .map_err(input_error)?;
         }
         Ok(PyPath {
             poses,
-            constructor_call: ConstructorCall::new(py, None, (times, given, center, spins))?,
+            constructor_call: ConstructorCall::new(py, None, (times, given, center, angular_velocities))?,
         })
     }
 
@@ -101,6 +101,6 @@ impl PyPath {
 
     fn __repr__(&self) -> String {
         let (poses, end) = (self.poses.times().count(), self.poses.end_time());
-        format!("Path({poses} poses, until {end})")
+        format!("PosePath({poses} poses, until {end})")
     }
 }

@@ -1,6 +1,6 @@
 //! Names of questions about paths, and answers as Python objects.
 
-use crate::errors::{Unresolved, input_error, with_attribute};
+use crate::errors::{UnresolvedError, input_error, with_attribute};
 use ccd_tables::path_rows::PathRow;
 use ccd_tables::results::Status;
 use pyo3::prelude::*;
@@ -13,7 +13,7 @@ pub(crate) fn question_named(name: &str) -> PyResult<Question> {
     let found = Question::from_name(name).filter(|found| CellSolver::QUESTIONS.contains(found));
     found.ok_or_else(|| {
         input_error(format!(
-            "ask: '{name}' is not is-free, first-contact or closest-approach"
+            "question: '{name}' is not is-free, first-contact or closest-approach"
         ))
     })
 }
@@ -37,7 +37,7 @@ pub(crate) fn contact_object<'py>(
     let features = (&row.feature_a, &row.feature_b);
     let values = (
         at.segment,
-        at.share,
+        at.fraction,
         time,
         a,
         b,
@@ -53,14 +53,14 @@ pub(crate) fn contact_object<'py>(
 /// Checks that a question about contacts was answered before any limit.
 ///
 /// # Errors
-/// `Unresolved` if a limit was reached.
+/// `UnresolvedError` if a limit was reached.
 pub(crate) fn check_resolved(py: Python<'_>, answer: &PathRow) -> PyResult<()> {
     let Some(limit) = answer.limit else {
         return Ok(());
     };
     let until = answer.row.time.unwrap_or(0.0);
     let text = format!("a limit was reached ({limit}); free until {until}");
-    let error = Unresolved::new_err(text);
+    let error = UnresolvedError::new_err(text);
     Err(with_attribute(py, error, "safe_until", until))
 }
 

@@ -76,7 +76,7 @@ impl GivenPaths {
             return Ok(GivenPaths::Curves(curves));
         }
         let array = PathArray::read(values, robot, "paths")?;
-        array.check_shape_of_paths(robot.free_joint_names().len())?;
+        array.check_shape_of_paths(robot.independent_joint_names().len())?;
         Ok(GivenPaths::Array(array))
     }
 
@@ -103,7 +103,7 @@ impl GivenPaths {
         [start, end]: [&Bound<'_, PyAny>; 2],
         robot: &Robot,
     ) -> PyResult<Self> {
-        let joints = robot.free_joint_names().len();
+        let joints = robot.independent_joint_names().len();
         check_same_rows([start, end])?;
         let start = read_configurations(start, robot, "start")?;
         let end = read_configurations(end, robot, "end")?;

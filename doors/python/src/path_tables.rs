@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// The arguments of a question about many paths, except for the paths.
 pub(crate) struct GivenQuestion<'a, 'py> {
-    pub(crate) ask: &'a str,
+    pub(crate) question: &'a str,
     pub(crate) threads: Option<&'a Bound<'py, PyAny>>,
     pub(crate) progress: Option<&'a Bound<'py, PyAny>>,
     pub(crate) settings: Option<&'a Bound<'py, PyDict>>,
@@ -31,7 +31,7 @@ pub(crate) fn answer_paths(
     given: GivenQuestion<'_, '_>,
     read_paths: impl FnOnce() -> PyResult<GivenPaths>,
 ) -> PyResult<PyTable> {
-    let question = question_named(given.ask)?;
+    let question = question_named(given.question)?;
     let mut settings = read(given.settings, &names(question, &[]))?;
     settings.check().map_err(input_error)?;
     let asked = PathQuestion {

@@ -3,7 +3,7 @@
 use crate::body::extract_body;
 use crate::cell_remarks::{Asked, warn_of_question};
 use crate::errors::{
-    Unresolved, input_error, interruption_error, time_interruption, unresolved_error,
+    UnresolvedError, input_error, interruption_error, time_interruption, unresolved_error,
     with_attribute, wrong_type_error,
 };
 use crate::interruptible::{run_interruptibly, run_or_leave};
@@ -50,7 +50,7 @@ fn proof_objects<'a, 'py>(
 ///
 /// Raises:
 ///     InputError: a body has no triangles, the bodies touch at the start, or the answer cannot be proven.
-///     Unresolved: a limit was reached first. `results` has the proof until `safe_until`, if there is one.
+///     UnresolvedError: a limit was reached first. `results` has the proof until `safe_until`, if there is one.
 ///
 /// >>> from rigid_ccd import Body, Motion, prove
 /// >>> wall = Body.box(0.1, 5, 5)
@@ -213,7 +213,7 @@ impl Fault {
             )),
             Fault::Limit(limit, time) => {
                 let text = format!("a limit was reached ({limit}); free until {time}");
-                with_attribute(py, Unresolved::new_err(text), "safe_until", time)
+                with_attribute(py, UnresolvedError::new_err(text), "safe_until", time)
             }
         }
     }

@@ -176,7 +176,7 @@ fn distance_of_answer<'py>(
 ///
 /// Args:
 ///     a, b: the bodies.
-///     motion_a, motion_b: a Motion, a Path, or a LinkMotion; None is a static body at the world's origin.
+///     motion_a, motion_b: a Motion, a PosePath, or a LinkTrajectory; None is a static body at the world's origin.
 ///     duration: the end of the query, in the motions' unit of time. The default is the end of a path, a link's motion
 ///         or `Motion.between`, and 1 for other motions.
 ///     tolerance: a contact is reported at a distance of at most margin + tolerance, in your unit of length; 0.001 by
@@ -187,7 +187,7 @@ fn distance_of_answer<'py>(
 ///     deadline: the seconds after which the query ends without an answer.
 ///
 /// Raises:
-///     Unresolved: a limit was reached. Nothing touches before `safe_until`.
+///     UnresolvedError: a limit was reached. Nothing touches before `safe_until`.
 ///     InputError: a number is out of range.
 ///
 /// >>> from rigid_ccd import Body, Motion, first_contact
@@ -236,7 +236,7 @@ pub(crate) fn is_free(
 
 /// Computes bounds of the least distance of two moving bodies, to within the tolerance.
 ///
-/// Arguments and exceptions are those of `first_contact`, without a margin. `Unresolved` has `lower` and `upper`.
+/// Arguments and exceptions are those of `first_contact`, without a margin. `UnresolvedError` has `lower` and `upper`.
 ///
 /// With a `clearance`, the query ends as soon as it is proven that the clearance is kept or violated. The answer tells
 /// which. Its bounds are then only as narrow as this decision requires.

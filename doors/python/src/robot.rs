@@ -5,7 +5,7 @@ use crate::configurations::read_configurations;
 use crate::errors::input_error;
 use crate::joint::PyJoint;
 use crate::link_contacts::{LinkContactQuestion, read_max_boxes};
-use crate::link_motion::PyLinkMotion;
+use crate::link_motion::PyLinkTrajectory;
 use crate::motion::pose_matrix;
 use crate::numbers::read_number;
 use crate::pickle::{ConstructorCall, Reduced};
@@ -37,7 +37,7 @@ use std::sync::Arc;
 /// >>> shoulder = Joint.revolute("shoulder", "base", "upper arm")
 /// >>> elbow = Joint.revolute("elbow", "upper arm", "forearm", ([1, 0, 0], [1, 0, 0, 0]))
 /// >>> arm = Robot([shoulder, elbow], {"forearm": Body.sphere(0.1)})
-/// >>> turns = arm.motion("forearm", [0.3, 0.5], [1.3, -1.5])
+/// >>> turns = arm.link_trajectory("forearm", [0.3, 0.5], [1.3, -1.5])
 /// >>> bool((turns.pose(1) == arm.pose("forearm", [1.3, -1.5])).all())
 /// True
 /// >>> first_contact(Body.sphere(0.1), Body.box(0.1, 0.1, 1), turns) is None
@@ -213,7 +213,7 @@ impl PyRobot {
     /// >>> both.joint_names
     /// ['red/base/x', 'red/base/y', 'red/base/yaw']
     /// >>> contact = Cell(both).first_contact([[0, 0, 0], [6, 0, 0]])
-    /// >>> contact.a, contact.b, round(6 * contact.share, 2)
+    /// >>> contact.a, contact.b, round(6 * contact.fraction, 2)
     /// ('red/body', 'blue/body', 3.0)
     #[classmethod]
     #[pyo3(signature = (robots, poses = None, bases = None, carriers = None))]
@@ -263,7 +263,7 @@ impl PyRobot {
     /// The names of the joints that have a position of their own, in the order of a configuration.
     #[getter]
     fn joint_names(&self) -> Vec<&str> {
-        self.robot.free_joint_names().collect()
+        self.robot.independent_joint_names().collect()
     }
 
     /// The names of the links, in the order in which they were given.
@@ -339,15 +339,15 @@ impl PyRobot {
     ///     InputError: a position exceeds its joint's limits, or the number of positions differs from the number of
     ///         joints.
     #[pyo3(signature = (link, start, end, duration = 1.0, seen_from = None))]
-    fn motion(
+    fn link_trajectory(
         slf: &Bound<'_, Self>,
         link: String,
         start: &Bound<'_, PyAny>,
         end: &Bound<'_, PyAny>,
         #[pyo3(from_py_with = read_number)] duration: f64,
         seen_from: Option<String>,
-    ) -> PyResult<PyLinkMotion> {
-        PyLinkMotion::new(
+    ) -> PyResult<PyLinkTrajectory> {
+        PyLinkTrajectory::new(
             slf,
             &slf.get().robot,
             link,
@@ -373,15 +373,15 @@ impl PyRobot {
     ///     progress: a function, called repeatedly with the number of decided pairs and the number of all pairs; a bar
     ///         of tqdm; or True for a new bar.
     ///
-    /// Ctrl-C raises `Interrupted`, whose `results` is the table of the pairs decided so far.
+    /// Ctrl-C raises `InterruptError`, whose `results` is the table of the pairs decided so far.
     ///
     /// Returns:
     ///     A table with a row for each pair: `link_a`, `link_b`, and `evidence`, which is "never", "always",
     ///     "always-as-enclosed", "sometimes" or "undecided". "always-as-enclosed" means that the bounding shapes always
-    ///     touch, but the shapes inside may not. For undecided pairs, `apart` is the share of configurations that are
-    ///     proven apart, `undecided` the share without a proof, and `least_distance` the least distance found.
+    ///     touch, but the shapes inside may not. For undecided pairs, `apart` is the fraction of configurations that are
+    ///     proven apart, `undecided` the fraction without a proof, and `least_distance` the least distance found.
     #[pyo3(signature = (max_boxes = 100_000, *, srdf = None, progress = None))]
-    fn acm(
+    fn classify_link_contacts(
         &self,
         py: Python<'_>,
         #[pyo3(from_py_with = read_max_boxes)] max_boxes: usize,

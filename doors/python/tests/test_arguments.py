@@ -26,14 +26,14 @@ from rigid_ccd import (
     first_contacts,
     prove,
 )
-from rigid_ccd import Path as PosePath
+from rigid_ccd import PosePath
 
 BALL, WALL = Body.sphere(0.5), Body.box(0.1, 5, 5)
 
 
 def slide() -> Cell:
     cell = Cell(Robot([Joint.prismatic("x", "rail", "cart", axis=[1, 0, 0])], {"cart": BALL}))
-    cell.add("wall", WALL, ([3, 0, 0], [1, 0, 0, 0]))
+    cell.add_obstacle("wall", WALL, ([3, 0, 0], [0, 0, 0, 1]))
     return cell
 
 
@@ -42,12 +42,12 @@ EDGES: Any = ([[0.0]], [[1.0]])
 
 # All arguments that are whole numbers, each with the numbers that it refuses.
 WHOLE: dict[str, tuple[str, Callable[[Any], Any], list[Any]]] = {
-    "threads of edges": ("threads", lambda n: CELL.edges(*EDGES, threads=n), [0, -1, 1025, 2**70, -(2**70)]),
-    "threads of paths": ("threads", lambda n: CELL.paths([[[0.0]]], threads=n), [0, -1, 1025, 2**70]),
+    "threads of edges": ("threads", lambda n: CELL.answer_edges(*EDGES, threads=n), [0, -1, 1025, 2**70, -(2**70)]),
+    "threads of paths": ("threads", lambda n: CELL.answer_paths([[[0.0]]], threads=n), [0, -1, 1025, 2**70]),
     "threads of tables": ("threads", lambda n: first_contacts(BALL, WALL, {"a_px": [1]}, threads=n), [0, -1, 1025, 2**70]),
     "threads of engines": ("threads", lambda n: TableQuery(BALL, WALL, threads=n), [0, -1, 2**70]),
     "threads of edges of engines": ("threads", lambda n: EdgesQuery(CELL, threads=n), [0, -1, 2**70]),
-    "boxes": ("max_boxes", lambda n: CELL.robot.acm(n), [-1, 2**70, -(2**70)]),
+    "boxes": ("max_boxes", lambda n: CELL.robot.classify_link_contacts(n), [-1, 2**70, -(2**70)]),
     "budget": ("budget", lambda n: first_contact(BALL, WALL, budget=n), [-1, 2**64, 2**70]),
     "budget of a distance": ("budget", lambda n: distance(BALL, WALL, budget=n), [-1, 2**64]),
     "budget of a proof": ("budget", lambda n: prove(BALL, WALL, budget=n), [-1, 2**64]),
@@ -75,7 +75,7 @@ def test_a_whole_number_out_of_range_is_named(case: str) -> None:
 def test_whole_numbers_of_numpy_are_taken() -> None:
     numbers: list[Any] = [np.int8(3), np.uint64(3), np.array(3)]
     for number in numbers:
-        assert len(CELL.edges(*EDGES, threads=number)) == 1
+        assert len(CELL.answer_edges(*EDGES, threads=number)) == 1
         assert not CELL.is_free([[3.0]], budget=number)
 
 

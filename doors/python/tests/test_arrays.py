@@ -16,7 +16,7 @@ from rigid_ccd import (
     InputError,
     Joint,
     Motion,
-    Path,
+    PosePath,
     Robot,
     Table,
     closest_approaches,
@@ -60,7 +60,7 @@ def gantry() -> Robot:
 
 def cell() -> Cell:
     made = Cell(gantry())
-    made.add("post", Body.box(0.1, 0.1, 5), ([0.75, 0, 0], [1, 0, 0, 0]))
+    made.add_obstacle("post", Body.box(0.1, 0.1, 5), ([0.75, 0, 0], [0, 0, 0, 1]))
     return made
 
 
@@ -86,9 +86,9 @@ READS: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "configuration": (PATH[1], lambda a: repr(CELL.closest_approach(a))),
     "ranges": (PATH, lambda a: repr(CELL.clearance_ranges(a, resolution=0.01))),
     "proofs": (PATH[2:], lambda a: [proof.proof for proof in CELL.prove(a)]),
-    "edges from": (PATH, lambda a: table(CELL.edges(a, PATH[::-1], "first-contact"))),
-    "edges to": (PATH, lambda a: table(CELL.edges(PATH[::-1], a, "first-contact"))),
-    "paths": ([PATH, PATH[::-1]], lambda a: table(CELL.paths(a, "closest-approach"))),
+    "edges from": (PATH, lambda a: table(CELL.answer_edges(a, PATH[::-1], "first-contact"))),
+    "edges to": (PATH, lambda a: table(CELL.answer_edges(PATH[::-1], a, "first-contact"))),
+    "paths": ([PATH, PATH[::-1]], lambda a: table(CELL.answer_paths(a, "closest-approach"))),
     "vertices": (CORNERS, lambda a: pickle.dumps(Body(a, FACES))),
     "faces": (FACES, lambda a: pickle.dumps(Body(CORNERS, a))),
     "size": ([1, 2, 0.25], lambda a: pickle.dumps(Body.box(size=a))),
@@ -96,18 +96,18 @@ READS: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "quaternion": ([0.25, 0.5, -0.75, 0.5], lambda a: repr(Motion(rotation=a))),
     "matrix": (TURN, lambda a: repr(Motion(rotation=a))),
     "velocity": ([1, 2, -3], lambda a: repr(Motion(velocity=a))),
-    "spin": ([1, 2, -3], lambda a: repr(Motion(spin=a))),
-    "center": ([1, 2, -3], lambda a: Motion(spin=[1, 2, 3], center=a).pose(1).tolist()),
+    "angular_velocity": ([1, 2, -3], lambda a: repr(Motion(angular_velocity=a))),
+    "center": ([1, 2, -3], lambda a: Motion(angular_velocity=[1, 2, 3], center=a).pose(1).tolist()),
     "pose": (pose(TURN), lambda a: repr(Motion.still(a))),
-    "pair": ([1, 2, -3], lambda a: repr(Motion.still((a, [1, 0, 0, 0])))),
-    "times": ([0, 1, 2.5], lambda a: Path(a, [pose(TURN)] * 3).pose(0.5).tolist() + [Path(a, [pose(TURN)] * 3).end]),
-    "poses": ([pose(np.eye(3)), pose(TURN)], lambda a: Path([0, 1], a).pose(0.25).tolist()),
-    "spins": ([[0.25, 0.5, 0], [-0.25, 0, 0.5]], lambda a: Path([0, 1, 2], [np.eye(4)] * 3, spins=a).pose(1.5).tolist()),
+    "pair": ([1, 2, -3], lambda a: repr(Motion.still((a, [0, 0, 0, 1])))),
+    "times": ([0, 1, 2.5], lambda a: PosePath(a, [pose(TURN)] * 3).pose(0.5).tolist() + [Path(a, [pose(TURN)] * 3).end]),
+    "poses": ([pose(np.eye(3)), pose(TURN)], lambda a: PosePath([0, 1], a).pose(0.25).tolist()),
+    "angular_velocities": ([[0.25, 0.5, 0], [-0.25, 0, 0.5]], lambda a: PosePath([0, 1, 2], [np.eye(4)] * 3, angular_velocities=a).pose(1.5).tolist()),
     "axis": ([1, 2, -2], axis_of),
     "limits": ([-1, 2.5], lambda a: Joint.revolute("j", "a", "b", limits=a).limits),
     "place": ([0.5, 1.5], lambda a: ROBOT.pose("b", a).tolist()),
-    "start": ([0.5, 1.5], lambda a: repr(ROBOT.motion("b", a, [1, 2]))),
-    "end": ([0.5, 1.5], lambda a: repr(ROBOT.motion("b", [1, 2], a))),
+    "start": ([0.5, 1.5], lambda a: repr(ROBOT.link_trajectory("b", a, [1, 2]))),
+    "end": ([0.5, 1.5], lambda a: repr(ROBOT.link_trajectory("b", [1, 2], a))),
     "coefficients": (
         [[[0.5, 1], [0.25, 0]], [[0, 1], [1, 3]], [[0, 0], [0.5, 2]]],
         lambda a: repr(CELL.closest_approach(Polynomials(a, [0, 1, 2]))),
@@ -265,13 +265,13 @@ FEWER = ("column of a table", "rows", "column of ids")
 
 def test_the_free_path_that_was_not() -> None:
     made = Cell(gantry())
-    made.add("post", Body.box(0.1, 0.1, 5), ([2, 0, 0], [1, 0, 0, 0]))
+    made.add_obstacle("post", Body.box(0.1, 0.1, 5), ([2, 0, 0], [0, 0, 0, 1]))
     q = np.array([[0, 4.0], [1, -1]]).T
     assert not q.flags.c_contiguous
     for given in (q, q.copy(order="C"), q.tolist()):
         assert not made.is_free(given)
         contact = made.first_contact(given)
-        assert contact is not None and 0.44 < contact.share < 0.46
+        assert contact is not None and 0.44 < contact.fraction < 0.46
 
 
 def test_columns_of_a_frame_are_joints() -> None:
@@ -288,8 +288,8 @@ def test_columns_of_a_frame_are_joints() -> None:
             CELL.is_free,
             CELL.prove,
             CELL.clearance_ranges,
-            lambda frame: CELL.edges(frame, PATH),
-            lambda frame: CELL.edges(PATH, frame),
+            lambda frame: CELL.answer_edges(frame, PATH),
+            lambda frame: CELL.answer_edges(PATH, frame),
         ):
             with pytest.raises(InputError, match="the labels are y, x, and the joints of a configuration x, y"):
                 use(make(bad))
@@ -297,7 +297,7 @@ def test_columns_of_a_frame_are_joints() -> None:
             CELL.first_contact(make({"a": good["x"], "b": good["y"]}))
     assert repr(CELL.first_contact(pandas.DataFrame(bad)[CELL.robot.joint_names])) == known
     series = pandas.Series({"y": 1.0, "x": 0.0})
-    for ask in (lambda: ROBOT.pose("b", series), lambda: CELL.is_free(series), lambda: ROBOT.motion("b", series, [0, 0])):
+    for ask in (lambda: ROBOT.pose("b", series), lambda: CELL.is_free(series), lambda: ROBOT.link_trajectory("b", series, [0, 0])):
         with pytest.raises(InputError, match="joints"):
             ask()
     assert ROBOT.pose("b", series[["x", "y"]])[:2, 3].tolist() == [0, 1]

@@ -31,7 +31,7 @@ def test_a_box_has_half_extents_or_a_size() -> None:
 
 def test_a_cube_is_a_solid_of_one_piece() -> None:
     cube = Body(CORNERS, FACES)
-    assert cube.is_solid and cube.pieces == 1
+    assert cube.is_solid and cube.piece_count == 1
     assert "solid" in repr(cube)
     assert Body(CORNERS, FACES, pieces="triangles").pieces == 12
 
@@ -136,7 +136,7 @@ def test_files_are_adjusted(tmp_path: Path) -> None:
     assert mirrored.is_solid
     assert gap(Body.from_file(path, file_unit="mm", unit="cm", scale=5), [10, 1, 1]) == pytest.approx(7.5)
     hollow = Body.from_file(path, surface=True)
-    assert not hollow.is_solid and hollow.pieces == 12
+    assert not hollow.is_solid and hollow.piece_count == 12
     assert not Body(CORNERS, FACES, surface=True).is_solid
     for wrong in ({"scale": 0}, {"scale": float("nan")}, {"mirror": "w"}, {"file_unit": "mile"}):
         with pytest.raises(InputError, match=next(iter(wrong))):

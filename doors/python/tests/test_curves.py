@@ -17,7 +17,7 @@ def cell() -> Cell:
     """A ball that two slides move in a plane, and a post."""
     slides = [Joint.prismatic("x", "w", "a", axis=[1, 0, 0]), Joint.prismatic("y", "a", "b", axis=[0, 1, 0])]
     made = Cell(Robot(slides, {"b": Body.sphere(0.25)}))
-    made.add("post", Body.sphere(0.25), ([2.5, 1.75, 0], [1, 0, 0, 0]))
+    made.add_obstacle("post", Body.sphere(0.25), ([2.5, 1.75, 0], [0, 0, 0, 1]))
     return made
 
 
@@ -46,7 +46,7 @@ def test_a_spline_is_a_curve(cell: Cell, degree: int) -> None:
     whole = interpolate.PPoly(np.stack([one.c[:, inside] for one in each], 2), breaks)
     again = cell.first_contact(whole, tolerance=1e-7)
     assert again is not None and again.time == pytest.approx(contact.time, abs=1e-7)
-    rows = cell.paths([spline, whole], "first-contact", tolerance=1e-7)
+    rows = cell.answer_paths([spline, whole], "first-contact", tolerance=1e-7)
     assert rows["time"].tolist() == [contact.time, again.time]
 
 

@@ -34,7 +34,7 @@ class Judge:
         self.links = {graph.transforms.parents[node]: scene.geometry[graph[node][1]] for node in graph.nodes_geometry}
         self.obstacles = {}
         for name, (size, position, rotation) in example.boxes.items():
-            pose = trimesh.transformations.quaternion_matrix(rotation)
+            pose = trimesh.transformations.quaternion_matrix(np.roll(rotation, 1))  # w first
             pose[:3, 3] = position
             self.obstacles[name] = trimesh.creation.box(size), pose
         self.held: list[tuple[str, Any]] = []
@@ -96,18 +96,18 @@ def contacts(example: Any) -> list[Any]:
     return [example.cell.first_contact(edge, tolerance=1e-6) for edge in zip(example.starts, example.ends, strict=True)]
 
 
-def along(example: Any, edge: int, shares: NDArray[np.float64]) -> Any:
-    return example.starts[edge] + shares[:, None] * (example.ends[edge] - example.starts[edge])
+def along(example: Any, edge: int, fractions: NDArray[np.float64]) -> Any:
+    return example.starts[edge] + fractions[:, None] * (example.ends[edge] - example.starts[edge])
 
 
 def test_no_collision_is_on_a_certified_edge_or_before_a_contact(
     example: Any, judge: Judge, contacts: list[Any]
 ) -> None:
-    shares = np.linspace(0, 1, 101)
+    fractions = np.linspace(0, 1, 101)
     for edge, contact in enumerate(contacts):
         assert not (example.certified[edge] and contact)
-        until = 1 if contact is None else contact.share
-        assert not any(judge.collides(at) for at in along(example, edge, shares[shares < until])), edge
+        until = 1 if contact is None else contact.fraction
+        assert not any(judge.collides(at) for at in along(example, edge, fractions[fractions < until])), edge
 
 
 def test_each_refused_edge_comes_nearer_than_the_tolerance(example: Any, contacts: list[Any]) -> None:
@@ -120,7 +120,7 @@ def test_each_refused_edge_comes_nearer_than_the_tolerance(example: Any, contact
 def test_witnesses_are_on_both_surfaces(example: Any, judge: Judge, contacts: list[Any]) -> None:
     for edge, contact in enumerate(contacts):
         if contact is not None:
-            at = along(example, edge, np.array([contact.share]))[0]
+            at = along(example, edge, np.array([contact.fraction]))[0]
             assert np.linalg.norm(np.subtract(contact.witness_a, contact.witness_b)) < 1e-6 + ROUNDING
             assert judge.off_surface(contact.a, at, contact.witness_a) < ROUNDING, contact
             assert judge.off_surface(contact.b, at, contact.witness_b) < ROUNDING, contact
@@ -133,13 +133,13 @@ def test_edges_that_five_steps_accept_collide_soon_after_the_contact(
     missed = [edge for edge in touching if not any(map(judge.collides, along(example, edge, np.linspace(0, 1, 6))))]
     assert len(missed) > 5
     for edge in missed:
-        after = contacts[edge].share + np.geomspace(1e-6, 1e-2, 60)
+        after = contacts[edge].fraction + np.geomspace(1e-6, 1e-2, 60)
         assert any(judge.collides(at) for at in along(example, edge, after[after <= 1])), edge
 
 
 def test_no_distance_on_the_turn_is_under_its_bound(example: Any, judge: Judge) -> None:
-    shares = np.linspace(0, 1, 401)
-    angles = example.low[0] + shares * (example.high[0] - example.low[0])
+    fractions = np.linspace(0, 1, 401)
+    angles = example.low[0] + fractions * (example.high[0] - example.low[0])
     stretch = np.clip(np.searchsorted(example.angles, angles) - 1, 0, len(example.lower) - 1)
     distances = 1e3 * np.array([judge.distance([angle, *example.POSE]) for angle in angles])
     assert (distances >= example.lower[stretch] - 1e3 * ROUNDING).all()

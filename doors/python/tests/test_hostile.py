@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rigid_ccd import Body, InputError, Interrupted, Motion, Table, Unresolved, closest_approach, first_contact, first_contacts
+from rigid_ccd import Body, InputError, InterruptError, Motion, Table, UnresolvedError, closest_approach, first_contact, first_contacts
 
 BALL, WALL = Body.sphere(0.5), Body.box(0.1, 5, 5)
 
@@ -194,7 +194,7 @@ def test_an_interrupt_inside_a_stream_stays_one() -> None:
     def reader() -> Any:
         return pa.RecordBatchReader.from_batches(schema, batches())
 
-    with pytest.raises(Interrupted) as interrupted:
+    with pytest.raises(InterruptError) as interrupted:
         first_contacts(BALL, WALL, reader())
     assert interrupted.value.results is not None and len(interrupted.value.results) == 2
     with pytest.raises(KeyboardInterrupt):
@@ -237,16 +237,16 @@ def test_exceptions_of_arguments_come_out(error: type[BaseException]) -> None:
 
 
 def test_exceptions_have_their_attributes() -> None:
-    for make in (Unresolved, InputError, Interrupted):
+    for make in (UnresolvedError, InputError, InterruptError):
         made: Any = make("text")
         assert getattr(made, "results", None) is None
     plain = Unresolved("text")
     assert (plain.safe_until, plain.lower, plain.upper) == (None, None, None)
     motion = Motion([-3, 0, 0], velocity=[4, 0, 0])
-    with pytest.raises(Unresolved, match="the budget is spent: a larger tolerance") as of_contact:
+    with pytest.raises(UnresolvedError, match="the budget is spent: a larger tolerance") as of_contact:
         first_contact(BALL, WALL, motion, budget=0)
     assert of_contact.value.safe_until is not None and of_contact.value.lower is None
-    with pytest.raises(Unresolved) as of_distance:
+    with pytest.raises(UnresolvedError) as of_distance:
         closest_approach(BALL, WALL, motion, budget=0)
     assert of_distance.value.safe_until is None and of_distance.value.lower is not None
     again = pickle.loads(pickle.dumps(of_contact.value))

@@ -19,7 +19,7 @@ from rigid_ccd import (
     Cell,
     EdgesQuery,
     InputError,
-    Interrupted,
+    InterruptError,
     Joint,
     Motion,
     PathRange,
@@ -52,14 +52,14 @@ def knot(size: int) -> tuple[Any, Any]:
 
 KNOT = Body(*knot(600))
 # The knot makes a hundred thousand turns, and barely misses each time, which is minutes of work.
-MISSES = Motion([3.3, 0, 0], spin=[6e5, 6e5, 0])
+MISSES = Motion([3.3, 0, 0], angular_velocity=[6e5, 6e5, 0])
 HARD: Any = {"tolerance": 1e-9, "budget": 2**60}
 
 
 def hard_cell() -> Cell:
     """A knot on a hinge without limits, beside another knot."""
     cell = Cell(Robot([Joint.revolute("hinge", "base", "knot", axis=[1, 1, 0])], {"knot": KNOT}))
-    cell.add("other", KNOT, ([3.3, 0, 0], [1, 0, 0, 0]))
+    cell.add_obstacle("other", KNOT, ([3.3, 0, 0], [0, 0, 0, 1]))
     return cell
 
 
@@ -103,7 +103,7 @@ def interrupted(call: Callable[[], Any], seconds: float = 0.5, most_work: float 
 )
 def test_a_question_about_contacts(ask: Callable[[], Any]) -> None:
     error = interrupted(ask)
-    assert isinstance(error, Interrupted)
+    assert isinstance(error, InterruptError)
     assert error.safe_until is None or 0 <= error.safe_until < 1
 
 
@@ -116,22 +116,22 @@ def test_a_question_about_contacts(ask: Callable[[], Any]) -> None:
 )
 def test_a_question_about_a_distance(ask: Callable[[], Any]) -> None:
     error = interrupted(ask)
-    assert isinstance(error, Interrupted) and error.lower is not None and error.upper is not None
+    assert isinstance(error, InterruptError) and error.lower is not None and error.upper is not None
     assert 0 <= error.lower <= error.upper
 
 
 @pytest.mark.parametrize("ask", ["is-free", "first-contact", "closest-approach"])
 def test_edges_keep_what_is_answered(ask: Any) -> None:
-    whole = CELL.edges(STARTS[:40], ENDS[:40], ask)
+    whole = CELL.answer_edges(STARTS[:40], ENDS[:40], ask)
     told: list[tuple[int, int | None]] = []
     calls: list[Callable[..., Any]] = [
-        lambda **how: CELL.edges(STARTS, ENDS, ask, threads=1, progress=lambda *now: told.append(now), **how),
-        lambda **how: CELL.paths(np.stack([STARTS, ENDS], 1), ask, threads=2, **how),
-        lambda **how: EdgesQuery(CELL, ask=ask, **how)({"id": range(80), "from_hinge": STARTS[:, 0], "to_hinge": ENDS[:, 0]}),
+        lambda **how: CELL.answer_edges(STARTS, ENDS, ask, threads=1, progress=lambda *now: told.append(now), **how),
+        lambda **how: CELL.answer_paths(np.stack([STARTS, ENDS], 1), ask, threads=2, **how),
+        lambda **how: EdgesQuery(CELL, question=ask, **how)({"id": range(80), "from_hinge": STARTS[:, 0], "to_hinge": ENDS[:, 0]}),
     ]
     for call in calls:
         error = interrupted(functools.partial(call, **HARD))
-        assert isinstance(error, Interrupted) and isinstance(error.results, Table)
+        assert isinstance(error, InterruptError) and isinstance(error.results, Table)
         rows = len(error.results)
         assert rows <= 40 and "unresolved" not in error.results["status"]
         assert error.results["status"].tolist() == whole["status"].tolist()[:rows]
@@ -143,9 +143,9 @@ def test_ranges_are_those_found_by_then() -> None:
     # A box slides on a table, so it is undecided everywhere on the path whether the box keeps a distance of 0.
     slider = Joint.prismatic("slider", "table", "box", axis=[1, 0, 0])
     cell = Cell(Robot([slider], {"box": Body.box(0.1, 0.1, 0.1)}))
-    cell.add("floor", Body.box(5, 5, 0.1), ([5.5, 0, -0.2], [1, 0, 0, 0]))
+    cell.add_obstacle("floor", Body.box(5, 5, 0.1), ([5.5, 0, -0.2], [0, 0, 0, 1]))
     error = interrupted(lambda: cell.clearance_ranges([[0.0], [1.0]], resolution=1e-9))
-    assert isinstance(error, Interrupted) and isinstance(error.results, list)
+    assert isinstance(error, InterruptError) and isinstance(error.results, list)
     ranges = [item for item in error.results if isinstance(item, PathRange)]
     assert ranges[0].start == 0 and ranges[-1].end == 1
     assert ranges[0].clearance == "kept" and ranges[-1].clearance == "unverified"
@@ -156,7 +156,7 @@ def test_proofs_are_those_made_by_then() -> None:
     # Each segment has a proof of its own, and there are very many segments.
     path = np.linspace(0, 0.1, 500_000)[:, None]
     error = interrupted(lambda: CELL.prove(path, progress=lambda *now: told.append(now)), 1)
-    assert isinstance(error, Interrupted) and isinstance(error.results, list)
+    assert isinstance(error, InterruptError) and isinstance(error.results, list)
     proofs = [proof for proof in error.results if isinstance(proof, Proof)]
     assert len(proofs) < len(path) - 1 and all(proof.check() == "holds" for proof in proofs[:3])
     assert told and told[-1][1] == len(path) - 1 and told[-1][0] <= len(proofs) + 1
@@ -165,12 +165,12 @@ def test_proofs_are_those_made_by_then() -> None:
 def test_meshes_are_prepared_for_proofs_until_ctrl_c() -> None:
     large = Body(*knot(6000))
     cell = Cell(Robot([Joint.prismatic("slider", "base", "knot", axis=[1, 0, 0])], {"knot": large}))
-    cell.add("other", large, ([9, 0, 0], [1, 0, 0, 0]))
+    cell.add_obstacle("other", large, ([9, 0, 0], [0, 0, 0, 1]))
     calls: list[Callable[[], Any]] = [lambda: prove(large, large, Motion([9, 0, 0])), lambda: cell.prove([[0.0], [0.1]])]
     for call in calls:
         for seconds in (0.2, 0.5):
             error = interrupted(call, seconds, most_work=0.2)
-            assert isinstance(error, Interrupted) and error.results in (None, [])
+            assert isinstance(error, InterruptError) and error.results in (None, [])
 
 
 def test_tables_keep_what_is_answered() -> None:
@@ -182,7 +182,7 @@ def test_tables_keep_what_is_answered() -> None:
     ]
     for call in calls:
         error = interrupted(call)
-        assert isinstance(error, Interrupted) and isinstance(error.results, Table) and len(error.results) < rows
+        assert isinstance(error, InterruptError) and isinstance(error.results, Table) and len(error.results) < rows
 
 
 def write_obj(path: Path, vertices: Any, faces: Any) -> None:
@@ -210,9 +210,9 @@ def test_what_reads_and_makes_meshes(tmp_path: Path) -> None:
 def test_progress_is_told_of_all_that_is_done() -> None:
     start, end = np.zeros((500, 1)), np.full((500, 1), 0.01)
     told: list[tuple[int, int | None]] = []
-    CELL.edges(start, end, progress=lambda *now: told.append(now))
+    CELL.answer_edges(start, end, progress=lambda *now: told.append(now))
     assert told[-1] == (500, 500)
-    CELL.paths(np.stack([start, end], 1), progress=lambda *now: told.append(now))
+    CELL.answer_paths(np.stack([start, end], 1), progress=lambda *now: told.append(now))
     CELL.prove([[0.0], [0.01], [0.02]], progress=lambda *now: told.append(now))
     assert told[-1] == (2, 2)
     CELL.prove([[0]], progress=lambda *now: told.append(now))
@@ -225,12 +225,12 @@ def test_progress_is_told_of_all_that_is_done() -> None:
             self.shown += int(more or 0)
 
     bar = Bar()
-    CELL.edges(start, end, progress=bar)
+    CELL.answer_edges(start, end, progress=bar)
     assert bar.shown == 500
-    CELL.edges(start, end, progress=True)
+    CELL.answer_edges(start, end, progress=True)
     for wrong in (3, "yes", [1]):
         uses: list[Callable[[Any], Any]] = [
-            lambda wrong: CELL.edges(start, end, progress=wrong),
+            lambda wrong: CELL.answer_edges(start, end, progress=wrong),
             lambda wrong: CELL.prove([[0], [1]], progress=wrong),
             lambda wrong: first_contacts(KNOT, KNOT, {"a_px": [9]}, progress=wrong),
         ]
@@ -244,7 +244,7 @@ def test_what_progress_raises_comes_out_with_what_is_done() -> None:
         raise ZeroDivisionError("mine")
 
     with pytest.raises(ZeroDivisionError, match="mine") as caught:
-        CELL.edges(STARTS, ENDS, progress=fails, **HARD)
+        CELL.answer_edges(STARTS, ENDS, progress=fails, **HARD)
     results: Any = getattr(caught.value, "results", None)
     assert isinstance(results, Table) and len(results) <= 40
 
@@ -252,13 +252,13 @@ def test_what_progress_raises_comes_out_with_what_is_done() -> None:
 def test_an_exception_of_an_interrupt_is_pickled() -> None:
     error = interrupted(lambda: CELL.closest_approach(LONG, **HARD))
     again = pickle.loads(pickle.dumps(error))
-    assert isinstance(again, Interrupted) and again.upper == error.upper  # type: ignore[attr-defined]
+    assert isinstance(again, InterruptError) and again.upper == error.upper  # type: ignore[attr-defined]
 
 
 def test_questions_go_on_after_an_interrupt() -> None:
     known = repr(CELL.first_contact([[0], [3]]))
     for _ in range(3):
-        interrupted(lambda: CELL.edges(STARTS, ENDS, "first-contact", **HARD), 0.1)
+        interrupted(lambda: CELL.answer_edges(STARTS, ENDS, "first-contact", **HARD), 0.1)
         assert repr(CELL.first_contact([[0], [3]])) == known
 
 

@@ -169,9 +169,9 @@ def test_a_name_of_a_column_is_no_configuration() -> None:
 
 def test_degrees_are_those_of_a_whole_frame() -> None:
     joints = [Joint.revolute("pan", "base", "a", axis=[0, 0, 1]), Joint.revolute("lift", "a", "b", axis=[0, 1, 0])]
-    robot = Robot(joints, {"base": Body.sphere(0.1), "b": [(Body.sphere(0.1), ([1, 0, 0], [1, 0, 0, 0]))]})
+    robot = Robot(joints, {"base": Body.sphere(0.1), "b": [(Body.sphere(0.1), ([1, 0, 0], [0, 0, 0, 1]))]})
     cell = Cell(robot)
-    cell.add("post", Body.sphere(0.1), ([0, 1, 0], [1, 0, 0, 0]))
+    cell.add_obstacle("post", Body.sphere(0.1), ([0, 1, 0], [0, 0, 0, 1]))
     path = [[0.0, 0.0], [3.0, 0.1]]
     degrees = frame(np.rad2deg(path).tolist(), ["pan_deg", "lift_deg"])
     known, found = cell.first_contact(path), cell.first_contact(degrees)
@@ -180,12 +180,12 @@ def test_degrees_are_those_of_a_whole_frame() -> None:
     for given in refused:
         with pytest.raises(InputError, match="the labels are"):
             cell.is_free(given)
-    questions: list[Callable[[], Any]] = [lambda: cell.paths([degrees]), lambda: cell.edges([degrees.iloc[0]], [degrees.iloc[1]])]
+    questions: list[Callable[[], Any]] = [lambda: cell.answer_paths([degrees]), lambda: cell.answer_edges([degrees.iloc[0]], [degrees.iloc[1]])]
     for ask in questions:
         with pytest.raises(InputError, match="the labels are pan_deg, lift_deg"):
             ask()
     start, end = (degrees.iloc[[k]].add_prefix(prefix) for k, prefix in enumerate(("from_", "to_")))
-    assert cell.edges(start, end, "first-contact")["status"].tolist() == ["contact"]
+    assert cell.answer_edges(start, end, "first-contact")["status"].tolist() == ["contact"]
 
 
 def test_values_of_a_curve_are_labelled_too() -> None:
@@ -196,7 +196,7 @@ def test_values_of_a_curve_are_labelled_too() -> None:
     coefficients = np.zeros((2, 2, 2))
     for curve in (Spline(coefficients, [0, 1, 2]), [Spline(coefficients, [0, 1, 2])]):
         with pytest.raises(InputError, match="the labels are y, x"):
-            CELL.paths(curve) if isinstance(curve, list) else CELL.is_free(curve)
+            CELL.answer_paths(curve) if isinstance(curve, list) else CELL.is_free(curve)
 
 
 def test_many_labels_are_cut_short() -> None:
@@ -211,7 +211,7 @@ def test_rows_of_edges_have_the_same_order() -> None:
     end = start + 0.5
 
     def statuses(start: Any, end: Any) -> Any:
-        return CELL.edges(start, end)["status"].tolist()
+        return CELL.answer_edges(start, end)["status"].tolist()
 
     expected = statuses(start.to_numpy(), end.to_numpy())
     assert statuses(start, end) == statuses(start, end.to_numpy()) == expected

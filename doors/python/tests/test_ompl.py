@@ -19,8 +19,8 @@ def cell(tmp_path: Path) -> Cell:
     file.write_text(URDF)
     cell = Cell(Robot.from_urdf(file))
     # A sheet of 1 mm. Sampling at steps of a hundredth of the space misses it.
-    sheet: Any = ([0, 1.5, 0], [1, 0, 0, 0])
-    cell.add("sheet", Body.box(0.0005, 0.3, 0.3), sheet)
+    sheet: Any = ([0, 1.5, 0], [0, 0, 0, 1])
+    cell.add_obstacle("sheet", Body.box(0.0005, 0.3, 0.3), sheet)
     return cell
 
 
@@ -61,7 +61,7 @@ def test_the_last_free_share_is_that_of_the_first_contact(cell: Cell) -> None:
     a, b, near = space.allocState(), space.allocState(), space.allocState()
     a[0], a[1], b[0], b[1], near[0], near[1] = 0.5, 0.0, 2.6, 0.0, 0.6, 0.0
     contact = cell.first_contact([[0.5, 0], [2.6, 0]], tolerance=1e-6)
-    assert contact is not None and validator.last_valid(a, b) == contact.share
+    assert contact is not None and validator.last_valid(a, b) == contact.fraction
     assert not validator.checkMotion(a, b)
     assert validator.checkMotion(a, near) and validator.last_valid(a, near) == 1
 

@@ -10,21 +10,21 @@ from rigid_ccd import (
     Body,
     Cell,
     InputError,
-    Interrupted,
+    InterruptError,
     Joint,
     Motion,
     Proof,
     Robot,
-    Unresolved,
+    UnresolvedError,
     check_folder,
     check_proof,
     first_contact,
     prove,
 )
-from rigid_ccd import Path as PosePath
+from rigid_ccd import PosePath
 
 WALL = Body.box(0.1, 5, 5)
-FLIES = Motion([-3, 0, 0], velocity=[4, 0, 0], spin=[0, 1, 2])
+FLIES = Motion([-3, 0, 0], velocity=[4, 0, 0], angular_velocity=[0, 1, 2])
 ARM = """<robot name="arm">
   <link name="base"/>
   <link name="upper"><collision><origin xyz="0.5 0 0"/><geometry><box size="0.8 0.1 0.1"/></geometry></collision></link>
@@ -38,7 +38,7 @@ def cell(tmp_path: Path) -> Cell:
     file = tmp_path / "arm.urdf"
     file.write_text(ARM)
     cell = Cell(Robot.from_urdf(file))
-    cell.add("post", Body.sphere(0.1), ([0, 0.7, 0], [1, 0, 0, 0]))
+    cell.add_obstacle("post", Body.sphere(0.1), ([0, 0.7, 0], [0, 0, 0, 1]))
     return cell
 
 
@@ -98,7 +98,7 @@ def test_a_saved_proof_is_not_lost(tmp_path: Path) -> None:
         told.append((done, total))
         raise KeyboardInterrupt
 
-    with pytest.raises(Interrupted, match="1 of 2 proofs are checked") as interrupted:
+    with pytest.raises(InterruptError, match="1 of 2 proofs are checked") as interrupted:
         check_folder(tmp_path, progress=interrupt)
     assert interrupted.value.results == {"hit": "holds"} and told == [(1, 2)]
     (tmp_path / "hit.proof").write_bytes(hit.proof[:-1])
@@ -149,11 +149,11 @@ def test_a_configuration_alone_rests(cell: Cell) -> None:
 
 
 def test_at_a_limit_there_are_the_proofs_of_what_is_known(cell: Cell) -> None:
-    with pytest.raises(Unresolved) as ended:
+    with pytest.raises(UnresolvedError) as ended:
         cell.prove([[-1.0], [0.0], [1.0]], deadline=1e-12)
     assert isinstance(ended.value.results, list) and ended.value.safe_until is not None
     assert all(proof.check() == "holds" for proof in ended.value.results)
-    with pytest.raises(Unresolved) as stopped:
+    with pytest.raises(UnresolvedError) as stopped:
         prove(Body.box(1, 1, 1), WALL, FLIES, tolerance=1e-9, budget=2)
     known = stopped.value.results
     assert known is None or (isinstance(known, Proof) and known.until == stopped.value.safe_until)
@@ -181,7 +181,7 @@ def test_each_segment_of_a_path_has_a_proof(cell: Cell) -> None:
 
 
 def test_a_proof_says_what_moves_in_the_numbers_that_were_given(cell: Cell) -> None:
-    falls = Motion([-3, 0, 0], velocity=[4, 0, 0.3], spin=[0, 0, 20])
+    falls = Motion([-3, 0, 0], velocity=[4, 0, 0.3], angular_velocity=[0, 0, 20])
     for duration in (1.0, 10.0, 0.01, 3e-5):
         proof = prove(Body.sphere(0.5), WALL, falls, duration=duration)
         assert "velocity [4.0, 0.0, 0.3] axis [0.0, 0.0, 20.0]" in str(proof)
@@ -190,6 +190,6 @@ def test_a_proof_says_what_moves_in_the_numbers_that_were_given(cell: Cell) -> N
     assert "axis [0.0, 0.0, 1.0] start 0.25 rate -2.75" in str(turns)
     slider = Joint.prismatic("x", "rail", "cart", axis=[0, 0, 1])
     rail = Cell(Robot([slider], {"cart": Body.sphere(0.5)}))
-    rail.add("wall", WALL, ([9, 0, 0], [1, 0, 0, 0]))
+    rail.add_obstacle("wall", WALL, ([9, 0, 0], [0, 0, 0, 1]))
     slides, = rail.prove([[40.5], [-700.0]])
     assert "velocity [0.0, 0.0, 1.0] axis [0.0, 0.0, 0.0] start 40.5 rate -740.5" in str(slides)

@@ -14,8 +14,8 @@ from rigid_ccd import (
     Distance,
     InputError,
     Motion,
-    Path,
-    Unresolved,
+    PosePath,
+    UnresolvedError,
     closest_approach,
     distance,
     first_contact,
@@ -28,7 +28,7 @@ WALL = Body.box(0.1, 5, 5)
 
 @pytest.mark.parametrize("speed", [2.5, 4, 100, 1e5])
 def test_a_ball_flies_at_a_wall(speed: float) -> None:
-    flies = Motion([-3, 0, 0], velocity=[speed, 0, 0], spin=[0, 3, 50])
+    flies = Motion([-3, 0, 0], velocity=[speed, 0, 0], angular_velocity=[0, 3, 50])
     exact = 2.4 / speed
     hit = first_contact(BALL, WALL, flies)
     assert isinstance(hit, Contact) and hit.kind == "contact"
@@ -55,7 +55,7 @@ def test_bounds_hold_for_the_cylinders_that_bodies_exceed() -> None:
     # The sides are 0.1 apart, and corners of the enclosing polytopes face each other.
     wheel = Body.cylinder(1, 1, 0.01)
     half = math.pi / 48
-    turned = [math.cos(half), 0, 0, math.sin(half)]
+    turned = [0, 0, math.sin(half), math.cos(half)]
     places = ([2.1, 0, 0], turned), ([0, 0, 0], turned)
     found = distance(wheel, wheel, *places)
     assert found.lower < 0.09 and 0.1 <= found.upper <= found.lower + 2 * wheel.excess + 1e-3
@@ -94,7 +94,7 @@ def test_what_touches_at_the_start_is_told() -> None:
 def test_distances_at_rest() -> None:
     pose = np.eye(4)
     pose[:3, 3] = [2, 0, 0]
-    for given in (pose, pose.tolist(), ([2, 0, 0], np.eye(3)), ([2, 0, 0], [1, 0, 0, 0])):
+    for given in (pose, pose.tolist(), ([2, 0, 0], np.eye(3)), ([2, 0, 0], [0, 0, 0, 1])):
         found = distance(BALL, WALL, given, tolerance=1e-9)
         assert found.lower <= 1.4 <= found.upper + 1e-12
         assert found.witness_a is not None and found.witness_a[0] == pytest.approx(1.5)
@@ -103,7 +103,7 @@ def test_distances_at_rest() -> None:
 def test_rotations_come_in_three_forms() -> None:
     half = math.pi / 4
     turned: list[Any] = [
-        [math.cos(half), 0, 0, math.sin(half)],
+        [0, 0, math.sin(half), math.cos(half)],
         [[0, -1, 0], [1, 0, 0], [0, 0, 1]],
         np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]], dtype=np.float32),
     ]
@@ -128,7 +128,7 @@ def test_motions_between_poses() -> None:
 
 
 def test_questions_end_where_a_motion_between_poses_does() -> None:
-    passes = Motion.between(([-3, 0, 0], [1, 0, 0, 0]), ([3, 0, 0], [1, 0, 0, 0]), duration=4)
+    passes = Motion.between(([-3, 0, 0], [0, 0, 0, 1]), ([3, 0, 0], [0, 0, 0, 1]), duration=4)
     assert (passes.end, Motion.between(np.eye(4), np.eye(4)).end, Motion().end) == (4, 1, None)
     assert pickle.loads(pickle.dumps(passes)).end == 4
     for a, b, motion_a, motion_b in ((BALL, WALL, passes, None), (WALL, BALL, Motion(), passes)):
@@ -138,7 +138,7 @@ def test_questions_end_where_a_motion_between_poses_does() -> None:
         assert contact is not None and 1.6 - 1e-6 <= contact.time <= 1.6
         assert closest_approach(a, b, motion_a, motion_b).lower <= 0
     with pytest.raises(InputError, match="end at different times"):
-        is_free(BALL, WALL, passes, Path([0, 3], [np.eye(4), np.eye(4)]))
+        is_free(BALL, WALL, passes, PosePath([0, 3], [np.eye(4), np.eye(4)]))
 
 
 @pytest.mark.parametrize(
@@ -170,8 +170,8 @@ def test_bad_settings_are_refused() -> None:
 
 def test_a_used_up_budget_says_what_is_proven() -> None:
     rods = Body.capsule(0.01, 2)
-    flies = Motion([-3, 0, 0], velocity=[4, 0, 0], spin=[300, 200, 100])
-    with pytest.raises(Unresolved, match="the budget is spent: a larger tolerance") as error:
+    flies = Motion([-3, 0, 0], velocity=[4, 0, 0], angular_velocity=[300, 200, 100])
+    with pytest.raises(UnresolvedError, match="the budget is spent: a larger tolerance") as error:
         first_contact(rods, rods, flies, tolerance=1e-9, budget=1)
     assert error.value.safe_until is not None and 0 <= error.value.safe_until <= 1
 
@@ -190,8 +190,8 @@ def test_threads_give_the_same_bits() -> None:
 def test_more_time_does_not_prove_less() -> None:
     from test_tables import knot
 
-    body, flies = knot(600), Motion([3.3, 0, 0], spin=[6e5, 6e5, 0])
+    body, flies = knot(600), Motion([3.3, 0, 0], angular_velocity=[6e5, 6e5, 0])
     for deadline in (0.05, 0.2, 0.3, 0.4):
-        with pytest.raises(Unresolved) as error:
+        with pytest.raises(UnresolvedError) as error:
             first_contact(body, body, flies, tolerance=1e-9, deadline=deadline)
         assert error.value.safe_until is not None and error.value.safe_until > 0

@@ -22,7 +22,7 @@ def expected(a: Body = BALL, b: Body = WALL) -> Table:
 @pytest.mark.parametrize("body", [BALL, Body.box(1, 2, 3), Body.capsule(0.1, 2), knot(60)])
 def test_bodies_are_pickled_with_the_same_answers(body: Body) -> None:
     again = pickle.loads(pickle.dumps(body))
-    assert (again.report, again.is_solid, again.pieces) == (body.report, body.is_solid, body.pieces)
+    assert (again.report, again.is_solid, again.piece_count) == (body.report, body.is_solid, body.piece_count)
     same(expected(again), expected(body))
 
 
@@ -85,8 +85,8 @@ def test_an_iterator_of_tables_gives_an_iterator_of_tables() -> None:
 def test_the_schema_is_known_without_an_answer() -> None:
     pyarrow, polars, pandas = (pytest.importorskip(name) for name in ("pyarrow", "polars", "pandas"))
     for ask in ("first-contact", "is-free", "contact-interval", "closest-approach", "distance"):
-        query: Any = TableQuery("nowhere.ccd", "nowhere.ccd", ask=ask)
-        other: Any = TableQuery(BALL, WALL, ask=ask)
+        query: Any = TableQuery("nowhere.ccd", "nowhere.ccd", question=ask)
+        other: Any = TableQuery(BALL, WALL, question=ask)
         table = pyarrow.table(COLUMNS)
         assert query.schema(table.schema) == query.schema(table).schema == other(table).schema
         frame = polars.DataFrame(COLUMNS)
@@ -155,8 +155,8 @@ def test_files_are_loaded_once_in_a_process(tmp_path: Path) -> None:
 
 
 def test_questions_that_cannot_be_asked_are_refused_at_once() -> None:
-    with pytest.raises(InputError, match="ask"):
-        TableQuery(BALL, WALL, ask="when")  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="question"):
+        TableQuery(BALL, WALL, question="when")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="tolerance"):
         TableQuery("nowhere.ccd", WALL, tolerance=0)
     with pytest.raises(TypeError, match="speed"):

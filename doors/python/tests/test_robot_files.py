@@ -8,7 +8,7 @@ import pytest
 
 from rigid_ccd import Body, Cell, InputError, Joint, Robot
 
-UPRIGHT = [1, 0, 0, 0]
+UPRIGHT = [0, 0, 0, 1]
 FINGER = """<mujoco><compiler angle="radian"/><worldbody><body name="finger" pos="0 0 0.5">
     <joint name="hinge" pos="0 0 0.1" axis="0 1 0" ref="0.2" range="-1 1"/><geom name="tip" size="0.1" pos="0 0 0.4"/>
     </body><geom type="box" size="0.1 0.1 0.1"/></worldbody></mujoco>"""
@@ -55,7 +55,7 @@ def test_the_folder_of_an_srdf_is_looked_at_before_the_work(tmp_path: Path) -> N
     told: list[tuple[int, int]] = []
     for path in (tmp_path / "nowhere" / "arm.srdf", ""):
         with pytest.raises(FileNotFoundError):
-            arm.acm(srdf=path, progress=lambda *now: told.append(now))
+            arm.classify_link_contacts(srdf=path, progress=lambda *now: told.append(now))
     assert told == []
 
 
@@ -84,9 +84,9 @@ def test_contacts_name_the_features_of_meshes() -> None:
     cell = Cell(Robot([slide], {"ball": Body.sphere(0.1)}))
     corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0.5], [-1, 1, 0.5], [0, 3, 0]])
     roof = Body(corners, [[0, 1, 2], [0, 2, 3], [3, 2, 4]])
-    cell.add("roof", roof, ([-0.5, -0.3, -2], UPRIGHT))
+    cell.add_obstacle("roof", roof, ([-0.5, -0.3, -2], UPRIGHT))
     touch = cell.first_contact([[0.0], [-3.0]])
     # The ball is over the first triangle, and has no features itself.
     assert touch is not None and (touch.feature_a, touch.feature_b) == (None, "f0")
-    table = cell.edges([[0.0]], [[-3.0]], ask="first-contact")
+    table = cell.answer_edges([[0.0]], [[-3.0]], question="first-contact")
     assert [table["feature_a"][0], table["feature_b"][0]] == [touch.feature_a, touch.feature_b]

@@ -23,7 +23,7 @@ from rigid_ccd import (
     Motion,
     Robot,
     Table,
-    Unresolved,
+    UnresolvedError,
     closest_approach,
     distance,
     first_contact,
@@ -34,10 +34,10 @@ from rigid_ccd import (
 CALLS = int(20_000 * float(os.environ.get("CCD_TEST_CASES", "1")))
 BALL, WALL = Body.sphere(0.5), Body.box(0.1, 5, 5)
 RODS = Body.capsule(0.01, 2)
-SPINS = Motion([-3, 0, 0], velocity=[4, 0, 0], spin=[300, 200, 100])
+SPINS = Motion([-3, 0, 0], velocity=[4, 0, 0], angular_velocity=[300, 200, 100])
 CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
 FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1]])
-ORIGIN: Any = ([0, 0, 0], [1, 0, 0, 0])
+ORIGIN: Any = ([0, 0, 0], [0, 0, 0, 1])
 WIDE = np.zeros((4, 8))
 ODD = np.frombuffer(bytearray(1 + 8 * 6), dtype=np.uint8)[1:].view(np.float64)
 ODD[:] = 1
@@ -57,7 +57,7 @@ def closed_reader() -> Any:
 GOOD: list[Callable[[], Any]] = [
     lambda: any_call(BALL, WALL, Motion([-3, 0, 0], velocity=[4, 0, 0])),
     lambda: is_free(BALL, WALL, Motion.still(ORIGIN)),
-    lambda: closest_approach(BALL, WALL, Motion([-3, 0, 0], spin=[0, 1, 0])),
+    lambda: closest_approach(BALL, WALL, Motion([-3, 0, 0], angular_velocity=[0, 1, 0])),
     lambda: distance(BALL, WALL, np.eye(4)),
     lambda: any_body(CORNERS[:, ::-1], FACES),
     lambda: any_body(CORNERS.astype(np.float32), FACES.astype(np.uint8).tolist()),
@@ -65,7 +65,7 @@ GOOD: list[Callable[[], Any]] = [
     lambda: any_table(BALL, WALL, {"a_px": ODD, "id": ["x"] * 6})["id"],
     lambda: any_table(BALL, WALL, {"a_px": [math.nan, math.inf, -3]}, threads=2).take([2, 0])["reason"],
     lambda: Table(Table({"a_px": np.arange(9.0)})).keys(),
-    lambda: Robot([Joint.revolute("hinge", "base", "lid")]).motion("lid", [0], [1]).pose(0.5),
+    lambda: Robot([Joint.revolute("hinge", "base", "lid")]).link_trajectory("lid", [0], [1]).pose(0.5),
 ]
 
 BAD: list[tuple[type[BaseException], Callable[[], Any]]] = [
@@ -99,7 +99,7 @@ BAD: list[tuple[type[BaseException], Callable[[], Any]]] = [
     (InputError, lambda: any_table(BALL, WALL, {"a_px": np.zeros(2, complex)})),
     (KeyError, lambda: any_table(BALL, WALL, {"a_px": [1.0]})["times"]),
     (ZeroDivisionError, lambda: any_table(BALL, WALL, {"a_px": [1.0]}, progress=lambda *_: 1 / 0)),
-    (Unresolved, lambda: any_call(RODS, RODS, SPINS, tolerance=1e-9, budget=1)),
+    (UnresolvedError, lambda: any_call(RODS, RODS, SPINS, tolerance=1e-9, budget=1)),
 ]
 
 

@@ -17,7 +17,7 @@ from rigid_ccd import (
     Body,
     Cell,
     InputError,
-    Interrupted,
+    InterruptError,
     Joint,
     Motion,
     Robot,
@@ -94,7 +94,7 @@ def test_rows_have_the_answers_of_single_queries(kind: Callable[[Any], Any]) -> 
     assert found["id"].tolist() == columns["id"].tolist()
     hits = 0
     for k in range(100):
-        flies = Motion([-3, 0, 0], velocity=[columns["a_vx"][k], 0, 0], spin=[0, columns["a_wy"][k], 0])
+        flies = Motion([-3, 0, 0], velocity=[columns["a_vx"][k], 0, 0], angular_velocity=[0, columns["a_wy"][k], 0])
         hit = first_contact(BALL, WALL, flies, Motion(velocity=[0, columns["b_vy"][k], 0]))
         hits += hit is not None
         assert found["status"][k] == (hit.kind if hit else "free")
@@ -623,7 +623,7 @@ def test_ctrl_c_ends_a_table_with_what_is_done(rows: int) -> None:
     # The knot makes a hundred thousand turns, and barely misses each time: minutes of work.
     columns = {"a_px": random.uniform(3.2, 3.4, rows), "a_wx": np.full(rows, 6e5), "a_wy": np.full(rows, 6e5)}
     interrupt(0.5)
-    with pytest.raises(Interrupted) as error:
+    with pytest.raises(InterruptError) as error:
         first_contacts(body, body, columns, tolerance=1e-9, budget=2**60)
     assert isinstance(error.value, KeyboardInterrupt)
     done = error.value.results
@@ -658,7 +658,7 @@ def test_ctrl_c_ends_a_question_about_a_path() -> None:
     # A box slides on a table, so it is undecided everywhere on the path whether the box keeps a distance of 0.
     slider = Joint.prismatic("slider", "table", "box", axis=[1, 0, 0])
     cell = Cell(Robot([slider], {"box": Body.box(0.1, 0.1, 0.1)}))
-    cell.add("floor", Body.box(5, 5, 0.1), ([0, 0, -0.2], [1, 0, 0, 0]))
+    cell.add_obstacle("floor", Body.box(5, 5, 0.1), ([0, 0, -0.2], [0, 0, 0, 1]))
     interrupt(0.3)
     with pytest.raises(KeyboardInterrupt):
         cell.clearance_ranges([[0.0], [1.0]], resolution=1e-9)
@@ -682,7 +682,7 @@ def test_ctrl_c_ends_a_single_query() -> None:
     body = knot(600)
     interrupt(0.5)
     with pytest.raises(KeyboardInterrupt):
-        first_contact(body, body, Motion([3.3, 0, 0], spin=[6e5, 6e5, 0]), tolerance=1e-9, budget=2**60)
+        first_contact(body, body, Motion([3.3, 0, 0], angular_velocity=[6e5, 6e5, 0]), tolerance=1e-9, budget=2**60)
 
 
 def interrupt(seconds: float) -> None:

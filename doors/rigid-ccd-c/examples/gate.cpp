@@ -22,6 +22,6 @@ int main(int count, char **argv) {
         std::printf("go\n");
         return 0;
     }
-    std::printf("go until waypoint %zu and %.3f of the way to the next\n", answer.segment, answer.share);
+    std::printf("go until waypoint %zu and %.3f of the way to the next\n", answer.segment, answer.fraction);
     rigid_ccd::write_evidence(cell, settings, chunk, answer, "stop.json");
 }

@@ -25,9 +25,9 @@ int main() {
     const rigid_ccd::PathAnswer hit = solver.first_contact(path);
     if (hit.hit())
         std::printf("%s touches %s at %.3f of segment %zu, and nothing touches before\n", hit.name_a().c_str(),
-                    hit.name_b().c_str(), hit.share, hit.segment);
+                    hit.name_b().c_str(), hit.fraction, hit.segment);
     else if (!hit.resolved())
-        std::printf("a limit was reached; free until %.3f of segment %zu\n", hit.share, hit.segment);
+        std::printf("a limit was reached; free until %.3f of segment %zu\n", hit.fraction, hit.segment);
 
     // A cell that was changed needs a new solver.
     cell.move_obstacle("post", rigid_ccd::pose_at({2, 0, 0.5}));

@@ -130,26 +130,26 @@ typedef uint32_t rccd_feature_kind;
 #endif // __cplusplus
 
 // The way in which triangles in arrays are represented by convex pieces.
-enum rccd_detail
+enum rccd_pieces
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
     // The fewest pieces that represent the mesh exactly: one hull for a convex solid, else patches or triangles,
     // whichever are faster.
-    RCCD_DETAIL_AUTO = 0,
+    RCCD_PIECES_AUTO = 0,
     // One piece for each triangle. A closed mesh is solid.
-    RCCD_DETAIL_TRIANGLES = 1,
+    RCCD_PIECES_TRIANGLES = 1,
     // One piece for each triangle. A closed mesh is hollow.
-    RCCD_DETAIL_SURFACE = 2,
+    RCCD_PIECES_SURFACE = 2,
     // One piece: the convex hull, which encloses any mesh. Bounds in answers account for its excess.
-    RCCD_DETAIL_OUTER_HULL = 3,
+    RCCD_PIECES_OUTER_HULL = 3,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
-typedef enum rccd_detail rccd_detail;
+typedef enum rccd_pieces rccd_pieces;
 #else
-typedef uint32_t rccd_detail;
+typedef uint32_t rccd_pieces;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -198,7 +198,7 @@ typedef uint32_t rccd_contact_normals;
 typedef struct rccd_body rccd_body;
 
 // A cell (planning scene): a robot among obstacles that are static in the frame of its base. Each obstacle and each
-// held body has a name of its own, different from the names of links. Changing the cell invalidates its solvers: their
+// attached body has a name of its own, different from the names of links. Changing the cell invalidates its solvers: their
 // questions fail from then on. Making a new solver takes about 30 µs.
 typedef struct rccd_cell rccd_cell;
 
@@ -231,8 +231,8 @@ typedef struct rccd_text {
 typedef struct rccd_pose {
     // The position of the body's origin.
     double position[3];
-    // The orientation as a quaternion in the order x, y, z, w. It need not be normalised, but must not be zero.
-    double orientation[4];
+    // The rotation as a quaternion in the order x, y, z, w. It need not be normalised, but must not be zero.
+    double rotation[4];
 } rccd_pose;
 
 // The settings of queries. Set `size`, call `rccd_settings_default`, then change fields.
@@ -262,7 +262,7 @@ typedef struct rccd_settings {
 // A path of a robot: either a sequence of configurations or a curve. Between configurations all joints move at constant
 // rates. One configuration is a static robot, two are an edge.
 typedef struct rccd_path {
-    // For each configuration, the positions of the robot's free joints; null for a curve.
+    // For each configuration, the positions of the robot's independent joints; null for a curve.
     const double *configurations;
     // The number of configurations.
     size_t configuration_count;
@@ -289,15 +289,15 @@ typedef struct rccd_path_answer {
     // The limit that ended the search.
     rccd_limit limit;
     // The index of the segment, from 0, of the contact or of the least distance found. For a free path it is the last
-    // segment. For an unresolved one, the path is free up to `share` of this segment.
+    // segment. For an unresolved one, the path is free up to `fraction` of this segment.
     size_t segment;
     // The position within that segment, from 0 at its start to 1 at its end. Nothing touches before a first contact.
-    double share;
+    double fraction;
     // A lower bound of the distance at the contact, or of the least distance on the whole path.
     double lower;
     // An upper bound of the same distance.
     double upper;
-    // The name of the first item of the pair: a link, held body or obstacle that touches or is nearest. The solver owns
+    // The name of the first item of the pair: a link, attached body or obstacle that touches or is nearest. The solver owns
     // the text.
     struct rccd_text item_a;
     // The name of the second item of the pair.
@@ -315,16 +315,16 @@ typedef struct rccd_path_answer {
     double tolerance;
 } rccd_path_answer;
 
-// A motion at constant velocities: the centre of rotation moves on a straight line, and the body rotates about it.
+// A motion at constant velocities: the center of rotation moves on a straight line, and the body rotates about it.
 typedef struct rccd_motion {
     // The pose at time 0.
     struct rccd_pose start;
-    // The velocity of the centre of rotation.
+    // The velocity of the center of rotation.
     double velocity[3];
     // The angular velocity in the world, in radians per unit of time.
-    double spin[3];
-    // The centre of rotation, in the body's frame.
-    double centre[3];
+    double angular_velocity[3];
+    // The center of rotation, in the body's frame.
+    double center[3];
 } rccd_motion;
 
 // A body with a motion or a trajectory. With neither, the body is static at the origin.
@@ -372,16 +372,16 @@ typedef struct rccd_answer {
     uint64_t work;
 } rccd_answer;
 
-// The rotation of a body whose origin follows a curve: orientations at ascending times. Between two orientations the
+// The rotation of a body whose origin follows a curve: rotations at ascending times. Between two rotations the
 // body takes the shortest rotation at a constant rate.
-typedef struct rccd_turns {
+typedef struct rccd_rotations {
     // The times.
     const double *times;
     // A quaternion for each time, in the order x, y, z, w.
-    const double *orientations;
+    const double *rotations;
     // The number of times.
     size_t count;
-} rccd_turns;
+} rccd_rotations;
 
 #ifdef __cplusplus
 extern "C" {
@@ -393,11 +393,11 @@ extern "C" {
 // `out` is null, or points to memory for a handle.
 rccd_status rccd_body_sphere(double radius, struct rccd_body **out);
 
-// Makes a capsule along z: the points within `radius` of the segment from `−half_length` to `half_length`.
+// Makes a capsule along z: the points within `radius` of the segment from `−half_height` to `half_height`.
 //
 // # Safety
 // `out` is null, or points to memory for a handle.
-rccd_status rccd_body_capsule(double radius, double half_length, struct rccd_body **out);
+rccd_status rccd_body_capsule(double radius, double half_height, struct rccd_body **out);
 
 // Makes a box around the origin. The arguments are half of its lengths along x, y and z.
 //
@@ -410,20 +410,20 @@ rccd_status rccd_body_box(double half_x, double half_y, double half_z, struct rc
 // # Safety
 // `out` is null, or points to memory for a handle.
 rccd_status rccd_body_cylinder(double radius,
-                               double half_length,
+                               double half_height,
                                struct rccd_body **out);
 
-// Makes a cone along z, with its base at `−half_length` and its apex at `half_length`. It is represented by a polytope
+// Makes a cone along z, with its base at `−half_height` and its apex at `half_height`. It is represented by a polytope
 // that encloses it; bounds in answers account for the excess.
 //
 // # Safety
 // `out` is null, or points to memory for a handle.
 rccd_status rccd_body_cone(double radius,
-                           double half_length,
+                           double half_height,
                            struct rccd_body **out);
 
 // Makes a body of triangles. `vertices` has three coordinates for each vertex, and `triangles` three vertex indices for
-// each triangle. `detail` is one of `rccd_detail`. A mesh that is not closed is a surface: see `rccd_body_is_solid`.
+// each triangle. `pieces` is one of `rccd_pieces`. A mesh that is not closed is a surface: see `rccd_body_is_solid`.
 //
 // # Safety
 // `vertices` is null or points to `3 · vertex_count` numbers, `triangles` is null or points to `3 · triangle_count`
@@ -432,7 +432,7 @@ rccd_status rccd_body_from_triangles(const double *vertices,
                                      size_t vertex_count,
                                      const uint32_t *triangles,
                                      size_t triangle_count,
-                                     uint32_t detail,
+                                     uint32_t pieces,
                                      struct rccd_body **out);
 
 // Prepares a body of triangles, and stores it in a file, by convention `NAME.ccd`. `rccd_body_load` reads the file
@@ -445,7 +445,7 @@ rccd_status rccd_body_prepare(const double *vertices,
                               size_t vertex_count,
                               const uint32_t *triangles,
                               size_t triangle_count,
-                              uint32_t detail,
+                              uint32_t pieces,
                               const char *path);
 
 // Loads a body from a file: OBJ, STL, PLY, OFF, glTF, GLB, DAE, or a file written by `rccd_body_prepare` or `ccd
@@ -513,13 +513,13 @@ rccd_status rccd_cell_from_text(const char *robot,
 // The handle is null, or comes from this library, is not in use, and has not been freed.
 void rccd_cell_free(struct rccd_cell *cell);
 
-// Stores the number of free joints. A configuration has one position for each of them.
+// Stores the number of independent joints. A configuration has one position for each of them.
 //
 // # Safety
 // `cell` is null or a handle; `out` is null or points to memory for a number.
 rccd_status rccd_cell_joint_count(const struct rccd_cell *cell, size_t *out);
 
-// Stores the name and the limits of a free joint. `number` is its index in configurations. Limits are infinite for
+// Stores the name and the limits of an independent joint. `number` is its index in configurations. Limits are infinite for
 // joints without limits. The name is valid until the cell is freed.
 //
 // # Safety
@@ -557,7 +557,7 @@ rccd_status rccd_cell_move_obstacle(struct rccd_cell *cell,
 rccd_status rccd_cell_remove_obstacle(struct rccd_cell *cell, const char *name);
 
 // Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. The body may touch
-// that link, links that are rigidly attached to it, and the items named in `may_touch`: links, held bodies and
+// that link, links that are rigidly attached to it, and the items named in `may_touch`: links, attached bodies and
 // obstacles.
 //
 // # Safety
@@ -577,7 +577,7 @@ rccd_status rccd_cell_attach(struct rccd_cell *cell,
 // `cell` is null or a handle that no other call uses; `name` is null or a text that ends with a zero.
 rccd_status rccd_cell_detach(struct rccd_cell *cell, const char *name);
 
-// Allows two items to touch, even if they have a clearance. An item is a link, a held body or an obstacle. The
+// Allows two items to touch, even if they have a clearance. An item is a link, an attached body or an obstacle. The
 // permission ends when one of them is removed, and by `rccd_cell_forbid_contact` and `rccd_cell_set_clearance`.
 //
 // # Safety
@@ -611,7 +611,7 @@ rccd_status rccd_cell_set_padding(struct rccd_cell *cell,
                                   const char *link,
                                   double distance);
 
-// Sets the distance at which two items count as touching. It replaces margin and paddings for this pair of links, held
+// Sets the distance at which two items count as touching. It replaces margin and paddings for this pair of links, attached
 // bodies or obstacles. The pair is checked from now on, even if it was not checked or was allowed to touch.
 //
 // # Safety
@@ -649,11 +649,11 @@ rccd_status rccd_cell_solver_set_settings(struct rccd_cell_solver *solver,
 void rccd_cell_solver_free(struct rccd_cell_solver *solver);
 
 // Finds the first contact on a path. Nothing touches before it. If a limit is reached, nothing touches before the
-// segment and share in the answer.
+// segment and fraction in the answer.
 //
 // # Safety
 // `solver` is null or a handle that no other call uses; `path` is null or points to a path, whose configurations are null or
-// point to as many numbers as the robot has free joints for each configuration, and whose curve is null or a handle; `answer`
+// point to as many numbers as the robot has independent joints for each configuration, and whose curve is null or a handle; `answer`
 // is null or points to an answer whose `size` is set.
 rccd_status rccd_cell_first_contact(struct rccd_cell_solver *solver,
                                     const struct rccd_path *path,
@@ -729,15 +729,15 @@ void rccd_joint_curve_free(struct rccd_joint_curve *curve);
 // Returns the motion of a static body at the origin. Change its fields before use.
 struct rccd_motion rccd_motion_at_rest(void);
 
-// Computes the motion from one pose at time 0 to another at time `duration`, by the shortest rotation. `centre` is the
+// Computes the motion from one pose at time 0 to another at time `duration`, by the shortest rotation. `center` is the
 // point in the body's frame that moves on a straight line; null stands for the body's origin.
 //
 // # Safety
-// `start` and `end` are null or point to poses, `centre` is null or points to three numbers, and `out` is null or
+// `start` and `end` are null or point to poses, `center` is null or points to three numbers, and `out` is null or
 // points to memory for a motion.
 rccd_status rccd_motion_between(const struct rccd_pose *start,
                                 const struct rccd_pose *end,
-                                const double *centre,
+                                const double *center,
                                 double duration,
                                 struct rccd_motion *out);
 
@@ -862,30 +862,30 @@ void rccd_stop_free(struct rccd_stop *stop);
 //
 // # Safety
 // `times` and `poses` are null or point to `count` values; `out` is null or points to memory for a handle.
-rccd_status rccd_trajectory_through_poses(const double *times,
-                                          const struct rccd_pose *poses,
-                                          size_t count,
-                                          struct rccd_trajectory **out);
+rccd_status rccd_trajectory_pose_path(const double *times,
+                                      const struct rccd_pose *poses,
+                                      size_t count,
+                                      struct rccd_trajectory **out);
 
-// Makes the trajectory of a thrown body: a motion whose centre has a constant acceleration, as in free fall.
+// Makes the trajectory of a thrown body: a motion whose center has a constant acceleration, as in free fall.
 //
 // # Safety
 // `thrown` is null or points to a motion, `acceleration` is null or points to three numbers, and `out` is null or
 // points to memory for a handle.
-rccd_status rccd_trajectory_thrown(const struct rccd_motion *thrown,
-                                   const double *acceleration,
-                                   struct rccd_trajectory **out);
+rccd_status rccd_trajectory_ballistic(const struct rccd_motion *thrown,
+                                      const double *acceleration,
+                                      struct rccd_trajectory **out);
 
 // Makes the trajectory of a body whose origin follows a Bézier curve of any degree from time 0 to `duration`. `points`
 // are the control points, three numbers each. If `turns` is null, the body does not rotate.
 //
 // # Safety
-// `points` is null or points to `3 · count` numbers; `turns` is null or points to turns, whose times and orientations
+// `points` is null or points to `3 · count` numbers; `turns` is null or points to turns, whose times and rotations
 // are null or point to as many numbers as their count says; `out` is null or points to memory for a handle.
 rccd_status rccd_trajectory_bezier(const double *points,
                                    size_t count,
                                    double duration,
-                                   const struct rccd_turns *turns,
+                                   const struct rccd_rotations *turns,
                                    struct rccd_trajectory **out);
 
 // Makes the trajectory of a body whose origin follows a uniform cubic B-spline from time 0 to `duration`. `points` are
@@ -897,7 +897,7 @@ rccd_status rccd_trajectory_bezier(const double *points,
 rccd_status rccd_trajectory_b_spline(const double *points,
                                      size_t count,
                                      double duration,
-                                     const struct rccd_turns *turns,
+                                     const struct rccd_rotations *turns,
                                      struct rccd_trajectory **out);
 
 // Frees a trajectory. Does nothing for null.

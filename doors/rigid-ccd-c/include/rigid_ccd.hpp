@@ -178,11 +178,11 @@ inline Motion at_rest(const Pose &pose) {
     return motion;
 }
 
-// Returns the motion from one pose at time 0 to another at time `duration`, by the shortest rotation. `centre` is the
+// Returns the motion from one pose at time 0 to another at time `duration`, by the shortest rotation. `center` is the
 // point in the body's frame that moves on a straight line.
-inline Result<Motion> between(const Pose &start, const Pose &end, double duration, const Vector &centre = {0, 0, 0}) {
+inline Result<Motion> between(const Pose &start, const Pose &end, double duration, const Vector &center = {0, 0, 0}) {
     Motion motion;
-    const rccd_status status = rccd_motion_between(&start, &end, centre.data(), duration, &motion);
+    const rccd_status status = rccd_motion_between(&start, &end, center.data(), duration, &motion);
     return detail::after(status, [&] { return motion; });
 }
 
@@ -206,31 +206,31 @@ public:
     static Result<Body> sphere(double radius) {
         return make([&](rccd_body **out) { return rccd_body_sphere(radius, out); });
     }
-    static Result<Body> capsule(double radius, double half_length) {
-        return make([&](rccd_body **out) { return rccd_body_capsule(radius, half_length, out); });
+    static Result<Body> capsule(double radius, double half_height) {
+        return make([&](rccd_body **out) { return rccd_body_capsule(radius, half_height, out); });
     }
     static Result<Body> box(const Vector &half) {
         return make([&](rccd_body **out) { return rccd_body_box(half[0], half[1], half[2], out); });
     }
-    static Result<Body> cylinder(double radius, double half_length) {
-        return make([&](rccd_body **out) { return rccd_body_cylinder(radius, half_length, out); });
+    static Result<Body> cylinder(double radius, double half_height) {
+        return make([&](rccd_body **out) { return rccd_body_cylinder(radius, half_height, out); });
     }
-    static Result<Body> cone(double radius, double half_length) {
-        return make([&](rccd_body **out) { return rccd_body_cone(radius, half_length, out); });
+    static Result<Body> cone(double radius, double half_height) {
+        return make([&](rccd_body **out) { return rccd_body_cone(radius, half_height, out); });
     }
     // Makes a body of triangles. Each triangle is three indices of vertices.
     static Result<Body> from_triangles(View<Vector> vertices, View<Triangle> triangles,
-                                       std::uint32_t detail = static_cast<std::uint32_t>(RCCD_DETAIL_AUTO)) {
+                                       std::uint32_t pieces = static_cast<std::uint32_t>(RCCD_PIECES_AUTO)) {
         return make([&](rccd_body **out) {
             return rccd_body_from_triangles(numbers(vertices), vertices.size(), numbers(triangles), triangles.size(),
-                                            detail, out);
+                                            pieces, out);
         });
     }
     // Prepares a body of triangles, and stores it in a file. `load` reads the file without repeating the preparation.
     static Result<Done> prepare(View<Vector> vertices, View<Triangle> triangles, const std::string &path,
-                                std::uint32_t detail = static_cast<std::uint32_t>(RCCD_DETAIL_AUTO)) {
+                                std::uint32_t pieces = static_cast<std::uint32_t>(RCCD_PIECES_AUTO)) {
         return detail::done(rccd_body_prepare(numbers(vertices), vertices.size(), numbers(triangles),
-                                              triangles.size(), detail, detail::c_text(path)));
+                                              triangles.size(), pieces, detail::c_text(path)));
     }
     // Loads a body from a file.
     static Result<Body> load(const std::string &path) {
@@ -274,28 +274,28 @@ private:
 class Trajectory {
 public:
     // Makes a trajectory through poses at ascending times.
-    static Result<Trajectory> through_poses(View<double> times, View<Pose> poses) {
+    static Result<Trajectory> pose_path(View<double> times, View<Pose> poses) {
         if (times.size() != poses.size())
             return detail::fail<Trajectory>({RCCD_STATUS_INVALID_ARGUMENT, "as many times as poses are needed"});
         return make([&](rccd_trajectory **out) {
-            return rccd_trajectory_through_poses(times.data(), poses.data(), poses.size(), out);
+            return rccd_trajectory_pose_path(times.data(), poses.data(), poses.size(), out);
         });
     }
-    // Makes a motion whose centre has a constant acceleration, as in free fall.
-    static Result<Trajectory> thrown(const Motion &thrown, const Vector &acceleration) {
+    // Makes a motion whose center has a constant acceleration, as in free fall.
+    static Result<Trajectory> ballistic(const Motion &thrown, const Vector &acceleration) {
         return make([&](rccd_trajectory **out) {
-            return rccd_trajectory_thrown(&thrown, acceleration.data(), out);
+            return rccd_trajectory_ballistic(&thrown, acceleration.data(), out);
         });
     }
     // Makes the trajectory of a body whose origin follows the Bézier curve of these control points.
-    static Result<Trajectory> bezier(View<Vector> points, double duration, const rccd_turns *turns = nullptr) {
+    static Result<Trajectory> bezier(View<Vector> points, double duration, const rccd_rotations *turns = nullptr) {
         const double *numbers = points.size() ? points.data()->data() : nullptr;
         return make([&](rccd_trajectory **out) {
             return rccd_trajectory_bezier(numbers, points.size(), duration, turns, out);
         });
     }
     // Makes the trajectory of a body whose origin follows the uniform cubic B-spline of these control points.
-    static Result<Trajectory> b_spline(View<Vector> points, double duration, const rccd_turns *turns = nullptr) {
+    static Result<Trajectory> b_spline(View<Vector> points, double duration, const rccd_rotations *turns = nullptr) {
         const double *numbers = points.size() ? points.data()->data() : nullptr;
         return make([&](rccd_trajectory **out) {
             return rccd_trajectory_b_spline(numbers, points.size(), duration, turns, out);

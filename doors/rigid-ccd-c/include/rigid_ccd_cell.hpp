@@ -25,7 +25,7 @@ inline Error wrong_configurations(std::size_t length, std::size_t given) {
 
 } // namespace detail
 
-// A free joint. Its limits are infinite if it has none.
+// An independent joint. Its limits are infinite if it has none.
 struct Joint {
     std::string name;
     double lower, upper;
@@ -55,13 +55,13 @@ public:
     }
     // Takes ownership of a handle.
     explicit Cell(rccd_cell *handle) : handle_(handle, rccd_cell_free) {}
-    // Returns the number of free joints. A configuration has one position for each.
+    // Returns the number of independent joints. A configuration has one position for each.
     std::size_t joint_count() const {
         std::size_t count = 0;
         rccd_cell_joint_count(get(), &count);
         return count;
     }
-    // Returns a free joint. `number` is its index in configurations.
+    // Returns an independent joint. `number` is its index in configurations.
     Result<Joint> joint(std::size_t number) const {
         rccd_text name{};
         Joint joint{};
@@ -81,7 +81,7 @@ public:
         return detail::done(rccd_cell_remove_obstacle(handle_.get(), detail::c_text(name)));
     }
     // Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. The body may
-    // touch that link, links that are rigidly attached to it, and the items named in `may_touch`: links, held bodies and
+    // touch that link, links that are rigidly attached to it, and the items named in `may_touch`: links, attached bodies and
     // obstacles.
     Result<Done> attach(const std::string &name, const Body &body, const std::string &link, const Pose &pose,
                         const std::vector<std::string> &may_touch = {}) {
@@ -91,7 +91,7 @@ public:
                                              links.data(), links.size()));
     }
     Result<Done> detach(const std::string &name) { return detail::done(rccd_cell_detach(handle_.get(), detail::c_text(name))); }
-    // Allows two items to touch. An item is a link, a held body or an obstacle. The permission ends when one of them is
+    // Allows two items to touch. An item is a link, an attached body or an obstacle. The permission ends when one of them is
     // removed.
     Result<Done> allow_contact(const std::string &a, const std::string &b) {
         return detail::done(rccd_cell_allow_contact(handle_.get(), detail::c_text(a), detail::c_text(b)));
@@ -177,7 +177,7 @@ public:
     bool completely_free() const noexcept { return alpha_ >= 1; }
     // Returns whether some initial part of the edge is certainly free.
     bool partially_free() const noexcept { return alpha_ > 0; }
-    // Returns the share of the edge, from its start, that is certainly free. Returns 0 if no part is certainly free.
+    // Returns the fraction of the edge, from its start, that is certainly free. Returns 0 if no part is certainly free.
     double alpha() const noexcept { return alpha_; }
 
 private:
@@ -192,7 +192,7 @@ public:
         const rccd_status status = rccd_cell_solver_new(cell.get(), &settings, &handle);
         return detail::after(status, [&] { return CellSolver(handle, cell.joint_count()); });
     }
-    // Takes ownership of the handle of a solver for a robot with `joint_count` free joints.
+    // Takes ownership of the handle of a solver for a robot with `joint_count` independent joints.
     CellSolver(rccd_cell_solver *handle, std::size_t joint_count)
         : handle_(handle, rccd_cell_solver_free), joint_count_(joint_count), edge_(2 * joint_count) {}
 #ifndef RIGID_CCD_EXPECTED
@@ -225,7 +225,7 @@ public:
         PathAnswer answer;
         const rccd_path edge = {edge_.data(), 2, nullptr};
         const rccd_status status = rccd_cell_first_contact(handle_.get(), &edge, &answer);
-        return detail::after(status, [&] { return EdgeMeasure(answer.free() ? 1.0 : answer.share); });
+        return detail::after(status, [&] { return EdgeMeasure(answer.free() ? 1.0 : answer.fraction); });
     }
 
 private:

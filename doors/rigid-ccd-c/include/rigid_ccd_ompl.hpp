@@ -27,16 +27,16 @@ public:
     OmplMotionValidator(const ompl::base::SpaceInformationPtr &, Cell &&, const Settings & = {}) = delete;
 
     bool checkMotion(const ompl::base::State *from, const ompl::base::State *to) const override {
-        return count(free_share(from, to) >= 1.0);
+        return count(free_fraction(from, to) >= 1.0);
     }
 
     // The last valid state is the end of the certified free part of the edge.
     bool checkMotion(const ompl::base::State *from, const ompl::base::State *to,
                      std::pair<ompl::base::State *, double> &last_valid) const override {
-        const double share = free_share(from, to);
-        if (share >= 1.0) return count(true);
-        last_valid.second = share;
-        if (last_valid.first != nullptr) si_->getStateSpace()->interpolate(from, to, share, last_valid.first);
+        const double fraction = free_fraction(from, to);
+        if (fraction >= 1.0) return count(true);
+        last_valid.second = fraction;
+        if (last_valid.first != nullptr) si_->getStateSpace()->interpolate(from, to, fraction, last_valid.first);
         return count(false);
     }
 
@@ -45,7 +45,7 @@ private:
         (is_valid ? valid_ : invalid_) += 1;
         return is_valid;
     }
-    double free_share(const ompl::base::State *from, const ompl::base::State *to) const {
+    double free_fraction(const ompl::base::State *from, const ompl::base::State *to) const {
         std::vector<double> start, end;
         si_->getStateSpace()->copyToReals(start, from);
         si_->getStateSpace()->copyToReals(end, to);

@@ -3,7 +3,7 @@
 use crate::arguments::{array, free, give, reference, store, text};
 use crate::status::{Failure, RccdStatus, status_of};
 use rigid_ccd::body::Solidity;
-use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh, prepare};
+use rigid_ccd::mesh::{PieceChoice, TriangleMesh, body_from_mesh, prepare};
 use rigid_ccd::{Body, InputError, load};
 use std::ffi::c_char;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ pub struct RccdBody(pub(crate) Arc<Body>);
 /// The way in which triangles in arrays are represented by convex pieces.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RccdDetail {
+pub enum RccdPieces {
     /// The fewest pieces that represent the mesh exactly: one hull for a convex solid, else patches or triangles,
     /// whichever are faster.
     Auto = 0,
@@ -36,18 +36,18 @@ pub unsafe extern "C" fn rccd_body_sphere(radius: f64, out: *mut *mut RccdBody) 
     unsafe { give_shape(Body::sphere(radius), out) }
 }
 
-/// Makes a capsule along z: the points within `radius` of the segment from `−half_length` to `half_length`.
+/// Makes a capsule along z: the points within `radius` of the segment from `−half_height` to `half_height`.
 ///
 /// # Safety
 /// `out` is null, or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_capsule(
     radius: f64,
-    half_length: f64,
+    half_height: f64,
     out: *mut *mut RccdBody,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe { give_shape(Body::capsule(radius, half_length), out) }
+    unsafe { give_shape(Body::capsule(radius, half_height), out) }
 }
 
 /// Makes a box around the origin. The arguments are half of its lengths along x, y and z.
@@ -72,14 +72,14 @@ pub unsafe extern "C" fn rccd_body_box(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_cylinder(
     radius: f64,
-    half_length: f64,
+    half_height: f64,
     out: *mut *mut RccdBody,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe { give_shape(Body::cylinder(radius, half_length), out) }
+    unsafe { give_shape(Body::cylinder(radius, half_height), out) }
 }
 
-/// Makes a cone along z, with its base at `−half_length` and its apex at `half_length`. It is represented by a polytope
+/// Makes a cone along z, with its base at `−half_height` and its apex at `half_height`. It is represented by a polytope
 /// that encloses it; bounds in answers account for the excess.
 ///
 /// # Safety
@@ -87,15 +87,15 @@ pub unsafe extern "C" fn rccd_body_cylinder(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_body_cone(
     radius: f64,
-    half_length: f64,
+    half_height: f64,
     out: *mut *mut RccdBody,
 ) -> RccdStatus {
     // SAFETY: the contract of this function.
-    unsafe { give_shape(Body::cone(radius, half_length), out) }
+    unsafe { give_shape(Body::cone(radius, half_height), out) }
 }
 
 /// Makes a body of triangles. `vertices` has three coordinates for each vertex, and `triangles` three vertex indices for
-/// each triangle. `detail` is one of `rccd_detail`. A mesh that is not closed is a surface: see `rccd_body_is_solid`.
+/// each triangle. `pieces` is one of `rccd_pieces`. A mesh that is not closed is a surface: see `rccd_body_is_solid`.
 ///
 /// # Safety
 /// `vertices` is null or points to `3 · vertex_count` numbers, `triangles` is null or points to `3 · triangle_count`
@@ -106,15 +106,15 @@ pub unsafe extern "C" fn rccd_body_from_triangles(
     vertex_count: usize,
     triangles: *const u32,
     triangle_count: usize,
-    detail: u32,
+    pieces: u32,
     out: *mut *mut RccdBody,
 ) -> RccdStatus {
     let counts = [vertex_count, triangle_count];
     status_of(|| {
-        let detail = parse_detail(detail)?;
+        let pieces = parse_pieces(pieces)?;
         // SAFETY: the contract of this function.
         let mesh = unsafe { read_mesh(vertices, triangles, counts) }?;
-        let body = body_from_mesh(&mesh, detail).map_err(Failure::body)?.body;
+        let body = body_from_mesh(&mesh, pieces).map_err(Failure::body)?.body;
         // SAFETY: the contract of this function.
         unsafe { give(out, RccdBody(Arc::new(body))) }
     })
@@ -132,16 +132,16 @@ pub unsafe extern "C" fn rccd_body_prepare(
     vertex_count: usize,
     triangles: *const u32,
     triangle_count: usize,
-    detail: u32,
+    pieces: u32,
     path: *const c_char,
 ) -> RccdStatus {
     let counts = [vertex_count, triangle_count];
     status_of(|| {
-        let detail = parse_detail(detail)?;
+        let pieces = parse_pieces(pieces)?;
         // SAFETY: the contract of this function.
         let (path, mesh) =
             unsafe { (text("path", path)?, read_mesh(vertices, triangles, counts)?) };
-        let content = prepare(&mesh, detail).map_err(Failure::body)?;
+        let content = prepare(&mesh, pieces).map_err(Failure::body)?;
         content.save(path).map_err(Failure::body)
     })
 }
@@ -253,14 +253,14 @@ unsafe fn read_mesh(
     TriangleMesh::new(vertices.to_vec(), triangles).map_err(Failure::body)
 }
 
-fn parse_detail(detail: u32) -> Result<Detail, Failure> {
-    match detail {
-        detail if detail == RccdDetail::Auto as u32 => Ok(Detail::Auto),
-        detail if detail == RccdDetail::Triangles as u32 => Ok(Detail::Triangles),
-        detail if detail == RccdDetail::Surface as u32 => Ok(Detail::Surface),
-        detail if detail == RccdDetail::OuterHull as u32 => Ok(Detail::OuterHull),
+fn parse_pieces(pieces: u32) -> Result<PieceChoice, Failure> {
+    match pieces {
+        pieces if pieces == RccdPieces::Auto as u32 => Ok(PieceChoice::Auto),
+        pieces if pieces == RccdPieces::Triangles as u32 => Ok(PieceChoice::Triangles),
+        pieces if pieces == RccdPieces::Surface as u32 => Ok(PieceChoice::Surface),
+        pieces if pieces == RccdPieces::OuterHull as u32 => Ok(PieceChoice::OuterHull),
         other => Err(Failure::argument(format!(
-            "detail {other} is none of rccd_detail"
+            "pieces {other} is none of rccd_pieces"
         ))),
     }
 }

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A cell (planning scene): a robot among obstacles that are static in the frame of its base. Each obstacle and each
-/// held body has a name of its own, different from the names of links. Changing the cell invalidates its solvers: their
+/// attached body has a name of its own, different from the names of links. Changing the cell invalidates its solvers: their
 /// questions fail from then on. Making a new solver takes about 30 µs.
 pub struct RccdCell {
     pub(crate) cell: Arc<Cell>,
@@ -119,7 +119,7 @@ pub unsafe extern "C" fn rccd_cell_free(cell: *mut RccdCell) {
     unsafe { free(cell) }
 }
 
-/// Stores the number of free joints. A configuration has one position for each of them.
+/// Stores the number of independent joints. A configuration has one position for each of them.
 ///
 /// # Safety
 /// `cell` is null or a handle; `out` is null or points to memory for a number.
@@ -136,7 +136,7 @@ pub unsafe extern "C" fn rccd_cell_joint_count(
     })
 }
 
-/// Stores the name and the limits of a free joint. `number` is its index in configurations. Limits are infinite for
+/// Stores the name and the limits of an independent joint. `number` is its index in configurations. Limits are infinite for
 /// joints without limits. The name is valid until the cell is freed.
 ///
 /// # Safety
@@ -157,7 +157,7 @@ pub unsafe extern "C" fn rccd_cell_joint(
         let joint = joint_names.iter().zip(cell.robot().limits()).nth(number);
         let Some((joint, [least, greatest])) = joint else {
             return Err(Failure::argument(format!(
-                "there is no free joint {number}"
+                "there is no independent joint {number}"
             )));
         };
         check_place("name", name)?;
@@ -240,7 +240,7 @@ pub unsafe extern "C" fn rccd_cell_remove_obstacle(
 }
 
 /// Attaches a body to a link, such as an object that a gripper holds, at a pose in the link's frame. The body may touch
-/// that link, links that are rigidly attached to it, and the items named in `may_touch`: links, held bodies and
+/// that link, links that are rigidly attached to it, and the items named in `may_touch`: links, attached bodies and
 /// obstacles.
 ///
 /// # Safety
@@ -291,7 +291,7 @@ pub unsafe extern "C" fn rccd_cell_detach(cell: *mut RccdCell, name: *const c_ch
     })
 }
 
-/// Allows two items to touch, even if they have a clearance. An item is a link, a held body or an obstacle. The
+/// Allows two items to touch, even if they have a clearance. An item is a link, an attached body or an obstacle. The
 /// permission ends when one of them is removed, and by `rccd_cell_forbid_contact` and `rccd_cell_set_clearance`.
 ///
 /// # Safety
@@ -369,7 +369,7 @@ pub unsafe extern "C" fn rccd_cell_set_padding(
     })
 }
 
-/// Sets the distance at which two items count as touching. It replaces margin and paddings for this pair of links, held
+/// Sets the distance at which two items count as touching. It replaces margin and paddings for this pair of links, attached
 /// bodies or obstacles. The pair is checked from now on, even if it was not checked or was allowed to touch.
 ///
 /// # Safety
@@ -408,7 +408,7 @@ unsafe fn change_pair(
 }
 
 pub(crate) fn joint_count(cell: &Cell) -> usize {
-    cell.robot().free_joint_names().len()
+    cell.robot().independent_joint_names().len()
 }
 
 /// Reads a robot and the pairs of links to check, and stores a cell of them.
@@ -435,7 +435,7 @@ unsafe fn give_cell(
     let pairs = robot.link_pairs(&read, srdf.map(Path::new));
     let pairs = pairs.map_err(Failure::body)?;
     let cell = RccdCell {
-        joint_names: read.free_joint_names().map(str::to_owned).collect(),
+        joint_names: read.independent_joint_names().map(str::to_owned).collect(),
         check_summary: String::new(),
         cell: Arc::new(Cell::new(read, pairs)),
         changes: Arc::default(),

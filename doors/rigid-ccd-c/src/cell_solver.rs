@@ -96,11 +96,11 @@ pub unsafe extern "C" fn rccd_cell_solver_free(solver: *mut RccdCellSolver) {
 }
 
 /// Finds the first contact on a path. Nothing touches before it. If a limit is reached, nothing touches before the
-/// segment and share in the answer.
+/// segment and fraction in the answer.
 ///
 /// # Safety
 /// `solver` is null or a handle that no other call uses; `path` is null or points to a path, whose configurations are null or
-/// point to as many numbers as the robot has free joints for each configuration, and whose curve is null or a handle; `answer`
+/// point to as many numbers as the robot has independent joints for each configuration, and whose curve is null or a handle; `answer`
 /// is null or points to an answer whose `size` is set.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_cell_first_contact(

@@ -11,7 +11,7 @@ use rigid_ccd_robot::evidence::RecordedPath;
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct RccdPath {
-    /// For each configuration, the positions of the robot's free joints; null for a curve.
+    /// For each configuration, the positions of the robot's independent joints; null for a curve.
     pub configurations: *const f64,
     /// The number of configurations.
     pub configuration_count: usize,
@@ -19,7 +19,7 @@ pub struct RccdPath {
     pub curve: *const RccdJointCurve,
 }
 
-/// The largest number of configurations of a robot without free joints. Such configurations take no memory, so the
+/// The largest number of configurations of a robot without independent joints. Such configurations take no memory, so the
 /// caller's array does not bound their number.
 const MAX_EMPTY_CONFIGURATIONS: usize = 1 << 16;
 
@@ -45,12 +45,12 @@ impl AsRef<[f64]> for Configuration {
 enum Pointed<'a> {
     Curve(&'a RccdJointCurve),
     /// The positions of all configurations, and the number of configurations. There are no positions if the robot has no
-    /// free joint.
+    /// independent joint.
     Configurations(&'a [f64], usize),
 }
 
 impl RccdPath {
-    /// Dereferences the pointers of a path. The robot has `joint_count` free joints.
+    /// Dereferences the pointers of a path. The robot has `joint_count` independent joints.
     ///
     /// # Safety
     /// `path` is null or points to a path. Each of its pointers is null or points to valid values, which nobody changes
@@ -72,7 +72,7 @@ impl RccdPath {
         }
         if joint_count == 0 && path.configuration_count > MAX_EMPTY_CONFIGURATIONS {
             return Err(Failure::argument(format!(
-                "configurations is too long: {}, and at most {MAX_EMPTY_CONFIGURATIONS} for a robot without free joints",
+                "configurations is too long: {}, and at most {MAX_EMPTY_CONFIGURATIONS} for a robot without independent joints",
                 path.configuration_count
             )));
         }
@@ -108,7 +108,7 @@ impl RccdPath {
 }
 
 impl PathMemory {
-    /// Calls a function with the path. The robot has `joint_count` free joints.
+    /// Calls a function with the path. The robot has `joint_count` independent joints.
     ///
     /// # Safety
     /// As for [`RccdPath::follow`].

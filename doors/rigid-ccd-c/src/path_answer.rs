@@ -22,15 +22,15 @@ pub struct RccdPathAnswer {
     /// The limit that ended the search.
     pub limit: RccdLimit,
     /// The index of the segment, from 0, of the contact or of the least distance found. For a free path it is the last
-    /// segment. For an unresolved one, the path is free up to `share` of this segment.
+    /// segment. For an unresolved one, the path is free up to `fraction` of this segment.
     pub segment: usize,
     /// The position within that segment, from 0 at its start to 1 at its end. Nothing touches before a first contact.
-    pub share: f64,
+    pub fraction: f64,
     /// A lower bound of the distance at the contact, or of the least distance on the whole path.
     pub lower: f64,
     /// An upper bound of the same distance.
     pub upper: f64,
-    /// The name of the first item of the pair: a link, held body or obstacle that touches or is nearest. The solver owns
+    /// The name of the first item of the pair: a link, attached body or obstacle that touches or is nearest. The solver owns
     /// the text.
     pub item_a: RccdText,
     /// The name of the second item of the pair.
@@ -59,7 +59,7 @@ impl RccdPathAnswer {
         outcome: RccdOutcome::Free,
         limit: RccdLimit::None,
         segment: 0,
-        share: f64::NAN,
+        fraction: f64::NAN,
         lower: f64::NAN,
         upper: f64::NAN,
         item_a: RccdText::NONE,
@@ -90,18 +90,18 @@ impl RccdPathAnswer {
                 ..found
             };
         }
-        let PathPoint { segment, share } = answer.free_until;
+        let PathPoint { segment, fraction } = answer.free_until;
         match outcome {
             PathOutcome::Contact(_) => found,
             // A free path is free to the end of its last segment, even if it has one configuration only.
             PathOutcome::Free => RccdPathAnswer {
                 segment,
-                share: 1.0,
+                fraction: 1.0,
                 ..found
             },
             _ => RccdPathAnswer {
                 segment,
-                share,
+                fraction,
                 ..found
             },
         }
@@ -117,7 +117,7 @@ impl RccdPathAnswer {
         let [lower, upper] = contact.distance_bounds;
         RccdPathAnswer {
             segment: contact.at.segment,
-            share: contact.at.share,
+            fraction: contact.at.fraction,
             lower,
             upper,
             item_a,
@@ -137,12 +137,12 @@ impl RccdPathAnswer {
     pub(crate) unsafe fn record(answer: *const RccdPathAnswer) -> Result<RecordedAnswer, Failure> {
         // SAFETY: the contract of this function. Outcome and limit are read as numbers, for the caller may have set any.
         // Only an answer about a distance has bounds without a contact.
-        let (segment, share, lower, outcome, limit, [a, b]) = unsafe {
+        let (segment, fraction, lower, outcome, limit, [a, b]) = unsafe {
             check_place("answer", answer.cast_mut())?;
             growing::size_of_place("answer", answer.cast_mut())?;
             (
                 (*answer).segment,
-                (*answer).share,
+                (*answer).fraction,
                 (*answer).lower,
                 (&raw const (*answer).outcome).cast::<i32>().read(),
                 (&raw const (*answer).limit).cast::<i32>().read(),
@@ -156,7 +156,7 @@ impl RccdPathAnswer {
             let items = unsafe { [a.to_owned()?, b.to_owned()?] };
             Ok(RecordedAnswer::Contact {
                 segment,
-                share,
+                fraction,
                 items,
             })
         } else if outcome == RccdOutcome::Unresolved as i32 && lower.is_nan() {
@@ -164,7 +164,7 @@ impl RccdPathAnswer {
             Ok(RecordedAnswer::Unresolved {
                 limit,
                 segment,
-                share,
+                fraction,
             })
         } else {
             let text = format!("the outcome {outcome} of the answer is none of a first contact");

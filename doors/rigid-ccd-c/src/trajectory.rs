@@ -4,7 +4,7 @@ use crate::arguments::{array, free, give, reference};
 use crate::motion::{RccdMotion, RccdPose};
 use crate::status::{Failure, RccdStatus, status_of};
 use rigid_ccd::InputError;
-use rigid_ccd::trajectory::{Ballistic, Curve, OrientationCurve, Poses, Spline, Trajectory};
+use rigid_ccd::trajectory::{Ballistic, Curve, OrientationCurve, PosePath, Spline, Trajectory};
 
 /// The trajectory of a body. Many queries and threads may share it.
 pub struct RccdTrajectory(Box<dyn Trajectory + Send + Sync>);
@@ -21,7 +21,7 @@ impl RccdTrajectory {
 /// # Safety
 /// `times` and `poses` are null or point to `count` values; `out` is null or points to memory for a handle.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn rccd_trajectory_through_poses(
+pub unsafe extern "C" fn rccd_trajectory_pose_path(
     times: *const f64,
     poses: *const RccdPose,
     count: usize,
@@ -35,19 +35,19 @@ pub unsafe extern "C" fn rccd_trajectory_through_poses(
         let timed: Result<Vec<_>, _> = timed
             .map(|(&time, pose)| Ok((time, pose.to_pose()?)))
             .collect();
-        let path = timed.and_then(Poses::new).map_err(Failure::input)?;
+        let path = timed.and_then(PosePath::new).map_err(Failure::input)?;
         // SAFETY: the contract of this function.
         unsafe { give(out, RccdTrajectory(Box::new(path))) }
     })
 }
 
-/// Makes the trajectory of a thrown body: a motion whose centre has a constant acceleration, as in free fall.
+/// Makes the trajectory of a thrown body: a motion whose center has a constant acceleration, as in free fall.
 ///
 /// # Safety
 /// `thrown` is null or points to a motion, `acceleration` is null or points to three numbers, and `out` is null or
 /// points to memory for a handle.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn rccd_trajectory_thrown(
+pub unsafe extern "C" fn rccd_trajectory_ballistic(
     thrown: *const RccdMotion,
     acceleration: *const f64,
     out: *mut *mut RccdTrajectory,
@@ -64,15 +64,15 @@ pub unsafe extern "C" fn rccd_trajectory_thrown(
     })
 }
 
-/// The rotation of a body whose origin follows a curve: orientations at ascending times. Between two orientations the
+/// The rotation of a body whose origin follows a curve: rotations at ascending times. Between two rotations the
 /// body takes the shortest rotation at a constant rate.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct RccdTurns {
+pub struct RccdRotations {
     /// The times.
     pub times: *const f64,
     /// A quaternion for each time, in the order x, y, z, w.
-    pub orientations: *const f64,
+    pub rotations: *const f64,
     /// The number of times.
     pub count: usize,
 }
@@ -81,14 +81,14 @@ pub struct RccdTurns {
 /// are the control points, three numbers each. If `turns` is null, the body does not rotate.
 ///
 /// # Safety
-/// `points` is null or points to `3 · count` numbers; `turns` is null or points to turns, whose times and orientations
+/// `points` is null or points to `3 · count` numbers; `turns` is null or points to turns, whose times and rotations
 /// are null or point to as many numbers as their count says; `out` is null or points to memory for a handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn rccd_trajectory_bezier(
     points: *const f64,
     count: usize,
     duration: f64,
-    turns: *const RccdTurns,
+    turns: *const RccdRotations,
     out: *mut *mut RccdTrajectory,
 ) -> RccdStatus {
     let curve = |points: &[[f64; 3]]| Curve::bezier(points, duration);
@@ -107,7 +107,7 @@ pub unsafe extern "C" fn rccd_trajectory_b_spline(
     points: *const f64,
     count: usize,
     duration: f64,
-    turns: *const RccdTurns,
+    turns: *const RccdRotations,
     out: *mut *mut RccdTrajectory,
 ) -> RccdStatus {
     let curve = |points: &[[f64; 3]]| Curve::b_spline(points, duration);
@@ -131,7 +131,7 @@ unsafe fn give_spline(
     points: *const f64,
     count: usize,
     curve: impl FnOnce(&[[f64; 3]]) -> Result<Curve, InputError>,
-    turns: *const RccdTurns,
+    turns: *const RccdRotations,
     out: *mut *mut RccdTrajectory,
 ) -> RccdStatus {
     status_of(|| {
@@ -149,22 +149,18 @@ unsafe fn give_spline(
     })
 }
 
-impl RccdTurns {
+impl RccdRotations {
     /// # Safety
-    /// `times` is null or points to `count` numbers, and `orientations` to four times as many.
+    /// `times` is null or points to `count` numbers, and `rotations` to four times as many.
     unsafe fn to_curve(self) -> Result<OrientationCurve, Failure> {
         // SAFETY: the contract of this function.
-        let (times, orientations) = unsafe {
+        let (times, rotations) = unsafe {
             (
                 array("times of turns", self.times, self.count)?,
-                array(
-                    "orientations",
-                    self.orientations.cast::<[f64; 4]>(),
-                    self.count,
-                )?,
+                array("rotations", self.rotations.cast::<[f64; 4]>(), self.count)?,
             )
         };
-        let keys = times.iter().copied().zip(orientations.iter().copied());
+        let keys = times.iter().copied().zip(rotations.iter().copied());
         let keys: Vec<(f64, [f64; 4])> = keys.collect();
         OrientationCurve::piecewise_slerp(&keys).map_err(Failure::input)
     }

@@ -128,7 +128,7 @@ impl Cast {
         let horizon = plane.query_duration(of_plane, side, within, wanted);
         // The box deviates by the motion's deviation at its farthest point, which the bound covers.
         let reach = reach(horizon);
-        let away = length(of_plane.about - of_plane.motion.centre());
+        let away = length(of_plane.about - of_plane.motion.center());
         let off = shifted[index].deviation_bound.at_reach(4.0 * reach + away);
         let slack = body.slack()
             + max_point_deviation(stray, &side)
@@ -230,13 +230,18 @@ impl Cast {
 
 impl MotionFromCastStart {
     fn new(motion: &Motion, start: f64, along: DVec3) -> Result<Self, InputError> {
-        // All points of a body that does not rotate move straight; its origin as the centre rounds least.
-        let centre = if motion.spin() == DVec3::ZERO {
+        // All points of a body that does not rotate move straight; its origin as the center rounds least.
+        let center = if motion.angular_velocity() == DVec3::ZERO {
             DVec3::ZERO
         } else {
-            motion.centre()
+            motion.center()
         };
-        let motion = Motion::about(motion.start(), motion.velocity(), motion.spin(), centre)?;
+        let motion = Motion::about(
+            motion.start(),
+            motion.velocity(),
+            motion.angular_velocity(),
+            center,
+        )?;
         let Stretch {
             motion,
             deviation_bound: stray,
@@ -244,15 +249,15 @@ impl MotionFromCastStart {
         } = motion.stretch_between(start, start)?;
         let velocity = motion.velocity() - along;
         Ok(MotionFromCastStart {
-            motion: Motion::about(motion.start(), velocity, motion.spin(), centre)?,
+            motion: Motion::about(motion.start(), velocity, motion.angular_velocity(), center)?,
             deviation_bound: stray,
         })
     }
 
-    /// Returns the motion with a ball that contains the body, and whose centre moves in a straight line.
+    /// Returns the motion with a ball that contains the body, and whose center moves in a straight line.
     fn motion_with_extent(&self, body: &BodyOfShape) -> MotionWithExtent {
         let (middle, radius) = body.enclosing_ball;
-        let about = self.rotation_centre_or(middle);
+        let about = self.rotation_center_or(middle);
         MotionWithExtent {
             motion: self.motion,
             about,
@@ -260,33 +265,33 @@ impl MotionFromCastStart {
         }
     }
 
-    fn rotation_centre_or(&self, point: DVec3) -> DVec3 {
-        if self.motion.spin() == DVec3::ZERO {
+    fn rotation_center_or(&self, point: DVec3) -> DVec3 {
+        if self.motion.angular_velocity() == DVec3::ZERO {
             point
         } else {
-            self.motion.centre()
+            self.motion.center()
         }
     }
 
     /// Returns the motion of a half-space, about the other body's start position or, if the half-space rotates, about
-    /// the centre.
+    /// the center.
     fn half_space_motion(&self, other: &MotionWithExtent) -> MotionWithExtent {
         let start = self.motion.start();
         let beside = start.inverse().transform_point(other.start_position());
         MotionWithExtent {
             motion: self.motion,
-            about: self.rotation_centre_or(beside),
+            about: self.rotation_center_or(beside),
             max_radius: 0.0,
         }
     }
 
-    /// Returns the motion, without the angular velocity if the body is a ball that rotates about its centre.
+    /// Returns the motion, without the angular velocity if the body is a ball that rotates about its center.
     fn without_ball_rotation(self, body: &BodyOfShape) -> Self {
-        if body.ball_centre != Some(self.motion.centre()) {
+        if body.ball_center != Some(self.motion.center()) {
             return self;
         }
-        let [velocity, centre] = [self.motion.velocity(), self.motion.centre()];
-        let slides = Motion::about(self.motion.start(), velocity, DVec3::ZERO, centre);
+        let [velocity, center] = [self.motion.velocity(), self.motion.center()];
+        let slides = Motion::about(self.motion.start(), velocity, DVec3::ZERO, center);
         MotionFromCastStart {
             motion: slides.unwrap_or(self.motion),
             ..self
@@ -296,7 +301,7 @@ impl MotionFromCastStart {
 
 /// Returns a bound on the deviation of any point of a body, as a length.
 fn max_point_deviation(stray: DeviationBound, side: &MotionWithExtent) -> f64 {
-    stray.at_reach(side.max_radius + length(side.about - side.motion.centre()))
+    stray.at_reach(side.max_radius + length(side.about - side.motion.center()))
 }
 
 #[cfg(test)]

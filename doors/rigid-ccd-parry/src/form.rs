@@ -217,7 +217,7 @@ impl ShapeGeometry {
         24 * self.vertices.len() + 16 * self.triangles.len() + parts
     }
 
-    /// Returns an enclosing ball: its centre, and its radius rounded up.
+    /// Returns an enclosing ball: its center, and its radius rounded up.
     pub(crate) fn enclosing_ball(&self) -> (DVec3, f64) {
         let (low, high) = self
             .points()
@@ -233,8 +233,8 @@ impl ShapeGeometry {
         (middle, radius * crate::tolerance::ROUNDING_ENLARGEMENT)
     }
 
-    /// Returns the centre if the geometry is a single ball; `None` for other geometries.
-    pub(crate) fn centre_if_ball(&self) -> Option<DVec3> {
+    /// Returns the center if the geometry is a single ball; `None` for other geometries.
+    pub(crate) fn center_if_ball(&self) -> Option<DVec3> {
         match &self.parts[..] {
             [part] if self.triangles.is_empty() => match part.polytope.points[..] {
                 [point] => Some(point),

@@ -71,14 +71,14 @@ impl HalfSpace {
             // In the plane's frame the body rotates in place, or goes around.
             return repetition_time([plane, body]);
         }
-        if p.spin() != DVec3::ZERO {
+        if p.angular_velocity() != DVec3::ZERO {
             return None;
         }
         let velocity = b.velocity() - p.velocity();
         let upright = p.start().rotation() == DQuat::IDENTITY;
         if upright && self.normal * velocity == DVec3::ZERO {
             // The body moves exactly along the plane.
-            return Some(rotation_period(b.spin()));
+            return Some(rotation_period(b.angular_velocity()));
         }
         let normal = p.start().rotation() * self.normal;
         let (from, to) = (p.start().translation(), body.start_position());

@@ -1,6 +1,6 @@
 //! Replaces the unlimited duration of a cast by a finite one that decides it.
 //!
-//! Each body stays within a ball about its centre, and centres move straight. Contact is over for good once the balls
+//! Each body stays within a ball about its center, and centers move straight. Contact is over for good once the balls
 //! have passed each other, and a motion that repeats itself need be looked at once.
 
 use crate::order::{greater, length, lesser};
@@ -10,7 +10,7 @@ use ccd_core::glam::DVec3;
 use ccd_core::limits::{MAX_COORDINATE, MAX_ROTATION_ANGLE};
 use std::f64::consts::TAU;
 
-/// A body's motion, and a ball that contains the body and whose centre moves straight.
+/// A body's motion, and a ball that contains the body and whose center moves straight.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MotionWithExtent {
     pub(crate) motion: Motion,
@@ -93,10 +93,16 @@ pub(crate) fn max_relative_displacement([a, b]: &[MotionWithExtent; 2], within: 
 /// differently.
 pub(crate) fn repetition_time(bodies: [MotionWithExtent; 2]) -> Option<f64> {
     let [a, b] = bodies.map(|body| body.motion);
-    let still = a.spin() == DVec3::ZERO || b.spin() == DVec3::ZERO;
+    let still = a.angular_velocity() == DVec3::ZERO || b.angular_velocity() == DVec3::ZERO;
     // Two bodies that both turn repeat their poses if they do so about parallel axes, at one rate.
-    let repeats = a.velocity() == b.velocity() && (still || a.spin() == b.spin());
-    repeats.then(|| greater(rotation_period(a.spin()), rotation_period(b.spin())))
+    let repeats =
+        a.velocity() == b.velocity() && (still || a.angular_velocity() == b.angular_velocity());
+    repeats.then(|| {
+        greater(
+            rotation_period(a.angular_velocity()),
+            rotation_period(b.angular_velocity()),
+        )
+    })
 }
 
 /// Returns the time of a whole turn, rounded up; 0 without rotation.
@@ -114,10 +120,10 @@ fn longest_duration(bodies: [MotionWithExtent; 2]) -> f64 {
     let origins = bodies.map(|body| body.motion.start().translation());
     let of = |body: &MotionWithExtent| {
         let motion = &body.motion;
-        let centre = motion.start().transform_point(motion.centre());
-        let far = origins.map(|origin| length(centre - origin));
+        let center = motion.start().transform_point(motion.center());
+        let far = origins.map(|origin| length(center - origin));
         let left = MAX_COORDINATE * USED_SHARE_OF_LIMITS - greater(far[0], far[1]);
-        let (speed, rate) = (length(motion.velocity()), length(motion.spin()));
+        let (speed, rate) = (length(motion.velocity()), length(motion.angular_velocity()));
         let travel = if speed > 0.0 {
             greater(left, 0.0) / speed
         } else {

@@ -126,15 +126,15 @@ fn piece_indices_near_other(scene: &Scene<'_>, k: usize) -> Vec<u32> {
 /// Returns the distance of `point` from the segment between the origin and `displacement`.
 fn distance_to_segment(point: DVec3, displacement: DVec3) -> f64 {
     let square = displacement.dot(displacement);
-    let share = if square > 0.0 {
+    let fraction = if square > 0.0 {
         lesser(greater(0.0, point.dot(displacement) / square), 1.0)
     } else {
         0.0
     };
-    length(point - share * displacement)
+    length(point - fraction * displacement)
 }
 
-/// Returns a ball around a piece: its centre and its radius.
+/// Returns a ball around a piece: its center and its radius.
 fn bounding_ball(piece: &Piece<'_>) -> (DVec3, f64) {
     let first = piece.points[0];
     let reach = piece.points.iter().map(|p| length(*p - first));

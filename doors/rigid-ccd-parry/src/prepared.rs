@@ -16,10 +16,10 @@ use ccd_core::glam::DVec3;
 pub struct BodyOfShape {
     body: Body,
     sub_shape_indices: Vec<u32>,
-    /// An enclosing ball: its centre, in the shape's frame, and its radius.
+    /// An enclosing ball: its center, in the shape's frame, and its radius.
     pub(crate) enclosing_ball: (DVec3, f64),
-    /// The centre in the shape's frame if the body is a ball; `None` for other shapes.
-    pub(crate) ball_centre: Option<DVec3>,
+    /// The center in the shape's frame if the body is a ball; `None` for other shapes.
+    pub(crate) ball_center: Option<DVec3>,
     slack: f64,
     excess: f64,
 }
@@ -38,7 +38,7 @@ impl BodyOfShape {
             body: body.with_excess(together).map_err(ShapeError::Body)?,
             sub_shape_indices: numbers,
             enclosing_ball: form.enclosing_ball(),
-            ball_centre: form.centre_if_ball(),
+            ball_center: form.center_if_ball(),
             slack: form.slack,
             excess: form.excess,
         })

@@ -65,7 +65,7 @@ impl Scene<'_> {
     /// Returns whether overlapping bodies may be ignored while they part: only if both move in straight lines, and
     /// their pieces overlap.
     pub(crate) fn may_ignore_overlap(&self) -> bool {
-        let straight = |motion: &Motion| motion.spin() == DVec3::ZERO;
+        let straight = |motion: &Motion| motion.angular_velocity() == DVec3::ZERO;
         // Inside a solid mesh there may be no piece from which a body could part.
         let bare = |body: &&BodyOfShape| {
             let body = body.body();

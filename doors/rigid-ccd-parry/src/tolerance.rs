@@ -17,7 +17,7 @@ pub(crate) const DEFAULT_TOLERANCE_F32: f64 = 1e-6;
 #[cfg(feature = "f64")]
 pub(crate) const DEFAULT_TOLERANCE_F64: f64 = 1e-9;
 
-/// The largest default tolerance, as a share of the smaller body's radius, so that tiny bodies are not in contact at a
+/// The largest default tolerance, as a fraction of the smaller body's radius, so that tiny bodies are not in contact at a
 /// distance of their own size.
 pub(crate) const MAX_TOLERANCE_RADIUS_RATIO: f64 = 1.0 / (1 << 20) as f64;
 
@@ -52,7 +52,7 @@ pub(crate) const VELOCITY_DIFFERENCE_ROUNDING: f64 = 2.0 * UNIT_ROUNDOFF_F64;
 /// they come from have an error of less than a thousand `u`. A longer interval costs nothing.
 pub(crate) const ROUNDING_ENLARGEMENT: f64 = 1.0 + 1024.0 * UNIT_ROUNDOFF_F64;
 
-/// The share of the engine's limits of displacement and rotation that a cast uses; the rest covers rounding.
+/// The fraction of the engine's limits of displacement and rotation that a cast uses; the rest covers rounding.
 pub(crate) const USED_SHARE_OF_LIMITS: f64 = 0.999;
 
 /// The longest duration of a cast, for which products of a duration and a speed stay finite.

@@ -22,7 +22,7 @@ pub(crate) enum Quantity {
     EndOrientation,
     Velocity,
     AngularVelocity,
-    Centre,
+    Center,
 }
 
 /// The kind of a table, which decides its columns and what a row describes.
@@ -83,13 +83,13 @@ impl TableKind {
             (_, Quantity::Position) => 0..3,
             (_, Quantity::Orientation) => 3..7,
             (TableKind::Paths, Quantity::AngularVelocity) => 7..10,
-            (TableKind::Paths, Quantity::Centre) => 10..13,
+            (TableKind::Paths, Quantity::Center) => 10..13,
             (TableKind::Paths, _) => 0..0,
             (_, Quantity::EndPosition) => 7..10,
             (_, Quantity::EndOrientation) => 10..14,
             (_, Quantity::Velocity) => 14..17,
             (_, Quantity::AngularVelocity) => 17..20,
-            (_, Quantity::Centre) => 20..23,
+            (_, Quantity::Center) => 20..23,
         };
         // The columns before those of the bodies: `id`, and in a table of paths `t`.
         let before = 1 + usize::from(self == TableKind::Paths);

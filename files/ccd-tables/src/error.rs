@@ -271,11 +271,11 @@ pub enum RowProblem {
         /// The id of the path.
         id: String,
     },
-    /// A row has another centre of rotation than the previous row of its path.
+    /// A row has another center of rotation than the previous row of its path.
     #[error(
-        "columns {body}_cx {body}_cy {body}_cz: not those of the row before; a path has one centre of rotation"
+        "columns {body}_cx {body}_cy {body}_cz: not those of the row before; a path has one center of rotation"
     )]
-    CentreChanged {
+    CenterChanged {
         /// The letter of the body, as in the columns' prefix.
         body: char,
     },

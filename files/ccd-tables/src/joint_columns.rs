@@ -87,7 +87,7 @@ pub fn joint_column<N: AsRef<str>>(
     let in_degrees = format!("{joint}{DEGREES_SUFFIX}");
     let names = [joint, &in_degrees].map(|name| format!("{prefix}{name}"));
     let [plain, degrees] = names.each_ref().map(|name| find(name));
-    let is_other_joint = robot.free_joint_names().any(|own| own == in_degrees);
+    let is_other_joint = robot.independent_joint_names().any(|own| own == in_degrees);
     let [_, column] = names.clone();
     let joint = joint.to_owned();
     let found = |column, unit| Ok(Some(JointColumn { column, unit }));
@@ -112,6 +112,6 @@ pub fn names_joint(column: &str, robot: &Robot, prefix: &str) -> bool {
     };
     let without_suffix = name.strip_suffix(DEGREES_SUFFIX).unwrap_or(name);
     robot
-        .free_joint_names()
+        .independent_joint_names()
         .any(|joint| joint == name || joint == without_suffix)
 }

@@ -198,10 +198,10 @@ impl<R: ChunkReader + 'static> Records for ParquetRecords<R> {
         self.checksum.clone().finalize()
     }
 
-    /// Returns the share of the file that corresponds to the share of the rows: a row's bytes are not in one place.
+    /// Returns the fraction of the file that corresponds to the fraction of the rows: a row's bytes are not in one place.
     fn consumed_bytes(&self) -> u64 {
-        let share = u128::from(self.file_byte_count) * self.row_count as u128;
-        u64::try_from(share / self.file_row_count.max(1)).unwrap_or(self.file_byte_count)
+        let fraction = u128::from(self.file_byte_count) * self.row_count as u128;
+        u64::try_from(fraction / self.file_row_count.max(1)).unwrap_or(self.file_byte_count)
     }
 }
 

@@ -21,9 +21,9 @@ pub struct PathPair {
     /// The id of the row in the results.
     pub id: String,
     /// The path of body A, from time 0.
-    pub a: trajectory::Poses,
+    pub a: trajectory::PosePath,
     /// The path of body B, from time 0.
-    pub b: trajectory::Poses,
+    pub b: trajectory::PosePath,
     /// The time in the table's column `t` that corresponds to the query's time 0.
     pub start_time: f64,
     /// The time in the table's column `t` at which the path ends.
@@ -53,7 +53,7 @@ impl Grouping {
 
 /// The state of a reader of a table of paths, between two paths.
 ///
-/// Columns go by name, in any order: `id`, `t`, poses and centres as in a table of motions, and angular velocities until
+/// Columns go by name, in any order: `id`, `t`, poses and centers as in a table of motions, and angular velocities until
 /// the next row. Rows of one path follow each other, in the order of their times.
 #[derive(Debug)]
 pub(super) struct PathReader {
@@ -191,7 +191,7 @@ struct FirstRow {
 }
 
 /// Returns `row`, or an error if it cannot follow the rows before it. Its time must be later, also after the first time
-/// is subtracted; its orientation and its centre of rotation must fit the row before.
+/// is subtracted; its orientation and its center of rotation must fit the row before.
 fn check_row_follows(
     poses: &[TimedBodyPoses],
     row: TimedBodyPoses,
@@ -218,20 +218,20 @@ fn check_row_follows(
     Ok(row)
 }
 
-/// Returns an error if a row's centre of rotation or orientation does not fit the previous row. The centre must be the
+/// Returns an error if a row's center of rotation or orientation does not fit the previous row. The center must be the
 /// same, and the previous row's angular velocity must lead near the orientation.
 fn check_continuity(
     body: char,
     [before, row]: [BodyPose; 2],
     duration: f64,
 ) -> Result<(), RowProblem> {
-    if before.centre != row.centre {
-        return Err(RowProblem::CentreChanged { body });
+    if before.center != row.center {
+        return Err(RowProblem::CenterChanged { body });
     }
     if before.spin == DVec3::ZERO {
         return Ok(());
     }
-    let segment = trajectory::Poses::new(vec![(0.0, before.pose), (duration, row.pose)])?;
+    let segment = trajectory::PosePath::new(vec![(0.0, before.pose), (duration, row.pose)])?;
     match segment.with_angular_velocities(vec![before.spin.into()]) {
         Ok(_) => Ok(()),
         Err(InputError::OutOfRange { value, .. }) => Err(RowProblem::OrientationMismatch {
@@ -248,7 +248,7 @@ impl PathPair {
         let start = rows[0].time;
         let of = |body: fn(&TimedBodyPoses) -> BodyPose| {
             let timed = rows.iter().map(|row| (row.time - start, body(row).pose));
-            let path = trajectory::Poses::new(timed.collect())?.about(body(&rows[0]).centre)?;
+            let path = trajectory::PosePath::new(timed.collect())?.about(body(&rows[0]).center)?;
             let spins = rows[..rows.len() - 1].iter().map(|row| body(row).spin);
             if spins.clone().any(|spin| spin != DVec3::ZERO) {
                 path.with_angular_velocities(spins.map(DVec3::into).collect())

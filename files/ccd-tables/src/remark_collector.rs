@@ -15,7 +15,7 @@ pub(crate) struct RemarkCollector {
 }
 
 impl RemarkCollector {
-    /// Adds a remark if a quaternion w, x, y, z is far from unit length.
+    /// Adds a remark if a quaternion x, y, z, w is far from unit length.
     pub(crate) fn note_quaternion(&self, parts: [f64; 4]) {
         if let Some(remark) = Remark::remark_on_quaternion(parts) {
             self.quaternion.get_or_init(|| remark);
@@ -24,10 +24,10 @@ impl RemarkCollector {
 
     /// Adds a remark if a motion's angular velocity seems to be in degrees, or notes that it must be in radians.
     pub(crate) fn note_motion(&self, motion: &Motion, duration: f64) {
-        if !Remark::is_fast_rotation(motion.spin(), duration) {
+        if !Remark::is_fast_rotation(motion.angular_velocity(), duration) {
             return;
         }
-        match Remark::remark_on_spin(motion.spin(), duration) {
+        match Remark::remark_on_spin(motion.angular_velocity(), duration) {
             Some(remark) => {
                 self.spin.get_or_init(|| remark);
             }

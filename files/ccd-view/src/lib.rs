@@ -7,7 +7,7 @@
 //! | say what is shown | [`AnimationGroup`] of [`Animation`]s: [`ShownBody`], [`ShownContact`], [`GapCurve`] |
 //!
 //! A page is one file: it needs no network and no server, and draws with [three.js](https://threejs.org) by WebGL.
-//! Meshes are drawn in single precision, relative to their centres. Texts and numbers are shown as given.
+//! Meshes are drawn in single precision, relative to their centers. Texts and numbers are shown as given.
 //!
 //! # Example
 //! ```

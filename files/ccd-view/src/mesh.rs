@@ -1,4 +1,4 @@
-//! Meshes to draw, in single precision relative to their centres, each stored once.
+//! Meshes to draw, in single precision relative to their centers, each stored once.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -21,7 +21,7 @@ pub struct Meshes(Vec<StoredMesh>);
 /// A mesh as it is stored in the page: little-endian numbers in base64.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct StoredMesh {
-    /// The centre of the mesh's bounding box, in the body's frame.
+    /// The center of the mesh's bounding box, in the body's frame.
     middle: [f64; 3],
     /// Three `f32` coordinates per vertex, relative to `middle`.
     vertices: String,
@@ -40,7 +40,7 @@ impl Meshes {
         })
     }
 
-    /// Returns the centre of the bounding box of a mesh, in the body's frame.
+    /// Returns the center of the bounding box of a mesh, in the body's frame.
     pub fn middle(&self, number: usize) -> DVec3 {
         self.0
             .get(number)

@@ -10,21 +10,21 @@ use serde::Serialize;
 pub enum ShownMotion {
     /// The body moves at constant velocities, by the formula of [`Motion`].
     ConstantVelocity {
-        /// The centre of rotation, in the body's frame.
-        centre: [f64; 3],
-        /// The position of the centre at time 0, in the world frame.
+        /// The center of rotation, in the body's frame.
+        center: [f64; 3],
+        /// The position of the center at time 0, in the world frame.
         from: [f64; 3],
-        /// The velocity of the centre, per unit of time, in the world frame.
+        /// The velocity of the center, per unit of time, in the world frame.
         velocity: [f64; 3],
         /// The angular velocity in radians per unit of time, in the world frame.
         spin: [f64; 3],
         /// The rotation matrix at time 0, row by row.
         rotation: [f64; 9],
     },
-    /// The body moves from pose to pose: its centre in straight lines, and its rotation by each key's rotation vector.
+    /// The body moves from pose to pose: its center in straight lines, and its rotation by each key's rotation vector.
     Keyframes {
         /// The point that moves along straight lines, in the body's frame.
-        centre: [f64; 3],
+        center: [f64; 3],
         /// The poses, in order of time.
         keys: Vec<Keyframe>,
     },
@@ -34,7 +34,7 @@ pub enum ShownMotion {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Keyframe {
     time: f64,
-    /// The position of the centre, in the world frame.
+    /// The position of the center, in the world frame.
     place: [f64; 3],
     /// The rotation matrix, row by row.
     rotation: [f64; 9],
@@ -44,7 +44,7 @@ pub struct Keyframe {
 }
 
 impl Keyframe {
-    /// Creates a key from a pose, the position of the centre, and the rotation vector to the next key.
+    /// Creates a key from a pose, the position of the center, and the rotation vector to the next key.
     pub fn new(time: f64, pose: &Pose, place: DVec3, turn: DVec3) -> Self {
         Keyframe {
             time,
@@ -57,12 +57,12 @@ impl Keyframe {
 
 impl From<&Motion> for ShownMotion {
     fn from(motion: &Motion) -> Self {
-        let from: DVec3 = motion.start().transform_point(motion.centre());
+        let from: DVec3 = motion.start().transform_point(motion.center());
         ShownMotion::ConstantVelocity {
-            centre: motion.centre().to_array(),
+            center: motion.center().to_array(),
             from: from.to_array(),
             velocity: motion.velocity().to_array(),
-            spin: motion.spin().to_array(),
+            spin: motion.angular_velocity().to_array(),
             rotation: rotation_rows(&motion.start()),
         }
     }

@@ -26,7 +26,7 @@ pub struct Animation {
     pub start: f64,
     /// The time that the animation shows when the view is opened.
     pub time: f64,
-    /// The point of the world that is the centre of the drawing.
+    /// The point of the world that is the center of the drawing.
     pub origin: [f64; 3],
     /// The bodies of the query or the scene.
     pub bodies: Vec<ShownBody>,

@@ -48,9 +48,9 @@ def verdict(folder, proof, meshes):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("file")
-    parser.add_argument("--share", default="0/1", help="only records whose index is K modulo N, as K/N; an odd N includes all kinds")
+    parser.add_argument("--fraction", default="0/1", help="only records whose index is K modulo N, as K/N; an odd N includes all kinds")
     arguments = parser.parse_args()
-    k, n = map(int, arguments.share.split("/"))
+    k, n = map(int, arguments.fraction.split("/"))
     counts = collections.defaultdict(lambda: [0] * len(COLUMNS))
     with open(arguments.file, "rb") as file, tempfile.TemporaryDirectory() as folder:
         for number, (kind, said, proof, a, tree_a, b, tree_b) in enumerate(parts(file)):

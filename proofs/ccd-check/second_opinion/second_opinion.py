@@ -99,9 +99,9 @@ class Tree:
 # ---- links and bodies ----
 class Link:
     """A link and its motion on its parent `up`, in exact fractions. In the frame of the parent, at time t, the vector
-    from the centre of the parent to that of the link is place + t rate. The rotation of the link is R0, followed by the
+    from the center of the parent to that of the link is place + t rate. The rotation of the link is R0, followed by the
     rotation vector start + t turn."""
-    centre = place = rate = start = turn = ZERO     # those of the world
+    center = place = rate = start = turn = ZERO     # those of the world
     columns = [[(ONE * (i == j),) * 2 for i in range(3)] for j in range(3)]   # the columns of R0
     def __init__(self, up=None):
         self.up, self.chain = up, (up.chain if up else []) + [self]   # from the world to this link
@@ -115,16 +115,16 @@ class Link:
                 [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)]]
         self.columns = [[fix(entry) for entry in column] for column in zip(*rows)]
         def rotate(v): return [sum(a * b for a, b in zip(row, v)) for row in rows]
-        self.centre, (axes,), v, a, (alpha, beta) = r.numbers(3), r.take("I"), *map(r.numbers, (3, 3, 2))
+        self.center, (axes,), v, a, (alpha, beta) = r.numbers(3), r.take("I"), *map(r.numbers, (3, 3, 2))
         r.require(axes < 2, r.pos - 68, "there are no such axes")
         if axes: v, a = rotate(v), rotate(a)
-        place = plus(plus(plus(p, rotate(self.centre)), v, alpha), self.up.centre, -1)
+        place = plus(plus(plus(p, rotate(self.center)), v, alpha), self.up.center, -1)
         self.place, self.rate = plus(ZERO, place, 1 / length), plus(ZERO, v, beta * time / length)
         self.start, self.turn = plus(ZERO, a, alpha), plus(ZERO, a, beta * time)
         return self
     @functools.lru_cache(1 << 14)
     def pose(self, t):
-        """Returns, in the coordinates of the world, the columns of the rotation at time t, the vector from the centre
+        """Returns, in the coordinates of the world, the columns of the rotation at time t, the vector from the center
         of the parent to that of the link, and the rate and the turn of the joint. A column v of R0 is rotated to
         v + sin|a| / |a| a x v + (1 - cos|a|) / |a|^2 a x (a x v) by the rotation vector a."""
         a, up = plus(self.start, self.turn, t), transpose(self.up.pose(t)[0]) if self.up else self.columns
@@ -134,13 +134,13 @@ class Link:
         vectors = plus(self.place, self.rate, t), self.rate, self.turn
         return [matvec(up, x) for x in columns], *[matvec(up, [fix(x) for x in v]) for v in vectors]
 class Body:
-    """A tree on a link. Corners are relative to the centre of the link, z = y - c, as exact integers in multiples of
+    """A tree on a link. Corners are relative to the center of the link, z = y - c, as exact integers in multiples of
     2^-bits. The unit of length, 2^exponent, is 2^shift of these, with a shift >= 0. The size of a part is its least
     x, y, z, its greatest x, y, z, its greatest |z|^2, and its greatest radius."""
     def __init__(self, tree, link, exponent):
-        self.link, self.bits = link, max([tree.bits, -exponent] + [c.denominator.bit_length() - 1 for c in link.centre])
-        up, centre = self.bits - tree.bits, [int(c * (1 << self.bits)) for c in (*link.centre, Fraction(0))]
-        seen = [[(x << up) - c for x, c in zip(v, centre)] for v in tree.vertices]
+        self.link, self.bits = link, max([tree.bits, -exponent] + [c.denominator.bit_length() - 1 for c in link.center])
+        up, center = self.bits - tree.bits, [int(c * (1 << self.bits)) for c in (*link.center, Fraction(0))]
+        seen = [[(x << up) - c for x, c in zip(v, center)] for v in tree.vertices]
         self.corners, self.shift = [[seen[c] for c in t] for t in tree.triangles], self.bits + exponent
         self.spans, self.halves, self.size = tree.spans, tree.halves, functools.cache(self.size)
     def size(self, part):
@@ -150,7 +150,7 @@ class Body:
     @functools.lru_cache(1)                         # without turns both ends of an interval need the same
     def lowest(self, part, mx, my, mz):
         """Returns the least m . z - |ball| of the corners of a part, exactly, in multiples of 2^-(128 + bits). The
-        normal n is at most 1 long, so a ball reaches at most its radius below its centre. The search splits the part
+        normal n is at most 1 long, so a ball reaches at most its radius below its center. The search splits the part
         with the least bound, until that is a single triangle. The bound of a triangle is its exact height."""
         lowest_of_box = operator.itemgetter(*(i if c >= 0 else i + 3 for i, c in enumerate((mx, my, mz))), 7)
         def bound(p):
@@ -187,7 +187,7 @@ def motion(frame, link, t, h):
     return place, slope, omega, k, mul_up(theta, theta)
 def height(body, part, frame, t, h, n, d):
     """Returns a lower bound of the height of a part over the interval of time, by Lemma 1. The plane n . x = d turns
-    with the link `frame`, and x is relative to the centre of that link."""
+    with the link `frame`, and x is relative to the center of that link."""
     size, (place, slope, omega, k, factor) = body.size(part), motion(frame, body.link, t, h)
     r = root_up(shift_up(size[6], 2 * (body.shift - F)))   # an upper bound of |z|
     # In the coordinates of the mesh, n + s n x Omega is an integer vector m with an error of at most e in each
@@ -233,7 +233,7 @@ def check(path, tree_of):
         (two, near), t, pos = r.one_of(pairs, "pair"), r.at_least_0("time of the witness") / time, r.pos - 8
         require_range(t)
         near, gap = near + r.at_least_0("tolerance") / length, motion(two[0].link, two[1].link, t, (0, 0))[0]
-        for body, move in zip(two, (vsub, vadd)):   # the gap is between centres, so near gets the radii
+        for body, move in zip(two, (vsub, vadd)):   # the gap is between centers, so near gets the radii
             corners = r.one_of(body.corners, "triangle")
             weights = [int.from_bytes(x, "little") for x in r.take("7s7s7s")]
             r.require(sum(weights) == 1 << 55, r.pos - 21, "the weights do not add up to 1")

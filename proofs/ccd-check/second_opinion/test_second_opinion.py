@@ -207,7 +207,7 @@ def axis_at(links, frame, n, middle, t):
     return fadd(*[fscale(fdot(n, direction(links, frame, e, middle)), direction(links, frame, e, t)) for e in UNIT3])
 
 
-def centre(links, i): return links[i - 1].c if i else ZERO
+def center(links, i): return links[i - 1].c if i else ZERO
 
 
 def least_height(links, end, corners, side, n, d, frame, t0, t1, samples):
@@ -215,7 +215,7 @@ def least_height(links, end, corners, side, n, d, frame, t0, t1, samples):
     least = math.inf
     for i in range(samples + 1):
         t = t0 + (t1 - t0) * i / samples
-        ns, origin = axis_at(links, frame, n, (t0 + t1) / 2, t), where(links, frame, centre(links, frame), t)
+        ns, origin = axis_at(links, frame, n, (t0 + t1) / 2, t), where(links, frame, center(links, frame), t)
         w = [fdot(ns, direction(links, end, e, t)) for e in UNIT3]
         start = fdot(ns, fsub(where(links, end, (0, 0, 0), t), origin)) - d
         least = min(least, min(side * (start + fdot(w, y)) - flength(n) * ball for *y, ball in corners))
@@ -381,15 +381,15 @@ class Free(Case):
                     self.holds(self.M, self.flat(step, margin=math.nextafter(most, 0)))
                 self.fails("does not prove", self.M, self.flat(step, margin=most))
 
-    def test_offset_is_from_the_centre(self):
-        # A and B are 10 and 11 above the origin, with centres elsewhere.
+    def test_offset_is_from_the_center(self):
+        # A and B are 10 and 11 above the origin, with centers elsewhere.
         la, lb = free(p=(0, 0, 10), c=(0, 0, 4)), free(p=(0, 0, 11), c=(0, 0, -7))
         for frame, origin in ((0, 0), (1, 14), (2, 4)):
             def make(d):
                 return self.flat(leaf(Z, frame, int((d - origin) * 2 ** 40)), la, lb, margin=0.75)
             self.holds(self.M, make(10.5), make(10.4), make(10.6))
             self.fails("does not prove", self.M, make(10.3), make(10.7), make(0), make(-10.5))
-        # The plane moves with the centre of a body that does not turn.
+        # The plane moves with the center of a body that does not turn.
         la, lb = free(v=(0, 0, 9)), free(p=(0, 0, 1), v=(0, 0, 9))
         for frame, d in ((1, 1 << 39), (2, -1 << 39)):
             self.holds(self.M, self.flat(leaf(Z, frame, d), la, lb, margin=0.99))
@@ -544,7 +544,7 @@ class Free(Case):
         # A quarter turn about x rotates y to z, so the triangle reaches up to z = 1.
         q = (math.sqrt(0.5), 0, 0, math.sqrt(0.5))
         above = free(p=(0, 0, 1.25))
-        # With the centre at y = 1, that corner stays at p + R0 c.
+        # With the center at y = 1, that corner stays at p + R0 c.
         for up in (free(q=q), free(q=q, c=(0, 1, 0)), turns(q=q), slides(q=q)):
             self.holds(self.M, self.flat(leaf(Z), la=up, lb=above, margin=0.2499))
             self.fails("does not prove", self.M, self.flat(leaf(Z), la=up, lb=above, margin=0.2501))
@@ -685,7 +685,7 @@ class Joints(Case):
                 self.assertLess(flength(fsub(rotate(x.q, turn_by(fscale(s, x.a), e)), column)), 1e-13)
 
     def test_screw_against_its_differential_equation(self):
-        # x' = v + a x (x - centre) and centre' = v from s = 0, by the Runge-Kutta method.
+        # x' = v + a x (x - center) and center' = v from s = 0, by the Runge-Kutta method.
         rng = random.Random(13)
         for trial in range(10):
             v, a, p, c, y = ([rng.uniform(-1, 1) for _ in range(3)] for _ in range(5))
@@ -711,7 +711,7 @@ class Joints(Case):
             self.assertLess(flength(fsub(where([x], 1, y, t), at)), 1e-8)
 
     def test_screw(self):
-        # The point (2, 0, 0) of a link with the centre (1, 0, 0) moves along one turn of a helix, up or down by 0.75.
+        # The point (2, 0, 0) of a link with the center (1, 0, 0) moves along one turn of a helix, up or down by 0.75.
         # A plate is at z = 1. With half of a turn about x, v and a of the joint point down.
         b, corner = points((2, 0, 0)), (0, (WHOLE, 0, 0))
         plate = mesh([(-9, -9, 1), (9, -9, 1), (0, 9, 1)], [(0, 1, 2)])
@@ -740,7 +740,7 @@ class Joints(Case):
             exact = self.exact_links(links)
             for i, t in itertools.product(range(6), (0.0, 0.375, rng.random())):
                 place = fadd(*[[lo / so.ONE for lo, _ in x.pose(Fraction(t))[1]] for x in exact[i].chain])
-                self.assertLess(flength(fsub(place, where(links, i, centre(links, i), t))), 1e-12)
+                self.assertLess(flength(fsub(place, where(links, i, center(links, i), t))), 1e-12)
                 columns = exact[i].pose(Fraction(t))[0]
                 for column, e in zip(columns, UNIT3):
                     self.assertLess(flength(fsub([lo / so.ONE for lo, _ in column], direction(links, i, e, t))), 1e-12)
@@ -847,7 +847,7 @@ class SecondOrder(Case):
         # theta ignores the directions of the axes. It is 0.2 for two joints, and K' is 0.04.
         joint = turns(alpha=-0.1, beta=1.0)
         back = free(q=(0, 0, -math.sin(0.05), math.cos(0.05)), w=(0, 0, 1))
-        # The path has one joint up and one down, so Omega = 0. A is at 1 from its centre, and B at sqrt 2.
+        # The path has one joint up and one down, so Omega = 0. A is at 1 from its center, and B at sqrt 2.
         for x in (joint, back):
             self.bound(1 - 0.02, [x, x], (1, 2), 2, za=(0, 1, 0), zb=(1, 1, 0))
             self.bound(1 - 0.02 * math.sqrt(2), [x, x], (1, 2), 1, za=(0, 1, 0), zb=(1, 1, 0))
@@ -915,9 +915,9 @@ class SecondDerivatives(Case):
     STENCIL, STEP = (1 / 90, -3 / 20, 3 / 2, -49 / 18, 3 / 2, -3 / 20, 1 / 90), 0.02   # weights of a second derivative
 
     def seen(self, links, frame, end, t):
-        """Returns the position of the other link's centre, and its axes, in the frame of the link `frame`."""
-        origin, axes = where(links, frame, centre(links, frame), t), [direction(links, frame, e, t) for e in UNIT3]
-        place = fsub(where(links, end, centre(links, end), t), origin)
+        """Returns the position of the other link's center, and its axes, in the frame of the link `frame`."""
+        origin, axes = where(links, frame, center(links, frame), t), [direction(links, frame, e, t) for e in UNIT3]
+        place = fsub(where(links, end, center(links, end), t), origin)
         return [[fdot(x, e) for e in axes] for x in (place, *(direction(links, end, e, t) for e in UNIT3))]
 
     def longest(self, columns):
@@ -929,8 +929,8 @@ class SecondDerivatives(Case):
             u = fscale(1 / (flength(u) or 1), u)
         return flength(fadd(*map(fscale, u, columns)))
 
-    def shares(self, links, frame, end, t0, t1):
-        """Returns the largest used share of K and of K' at sampled times, or None for a small bound."""
+    def fractions(self, links, frame, end, t0, t1):
+        """Returns the largest used fraction of K and of K' at sampled times, or None for a small bound."""
         exact, t, h = self.exact_links(links), (t0 + t1) / 2, (t1 - t0) / 2
         *_, k, bend = so.motion(exact[frame], exact[end], Fraction(t), so.fix(Fraction(h)))
         needs, out = [0, 0], []
@@ -944,16 +944,16 @@ class SecondDerivatives(Case):
         return out
 
     def test_random_chains(self):
-        rng, shares = random.Random(14), ([], [])
+        rng, fractions = random.Random(14), ([], [])
         for trial in range(200):
             count = rng.randint(1, 5)
             links = random_links(rng, count, rng.choice((1.0, 3.0)))
             frame, end, k = rng.randint(0, count), rng.randint(0, count), rng.randrange(1, 5)
             i = rng.randrange(1 << k)
-            for found, share in zip(shares, self.shares(links, frame, end, i / 2 ** k, (i + 1) / 2 ** k)):
-                if share is not None:
-                    found.append(share)
-        for found, mean in zip(shares, (0.4, 0.7)):
+            for found, fraction in zip(fractions, self.fractions(links, frame, end, i / 2 ** k, (i + 1) / 2 ** k)):
+                if fraction is not None:
+                    found.append(fraction)
+        for found, mean in zip(fractions, (0.4, 0.7)):
             self.assertGreater(len(found), 50)
             self.assertGreater(sum(found) / len(found), mean)
 
@@ -962,22 +962,22 @@ class SecondDerivatives(Case):
         for count in (1, 2, 3):
             joints = [turns(alpha=-0.1 * i, beta=1.0 + i, on=i) for i in range(count)]
             arm = [*joints, free(p=(1, 0, 0), on=count)]
-            self.assertGreater(self.shares(joints, 0, count, 0.25, 0.5)[1], 0.999)
-            self.assertGreater(self.shares(joints, count, 0, 0.25, 0.5)[1], 0.999)
-            self.assertGreater(self.shares(arm, 0, count + 1, 0.25, 0.5)[0], 0.999)
+            self.assertGreater(self.fractions(joints, 0, count, 0.25, 0.5)[1], 0.999)
+            self.assertGreater(self.fractions(joints, count, 0, 0.25, 0.5)[1], 0.999)
+            self.assertGreater(self.fractions(arm, 0, count + 1, 0.25, 0.5)[0], 0.999)
             # On the way up, all later joints turn the arm of the first one.
             up = [joints[0]._replace(p=(1, 0, 0)), *joints[1:]]
-            self.assertGreater(self.shares(up, count, 0, 0.25, 0.5)[0], 0.999)
+            self.assertGreater(self.fractions(up, count, 0, 0.25, 0.5)[0], 0.999)
             # The path goes up and down, with opposite turns.
             down = [x._replace(beta=-x.beta, alpha=-x.alpha, on=x.on and x.on + count) for x in joints]
             both = [*joints, *down, free(p=(1, 0, 0), on=2 * count)]
-            place, turned = self.shares(both, count, 2 * count + 1, 0.25, 0.5)
+            place, turned = self.fractions(both, count, 2 * count + 1, 0.25, 0.5)
             self.assertGreater(min(place, turned), 0.999)
         # An arm that passes the axis needs 2 theta |m|. Its theta^2 |m| is comparatively small.
         for half, least in ((0.05, 0.95), (0.01, 0.99)):
             slide = [turns(beta=1.0), slides((1000, 0, 0), -0.5, 1.0, on=1)]
-            self.assertGreater(self.shares(slide, 0, 2, 0.5 - half, 0.5 + half)[0], least)
-            self.assertGreater(self.shares([slides((1000, 0, 0), -0.5, 1.0), turns(beta=1.0, on=1)], 2, 0,
+            self.assertGreater(self.fractions(slide, 0, 2, 0.5 - half, 0.5 + half)[0], least)
+            self.assertGreater(self.fractions([slides((1000, 0, 0), -0.5, 1.0), turns(beta=1.0, on=1)], 2, 0,
                                            0.5 - half, 0.5 + half)[0], least)
 
 
@@ -1013,7 +1013,7 @@ class Balls(Case):
     def test_radii(self):
         for ra, rb in ((0.25, 0), (0, 0.25), (0.5, 0.125), (0.75, 0.25), (2, 0)):
             self.both(1 - ra - rb, 1 - ra - rb, points((0, 0, 0, ra)), points((0, 0, 1, rb)))
-        # The ball's centre is that of the bounding box of the vertices, and the largest radius is added to its radius.
+        # The ball's center is that of the bounding box of the vertices, and the largest radius is added to its radius.
         self.both(1.5, 1.5, points((0, 0, 0), (2, 0, 0, 0.5)), points((4, 0, 0)))
         self.both(1.5, 2, points((0, 0, 0, 0.5), (2, 0, 0)), points((4, 0, 0)))
         # Boxes of the other part are split down to triangles. A triangle counts with the largest radius of its corners.
@@ -1114,13 +1114,13 @@ class Balls(Case):
         for a in (turns(alpha=-0.5, beta=1.0), turns((0, 0, -0.25), 2.0, -4.0), free(q=back, w=(0, 0, 1))):
             self.both(8 - 1 - 0.25, 8 - 5 - 1.25, corner, far, a, free(), 1e-9)
             self.both(7.75 - 1 - 0.25, 7.75 - 5 - 1.25, points((2, 0, 0, 0.25)), far, a, free(), 1e-9)
-            # The centre of the ball counts, not the corners of the part.
+            # The center of the ball counts, not the corners of the part.
             self.both(10, 10 - 5 - 1.25, POINT, far, a, free(), 1e-9)
             self.exactly(10 - 3, points((-3, 0, 0), (3, 0, 0)), far, a, free(), AROUND_A, 1e-9)
             self.exactly(8 - 3 - 1 - 0.25, points((-1, 0, 0), (5, 0, 0)), far, a, free(), AROUND_A, 1e-9)
             # On the axis nothing moves, but the bound of the second derivative ignores the direction of the arm.
             self.both(10 - 0.25, 10 - 1.5, points((0, 0, 2)), points((0, 0, 12)), a, free(), 1e-9)
-        # With another centre, the corner is at distance 2 from it.
+        # With another center, the corner is at distance 2 from it.
         a = free(p=fscale(-5, rotate(back, (1, 0, 0))), q=back, w=(0, 0, 1), c=(5, 0, 0))
         self.exactly(8 - 1 - 0.25, points((7, 0, 0)), far, a, free(), AROUND_A, 1e-9)
         # At the middle of the time A points to y.
@@ -1158,12 +1158,12 @@ class Balls(Case):
             lb = up(p=(1, 2, 3), q=q)
             self.exactly(5, points((1 + 7 * s, 2 + 17 * s, 3)), rod_b, free(), lb, AROUND_A, 1e-9)
             self.exactly(13, points((1 + 7 * s, 2 - 17 * s, 3)), rod_b, free(), lb, AROUND_A, 1e-9)
-        # The centre of the ball around A is at (0, 1, 0) after a quarter turn. The rotation of B does not matter.
+        # The center of the ball around A is at (0, 1, 0) after a quarter turn. The rotation of B does not matter.
         a, quarter = points((0, 0, 0), (2, 0, 0)), (0, 0, math.sqrt(0.5), math.sqrt(0.5))
         for qb in ((0, 0, 0, 1), quarter, (0.5, 0.5, 0.5, 0.5)):
             self.exactly(1, a, POINT, free(q=quarter), free(p=(0, 3, 0), q=qb), AROUND_A, 1e-9)
             self.exactly(4, a, POINT, free(q=quarter), free(p=(3, 5, 0), q=qb), AROUND_A, 1e-9)
-        # Both links have centres that are not at the origin.
+        # Both links have centers that are not at the origin.
         la, lb = free(q=quarter, c=(3, 1, 2)), free(p=(0, 3, 0), q=quarter, c=(-1, 4, 2))
         self.exactly(1, a, POINT, la, lb, AROUND_A, 1e-9)
 
@@ -1364,7 +1364,7 @@ class Parts(Case):
                 self.fails(why, files, make(float(far)))
 
     def test_balls_around_parts_of_uneven_trees(self):
-        # The ball around 0 and 1 has radius 1 and centre (1, 0, 0). With 2 it has radius 3 and centre (3, 0, 0).
+        # The ball around 0 and 1 has radius 1 and center (1, 0, 0). With 2 it has radius 3 and center (3, 0, 0).
         a, b = points((0, 0, 0), (2, 0, 0), (6, 0, 0)), points((1, 6, 0))
         for tree, first, second in (((0, (1, 2)), math.sqrt(37), math.sqrt(45) - 2), (((0, 1), 2), 5, math.sqrt(61)),
                                     ((2, (0, 1)), math.sqrt(61), 5), (((0, 2), 1), math.sqrt(40) - 3, math.sqrt(37))):
@@ -1757,7 +1757,7 @@ class Random(Case):
         """Computes P, P', Omega, K and K' by the README, from velocities in the world."""
         t, h = (t0 + t1) / 2, (t1 - t0) / 2
         def chain(i): return chain(links[i - 1].on) + [i] if i else [0]
-        def at(i): return where(links, i, centre(links, i), t)
+        def at(i): return where(links, i, center(links, i), t)
         def joint(i):   # the turn and the rate of the arm, in the world
             x = links[i - 1]
             v, a = (rotate(x.q, u) if x.axes else u for u in (x.v, x.a))
@@ -1783,25 +1783,25 @@ class Random(Case):
     def readme(self, links, end, corners, side, n, d, frame, t0, t1):
         """Returns the least height by the README."""
         (p, slope, omega, k, bend), t = self.motion(links, end, frame, t0, t1), (t0 + t1) / 2
-        centre_at = where(links, end, centre(links, end), t)
-        z = [(fsub(where(links, end, y, t), centre_at), ball) for *y, ball in corners]
+        center_at = where(links, end, center(links, end), t)
+        z = [(fsub(where(links, end, y, t), center_at), ball) for *y, ball in corners]
         k, tilt = k + bend * max(flength(y) for y, _ in z), fcross(n, omega)
         return min(side * (fdot(n, p) + s * fdot(n, slope) - d) - k / 2
                    + min(side * fdot(fadd(n, fscale(s, tilt)), y) - ball for y, ball in z) for s in (1, -1))
 
     def readme_ball(self, links, end, corners, frame, t0, t1):
-        """Returns the centre of the README's ball at the middle, in the other body's frame, and its radius."""
+        """Returns the center of the README's ball at the middle, in the other body's frame, and its radius."""
         (_, slope, omega, k, bend), t = self.motion(links, end, frame, t0, t1), (t0 + t1) / 2
         *ranges, radii = zip(*corners)
         g = [(min(c) + max(c)) / 2 for c in ranges]
-        z = fsub(where(links, end, g, t), where(links, end, centre(links, end), t))
+        z = fsub(where(links, end, g, t), where(links, end, center(links, end), t))
         r = max(flength(fsub(y, g)) for *y, _ in corners) + max(radii)
         m = flength(fadd(slope, fcross(omega, z))) + (k + bend * flength(z)) / 2
         return self.seen(links, frame, where(links, end, g, t), t), r + m
 
     def seen(self, links, frame, x, t):
-        """Transforms a point of the world to the frame of a link, relative to its centre."""
-        x = fsub(x, where(links, frame, centre(links, frame), t))
+        """Transforms a point of the world to the frame of a link, relative to its center."""
+        x = fsub(x, where(links, frame, center(links, frame), t))
         return [fdot(x, direction(links, frame, e, t)) for e in UNIT3]
 
     def test_bound_is_below_samples_and_close(self):
@@ -1847,17 +1847,17 @@ class Random(Case):
             want, most = self.readme_ball(links, end, corners, frame, *span)
             self.assertLess(flength(fsub(point, want)), 1e-9)
             self.assertAlmostEqual(limit, most, 9)
-            farthest, centres = 0, 0
+            farthest, centers = 0, 0
             for j in range(17):
                 t = span[0] + (span[1] - span[0]) * j / 16
                 for *y, ball in corners:
                     x = self.seen(links, frame, where(links, end, y, t), t)
-                    centres = max(centres, flength(fsub(x, point)))
+                    centers = max(centers, flength(fsub(x, point)))
                     farthest = max(farthest, flength(fsub(x, point)) + ball)
             self.assertLessEqual(farthest, limit + 1e-9)
             if k == 8 and len(corners) == 3:
                 # The ball adds the largest radius, while the farthest corner may have a smaller one.
-                self.assertLess(limit - centres - max(ball for *_, ball in corners), 0.02)
+                self.assertLess(limit - centers - max(ball for *_, ball in corners), 0.02)
                 close += 1
         self.assertGreater(close, 3)
 
@@ -1866,14 +1866,14 @@ class Random(Case):
         rng, counts = random.Random(4), [0, 0]
         for _ in range(20):
             _, _, _, bodies, files = self.scene(rng)
-            body, centre = bodies[0], bodies[0].link.centre
+            body, center = bodies[0], bodies[0].link.center
             for part, triangles in enumerate(triangles_of(files[0][1])):
                 point = [rng.randint(-5 << 52, 5 << 52) << so.F + body.bits - 52 for _ in range(3)]
                 far = []                            # for each triangle: the square of the distance, and the radius
                 for triangle in triangles:
                     corners = self.corners(files[0][0], [triangle])
                     *ranges, radii = [[int(Fraction(x) * (so.ONE << body.bits)) for x in c] for c in zip(*corners)]
-                    ranges = [[x - int(c * (so.ONE << body.bits)) for x in r] for r, c in zip(ranges, centre)]
+                    ranges = [[x - int(c * (so.ONE << body.bits)) for x in r] for r, c in zip(ranges, center)]
                     gaps = [max(min(r) - x, x - max(r), 0) for r, x in zip(ranges, point)]
                     far.append((sum(x * x for x in gaps), max(radii)))
                 for limit in {math.isqrt(square) - ball + d for square, ball in far for d in (-1, 0, 1)}:
@@ -1886,9 +1886,9 @@ class Random(Case):
                         self.assertEqual(wide, want and wide)
         self.assertGreater(min(counts), 50)
 
-    def random_proofs(self, seed, trials, balls, shares):
+    def random_proofs(self, seed, trials, balls, fractions):
         """Tests random splits and leaves, with margins near those that samples allow. Samples refute no accepted proof.
-        The margins are these shares of the allowed ones, on both sides. Returns counts by (false, verdict)."""
+        The margins are these fractions of the allowed ones, on both sides. Returns counts by (false, verdict)."""
         rng, counts = random.Random(seed), {}
         for trial in range(trials):
             links, exact, ends, bodies, files = self.scene(rng, speed=0.5, size=0.25, count=4)
@@ -1923,8 +1923,8 @@ class Random(Case):
             made = steps([tree for _, tree in files], 0, 1 << 60, depth + 1)
             least = min(found)
             meshes = [x for data, tree in files for x in (data, certificate(data, tree=tree))]
-            for share, less in shares:
-                margin = least * share - less
+            for fraction, less in fractions:
+                margin = least * fraction - less
                 if margin >= 0:
                     bodies = [(data, end) for (data, _), end in zip(files, ends)]
                     whole = proof(links, bodies, [(0, 1, margin)], made, units=(-40, 0))
@@ -1948,8 +1948,8 @@ class Random(Case):
             _, _, _, bodies, files = self.scene(rng)
             for part, corners in enumerate(self.parts(files[0])):
                 m = [rng.randint(-9, 9) << so.F - 3 for _ in range(3)]
-                centre = bodies[0].link.centre
-                want = min(sum(Fraction(c, so.ONE) * (Fraction(y) - z) for c, y, z in zip(m, corner, centre))
+                center = bodies[0].link.center
+                want = min(sum(Fraction(c, so.ONE) * (Fraction(y) - z) for c, y, z in zip(m, corner, center))
                            - Fraction(corner[3]) for corner in corners)
                 self.assertEqual(Fraction(bodies[0].lowest(part, *m), 1 << so.F + bodies[0].bits), want)
 

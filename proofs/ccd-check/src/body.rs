@@ -32,7 +32,7 @@ pub(crate) struct Node {
     parts: Option<[usize; 2]>,
     /// The least and the greatest x, y, z and radius of all corners.
     ranges: [[i64; 2]; 4],
-    /// The bounding ball of the part: its centre, which is the middle of the ranges, and its radius.
+    /// The bounding ball of the part: its center, which is the middle of the ranges, and its radius.
     pub(crate) ball: (Vector, i64),
 }
 
@@ -106,7 +106,7 @@ impl<'a> Part<'a> {
         })
     }
 
-    /// Checks that the part has a height of at least `limit` along `direction`. A ball reaches at most its radius below its centre,
+    /// Checks that the part has a height of at least `limit` along `direction`. A ball reaches at most its radius below its center,
     /// as the normal of the plane is at most 1 long.
     pub(crate) fn is_above(self, direction: Vector, limit: i128) -> bool {
         let [i, j, k] = direction.map(|x| usize::from(x < 0));
@@ -151,7 +151,7 @@ mod tests {
 
     impl Random {
         /// Returns a number from −n/2 to n/2.
-        fn centred(&mut self, n: i64) -> i64 {
+        fn centered(&mut self, n: i64) -> i64 {
             self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (self.0 >> 40) as i64 % n - n / 2
         }
@@ -176,7 +176,7 @@ mod tests {
         if let [number] = *order {
             return parts.push(number);
         }
-        let first = 1 + random.centred(100).unsigned_abs() as usize % (order.len() - 1);
+        let first = 1 + random.centered(100).unsigned_abs() as usize % (order.len() - 1);
         parts.push(first as u32);
         write_part(random, &order[..first], parts);
         write_part(random, &order[first..], parts);
@@ -189,8 +189,9 @@ mod tests {
         let one = i128::from(ONE);
         let ([mut above, mut below], mut beyond) = ([0, 0], 0);
         for count in 1..=12 {
-            let corner =
-                |random: &mut Random| [random.centred(1000), random.centred(30), random.centred(7), random.centred(9).abs()];
+            let corner = |random: &mut Random| {
+                [random.centered(1000), random.centered(30), random.centered(7), random.centered(9).abs()]
+            };
             let triangles: Vec<Triangle> = (0..count).map(|_| [(); 3].map(|()| corner(&mut random))).collect();
             let (mesh, mut parts) = (mesh(&triangles), Vec::new());
             let order: Vec<u32> = (0..count).rev().collect();
@@ -200,11 +201,11 @@ mod tests {
             let mut waiting = alloc::vec![(Part { body: &body, node: &body.nodes[0], link: 0, work }, 0, count as usize)];
             while let Some((part, from, to)) = waiting.pop() {
                 let corners = body.triangles[from..to].as_flattened();
-                let direction = [(); 3].map(|()| random.centred(8) << FRACTION);
-                let point = [random.centred(2000), 3, 5];
+                let direction = [(); 3].map(|()| random.centered(8) << FRACTION);
+                let point = [random.centered(2000), 3, 5];
                 let height = |[x, y, z, radius]: &Corner| dot(direction, [*x, *y, *z]) - one * i128::from(*radius);
                 let height = corners.iter().map(height).min().unwrap();
-                for limit in [i128::MIN, height - 1, height, height + 1, one * i128::from(random.centred(100_000))] {
+                for limit in [i128::MIN, height - 1, height, height + 1, one * i128::from(random.centered(100_000))] {
                     let is_above = part.is_above(direction, limit);
                     assert_eq!(is_above, height >= limit);
                     if is_above { above += 1 } else { below += 1 }

@@ -101,7 +101,7 @@ fn check_witness(reader: &mut Reader<'_>, [unit, time]: [i64; 2], links: &Links,
         let weights = reader.array(|reader| Ok(reader.unsigned(7)? as i64))?;
         reader.require(weights.iter().sum::<i64>() == 1 << WEIGHT, "the weights of a witness do not add up to 1")?;
         let [x, y, z, radius] = [0, 1, 2, 3].map(|k| (dot(weights, corners.map(|corner| corner[k])) >> WEIGHT) as i64);
-        let arm = sub([x, y, z], links.all[link].centre);
+        let arm = sub([x, y, z], links.all[link].center);
         offset = sub(add(states[link].position, rotated(states[link].rotation, arm)), offset);
         limit += radius - 3 * links.error_bound(length_bound(arm)) as i64;
     }

@@ -5,7 +5,7 @@ use crate::{body::Part, motion::Interval, motion::RelativeMotion, number::*};
 impl Interval<'_> {
     /// Checks that a part stays farther than `gap` above a plane, over the whole interval. The plane turns with the link
     /// `frame`. Above is the side to which the normal (x, y, z) points. The plane has the points whose dot product with the normal
-    /// is d, relative to the centre of that link.
+    /// is d, relative to the center of that link.
     ///
     /// Returns `None` if the normal is longer than 1, or if the part's link turns too far relative to `frame`.
     pub(crate) fn stays_above_plane(&self, part: Part<'_>, ([x, y, z, d], frame): ([i64; 4], usize), gap: i64) -> Option<bool> {
@@ -13,9 +13,9 @@ impl Interval<'_> {
         let normal = [x, y, z].map(|x| x << (FRACTION - 50));
         let [origin, link] = [frame, part.link].map(|k| &self.states[k]);
         let motion = RelativeMotion::new(self, frame, part.link)?;
-        let ((middle, radius), centre) = (part.node.ball, self.links.all[part.link].centre);
-        // The corners and the centre each have an error of less than 2.
-        let reach = length_bound(sub(middle, centre)) + i128::from(radius) + 4;
+        let ((middle, radius), center) = (part.node.ball, self.links.all[part.link].center);
+        // The corners and the center each have an error of less than 2.
+        let reach = length_bound(sub(middle, center)) + i128::from(radius) + 4;
         let error = motion.second_derivative(reach, 0) / 2 + 1 + 8 * self.links.error_bound(reach);
         let limit = (i128::from(gap + d) + error) * i128::from(ONE) - dot(normal, sub(link.position, origin.position));
         let (rise, tilt) = (dot(normal, motion.displacement), cross(normal, motion.turn));
@@ -23,7 +23,7 @@ impl Interval<'_> {
         let ends: &[i64] = if (motion.turn, motion.displacement) == (ZERO, ZERO) { &[0] } else { &[-1, 1] };
         Some(ends.iter().all(|&end| {
             let direction = rotated_back(link.rotation, add(normal, tilt.map(|x| end * x)));
-            part.is_above(direction, limit - i128::from(end) * rise + dot(direction, centre))
+            part.is_above(direction, limit - i128::from(end) * rise + dot(direction, center))
         }))
     }
 
@@ -32,13 +32,13 @@ impl Interval<'_> {
     ///
     /// Returns `None` if the links turn too far relative to each other.
     pub(crate) fn stays_beyond_ball(&self, part: Part<'_>, around: Part<'_>, margin: i64) -> Option<bool> {
-        let [(link, centre), (carrier, pivot)] = [part.link, around.link].map(|k| (&self.states[k], self.links.all[k].centre));
+        let [(link, center), (carrier, pivot)] = [part.link, around.link].map(|k| (&self.states[k], self.links.all[k].center));
         let ((middle, radius), motion) = (around.node.ball, RelativeMotion::new(self, part.link, around.link)?);
         let arm = rotated(carrier.rotation, sub(middle, pivot));
         let (reach, velocity) = (length_bound(arm), add(motion.displacement, cross(motion.turn, arm)));
         let error = self.links.error_bound(reach);
         let travel = length_bound(velocity) + motion.second_derivative(reach + error, 0) / 2 + 1;
-        let point = add(centre, rotated_back(link.rotation, add(sub(carrier.position, link.position), arm)));
+        let point = add(center, rotated_back(link.rotation, add(sub(carrier.position, link.position), arm)));
         let limit = i128::from(radius + margin) + travel + 8 * error;
         Some(limit < 1 << 60 && part.is_beyond(point, limit as i64))
     }

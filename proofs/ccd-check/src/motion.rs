@@ -3,15 +3,15 @@
 use crate::{Checked, number::*, reader::Reader, verifiable};
 use alloc::vec::Vec;
 
-/// The motion of a link on its parent. Its centre moves along a line, and the link turns about its centre at a constant rate.
+/// The motion of a link on its parent. Its center moves along a line, and the link turns about its center at a constant rate.
 pub(crate) struct Link {
     /// The index of the parent. Index 0 is the world.
     parent: usize,
     /// The point of the link about which it turns, in the frame of the link.
-    pub(crate) centre: Vector,
+    pub(crate) center: Vector,
     /// The rotation of the link on its parent without the turn of the joint.
     start: Rotation,
-    /// The vector from the centre of the parent to the centre of the link at time 0, and its change in the unit of time.
+    /// The vector from the center of the parent to the center of the link at time 0, and its change in the unit of time.
     arm: [Vector; 2],
     /// The rotation vector of the joint at time 0, and its change in the unit of time.
     turn: [Vector; 2],
@@ -29,7 +29,7 @@ pub(crate) struct Links {
 impl Links {
     /// Reads `count` links.
     pub(crate) fn read(reader: &mut Reader<'_>, count: u64, [length, time]: [i64; 2]) -> Checked<Links> {
-        let world = Link { parent: 0, centre: ZERO, start: IDENTITY, arm: [ZERO; 2], turn: [ZERO; 2] };
+        let world = Link { parent: 0, center: ZERO, start: IDENTITY, arm: [ZERO; 2], turn: [ZERO; 2] };
         let mut links = Links { all: alloc::vec![world], rotation_error: 0, arm_sum: 1 << (LENGTH - 6) };
         for _ in 0..count {
             let parent = reader.index(links.all.len())?;
@@ -38,14 +38,14 @@ impl Links {
             let square = dot(q, q);
             verifiable((square - (1 << 120)).abs() <= 1 << 100, "a quaternion is not of unit length")?;
             let [x, y, z, w] = q.map(|x| ((i128::from(x) << FRACTION) / square.isqrt()) as i64);
-            let (start, centre) = (([x, y, z], w), reader.array(|reader| reader.number(length, [LENGTH, 0]))?);
+            let (start, center) = (([x, y, z], w), reader.array(|reader| reader.number(length, [LENGTH, 0]))?);
             // The velocity and the axis are given along the axes of the parent (0), or along the axes of the joint (1).
             let axes = [IDENTITY, start][reader.index(2)?];
             let velocity = rotated(axes, reader.array(|reader| reader.number(length, [LENGTH, 6]))?);
             let axis = rotated(axes, reader.array(|reader| reader.number(0, [0, FRACTION]))?);
             let parameter = [reader.number(0, [8, RADIAN])?, reader.number(-time, [8, RADIAN])?];
             let mut arm = parameter.map(|x| scaled(velocity, x, RADIAN + 6));
-            arm[0] = sub(add(add(position, rotated(start, centre)), arm[0]), links.all[parent].centre);
+            arm[0] = sub(add(add(position, rotated(start, center)), arm[0]), links.all[parent].center);
             let turn = parameter.map(|x| scaled(axis, x, FRACTION));
             links.rotation_error += (3 + ((parameter[0].abs() + parameter[1].abs()) >> RADIAN)) << 10;
             links.arm_sum = arm.as_flattened().iter().fold(links.arm_sum, |sum, x| sum.saturating_add(x.abs()));
@@ -53,13 +53,13 @@ impl Links {
                 links.rotation_error <= ONE >> 30 && links.arm_sum <= 1 << (LENGTH + 6),
                 "the links turn or reach too far",
             )?;
-            links.all.push(Link { parent, centre, start, arm, turn });
+            links.all.push(Link { parent, center, start, arm, turn });
         }
         Ok(links)
     }
 
     /// Returns L(`reach`) of the README. A small multiple of it bounds the rounding error of any point within `reach` of the
-    /// centre of its link.
+    /// center of its link.
     pub(crate) fn error_bound(&self, reach: i128) -> i128 {
         13 * (self.all.len() as i128 + 1) + mul_up(self.rotation_error.into(), reach + i128::from(self.arm_sum))
     }
@@ -93,10 +93,10 @@ pub(crate) struct Interval<'a> {
 /// The pose of a link at the middle of an interval, and its motion on its parent over half of the interval. All vectors are
 /// along the axes of the world.
 pub(crate) struct LinkState {
-    /// The position of the centre of the link.
+    /// The position of the center of the link.
     pub(crate) position: Vector,
     pub(crate) rotation: Rotation,
-    /// The vector from the centre of the parent to the centre of the link, and an upper bound of its length.
+    /// The vector from the center of the parent to the center of the link, and an upper bound of its length.
     arm: (Vector, i128),
     /// The change of the arm over half of the interval, and an upper bound of its length.
     arm_change: (Vector, i128),
@@ -107,14 +107,14 @@ pub(crate) struct LinkState {
 /// The motion of a link relative to another link over half of an interval, as the lemmas of the README need it.
 #[derive(Default)]
 pub(crate) struct RelativeMotion {
-    /// P′ of the README: the first-order change of the vector between the centres of both links.
+    /// P′ of the README: the first-order change of the vector between the centers of both links.
     pub(crate) displacement: Vector,
     /// Ω of the README: the first-order rotation vector of the link.
     pub(crate) turn: Vector,
     /// θ of the README: the sum of the angles of all joints on the path between both links.
     angle: i128,
-    /// K of the README: an upper bound of the second derivative of the vector between the centres.
-    centre_second_derivative: i128,
+    /// K of the README: an upper bound of the second derivative of the vector between the centers.
+    center_second_derivative: i128,
 }
 
 impl RelativeMotion {
@@ -139,10 +139,10 @@ impl RelativeMotion {
         Some(motion)
     }
 
-    /// Returns a bound of the second derivative of the vector between the centres plus one more vector. The link carries that
+    /// Returns a bound of the second derivative of the vector between the centers plus one more vector. The link carries that
     /// vector, which has at most this length and changes at this rate.
     pub(crate) fn second_derivative(&self, length: i128, rate: i128) -> i128 {
-        self.centre_second_derivative + mul_up(self.angle, mul_up(self.angle, length + rate) + 2 * rate)
+        self.center_second_derivative + mul_up(self.angle, mul_up(self.angle, length + rate) + 2 * rate)
     }
 
     fn add_turn(&mut self, &LinkState { turn: (turn, angle), .. }: &LinkState, sign: i64) -> Option<()> {
@@ -154,6 +154,6 @@ impl RelativeMotion {
     fn add_arm(&mut self, &LinkState { arm: (arm, length), arm_change: (change, rate), .. }: &LinkState, sign: i64) {
         let change = add(change, cross(self.turn, arm));
         self.displacement = add(self.displacement, change.map(|x| sign * x));
-        self.centre_second_derivative = self.second_derivative(length, rate);
+        self.center_second_derivative = self.second_derivative(length, rate);
     }
 }

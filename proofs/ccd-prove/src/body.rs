@@ -67,7 +67,7 @@ impl Body {
 
     /// Converts a body of the engine. Returns `None` if a piece with more than three points has no mesh triangles.
     ///
-    /// A ball becomes a triangle with its centre as all three corners, and a capsule a triangle along its axis. Vertices and
+    /// A ball becomes a triangle with its center as all three corners, and a capsule a triangle along its axis. Vertices and
     /// triangles are sorted, so the bytes of the mesh do not depend on the engine's tree.
     pub fn of(body: &ccd_core::Body) -> Option<Self> {
         let Ok(body) = Body::of_triangles(&triangles_of(body)?, Never);

@@ -36,7 +36,7 @@ impl Bounds {
         }
     }
 
-    pub(crate) fn centre(&self) -> DVec3 {
+    pub(crate) fn center(&self) -> DVec3 {
         (0.5 * (self.least + self.greatest)).truncate()
     }
 

@@ -33,7 +33,7 @@ impl<'c> ProvenCell<'c> {
     /// Prepares the bodies of a cell.
     ///
     /// # Errors
-    /// [`CellNotProvable`] if a body has no mesh, with the name of its obstacle, held body or link, or if no pair is compared.
+    /// [`CellNotProvable`] if a body has no mesh, with the name of its obstacle, attached body or link, or if no pair is compared.
     pub fn new(cell: &'c Cell) -> Result<Self, CellNotProvable> {
         let Ok(proven) = ProvenCell::prepare(cell, Never);
         proven
@@ -130,7 +130,7 @@ impl<'c> ProvenCell<'c> {
     /// about all pairs of this cell with this margin.
     pub fn joints_of(&self, statement: &Statement, margin: f64) -> Option<Vec<(&str, [f64; 2])>> {
         let robot = self.cell.robot();
-        let zeros = vec![0.0; robot.free_joint_names().len()];
+        let zeros = vec![0.0; robot.independent_joint_names().len()];
         let own = statement_of(&self.edge(&zeros, &zeros, margin).ok()?, 0.0)?;
         let scales = own.scales(statement)?;
         let links = statement.links.iter().zip(scales).zip(&self.links);
@@ -212,9 +212,9 @@ impl<'c> ProvenCell<'c> {
             .take_while(move |(segment, _)| *segment <= last)
             .map_while(move |(segment, ends)| {
                 let ends = [ends[0].as_ref(), ends[1].as_ref()];
-                let share = end.filter(|end| end.segment == segment);
-                let share = share.map_or(1.0, |end| end.share);
-                self.prove_segment((segment, ends), share, answer, settings)
+                let fraction = end.filter(|end| end.segment == segment);
+                let fraction = fraction.map_or(1.0, |end| end.fraction);
+                self.prove_segment((segment, ends), fraction, answer, settings)
                     .transpose()
             });
         let mut has_failed = false;
@@ -222,11 +222,11 @@ impl<'c> ProvenCell<'c> {
         proofs.take_while(move |proof| !std::mem::replace(&mut has_failed, proof.is_err()))
     }
 
-    /// Proves a segment up to a share of it. Returns `None` if bodies are in contact at its start.
+    /// Proves a segment up to a fraction of it. Returns `None` if bodies are in contact at its start.
     fn prove_segment(
         &self,
         (segment, [from, to]): (usize, [&[f64]; 2]),
-        share: f64,
+        fraction: f64,
         answer: &PathAnswer<'_>,
         settings: &Settings,
     ) -> Result<Option<Proof>, PathNotProven> {
@@ -236,9 +236,9 @@ impl<'c> ProvenCell<'c> {
             _ => None,
         };
         let witness = contact.and_then(|contact| self.witness(&scene, contact, settings.tolerance));
-        match prove_unless_stopped(&scene, share, witness, settings.stop.as_deref()) {
+        match prove_unless_stopped(&scene, fraction, witness, settings.stop.as_deref()) {
             Ok(proof) => Ok(Some(proof)),
-            Err(NotProven::Touching { .. } | NotProven::NoContact { .. }) if share == 0.0 => {
+            Err(NotProven::Touching { .. } | NotProven::NoContact { .. }) if fraction == 0.0 => {
                 Ok(None)
             }
             Err(reason) => Err(PathNotProven::Segment { segment, reason }),
@@ -272,7 +272,7 @@ impl<'c> ProvenCell<'c> {
             };
             let witness = Witness {
                 pair,
-                time: contact.at.share,
+                time: contact.at.fraction,
                 tolerance,
                 points,
             };

@@ -19,10 +19,10 @@ const MAX_BYTES: usize = 1 << 26;
 /// The maximum number of splits between a pair's root and any leaf.
 const MAX_DEPTH: u32 = 200;
 
-/// The shortest interval that is split, as a share of the whole time. The checker's times are multiples of 2⁻⁶⁰.
+/// The shortest interval that is split, as a fraction of the whole time. The checker's times are multiples of 2⁻⁶⁰.
 const MIN_INTERVAL: f64 = 1e-15;
 
-/// Time is not split for parts whose displacement is below this share of their radius.
+/// Time is not split for parts whose displacement is below this fraction of their radius.
 const MIN_DISPLACEMENT: f64 = 0.1;
 
 /// The cost of checking a leaf with a ball, besides its visits to boxes. All costs are in visits to one box.

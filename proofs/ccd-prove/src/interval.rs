@@ -12,10 +12,10 @@ use ccd_core::order::lesser;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LinkState {
     parent: usize,
-    /// The position of the centre of the link.
-    pub(crate) centre: DVec3,
+    /// The position of the center of the link.
+    pub(crate) center: DVec3,
     pub(crate) rotation: DMat3,
-    /// The vector from the centre of the parent to the centre of the link.
+    /// The vector from the center of the parent to the center of the link.
     arm: DVec3,
     /// The change of the arm on the parent over half of the interval.
     arm_change: DVec3,
@@ -27,10 +27,10 @@ pub(crate) struct LinkState {
 pub(crate) fn link_states(motions: &[LinkMotion], middle: f64, half: f64) -> Vec<LinkState> {
     let mut states: Vec<LinkState> = Vec::with_capacity(motions.len());
     for motion in motions {
-        let (centre, rotation) = states
+        let (center, rotation) = states
             .get(motion.parent)
             .map_or((DVec3::ZERO, DMat3::IDENTITY), |parent| {
-                (parent.centre, parent.rotation)
+                (parent.center, parent.rotation)
             });
         let arm = rotation * (motion.arm + motion.velocity * middle);
         let [arm_change, turn] =
@@ -38,7 +38,7 @@ pub(crate) fn link_states(motions: &[LinkMotion], middle: f64, half: f64) -> Vec
         let joint_rotation = rotation_by(motion.angular_velocity * middle);
         states.push(LinkState {
             parent: motion.parent,
-            centre: centre + arm,
+            center: center + arm,
             rotation: rotation * joint_rotation * motion.rotation,
             arm,
             arm_change,
@@ -51,14 +51,14 @@ pub(crate) fn link_states(motions: &[LinkMotion], middle: f64, half: f64) -> Vec
 /// The motion of a link relative to another link over half of an interval.
 #[derive(Default)]
 struct RelativeMotion {
-    /// The first-order change of the vector between the centres of both links.
+    /// The first-order change of the vector between the centers of both links.
     displacement: DVec3,
     /// The first-order rotation vector of the link.
     turn: DVec3,
     /// The sum of the angles of all joints on the path between both links.
     angle: f64,
-    /// An upper bound of the second derivative of the vector between the centres.
-    centre_second_derivative: f64,
+    /// An upper bound of the second derivative of the vector between the centers.
+    center_second_derivative: f64,
 }
 
 impl RelativeMotion {
@@ -94,11 +94,11 @@ impl RelativeMotion {
         self.angle < MAX_TURN
     }
 
-    /// Returns an upper bound of the second derivative of a point that the link carries at a distance of `reach` from its centre.
+    /// Returns an upper bound of the second derivative of a point that the link carries at a distance of `reach` from its center.
     /// Returns infinity if the joints turn too far for the lemmas.
     fn second_derivative(&self, reach: f64) -> f64 {
         if self.is_within_max_turn() {
-            self.centre_second_derivative + self.angle * self.angle * reach
+            self.center_second_derivative + self.angle * self.angle * reach
         } else {
             f64::INFINITY
         }
@@ -112,11 +112,11 @@ impl RelativeMotion {
     fn add_arm(&mut self, arm: DVec3, arm_change: DVec3) {
         self.displacement += arm_change + self.turn.cross(arm);
         let (angle, rate) = (self.angle, arm_change.length());
-        self.centre_second_derivative += angle * (angle * (arm.length() + rate) + 2.0 * rate);
+        self.center_second_derivative += angle * (angle * (arm.length() + rate) + 2.0 * rate);
     }
 }
 
-/// A plane through the centre of its frame, moved by an offset that is given elsewhere.
+/// A plane through the center of its frame, moved by an offset that is given elsewhere.
 #[derive(Clone, Copy)]
 pub(crate) struct PlaneDirection {
     /// The normal, along the axes of the world at the middle of the interval. It points from A to B.
@@ -130,11 +130,11 @@ pub(crate) struct PairInterval<'a> {
     pub(crate) start: f64,
     pub(crate) end: f64,
     pub(crate) trees: [&'a Tree; 2],
-    /// The centre of each body's link, in the frame of that link.
-    centres: [DVec3; 2],
+    /// The center of each body's link, in the frame of that link.
+    centers: [DVec3; 2],
     /// The states of both bodies' links.
     states: [LinkState; 2],
-    /// The vector from the centre of A's link to the centre of B's link.
+    /// The vector from the center of A's link to the center of B's link.
     pub(crate) offset: DVec3,
     /// The motions of A and B, relative to the world, to A, and to B.
     motions: [[RelativeMotion; 2]; 3],
@@ -161,15 +161,15 @@ impl<'a> PairInterval<'a> {
             start,
             end,
             trees: bodies.map(|body| &body.body.tree),
-            centres: [a, b].map(|link| link_motions[link].screw.centre),
+            centers: [a, b].map(|link| link_motions[link].screw.center),
             states: pair_states,
-            offset: pair_states[1].centre - pair_states[0].centre,
+            offset: pair_states[1].center - pair_states[0].center,
             motions: [0, a, b].map(|from| [a, b].map(|to| RelativeMotion::new(states, from, to))),
         }
     }
 
     /// Returns the least and the greatest offset of a plane that separates two parts over the interval, with at least
-    /// `required_gap` on either side. The offset is relative to the centre of the plane's frame. No plane separates the parts if
+    /// `required_gap` on either side. The offset is relative to the center of the plane's frame. No plane separates the parts if
     /// the least offset is above the greatest.
     pub(crate) fn offset_range(
         &self,
@@ -214,16 +214,16 @@ impl<'a> PairInterval<'a> {
         let other = 1 - k;
         let motion = &self.motions[1 + other][k];
         let (middle, radius) = self.trees[k].ball(parts[k]);
-        let arm = self.states[k].rotation * (middle - self.centres[k]);
+        let arm = self.states[k].rotation * (middle - self.centers[k]);
         let travel = (motion.displacement + motion.turn.cross(arm)).length()
             + 0.5 * motion.second_derivative(arm.length());
-        let from_other = self.states[k].centre - self.states[other].centre + arm;
-        let ball_centre =
-            self.states[other].rotation.transpose() * from_other + self.centres[other];
+        let from_other = self.states[k].center - self.states[other].center + arm;
+        let ball_center =
+            self.states[other].rotation.transpose() * from_other + self.centers[other];
         let limit = radius + travel * SECOND_DERIVATIVE_FACTOR + gap;
         motion
             .is_within_max_turn()
-            .then(|| self.trees[other].visits_beyond(parts[other], ball_centre, limit))?
+            .then(|| self.trees[other].visits_beyond(parts[other], ball_center, limit))?
     }
 
     /// Returns the bounds that the ends of the interval require of the heights of a part, on one side of a plane. A part that has
@@ -237,10 +237,10 @@ impl<'a> PairInterval<'a> {
         let normal = side * normal;
         let (motion, state) = (&self.motions[frame][k], &self.states[k]);
         let second_derivative =
-            motion.second_derivative(self.trees[k].reach(part, self.centres[k]));
-        let frame_centre = [DVec3::ZERO, self.states[0].centre, self.states[1].centre][frame];
+            motion.second_derivative(self.trees[k].reach(part, self.centers[k]));
+        let frame_center = [DVec3::ZERO, self.states[0].center, self.states[1].center][frame];
         let at_middle = required_gap + 0.5 * second_derivative * SECOND_DERIVATIVE_FACTOR
-            - normal.dot(state.centre - frame_centre);
+            - normal.dot(state.center - frame_center);
         let ends: &[f64] = if motion.is_static() {
             &[0.0]
         } else {
@@ -250,7 +250,7 @@ impl<'a> PairInterval<'a> {
             let tilted = normal + end * normal.cross(motion.turn);
             let direction = state.rotation.transpose() * tilted;
             let required_height =
-                at_middle + direction.dot(self.centres[k]) - end * normal.dot(motion.displacement);
+                at_middle + direction.dot(self.centers[k]) - end * normal.dot(motion.displacement);
             HeightBound {
                 direction,
                 required_height,
@@ -270,18 +270,18 @@ impl<'a> PairInterval<'a> {
     }
 
     /// Returns the support point of the part of body `k` at the middle of the interval: the lowest vertex along `direction`,
-    /// relative to the centre of A's link, and its index.
+    /// relative to the center of A's link, and its index.
     pub(crate) fn lowest_vertex(&self, k: usize, part: Part, direction: DVec3) -> (u32, DVec3) {
         let rotation = self.states[k].rotation;
         let (index, corner) = self.trees[k].lowest_corner(part, rotation.transpose() * direction);
-        let arm = rotation * (corner - self.centres[k]);
+        let arm = rotation * (corner - self.centers[k]);
         (index, if k == 0 { arm } else { self.offset + arm })
     }
 
     /// Estimates the relative displacement of two parts over half of the interval.
     pub(crate) fn relative_displacement(&self, parts: [Part; 2]) -> f64 {
         let [a, b] = &self.motions[0];
-        let reach = |k: usize| self.trees[k].reach(parts[k], self.centres[k]);
+        let reach = |k: usize| self.trees[k].reach(parts[k], self.centers[k]);
         (b.displacement - a.displacement).length()
             + a.turn.length() * reach(0)
             + b.turn.length() * reach(1)

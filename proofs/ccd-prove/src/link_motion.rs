@@ -12,9 +12,9 @@ pub(crate) struct LinkMotion {
     /// The index of the parent. Index 0 is the world.
     pub(crate) parent: usize,
     pub(crate) screw: Screw,
-    /// The vector from the centre of the parent to the centre of the link at time 0.
+    /// The vector from the center of the parent to the center of the link at time 0.
     pub(crate) arm: DVec3,
-    /// The velocity of the centre of the link.
+    /// The velocity of the center of the link.
     pub(crate) velocity: DVec3,
     /// The rotation of the link on its parent at time 0.
     pub(crate) rotation: DMat3,
@@ -33,20 +33,20 @@ pub(crate) fn link_motions(links: &[Link], time_unit: i32) -> Result<Vec<LinkMot
         let screw =
             Screw::of_joint(&link.joint, time_unit).ok_or(NotProven::TooSmall { link: number })?;
         let mut motion = LinkMotion::new(link.parent, screw);
-        motion.arm -= motions[link.parent].screw.centre;
+        motion.arm -= motions[link.parent].screw.center;
         motions.push(motion);
     }
     Ok(motions)
 }
 
 impl LinkMotion {
-    /// Returns the motion of a link on a parent whose centre is the origin of its frame.
+    /// Returns the motion of a link on a parent whose center is the origin of its frame.
     fn new(parent: usize, screw: Screw) -> LinkMotion {
         let [start, rate] = screw.start_and_rate();
         LinkMotion {
             parent,
             screw,
-            arm: screw.pose.transform_point(screw.centre) + start.translation,
+            arm: screw.pose.transform_point(screw.center) + start.translation,
             velocity: rate.translation,
             rotation: rotation_by(start.rotation) * DMat3::from_quat(screw.pose.rotation()),
             angular_velocity: rate.rotation,
@@ -62,11 +62,11 @@ pub(crate) fn rotation_by(rotation_vector: DVec3) -> DMat3 {
 /// The motion of a link on its parent, in the numbers of a certificate.
 ///
 /// A point y of the link is at `p + R c + s v + exp(s [a]×) R (y − c)` with s = start + t rate. Here p and R are the pose, c the
-/// centre, v the velocity and a the axis.
+/// center, v the velocity and a the axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Screw {
     pub(crate) pose: Pose,
-    pub(crate) centre: DVec3,
+    pub(crate) center: DVec3,
     axes: Axes,
     velocity: DVec3,
     axis: DVec3,
@@ -91,7 +91,7 @@ impl Screw {
     /// A link that is fixed at the pose of its parent.
     pub(crate) const FIXED: Screw = Screw {
         pose: Pose::IDENTITY,
-        centre: DVec3::ZERO,
+        center: DVec3::ZERO,
         axes: Axes::Joint,
         velocity: DVec3::ZERO,
         axis: DVec3::ZERO,
@@ -137,10 +137,10 @@ impl Screw {
     }
 
     fn of_motion(motion: &Motion, time_unit: f64) -> Option<Screw> {
-        let (velocity, angular_velocity) = (motion.velocity(), motion.spin());
+        let (velocity, angular_velocity) = (motion.velocity(), motion.angular_velocity());
         let fixed = Screw {
             pose: motion.start(),
-            centre: motion.centre(),
+            center: motion.center(),
             axes: Axes::Parent,
             ..Screw::FIXED
         };
@@ -166,7 +166,7 @@ impl Screw {
         [self.start.abs(), self.rate.abs() * 2f64.powi(time_unit)]
     }
 
-    /// Returns the translation of the centre and the rotation of the link at time 0, and their rates. All vectors are along the
+    /// Returns the translation of the center and the rotation of the link at time 0, and their rates. All vectors are along the
     /// axes of the parent.
     fn start_and_rate(&self) -> [Twist; 2] {
         let rotation = DMat3::from_quat(self.pose.rotation());
@@ -185,7 +185,7 @@ impl Screw {
         let before = [
             &self.pose.translation().to_array()[..],
             &self.pose.rotation().to_array(),
-            &self.centre.to_array(),
+            &self.center.to_array(),
         ];
         let after = [
             &self.velocity.to_array()[..],

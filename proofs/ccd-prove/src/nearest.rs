@@ -50,10 +50,14 @@ fn nearest_weights(corners: [DVec3; 3], p: DVec3) -> [f64; 3] {
     };
     let on_edges = [(0, 1), (1, 2), (2, 0)].map(|(from, to)| {
         let edge = corners[to] - corners[from];
-        let share = edge.dot(p - corners[from]) / edge.length_squared();
-        let share = if share > 0.0 { lesser(share, 1.0) } else { 0.0 };
+        let fraction = edge.dot(p - corners[from]) / edge.length_squared();
+        let fraction = if fraction > 0.0 {
+            lesser(fraction, 1.0)
+        } else {
+            0.0
+        };
         let mut weights = [0.0; 3];
-        (weights[from], weights[to]) = (1.0 - share, share);
+        (weights[from], weights[to]) = (1.0 - fraction, fraction);
         weights
     });
     let [a, b, c] = corners;

@@ -7,7 +7,7 @@ use crate::tolerances::POSE_ERROR;
 use ccd_core::Pose;
 use ccd_core::glam::{DVec3, DVec4};
 use rigid_ccd::trajectory::JointKind;
-use rigid_ccd_robot::{CarriedBody, Cell, Robot};
+use rigid_ccd_robot::{AttachedBody, Cell, Robot};
 use std::collections::BTreeMap;
 
 /// One body of a cell, or several bodies that are static relative to each other and have the same pairs.
@@ -79,7 +79,7 @@ pub(crate) fn rigid_groups<S: Stop>(
 /// A body of a cell, and the triangles of its mesh.
 struct Member<'c> {
     index: usize,
-    carried: CarriedBody<'c>,
+    carried: AttachedBody<'c>,
     triangles: Vec<[DVec4; 3]>,
 }
 
@@ -150,16 +150,16 @@ fn merge<S: Stop>(
     })
 }
 
-/// Transforms a ball by a pose, and grows its radius by the error bound of the centre.
+/// Transforms a ball by a pose, and grows its radius by the error bound of the center.
 fn transform_ball(ball: DVec4, pose: &Pose) -> DVec4 {
     if *pose == Pose::IDENTITY {
         return ball;
     }
-    let (centre, translation): (DVec3, _) = (ball.truncate(), pose.translation());
+    let (center, translation): (DVec3, _) = (ball.truncate(), pose.translation());
     // The sum of the absolute coordinates bounds a length, and does not underflow as squares do.
-    let lengths = centre.abs().element_sum() + translation.abs().element_sum();
+    let lengths = center.abs().element_sum() + translation.abs().element_sum();
     let error = POSE_ERROR * lengths + f64::MIN_POSITIVE;
-    let transformed = pose.transform_point(centre);
+    let transformed = pose.transform_point(center);
     transformed.extend((ball.w + error).next_up())
 }
 

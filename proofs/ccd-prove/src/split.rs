@@ -55,14 +55,14 @@ fn costs<'a>(boxes: &[Bounds], triangles: impl Iterator<Item = &'a u32>) -> Vec<
         .collect()
 }
 
-/// Sorts triangles by the centres of their boxes along a coordinate axis.
+/// Sorts triangles by the centers of their boxes along a coordinate axis.
 fn sort_along<S: Stop>(
     boxes: &[Bounds],
     triangles: &mut [u32],
     axis: usize,
     stop: S,
 ) -> Result<(), S::Stopped> {
-    let centre = |triangle: u32| boxes[triangle as usize].centre()[axis];
-    let compare = |a: &u32, b: &u32| centre(*a).total_cmp(&centre(*b)).then(a.cmp(b));
+    let center = |triangle: u32| boxes[triangle as usize].center()[axis];
+    let compare = |a: &u32, b: &u32| center(*a).total_cmp(&center(*b)).then(a.cmp(b));
     sort(triangles, compare, stop)
 }

@@ -7,7 +7,7 @@ use ccd_core::order::greater;
 /// A link in the statement of a certificate, and its motion on its parent.
 ///
 /// At time t a point y of the link is at `p + R c + s v + exp(s [a]×) R (y − c)` with s = start + t rate. Here p is the position, R the
-/// rotation of the quaternion, c the centre, v the velocity and a the axis.
+/// rotation of the quaternion, c the center, v the velocity and a the axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StatedLink {
     /// The parent: 0 is the world, 1 the first link.
@@ -17,10 +17,10 @@ pub struct StatedLink {
     /// The rotation of the link's frame on the parent, as a quaternion x, y, z, w.
     pub quaternion: [f64; 4],
     /// The point of the link about which it turns.
-    pub centre: [f64; 3],
+    pub center: [f64; 3],
     /// The frame in which the velocity and the axis are given: 0 is the parent, 1 is the joint. For 1, v and a are R times them.
     pub axes: u32,
-    /// The velocity of the centre, per unit of s.
+    /// The velocity of the center, per unit of s.
     pub velocity: [f64; 3],
     /// The axis of rotation. Its length is the angular speed, per unit of s.
     pub axis: [f64; 3],
@@ -36,7 +36,7 @@ impl StatedLink {
             parent: cursor.u32()?,
             position: cursor.numbers()?,
             quaternion: cursor.numbers()?,
-            centre: cursor.numbers()?,
+            center: cursor.numbers()?,
             axes: cursor.u32()?,
             velocity: cursor.numbers()?,
             axis: cursor.numbers()?,
@@ -86,7 +86,7 @@ impl StatedLink {
         let numbers = [
             &given.position[..],
             &given.quaternion,
-            &given.centre,
+            &given.center,
             &given.velocity,
             &given.axis,
             &[given.start, given.rate],

@@ -158,7 +158,7 @@ impl Display for Statement {
                 parent,
                 position,
                 quaternion,
-                centre,
+                center,
                 velocity,
                 axis,
                 start,
@@ -167,7 +167,7 @@ impl Display for Statement {
             } = &link;
             writeln!(
                 f,
-                "link {} on {parent} position {position:?} quaternion {quaternion:?} centre {centre:?} axes of the {axes} velocity \
+                "link {} on {parent} position {position:?} quaternion {quaternion:?} center {center:?} axes of the {axes} velocity \
                  {velocity:?} axis {axis:?} start {start:?} rate {rate:?}",
                 number + 1
             )?;

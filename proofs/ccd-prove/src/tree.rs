@@ -21,7 +21,7 @@ pub(crate) type Part = usize;
 #[derive(Clone, Copy, Debug)]
 struct Node {
     bounds: Bounds,
-    /// The radius of the bounding ball around the centre of the box.
+    /// The radius of the bounding ball around the center of the box.
     ball_radius: f64,
     /// The index of the first triangle.
     triangle: usize,
@@ -132,10 +132,10 @@ impl Tree {
         1 + halves.map_or(0, |halves| visits(halves).iter().sum())
     }
 
-    /// Returns the centre and the radius of the bounding ball of a part.
+    /// Returns the center and the radius of the bounding ball of a part.
     pub(crate) fn ball(&self, part: Part) -> (DVec3, f64) {
         let node = &self.nodes[part];
-        (node.bounds.centre(), node.ball_radius)
+        (node.bounds.center(), node.ball_radius)
     }
 
     /// Returns the number of boxes that the checker visits to confirm that all points of the part are farther than `limit` from
@@ -155,8 +155,8 @@ impl Tree {
 
     /// Returns an upper bound of the distance from `point` to any point of a part.
     pub(crate) fn reach(&self, part: Part, point: DVec3) -> f64 {
-        let (centre, radius) = self.ball(part);
-        centre.distance(point) + radius
+        let (center, radius) = self.ball(part);
+        center.distance(point) + radius
     }
 
     /// Returns the largest radius of a corner.
@@ -175,7 +175,7 @@ impl Tree {
 impl Node {
     fn of(corners: impl Iterator<Item = DVec4> + Clone, triangle: usize) -> Node {
         let bounds = Bounds::around(corners.clone());
-        let squares = corners.map(|corner| corner.truncate().distance_squared(bounds.centre()));
+        let squares = corners.map(|corner| corner.truncate().distance_squared(bounds.center()));
         Node {
             bounds,
             ball_radius: squares.fold(0.0, greater).sqrt() + bounds.greatest.w,

@@ -198,11 +198,11 @@ fn largest_length(scene: &Scene<'_>, links: &[LinkMotion], time_unit: i32) -> f6
     let mut reaches: Vec<f64> = Vec::new();
     for link in links {
         let arm_change = link.velocity.length() * 2f64.powi(time_unit);
-        // Twice the lengths also bound the vectors that the checker adds up to an arm, except the centres.
+        // Twice the lengths also bound the vectors that the checker adds up to an arm, except the centers.
         let reach =
             reaches.get(link.parent).unwrap_or(&0.0) + 2.0 * (link.arm.length() + arm_change);
         reaches.push(reach);
-        largest = greater(largest, reach + link.screw.centre.length());
+        largest = greater(largest, reach + link.screw.center.length());
     }
     for placed in &scene.bodies {
         let tree = &placed.body.tree;
@@ -256,10 +256,10 @@ pub(crate) fn mesh_points(
     let states = link_states(links, witness.time, 0.0);
     [0, 1].map(|k| {
         let SceneBody { body, link } = scene.bodies[scene.pairs[witness.pair].bodies[k]];
-        let (state, centre) = (&states[link], links[link].screw.centre);
-        let local = state.rotation.transpose() * (witness.points[k] - state.centre);
-        let nearest = MeshPoint::nearest(&body.tree, local + centre);
-        let in_world = state.centre + state.rotation * (nearest.ball.truncate() - centre);
+        let (state, center) = (&states[link], links[link].screw.center);
+        let local = state.rotation.transpose() * (witness.points[k] - state.center);
+        let nearest = MeshPoint::nearest(&body.tree, local + center);
+        let in_world = state.center + state.rotation * (nearest.ball.truncate() - center);
         MeshPoint {
             ball: in_world.extend(nearest.ball.w),
             ..nearest

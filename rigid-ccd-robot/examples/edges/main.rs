@@ -62,9 +62,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         let begin = Instant::now();
         let free = solver.map(&edges, |solver, [from, to]| {
             (0..=steps).all(|step| {
-                let share = f64::from(step) / f64::from(steps);
+                let fraction = f64::from(step) / f64::from(steps);
                 let joints = from.iter().zip(to);
-                let at: Vec<f64> = joints.map(|(a, b)| a + share * (b - a)).collect();
+                let at: Vec<f64> = joints.map(|(a, b)| a + fraction * (b - a)).collect();
                 matches!(solver.is_free(&[at]), Ok(true))
             })
         });

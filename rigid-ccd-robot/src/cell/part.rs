@@ -58,10 +58,10 @@ pub(crate) struct HullPart {
     pub(crate) plane: Option<Plane>,
     /// The excess of the body: how far it may protrude from the shape that it encloses.
     pub(crate) excess_over_shape: f64,
-    /// The centre and the half extents of the rounded hull's bounding box along the frame's axes.
-    pub(crate) centre: DVec3,
+    /// The center and the half extents of the rounded hull's bounding box along the frame's axes.
+    pub(crate) center: DVec3,
     pub(crate) half_extents: DVec3,
-    /// The radius of the bounding ball of the rounded hull, about `centre`.
+    /// The radius of the bounding ball of the rounded hull, about `center`.
     pub(crate) ball_radius: f64,
     /// An upper bound of the numbers that the corners were computed from, for rounding: the length of the body's
     /// position plus its largest coordinate. It may be far larger than the corners' distance from the frame's origin.
@@ -169,10 +169,10 @@ impl HullPart {
         }
         let lengths = hull.corners.iter().map(|corner| corner.length());
         let largest = lengths.fold(0.0, greater);
-        let centre = 0.5 * (min + max);
+        let center = 0.5 * (min + max);
         let farthest = points
             .iter()
-            .map(|point| point.distance(centre))
+            .map(|point| point.distance(center))
             .fold(0.0, greater);
         HullPart {
             owner,
@@ -184,7 +184,7 @@ impl HullPart {
             is_convex: placed.body.pieces().len() == 1,
             plane: placed.plane_reach.map(|_| Plane::below(&placed.pose)),
             excess_over_shape: placed.body.excess(),
-            centre,
+            center,
             half_extents: 0.5 * (max - min) + DVec3::splat(radius),
             ball_radius: farthest + radius,
             coordinate_bound: placed.pose.translation().length() + largest + radius,

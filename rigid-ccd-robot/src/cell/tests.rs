@@ -37,7 +37,7 @@ fn stop(cell: &Cell) -> Option<(f64, [Item<'_>; 2])> {
         .outcome
     {
         PathOutcome::Free => None,
-        PathOutcome::Contact(contact) => Some((10.0 * contact.at.share, contact.items)),
+        PathOutcome::Contact(contact) => Some((10.0 * contact.at.fraction, contact.items)),
         _ => panic!("a limit was reached"),
     }
 }

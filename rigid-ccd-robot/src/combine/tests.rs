@@ -76,7 +76,7 @@ fn links_are_where_the_base_carries_them() {
                 Some(_) => 3,
             };
             let (base, others) = rest.split_at(base_count);
-            let (own, others) = others.split_at(placed.robot.free_joint_names().len());
+            let (own, others) = others.split_at(placed.robot.independent_joint_names().len());
             rest = others;
             let mut base = base_pose(placed, base);
             if let Some(carrier) = placed.carrier {
@@ -242,7 +242,7 @@ fn pairs_are_of_their_robot_and_names_are_free() {
     };
     let (both, _) = Robot::combine(&[placed(&small, &small_pairs)]).unwrap();
     assert_eq!(both.links()[0].name, "world_");
-    assert_eq!(both.free_joint_names().next(), Some("base_/x"));
+    assert_eq!(both.independent_joint_names().next(), Some("base_/x"));
     let error = Robot::combine(&[placed(&robot, &small_pairs)]).unwrap_err();
     assert!(
         matches!(error, RobotError::PairsOfAnotherRobot { .. }),

@@ -102,7 +102,7 @@ fn a_record_that_says_free_for_longer_is_refuted() {
     let end = RecordedAnswer::Unresolved {
         limit: "deadline".to_owned(),
         segment: 1,
-        share: 0.999,
+        fraction: 0.999,
     };
     for answer in [RecordedAnswer::Free, end] {
         let forged = Evidence {
@@ -115,7 +115,7 @@ fn a_record_that_says_free_for_longer_is_refuted() {
     let not_a_number = RecordedAnswer::Unresolved {
         limit: "deadline".to_owned(),
         segment: 1,
-        share: f64::NAN,
+        fraction: f64::NAN,
     };
     let forged = Evidence {
         answer: not_a_number,

@@ -67,8 +67,8 @@ fn bezier_points(degree: usize, knots: &[f64], coefficients: &[f64], basis: usiz
             for k in (round..=degree).rev() {
                 let [low, high] = [knots[first + k], knots[first + k + degree + 1 - round]];
                 let [part, whole] = [at, high].map(|end| DoubleDouble::difference(end, low));
-                let share = quotient(part, whole);
-                points[k] = points[k - 1] + share * (points[k] - points[k - 1]);
+                let fraction = quotient(part, whole);
+                points[k] = points[k - 1] + fraction * (points[k] - points[k - 1]);
             }
         }
         points[degree]

@@ -9,8 +9,8 @@ use rigid_ccd::{Body, Pose, trajectory};
 /// Returns the time derivatives of a joint's position at both ends of a segment.
 fn derivatives(curve: &JointCurve, segment: usize, joint: usize) -> [[f64; 3]; 2] {
     let duration = curve.times[segment + 1] - curve.times[segment];
-    [0.0, 1.0].map(|share| {
-        let about = curve.polynomial(segment, joint).expanded_about(share);
+    [0.0, 1.0].map(|fraction| {
+        let about = curve.polynomial(segment, joint).expanded_about(fraction);
         let [position, velocity, half_acceleration] =
             [0, 1, 2].map(|power| about.coefficient(power));
         [
@@ -72,7 +72,7 @@ fn hermite_curves_have_the_derivatives_that_are_given() {
     }
     let end = PathPoint {
         segment: 2,
-        share: 1.0,
+        fraction: 1.0,
     };
     let last = cubic.positions(9.0);
     assert!(cubic.time(end) == 3.0 && (last[0] + 0.4).abs() < 1e-15 && last[1] == 0.0);
@@ -181,11 +181,17 @@ fn constants_are_curves_and_times_are_rounded_down() {
     let start = 1e15;
     let curve = JointCurve::from_polynomials(&[start, start + 2.0], &[vec![vec![0.0, 1.0]]]);
     let curve = curve.unwrap();
-    for (share, latest) in [(0.0, 0.0), (0.499875, 0.99975), (1.0, 2.0)] {
-        let time = curve.time(PathPoint { segment: 0, share }) - start;
-        assert!((0.0..=latest).contains(&time), "{share}: {time}");
-        let time = curve.latest_time(PathPoint { segment: 0, share }) - start;
-        assert!((latest..=2.0).contains(&time), "{share}: {time}");
+    for (fraction, latest) in [(0.0, 0.0), (0.499875, 0.99975), (1.0, 2.0)] {
+        let time = curve.time(PathPoint {
+            segment: 0,
+            fraction,
+        }) - start;
+        assert!((0.0..=latest).contains(&time), "{fraction}: {time}");
+        let time = curve.latest_time(PathPoint {
+            segment: 0,
+            fraction,
+        }) - start;
+        assert!((latest..=2.0).contains(&time), "{fraction}: {time}");
     }
 }
 
@@ -230,11 +236,11 @@ fn polynomials_are_taken_as_they_are_given() {
     let times = [0.1, 0.4];
     let curve = JointCurve::from_polynomials(&times, &[vec![given.to_vec()]]).unwrap();
     let duration = exact_fraction(times[1]) - exact_fraction(times[0]);
-    for share in [0.25, 0.7, 1.0] {
-        let time = exact_fraction(share) * &duration;
+    for fraction in [0.25, 0.7, 1.0] {
+        let time = exact_fraction(fraction) * &duration;
         let horner = |value: dashu_ratio::Relaxed, &own: &f64| value * &time + exact_fraction(own);
         let expected = given.iter().rev().fold(exact_fraction(0.0), horner);
-        let found = curve.polynomial(0, 0).value(share);
+        let found = curve.polynomial(0, 0).value(fraction);
         let error = (exact_fraction(found) - &expected).to_f64().value().abs();
         assert!(
             error <= 0.5 * f64::EPSILON * found.abs(),

@@ -4,10 +4,10 @@
 //! move A and the other joints move B. Every `s` from 0 to `k` gives a valid bound, and the best is used. If a joint
 //! near A turns, A moves less than B, which is far from the axis.
 //!
-//! There are two bounds. Let `δ` be the largest deviation of a joint's position from the centre of the box:
+//! There are two bounds. Let `δ` be the largest deviation of a joint's position from the center of the box:
 //!
 //! - The *displacement* of a part is at most the sum of the displacements that the joints cause one by one, from the
-//!   position at the centre: a chord about a revolute axis, or a distance along a prismatic one.
+//!   position at the center: a chord about a revolute axis, or a distance along a prismatic one.
 //! - Along a *fixed direction* `n`, a point `x` moves by `Σ δ |n × ω · (x - o)|` to first order, for joint axes with
 //!   directions `ω` through points `o`. The remainder is at most half of `Σ Σ δ δ |n · ∂²x|`. The second derivative by
 //!   joint `i`, and by joint `j` that is nearer to the part or the same, is `ω_i × (ω_j × (x - o_j))`. Along `n` it is
@@ -22,7 +22,7 @@ use ccd_core::order::{greater, lesser};
 use rigid_ccd::glam::DVec3;
 use rigid_ccd::oracle::Frame;
 
-/// The joints between two links at the centre of a box, and motion bounds for a pair of their parts.
+/// The joints between two links at the center of a box, and motion bounds for a pair of their parts.
 #[derive(Debug, Default)]
 pub(super) struct BoxMotion {
     axes: Vec<JointAxis>,
@@ -36,13 +36,13 @@ pub(super) struct BoxMotion {
     heights: [Vec<f64>; 2],
 }
 
-/// The axis of a joint at the centre of a box.
+/// The axis of a joint at the center of a box.
 #[derive(Clone, Copy, Debug)]
 struct JointAxis {
     direction: DVec3,
     /// A point of the axis.
     origin: DVec3,
-    /// The largest deviation of the joint's position from the centre.
+    /// The largest deviation of the joint's position from the center.
     deviation: f64,
     /// The largest displacement of a point at distance 1 from the axis; 0 for a prismatic joint.
     chord: f64,
@@ -58,7 +58,7 @@ pub(super) struct Displacement {
 }
 
 impl BoxMotion {
-    /// Sets the joints from the link of A to the link of B, at the centre of a box, each with the largest deviation of
+    /// Sets the joints from the link of A to the link of B, at the center of a box, each with the largest deviation of
     /// its position.
     pub(super) fn place(
         &mut self,
@@ -85,21 +85,21 @@ impl BoxMotion {
         }));
     }
 
-    /// Bounds the relative displacement of two parts with the given centres.
+    /// Bounds the relative displacement of two parts with the given centers.
     pub(super) fn displacement(
         &mut self,
         parts: [&HullPart; 2],
-        centres: [DVec3; 2],
+        centers: [DVec3; 2],
     ) -> Displacement {
         for side in 0..2 {
-            let (part, centre) = (parts[side], centres[side]);
+            let (part, center) = (parts[side], centers[side]);
             self.arms[side].clear();
             self.displacements[side].clear();
             for axis in &self.axes {
                 let arm = if axis.is_prismatic {
                     1.0
                 } else {
-                    let from_axis = axis.direction.cross(centre - axis.origin).length();
+                    let from_axis = axis.direction.cross(center - axis.origin).length();
                     let core_radius = part.ball_radius - part.radius;
                     from_axis + core_radius + 3.0 * self.rounding.of_points
                 };
@@ -129,19 +129,19 @@ impl BoxMotion {
     /// Returns the index of the joint that contributes most to a displacement; `None` without joints.
     pub(super) fn main_joint(&self, displacement: Displacement) -> Option<usize> {
         let [of_a, of_b] = &self.displacements;
-        let share = |joint: usize| {
+        let fraction = |joint: usize| {
             if joint < displacement.split {
                 of_a[joint]
             } else {
                 of_b[joint]
             }
         };
-        (0..self.axes.len()).max_by(|&a, &b| share(a).total_cmp(&share(b)))
+        (0..self.axes.len()).max_by(|&a, &b| fraction(a).total_cmp(&fraction(b)))
     }
 
     /// Returns a lower bound of the distance of two parts over the whole box, along a unit direction from A to B. The
     /// parts must be those of the last call of [`BoxMotion::displacement`]. Returns negative infinity if the
-    /// second-order remainder exceeds the gap at the centre.
+    /// second-order remainder exceeds the gap at the center.
     pub(super) fn gap_lower_bound(
         &mut self,
         direction: DVec3,

@@ -48,8 +48,8 @@ impl LinkPairSearch<'_> {
         let parts = cell.parts()[..cell.robot_part_count()].iter();
         let own = parts.filter(|part| links.contains(&cell.link_of(part.owner)));
         let reach = own.map(|part| {
-            let centre = self.measurer.placement.frames[part.frame].transform_point(part.centre);
-            centre.distance(axis.origin) + part.ball_radius
+            let center = self.measurer.placement.frames[part.frame].transform_point(part.center);
+            center.distance(axis.origin) + part.ball_radius
         });
         let reach = reach.fold(0.0, greater);
         let interval = 2.0 * reach / f64::from(JOINT_AXIS_INTERVALS);

@@ -7,14 +7,14 @@ use ccd_core::order::greater;
 pub(super) struct JointBox {
     ranges: Vec<[f64; 2]>,
     /// The volume as a fraction of the volume of the initial box.
-    pub(super) volume_share: f64,
+    pub(super) volume_fraction: f64,
 }
 
 impl JointBox {
     pub(super) fn new(ranges: Vec<[f64; 2]>) -> Self {
         JointBox {
             ranges,
-            volume_share: 1.0,
+            volume_fraction: 1.0,
         }
     }
 
@@ -27,12 +27,12 @@ impl JointBox {
         &self.ranges
     }
 
-    /// Returns the centre.
+    /// Returns the center.
     pub(super) fn middle(&self) -> Vec<f64> {
         self.ranges.iter().map(middle).collect()
     }
 
-    /// Returns the largest deviation of a position from the centre.
+    /// Returns the largest deviation of a position from the center.
     pub(super) fn max_deviation(&self, index: usize) -> f64 {
         let ([low, high], middle) = (self.ranges[index], middle(&self.ranges[index]));
         greater(high - middle, middle - low)
@@ -48,7 +48,7 @@ impl JointBox {
         Some([[low, middle], [middle, high]].map(|range| {
             let mut half = self.clone();
             half.ranges[index] = range;
-            half.volume_share *= 0.5;
+            half.volume_fraction *= 0.5;
             half
         }))
     }

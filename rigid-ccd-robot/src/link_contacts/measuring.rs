@@ -76,11 +76,11 @@ pub(super) enum BoxClass {
     Undecided,
 }
 
-/// Two parts at the centre of a box.
+/// Two parts at the center of a box.
 struct PlacedParts<'a> {
     parts: [&'a HullPart; 2],
     frames: [Frame; 2],
-    centres: [DVec3; 2],
+    centers: [DVec3; 2],
 }
 
 /// The inputs of a proof about two parts over a box.
@@ -176,7 +176,7 @@ impl<'c> Measurer<'c> {
         Ok(check)
     }
 
-    /// Checks two links over a box. `known` tells which kind of witness other positions have provided; the centre need
+    /// Checks two links over a box. `known` tells which kind of witness other positions have provided; the center need
     /// not provide another one.
     pub(super) fn check_box(
         &mut self,
@@ -197,7 +197,7 @@ impl<'c> Measurer<'c> {
         let mut worst = f64::NEG_INFINITY;
         for part_pair in &pair.part_pairs {
             let placed = self.placed_parts(part_pair);
-            let displacement = self.motion.displacement(placed.parts, placed.centres);
+            let displacement = self.motion.displacement(placed.parts, placed.centers);
             if placed.ball_gap() > displacement.bound + 2.0 * rounding.of_points {
                 continue;
             }
@@ -328,7 +328,7 @@ impl<'c> Measurer<'c> {
             .place_joints(self.cell, chain, &configuration);
     }
 
-    /// Computes the frames at the centre of a box, and the largest deviations from there.
+    /// Computes the frames at the center of a box, and the largest deviations from there.
     fn place_box(&mut self, joints: &JointsBetween, joint_box: &JointBox) {
         self.place(joints, &joint_box.middle());
         let deviations = joints.joints.iter().map(|joint| {
@@ -366,14 +366,14 @@ impl<'c> Measurer<'c> {
     fn placed_parts(&self, part_pair: &PairOfParts) -> PlacedParts<'c> {
         let parts = part_pair.parts.map(|part| &self.cell.parts()[part]);
         let frames = parts.map(|part| self.placement.frames[part.frame]);
-        let centres = [
-            frames[0].transform_point(parts[0].centre),
-            frames[1].transform_point(parts[1].centre),
+        let centers = [
+            frames[0].transform_point(parts[0].center),
+            frames[1].transform_point(parts[1].center),
         ];
         PlacedParts {
             parts,
             frames,
-            centres,
+            centers,
         }
     }
 }
@@ -382,7 +382,7 @@ impl PlacedParts<'_> {
     /// Returns a lower bound of the distance of both parts, from their bounding balls.
     fn ball_gap(&self) -> f64 {
         let [a, b] = self.parts.map(|part| part.ball_radius);
-        self.centres[0].distance(self.centres[1]) - a - b
+        self.centers[0].distance(self.centers[1]) - a - b
     }
 
     /// Returns lower and upper bounds of the distance of both hulls, and the axis of the lower bound. The computation
@@ -393,7 +393,7 @@ impl PlacedParts<'_> {
             sufficient_lower_bound: beyond + radii,
             sufficient_upper_bound: up_to + radii,
         };
-        let first = initial_direction(self.parts[1], self.centres);
+        let first = initial_direction(self.parts[1], self.centers);
         let vertex = |direction| minkowski_support_vertex(self.parts, &self.frames, direction);
         let bounds = bound_distance(vertex, first, until);
         ([bounds.lower - radii, bounds.upper - radii], bounds.axis)

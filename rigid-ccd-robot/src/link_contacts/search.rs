@@ -22,9 +22,9 @@ pub(super) struct LinkPairRecord {
     /// The least distance so far, with its positions.
     pub(super) nearest: Option<(f64, Vec<f64>)>,
     /// The fraction of all positions, by volume, where the links are proven apart.
-    pub(super) apart_share: f64,
+    pub(super) apart_fraction: f64,
     /// The fraction of all positions, by volume, where nothing is proven.
-    pub(super) undecided_share: f64,
+    pub(super) undecided_fraction: f64,
     /// The number of boxes that the last search examined.
     pub(super) boxes: usize,
     /// Whether random sampling for witnesses is finished.
@@ -33,7 +33,7 @@ pub(super) struct LinkPairRecord {
     /// configuration where the links are apart can decide the pair.
     pub(super) touches_without_depth: bool,
     /// Whether more boxes are unlikely to decide the pair: positions are unbounded, a box cannot be halved, or the
-    /// links touch without overlapping at the centre of all boxes.
+    /// links touch without overlapping at the center of all boxes.
     pub(super) is_exhausted: bool,
 }
 
@@ -63,8 +63,8 @@ impl LinkPairRecord {
             touching: None,
             apart: None,
             nearest: None,
-            apart_share: 0.0,
-            undecided_share: 1.0,
+            apart_fraction: 0.0,
+            undecided_fraction: 1.0,
             boxes: 0,
             is_sampled: false,
             touches_without_depth: false,
@@ -91,8 +91,8 @@ impl LinkPairRecord {
                 }
             }
             (None, touching, apart) => LinkContactClass::Undecided {
-                proven_apart_share: self.apart_share,
-                undecided_share: self.undecided_share,
+                proven_apart_fraction: self.apart_fraction,
+                undecided_fraction: self.undecided_fraction,
                 least_distance: if touching.is_some() {
                     0.0
                 } else {
@@ -119,10 +119,10 @@ impl LinkPairRecord {
     }
 
     /// Returns the number of boxes that a search may examine. This is `limit`. A pair that touches without overlapping
-    /// may examine no more than `own_share`, the average for each pair.
-    pub(super) fn quota(&self, limit: usize, own_share: usize) -> usize {
+    /// may examine no more than `own_fraction`, the average for each pair.
+    pub(super) fn quota(&self, limit: usize, own_fraction: usize) -> usize {
         if self.touches_without_depth {
-            lesser(limit, own_share)
+            lesser(limit, own_fraction)
         } else {
             limit
         }
@@ -209,7 +209,7 @@ impl<'c> LinkPairSearch<'c> {
         max_boxes: usize,
     ) -> Result<(), Error> {
         let mut waiting = BinaryHeap::from([WaitingBox(pair.joints.all_positions.clone())]);
-        let (mut apart_share, mut touching_share) = (0.0, 0.0);
+        let (mut apart_fraction, mut touching_fraction) = (0.0, 0.0);
         let mut always = Verdict::Always;
         let mut without_depth = 0;
         record.boxes = 0;
@@ -238,10 +238,10 @@ impl<'c> LinkPairSearch<'c> {
                 record.touches_without_depth = true;
             }
             match check.class {
-                BoxClass::Apart => apart_share += joint_box.volume_share,
-                BoxClass::ShapesTouching => touching_share += joint_box.volume_share,
+                BoxClass::Apart => apart_fraction += joint_box.volume_fraction,
+                BoxClass::ShapesTouching => touching_fraction += joint_box.volume_fraction,
                 BoxClass::BodiesTouching => {
-                    touching_share += joint_box.volume_share;
+                    touching_fraction += joint_box.volume_fraction;
                     always = Verdict::AlwaysAsEnclosed;
                 }
                 BoxClass::Undecided => {
@@ -258,20 +258,21 @@ impl<'c> LinkPairSearch<'c> {
                 }
             }
         }
-        let undecided_share = greater(1.0 - apart_share - touching_share, 0.0);
+        let undecided_fraction = greater(1.0 - apart_fraction - touching_fraction, 0.0);
         // A stopped search may prove less than an earlier one.
-        if undecided_share <= record.undecided_share {
-            (record.apart_share, record.undecided_share) = (apart_share, undecided_share);
+        if undecided_fraction <= record.undecided_fraction {
+            (record.apart_fraction, record.undecided_fraction) =
+                (apart_fraction, undecided_fraction);
         }
         if waiting.is_empty() {
             // If boxes of both kinds existed, witnesses of both kinds would have decided the pair.
-            let is_apart = record.touching.is_none() && touching_share == 0.0;
+            let is_apart = record.touching.is_none() && touching_fraction == 0.0;
             record.verdict = Some(if is_apart { Verdict::Never } else { always });
         }
         Ok(())
     }
 
-    /// Returns whether no box around this centre can be decided, however small, because the links touch there without
+    /// Returns whether no box around this center can be decided, however small, because the links touch there without
     /// overlapping.
     fn stays_undecided(
         &mut self,
@@ -304,6 +305,6 @@ impl PartialOrd for WaitingBox {
 
 impl Ord for WaitingBox {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.0.volume_share.total_cmp(&other.0.volume_share)
+        self.0.volume_fraction.total_cmp(&other.0.volume_fraction)
     }
 }

@@ -50,13 +50,13 @@ fn no_configuration_contradicts_a_proof() {
                     );
                 }
                 LinkContactClass::Undecided {
-                    proven_apart_share,
-                    undecided_share,
+                    proven_apart_fraction,
+                    undecided_fraction,
                     ..
                 } => {
                     undecided += 1;
-                    assert!((0.0..1.0).contains(&proven_apart_share));
-                    assert!((0.0..=1.0 - proven_apart_share).contains(&undecided_share));
+                    assert!((0.0..1.0).contains(&proven_apart_fraction));
+                    assert!((0.0..=1.0 - proven_apart_fraction).contains(&undecided_fraction));
                 }
             }
         }
@@ -137,7 +137,7 @@ fn links_that_hold_their_hinge_always_touch() {
         classify(&robot, 2_000).remove(0).1
     };
     assert_eq!(meeting(0.29), LinkContactClass::Always);
-    // After half a turn the centres of the balls are 0.62 apart.
+    // After half a turn the centers of the balls are 0.62 apart.
     assert!(matches!(meeting(0.31), LinkContactClass::Sometimes { .. }));
 }
 

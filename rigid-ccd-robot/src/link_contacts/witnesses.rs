@@ -114,7 +114,7 @@ impl Random {
 
     /// Returns a random position in a range. One in eight is at a limit.
     fn position(&mut self, [low, high]: [f64; 2]) -> f64 {
-        let share = (1.125 * self.number() - 0.0625).clamp(0.0, 1.0);
-        (low + share * (high - low)).clamp(low, high)
+        let fraction = (1.125 * self.number() - 0.0625).clamp(0.0, 1.0);
+        (low + fraction * (high - low)).clamp(low, high)
     }
 }

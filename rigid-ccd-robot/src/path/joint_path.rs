@@ -133,20 +133,20 @@ impl JointPath {
     /// Computes the positions of all joints at a point of a segment, including its ends.
     #[inline(always)]
     pub(crate) fn interpolate_in_segment(&self, segment: usize, at: f64, positions: &mut Vec<f64>) {
-        let share = at - segment as f64;
+        let fraction = at - segment as f64;
         positions.clear();
-        if share == 0.0 {
+        if fraction == 0.0 {
             positions.extend_from_slice(self.coefficient_row(segment, 0));
             return;
         }
         if !self.has_constant_rates() {
             let joints = 0..self.joint_count;
-            positions.extend(joints.map(|joint| self.polynomial(segment, joint).value(share)));
+            positions.extend(joints.map(|joint| self.polynomial(segment, joint).value(fraction)));
             return;
         }
         let [starts, changes] = [0, 1].map(|power| self.coefficient_row(segment, power));
         let joints = starts.iter().zip(changes);
-        positions.extend(joints.map(|(start, change)| start + share * change));
+        positions.extend(joints.map(|(start, change)| start + fraction * change));
     }
 
     /// Computes, for each joint, the largest deviation within an interval from its position at the midpoint.
@@ -193,8 +193,8 @@ impl JointPath {
     }
 
     /// Returns the position of a joint of a curve at a fraction of a segment.
-    pub(crate) fn position(&self, segment: usize, share: f64, joint: usize) -> f64 {
-        self.polynomial(segment, joint).value(share)
+    pub(crate) fn position(&self, segment: usize, fraction: f64, joint: usize) -> f64 {
+        self.polynomial(segment, joint).value(fraction)
     }
 
     /// Bounds how far a joint of a curve deviates, between two fractions of a segment, from a motion at a constant

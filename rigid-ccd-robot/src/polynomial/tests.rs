@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::rational::exact_fraction;
-use crate::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use dashu_ratio::Relaxed;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -37,14 +37,14 @@ fn polynomial_of_case(case: &mut RandomCase) -> Polynomial {
 }
 
 /// Returns the exact value at a fraction of the segment.
-fn exact_value(polynomial: &Polynomial, share: f64) -> Relaxed {
-    let share = exact_fraction(share);
+fn exact_value(polynomial: &Polynomial, fraction: f64) -> Relaxed {
+    let fraction = exact_fraction(fraction);
     let exact = |own: &DoubleDouble| {
         let [high, low] = own.parts().map(exact_fraction);
         high + low
     };
     let all = polynomial.coefficients.iter().rev().map(exact);
-    all.fold(Relaxed::ZERO, |sum, own| own + &share * sum)
+    all.fold(Relaxed::ZERO, |sum, own| own + &fraction * sum)
 }
 
 fn size_of(exact: &Relaxed) -> f64 {
@@ -64,24 +64,24 @@ fn worst_values_are_within_their_rounding() {
     let worst = search.search(|case| {
         let polynomial = polynomial_of_case(case);
         // Differences of these fractions are exact.
-        let [share, other] = [(); 2].map(|()| (case.next_word() >> 44) as f64 * 0.5f64.powi(20));
-        let exact = exact_value(&polynomial, share);
+        let [fraction, other] = [(); 2].map(|()| (case.next_word() >> 44) as f64 * 0.5f64.powi(20));
+        let exact = exact_value(&polynomial, fraction);
         let values = [
-            polynomial.value(share),
-            polynomial.expanded_about(share).constant(),
-            polynomial.expanded_about(other).value(share - other),
+            polynomial.value(fraction),
+            polynomial.expanded_about(fraction).constant(),
+            polynomial.expanded_about(other).value(fraction - other),
         ];
         let errors = values.map(|value| size_of(&(exact_fraction(value) - &exact)));
         let error = errors.into_iter().fold(0.0, greater);
-        Some(error_share(error, allowance(&polynomial, &exact)))
+        Some(error_fraction(error, allowance(&polynomial, &exact)))
     });
     worst.assert_tight_bound(2.0);
 }
 
 /// Returns the midpoint of a range, half its length, and a point in it. Their sums and differences are exact.
-fn range_and_share(case: &mut RandomCase) -> [f64; 3] {
-    let share = |case: &mut RandomCase| (case.next_word() >> 44) as f64 * 0.5f64.powi(20);
-    let [middle, half] = [(); 2].map(|()| share(case));
+fn range_and_fraction(case: &mut RandomCase) -> [f64; 3] {
+    let fraction = |case: &mut RandomCase| (case.next_word() >> 44) as f64 * 0.5f64.powi(20);
+    let [middle, half] = [(); 2].map(|()| fraction(case));
     let half = lesser(half, lesser(middle, 1.0 - middle)) * 0.5f64.powi(case.index_below(3) as i32);
     let along = (case.index_below(17) as f64 - 8.0) / 8.0;
     [middle, half, along]
@@ -93,12 +93,12 @@ fn worst_deviations_are_within_their_bounds() {
     let search = WorstCaseSearch::new("deviation of a polynomial", 5_000);
     let worst = search.search(|case| {
         let polynomial = polynomial_of_case(case);
-        let [middle, half, along] = range_and_share(case);
+        let [middle, half, along] = range_and_fraction(case);
         let about = polynomial.expanded_about(middle);
-        let at = |share| exact_value(&polynomial, share);
+        let at = |fraction| exact_value(&polynomial, fraction);
         let moved = at(middle + along * half) - at(middle);
         let bound = about.deviation_bound(half) + allowance(&polynomial, &Relaxed::ZERO);
-        Some(error_share(size_of(&moved), bound))
+        Some(error_fraction(size_of(&moved), bound))
     });
     worst.assert_tight_bound(1.01);
 }
@@ -109,15 +109,15 @@ fn worst_deviations_from_a_chord_are_within_their_bounds() {
     let search = WorstCaseSearch::new("deviation of a polynomial from a chord", 5_000);
     let worst = search.search(|case| {
         let polynomial = polynomial_of_case(case);
-        let [middle, half, along] = range_and_share(case);
+        let [middle, half, along] = range_and_fraction(case);
         let about = polynomial.expanded_about(middle);
-        let at = |share| exact_value(&polynomial, share);
+        let at = |fraction| exact_value(&polynomial, fraction);
         let [first, last] = [middle - half, middle + half].map(at);
-        let share = exact_fraction(0.5 + 0.5 * along);
-        let line = &first + share * (&last - &first);
+        let fraction = exact_fraction(0.5 + 0.5 * along);
+        let line = &first + fraction * (&last - &first);
         let curved = at(middle + along * half) - line;
         let bound = about.chord_deviation_bound(half) + allowance(&polynomial, &Relaxed::ZERO);
-        Some(error_share(size_of(&curved), bound))
+        Some(error_fraction(size_of(&curved), bound))
     });
     worst.assert_tight_bound(1.01);
 }
@@ -128,12 +128,12 @@ fn worst_rates_are_within_their_bounds() {
     let search = WorstCaseSearch::new("rate of a polynomial", 5_000);
     let worst = search.search(|case| {
         let polynomial = polynomial_of_case(case);
-        let [middle, half, along] = range_and_share(case);
+        let [middle, half, along] = range_and_fraction(case);
         let (from, to) = (middle - half, middle + along * half);
         let change = exact_value(&polynomial, to) - exact_value(&polynomial, from);
         let rate = polynomial.expanded_about(middle).rate_bound(half);
         let bound = rate * (to - from) + allowance(&polynomial, &Relaxed::ZERO);
-        Some(error_share(size_of(&change), bound))
+        Some(error_fraction(size_of(&change), bound))
     });
     worst.assert_tight_bound(1.01);
 }

@@ -38,7 +38,7 @@ impl CompoundKind {
     /// let (mut links, joints) = drive.links_and_joints("drive", ["floor", "cart"], Pose::IDENTITY)?;
     /// links.extend(["floor", "cart"].map(Link::named));
     /// let cart = Robot::new(links, joints)?;
-    /// assert_eq!(cart.free_joint_names().collect::<Vec<_>>(), ["drive/x", "drive/y", "drive/yaw"]);
+    /// assert_eq!(cart.independent_joint_names().collect::<Vec<_>>(), ["drive/x", "drive/y", "drive/yaw"]);
     /// assert_eq!(cart.pose("cart", &[3.0, 4.0, 0.0])?.translation().to_array(), [3.0, 4.0, 0.0]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -126,7 +126,7 @@ fn poses_are_products_of_matrices() {
     for _ in 0..50 {
         let drawn = draw(&mut random);
         let robot = &drawn.robot;
-        let names: Vec<&str> = robot.free_joint_names().collect();
+        let names: Vec<&str> = robot.independent_joint_names().collect();
         assert_eq!(names, ["joint4", "joint0", "joint1"]);
         let given: Vec<f64> = names
             .iter()
@@ -182,17 +182,21 @@ fn intervals_between_branches_hold() {
         for _ in 0..20 {
             let time = random.random_range(0.2..0.5);
             let (near, there) = (interval.pose(time - 0.2), link.pose(time).unwrap());
-            let centre = interval.motion.centre();
+            let center = interval.motion.center();
             let apart = near
-                .transform_point(centre)
-                .distance(there.transform_point(centre));
+                .transform_point(center)
+                .distance(there.transform_point(center));
             assert!(
-                apart <= interval.deviation_bound.centre_deviation,
+                apart <= interval.deviation_bound.center_deviation,
                 "{apart:e}, {interval:?}"
             );
-            if interval.deviation_bound.centre_deviation > 1e-9 {
-                let share = apart / interval.deviation_bound.centre_deviation;
-                nearest = if share > nearest { share } else { nearest };
+            if interval.deviation_bound.center_deviation > 1e-9 {
+                let fraction = apart / interval.deviation_bound.center_deviation;
+                nearest = if fraction > nearest {
+                    fraction
+                } else {
+                    nearest
+                };
             }
         }
     }

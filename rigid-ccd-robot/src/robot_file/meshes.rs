@@ -5,7 +5,7 @@ use super::mjcf_error::MjcfError;
 use crate::remark::CellRemark;
 use ccd_core::fan_triangles;
 use ccd_decomp::{
-    DIVIDED_VERTICES, Detail, MeshFile, PiecesKind, PreparedBody, Remarks, TriangleMesh, Unit,
+    DIVIDED_VERTICES, MeshFile, PieceChoice, PiecesKind, PreparedBody, Remarks, TriangleMesh, Unit,
     body_from_mesh, convex_hull,
 };
 use rigid_ccd::Body;
@@ -19,10 +19,10 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MeshConversion {
-    /// The fewest convex pieces that represent the mesh exactly, see [`Detail::Auto`].
+    /// The fewest convex pieces that represent the mesh exactly, see [`PieceChoice::Auto`].
     #[default]
     Exact,
-    /// The convex hull, which encloses the mesh with a certified excess, see [`Detail::OuterHull`]. Suitable for
+    /// The convex hull, which encloses the mesh with a certified excess, see [`PieceChoice::OuterHull`]. Suitable for
     /// meshes that are convex except for rounding.
     OuterHull,
 }
@@ -140,19 +140,19 @@ impl MeshBodies {
         map: DAffine3,
         file: &Path,
     ) -> Result<PreparedBody, RobotFileError> {
-        let detail = match self.conversion {
-            MeshConversion::Exact => Detail::Auto,
-            MeshConversion::OuterHull => Detail::OuterHull,
+        let choice = match self.conversion {
+            MeshConversion::Exact => PieceChoice::Auto,
+            MeshConversion::OuterHull => PieceChoice::OuterHull,
         };
         let has_loose_vertices = !mesh.repairs().unreferenced_vertices.is_empty();
         let is_hull_of_all =
-            self.rules == MeshRules::Mjcf && detail == Detail::OuterHull && has_loose_vertices;
+            self.rules == MeshRules::Mjcf && choice == PieceChoice::OuterHull && has_loose_vertices;
         let mesh = if is_hull_of_all {
             &hull_mesh(mesh.vertices())?
         } else {
             mesh
         };
-        body_from_mesh(&mesh.transformed(map)?, detail).map_err(|error| RobotFileError::Prepare {
+        body_from_mesh(&mesh.transformed(map)?, choice).map_err(|error| RobotFileError::Prepare {
             file: file.to_owned(),
             error,
         })

@@ -55,7 +55,7 @@ pub enum MjcfError {
         /// Their name, or that of the file.
         name: String,
     },
-    /// MuJoCo would move the body's frame to its centre of mass, which changes the positions of its free joint.
+    /// MuJoCo would move the body's frame to its center of mass, which changes the positions of its free joint.
     #[error(
         "the frame of body `{body}` is aligned with its inertia, which is not supported; set align=\"false\""
     )]

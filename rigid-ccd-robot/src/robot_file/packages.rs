@@ -22,7 +22,7 @@ impl SearchFolders {
         let beside = urdf.parent().unwrap_or(Path::new("")).to_owned();
         let mut folders = folders_in("ROS_PACKAGE_PATH");
         let prefixes = folders_in("AMENT_PREFIX_PATH");
-        folders.extend(prefixes.into_iter().map(|prefix| prefix.join("share")));
+        folders.extend(prefixes.into_iter().map(|prefix| prefix.join("fraction")));
         // A URDF is usually a few folders below the root of its package.
         let whole = beside.canonicalize().unwrap_or_else(|_| beside.clone());
         folders.extend(whole.ancestors().map(Path::to_owned));

@@ -106,7 +106,10 @@ fn joints_are_those_of_the_file() {
     let robot = urdf_in_folder(&write_robot_folder(JOINTS_XML))
         .read()
         .unwrap();
-    assert_eq!(robot.free_joint_names().collect::<Vec<_>>(), ["turns"]);
+    assert_eq!(
+        robot.independent_joint_names().collect::<Vec<_>>(),
+        ["turns"]
+    );
     assert_eq!(robot.limits().collect::<Vec<_>>(), [[-1.0, 2.0]]);
     let origin = robot.pose("upper", &[0.0]).unwrap();
     let by_axes =
@@ -214,7 +217,7 @@ fn planar_and_floating_joints_are_chains_of_joints() {
     };
     let pose = |robot: &Robot, positions: &[f64]| robot.pose("cart", positions).unwrap();
     let planar = tree("planar", "0 0 1");
-    let names: Vec<&str> = planar.free_joint_names().collect();
+    let names: Vec<&str> = planar.independent_joint_names().collect();
     assert_eq!(names, ["drive/x", "drive/y", "drive/yaw"]);
     let moved = pose(&planar, &[2.0, 3.0, 0.5]);
     // The joint's frame is rotated by a quarter turn.
@@ -229,13 +232,16 @@ fn planar_and_floating_joints_are_chains_of_joints() {
             && (height.distance([1.0, 0.0, 0.0].into()) - 13f64.sqrt()).abs() < 1e-12
     );
     let floating = tree("floating", "0 0 1");
-    assert_eq!(floating.free_joint_names().len(), 6);
+    assert_eq!(floating.independent_joint_names().len(), 6);
     let moved = pose(&floating, &[1.0, 2.0, 3.0, 0.3, 0.2, 0.1]);
     let expected = DQuat::from_euler(EulerRot::ZYX, 0.3 + std::f64::consts::FRAC_PI_2, 0.2, 0.1);
     assert!(moved.rotation().angle_between(expected) < 1e-7);
     assert!(moved.translation().distance([-1.0, 1.0, 3.0].into()) < 1e-12);
     let spherical = tree("spherical", "0 0 1");
-    assert_eq!(spherical.free_joint_names().last(), Some("drive/roll"));
+    assert_eq!(
+        spherical.independent_joint_names().last(),
+        Some("drive/roll")
+    );
 }
 
 /// Tests that an invalid material is ignored, and that everything else is kept, including comments and entities.

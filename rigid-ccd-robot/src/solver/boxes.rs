@@ -29,8 +29,8 @@ impl ObstacleBoxes {
             };
             for (lane, part) in parts.iter().enumerate() {
                 let (min, max) = (
-                    part.centre - part.half_extents,
-                    part.centre + part.half_extents,
+                    part.center - part.half_extents,
+                    part.center + part.half_extents,
                 );
                 for axis in 0..3 {
                     (block.min[axis][lane], block.max[axis][lane]) = (min[axis], max[axis]);

@@ -104,8 +104,8 @@ impl CellSolver<'_> {
     /// let [kept, unverified, violated] = ranges[..] else { panic!("{ranges:?}") };
     /// assert_eq!(kept.verdict, ClearanceVerdict::Kept);
     /// assert_eq!(violated.verdict, ClearanceVerdict::Violated);
-    /// assert!(kept.to.share <= 0.5 && violated.from.share >= 0.5);
-    /// assert!(violated.from.share - kept.to.share < 1e-3);
+    /// assert!(kept.to.fraction <= 0.5 && violated.from.fraction >= 0.5);
+    /// assert!(violated.from.fraction - kept.to.fraction < 1e-3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn clearance_ranges<P: Path + ?Sized>(

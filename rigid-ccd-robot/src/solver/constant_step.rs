@@ -27,16 +27,16 @@ impl ConstantStep {
     ) -> Result<Option<Self>, Error> {
         let start = link.stretch_between(0.0, 0.0)?;
         let length = to - from;
-        let mut share = 1.0;
+        let mut fraction = 1.0;
         for _ in 0..MAX_STEP_HALVINGS {
-            let near = link.stretch_between(0.0, share)?;
+            let near = link.stretch_between(0.0, fraction)?;
             let (motion, acceleration) = (near.motion, near.acceleration);
-            let centre = motion.centre();
-            // Uses the velocity at the midpoint. The centre deviates from that motion by at most an eighth of the
+            let center = motion.center();
+            // Uses the velocity at the midpoint. The center deviates from that motion by at most an eighth of the
             // acceleration times the squared duration.
-            let velocity = motion.velocity() + 0.5 * share * acceleration;
-            let curved = 0.125 * share * share * acceleration.length();
-            let reach = body.bounding_radius() + centre.length();
+            let velocity = motion.velocity() + 0.5 * fraction * acceleration;
+            let curved = 0.125 * fraction * fraction * acceleration.length();
+            let reach = body.bounding_radius() + center.length();
             // Twice for the approximation over the step, and once for its start at the exact pose.
             let bounds = [
                 near.deviation_bound,
@@ -51,19 +51,20 @@ impl ConstantStep {
             let deviation = deviation * (1.0 + 1e-12);
             // Written so that a NaN deviation is too large.
             if deviation <= max_deviation {
-                let [velocity, spin] = [velocity, motion.spin()].map(|rate| rate / length);
+                let [velocity, spin] =
+                    [velocity, motion.angular_velocity()].map(|rate| rate / length);
                 return Ok(Some(ConstantStep {
                     from,
-                    to: if share == 1.0 {
+                    to: if fraction == 1.0 {
                         to
                     } else {
-                        from + share * length
+                        from + fraction * length
                     },
-                    motion: Motion::about(start.motion.start(), velocity, spin, centre)?,
+                    motion: Motion::about(start.motion.start(), velocity, spin, center)?,
                     deviation,
                 }));
             }
-            share *= 0.5;
+            fraction *= 0.5;
         }
         Ok(None)
     }

@@ -35,10 +35,10 @@ pub(crate) struct CurvedLink<'a> {
 impl Trajectory for CurvedLink<'_> {
     fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let PathSection { path, segment, .. } = self.section;
-        // Subtracts the segment's index first, so that a share of a late segment is not rounded more.
+        // Subtracts the segment's index first, so that a fraction of a late segment is not rounded more.
         let [start, end] = self.section.ends().map(|at| at - segment as f64);
         let ends = [from, to].map(|time| start + time * (end - start));
-        let positions = |share| self.values(|joint| path.position(segment, share, joint));
+        let positions = |fraction| self.values(|joint| path.position(segment, fraction, joint));
         let [first, last] = ends.map(positions);
         let deviations = self.values(|joint| path.chord_deviation_bound(segment, ends, joint));
         let time = to - from;

@@ -70,7 +70,7 @@ impl DisplacementBounds {
 
     /// Computes the bounds for an interval, given the frames at its midpoint. Within the interval, joint positions
     /// deviate from the midpoint by at most `deviations`. Points computed with the frames have errors of at most
-    /// `rounding`; this applies to the part's centre, to the joint's origin and to its axis.
+    /// `rounding`; this applies to the part's center, to the joint's origin and to its axis.
     #[inline(always)]
     pub(crate) fn update(
         &mut self,
@@ -81,7 +81,7 @@ impl DisplacementBounds {
         rounding: f64,
     ) {
         for (part, bounds) in parts.iter().zip(self.joint_start_by_part.windows(2)) {
-            let centre = frames[part.frame].transform_point(part.centre);
+            let center = frames[part.frame].transform_point(part.center);
             let mut displacement = 0.0;
             for index in bounds[0]..bounds[1] {
                 let joint_index = self.joints[index];
@@ -90,7 +90,7 @@ impl DisplacementBounds {
                     deviations[joint_index]
                 } else {
                     let axis = frames[joint.parent].rotation * joint.axis;
-                    let arm = centre - frames[joint_index + 1].translation;
+                    let arm = center - frames[joint_index + 1].translation;
                     let distance = axis.cross(arm).length() + part.ball_radius + 3.0 * rounding;
                     chord_upper_bound(deviations[joint_index]) * distance
                 };

@@ -43,8 +43,8 @@ impl EngineCandidate {
     }
 
     /// Converts a fraction of the interval to a point of the path, rounded down.
-    pub(crate) fn point(&self, share: f64) -> f64 {
-        let at = self.from + share * (self.to - self.from);
+    pub(crate) fn point(&self, fraction: f64) -> f64 {
+        let at = self.from + fraction * (self.to - self.from);
         greater(at.next_down(), self.from)
     }
 }

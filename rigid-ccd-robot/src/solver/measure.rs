@@ -43,11 +43,11 @@ pub(crate) fn measure(
     let frames = [a, b].map(|part| placement.frames[part.frame]);
     let displacement = pair.displacement(placement);
     let rounding = 2.0 * placement.rounding;
-    let centres = [
-        frames[0].transform_point(a.centre),
-        frames[1].transform_point(b.centre),
+    let centers = [
+        frames[0].transform_point(a.center),
+        frames[1].transform_point(b.center),
     ];
-    let gap = volume_gap_at_centres([a, b], &frames[0], centres);
+    let gap = volume_gap_at_centers([a, b], &frames[0], centers);
     let required = displacement + thresholds.free_distance_threshold + rounding;
     if gap > required {
         return DistanceVerdict::Free;
@@ -69,7 +69,7 @@ pub(crate) fn measure(
             if pair.axis != DVec3::ZERO {
                 pair.axis
             } else {
-                initial_direction(b, centres)
+                initial_direction(b, centers)
             },
             until,
         ),
@@ -91,18 +91,18 @@ pub(crate) fn measure(
 /// Returns a lower bound of the distance of a pair at the midpoint, from bounding volumes.
 pub(crate) fn bounding_volume_gap(cell: &Cell, placement: &Placement, pair: &PartPair) -> f64 {
     let parts = [pair.a, pair.b].map(|part| &cell.parts()[part as usize]);
-    let centres = parts.map(|part| placement.frames[part.frame].transform_point(part.centre));
-    volume_gap_at_centres(parts, &placement.frames[parts[0].frame], centres)
+    let centers = parts.map(|part| placement.frames[part.frame].transform_point(part.center));
+    volume_gap_at_centers(parts, &placement.frames[parts[0].frame], centers)
 }
 
 /// Returns a lower bound of the distance from bounding volumes: from boxes if the second part is static, from the
 /// first part's box if the second part is a plane, and from balls if both move.
 #[inline(always)]
-fn volume_gap_at_centres([a, b]: [&HullPart; 2], frame_a: &Frame, centres: [DVec3; 2]) -> f64 {
+fn volume_gap_at_centers([a, b]: [&HullPart; 2], frame_a: &Frame, centers: [DVec3; 2]) -> f64 {
     if let Some(plane) = &b.plane {
-        return plane.height_of(a, frame_a, centres[0]);
+        return plane.height_of(a, frame_a, centers[0]);
     }
-    let offset = centres[1] - centres[0];
+    let offset = centers[1] - centers[0];
     if b.frame == 0 {
         let extents = a.box_half_extents(frame_a) + b.half_extents;
         (offset.abs() - extents).max_element()
@@ -112,17 +112,17 @@ fn volume_gap_at_centres([a, b]: [&HullPart; 2], frame_a: &Frame, centres: [DVec
 }
 
 /// Returns the initial direction of a distance query: to the nearest point of the second part's box if that part is
-/// static, otherwise between the centres.
+/// static, otherwise between the centers.
 #[inline(always)]
-pub(crate) fn initial_direction(b: &HullPart, [centre_a, centre_b]: [DVec3; 2]) -> DVec3 {
+pub(crate) fn initial_direction(b: &HullPart, [center_a, center_b]: [DVec3; 2]) -> DVec3 {
     if b.frame == 0 {
-        let nearest = centre_a.clamp(centre_b - b.half_extents, centre_b + b.half_extents);
-        let axis = nearest - centre_a;
+        let nearest = center_a.clamp(center_b - b.half_extents, center_b + b.half_extents);
+        let axis = nearest - center_a;
         if axis.length_squared() > MIN_SQUARED_OFFSET {
             return axis;
         }
     }
-    centre_b - centre_a
+    center_b - center_a
 }
 
 /// Returns the vertex of the Minkowski difference `b - a` that is lowest along a direction.

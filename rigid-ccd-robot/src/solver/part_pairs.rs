@@ -156,9 +156,9 @@ impl<'c> PartPairs<'c> {
             let frame = &placement.frames[part.frame];
             let growth = displacement + self.largest_obstacle_margin + allowance;
             let extents = part.box_half_extents(frame) + DVec3::splat(growth);
-            let centre = frame.transform_point(part.centre);
+            let center = frame.transform_point(part.center);
             self.obstacle_boxes
-                .for_each_meeting(centre - extents, centre + extents, |obstacle| {
+                .for_each_meeting(center - extents, center + extents, |obstacle| {
                     let b = robot_parts + obstacle;
                     let bodies = [part.owner, parts[b].owner];
                     if cell.is_allowed(bodies) {

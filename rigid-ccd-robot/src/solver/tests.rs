@@ -36,7 +36,7 @@ pub(crate) fn random_cell(random: &mut Pcg64) -> Cell {
 }
 
 pub(crate) fn random_configuration(random: &mut Pcg64, robot: &Robot) -> Vec<f64> {
-    let names = robot.free_joint_names();
+    let names = robot.independent_joint_names();
     names.map(|_| random.random_range(-1.5..1.5)).collect()
 }
 
@@ -76,9 +76,10 @@ pub(crate) fn least_distance(cell: &Cell, configuration: &[f64]) -> f64 {
     least
 }
 
-pub(crate) fn configuration_between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
+pub(crate) fn configuration_between(from: &[f64], to: &[f64], fraction: f64) -> Vec<f64> {
     let ends = from.iter().zip(to);
-    ends.map(|(from, to)| from + share * (to - from)).collect()
+    ends.map(|(from, to)| from + fraction * (to - from))
+        .collect()
 }
 
 /// Tests random cells: no sample of a free edge is within the margin. On any other edge the reported pair is within
@@ -121,8 +122,10 @@ fn edges_agree_with_sampled_configurations() {
                 }
                 Some(contact) => {
                     contacts += 1;
-                    let distance =
-                        least_distance(&cell, &configuration_between(&from, &to, contact.at.share));
+                    let distance = least_distance(
+                        &cell,
+                        &configuration_between(&from, &to, contact.at.fraction),
+                    );
                     assert!(
                         distance <= margin + 1e-4 + 1e-9,
                         "{distance} in {contact:?}"
@@ -155,9 +158,9 @@ fn an_edge_backward_and_its_halves_agree() {
         }
         if solver.is_free(&[from, to]).unwrap() != solver.is_free(&[to, from]).unwrap() {
             // Answers may differ within the tolerance.
-            let shares = (0..=400).map(|k| f64::from(k) / 400.0);
-            let distances =
-                shares.map(|share| least_distance(&cell, &configuration_between(from, to, share)));
+            let fractions = (0..=400).map(|k| f64::from(k) / 400.0);
+            let distances = fractions
+                .map(|fraction| least_distance(&cell, &configuration_between(from, to, fraction)));
             let least = distances.fold(f64::INFINITY, lesser);
             assert!(least > 0.0 && least < 0.05, "{least}");
         }

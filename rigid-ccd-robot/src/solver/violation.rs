@@ -88,14 +88,14 @@ pub(crate) fn are_convex_parts_nearer(
     let [a, b] = parts;
     // The distance of the hulls' corner points that corresponds to this distance of the shapes.
     let distance = distance + a.radius + b.radius - a.excess_over_shape - b.excess_over_shape;
-    let centres = [
-        frames[0].transform_point(a.centre),
-        frames[1].transform_point(b.centre),
+    let centers = [
+        frames[0].transform_point(a.center),
+        frames[1].transform_point(b.center),
     ];
     if let Some(plane) = &b.plane {
         return plane.lowest_corner_height(a, &frames[0]) < distance;
     }
-    let axis = initial_direction(b, centres);
+    let axis = initial_direction(b, centers);
     let vertex = |direction: DVec3| minkowski_support_vertex(parts, &frames, direction);
     if distance > 0.0 {
         let until = TerminationBounds {

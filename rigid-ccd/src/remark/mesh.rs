@@ -2,23 +2,27 @@
 
 use super::{Remark, bounding_box_sides};
 use ccd_core::Solidity;
-use ccd_decomp::{Detail, PiecesKind, Report, TriangleMesh, Unit};
+use ccd_decomp::{PieceChoice, PiecesKind, Report, TriangleMesh, Unit};
 
 impl Remark {
     /// Returns a remark if a body that was made of a mesh is a surface although none was asked for, has shells that were turned,
     /// or is a single point. A flat one has no inside, and a hull is found wherever it is touched.
     ///
     /// ```
-    /// use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
+    /// use rigid_ccd::mesh::{PieceChoice, TriangleMesh, body_from_mesh};
     /// use rigid_ccd::Remark;
     /// let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     /// let mesh = TriangleMesh::new(corners, &[[0, 2, 1], [0, 1, 3], [1, 2, 3]])?;
-    /// let made = body_from_mesh(&mesh, Detail::Auto)?;
-    /// let remark = Remark::remark_on_mesh(Detail::Auto, &mesh, &made.report);
+    /// let made = body_from_mesh(&mesh, PieceChoice::Auto)?;
+    /// let remark = Remark::remark_on_mesh(PieceChoice::Auto, &mesh, &made.report);
     /// assert_eq!(remark, Some(Remark::SurfaceOnly { open_edges: 3 }));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn remark_on_mesh(asked: Detail, mesh: &TriangleMesh, report: &Report) -> Option<Self> {
+    pub fn remark_on_mesh(
+        asked: PieceChoice,
+        mesh: &TriangleMesh,
+        report: &Report,
+    ) -> Option<Self> {
         let topology = report.topology.as_ref()?;
         let corners = mesh.faces().iter().flatten();
         let points = corners.map(|&corner| mesh.vertices()[corner as usize]);
@@ -26,7 +30,7 @@ impl Remark {
         if sides == [0.0; 3] {
             return Some(Remark::PointMesh);
         }
-        let is_meant = asked == Detail::Surface || report.kind == PiecesKind::OuterHull;
+        let is_meant = asked == PieceChoice::Surface || report.kind == PiecesKind::OuterHull;
         if is_meant || sides.contains(&0.0) {
             return None;
         }

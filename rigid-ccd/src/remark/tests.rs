@@ -92,10 +92,10 @@ fn radians_are_not() {
 #[test]
 fn quaternions_of_another_length_are_remarked_upon() {
     for parts in [
-        [1.0, 1.0, 0.0, 0.0],
-        [0.5, 0.0, 0.0, 0.0],
-        [90.0, 0.0, 0.0, 1.0],
-        [1e-200, 0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0, 1.0],
+        [0.0, 0.0, 0.0, 0.5],
+        [0.0, 0.0, 1.0, 90.0],
+        [0.0, 0.0, 0.0, 1e-200],
         [0.0, 1e300, 0.0, 0.0],
     ] {
         assert!(Remark::remark_on_quaternion(parts).is_some(), "{parts:?}");
@@ -127,7 +127,7 @@ fn fixed_angles_of_more_than_a_turn_are_remarked_upon() {
 #[cfg(feature = "meshes")]
 #[test]
 fn meshes_are_remarked_upon() {
-    use ccd_decomp::{Detail, TriangleMesh, Unit, body_from_mesh};
+    use ccd_decomp::{PieceChoice, TriangleMesh, Unit, body_from_mesh};
     let corners = |x| {
         let [o, y, z] = [[x, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], y, z, o]
@@ -139,14 +139,14 @@ fn meshes_are_remarked_upon() {
     };
     let closed = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
     let seam = [[4, 2, 1], closed[1], closed[2], closed[3]];
-    let auto = Detail::Auto;
+    let auto = PieceChoice::Auto;
     assert_eq!(remark(corners(0.0), &closed, auto), None);
     assert_eq!(remark(corners(0.0), &seam, auto), None);
     for (asked, is_remarked) in [
         (auto, true),
-        (Detail::Triangles, true),
-        (Detail::Surface, false),
-        (Detail::OuterHull, false),
+        (PieceChoice::Triangles, true),
+        (PieceChoice::Surface, false),
+        (PieceChoice::OuterHull, false),
     ] {
         let open = remark(corners(0.0), &closed[1..], asked);
         let expected = Remark::SurfaceOnly { open_edges: 3 };
@@ -178,11 +178,11 @@ fn meshes_are_remarked_upon() {
         .unwrap()
         .to_string();
     assert!(text.ends_with(": in"), "{text}");
-    let text = Remark::remark_on_quaternion([0.0, 1e-300, 0.0, 0.0])
+    let text = Remark::remark_on_quaternion([1e-300, 0.0, 0.0, 0.0])
         .unwrap()
         .to_string();
     assert!(
-        text.ends_with("(0, 1e-300, 0, 0) has the length 1e-300"),
+        text.ends_with("(1e-300, 0, 0, 0) has the length 1e-300"),
         "{text}"
     );
 }

@@ -19,8 +19,8 @@ impl Trajectory for TimeShiftedTrajectory<'_> {
         let speed =
             length(stretch.motion.velocity()) + length(stretch.acceleration) * (last - first);
         let rounding = DeviationBound {
-            centre_deviation: speed * time_error,
-            max_deviation_angle: length(stretch.motion.spin()) * time_error,
+            center_deviation: speed * time_error,
+            max_deviation_angle: length(stretch.motion.angular_velocity()) * time_error,
         };
         Ok(Stretch {
             deviation_bound: stretch.deviation_bound + rounding,

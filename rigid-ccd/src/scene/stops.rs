@@ -272,8 +272,8 @@ impl<'s, 'a> StopSearch<'s, 'a> {
         let Movement::Motion(motion) = shifted.unshifted_movement else {
             return Ok(shifted.into());
         };
-        let [velocity, spin] = [motion.velocity(), motion.spin()];
-        Ok(Motion::about(motion.pose(shifted.from), velocity, spin, motion.centre())?.into())
+        let [velocity, spin] = [motion.velocity(), motion.angular_velocity()];
+        Ok(Motion::about(motion.pose(shifted.from), velocity, spin, motion.center())?.into())
     }
 
     /// Bounds how far the points of a stopped body may be from those of its computed pose; 0 for a body that moves.
@@ -294,9 +294,9 @@ impl<'s, 'a> StopSearch<'s, 'a> {
     }
 }
 
-/// Bounds the distance of a body's points from the centre of rotation of a stretch's motion.
+/// Bounds the distance of a body's points from the center of rotation of a stretch's motion.
 fn reach(body: &Body, stretch: &Stretch) -> f64 {
-    body.bounding_radius() + length(stretch.motion.centre())
+    body.bounding_radius() + length(stretch.motion.center())
 }
 
 /// Bounds the error of the positions of a body's points when its movement continues from a rounded pose.
@@ -307,11 +307,12 @@ fn restart_position_error(
 ) -> Result<f64, InputError> {
     let stretch = movement.stretch_between(0.0, 0.0)?;
     let motion = &stretch.motion;
-    let [place, centre] = [motion.start().translation(), motion.centre()].map(length);
-    let [travel, turn] = [motion.velocity(), motion.spin()].map(|rate| length(rate) * duration);
+    let [place, center] = [motion.start().translation(), motion.center()].map(length);
+    let [travel, turn] =
+        [motion.velocity(), motion.angular_velocity()].map(|rate| length(rate) * duration);
     let reach = reach(body, &stretch);
     let stray = stretch.deviation_bound.at_reach(reach);
-    Ok(stray + RETIMED_POSE_ERROR_F64 * (place + centre + travel + (1.0 + turn) * reach))
+    Ok(stray + RETIMED_POSE_ERROR_F64 * (place + center + travel + (1.0 + turn) * reach))
 }
 
 #[cfg(test)]

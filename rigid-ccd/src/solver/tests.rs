@@ -1,4 +1,4 @@
-use crate::trajectory::{Ballistic, Curve, OrientationCurve, Poses, Spline};
+use crate::trajectory::{Ballistic, Curve, OrientationCurve, PosePath, Spline};
 use crate::{Body, Motion, Pose, Question, Settings, Solver};
 use ccd_core::ClearanceVerdict;
 use ccd_core::MovingBody;
@@ -45,7 +45,7 @@ fn bodies_beside_each_other_do_not_overlap() {
 #[cfg(feature = "meshes")]
 #[test]
 fn a_body_that_begins_inside_is_never_said_to_be_outside() {
-    use ccd_decomp::{Detail, TriangleMesh, body_from_mesh};
+    use ccd_decomp::{PieceChoice, TriangleMesh, body_from_mesh};
     let vertices = [
         [3.0; 3],
         [3.0, -3.0, -3.0],
@@ -55,8 +55,8 @@ fn a_body_that_begins_inside_is_never_said_to_be_outside() {
     let faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]];
     let mesh = TriangleMesh::new(vertices.map(DVec3::from_array).to_vec(), &faces).unwrap();
     for radius in [0.0, 0.05] {
-        for detail in [Detail::Triangles, Detail::Auto] {
-            let solid = body_from_mesh(&mesh, detail).unwrap().body;
+        for choice in [PieceChoice::Triangles, PieceChoice::Auto] {
+            let solid = body_from_mesh(&mesh, choice).unwrap().body;
             let flies = ballistic_trajectory([0.0; 3], [2.0, 0.6, 0.4], [8.0, -8.0, 0.0]);
             let (ball, still) = (ball(radius), Motion::STILL);
             let (a, b) = ((&ball, &flies), (&solid, &still));
@@ -92,7 +92,7 @@ fn half_turns_go_the_way_of_motions() {
     ];
     let end = Pose::new([0.0; 3], DQuat::from_array(turns)).unwrap();
     let motion = Motion::between(Pose::IDENTITY, end, [0.0; 3], 1.0).unwrap();
-    let path = Poses::new(vec![(0.0, Pose::IDENTITY), (1.0, end)]).unwrap();
+    let path = PosePath::new(vec![(0.0, Pose::IDENTITY), (1.0, end)]).unwrap();
     // A rod along z, whose tip meets a ball on its way.
     let rod = Body::capsule(0.02, 1.0).unwrap();
     let meets = motion.pose(0.5).transform_point(DVec3::Z);
@@ -147,7 +147,7 @@ fn queries_after_the_end_of_a_trajectory_are_answered() {
     let hit = Solver::new().first_contact((&a, &stops), (&b, &stands), 2.0);
     assert_eq!(hit.unwrap().hit(), Ok(None));
     let rests = points.map(|at| Pose::at(at).unwrap());
-    let rests = Poses::new(vec![(0.0, rests[0]), (1.0, rests[1])]).unwrap();
+    let rests = PosePath::new(vec![(0.0, rests[0]), (1.0, rests[1])]).unwrap();
     let hit = Solver::new().first_contact((&a, &rests), (&b, &stands), 2.0);
     assert_eq!(hit.unwrap().hit(), Ok(None));
 }

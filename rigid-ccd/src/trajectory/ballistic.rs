@@ -9,9 +9,9 @@ use ccd_core::{
     Acceleration, AccelerationBounds, DeviationBound, InputError, Motion, Pose, SmoothTrajectory,
 };
 
-/// A thrown body: its centre has constant acceleration, and the body rotates about it at a constant rate.
+/// A thrown body: its center has constant acceleration, and the body rotates about it at a constant rate.
 ///
-/// The centre's place is `C + v t + a t²/2`. Its acceleration is constant: a stretch of any length is the
+/// The center's place is `C + v t + a t²/2`. Its acceleration is constant: a stretch of any length is the
 /// trajectory itself.
 ///
 /// ```
@@ -49,7 +49,7 @@ impl SmoothTrajectory for Ballistic {
         let fallen = pose.translation() + 0.5 * time * (time * acceleration);
         let start = Pose::new(fallen, pose.rotation())?;
         let velocity = thrown.velocity() + time * acceleration;
-        Motion::about(start, velocity, thrown.spin(), thrown.centre())
+        Motion::about(start, velocity, thrown.angular_velocity(), thrown.center())
     }
 
     fn acceleration_bounds(&self, _: f64, _: f64) -> AccelerationBounds {
@@ -76,10 +76,10 @@ impl SmoothTrajectory for Ballistic {
     fn rounding(&self, from: f64, to: f64) -> DeviationBound {
         let (thrown, acceleration) = (&self.initial_motion, self.acceleration);
         let time = greater(from.abs(), to.abs());
-        let turned = length(thrown.spin()) * time;
+        let turned = length(thrown.angular_velocity()) * time;
         let way = (length(thrown.velocity()) + 0.5 * time * length(acceleration)) * time;
         DeviationBound {
-            centre_deviation: 16.0 * U * (length(thrown.start().translation()) + way),
+            center_deviation: 16.0 * U * (length(thrown.start().translation()) + way),
             max_deviation_angle: 8.0 * U * turned,
         }
     }

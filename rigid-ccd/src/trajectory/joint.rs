@@ -16,7 +16,7 @@ use std::ops::RangeInclusive;
 /// let hinge = Joint::revolute(Pose::at([0.0, 0.0, 1.0])?, [0.0, 1.0, 0.0])?.with_limits(-1.5..=1.5);
 /// // A door that is open by a quarter of a radian opens to 1.25 radians, in two units of time.
 /// let opens = hinge.motion(0.25, 1.25, 2.0)?;
-/// assert_eq!(opens.spin().y, 0.5);
+/// assert_eq!(opens.angular_velocity().y, 0.5);
 /// assert!(hinge.motion(0.25, 3.0, 2.0).is_err());
 /// # Ok::<(), rigid_ccd::InputError>(())
 /// ```
@@ -211,14 +211,14 @@ impl Joint {
             (to - from) / duration
         };
         // The axis in the frame in which the link is seen, and the point on it that keeps its place on the link.
-        let (frame, rate, centre) = match self.direction {
+        let (frame, rate, center) = match self.direction {
             Direction::Forward => (self.origin.rotation(), rate, DVec3::ZERO),
             Direction::Backward => (DQuat::IDENTITY, -rate, self.origin.translation()),
         };
         let along = |axis: DVec3| frame * axis * rate;
         match self.kind {
             JointKind::Fixed => Ok(Motion::still(start)),
-            JointKind::Revolute(axis) => Motion::about(start, DVec3::ZERO, along(axis), centre),
+            JointKind::Revolute(axis) => Motion::about(start, DVec3::ZERO, along(axis), center),
             JointKind::Prismatic(axis) => Motion::new(start, along(axis), DVec3::ZERO),
         }
     }

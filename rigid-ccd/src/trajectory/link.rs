@@ -28,7 +28,7 @@ use ccd_core::{
 /// The acceleration of the link's origin is known at each time. It changes at most at `(|ω̈| + 3 |ω̇| |ω| + |ω|³) |r|`
 /// for each arm, and by `3 |ṡ| (|ω̇| + |ω|²)` more for one that slides, with `|ω̈| ≤ Σ |q̇| (|ω̇| + |ω| |ω × z|)`.
 ///
-/// If only one joint moves, and it turns, the link turns about its axis: the motion's centre is there, and rests.
+/// If only one joint moves, and it turns, the link turns about its axis: the motion's center is there, and rests.
 ///
 /// The rates hold at all times: before time 0 and after the duration the link moves on, without regard to limits.
 #[derive(Clone, Copy, Debug)]
@@ -177,7 +177,7 @@ impl<'c> LinkTrajectory<'c> {
         // A few sums and products.
         let rounded_up = 1.0 + 1e-12;
         DeviationBound {
-            centre_deviation: (slide + turn * arm_length_sum) * rounded_up,
+            center_deviation: (slide + turn * arm_length_sum) * rounded_up,
             max_deviation_angle: turn * rounded_up,
         }
     }
@@ -290,15 +290,15 @@ impl SmoothTrajectory for LinkTrajectory<'_> {
             ..
         } = self.link_bounds(from, to);
         let base = length(self.chain.base().translation());
-        // A centre on an axis is rounded as well.
-        let centre = if self.turns_about_one_axis() {
+        // A center on an axis is rounded as well.
+        let center = if self.turns_about_one_axis() {
             1.0
         } else {
             0.0
         };
-        let turn = U * (24.0 * (joints + centre) + 4.0 * angles);
+        let turn = U * (24.0 * (joints + center) + 4.0 * angles);
         let rounding = DeviationBound {
-            centre_deviation: turn * arms + 8.0 * U * (base + arms),
+            center_deviation: turn * arms + 8.0 * U * (base + arms),
             max_deviation_angle: turn,
         };
         rounding + self.bound_of_joint_deviations(arms)
@@ -334,8 +334,8 @@ impl LinkState {
         let Some(pivot) = self.pivot else {
             return Motion::new(self.pose, self.velocity, self.spin);
         };
-        let centre = self.pose.rotation().conjugate() * (pivot - self.pose.translation());
-        Motion::about(self.pose, DVec3::ZERO, self.spin, centre)
+        let center = self.pose.rotation().conjugate() * (pivot - self.pose.translation());
+        Motion::about(self.pose, DVec3::ZERO, self.spin, center)
     }
 
     /// Updates the state from the link before a joint to the link after it.

@@ -15,33 +15,33 @@ use segment::Segment;
 /// A path through poses at given times, for example from a planner or a simulator's log.
 ///
 /// From one pose to the next, a point of the body moves straight, and the body turns about it the shortest way,
-/// both at constant rates ([`Motion::between`]); or by any number of turns, at about a [given](Poses::with_angular_velocities) angular
+/// both at constant rates ([`Motion::between`]); or by any number of turns, at about a [given](PosePath::with_angular_velocities) angular
 /// velocity. The body rests before the first time and after the last.
 ///
 /// A stretch between two poses is exact, up to rounding. A longer one is a single motion from its first to its
-/// last pose. The centre is farthest from it at a pose in between. Between two poses the orientation strays at
+/// last pose. The center is farthest from it at a pose in between. Between two poses the orientation strays at
 /// most as far as both ends do, and by half the angle of the difference of both turns.
 ///
 /// ```
-/// use rigid_ccd::trajectory::{Poses, Trajectory};
+/// use rigid_ccd::trajectory::{PosePath, Trajectory};
 /// use rigid_ccd::Pose;
 /// let stops = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
 /// let timed = stops.iter().zip([0.0, 1.0, 3.0]);
 /// let poses = timed.map(|(&at, time)| Ok((time, Pose::at(at)?)));
-/// let path = Poses::new(poses.collect::<Result<_, rigid_ccd::InputError>>()?)?;
+/// let path = PosePath::new(poses.collect::<Result<_, rigid_ccd::InputError>>()?)?;
 /// assert_eq!(path.pose(2.0)?.translation().y, 0.5);
 /// assert_eq!(path.velocity_jump_time(0.0, 3.0), Some(1.0));
 /// # Ok::<(), rigid_ccd::InputError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Poses {
+pub struct PosePath {
     poses: Vec<(f64, Pose)>,
     /// The given angular velocity from each pose to the next; empty if every rotation is the shortest one.
     spins: Vec<DVec3>,
-    centre: DVec3,
+    center: DVec3,
 }
 
-impl Poses {
+impl PosePath {
     /// Creates a path through poses at increasing times. The body's origin moves straight.
     ///
     /// # Errors
@@ -54,10 +54,10 @@ impl Poses {
         for &(time, _) in &poses {
             check_time_is_later("time of a pose", time, before.replace(time))?;
         }
-        Ok(Poses {
+        Ok(PosePath {
             poses,
             spins: Vec::new(),
-            centre: DVec3::ZERO,
+            center: DVec3::ZERO,
         })
     }
 
@@ -65,9 +65,9 @@ impl Poses {
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
-    pub fn about(self, centre: impl Into<[f64; 3]>) -> Result<Self, InputError> {
-        let centre = check_finite_vector(centre, "centre")?;
-        Ok(Poses { centre, ..self })
+    pub fn about(self, center: impl Into<[f64; 3]>) -> Result<Self, InputError> {
+        let center = check_finite_vector(center, "center")?;
+        Ok(PosePath { center, ..self })
     }
 
     /// Sets an approximate angular velocity from each pose to the next, in the world, which determines the number of
@@ -83,10 +83,10 @@ impl Poses {
     /// ```
     /// use rigid_ccd::Pose;
     /// use rigid_ccd::glam::DQuat;
-    /// use rigid_ccd::trajectory::{Poses, Trajectory};
+    /// use rigid_ccd::trajectory::{PosePath, Trajectory};
     /// // Ten and a half turns, to where half a turn would lead as well.
     /// let turned = Pose::new([0.0; 3], [0.0, 0.0, 1.0, 0.0])?;
-    /// let drill = Poses::new(vec![(0.0, Pose::IDENTITY), (1.0, turned)])?;
+    /// let drill = PosePath::new(vec![(0.0, Pose::IDENTITY), (1.0, turned)])?;
     /// let drill = drill.with_angular_velocities(vec![[0.0, 0.0, 66.0]])?;
     /// let turns = 0.25 * 10.5;
     /// let quarter = DQuat::from_rotation_z(turns * std::f64::consts::TAU);
@@ -117,7 +117,7 @@ impl Poses {
                 ));
             }
         }
-        Ok(Poses { spins, ..self })
+        Ok(PosePath { spins, ..self })
     }
 
     /// Returns the time of the last pose.
@@ -141,7 +141,7 @@ impl Poses {
         match (next.checked_sub(1), self.poses.get(next)) {
             (Some(k), Some(&(end, pose))) => {
                 let (begin, from) = self.poses[k];
-                let segment = Segment::new([from, pose], self.centre, end - begin, self.spin(k))?;
+                let segment = Segment::new([from, pose], self.center, end - begin, self.spin(k))?;
                 Ok((
                     segment.motion_at(time - begin)?,
                     segment.angular_acceleration(),
@@ -150,15 +150,15 @@ impl Poses {
             // The body rests before the first pose and after the last.
             (_, first) => {
                 let (_, pose) = first.unwrap_or(&self.poses[self.poses.len() - 1]);
-                let rests = Motion::about(*pose, DVec3::ZERO, DVec3::ZERO, self.centre)?;
+                let rests = Motion::about(*pose, DVec3::ZERO, DVec3::ZERO, self.center)?;
                 Ok((rests, 0.0))
             }
         }
     }
 
     /// Returns the point of the body that moves straight from each pose to the next.
-    pub fn centre(&self) -> DVec3 {
-        self.centre
+    pub fn center(&self) -> DVec3 {
+        self.center
     }
 
     /// Returns the given angular velocity from pose `k` to the next; zero stands for the shortest rotation.
@@ -173,8 +173,8 @@ impl Poses {
     pub fn rotation_vectors(&self) -> impl Iterator<Item = Result<DVec3, InputError>> {
         let ends = self.poses.windows(2).map(|two| [two[0], two[1]]);
         let turns = ends.enumerate().map(|(k, [(begin, from), (end, to)])| {
-            let segment = Segment::new([from, to], self.centre, end - begin, self.spin(k))?;
-            Ok(segment.motion_at(0.0)?.spin() * (end - begin))
+            let segment = Segment::new([from, to], self.center, end - begin, self.spin(k))?;
+            Ok(segment.motion_at(0.0)?.angular_velocity() * (end - begin))
         });
         turns.chain([Ok(DVec3::ZERO)])
     }
@@ -192,19 +192,22 @@ impl Poses {
             self.segment_motion_at(from, to)?.0.start(),
             self.segment_motion_at(to, to)?.0.start(),
         ];
-        let motion = Motion::between(begin, end, self.centre, to - from)?;
+        let motion = Motion::between(begin, end, self.center, to - from)?;
         let mut stray = DeviationBound::ZERO;
         // The rotation by which the chord deviates at a pose, and the time of that pose.
         let mut last = (from, DeviationBound::ZERO);
         for &(time, pose) in self.poses_between(from, to).iter().chain(&[(to, end)]) {
-            let deviation = deviation(&motion, &pose, self.centre, time - from);
+            let deviation = deviation(&motion, &pose, self.center, time - from);
             // The motion of the segment that ends at this pose.
             let (before, acceleration) = self.segment_motion_at(time, time)?;
             let since = time - last.0;
-            let change = before.spin().distance(motion.spin()) + acceleration * since;
+            let change = before
+                .angular_velocity()
+                .distance(motion.angular_velocity())
+                + acceleration * since;
             let between =
                 0.5 * (deviation.max_deviation_angle + last.1.max_deviation_angle + change * since);
-            stray.centre_deviation = greater(stray.centre_deviation, deviation.centre_deviation);
+            stray.center_deviation = greater(stray.center_deviation, deviation.center_deviation);
             stray.max_deviation_angle = greater(stray.max_deviation_angle, between);
             last = (time, deviation);
         }
@@ -221,19 +224,19 @@ impl Poses {
         let given = &self.poses[first.saturating_sub(1)..(last + 1).min(self.poses.len())];
         let lengths = given.iter().map(|(_, pose)| length(pose.translation()));
         // The displacement from one pose to the next is at most twice as long.
-        let place = 3.0 * lengths.fold(0.0, greater) + 4.0 * length(self.centre);
+        let place = 3.0 * lengths.fold(0.0, greater) + 4.0 * length(self.center);
         let turn = |(k, two): (usize, &[(f64, Pose)])| {
             length(self.spin(first.saturating_sub(1) + k)) * (two[1].0 - two[0].0)
         };
         let turn = given.windows(2).enumerate().map(turn).fold(1.0, greater);
         DeviationBound {
-            centre_deviation: 64.0 * U * place,
+            center_deviation: 64.0 * U * place,
             max_deviation_angle: 64.0 * U * turn,
         }
     }
 }
 
-impl Trajectory for Poses {
+impl Trajectory for PosePath {
     fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let stretch = if self.poses_between(from, to).is_empty() {
             let (motion, acceleration) = self.segment_motion_at(from, to)?;
@@ -259,13 +262,13 @@ impl Trajectory for Poses {
     }
 }
 
-/// Returns the deviation of a motion from a pose at one time: the displacement of the centre, and the angle in radians.
-fn deviation(motion: &Motion, pose: &Pose, centre: DVec3, time: f64) -> DeviationBound {
+/// Returns the deviation of a motion from a pose at one time: the displacement of the center, and the angle in radians.
+fn deviation(motion: &Motion, pose: &Pose, center: DVec3, time: f64) -> DeviationBound {
     let near = motion.pose(time);
-    let [at, true_at] = [&near, pose].map(|pose| pose.transform_point(centre));
+    let [at, true_at] = [&near, pose].map(|pose| pose.transform_point(center));
     let turned: DQuat = near.rotation().conjugate() * pose.rotation();
     DeviationBound {
-        centre_deviation: at.distance(true_at),
+        center_deviation: at.distance(true_at),
         // The rotation angle is twice the angle of the quaternion, whose sine is the length of its vector part.
         max_deviation_angle: 2.0 * turned.xyz().length().atan2(turned.w.abs()),
     }

@@ -31,10 +31,10 @@ pub fn screw(
     advance: f64,
 ) -> Result<Motion, InputError> {
     let axis = unit_axis(direction)?;
-    let centre = start
+    let center = start
         .inverse()
         .transform_point(DVec3::from_array(point.into()));
-    Motion::about(start, axis * advance, axis * turn, centre)
+    Motion::about(start, axis * advance, axis * turn, center)
 }
 
 /// Returns the unit vector along an axis, or an error for an axis without a direction.

@@ -21,7 +21,7 @@ use ccd_core::{
 pub struct Spline {
     curve: Curve,
     orientation_curve: OrientationCurve,
-    centre: DVec3,
+    center: DVec3,
 }
 
 impl Spline {
@@ -30,7 +30,7 @@ impl Spline {
         Spline {
             curve,
             orientation_curve: turns,
-            centre: DVec3::ZERO,
+            center: DVec3::ZERO,
         }
     }
 
@@ -38,18 +38,18 @@ impl Spline {
     ///
     /// # Errors
     /// [`InputError::NotFinite`].
-    pub fn about(self, centre: impl Into<[f64; 3]>) -> Result<Self, InputError> {
-        let centre = check_finite_vector(centre, "centre")?;
-        Ok(Spline { centre, ..self })
+    pub fn about(self, center: impl Into<[f64; 3]>) -> Result<Self, InputError> {
+        let center = check_finite_vector(center, "center")?;
+        Ok(Spline { center, ..self })
     }
 }
 
 impl SmoothTrajectory for Spline {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
         let (rotation, spin) = self.orientation_curve.at(time);
-        let origin = self.curve.position(time) - rotation * self.centre;
+        let origin = self.curve.position(time) - rotation * self.center;
         let start = Pose::new(origin, rotation)?;
-        Motion::about(start, self.curve.velocity(time), spin, self.centre)
+        Motion::about(start, self.curve.velocity(time), spin, self.center)
     }
 
     fn acceleration_bounds(&self, from: f64, to: f64) -> AccelerationBounds {
@@ -71,7 +71,7 @@ impl SmoothTrajectory for Spline {
 
     fn rounding(&self, _: f64, _: f64) -> DeviationBound {
         DeviationBound {
-            centre_deviation: self.curve.rounding(),
+            center_deviation: self.curve.rounding(),
             max_deviation_angle: self.orientation_curve.rounding(),
         }
     }

@@ -136,7 +136,7 @@ fn poses() {
             time += rng.random_range(0.01..0.5);
             (time, random_pose(rng, 3.0))
         });
-        Poses::new(stops.collect())?.about(random_vector(rng, 1.0))
+        PosePath::new(stops.collect())?.about(random_vector(rng, 1.0))
     });
 }
 
@@ -160,7 +160,7 @@ fn poses_of_many_turns() {
                 * turned;
         }
         stops.push((time, Pose::new(random_vector(rng, 3.0), turned)?));
-        Poses::new(stops)?
+        PosePath::new(stops)?
             .with_angular_velocities(spins)?
             .about(random_vector(rng, 1.0))
     });
@@ -170,7 +170,7 @@ fn poses_of_many_turns() {
 #[test]
 fn angular_velocities_tell_the_number_of_turns() {
     let still = vec![(0.0, Pose::IDENTITY), (2.0, Pose::IDENTITY)];
-    let path = Poses::new(still).unwrap();
+    let path = PosePath::new(still).unwrap();
     let turns = std::f64::consts::TAU * 7.0;
     let turning = path
         .clone()
@@ -188,7 +188,7 @@ fn angular_velocities_tell_the_number_of_turns() {
         .unwrap();
     let stretch = nearly.stretch_between(0.0, 2.0).unwrap();
     assert!(
-        (stretch.motion.spin().z * 2.0 - turns).abs() < 1e-12,
+        (stretch.motion.angular_velocity().z * 2.0 - turns).abs() < 1e-12,
         "{stretch:?}"
     );
     let zero = path
@@ -196,7 +196,10 @@ fn angular_velocities_tell_the_number_of_turns() {
         .with_angular_velocities(vec![[0.0; 3]])
         .unwrap();
     assert_eq!(
-        zero.stretch_between(0.0, 2.0).unwrap().motion.spin(),
+        zero.stretch_between(0.0, 2.0)
+            .unwrap()
+            .motion
+            .angular_velocity(),
         DVec3::ZERO
     );
     for bad in [
@@ -230,7 +233,7 @@ fn poses_of_half_turns() {
                 Pose::new(random_vector(rng, 3.0), turned(k, rng))?,
             ))
         });
-        Poses::new(stops.collect::<Result<_, InputError>>()?)
+        PosePath::new(stops.collect::<Result<_, InputError>>()?)
     });
 }
 
@@ -315,9 +318,9 @@ fn reversed_joints_undo_joints() {
             ..
         } = link.stretch_between(0.7, 0.7).unwrap();
         let start = motion.start();
-        assert!(start.translation().length() <= deviation.centre_deviation);
+        assert!(start.translation().length() <= deviation.center_deviation);
         assert!(2.0 * start.rotation().xyz().length() <= deviation.max_deviation_angle);
-        assert!(motion.velocity().length() < 1e-12 && motion.spin().length() < 1e-12);
+        assert!(motion.velocity().length() < 1e-12 && motion.angular_velocity().length() < 1e-12);
     }
 }
 
@@ -413,7 +416,7 @@ fn a_false_bound_is_found() {
     impl Trajectory for FalselyBoundedSpline {
         fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
             let mut stretch = self.0.stretch_between(from, to)?;
-            stretch.deviation_bound.centre_deviation *= 0.9;
+            stretch.deviation_bound.center_deviation *= 0.9;
             Ok(stretch)
         }
     }
@@ -477,8 +480,8 @@ fn tangents_have_the_velocities_of_poses() {
                 let pose = smooth.tangent_motion(time + step).unwrap().start();
                 pose.transform_point(x)
             });
-            let arm = tangent.start().rotation() * (x - tangent.centre());
-            let velocity = tangent.velocity() + tangent.spin().cross(arm);
+            let arm = tangent.start().rotation() * (x - tangent.center());
+            let velocity = tangent.velocity() + tangent.angular_velocity().cross(arm);
             let found = (after - before) / (2.0 * step);
             let size = 1.0 + velocity.length();
             assert!(

@@ -15,13 +15,13 @@ pub struct WorstDeviation {
     pub to: f64,
     /// The time at which the deviation was measured.
     pub time: f64,
-    /// The vector from the motion's centre to the measured point, in the body's frame.
+    /// The vector from the motion's center to the measured point, in the body's frame.
     pub arm: DVec3,
 }
 
 /// Searches for the segment, the time and the point with the largest deviation relative to its bound.
 ///
-/// It draws stretches within the duration, of all lengths, and points up to `reach` from the centre; then it
+/// It draws stretches within the duration, of all lengths, and points up to `reach` from the center; then it
 /// changes the worst draw a little, again and again. The same seed makes the same draws. Poses are those of
 /// [`Trajectory::pose`], which have to be exact to a few units in the last place.
 ///
@@ -114,7 +114,7 @@ impl Search<'_> {
         let across = greater(0.0, 1.0 - z * z).sqrt();
         let reach = self.reach * arm;
         let arm = reach * DVec3::new(across * cos, across * sin, z);
-        let point = stretch.motion.centre() + arm;
+        let point = stretch.motion.center() + arm;
         let [pose, near] = [self.trajectory.pose(time)?, stretch.pose(time - from)];
         let deviation = pose
             .transform_point(point)

@@ -2,7 +2,7 @@
 //! --example seeds -- FOLDER`.
 #![allow(clippy::print_stderr, reason = "a program, not a library")]
 
-use ccd_decomp::{Detail, Format, StoredBodyContent, TriangleMesh, prepare};
+use ccd_decomp::{Format, PieceChoice, StoredBodyContent, TriangleMesh, prepare};
 use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -30,29 +30,29 @@ fn main() -> ExitCode {
 
 fn write() -> Result<(), Box<dyn Error>> {
     let folder = PathBuf::from(std::env::args().nth(1).ok_or("name a folder")?);
-    let patches = Detail::Patches(Default::default());
+    let patches = PieceChoice::Patches(Default::default());
     let all = [
-        ("sheet-triangles", OPEN_SHEET_OBJ, Detail::Triangles),
-        ("tetrahedron-triangles", TETRAHEDRON, Detail::Triangles),
-        ("tetrahedron-hull", TETRAHEDRON, Detail::Hull),
-        ("cube-hull", CUBE_OBJ, Detail::Hull),
+        ("sheet-triangles", OPEN_SHEET_OBJ, PieceChoice::Triangles),
+        ("tetrahedron-triangles", TETRAHEDRON, PieceChoice::Triangles),
+        ("tetrahedron-hull", TETRAHEDRON, PieceChoice::Hull),
+        ("cube-hull", CUBE_OBJ, PieceChoice::Hull),
         ("cube-patches", CUBE_OBJ, patches),
         (
             "dented-triangles",
             DENTED_TETRAHEDRON_OBJ,
-            Detail::Triangles,
+            PieceChoice::Triangles,
         ),
         ("dented-patches", DENTED_TETRAHEDRON_OBJ, patches),
         (
             "dented-outer-hull",
             DENTED_TETRAHEDRON_OBJ,
-            Detail::OuterHull,
+            PieceChoice::OuterHull,
         ),
     ];
-    for (name, file, detail) in all {
+    for (name, file, choice) in all {
         let model = prepare(
             &TriangleMesh::from_reader(Format::Obj, file.as_bytes())?,
-            detail,
+            choice,
         )?;
         model.save(folder.join(format!("{name}.ccd")))?;
         let with_tree = |model: StoredBodyContent| model.with_hull_tree();

@@ -132,7 +132,7 @@ impl Case {
             } = course.start;
             put(letter, "px py pz", &position);
             put(letter, "qw qx qy qz", &quaternion);
-            put(letter, "cx cy cz", &course.centre);
+            put(letter, "cx cy cz", &course.center);
             match course.spec {
                 MotionSpec::Velocities { linear, spin } => {
                     put(letter, "vx vy vz", &linear);

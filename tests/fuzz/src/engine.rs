@@ -4,7 +4,7 @@ use crate::case::{Case, MeshClass, Shape};
 use ccd_core::glam::DVec3;
 use ccd_core::schedule::{BestFirst, Fast, Naive};
 use ccd_core::{Answer, Body, DistanceOracle, MovingBody, OrElse, Polytope, Schedule, Settings};
-use ccd_decomp::{Detail, TriangleMesh, prepare};
+use ccd_decomp::{PieceChoice, TriangleMesh, prepare};
 use ccd_distance_gjk::{Direct, Gjk};
 use ccd_distance_vmarch::Vmarch;
 use std::fmt;
@@ -82,17 +82,17 @@ fn body(shape: &Shape, kind: PieceKind, trees: HullTrees) -> Result<Body, String
         };
         return Body::polytope(polytope).map_err(|e| e.to_string());
     }
-    let detail = match (kind, shape.mesh_class) {
-        (PieceKind::Hull, MeshClass::Convex) => Detail::Hull,
+    let choice = match (kind, shape.mesh_class) {
+        (PieceKind::Hull, MeshClass::Convex) => PieceChoice::Hull,
         (PieceKind::Patches, MeshClass::Convex | MeshClass::Solid) => {
-            Detail::Patches(Default::default())
+            PieceChoice::Patches(Default::default())
         }
-        _ => Detail::Triangles,
+        _ => PieceChoice::Triangles,
     };
     let mesh = TriangleMesh::new(vertices(), &shape.faces).map_err(|e| e.to_string())?;
-    let model = prepare(&mesh, detail)
+    let model = prepare(&mesh, choice)
         // Rounding may make a shape that was meant to be convex slightly concave.
-        .or_else(|_| prepare(&mesh, Detail::Triangles))
+        .or_else(|_| prepare(&mesh, PieceChoice::Triangles))
         .map_err(|e| e.to_string())?;
     let model = match trees {
         HullTrees::Built => model.with_hull_tree().map_err(|e| e.to_string())?,

@@ -275,7 +275,7 @@ impl<'a> Judge<'a> {
 
     /// Returns true if a witness on one body is inside the other body's solid.
     fn is_witness_inside(&self, contact: &Contact, time: f64) -> bool {
-        let origin = self.scene.snapshots(time)[0].centre;
+        let origin = self.scene.snapshots(time)[0].center;
         let found = contact.separation;
         [(0, found.witness_b), (1, found.witness_a)]
             .into_iter()
@@ -290,7 +290,7 @@ impl<'a> Judge<'a> {
     /// Returns the largest error of a contact's witnesses and normal; `None` if it is within rounding. The error of a
     /// witness is its distance from its body, or the excess of the witnesses' distance over the contact's upper bound.
     fn witness_or_normal_error(&self, contact: &Contact, time: f64) -> Option<f64> {
-        let origin = self.scene.snapshots(time)[0].centre;
+        let origin = self.scene.snapshots(time)[0].center;
         let found = contact.separation;
         let witnesses = [found.witness_a, found.witness_b].map(|w| Vector(w.to_array()));
         let far = witnesses
@@ -338,8 +338,8 @@ impl<'a> Judge<'a> {
             let piece = bodies.bodies[k].pieces().get(piece as usize);
             let track = &self.scene.sides[k].track;
             let to_world = |p: [f64; 3]| {
-                snapshots[k].world_arm(Vector::from_array(p) - track.centre)
-                    + (snapshots[k].centre - snapshots[0].centre)
+                snapshots[k].world_arm(Vector::from_array(p) - track.center)
+                    + (snapshots[k].center - snapshots[0].center)
             };
             Some(
                 piece_surface(&piece)?
@@ -385,7 +385,7 @@ impl<'a> Judge<'a> {
     }
 
     fn is_inside(&self, p: [f64; 3], outer: usize) -> bool {
-        let point = Vector::from_array(p) - self.scene.snapshots(0.0)[0].centre;
+        let point = Vector::from_array(p) - self.scene.snapshots(0.0)[0].center;
         let solid = &self.solids_at_start[outer];
         // Points are given in world coordinates, rounded.
         let near = 1e-12 * larger(self.scene.scale, Vector(p).max_absolute_component());

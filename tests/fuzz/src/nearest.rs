@@ -72,9 +72,9 @@ impl<N: Number> Edge<N> {
     /// Returns the vector from a point to the nearest point of the edge. If the edge has no length, NaN makes that
     /// its start.
     fn offset_from(&self, p: Vector<N>) -> Vector<N> {
-        let share =
+        let fraction =
             self.scaled_edge_vector.dot(p - self.from) / self.scaled_length_squared * self.scale;
-        self.from + self.edge_vector * clamp_to_unit_interval(share) - p
+        self.from + self.edge_vector * clamp_to_unit_interval(fraction) - p
     }
 }
 

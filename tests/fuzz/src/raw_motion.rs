@@ -11,7 +11,7 @@ pub struct RawMotion {
     pub start: RawPose,
     pub spec: MotionSpec,
     /// The point that moves in a straight line, in the body's frame.
-    pub centre: [f64; 3],
+    pub center: [f64; 3],
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,16 +62,16 @@ impl RawMotion {
         RawMotion {
             start,
             spec: MotionSpec::Velocities { linear, spin },
-            centre: [0.0; 3],
+            center: [0.0; 3],
         }
     }
 
     /// Converts the motion to the engine's type.
     pub fn motion(&self, duration: f64) -> Result<Motion, InputError> {
-        let (start, centre) = (self.start.pose()?, DVec3::from(self.centre));
+        let (start, center) = (self.start.pose()?, DVec3::from(self.center));
         match self.spec {
-            MotionSpec::Velocities { linear, spin } => Motion::about(start, linear, spin, centre),
-            MotionSpec::EndPose(end) => Motion::between(start, end.pose()?, centre, duration),
+            MotionSpec::Velocities { linear, spin } => Motion::about(start, linear, spin, center),
+            MotionSpec::EndPose(end) => Motion::between(start, end.pose()?, center, duration),
         }
     }
 
@@ -83,11 +83,11 @@ impl RawMotion {
         }
     }
 
-    /// Returns the motion over a duration, exact except for the rounding of [`DoubleDouble`]. Between end poses, the centre
+    /// Returns the motion over a duration, exact except for the rounding of [`DoubleDouble`]. Between end poses, the center
     /// moves straight, and the body rotates by the shortest rotation between the unit quaternions.
     pub fn exact_motion(&self, duration: f64) -> ExactMotion {
-        let centre = Vector::from_array(self.centre);
-        let start = self.start.point(centre);
+        let center = Vector::from_array(self.center);
+        let start = self.start.point(center);
         let per_time = DoubleDouble::new(1.0) / DoubleDouble::new(duration);
         let (velocity, axis, rate) = match self.spec {
             MotionSpec::Velocities { linear, spin } => {
@@ -96,7 +96,7 @@ impl RawMotion {
                 (Vector::from_array(linear), axis, spin.length())
             }
             MotionSpec::EndPose(end) => {
-                let velocity = (end.point(centre) - start) * per_time;
+                let velocity = (end.point(center) - start) * per_time;
                 let (axis, angle) =
                     shortest_rotation(self.start.unit_quaternion(), end.unit_quaternion());
                 (velocity, axis, angle * per_time)
@@ -117,7 +117,7 @@ impl RawMotion {
             axis,
             rate,
             columns,
-            centre,
+            center,
         }
     }
 }
@@ -151,19 +151,19 @@ pub struct ExactMotion {
     pub rate: DoubleDouble,
     /// The directions of the body's axes at the start, in the world.
     columns: [Vector<DoubleDouble>; 3],
-    pub centre: Vector<DoubleDouble>,
+    pub center: Vector<DoubleDouble>,
 }
 
 /// The position and orientation of a body at a time.
 #[derive(Clone, Copy, Debug)]
 pub struct Snapshot {
     columns: [Vector<DoubleDouble>; 3],
-    pub centre: Vector<DoubleDouble>,
+    pub center: Vector<DoubleDouble>,
 }
 
 impl ExactMotion {
     pub fn snapshot_at(&self, t: f64) -> Snapshot {
-        let centre = self.start + self.velocity * DoubleDouble::new(t);
+        let center = self.start + self.velocity * DoubleDouble::new(t);
         let columns = if self.rate.to_f64() > 0.0 {
             let (sin, cos) = (self.rate * DoubleDouble::new(t)).sin_cos();
             let n = self.axis;
@@ -176,17 +176,17 @@ impl ExactMotion {
         } else {
             self.columns
         };
-        Snapshot { columns, centre }
+        Snapshot { columns, center }
     }
 
-    /// Returns the velocity in the world, rounded to f64, of the point at `arm` from the centre.
+    /// Returns the velocity in the world, rounded to f64, of the point at `arm` from the center.
     pub fn point_velocity(&self, arm: Vector<f64>) -> Vector<f64> {
         self.velocity.to_f64() + self.axis.to_f64().cross(arm) * self.rate.to_f64()
     }
 }
 
 impl Snapshot {
-    /// Returns the vector in the world from the centre to a point, given that vector in the body's frame as `x`.
+    /// Returns the vector in the world from the center to a point, given that vector in the body's frame as `x`.
     pub fn world_arm(&self, x: Vector<DoubleDouble>) -> Vector<DoubleDouble> {
         let [a, b, c] = x.0;
         self.columns[0] * a + self.columns[1] * b + self.columns[2] * c

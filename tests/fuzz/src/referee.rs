@@ -21,19 +21,19 @@ const RELATIVE_RECHECK_DISTANCE: f64 = 1e-13;
 /// A body's triangles and its motion.
 pub struct MovingBody {
     pub track: ExactMotion,
-    /// The triangles relative to the centre of rotation, in the body's frame.
+    /// The triangles relative to the center of rotation, in the body's frame.
     pub triangles: Vec<Triangle<DoubleDouble>>,
     balls: Vec<Ball>,
     /// The bounding ball of all triangles.
     bounding_ball: Ball,
-    /// The radius of the ball around the centre of rotation that contains all triangles.
+    /// The radius of the ball around the center of rotation that contains all triangles.
     reach: f64,
 }
 
 struct Ball {
     middle: Vector<DoubleDouble>,
     radius: f64,
-    /// The largest distance of a point from the centre of rotation; 0 for a body that does not rotate.
+    /// The largest distance of a point from the center of rotation; 0 for a body that does not rotate.
     arm: f64,
 }
 
@@ -54,7 +54,7 @@ pub struct MarginViolation {
 
 impl MovingBody {
     fn new(triangles: &[Triangle<f64>], track: ExactMotion) -> Self {
-        let arm = |p: Vector<f64>| Vector::from_array(p.0) - track.centre;
+        let arm = |p: Vector<f64>| Vector::from_array(p.0) - track.center;
         let triangles: Vec<Triangle<DoubleDouble>> = triangles.iter().map(|t| t.map(arm)).collect();
         let balls: Vec<Ball> = triangles
             .iter()
@@ -78,7 +78,7 @@ impl MovingBody {
         snapshot: &Snapshot,
         origin: Vector<DoubleDouble>,
     ) -> Triangle<DoubleDouble> {
-        let ([p, q, r], to) = (self.triangles[k], snapshot.centre - origin);
+        let ([p, q, r], to) = (self.triangles[k], snapshot.center - origin);
         [
             snapshot.world_arm(p) + to,
             snapshot.world_arm(q) + to,
@@ -143,11 +143,11 @@ impl Scene {
         ]
     }
 
-    /// Returns all triangles of a body at a time, relative to the centre of body A.
+    /// Returns all triangles of a body at a time, relative to the center of body A.
     pub fn triangles_at(&self, side: usize, t: f64) -> Vec<Triangle<DoubleDouble>> {
         let snapshots = self.snapshots(t);
         let all = 0..self.sides[side].triangles.len();
-        all.map(|k| self.sides[side].triangle(k, &snapshots[side], snapshots[0].centre))
+        all.map(|k| self.sides[side].triangle(k, &snapshots[side], snapshots[0].center))
             .collect()
     }
 

@@ -58,7 +58,7 @@ fn balls_passing() -> Scene {
         PI * DVec3::Z,
     );
     let still = MovingShape::still(ball(0.5), DVec3::ZERO);
-    // The least distance, when its centre passes at 1.1.
+    // The least distance, when its center passes at 1.1.
     Scene::new(
         "balls passing",
         [moving, still],

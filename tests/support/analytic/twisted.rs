@@ -91,7 +91,7 @@ fn edge_sharing_cubes() -> Scene {
     )
 }
 
-/// Returns T26: two cuboids at coordinates of some thousands, one of which flies and rotates about a centre far from
+/// Returns T26: two cuboids at coordinates of some thousands, one of which flies and rotates about a center far from
 /// it. The numbers are from a bug report to parry (its issue 317).
 fn far_cuboids() -> Scene {
     let flying = Motion::about(

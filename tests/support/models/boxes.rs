@@ -141,7 +141,7 @@ pub fn slit_plate(half_height: f64) -> Shape {
     ])
 }
 
-/// Returns a U-shaped hook open towards −z: a base along x, centred at the origin, and two legs of length `length`.
+/// Returns a U-shaped hook open towards −z: a base along x, centered at the origin, and two legs of length `length`.
 pub fn u_hook(bar: f64, gap: f64, length: f64) -> Shape {
     let (half, inner) = (0.5 * bar, 0.5 * gap);
     let outer = inner + bar;

@@ -77,7 +77,7 @@ pub fn inradius(mesh: &Mesh) -> f64 {
 }
 
 /// Returns a torus about z. It has `rings` sections on a circle of radius `major`, the first of them on +x. Each
-/// section has `sides` vertices at distance `minor` from its centre, the first of them nearest to the axis.
+/// section has `sides` vertices at distance `minor` from its center, the first of them nearest to the axis.
 pub fn torus(major: f64, minor: f64, rings: usize, sides: usize) -> Shape {
     let angle = |k: usize, n: usize| TAU * k as f64 / n as f64;
     let vertex = |i: usize, j: usize| {

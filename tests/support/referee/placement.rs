@@ -3,7 +3,7 @@
 use crate::query::{MovingShape, Query};
 use ccd_core::glam::DVec3;
 
-/// The map from a body's points to positions at time t, relative to the centre of body A: `x(t) = R(t) R₀ (x − c) + d +
+/// The map from a body's points to positions at time t, relative to the center of body A: `x(t) = R(t) R₀ (x − c) + d +
 /// v t`.
 ///
 /// Offsets are subtracted before anything is rounded at their size, and A's velocity is subtracted
@@ -11,7 +11,7 @@ use ccd_core::glam::DVec3;
 #[derive(Clone, Debug)]
 pub struct RelativeMotion {
     start: [DVec3; 3],
-    centre: DVec3,
+    center: DVec3,
     offset: DVec3,
     velocity: DVec3,
     spin: DVec3,
@@ -37,30 +37,30 @@ impl RelativeMotion {
     fn new(actor: &MovingShape) -> Self {
         let motion = &actor.motion;
         let start = rotation(motion.start().rotation().to_array());
-        let centre = motion.centre();
+        let center = motion.center();
         RelativeMotion {
             start,
-            centre,
-            offset: apply(start, centre),
+            center,
+            offset: apply(start, center),
             velocity: motion.velocity(),
-            spin: motion.spin(),
-            radius: actor.shape.mesh.radius_about(centre),
+            spin: motion.angular_velocity(),
+            radius: actor.shape.mesh.radius_about(center),
             origin: DVec3::ZERO,
         }
     }
 
-    /// Returns the position of a point of the body at a time, relative to the centre of body A.
+    /// Returns the position of a point of the body at a time, relative to the center of body A.
     pub fn point_position_at(&self, time: f64, point: DVec3) -> DVec3 {
-        let arm = apply(self.start, point - self.centre);
+        let arm = apply(self.start, point - self.center);
         rotated(arm, time * self.spin) + self.offset + time * self.velocity
     }
 
-    /// Returns the point in the world to which positions are relative: the centre of body A at the start.
+    /// Returns the point in the world to which positions are relative: the center of body A at the start.
     pub fn origin(&self) -> DVec3 {
         self.origin
     }
 
-    /// Returns the body's velocity relative to body A's centre.
+    /// Returns the body's velocity relative to body A's center.
     pub fn velocity(&self) -> DVec3 {
         self.velocity
     }
@@ -70,7 +70,7 @@ impl RelativeMotion {
         self.spin.length() * self.radius
     }
 
-    /// Returns the largest distance of a point of the body from its centre of rotation.
+    /// Returns the largest distance of a point of the body from its center of rotation.
     pub fn radius(&self) -> f64 {
         self.radius
     }

@@ -197,10 +197,10 @@ impl Face {
             (p - a).dot(self.edge_direction),
             (p - a).dot(self.edge_normal),
         );
-        let share = y / self.height;
+        let fraction = y / self.height;
         let (left, right) = (
-            self.apex * share,
-            self.length + (self.apex - self.length) * share,
+            self.apex * fraction,
+            self.length + (self.apex - self.length) * fraction,
         );
         // False for NaN, as for a triangle without area.
         let inside = y >= 0.0 && y <= self.height && x >= left && x <= right;

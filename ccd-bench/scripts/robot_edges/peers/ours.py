@@ -31,12 +31,13 @@ def body(obstacle: Obstacle) -> rigid_ccd.Body:
 def prepare(robot: Robot, cell: Cell, meshes: Meshes = "hull") -> rigid_ccd.Cell:
     prepared = rigid_ccd.Cell(rigid_ccd.Robot.from_urdf(robot.urdf, robot.srdf, meshes=meshes))
     for k, obstacle in enumerate(cell.obstacles):
-        prepared.add(f"{obstacle.kind} {k}", body(obstacle), (obstacle.position, obstacle.quaternion))
+        w, *xyz = obstacle.quaternion
+        prepared.add_obstacle(f"{obstacle.kind} {k}", body(obstacle), (obstacle.position, [*xyz, w]))
     return prepared
 
 
 def check(cell: rigid_ccd.Cell, edges: Floats) -> Bools:
-    answers = cell.edges(edges[:, 0], edges[:, 1], threads=1, tolerance=TOLERANCE)
+    answers = cell.answer_edges(edges[:, 0], edges[:, 1], threads=1, tolerance=TOLERANCE)
     return np.array(answers["status"] == "free", np.bool_)
 
 
@@ -63,7 +64,8 @@ def command(robot: Robot, cell: Cell, joints: list[str]) -> Measure:
 
 def as_toml(k: int, obstacle: Obstacle) -> str:
     body = obstacle.mesh.absolute() if obstacle.mesh else f"{obstacle.kind}:{','.join(map(repr, obstacle.sizes))}"
-    pose = f"position = {obstacle.position}\nquaternion = {obstacle.quaternion}"
+    w, *xyz = obstacle.quaternion
+    pose = f"position = {obstacle.position}\nquaternion_xyzw = {[*xyz, w]}"
     return f'[[obstacle]]\nname = "{obstacle.kind} {k}"\nbody = "{body}"\n{pose}\n'
 
 
@@ -72,7 +74,7 @@ def checks(robot: Robot, cell: Cell, steps: list[int]) -> Iterator[tuple[str, Me
     if shutil.which("ccd"):
         way = "ccd edges --threads 1 --tolerance 1e-4 after the first round"
         yield way, command(robot, cell, prepared.robot.joint_names)
-    yield "Cell.edges threads=1", together(lambda edges: check(prepared, edges))
+    yield "Cell.answer_edges threads=1", together(lambda edges: check(prepared, edges))
 
 
 def report(folder: Path, robot: Robot, cell: Cell, meshes: Meshes) -> None:

@@ -79,8 +79,8 @@ class Arm:
     def edge_is_free(self, start: Configuration, end: Configuration) -> bool:
         stretches = max(1, int(np.ceil(np.linalg.norm(end - start) / STRETCH)))
         before = self.poses(start)
-        for share in np.arange(1, stretches + 1) / stretches:
-            after = self.poses(start + share * (end - start))
+        for fraction in np.arange(1, stretches + 1) / stretches:
+            after = self.poses(start + fraction * (end - start))
             for (link, _), low, high in zip(self.links, before, after, strict=True):
                 self.manager.setCollisionObjectsTransform(link, low, high)
             found = collision.ContactResultMap()

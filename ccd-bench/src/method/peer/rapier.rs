@@ -25,7 +25,7 @@ use rapier3d_f64::prelude::{
 /// `allowed_linear_error`. The sweeps stop at a gap of up to 1.25 times that.
 ///
 /// # Guarantee
-/// None. A triangle that overlaps one of B's at the start is swept as a small ball about its centre.
+/// None. A triangle that overlaps one of B's at the start is swept as a small ball about its center.
 pub struct TwoBodySimulation {
     world: PhysicsWorld,
     a: RigidBodyHandle,
@@ -49,7 +49,7 @@ impl TwoBodySimulation {
             .triangles()
             .map(|t| (Pose::IDENTITY, SharedShape::triangle(t.a, t.b, t.c)))
             .collect();
-        // The density is zero: the mass is set for each query, about its centre.
+        // The density is zero: the mass is set for each query, about its center.
         let flying = ColliderBuilder::new(SharedShape::compound(triangles)).density(0.0);
         let fixed = ColliderBuilder::new(SharedShape::new(to_tri_mesh(b)?));
         let (a, _) = world.insert(RigidBodyBuilder::dynamic().can_sleep(false), flying);
@@ -64,21 +64,21 @@ impl TwoBodySimulation {
         parameters.normalized_allowed_linear_error = tolerance / MAX_HIT_DISTANCE_PER_ERROR;
         self.world.bodies[self.b].set_position(pose_at(&query.b, 0.0), true);
         let a = &mut self.world.bodies[self.a];
-        let centre = to_parry_vector(query.a.centre());
+        let center = to_parry_vector(query.a.center());
         // The inertia is equal about all axes, so that the axis of rotation stays fixed.
-        let mass = MassProperties::new(centre, 1.0, Vector::splat(1.0));
+        let mass = MassProperties::new(center, 1.0, Vector::splat(1.0));
         a.set_additional_mass_properties(mass, true);
         a.recompute_mass_properties_from_colliders(&self.world.colliders);
         a.set_position(pose_at(&query.a, 0.0), true);
         let velocity = query.a.velocity() - query.b.velocity();
         a.set_linvel(to_parry_vector(velocity), true);
-        a.set_angvel(to_parry_vector(query.a.spin()), true);
+        a.set_angvel(to_parry_vector(query.a.angular_velocity()), true);
     }
 }
 
 impl Solver for TwoBodySimulation {
     fn answer(&mut self, query: &Motions, tolerance: f64) -> Reply {
-        let turns = query.b.spin() != DVec3::ZERO;
+        let turns = query.b.angular_velocity() != DVec3::ZERO;
         if turns || !(query.duration > 0.0) {
             let claim = ContactClaim::Refused;
             return Reply::new(claim, 0);
@@ -87,8 +87,8 @@ impl Solver for TwoBodySimulation {
         self.world.step();
         let end = self.world.bodies[self.a].position();
         let claim = match completed_motion_fraction(query, end) {
-            share if share >= MIN_COMPLETE_FRACTION => ContactClaim::NoContact,
-            share => contact_claim_at(share * query.duration, query.duration),
+            fraction if fraction >= MIN_COMPLETE_FRACTION => ContactClaim::NoContact,
+            fraction => contact_claim_at(fraction * query.duration, query.duration),
         };
         Reply::new(claim, 1)
     }
@@ -102,12 +102,12 @@ fn completed_motion_fraction(query: &Motions, end: &Pose) -> f64 {
     if way == DVec3::ZERO {
         return completed_rotation_fraction(motion, query.duration, end);
     }
-    let centre = DVec3::from(
-        end.transform_point(to_parry_vector(motion.centre()))
+    let center = DVec3::from(
+        end.transform_point(to_parry_vector(motion.center()))
             .to_array(),
     );
-    let start = motion.start().transform_point(motion.centre());
-    (centre - start).dot(way) / way.length_squared()
+    let start = motion.start().transform_point(motion.center());
+    (center - start).dot(way) / way.length_squared()
 }
 
 /// Returns the fraction of its rotation that a step has completed, for a body that does not translate. A sweep mixes

@@ -32,7 +32,7 @@ mod tests;
 /// taken in order of time and not by likelihood of a hit. The paper's greedy descent stops at any two
 /// nodes that do not overlap. Here it goes on while nodes are many times larger than their distance,
 /// unless that is enough for the segments, which takes fewer halvings and far less time. The longest
-/// path of a body is that of a point as far from its centre of rotation as its farthest corner.
+/// path of a body is that of a point as far from its center of rotation as its farthest corner.
 #[derive(Clone, Debug)]
 pub struct DynamicChecker {
     trees: RssTreePair,
@@ -43,7 +43,7 @@ pub struct DynamicChecker {
     pair_stack: Vec<(RssNodePair, f64)>,
 }
 
-/// A cache of the largest distance of a body's points from its centre of rotation, valid until the centre changes.
+/// A cache of the largest distance of a body's points from its center of rotation, valid until the center changes.
 #[derive(Clone, Copy, Debug, Default)]
 struct BodyRadiusCache(Option<(DVec3, f64)>);
 
@@ -101,8 +101,8 @@ impl Solver for DynamicChecker {
         let speed = |course: &RivalMotion, reach: f64| {
             course.velocity.length() + course.angular_speed * reach
         };
-        let reach_a = self.radius_cache_a.radius_about(a.centre, &self.trees.a);
-        let reach_b = self.radius_cache_b.radius_about(b.centre, &self.trees.b);
+        let reach_a = self.radius_cache_a.radius_about(a.center, &self.trees.a);
+        let reach_b = self.radius_cache_b.radius_about(b.center, &self.trees.b);
         let mut task = QueryTask {
             a,
             b,
@@ -307,15 +307,15 @@ impl RequiredPrecision {
 }
 
 impl BodyRadiusCache {
-    fn radius_about(&mut self, centre: DVec3, tree: &RssTree) -> f64 {
+    fn radius_about(&mut self, center: DVec3, tree: &RssTree) -> f64 {
         match self.0 {
-            Some((last, reach)) if last == centre => reach,
+            Some((last, reach)) if last == center => reach,
             _ => {
                 let reach = tree
                     .all_triangle_corners()
-                    .map(|p| p.distance(centre))
+                    .map(|p| p.distance(center))
                     .fold(0.0, greater);
-                self.0 = Some((centre, reach));
+                self.0 = Some((center, reach));
                 reach
             }
         }

@@ -20,7 +20,7 @@ pub(super) type IntervalMat = Interval<DMat3>;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SineCosineRange {
     pub(super) cos: Interval,
-    /// The radius of the range of the sine, which is centred at zero.
+    /// The radius of the range of the sine, which is centered at zero.
     pub(super) sin_radius: f64,
 }
 

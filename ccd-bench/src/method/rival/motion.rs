@@ -3,14 +3,14 @@
 use ccd_core::Motion;
 use ccd_core::glam::{DMat3, DQuat, DVec3};
 
-/// A body's motion in the form that the rivals use: its centre moves straight, and the body rotates about it.
+/// A body's motion in the form that the rivals use: its center moves straight, and the body rotates about it.
 #[derive(Clone, Copy, Debug)]
 pub struct RivalMotion {
-    /// The centre of rotation in the body's frame.
-    pub centre: DVec3,
-    /// The position of the centre at the start, in the world frame.
+    /// The center of rotation in the body's frame.
+    pub center: DVec3,
+    /// The position of the center at the start, in the world frame.
     pub start_position: DVec3,
-    /// The velocity of the centre, in the world frame.
+    /// The velocity of the center, in the world frame.
     pub velocity: DVec3,
     /// The orientation of the body at the start.
     pub start_orientation: DMat3,
@@ -33,13 +33,16 @@ impl RivalMotion {
     /// Converts a motion to the form that the rivals use. Its parameters are read, but no formula is shared.
     pub fn new(motion: &Motion) -> Self {
         let orientation = DMat3::from_quat(motion.start().rotation());
-        let rate = motion.spin().length();
+        let rate = motion.angular_velocity().length();
         RivalMotion {
-            centre: motion.centre(),
-            start_position: motion.start().translation() + orientation * motion.centre(),
+            center: motion.center(),
+            start_position: motion.start().translation() + orientation * motion.center(),
             velocity: motion.velocity(),
             start_orientation: orientation,
-            axis: motion.spin().try_normalize().unwrap_or(DVec3::Z),
+            axis: motion
+                .angular_velocity()
+                .try_normalize()
+                .unwrap_or(DVec3::Z),
             angular_speed: rate,
         }
     }
@@ -50,7 +53,7 @@ impl RivalMotion {
         let rotation = turn * self.start_orientation;
         Placement {
             rotation,
-            translation: self.start_position + time * self.velocity - rotation * self.centre,
+            translation: self.start_position + time * self.velocity - rotation * self.center,
         }
     }
 

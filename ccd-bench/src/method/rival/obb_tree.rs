@@ -35,12 +35,12 @@ pub(super) struct Node {
     pub(super) content: NodeContent,
 }
 
-/// An oriented box: its centre, axes and half extents.
+/// An oriented box: its center, axes and half extents.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Obb {
     /// The unit axes of the box, as columns. The longest is first if the box is fitted well.
     pub(super) axes: DMat3,
-    pub(super) centre: DVec3,
+    pub(super) center: DVec3,
     pub(super) half_extents: DVec3,
 }
 
@@ -49,7 +49,7 @@ impl ObbTree {
     pub(super) fn new(mesh: &TriangleMesh) -> Self {
         let corners = |face: &[u32; 3]| face.map(|v| mesh.vertices()[v as usize]);
         let mut triangles: Vec<[DVec3; 3]> = mesh.faces().iter().map(corners).collect();
-        let origin = Obb::fit_mean_and_box(&triangles).1.centre;
+        let origin = Obb::fit_mean_and_box(&triangles).1.center;
         for corner in triangles.iter_mut().flatten() {
             *corner -= origin;
         }
@@ -100,14 +100,14 @@ impl Obb {
         }
         let bounds = Obb {
             axes,
-            centre: mean + axes * (0.5 * (low + high)),
+            center: mean + axes * (0.5 * (low + high)),
             half_extents: 0.5 * (high - low),
         };
         (mean, bounds)
     }
 }
 
-/// Partitions triangles by the side of the mean on which their centres lie along the box's longest axis. If all lie on
+/// Partitions triangles by the side of the mean on which their centers lie along the box's longest axis. If all lie on
 /// one side, the next axis is used, and halves if no axis splits them. Returns the number of triangles in the first
 /// part.
 fn partition_triangles(triangles: &mut [[DVec3; 3]], mean: DVec3, axes: DMat3) -> usize {

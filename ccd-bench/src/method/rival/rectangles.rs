@@ -121,9 +121,9 @@ fn edges_pierce(Vec3x4([x, y, z]): Vec3x4, face: DVec2) -> bool {
     };
     let zero = f64x4::splat(0.0);
     let z_next = next(z);
-    let share = z / (z - z_next);
-    let x = share.mul_add(next(x) - x, x);
-    let y = share.mul_add(next(y) - y, y);
+    let fraction = z / (z - z_next);
+    let x = fraction.mul_add(next(x) - x, x);
+    let y = fraction.mul_add(next(y) - y, y);
     let crosses = (z * z_next).simd_lt(zero);
     let inside_x = zero.simd_le(x) & x.simd_le(f64x4::splat(face.x));
     let inside_y = zero.simd_le(y) & y.simd_le(f64x4::splat(face.y));

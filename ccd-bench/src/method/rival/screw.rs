@@ -11,13 +11,13 @@ use ccd_tables::motions::Motions;
 /// at 2⁻¹² about 3e-13 of the travel.
 const MIN_HALF_ANGLE_SINE: f64 = 1.0 / 4096.0;
 
-/// The largest distance of two positions that count as equal up to rounding, as a share of the motion's displacement.
+/// The largest distance of two positions that count as equal up to rounding, as a fraction of the motion's displacement.
 const MAX_ROUNDING_PER_TRAVEL: f64 = 1e-9;
 
 /// Returns the query with every motion replaced by the screw from its start pose to its end pose
 /// \[CONTACT02\].
 ///
-/// The turn is the same, whole turns included. The centre moves to the screw axis, and its velocity
+/// The turn is the same, whole turns included. The center moves to the screw axis, and its velocity
 /// is along the axis. A motion without turn is unchanged, and so is one whose turn is too near to a
 /// multiple of 2π for the axis to be computed.
 ///
@@ -39,22 +39,22 @@ pub fn are_screw_motions(query: &Motions) -> bool {
             return false;
         };
         let travel = motion.velocity().length() * query.duration;
-        let apart = |share: f64| {
-            let time = share * query.duration;
+        let apart = |fraction: f64| {
+            let time = fraction * query.duration;
             let [given, along] =
-                [motion, &screw].map(|m| m.pose(time).transform_point(motion.centre()));
+                [motion, &screw].map(|m| m.pose(time).transform_point(motion.center()));
             given.distance(along)
         };
         [0.25, 0.5, 0.75]
             .into_iter()
-            .all(|share| apart(share) <= MAX_ROUNDING_PER_TRAVEL * travel)
+            .all(|fraction| apart(fraction) <= MAX_ROUNDING_PER_TRAVEL * travel)
     };
     same(&query.a) && same(&query.b)
 }
 
 fn screw_motion(motion: &Motion, duration: f64) -> Result<Motion, InputError> {
-    let half_turn = 0.5 * motion.spin().length() * duration;
-    let Some(axis) = motion.spin().try_normalize() else {
+    let half_turn = 0.5 * motion.angular_velocity().length() * duration;
+    let Some(axis) = motion.angular_velocity().try_normalize() else {
         return Ok(*motion);
     };
     if !(half_turn.sin().abs() >= MIN_HALF_ANGLE_SINE) {
@@ -62,11 +62,11 @@ fn screw_motion(motion: &Motion, duration: f64) -> Result<Motion, InputError> {
     }
     let along = motion.velocity().dot(axis) * axis;
     let across = (motion.velocity() - along) * duration;
-    // The turn by 2h about the axis at `offset` from the centre moves the centre by `across`: the
-    // centre, its image and the axis are an isosceles triangle with the angle 2h at the axis.
+    // The turn by 2h about the axis at `offset` from the center moves the center by `across`: the
+    // center, its image and the axis are an isosceles triangle with the angle 2h at the axis.
     let offset = 0.5 * (across + axis.cross(across) * (half_turn.cos() / half_turn.sin()));
-    let centre = motion.centre() + to_body_frame(motion.start().rotation(), offset);
-    Motion::about(motion.start(), along, motion.spin(), centre)
+    let center = motion.center() + to_body_frame(motion.start().rotation(), offset);
+    Motion::about(motion.start(), along, motion.angular_velocity(), center)
 }
 
 fn to_body_frame(rotation: DQuat, vector: DVec3) -> DVec3 {

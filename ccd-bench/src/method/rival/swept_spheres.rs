@@ -14,7 +14,7 @@ mod tests;
 
 /// A tree of rectangles swept by spheres over the triangles of a mesh, one triangle per leaf \[PQP99 §3\].
 ///
-/// A node splits at the mean of its triangles' centres along its longest axis. The authors leave
+/// A node splits at the mean of its triangles' centers along its longest axis. The authors leave
 /// the case of a lopsided split open. Here it becomes a split into halves, so that no tree is deep.
 #[derive(Clone, Debug)]
 pub(super) struct RssTree {
@@ -82,9 +82,9 @@ impl RssTree {
     /// Returns an upper bound of the distance of a node's points from an axis that is fixed in the body.
     ///
     /// It is attained at the farthest corner of the rectangle, plus the radius \[C2A09 §4\].
-    pub(super) fn axis_distance_bound(&self, node: u32, centre: DVec3, axis: DVec3) -> f64 {
+    pub(super) fn axis_distance_bound(&self, node: u32, center: DVec3, axis: DVec3) -> f64 {
         let (node, frame) = (&self.nodes[node as usize], &self.node_frames[node as usize]);
-        let corner = (frame.translation - centre).cross(axis);
+        let corner = (frame.translation - center).cross(axis);
         let x = node.side_lengths.x * frame.rotation.x_axis.cross(axis);
         let y = node.side_lengths.y * frame.rotation.y_axis.cross(axis);
         let farthest = [corner, corner + x, corner + y, corner + x + y]

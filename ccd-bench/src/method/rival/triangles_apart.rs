@@ -207,8 +207,8 @@ impl TrianglePlane {
 fn piercing_point(face: &TrianglePlane, heights: f64x4, corners: &Triangle) -> Option<DVec3> {
     let [h, i, j, _] = heights.to_array();
     let next = f64x4::new([i, j, h, i]);
-    let share = heights / (heights - next);
-    let points = pack_vectors(corners).plus_scaled_each(share, pack_vectors(&edges(corners)));
+    let fraction = heights / (heights - next);
+    let points = pack_vectors(corners).plus_scaled_each(fraction, pack_vectors(&edges(corners)));
     let crosses = (heights * next).simd_lt(f64x4::splat(0.0));
     let hits = (crosses & face.inside_mask(points)).to_bitmask();
     (hits != 0).then(|| points.lane(hits.trailing_zeros() as usize))

@@ -16,7 +16,7 @@ fn cube() -> TriangleMesh {
     cuboid(0.5, 0.5, 0.5).unwrap()
 }
 
-/// Returns a query in which a cube flies at speed 8 towards another cube, whose centre is 4 away, so that they touch at
+/// Returns a query in which a cube flies at speed 8 towards another cube, whose center is 4 away, so that they touch at
 /// 3/8.
 fn flight_query() -> Motions {
     let start = Pose::at(-4.0 * DVec3::X).unwrap();

@@ -16,14 +16,14 @@ fn every_scene_refers_to_existing_data_and_has_distinct_rows() {
         assert_eq!(ids.len(), queries.len(), "{}", listing.name);
         let turns = queries
             .iter()
-            .filter(|q| q.a.spin().length() > 1e-3)
+            .filter(|q| q.a.angular_velocity().length() > 1e-3)
             .count();
-        let share = if listing.name.ends_with("translating") {
+        let fraction = if listing.name.ends_with("translating") {
             0..=0
         } else {
             queries.len() / 3..=queries.len()
         };
-        assert!(share.contains(&turns), "{}: {turns} turn", listing.name);
+        assert!(fraction.contains(&turns), "{}: {turns} turn", listing.name);
     }
 }
 

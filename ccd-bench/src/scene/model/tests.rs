@@ -94,11 +94,11 @@ fn a_knot_is_a_tube_about_its_curve() {
     let mesh = Model::Knot2880.generate().unwrap();
     // The points of the curve are the means of opposite corners of each ring of twelve.
     for ring in mesh.vertices().chunks(12) {
-        let centre = 0.5 * (ring[0] + ring[6]);
+        let center = 0.5 * (ring[0] + ring[6]);
         for corner in ring {
-            assert!((corner.distance(centre) - 0.16).abs() < 1e-12);
+            assert!((corner.distance(center) - 0.16).abs() < 1e-12);
         }
-        let from_axis = centre.truncate().length();
+        let from_axis = center.truncate().length();
         assert!((1.0 / 3.0 - 1e-12..1.0 + 1e-12).contains(&from_axis));
     }
 }

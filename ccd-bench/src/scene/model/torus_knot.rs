@@ -12,7 +12,7 @@ const TURNS_AROUND_TUBE: f64 = 3.0;
 /// The radius of the torus on which the knot lies, and the radius of the tube of this torus.
 const TORUS_RADII: (f64, f64) = (2.0 / 3.0, 1.0 / 3.0);
 
-/// Returns the closed mesh of a tube around the (2, 3) torus knot, the trefoil, with its centre at the origin. The tube
+/// Returns the closed mesh of a tube around the (2, 3) torus knot, the trefoil, with its center at the origin. The tube
 /// has `segments` rings of `sides` corners each, at least 3 of either, and so `2 · segments · sides` triangles. The
 /// tube's radius is below 0.33, at which it would touch itself in the middle.
 ///

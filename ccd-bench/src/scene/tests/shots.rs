@@ -100,9 +100,9 @@ fn random_unit_ball_point(rng: &mut impl Rng) -> DVec3 {
 
 /// Returns a uniformly distributed rotation, as a point of the unit sphere in four dimensions.
 fn random_orientation(rng: &mut impl Rng) -> DQuat {
-    let share: f64 = rng.random_range(0.0..1.0);
+    let fraction: f64 = rng.random_range(0.0..1.0);
     let (sin_a, cos_a) = rng.random_range(0.0..TAU).sin_cos();
     let (sin_b, cos_b) = rng.random_range(0.0..TAU).sin_cos();
-    let (a, b) = ((1.0 - share).sqrt(), share.sqrt());
+    let (a, b) = ((1.0 - fraction).sqrt(), fraction.sqrt());
     DQuat::from_xyzw(a * sin_a, a * cos_a, b * sin_b, b * cos_b)
 }

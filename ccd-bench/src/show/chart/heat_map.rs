@@ -46,7 +46,7 @@ pub struct HeatMapTexts {
 pub const SOLVED_RANGE_TEXTS: &HeatMapTexts = &HeatMapTexts {
     title: "How far each method follows each family: bluer is better",
     remark_lines: [
-        "A cell has the colour of the worst answer, and names the first value at which it came. The bar shows the share of",
+        "A cell has the colour of the worst answer, and names the first value at which it came. The bar shows the fraction of",
         "the steps, from the easy ones, before the first that is not right.",
     ],
     legend_entries: &[
@@ -114,21 +114,21 @@ pub struct HeatCell {
     fill_colour: RGBColor,
     text_colour: RGBColor,
     text_lines: [String; 2],
-    /// The length of the bar, as a share of the cell's width.
+    /// The length of the bar, as a fraction of the cell's width.
     bar_fraction: f64,
 }
 
 impl HeatCell {
-    /// Returns the cell that shows how far a method is right in a family. `worst` is its worst verdict, `share` is the
-    /// share of the values before the first wrong answer, and `limit` is the first value with the worst verdict, empty
+    /// Returns the cell that shows how far a method is right in a family. `worst` is its worst verdict, `fraction` is the
+    /// fraction of the values before the first wrong answer, and `limit` is the first value with the worst verdict, empty
     /// if all are right.
-    pub fn solved_range_cell(worst: Verdict, share: f64, limit: String) -> Self {
+    pub fn solved_range_cell(worst: Verdict, fraction: f64, limit: String) -> Self {
         let (fill, word, ink) = verdict_style(worst);
         HeatCell {
             fill_colour: fill,
             text_colour: ink,
             text_lines: [word.to_owned(), limit],
-            bar_fraction: share,
+            bar_fraction: fraction,
         }
     }
 
@@ -226,11 +226,11 @@ fn draw_cell(sheet: &Sheet<'_>, (x, y): PixelPosition, width: f64, cell: &HeatCe
         bar,
         CORRECT_COLOUR,
     )?;
-    let centred = text_style(SMALLEST_FONT_SIZE)
+    let centered = text_style(SMALLEST_FONT_SIZE)
         .color(&cell.text_colour)
         .pos(Pos::new(HPos::Center, VPos::Center));
     for (line, down) in cell.text_lines.iter().zip([5.0, 13.5]) {
-        draw_text(sheet, line, (x + 0.5 * width, y + down), &centred)?;
+        draw_text(sheet, line, (x + 0.5 * width, y + down), &centered)?;
     }
     Ok(())
 }

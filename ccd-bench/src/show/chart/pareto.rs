@@ -44,7 +44,7 @@ pub(super) fn draw_chart(charts: &ChartData<'_>) -> Result<Option<String>> {
     let plane = PlotAxes {
         x: (
             errors.unwrap_or(MIN_DRAWN_ERROR..1.0),
-            "mean error, share of duration",
+            "mean error, fraction of duration",
         ),
         y: (times, "time of a query, median, µs"),
     };

@@ -17,7 +17,7 @@ pub(super) const COLOURS: [RGBColor; 7] = [
 ];
 /// The colour of the strip for methods that are late or miss a contact.
 pub(super) const WARNING_COLOUR: RGBColor = COLOURS[1];
-/// The distance of a marker's corners from its centre, in pixels.
+/// The distance of a marker's corners from its center, in pixels.
 pub(super) const MARKER_RADIUS: f64 = 4.5;
 
 /// The colour, the marker and the dash pattern of a method.
@@ -73,7 +73,7 @@ impl MethodStyle {
         self.colour.stroke_width(width)
     }
 
-    /// Returns the corners of the marker relative to its centre, in drawing units.
+    /// Returns the corners of the marker relative to its center, in drawing units.
     pub(super) fn corners(&self) -> Vec<(i32, i32)> {
         let (count, first) = self.marker;
         let corner = |corner: u32| {

@@ -19,7 +19,7 @@ pub(super) fn families() -> Vec<Family> {
         family("cubes that hardly meet", barely_overlapping_cubes)
             .with_parameter("overlap", negative_powers_of_ten(1..=15)),
         family("rod that hardly reaches", rod_barely_reaching_wall)
-            .with_parameter("share of its reach", negative_powers_of_ten(1..=12)),
+            .with_parameter("fraction of its reach", negative_powers_of_ten(1..=12)),
         family("linked rings", linked_rings)
             .with_parameter("way to contact", negative_powers_of_ten(1..=12)),
         family("corner onto face", corner_onto_face)
@@ -105,13 +105,13 @@ fn barely_overlapping_cubes(overlap: f64) -> Result<FamilyScene> {
 }
 
 /// Makes a rod that rotates until its corner barely reaches a wall, shortly before the corner would pass it (case T5).
-fn rod_barely_reaching_wall(share: f64) -> Result<FamilyScene> {
+fn rod_barely_reaching_wall(fraction: f64) -> Result<FamilyScene> {
     let (long, thin) = ROD_HALF_SIDES;
-    let wall = long.hypot(thin) * (1.0 - share);
+    let wall = long.hypot(thin) * (1.0 - fraction);
     let turning = BodyMotion::STILL.with_spin(PI * DVec3::Y);
-    let time = ((1.0 - share).asin() - thin.atan2(long)) / PI;
+    let time = ((1.0 - fraction).asin() - thin.atan2(long)) / PI;
     // The corner moves along the wall: its distance grows with the square of the time.
-    let expected = truth_for_contact_time(time, 1e-15 / share.sqrt());
+    let expected = truth_for_contact_time(time, 1e-15 / fraction.sqrt());
     rod_beside_wall(turning, wall, expected)
 }
 

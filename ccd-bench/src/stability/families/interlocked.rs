@@ -73,9 +73,9 @@ const PITCH: f64 = 0.2;
 const THREAD_RADII: [f64; 2] = [0.9, 1.0];
 
 /// Makes the flank of a screw that rotates between the flanks of its nut at their common pitch (case T18). `play` is
-/// the distance between the flanks, as a share of the pitch.
+/// the distance between the flanks, as a fraction of the pitch.
 fn screw_in_nut(turns: f64, play: f64) -> Result<FamilyScene> {
-    // A facet leaves its flank by a share of the pitch of (R − r) / (R + r) / (2 sides) at most, which is 4e-4
+    // A facet leaves its flank by a fraction of the pitch of (R − r) / (R + r) / (2 sides) at most, which is 4e-4
     // here: the flanks keep more than half of their play.
     let sides = 64;
     let flank = helicoid(THREAD_RADII, PITCH, sides, 3)?;

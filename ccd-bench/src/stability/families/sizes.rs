@@ -32,7 +32,7 @@ pub(super) fn families() -> Vec<Family> {
         family("unit of time", scene_in_time_unit).with_parameter("duration", sizes(1..=9)),
         family("moving together", cube_onto_moving_cube)
             .with_parameter("common travel", powers_of_ten(0..=9)),
-        family("far centre of rotation", cube_about_far_centre)
+        family("far center of rotation", cube_about_far_center)
             .with_parameter("distance in sizes", powers_of_ten(0..=9)),
         family("needle tip first", needle_onto_slab)
             .with_parameter("width", negative_powers_of_ten(0..=12)),
@@ -90,12 +90,12 @@ fn cube_onto_moving_cube(travel: f64) -> Result<FamilyScene> {
     scene.with_query(falling, fleeing, truth_for_contact_time(0.5, 1e-14))
 }
 
-/// Makes a cube that rotates about a centre far below it, so that it moves towards a wall nearly in a straight line.
-fn cube_about_far_centre(distance: f64) -> Result<FamilyScene> {
+/// Makes a cube that rotates about a center far below it, so that it moves towards a wall nearly in a straight line.
+fn cube_about_far_center(distance: f64) -> Result<FamilyScene> {
     let spin = 1.0 / distance;
     let turning = BodyMotion {
         angular_velocity: spin * DVec3::Y,
-        rotation_centre: -distance * DVec3::Z,
+        rotation_center: -distance * DVec3::Z,
         ..BodyMotion::STILL
     };
     // Its upper corner is the first at the wall, which is at x = 1.

@@ -9,7 +9,7 @@ use std::collections::HashSet;
 /// The number of triangles above which the referee takes too long for a test.
 const MAX_REFEREE_TRIANGLES: usize = 3000;
 
-/// The share of a family's parameter values that are checked, the easiest first; the referee is slow on harder values.
+/// The fraction of a family's parameter values that are checked, the easiest first; the referee is slow on harder values.
 const CHECKED_SHARE: f64 = 0.4;
 
 #[test]

@@ -38,7 +38,7 @@ fn rod_into_a_wall(turns: f64) -> Result<FamilyScene> {
     rod_beside_wall(turning, wall, expected)
 }
 
-/// Makes an arm that hangs down from its centre of rotation, and swings round until it hits a wall above the centre.
+/// Makes an arm that hangs down from its center of rotation, and swings round until it hits a wall above the center.
 /// The scene is like T9 of `tests/it/scenes.rs`. At the start its tip moves along the wall, so that a bound on the
 /// speeds of that moment finds no approach.
 fn arm_swinging_into_wall(spin: f64) -> Result<FamilyScene> {

@@ -89,8 +89,8 @@ fn random_unit_vector(rng: &mut impl Rng) -> DVec3 {
 }
 
 fn grid_points_in_triangle([a, b, c]: &[DVec3; 3], steps: u32) -> impl Iterator<Item = DVec3> {
-    let share = move |k: u32| f64::from(k) / f64::from(steps);
+    let fraction = move |k: u32| f64::from(k) / f64::from(steps);
     (0..=steps).flat_map(move |i| {
-        (0..=steps - i).map(move |j| a + share(i) * (b - a) + share(j) * (c - a))
+        (0..=steps - i).map(move |j| a + fraction(i) * (b - a) + fraction(j) * (c - a))
     })
 }

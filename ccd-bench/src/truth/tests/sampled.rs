@@ -96,6 +96,6 @@ fn meshes_pierce(meshes: &[TriangleMesh; 2], motions: [&Motion; 2], time: f64) -
 /// in range.
 fn crosses_triangle([p, q]: [DVec3; 2], [a, b, c]: &[DVec3; 3]) -> bool {
     let columns = ccd_core::glam::DMat3::from_cols(p - q, b - a, c - a);
-    let shares = columns.inverse() * (p - a);
-    shares.min_element() >= 0.0 && shares.x <= 1.0 && shares.y + shares.z <= 1.0
+    let fractions = columns.inverse() * (p - a);
+    fractions.min_element() >= 0.0 && fractions.x <= 1.0 && fractions.y + fractions.z <= 1.0
 }

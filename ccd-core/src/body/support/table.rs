@@ -79,7 +79,7 @@ impl SupportTable {
         self.neighbours.list(corner as usize)
     }
 
-    /// Returns the centre and radius of a ball around the points.
+    /// Returns the center and radius of a ball around the points.
     #[inline]
     pub(crate) fn bounding_ball(&self) -> (DVec3, f64) {
         self.ball

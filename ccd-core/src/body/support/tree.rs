@@ -36,11 +36,11 @@ struct Block {
 }
 
 /// Eight discs that bound points. Each contains the points below it: those at most `thickness` to either side of
-/// `centre` along `normal`, and at most `radius` across.
+/// `center` along `normal`, and at most `radius` across.
 #[derive(Clone, Debug, Default)]
 #[repr(align(32))]
 struct DiscGroup {
-    centre: [[f32; LANES]; 3],
+    center: [[f32; LANES]; 3],
     normal: [[f32; LANES]; 3],
     radius: [f32; LANES],
     half_thickness: [f32; LANES],
@@ -94,7 +94,7 @@ impl SupportTree {
         search.highest_point
     }
 
-    /// Returns the centre and radius of a ball around the points.
+    /// Returns the center and radius of a ball around the points.
     #[inline]
     pub(crate) fn bounding_ball(&self) -> (DVec3, f64) {
         self.ball
@@ -199,7 +199,7 @@ impl DiscGroup {
         for (lane, points) in points.chunks(width).enumerate() {
             let disc = Disc::enclosing(points);
             for axis in 0..3 {
-                discs.centre[axis][lane] = disc.centre[axis];
+                discs.center[axis][lane] = disc.center[axis];
                 discs.normal[axis][lane] = disc.normal[axis];
             }
             discs.radius[lane] = disc.radius;
@@ -213,15 +213,15 @@ impl DiscGroup {
     #[inline]
     fn height_upper_bounds(&self, d: Vec3) -> [f32; LANES] {
         let square = d.length_squared() * (1.0 + DISC_TILT_ERROR_F32);
-        let ([x, y, z], [u, v, w]) = (&self.centre, &self.normal);
+        let ([x, y, z], [u, v, w]) = (&self.center, &self.normal);
         let mut bounds = [0.0; LANES];
         for k in 0..LANES {
             let along = u[k] * d.x + (v[k] * d.y + w[k] * d.z);
             let across = square - along * along;
             let across = if across > 0.0 { across } else { 0.0 }.sqrt();
-            let centre = x[k] * d.x + (y[k] * d.y + z[k] * d.z);
+            let center = x[k] * d.x + (y[k] * d.y + z[k] * d.z);
             let reach = self.radius[k] * across + self.half_thickness[k] * along.abs();
-            bounds[k] = centre + reach + self.rounding_error_bounds[k];
+            bounds[k] = center + reach + self.rounding_error_bounds[k];
         }
         bounds
     }
@@ -229,7 +229,7 @@ impl DiscGroup {
 
 /// A disc that bounds points, in f32, with its radius and thickness rounded up.
 struct Disc {
-    centre: Vec3,
+    center: Vec3,
     normal: Vec3,
     radius: f32,
     half_thickness: f32,
@@ -249,11 +249,11 @@ impl Disc {
         let turned = frame.transpose();
         let (low, high) = bounding_box(points.iter().map(|&p| turned * p));
         let thinnest = (high - low).min_position();
-        let centre = (frame * (0.5 * (low + high))).as_vec3();
+        let center = (frame * (0.5 * (low + high))).as_vec3();
         let normal = frame.col(thinnest).as_vec3();
         let (mut square, mut thickness) = (0.0, 0.0);
         for &point in points {
-            let way = point - centre.as_dvec3();
+            let way = point - center.as_dvec3();
             let along = normal.as_dvec3().dot(way);
             thickness = greater(thickness, along.abs());
             square = greater(square, (way - along * normal.as_dvec3()).length_squared());
@@ -261,7 +261,7 @@ impl Disc {
         // One step is for rounding to f32, one for rounding in f64.
         let outward = |x: f64| (x as f32).next_up().next_up();
         Disc {
-            centre,
+            center,
             normal,
             radius: outward(square.sqrt()),
             half_thickness: outward(thickness),

@@ -169,7 +169,7 @@ impl TreeLayout {
         parallel_for_each(&mut boxes, &(), |(), k, group| {
             let ChildNodes { parent, children } = &self.node_groups[k];
             let members = &nodes[children.start as usize..children.end as usize];
-            *group = BoxGroup::new(members, children.start, nodes[*parent as usize].centre);
+            *group = BoxGroup::new(members, children.start, nodes[*parent as usize].center);
         });
         // The ids of triangles follow those of the nodes.
         let after = nodes.len() as u32;
@@ -179,7 +179,7 @@ impl TreeLayout {
             let triangles = &self.nodes[parent].pieces;
             let corners = pieces.points_of(triangles.clone()).as_chunks().0;
             let first = after + triangles.start as u32;
-            *group = StoredTriangleGroup::new(corners, first, nodes[parent].centre);
+            *group = StoredTriangleGroup::new(corners, first, nodes[parent].center);
         });
         Tree {
             body_box: BodyBox::fit_to(
@@ -203,7 +203,7 @@ impl TreeLayout {
         let thin = (0..).zip(nodes).filter(|(_, node)| node.is_thin());
         thin.filter_map(|(id, node)| {
             let corners = pieces.points_of(self.nodes[id as usize].pieces.clone());
-            Some((id, Slab::fit_to(corners, node.centre)?))
+            Some((id, Slab::fit_to(corners, node.center)?))
         })
         .collect()
     }

@@ -51,12 +51,12 @@ pub(crate) fn fit_node(
     let size = high - low;
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| size[j].total_cmp(&size[i]));
-    let centre = frame * (0.5 * (low + high));
+    let center = frame * (0.5 * (low + high));
     let axes: [Vec3; 3] = order.map(|k| frame.col(k).as_vec3());
     let along = axes.map(Vec3::as_dvec3);
     let (mut half, mut square) = ([0.0f64; 3], 0.0f64);
     for &point in node_points.points {
-        let way = point - centre;
+        let way = point - center;
         for (half, axis) in half.iter_mut().zip(along) {
             *half = greater(*half, way.dot(axis).abs());
         }
@@ -66,7 +66,7 @@ pub(crate) fn fit_node(
     let rounding = 8.0 * UNIT_ROUNDOFF_F64 * square.sqrt();
     let outward = |x: f64| round_up_to_f32(x + rounding).next_up();
     Node {
-        centre,
+        center,
         axes,
         half_extents: half.map(outward),
         radius: outward(square.sqrt() + node_points.rounding_radius),

@@ -20,7 +20,7 @@ pub(crate) type Rows3 = [[f32; LANES]; 3];
 #[derive(Clone, Debug, Default)]
 #[repr(align(32))]
 pub(crate) struct BoxGroup {
-    pub(crate) centre: Rows3,
+    pub(crate) center: Rows3,
     pub(crate) axes: [Rows3; 3],
     pub(crate) half_extents: Rows3,
     pub(crate) rounding_radius: [f32; LANES],
@@ -89,11 +89,11 @@ impl BoxGroup {
         };
         for lane in 0..LANES {
             let node = &nodes[lane.min(nodes.len() - 1)];
-            let way = node.centre - origin;
-            let centre = way.as_vec3();
-            // The rounded centre is off by this much: the box and the ball grow by it.
-            let off = round_up_to_f32(length(way - centre.as_dvec3()));
-            set_lane(&mut group.centre, lane, centre);
+            let way = node.center - origin;
+            let center = way.as_vec3();
+            // The rounded center is off by this much: the box and the ball grow by it.
+            let off = round_up_to_f32(length(way - center.as_dvec3()));
+            set_lane(&mut group.center, lane, center);
             for (rows, axis) in group.axes.iter_mut().zip(node.axes) {
                 set_lane(rows, lane, axis);
             }
@@ -218,11 +218,11 @@ fn set_lane(rows: &mut Rows3, lane: usize, v: Vec3) {
     }
 }
 
-/// A node of the wide tree: an oriented box and a ball with the same centre, each around all pieces below, and its
+/// A node of the wide tree: an oriented box and a ball with the same center, each around all pieces below, and its
 /// children.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
-    pub(crate) centre: DVec3,
+    pub(crate) center: DVec3,
     /// The axes of the box as unit vectors rounded to f32; the axis of the least extent is last.
     pub(crate) axes: [Vec3; 3],
     pub(crate) half_extents: [f32; 3],
@@ -246,7 +246,7 @@ pub(crate) enum NodeChildren {
 impl Node {
     /// A placeholder for a node that is not fitted yet.
     pub(super) const UNFITTED: Node = Node {
-        centre: DVec3::ZERO,
+        center: DVec3::ZERO,
         axes: [Vec3::ZERO; 3],
         half_extents: [0.0; 3],
         radius: 0.0,
@@ -269,7 +269,7 @@ impl Node {
 
     /// Returns whether a point is in the box, or within about `reach` of it.
     pub(super) fn is_near(&self, point: DVec3, reach: f64) -> bool {
-        let way = point - self.centre;
+        let way = point - self.center;
         let reach = reach + 8.0 * UNIT_ROUNDOFF_F64 * way.abs().element_sum();
         (0..3).all(|k| {
             way.dot(self.axes[k].as_dvec3()).abs() <= self.widened_half_extent(k) + 1.001 * reach

@@ -77,7 +77,7 @@ fn sum_signed_crossings_along(
 
 /// Returns whether a ray may hit a node's box; false only if it certainly misses the box.
 fn may_hit(node: &Node, from: DVec3, along: DVec3) -> bool {
-    let way = from - node.centre;
+    let way = from - node.center;
     let (mut enter, mut leave) = (0.0f64, f64::INFINITY);
     for k in 0..3 {
         let axis = node.axes[k].as_dvec3();

@@ -6,7 +6,7 @@ use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tuning::MAX_FLAT_THICKNESS;
 use glam::DVec3;
 
-/// Two parallel planes that bound a flat node's triangles, at equal distances from the node's centre. All triangles of
+/// Two parallel planes that bound a flat node's triangles, at equal distances from the node's center. All triangles of
 /// the node are between the planes.
 ///
 /// The axes of a node's box are rounded to f32. The box of a flat node that is not parallel to the coordinates is
@@ -20,13 +20,13 @@ pub(crate) struct Slab {
 }
 
 impl Slab {
-    /// Fits a slab about a centre to the corners of triangles; `None` unless they are in one plane up to rounding.
-    pub(super) fn fit_to(corners: &[DVec3], centre: DVec3) -> Option<Self> {
+    /// Fits a slab about a center to the corners of triangles; `None` unless they are in one plane up to rounding.
+    pub(super) fn fit_to(corners: &[DVec3], center: DVec3) -> Option<Self> {
         let triangles = corners.as_chunks().0.iter();
         let normal = unit(triangles.map(|[a, b, c]| (b - a).cross(c - a)).sum())?;
         let (mut half, mut size) = (0.0, 0.0);
         for &corner in corners {
-            let way = corner - centre;
+            let way = corner - center;
             half = greater(half, normal.dot(way).abs());
             size = greater(size, way.abs().max_element());
         }

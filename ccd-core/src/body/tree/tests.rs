@@ -105,8 +105,8 @@ fn assert_node_bounds_pieces(node: &Node, pieces: &Pieces, below: &[u32]) {
     for &piece in below {
         let piece = pieces.get(piece as usize);
         for &point in piece.points {
-            let way = point - node.centre;
-            let slack = CHECK_TOLERANCE * (point.length() + node.centre.length());
+            let way = point - node.center;
+            let slack = CHECK_TOLERANCE * (point.length() + node.center.length());
             assert!(way.length() + piece.radius <= f64::from(node.radius) + slack);
             let half = node
                 .half_extents
@@ -119,16 +119,16 @@ fn assert_node_bounds_pieces(node: &Node, pieces: &Pieces, below: &[u32]) {
     }
 }
 
-/// Asserts that the box and the ball in one lane of a group contain the child's points, about the rounded centre.
+/// Asserts that the box and the ball in one lane of a group contain the child's points, about the rounded center.
 fn assert_lane_bounds_pieces(group: &BoxGroup, lane: usize, pieces: &Pieces, below: &[u32]) {
     let at =
         |rows: &[[f32; LANES]; 3]| DVec3::from_array([0, 1, 2].map(|k| f64::from(rows[k][lane])));
-    let centre = group.header.origin + at(&group.centre);
+    let center = group.header.origin + at(&group.center);
     for &piece in below {
         let piece = pieces.get(piece as usize);
         for &point in piece.points {
-            let way = point - centre;
-            let slack = CHECK_TOLERANCE * (point.length() + centre.length());
+            let way = point - center;
+            let slack = CHECK_TOLERANCE * (point.length() + center.length());
             assert!(way.length() + piece.radius <= f64::from(group.radius[lane]) + slack);
             for k in 0..3 {
                 let reach = way.dot(at(&group.axes[k])).abs() + piece.radius;

@@ -10,15 +10,15 @@ use glam::{DMat3, DVec3};
 /// that slide along each other closer than that would count as near each other everywhere.
 ///
 /// # Guarantee
-/// For a unit vector n, no point of the body is farther along n from the centre than the sum of `half` times the
+/// For a unit vector n, no point of the body is farther along n from the center than the sum of `half` times the
 /// components of n along the axes, and `slack`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BodyBox {
-    pub(crate) centre: DVec3,
+    pub(crate) center: DVec3,
     /// The axes of the box as columns; `slack` covers their error.
     pub(crate) axes: DMat3,
     pub(crate) half_extents: DVec3,
-    /// An upper bound of the distances of the pieces' points from the centre.
+    /// An upper bound of the distances of the pieces' points from the center.
     pub(crate) radius: f64,
     /// The pieces' rounding radius, plus a bound of the errors of the axes and half extents.
     pub(crate) slack: f64,
@@ -31,10 +31,10 @@ impl BodyBox {
         let axes = best_frame(sample, node_points.are_triangles);
         let turned = axes.transpose();
         let (low, high) = bounding_box(node_points.points.iter().map(|&p| turned * p));
-        let centre = axes * (0.5 * (low + high));
+        let center = axes * (0.5 * (low + high));
         let (mut half, mut radius) = (DVec3::ZERO, 0.0);
         for &point in node_points.points {
-            let way = point - centre;
+            let way = point - center;
             let along = (turned * way).abs();
             half = componentwise_max(half, along);
             radius = greater(radius, length(way));
@@ -48,7 +48,7 @@ impl BodyBox {
             .into_iter()
             .fold(0.0, |sum, entry| greater(sum, entry.abs()));
         BodyBox {
-            centre,
+            center,
             axes,
             half_extents: half,
             radius: (radius + node_points.rounding_radius) * (1.0 + 8.0 * UNIT_ROUNDOFF_F64),

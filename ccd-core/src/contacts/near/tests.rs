@@ -9,7 +9,7 @@ use crate::rounding::RAY_BOX_WIDENING_F64;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{random_box_corners, random_direction};
-use crate::tests::worst::{WorstCaseSearch, error_share};
+use crate::tests::worst::{WorstCaseSearch, error_fraction};
 
 /// Searches for the largest rounding error of a box's projection on a direction, as a share of its allowance, the
 /// widening.
@@ -34,14 +34,17 @@ fn worst_box() {
         let [_, high] = node.projection_interval(n);
         let axes = node.axes.map(|axis| axis.dot(n).abs());
         let allowed = RAY_BOX_WIDENING_F64 * node.radius * (axes[0] + axes[1] + axes[2]);
-        let middle = DoubleDouble3::from(n).dot(DoubleDouble3::from(node.centre));
+        let middle = DoubleDouble3::from(n).dot(DoubleDouble3::from(node.center));
         let lost = |p| {
             let height = DoubleDouble3::from(n).dot(DoubleDouble3::from(p));
-            let reach = DoubleDouble::from(high - node.centre.dot(n)) - DoubleDouble::from(allowed);
+            let reach = DoubleDouble::from(high - node.center.dot(n)) - DoubleDouble::from(allowed);
             (height - middle - reach).get()
         };
         let worst = points.iter().map(|&p| lost(p));
-        Some(error_share(worst.fold(f64::NEG_INFINITY, greater), allowed))
+        Some(error_fraction(
+            worst.fold(f64::NEG_INFINITY, greater),
+            allowed,
+        ))
     });
     found.assert_tight_bound(400.0);
 }

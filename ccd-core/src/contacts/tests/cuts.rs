@@ -5,7 +5,7 @@ use super::*;
 use crate::body::pieces::Pieces;
 
 /// Creates a slab whose top and bottom have four triangles each, around a middle point without a mesh number.
-fn slab_with_centre_points(half: DVec3) -> Body {
+fn slab_with_center_points(half: DVec3) -> Body {
     let mut points = Mesh::cuboid(half).points;
     points.extend([-half.z * DVec3::Z, half.z * DVec3::Z]);
     let side = |corners: &[u32]| Facet {
@@ -33,7 +33,7 @@ fn only_the_foot_on_a_side_is_reported() {
     let half = DVec3::new(1.0, 0.8, 0.3);
     let [cut, whole] = cuboid_as_triangles_and_as_piece(half);
     let point = Body::sphere(0.0).unwrap();
-    for slab in [cut, whole, slab_with_centre_points(half)] {
+    for slab in [cut, whole, slab_with_center_points(half)] {
         let (mut feet, mut beside) = (0, 0);
         for _ in 0..200 {
             let place = 2.5 * random_point_in_ball(rng, 1.0);

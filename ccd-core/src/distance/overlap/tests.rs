@@ -309,7 +309,7 @@ fn a_claim_that_shows_no_depth_needs_no_polytope() {
     assert!(inner.corners.is_empty());
 }
 
-/// Tests that two balls do not intersect if the distance of their centres is exactly the sum of their radii.
+/// Tests that two balls do not intersect if the distance of their centers is exactly the sum of their radii.
 #[test]
 fn balls_that_touch_exactly_do_not_intersect() {
     let ball = Body::sphere(0.5).unwrap();

@@ -21,7 +21,7 @@ pub(crate) struct GapAndExtents<L: Simd> {
 }
 
 impl<L: Simd> GapAndExtents<L> {
-    /// Creates the gaps of nodes with these extents, whose centres are `offset` apart along their axes.
+    /// Creates the gaps of nodes with these extents, whose centers are `offset` apart along their axes.
     #[inline(always)]
     fn new(offset: f32x8<L>, child_extent: f32x8<L>, other_extent: f32x8<L>) -> Self {
         GapAndExtents {
@@ -54,8 +54,8 @@ impl<L: Simd> AxesX8<L> {
 }
 
 /// Returns for each of eight pairs the axis along which the gap takes longest to close to the required gap, if it closes
-/// at the rate of the centres' velocities. There are three: the normals of the two nodes, and the vector between their
-/// centres or nearest edges.
+/// at the rate of the centers' velocities. There are three: the normals of the two nodes, and the vector between their
+/// centers or nearest edges.
 ///
 /// Each is homogeneous: a zero vector gives no gap, and any other length than 1 gives a sound one.
 #[cfg_attr(
@@ -93,14 +93,14 @@ pub(crate) fn slowest_closing_axis<L: Simd, C: Children, P: OtherNode>(
     between.select(between_time.simd_gt(slower_time), slower)
 }
 
-/// Returns the times in which the gaps along axes close at the rate of the centres' velocities. Of gaps that open, the
+/// Returns the times in which the gaps along axes close at the rate of the centers' velocities. Of gaps that open, the
 /// wider one gets the longer time.
 #[inline(always)]
 fn closing_time<L: Simd>(axis: &AxesX8<L>, velocity: Vec3x8<L>, required_gap: f32) -> f32x8<L> {
     (axis.across.gap - required_gap) / axis.n.dot(velocity).max(LEAST_CLOSING_RATE)
 }
 
-/// Returns the axis between the centres at their time of nearest approach within `remaining_time`, for straight paths.
+/// Returns the axis between the centers at their time of nearest approach within `remaining_time`, for straight paths.
 #[cfg_attr(
     any(not(target_family = "wasm"), target_feature = "simd128"),
     inline(always)

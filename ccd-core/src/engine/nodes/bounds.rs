@@ -28,7 +28,7 @@ pub(crate) struct EightPairFreeTimes {
 /// Computes the free times of the pairs in `lanes`, and chooses the next step for each pair.
 ///
 /// Fixed planes are perpendicular to two axes: the one of three along which the gap takes longest to close, and the one
-/// between the centres at the time when they are nearest. The first suits approaching pairs, the second passing ones.
+/// between the centers at the time when they are nearest. The first suits approaching pairs, the second passing ones.
 /// Beside nodes that are much larger, planes that turn with the body of these nodes are tried, too.
 #[cfg_attr(
     any(not(target_family = "wasm"), target_feature = "simd128"),
@@ -125,7 +125,7 @@ impl<L: Simd> FlybyPairs<L> {
                     level,
                     motion
                         .split_body_rotation
-                        .distance_from_centre(other.centre()),
+                        .distance_from_center(other.center()),
                 ),
                 large_radius: children.radius(level),
                 small_radius: splat(level, other.radius()),
@@ -136,7 +136,7 @@ impl<L: Simd> FlybyPairs<L> {
                 spin: motion.other_rotation.angular_speed,
                 small_node_arm_length: motion
                     .other_rotation
-                    .distances_from_centre(children.centre(level)),
+                    .distances_from_center(children.center(level)),
                 large_radius: splat(level, other.radius()),
                 small_radius: children.radius(level),
                 large_node_is_piece: mask32x8::splat(level, other.is_piece()),

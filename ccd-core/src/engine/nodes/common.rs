@@ -46,19 +46,19 @@ fn speed_bound(a: &BodyWithPath<'_>, b: &BodyWithPath<'_>) -> f64 {
         // An arm is the difference of two positions, each rounded at its place, as seen from a group of the other
         // body. That group is in a ball which moves straight, and turns with its body.
         let (ball, radius) = other.body.tree().bounding_ball();
-        let turned = lesser(other.path.angular_speed, 2.0) * ball.distance(other.path.centre);
-        let start = distance(other.path.point_at_start(ball), own.path.centre_at(0.0));
+        let turned = lesser(other.path.angular_speed, 2.0) * ball.distance(other.path.center);
+        let start = distance(other.path.point_at_start(ball), own.path.center_at(0.0));
         let places = 2.0 * (start + straight + turned + 4.0 * radius) + reach(own);
         own.path.angular_speed * (reach(own) + ARM_INCREASE_PER_DISTANCE * places)
     };
     straight + turning(a, b) + turning(b, a)
 }
 
-/// Returns an upper bound of the distances of a body's nodes from its centre of rotation. The points of a node are
-/// within the diameter of the whole body from the node's centre, and that is in a cube around the body.
+/// Returns an upper bound of the distances of a body's nodes from its center of rotation. The points of a node are
+/// within the diameter of the whole body from the node's center, and that is in a cube around the body.
 fn reach(side: &BodyWithPath<'_>) -> f64 {
-    let (centre, radius) = side.body.tree().bounding_ball();
-    centre.distance(side.path.centre) + 4.0 * radius
+    let (center, radius) = side.body.tree().bounding_ball();
+    center.distance(side.path.center) + 4.0 * radius
 }
 
 impl<'p> NodeContext<'p> {
@@ -108,7 +108,7 @@ pub(crate) enum QueryMotion {
     NeitherTurns,
     OneTurns(WhichBody),
     BothTurn,
-    /// One centre accelerates relative to the other; the bodies may turn or not.
+    /// One center accelerates relative to the other; the bodies may turn or not.
     Accelerates,
 }
 

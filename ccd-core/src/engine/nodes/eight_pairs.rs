@@ -14,9 +14,9 @@ use glam::Vec3;
 /// The relative motion of two bodies, in f32, with allowances for rounding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RelativeMotionF32 {
-    /// The velocity of the split body's centre relative to the other body's.
+    /// The velocity of the split body's center relative to the other body's.
     pub(crate) velocity: Vec3,
-    /// The derivative of `velocity`; `None` if both centres accelerate equally.
+    /// The derivative of `velocity`; `None` if both centers accelerate equally.
     pub(crate) acceleration: Option<Vec3>,
     pub(crate) split_body_rotation: BodyRotation,
     pub(crate) other_rotation: BodyRotation,
@@ -43,13 +43,13 @@ pub(crate) struct EightPairs<'a, L: Simd, C, P> {
     pub(crate) children: &'a C,
     pub(crate) other_node: &'a P,
     pub(crate) motion: &'a RelativeMotionF32,
-    /// The vectors from the children's centres to the other node's centre.
+    /// The vectors from the children's centers to the other node's center.
     pub(crate) offset: Vec3x8<L>,
-    /// The velocities of the children's centres relative to the other node's.
+    /// The velocities of the children's centers relative to the other node's.
     pub(crate) velocity: Vec3x8<L>,
     /// Upper bounds of the speeds of the children's points due to rotation.
     pub(crate) rotational_speed_bounds: f32x8<L>,
-    /// The velocity of the other node's centre due to rotation.
+    /// The velocity of the other node's center due to rotation.
     pub(crate) other_rotational_velocity: Vec3x8<L>,
     /// An upper bound of the speeds of the other node's points due to rotation.
     pub(crate) other_rotational_speed_bound: f32x8<L>,
@@ -68,15 +68,15 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
         other: &'a P,
         motion: &'a RelativeMotionF32,
     ) -> Self {
-        let (centre, other_centre) = (children.centre(level), Vec3x8::splat(level, other.centre()));
-        let turning = motion.split_body_rotation.rotational_velocity(centre);
-        let other_turning = motion.other_rotation.rotational_velocity(other_centre);
+        let (center, other_center) = (children.center(level), Vec3x8::splat(level, other.center()));
+        let turning = motion.split_body_rotation.rotational_velocity(center);
+        let other_turning = motion.other_rotation.rotational_velocity(other_center);
         let velocity = Vec3x8::splat(level, motion.velocity);
         EightPairs {
             children,
             other_node: other,
             motion,
-            offset: other_centre - centre,
+            offset: other_center - center,
             velocity: velocity + turning - other_turning,
             // A slack on the speeds covers the rounding of the second derivatives.
             rotational_speed_bounds: turning.length()
@@ -96,7 +96,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
     )]
     pub(crate) fn fixed_plane_free_times(&self, axis: AxesX8<L>) -> f32x8<L> {
         let motion = self.motion;
-        // n·(v + ω×arm) of the centres, plus the contribution of the points around them.
+        // n·(v + ω×arm) of the centers, plus the contribution of the points around them.
         let mut rate = axis.n.dot(self.velocity) + motion.rate_allowance;
         let mut second_derivative = splat(axis.n.simd_level(), LEAST_SECOND_DERIVATIVE_F32);
         if motion.split_body_rotation.is_turning {
@@ -146,7 +146,7 @@ pub(crate) fn second_derivative_bound<L: Simd>(
     (m.length() * SECOND_DERIVATIVE_FACTOR_F32 + CROSS_PRODUCT_ERROR_F32 * rate) * speed
 }
 
-/// The angular velocity of a body, with its centre of rotation.
+/// The angular velocity of a body, with its center of rotation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BodyRotation {
     /// False for a body without rotation; the other fields are not used then.
@@ -155,7 +155,7 @@ pub(crate) struct BodyRotation {
     /// The angular speed `|ω|`, rounded up.
     pub(crate) angular_speed: f32,
     /// The position of a point on the axis of rotation.
-    pub(crate) rotation_centre: Vec3,
+    pub(crate) rotation_center: Vec3,
 }
 
 impl BodyRotation {
@@ -164,15 +164,15 @@ impl BodyRotation {
         is_turning: false,
         spin: Vec3::ZERO,
         angular_speed: 0.0,
-        rotation_centre: Vec3::ZERO,
+        rotation_center: Vec3::ZERO,
     };
 
-    /// Returns the velocities of points due to rotation, `ω × (x − centre)`.
+    /// Returns the velocities of points due to rotation, `ω × (x − center)`.
     #[inline(always)]
     pub(crate) fn rotational_velocity<L: Simd>(&self, x: Vec3x8<L>) -> Vec3x8<L> {
         let level = x.simd_level();
         if self.is_turning {
-            Vec3x8::splat(level, self.spin).cross(x - Vec3x8::splat(level, self.rotation_centre))
+            Vec3x8::splat(level, self.spin).cross(x - Vec3x8::splat(level, self.rotation_center))
         } else {
             Vec3x8::splat(level, Vec3::ZERO)
         }
@@ -188,17 +188,17 @@ impl BodyRotation {
         }
     }
 
-    /// Returns the distances of points from the centre of rotation.
+    /// Returns the distances of points from the center of rotation.
     #[inline(always)]
-    pub(crate) fn distances_from_centre<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
-        (x - Vec3x8::splat(x.simd_level(), self.rotation_centre)).length()
+    pub(crate) fn distances_from_center<L: Simd>(&self, x: Vec3x8<L>) -> f32x8<L> {
+        (x - Vec3x8::splat(x.simd_level(), self.rotation_center)).length()
     }
 
-    /// Returns the distance of a point from the centre of rotation; 0 without rotation.
+    /// Returns the distance of a point from the center of rotation; 0 without rotation.
     #[inline(always)]
-    pub(crate) fn distance_from_centre(&self, x: Vec3) -> f32 {
+    pub(crate) fn distance_from_center(&self, x: Vec3) -> f32 {
         if self.is_turning {
-            (x - self.rotation_centre).length()
+            (x - self.rotation_center).length()
         } else {
             0.0
         }

@@ -130,14 +130,14 @@ impl<'p, L: Simd, K: MotionKind> RelativeMotion<'p, L, K> {
         let RelativeState {
             rotation, offset, ..
         } = self.relative_state;
-        let centre = self.relative_path.rotation_centre(self.simd_level)
+        let center = self.relative_path.rotation_center(self.simd_level)
             - PackedVector::new(self.simd_level, members.origin);
-        let other_centre = centre + offset;
+        let other_center = center + offset;
         let group_view = GroupMotion {
             rotation,
             rotation_f32: rotation.narrow(),
-            rotation_centre: centre.as_vec3(),
-            other_rotation_centre: other_centre,
+            rotation_center: center.as_vec3(),
+            other_rotation_center: other_center,
             motion: self,
             header: members,
         };
@@ -159,18 +159,18 @@ struct GroupMotion<'m, L: Simd, K> {
     rotation: PackedMatrix<L>,
     /// The same rotation in f32, by columns.
     rotation_f32: [f32x4<L>; 3],
-    /// The centre of rotation of the split body, relative to the group's origin.
-    rotation_centre: Vec3,
-    other_rotation_centre: PackedVector<L>,
+    /// The center of rotation of the split body, relative to the group's origin.
+    rotation_center: Vec3,
+    other_rotation_center: PackedVector<L>,
 }
 
 impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
     #[inline(always)]
     fn bound<C: Children, P: OtherNode>(&self, group: &C, other: &P) -> EightPairFreeTimes {
         let motion = if K::STANDS_STILL {
-            self.unit_closing_rate_motion(other.centre(), other.radius())
+            self.unit_closing_rate_motion(other.center(), other.radius())
         } else {
-            self.motion_in_f32(other.centre(), other.radius())
+            self.motion_in_f32(other.center(), other.radius())
         };
         let lanes = self.motion.split.lane_mask & u8::MAX >> (LANES as u32 - self.header.count);
         bound_eight_pairs(self.motion.simd_level, group, other, &motion, lanes)
@@ -180,7 +180,7 @@ impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
     fn other_box(&self, node: &Node) -> OtherBox {
         let [u, v, w] = node.axes;
         OtherBox {
-            centre: self.to_group_point(node.centre).as_vec3(),
+            center: self.to_group_point(node.center).as_vec3(),
             axes: [
                 self.to_group_vector(u),
                 self.to_group_vector(v),
@@ -198,8 +198,8 @@ impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
     fn to_group_point(&self, point: DVec3) -> PackedVector<L> {
         let level = self.motion.simd_level;
         let arm = PackedVector::new(level, point)
-            - self.motion.relative_path.other_rotation_centre(level);
-        self.rotation * arm + self.other_rotation_centre
+            - self.motion.relative_path.other_rotation_center(level);
+        self.rotation * arm + self.other_rotation_center
     }
 
     #[inline(always)]
@@ -215,13 +215,13 @@ impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
             self.to_group_point(b),
             self.to_group_point(c),
         );
-        let centre = (a + b + c) * (1.0 / 3.0);
-        let (p, q, r) = (a - centre, b - centre, c - centre);
+        let center = (a + b + c) * (1.0 / 3.0);
+        let (p, q, r) = (a - center, b - center, c - center);
         let corners = [p.to_dvec3(), q.to_dvec3(), r.to_dvec3()];
         let [from_p, from_q, from_r] = corners.map(DVec3::length_squared);
         let farthest = greater(greater(from_p, from_q), from_r);
         OtherTriangle {
-            centre: centre.as_vec3(),
+            center: center.as_vec3(),
             corners: [p.as_vec3(), q.as_vec3(), r.as_vec3()],
             normal: unit_normal(corners),
             is_thin: is_thin_triangle(corners),
@@ -237,7 +237,7 @@ impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
                 is_turning: true,
                 spin: spin.angular_velocity,
                 angular_speed: spin.angular_speed,
-                rotation_centre: self.rotation_centre,
+                rotation_center: self.rotation_center,
             }
         } else {
             BodyRotation::NO_ROTATION
@@ -253,20 +253,20 @@ impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
                 is_turning: true,
                 spin: self.motion.relative_state.spin.as_vec3(),
                 angular_speed: spin.angular_speed,
-                rotation_centre: self.other_rotation_centre.as_vec3(),
+                rotation_center: self.other_rotation_center.as_vec3(),
             }
         } else {
             BodyRotation::NO_ROTATION
         }
     }
 
-    /// Returns the relative motion in f32, with allowances for rounding against a node of this centre and radius.
+    /// Returns the relative motion in f32, with allowances for rounding against a node of this center and radius.
     #[inline(always)]
-    fn motion_in_f32(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
+    fn motion_in_f32(&self, center: Vec3, radius: f32) -> RelativeMotionF32 {
         let (split, other) = (self.split_body_rotation(), self.other_rotation());
         let reach = self.header.max_distance_from_origin;
         let common = self.motion.node_context;
-        let rounding = self.rounding(centre, radius);
+        let rounding = self.rounding(center, radius);
         // Large nodes, whose gaps have a rounding above the rest of the tolerance, keep the gap of pieces.
         let slack = greater(
             round_up_positive(common.kept_gap + rounding),
@@ -297,24 +297,24 @@ impl<L: Simd, K: MotionKind> GroupMotion<'_, L, K> {
 
     /// Returns a motion in which all gaps close at a rate of 1, so that free times are lower bounds of distances.
     #[inline(always)]
-    fn unit_closing_rate_motion(&self, centre: Vec3, radius: f32) -> RelativeMotionF32 {
+    fn unit_closing_rate_motion(&self, center: Vec3, radius: f32) -> RelativeMotionF32 {
         RelativeMotionF32 {
             velocity: Vec3::ZERO,
             acceleration: None,
             split_body_rotation: BodyRotation::NO_ROTATION,
             other_rotation: BodyRotation::NO_ROTATION,
             remaining_time: 0.0,
-            required_gap: self.rounding(centre, radius),
+            required_gap: self.rounding(center, radius),
             closed_gap_threshold: 0.0,
             rate_allowance: 1.0,
             larger_body: None,
         }
     }
 
-    /// Returns a bound of the rounding of gaps to a node with this centre and radius.
+    /// Returns a bound of the rounding of gaps to a node with this center and radius.
     #[inline(always)]
-    fn rounding(&self, centre: Vec3, radius: f32) -> f32 {
-        let [x, y, z] = centre.abs().to_array();
+    fn rounding(&self, center: Vec3, radius: f32) -> f32 {
+        let [x, y, z] = center.abs().to_array();
         let rounding = GAP_ERROR_PER_DISTANCE_F32 * (x + y + z)
             + GAP_ERROR_PER_RADIUS_F32 * (radius + self.header.max_distance_from_origin);
         round_up_positive(rounding + self.motion.node_context.rounding)

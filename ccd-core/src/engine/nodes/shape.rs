@@ -8,12 +8,12 @@ use glam::Vec3;
 
 /// The eight children of a group as geometric shapes.
 pub(crate) trait Children {
-    fn centre<L: Simd>(&self, level: L) -> Vec3x8<L>;
+    fn center<L: Simd>(&self, level: L) -> Vec3x8<L>;
     /// Returns for each child a unit vector that is likely to be a separating axis, or zero.
     fn likely_separating_axis<L: Simd>(&self, level: L) -> Vec3x8<L>;
-    /// Returns upper bounds of the distances of each child's points from its centre.
+    /// Returns upper bounds of the distances of each child's points from its center.
     fn radius<L: Simd>(&self, level: L) -> f32x8<L>;
-    /// Returns `max n·(x − centre)` over each child's points `x`.
+    /// Returns `max n·(x − center)` over each child's points `x`.
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
     /// Like `Children::extent_along`, for unit vectors, or zero.
     #[inline(always)]
@@ -26,8 +26,8 @@ pub(crate) trait Children {
         self.extent_along(n)
     }
     /// Returns the vectors from each child's nearest point to a target point, as likely separating axes; `to` leads
-    /// from the children's centres to the target. Children that are neither thin nor much larger than `target_radius` may take
-    /// their centres for the nearest points.
+    /// from the children's centers to the target. Children that are neither thin nor much larger than `target_radius` may take
+    /// their centers for the nearest points.
     fn offset_from_nearest_point<L: Simd>(&self, to: Vec3x8<L>, target_radius: f32) -> Vec3x8<L>;
     /// Returns an upper bound of the distances of the children's points from the group's origin.
     fn max_distance_from_origin(&self) -> f32;
@@ -37,12 +37,12 @@ pub(crate) trait Children {
 
 /// The node with which all children of a group are paired.
 pub(crate) trait OtherNode {
-    fn centre(&self) -> Vec3;
+    fn center(&self) -> Vec3;
     /// Returns a unit vector that is likely to be a separating axis, or zero.
     fn likely_separating_axis(&self) -> Vec3;
-    /// Returns an upper bound of the distances of the node's points from its centre.
+    /// Returns an upper bound of the distances of the node's points from its center.
     fn radius(&self) -> f32;
-    /// Returns `max n·(centre − y)` over the node's points `y`: the node's extent along −n.
+    /// Returns `max n·(center − y)` over the node's points `y`: the node's extent along −n.
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L>;
     /// Like `OtherNode::extent_along`, for unit vectors, or zero.
     #[inline(always)]
@@ -55,14 +55,14 @@ pub(crate) trait OtherNode {
         self.extent_along(n)
     }
     /// Returns the vectors from given points to the node's nearest points, as likely separating axes; `offset` leads
-    /// from the given points to the node's centre. A node that is neither thin nor much larger than `source_radius` may take its
-    /// centre for the nearest point.
+    /// from the given points to the node's center. A node that is neither thin nor much larger than `source_radius` may take its
+    /// center for the nearest point.
     fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>, source_radius: f32) -> Vec3x8<L>;
     /// Returns whether the node is a single piece, and cannot be split.
     fn is_piece(&self) -> bool;
 }
 
-/// A box that is grown by a radius, and a ball with the same centre around it.
+/// A box that is grown by a radius, and a ball with the same center around it.
 struct GrownBox<L: Simd> {
     axes: [Vec3x8<L>; 3],
     half_extents: [f32x8<L>; 3],
@@ -104,8 +104,8 @@ impl<L: Simd> GrownBox<L> {
 
 impl Children for BoxGroup {
     #[inline(always)]
-    fn centre<L: Simd>(&self, level: L) -> Vec3x8<L> {
-        Vec3x8::load(level, &self.centre)
+    fn center<L: Simd>(&self, level: L) -> Vec3x8<L> {
+        Vec3x8::load(level, &self.center)
     }
     #[inline(always)]
     fn likely_separating_axis<L: Simd>(&self, level: L) -> Vec3x8<L> {
@@ -161,7 +161,7 @@ impl BoxGroup {
 
 impl Children for TriangleGroup {
     #[inline(always)]
-    fn centre<L: Simd>(&self, level: L) -> Vec3x8<L> {
+    fn center<L: Simd>(&self, level: L) -> Vec3x8<L> {
         let [a, b, c] = self.triangle_corners(level);
         (a + b + c) * splat(level, 1.0 / 3.0)
     }
@@ -184,7 +184,7 @@ impl Children for TriangleGroup {
             return to;
         }
         let level = to.simd_level();
-        offset_from_edges(self.triangle_corners(level), self.centre(level) + to)
+        offset_from_edges(self.triangle_corners(level), self.center(level) + to)
     }
     #[inline(always)]
     fn max_distance_from_origin(&self) -> f32 {
@@ -198,7 +198,7 @@ impl Children for TriangleGroup {
         let level = n.simd_level();
         let [a, b, c] = self.triangle_corners(level);
         let highest = n.dot(a).max(n.dot(b)).max(n.dot(c));
-        highest - n.dot(self.centre(level))
+        highest - n.dot(self.center(level))
     }
     #[inline(always)]
     fn leaf_children_mask<L: Simd>(&self, level: L) -> mask32x8<L> {
@@ -221,7 +221,7 @@ impl TriangleGroup {
 /// The box and the ball of the other node, in the group's coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OtherBox {
-    pub(crate) centre: Vec3,
+    pub(crate) center: Vec3,
     pub(crate) axes: [Vec3; 3],
     pub(crate) half_extents: [f32; 3],
     pub(crate) rounding_radius: f32,
@@ -232,8 +232,8 @@ pub(crate) struct OtherBox {
 
 impl OtherNode for OtherBox {
     #[inline(always)]
-    fn centre(&self) -> Vec3 {
-        self.centre
+    fn center(&self) -> Vec3 {
+        self.center
     }
     #[inline(always)]
     fn likely_separating_axis(&self) -> Vec3 {
@@ -291,10 +291,10 @@ impl OtherBox {
     }
 }
 
-/// The other node if it is a triangle, by its corners relative to its centre.
+/// The other node if it is a triangle, by its corners relative to its center.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OtherTriangle {
-    pub(crate) centre: Vec3,
+    pub(crate) center: Vec3,
     pub(crate) corners: [Vec3; 3],
     pub(crate) normal: Vec3,
     pub(crate) radius: f32,
@@ -304,8 +304,8 @@ pub(crate) struct OtherTriangle {
 
 impl OtherNode for OtherTriangle {
     #[inline(always)]
-    fn centre(&self) -> Vec3 {
-        self.centre
+    fn center(&self) -> Vec3 {
+        self.center
     }
     #[inline(always)]
     fn likely_separating_axis(&self) -> Vec3 {

@@ -17,15 +17,15 @@ use glam::DVec3;
 pub(crate) struct Heights<'a> {
     piece: &'a Piece<'a>,
     frame: &'a Frame,
-    /// The centre of rotation in the body's frame.
-    centre: DVec3,
+    /// The center of rotation in the body's frame.
+    center: DVec3,
     normal: DVec3,
     /// The unit axis about which the body turns.
     rotation_axis: DVec3,
     motion_along_axis: MotionAlongAxis,
     angular_speed: f64,
     speed_bound: f64,
-    /// The magnitude of the centre's acceleration.
+    /// The magnitude of the center's acceleration.
     acceleration: f64,
     least_height: f64,
     point_tracks: PointTracks,
@@ -77,11 +77,11 @@ impl<'a> Heights<'a> {
         clock: f64,
     ) -> Self {
         let path = &side.path;
-        let velocity = path.centre_velocity_at(clock);
+        let velocity = path.center_velocity_at(clock);
         let mut heights = Heights {
             piece,
             frame,
-            centre: path.centre,
+            center: path.center,
             normal,
             rotation_axis: path.axis,
             motion_along_axis: MotionAlongAxis::new(
@@ -126,7 +126,7 @@ impl<'a> Heights<'a> {
         if self.is_nonrotating() {
             return;
         }
-        let arm = self.frame.rotation * (middle - self.centre);
+        let arm = self.frame.rotation * (middle - self.center);
         let farthest = (length(arm) + radius) * (1.0 + RATE_ERROR_F64);
         self.speed_bound += self.angular_speed * farthest;
         self.second_derivative = self
@@ -263,14 +263,14 @@ impl<'a> Heights<'a> {
         self.track_and_arm(self.piece.points[index as usize]).0
     }
 
-    /// Returns for each point its track and its arm from the centre of rotation.
+    /// Returns for each point its track and its arm from the center of rotation.
     fn tracks_and_arms(&self) -> impl Iterator<Item = (HeightFunction, DVec3)> {
         self.piece.points.iter().map(|&x| self.track_and_arm(x))
     }
 
     #[inline]
     fn track_and_arm(&self, point: DVec3) -> (HeightFunction, DVec3) {
-        let arm = self.frame.rotation * (point - self.centre);
+        let arm = self.frame.rotation * (point - self.center);
         (
             self.motion_along_axis
                 .height_function_of_point(self.normal.dot(arm), arm),

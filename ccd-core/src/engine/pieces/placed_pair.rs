@@ -115,7 +115,7 @@ impl<'p> PlacedPair<'p> {
     /// Returns the overlap of two pieces of many points along the axis between their middles, as a share of the smaller
     /// bounding radius. It is negative if the pieces are apart along the axis; `None` if a piece has few points.
     #[cfg(feature = "hull-tree")]
-    pub(crate) fn relative_overlap_along_centre_line(&self) -> Option<f64> {
+    pub(crate) fn relative_overlap_along_center_line(&self) -> Option<f64> {
         let pair = &self.pieces;
         let ((a, radius_a), (b, radius_b)) = (pair.a.bounding_ball()?, pair.b.bounding_ball()?);
         let axis = unit(pair.b_to_a.transform_point(b) - a)?;

@@ -247,7 +247,7 @@ impl PlacedPair<'_> {
                 VelocityBound::Sound => sound_bound(&motion, n, reach),
                 VelocityBound::Published => published_bound(&motion, n, |c| {
                     let farthest = piece.extremal_position(frame.inverse_transform_vector(c));
-                    frame.rotation * (farthest - side.path.centre)
+                    frame.rotation * (farthest - side.path.center)
                 }),
             };
             speed += length(motion.linear_velocity) + side.path.angular_speed * reach;

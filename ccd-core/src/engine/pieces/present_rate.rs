@@ -62,7 +62,7 @@ impl RiseBound {
         clock: f64,
     ) -> Self {
         let path = &side.path;
-        let velocity = path.centre_velocity_at(clock);
+        let velocity = path.center_velocity_at(clock);
         let acceleration = length(path.acceleration);
         let linear = RiseBound {
             rate: normal.dot(velocity) + RATE_ERROR_F64 * (length(velocity) + acceleration),
@@ -74,7 +74,7 @@ impl RiseBound {
         let omega = path.angular_speed;
         let across = normal.cross(path.spin);
         let in_body = frame.inverse_transform_vector(across);
-        let arms = piece.points.iter().map(|&x| x - path.centre);
+        let arms = piece.points.iter().map(|&x| x - path.center);
         let (rate, square) = arms.fold((f64::NEG_INFINITY, 0.0), |(rate, square), arm| {
             (
                 greater(rate, in_body.dot(arm)),

@@ -23,8 +23,8 @@ fn solve(problem: &Problem<'_>) -> Answer {
 }
 
 /// Creates the motion of a ball of radius 1 on a circle of radius 5, which starts at a given angle.
-fn orbiting_ball_motion(centre: DVec3, velocity: DVec3, spin: f64, angle: f64) -> Motion {
-    let at = centre + 5.0 * DVec3::new(angle.cos(), angle.sin(), 0.0);
+fn orbiting_ball_motion(center: DVec3, velocity: DVec3, spin: f64, angle: f64) -> Motion {
+    let at = center + 5.0 * DVec3::new(angle.cos(), angle.sin(), 0.0);
     let start = Pose::new(at, DQuat::from_rotation_z(angle)).unwrap();
     Motion::about(start, velocity, spin * DVec3::Z, -5.0 * DVec3::X).unwrap()
 }
@@ -118,9 +118,9 @@ fn scene(rng: &mut Pcg64, number: usize) -> ([Body; 2], [Motion; 2], Settings) {
     let toward = [-y, random_direction(rng)][rng.random_range(0..2)];
     let drift = toward * [0.0, random_power_of_ten(rng, -4.0, 0.0)][rng.random_range(0..2)];
     let velocity = random_point_in_ball(rng, 1.0) * [0.0, 1.0][rng.random_range(0..2)];
-    let motion = |rng: &mut Pcg64, centre: DVec3, arm: DVec3, velocity: DVec3, spin: DVec3| {
+    let motion = |rng: &mut Pcg64, center: DVec3, arm: DVec3, velocity: DVec3, spin: DVec3| {
         let turned = random_rotation(rng);
-        let start = Pose::new(centre + arm, turned).unwrap();
+        let start = Pose::new(center + arm, turned).unwrap();
         Motion::about(start, velocity, spin, turned.inverse() * -arm).unwrap()
     };
     let motions = [
@@ -287,8 +287,8 @@ fn a_thousand_turns_cost_what_one_does() {
     for number in 0..60 {
         let ([a, b], [first, second], config) = scene(&mut rng, number);
         let turn = |motion: Motion, ratio: f64, turns: f64| {
-            let spin = motion.spin().normalize_or_zero() * TAU * ratio * turns;
-            Motion::about(motion.start(), DVec3::ZERO, spin, motion.centre()).unwrap()
+            let spin = motion.angular_velocity().normalize_or_zero() * TAU * ratio * turns;
+            Motion::about(motion.start(), DVec3::ZERO, spin, motion.center()).unwrap()
         };
         let ratio = [0.0, 0.5, 1.0][number % 3];
         let work = |turns: f64| {
@@ -315,8 +315,8 @@ fn closest_approaches_of_many_turns_hold_at_sampled_times() {
     for number in 0..60 {
         let ([a, b], [first, second], config) = scene(&mut rng, number);
         let turn = |motion: Motion, turns: f64| {
-            let spin = motion.spin().normalize_or_zero() * TAU * turns;
-            Motion::about(motion.start(), first.velocity(), spin, motion.centre()).unwrap()
+            let spin = motion.angular_velocity().normalize_or_zero() * TAU * turns;
+            Motion::about(motion.start(), first.velocity(), spin, motion.center()).unwrap()
         };
         let ratio = [0.0, 0.5, 1.0, 0.4][number % 4];
         let problem = |turns: f64| {

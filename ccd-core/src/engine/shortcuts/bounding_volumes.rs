@@ -4,7 +4,7 @@
 //! A path with a constant acceleration is within an eighth of that acceleration from the straight path between its
 //! ends.
 
-use super::placed::{ApproachRateBounds, PlacedNode, centre_approach_rate};
+use super::placed::{ApproachRateBounds, PlacedNode, center_approach_rate};
 use crate::answer::Outcome;
 use crate::math::order::{greater, lesser};
 use crate::math::vector::{length, unit};
@@ -40,14 +40,14 @@ pub(crate) fn least_distance(problem: &Problem<'_>) -> f64 {
         MovingBall::around_body(&problem.a),
         MovingBall::around_body(&problem.b),
     );
-    let distance = origin_distance_to_segment(b.centre - a.centre, b.velocity - a.velocity)
+    let distance = origin_distance_to_segment(b.center - a.center, b.velocity - a.velocity)
         - deviation_from_line_bound(problem);
     // The rounding of a distance of bodies is more than that of the positions of their balls. Twice that is more than
     // the rounding of this distance, too.
     distance - a.radius - b.radius - 2.0 * problem.rounding
 }
 
-/// Returns a bound of the deviation of the vector between the balls' centres from a linear function of time, due to
+/// Returns a bound of the deviation of the vector between the balls' centers from a linear function of time, due to
 /// accelerations.
 fn deviation_from_line_bound(problem: &Problem<'_>) -> f64 {
     0.125
@@ -61,30 +61,30 @@ pub(crate) fn clock_of_nearest_balls(problem: &Problem<'_>) -> f64 {
         MovingBall::around_body(&problem.a),
         MovingBall::around_body(&problem.b),
     );
-    least_length_parameter(b.centre - a.centre, b.velocity - a.velocity)
+    least_length_parameter(b.center - a.center, b.velocity - a.velocity)
 }
 
 /// A ball that moves on a straight path and contains a body at all times, up to the effect of its acceleration.
 struct MovingBall {
-    /// The position of the ball's centre at the start.
-    centre: DVec3,
+    /// The position of the ball's center at the start.
+    center: DVec3,
     velocity: DVec3,
     radius: f64,
 }
 
 impl MovingBall {
     fn around_body(side: &BodyWithPath<'_>) -> Self {
-        let (centre, radius) = side.body.tree().bounding_ball();
+        let (center, radius) = side.body.tree().bounding_ball();
         let path = &side.path;
-        // The body's turning moves the centre along an arc: by at most its length, and by at most the diameter.
+        // The body's turning moves the center along an arc: by at most its length, and by at most the diameter.
         let turned = match path.angular_speed {
             rate if rate < 2.0 => rate,
             _ => 2.0,
         };
         MovingBall {
-            centre: path.point_at_start(centre),
+            center: path.point_at_start(center),
             velocity: path.velocity + 0.5 * path.acceleration,
-            radius: radius + turned * centre.distance(path.centre),
+            radius: radius + turned * center.distance(path.center),
         }
     }
 }
@@ -106,7 +106,7 @@ fn least_length_parameter(from: DVec3, change: DVec3) -> f64 {
 
 /// Returns whether one fixed plane separates both bounding boxes by more than the contact distance for the whole
 /// duration. The plane is perpendicular to the offset between the boxes' nearest points, to the offset between their
-/// centres when these pass each other, or to an axis of a box.
+/// centers when these pass each other, or to an axis of a box.
 ///
 /// # Guarantee
 /// The result is true only for bodies that are never in contact, up to the tolerance, nor inside each other.
@@ -117,7 +117,7 @@ fn boxes_keep_apart(problem: &Problem<'_>) -> bool {
     }
     let [a, b] = [&problem.a, &problem.b].map(|side| PlacedNode::body_box(side, 0.0));
     // Repeated projection from one box to the other converges to the nearest points.
-    let (mut on_a, mut on_b) = (a.centre, b.centre);
+    let (mut on_a, mut on_b) = (a.center, b.center);
     for _ in 0..ALTERNATING_PROJECTION_COUNT {
         on_a = a.nearest_point(on_b);
         on_b = b.nearest_point(on_a);
@@ -133,12 +133,12 @@ fn boxes_keep_apart(problem: &Problem<'_>) -> bool {
         .any(|n| plane_keeps_apart(problem, [&a, &b], n))
 }
 
-/// Returns the vector between the boxes' centres at their closest approach, as if both kept their velocities at the
+/// Returns the vector between the boxes' centers at their closest approach, as if both kept their velocities at the
 /// start.
 fn offset_at_closest_approach(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2]) -> DVec3 {
-    let way = b.centre - a.centre;
+    let way = b.center - a.center;
     let velocity =
-        problem.b.path.velocity_at(b.centre, 0.0) - problem.a.path.velocity_at(a.centre, 0.0);
+        problem.b.path.velocity_at(b.center, 0.0) - problem.a.path.velocity_at(a.center, 0.0);
     let nearest = -way.dot(velocity) / velocity.length_squared();
     // Without a velocity there is no such time.
     way + velocity * greater(0.0, lesser(nearest, 1.0))
@@ -146,14 +146,14 @@ fn offset_at_closest_approach(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2]) -
 
 /// Returns whether a fixed plane perpendicular to the unit vector `n` keeps the boxes apart for the whole duration.
 fn plane_keeps_apart(problem: &Problem<'_>, [a, b]: [&PlacedNode; 2], n: DVec3) -> bool {
-    let gap = n.dot(b.centre - a.centre) - a.extent_along(n) - b.extent_along(-n);
+    let gap = n.dot(b.center - a.center) - a.extent_along(n) - b.extent_along(-n);
     let excess = gap - problem.contact_distance() - 2.0 * problem.rounding;
     // Written so that NaN proves nothing. Most planes fail at the first two conditions, which cost the least: no bound
-    // of the approach is below that of the centres, unless the bodies accelerate away from each other.
+    // of the approach is below that of the centers, unless the bodies accelerate away from each other.
     let away = problem.a.path.acceleration - problem.b.path.acceleration;
-    let of_centres = centre_approach_rate(problem, [a, b], n, 0.0) + lesser(0.0, n.dot(away));
+    let of_centers = center_approach_rate(problem, [a, b], n, 0.0) + lesser(0.0, n.dot(away));
     excess > 0.0
-        && of_centres <= excess
+        && of_centers <= excess
         && ApproachRateBounds::approach_rate_bounds_along_axis(problem, [a, b], n, 0.0)
             .free_time(excess)
             >= 1.0

@@ -38,8 +38,8 @@ fn radius_if_flat(side: &BodyWithPath<'_>, id: NodeId) -> Option<f64> {
         NodeOrTriangle::Node(node) => node.is_thin().then_some(f64::from(node.radius)),
         NodeOrTriangle::Triangle(piece) => {
             let corners = side.body.pieces().triangle(piece as usize);
-            let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-            let squares = corners.map(|corner| corner.distance_squared(centre));
+            let center = (corners[0] + corners[1] + corners[2]) / 3.0;
+            let squares = corners.map(|corner| corner.distance_squared(center));
             Some(squares.into_iter().fold(0.0, greater).sqrt())
         }
     }
@@ -79,7 +79,7 @@ impl PlacedFlatNode {
         })
     }
 
-    /// Returns `max n·(x − centre)` over the node's points `x`, for a unit vector `n`.
+    /// Returns `max n·(x − center)` over the node's points `x`, for a unit vector `n`.
     fn extent_along(&self, n: DVec3) -> f64 {
         match self.half_thickness {
             Some(half) => {
@@ -101,7 +101,7 @@ fn free_time_along(
     n: DVec3,
     s: f64,
 ) -> f64 {
-    let way = b.node.centre - a.node.centre;
+    let way = b.node.center - a.node.center;
     let n = if n.dot(way) < 0.0 { -n } else { n };
     let kept = problem.rounding + problem.kept_node_gap();
     let gap = n.dot(way) - a.extent_along(n) - b.extent_along(-n) - kept;
@@ -115,7 +115,7 @@ fn free_time_along(
     // The share of the gap that the nodes' turning uses up shrinks as they are split. Written so that NaN gives no
     // time.
     if free >= 1.0 - s
-        || approach.centre_approach_rate * free >= (1.0 - MIN_ROTATION_GAP_SHARE) * gap
+        || approach.center_approach_rate * free >= (1.0 - MIN_ROTATION_GAP_SHARE) * gap
     {
         free
     } else {

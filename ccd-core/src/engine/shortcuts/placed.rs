@@ -15,9 +15,9 @@ use glam::{DVec3, Vec3};
 pub(crate) struct PlacedNode {
     frame: Frame,
     shape: Shape,
-    /// The centre in the problem's coordinates. All arguments and results are in these coordinates.
-    pub(crate) centre: DVec3,
-    /// An upper bound of the distances of the node's points from the centre.
+    /// The center in the problem's coordinates. All arguments and results are in these coordinates.
+    pub(crate) center: DVec3,
+    /// An upper bound of the distances of the node's points from the center.
     pub(crate) bounding_radius: f64,
 }
 
@@ -30,7 +30,7 @@ enum Shape {
         /// error of axes and half extents.
         slack: f64,
     },
-    /// A triangle, by its corners relative to the centre.
+    /// A triangle, by its corners relative to the center.
     Triangle([DVec3; 3]),
 }
 
@@ -47,7 +47,7 @@ impl PlacedNode {
                 half_extents: whole.half_extents.to_array(),
                 slack: whole.slack,
             },
-            centre: frame.transform_point(whole.centre),
+            center: frame.transform_point(whole.center),
             bounding_radius: whole.radius,
         }
     }
@@ -64,26 +64,26 @@ impl PlacedNode {
                     slack: f64::from(node.rounding_radius)
                         + BOX_EXTENT_ERROR_F32 * f64::from(node.radius),
                 },
-                centre: frame.transform_point(node.centre),
+                center: frame.transform_point(node.center),
                 bounding_radius: f64::from(node.radius),
             },
             NodeOrTriangle::Triangle(piece) => {
                 let corners = side.body.pieces().triangle(piece as usize);
                 let [a, b, c] = corners.map(|x| frame.transform_point(x));
-                let centre = (a + b + c) / 3.0;
-                let corners = [a - centre, b - centre, c - centre];
+                let center = (a + b + c) / 3.0;
+                let corners = [a - center, b - center, c - center];
                 PlacedNode {
                     frame,
                     shape: Shape::Triangle(corners),
-                    centre,
+                    center,
                     bounding_radius: corners.map(length).into_iter().fold(0.0, greater),
                 }
             }
         }
     }
 
-    /// Returns the corners of a triangle, relative to the centre; `None` for a box.
-    pub(crate) fn triangle_corners_from_centre(&self) -> Option<[DVec3; 3]> {
+    /// Returns the corners of a triangle, relative to the center; `None` for a box.
+    pub(crate) fn triangle_corners_from_center(&self) -> Option<[DVec3; 3]> {
         match self.shape {
             Shape::Triangle(corners) => Some(corners),
             Shape::Box { .. } => None,
@@ -95,7 +95,7 @@ impl PlacedNode {
         self.frame.rotation * vector
     }
 
-    /// Returns the point of the box that is nearest to a point, up to rounding; the centre of a triangle.
+    /// Returns the point of the box that is nearest to a point, up to rounding; the center of a triangle.
     #[inline]
     pub(crate) fn nearest_point(&self, point: DVec3) -> DVec3 {
         let Shape::Box {
@@ -104,14 +104,14 @@ impl PlacedNode {
             slack,
         } = &self.shape
         else {
-            return self.centre;
+            return self.center;
         };
-        let way = self.frame.inverse_transform_vector(point - self.centre);
+        let way = self.frame.inverse_transform_vector(point - self.center);
         let along = |k: usize| {
             let half = half[k] + slack;
             axes[k] * greater(-half, lesser(half, way.dot(axes[k])))
         };
-        self.centre + self.rotate_vector(along(0) + along(1) + along(2))
+        self.center + self.rotate_vector(along(0) + along(1) + along(2))
     }
 
     /// Returns the box axis with the least angle to `n`, in the orientation of `n`; `n` itself for a triangle.
@@ -126,7 +126,7 @@ impl PlacedNode {
         nearest.map_or(n, |axis| if axis.dot(n) < 0.0 { -axis } else { axis })
     }
 
-    /// Returns `max n·(x − centre)` over the node's points `x`, for a vector `n` of any length.
+    /// Returns `max n·(x − center)` over the node's points `x`, for a vector `n` of any length.
     #[inline]
     pub(crate) fn extent_along(&self, n: DVec3) -> f64 {
         match &self.shape {
@@ -152,8 +152,8 @@ impl PlacedNode {
 
 /// Upper bounds of the rate at which a node of A and a node of B approach along a direction, and of its derivative.
 pub(crate) struct ApproachRateBounds {
-    /// The rate at which the nodes' centres approach each other.
-    pub(crate) centre_approach_rate: f64,
+    /// The rate at which the nodes' centers approach each other.
+    pub(crate) center_approach_rate: f64,
     /// An upper bound of the rate at which any two points of the nodes approach along the direction.
     rate_bound: f64,
     /// An upper bound of the derivative of that rate; negative if the nodes accelerate away from each other.
@@ -168,13 +168,13 @@ impl ApproachRateBounds {
         n: DVec3,
         s: f64,
     ) -> Self {
-        let straight = centre_approach_rate(problem, [a, b], n, s);
+        let straight = center_approach_rate(problem, [a, b], n, s);
         let (mut turning, mut second_derivative, mut speed) = (0.0, 0.0, 0.0);
         for (side, node, n) in [(&problem.a, a, n), (&problem.b, b, -n)] {
             let (path, radius) = (&side.path, node.bounding_radius);
-            let arm = node.centre - path.centre_at(s);
+            let arm = node.center - path.center_at(s);
             let across = n.cross(path.spin);
-            // n·(ω×w) = w·(n×ω) of points at w from the centre.
+            // n·(ω×w) = w·(n×ω) of points at w from the center.
             turning += greater(0.0, node.extent_along(across))
                 + RATE_ERROR_F64 * path.angular_speed * radius;
             let from_axis = length(path.axis.cross(arm)) + radius + RATE_ERROR_F64 * length(arm);
@@ -185,7 +185,7 @@ impl ApproachRateBounds {
             speed += path.speed_bound() + path.angular_speed * (length(arm) + radius);
         }
         ApproachRateBounds {
-            centre_approach_rate: straight,
+            center_approach_rate: straight,
             rate_bound: straight + turning + 2.0 * RATE_ERROR_F64 * speed,
             second_derivative,
         }
@@ -202,15 +202,15 @@ impl ApproachRateBounds {
     }
 }
 
-/// Returns the rate at which the nodes' centres approach each other along `n`.
-pub(crate) fn centre_approach_rate(
+/// Returns the rate at which the nodes' centers approach each other along `n`.
+pub(crate) fn center_approach_rate(
     problem: &Problem<'_>,
     [a, b]: [&PlacedNode; 2],
     n: DVec3,
     s: f64,
 ) -> f64 {
-    let rate = |path: &Path, centre: DVec3, n: DVec3| n.dot(path.velocity_at(centre, s));
-    rate(&problem.a.path, a.centre, n) + rate(&problem.b.path, b.centre, -n)
+    let rate = |path: &Path, center: DVec3, n: DVec3| n.dot(path.velocity_at(center, s));
+    rate(&problem.a.path, a.center, n) + rate(&problem.b.path, b.center, -n)
 }
 
 #[cfg(test)]

@@ -93,7 +93,7 @@ impl Screw {
         Some(Screw {
             turning_body: turning,
             axis: ScrewAxis::new(
-                side.path.centre_at(0.0),
+                side.path.center_at(0.0),
                 unit,
                 along / side.path.angular_speed,
             ),

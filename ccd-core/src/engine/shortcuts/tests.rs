@@ -104,7 +104,7 @@ fn tube(radius: f64, segments: usize) -> Body {
     body(&tube)
 }
 
-/// Creates a disc of triangles that all share the centre.
+/// Creates a disc of triangles that all share the center.
 fn disc(segments: usize) -> Body {
     let rim = |k: usize| {
         let (sin, cos) = (TAU * k as f64 / segments as f64).sin_cos();

@@ -4,9 +4,9 @@
 //! that turns with the body it does not count: the body's own extent along the plane's normal is constant, and only
 //! the other node sweeps towards the plane.
 //!
-//! With `n' = ω×n` and `d` from the turning body's centre to a point of the other node, the height
+//! With `n' = ω×n` and `d` from the turning body's center to a point of the other node, the height
 //! `f = n·d` has `f' = n·ḋ − (n×ω)·d` and, over a time of at most `H`, `|f''| ≤ |n×ω|(|ω|(|d| + |ḋ|
-//! H) + 2|ḋ|) + |d̈|`. Where the centres accelerate, that is part of `d̈`.
+//! H) + 2|ḋ|) + |d̈|`. Where the centers accelerate, that is part of `d̈`.
 
 use crate::engine::nodes::axis::AxesX8;
 use crate::engine::nodes::clock;
@@ -20,10 +20,10 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 /// The motion of a node relative to a plane that turns with the other body, for eight pairs of nodes at once.
 struct NodeMotionToTurningPlane<L: Simd> {
     /// An upper bound of the rate at which the node's points approach the plane. It is the rate `n·(v_S − v_O)` at the
-    /// node's centre, with both velocities taken at that point, plus a bound for the points around it.
+    /// node's center, with both velocities taken at that point, plus a bound for the points around it.
     approach_rate_bound: f32x8<L>,
-    /// The largest distance of the node's points from the centre of the body that the plane turns with.
-    max_distance_from_centre: f32x8<L>,
+    /// The largest distance of the node's points from the center of the body that the plane turns with.
+    max_distance_from_center: f32x8<L>,
     /// An upper bound of the speeds of the node's points due to the rotation of the node's own body.
     rotational_speed_bound: f32x8<L>,
     /// The angular speed `|ω|` of the node's own body.
@@ -39,7 +39,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
     pub(crate) fn free_times_turning_with_split_body(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, other) = (self.motion, self.other_node);
         let level = axis.n.simd_level();
-        let at = Vec3x8::splat(level, other.centre());
+        let at = Vec3x8::splat(level, other.center());
         let velocity = Vec3x8::splat(level, motion.velocity);
         let velocity = velocity + motion.split_body_rotation.rotational_velocity(at)
             - self.other_rotational_velocity;
@@ -55,7 +55,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
             motion.split_body_rotation.angular_speed,
             &NodeMotionToTurningPlane {
                 approach_rate_bound: axis.n.dot(velocity) + other.extent_along(own - across),
-                max_distance_from_centre: motion.split_body_rotation.distances_from_centre(at)
+                max_distance_from_center: motion.split_body_rotation.distances_from_center(at)
                     + other.radius(),
                 rotational_speed_bound: self.other_rotational_speed_bound,
                 own_angular_speed: motion.other_rotation.angular_speed,
@@ -71,7 +71,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
     pub(crate) fn free_times_of_planes_turning_with_other(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, children) = (self.motion, self.children);
         let level = axis.n.simd_level();
-        let at = children.centre(level);
+        let at = children.center(level);
         let velocity = Vec3x8::splat(level, motion.velocity);
         let velocity = velocity + motion.split_body_rotation.rotational_velocity(at)
             - motion.other_rotation.rotational_velocity(at);
@@ -87,7 +87,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
             motion.other_rotation.angular_speed,
             &NodeMotionToTurningPlane {
                 approach_rate_bound: axis.n.dot(velocity) + children.extent_along(own - across),
-                max_distance_from_centre: motion.other_rotation.distances_from_centre(at)
+                max_distance_from_center: motion.other_rotation.distances_from_center(at)
                     + children.radius(level),
                 rotational_speed_bound: self.rotational_speed_bounds,
                 own_angular_speed: motion.split_body_rotation.angular_speed,
@@ -113,13 +113,13 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         };
         let straight = motion.velocity.length() + change + motion.rate_allowance;
         let speed = sweep.rotational_speed_bound + straight;
-        let far = sweep.max_distance_from_centre + speed * MAX_TURNING_PLANE_TIME;
+        let far = sweep.max_distance_from_center + speed * MAX_TURNING_PLANE_TIME;
         let second_derivative = across * (far * spin + speed * 2.0)
             + sweep.rotational_speed_bound * sweep.own_angular_speed
             + change;
-        // Each sweep happens at the distance of its node from the turning body's centre.
+        // Each sweep happens at the distance of its node from the turning body's center.
         let rate_slack =
-            sweep.max_distance_from_centre * (RATE_ERROR_F32 * spin) + motion.rate_allowance;
+            sweep.max_distance_from_center * (RATE_ERROR_F32 * spin) + motion.rate_allowance;
         let free = clock::free_time(
             axis.across.gap - motion.required_gap,
             motion.closed_gap_threshold,

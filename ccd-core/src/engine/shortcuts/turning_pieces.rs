@@ -4,7 +4,7 @@
 //! plane that turns with the body it does not count: the heights of the body's own piece are constant, and only the
 //! other piece sweeps towards the plane.
 //!
-//! A point of the other piece is at `D + r` from the turning body's centre: `D` leads to a point of
+//! A point of the other piece is at `D + r` from the turning body's center: `D` leads to a point of
 //! reference that moves at `V`, and `r` turns about that point at `ω_s`. With `n' = ω×n`
 //! and `Δ = ω − ω_s`, the height `f = n·(D + r)` has `f' = (ω×n)·D + n·V + (Δ×n)·r` and `|f''| ≤
 //! |ω×n|(|ω||u×D| + 2|V|) + |Δ|(|ω×n| + |ω_s|)|r| + |V'|`, where `u` is the direction of `ω`.
@@ -66,11 +66,11 @@ pub(crate) struct PieceMotionToTurningPlane<'p> {
     normal: RotatingVector,
     rotation_axis: DVec3,
     angular_speed: f64,
-    /// The vector `D`, from the turning body's centre to the reference point, at the present clock.
+    /// The vector `D`, from the turning body's center to the reference point, at the present clock.
     reference_point_offset: DVec3,
     velocity: DVec3,
     speed: f64,
-    /// The acceleration `V'` of the reference point relative to the turning body's centre, which is constant.
+    /// The acceleration `V'` of the reference point relative to the turning body's center, which is constant.
     acceleration: DVec3,
     /// The direction of the angular velocity `ω_s` of the piece's own body.
     own_rotation_axis: DVec3,
@@ -82,7 +82,7 @@ pub(crate) struct PieceMotionToTurningPlane<'p> {
     /// The reference point at the end of `D`, in the frame of the piece's body.
     reference_point: DVec3,
     radius: f64,
-    /// An upper bound of the distances of the piece's points from the turning body's centre, at any time.
+    /// An upper bound of the distances of the piece's points from the turning body's center, at any time.
     reach: f64,
     /// A bound of the error of the points' positions by rounding, for both bodies together.
     position_error_bound: f64,
@@ -111,13 +111,13 @@ impl<'p> PieceMotionToTurningPlane<'p> {
         let (path, own) = (&holder.body_with_path.path, &other.body_with_path.path);
         // All points of a body that does not turn move alike, and one of the piece's own points is nearest.
         let reference = if own.is_turning() {
-            own.centre
+            own.center
         } else {
             other.piece.points[0]
         };
         let offset =
-            other.frame.transform_point(reference) - holder.frame.transform_point(path.centre);
-        let velocity = own.centre_velocity_at(other.time) - path.centre_velocity_at(other.time);
+            other.frame.transform_point(reference) - holder.frame.transform_point(path.center);
+        let velocity = own.center_velocity_at(other.time) - path.center_velocity_at(other.time);
         let acceleration = own.acceleration - path.acceleration;
         let speed = velocity.length() + acceleration.length();
         let radius = other.piece.max_distance_from(reference);
@@ -228,7 +228,7 @@ impl<'p> PieceMotionToTurningPlane<'p> {
         }
     }
 
-    /// Returns the offset `D` and the velocity `V` of the reference point from the turning body's centre, at the time
+    /// Returns the offset `D` and the velocity `V` of the reference point from the turning body's center, at the time
     /// `tau` after the present clock.
     fn relative_position_and_velocity_after(&self, tau: f64) -> (DVec3, DVec3) {
         let velocity = self.velocity + self.acceleration * (0.5 * tau);

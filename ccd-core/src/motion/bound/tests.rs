@@ -2,7 +2,7 @@ use super::{Velocities, published_bound, sound_bound};
 use crate::math::vector::{length, unit};
 use crate::rounding::RATE_ERROR_F64;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
-use crate::tests::worst::{WorstCaseSearch, error_share};
+use crate::tests::worst::{WorstCaseSearch, error_fraction};
 use glam::DVec3;
 
 /// Tests that the rounding error of [`sound_bound`] is within the allowance for rates.
@@ -19,7 +19,7 @@ fn worst_sound_bound() {
         let exact = n3.dot(v) + n3.cross(spin).length() * DoubleDouble::from(reach);
         let lost = exact - DoubleDouble::from(sound_bound(&motion, n, reach));
         let speed = length(motion.linear_velocity) + length(motion.spin) * reach;
-        Some(error_share(lost.get(), RATE_ERROR_F64 * speed))
+        Some(error_fraction(lost.get(), RATE_ERROR_F64 * speed))
     });
     found.assert_tight_bound(16.0);
 }

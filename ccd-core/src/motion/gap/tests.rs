@@ -2,7 +2,7 @@ use super::Gap;
 use crate::rounding::RATE_ERROR_F64;
 use crate::tests::double::DoubleDouble;
 use crate::tests::scene::{RngExt, random_power_of_ten, rng};
-use crate::tests::worst::{WorstCaseSearch, error_share};
+use crate::tests::worst::{WorstCaseSearch, error_fraction};
 
 /// Compares free times, without their allowance for rounding, with the exact roots of quadratic equations.
 #[test]
@@ -23,7 +23,7 @@ fn worst_free_time() {
             (root - rate) / second_derivative
         };
         let free = DoubleDouble::from(gap.free_time()) / DoubleDouble::from(1.0 - RATE_ERROR_F64);
-        Some(error_share(
+        Some(error_fraction(
             (free / exact - DoubleDouble::from(1.0)).get(),
             RATE_ERROR_F64,
         ))

@@ -9,7 +9,7 @@ use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{
     RngExt, random_direction, random_point_in_ball, random_power_of_ten, random_rotation, rng,
 };
-use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use glam::{DMat3, DVec3};
 
 #[test]
@@ -46,8 +46,8 @@ fn frames_are_the_poses_of_the_motion_less_the_origin() {
                 "{motion:?} at {s}"
             );
             assert!(
-                path.centre_at(s)
-                    .distance(frame.transform_point(motion.centre()))
+                path.center_at(s)
+                    .distance(frame.transform_point(motion.center()))
                     < scale
             );
             // The velocity is the limit of displacement over time.
@@ -88,7 +88,7 @@ fn without_a_turn_the_rotation_does_not_change_by_a_bit() {
 
 /// Returns the position of a body's point in double-double, from the path's stored coefficients.
 fn exact_position(path: &Path, s: DoubleDouble, x: DVec3) -> DoubleDouble3 {
-    let arm = DoubleDouble3::from(x) - DoubleDouble3::from(path.centre);
+    let arm = DoubleDouble3::from(x) - DoubleDouble3::from(path.center);
     let rotated = |m: &DMat3| {
         let row = |k: usize| DoubleDouble3::from(m.row(k)).dot(arm);
         DoubleDouble3([row(0), row(1), row(2)])
@@ -114,8 +114,8 @@ fn worst_part() {
             let start =
                 Pose::new(tape.vector(-20..=10).map(f64::from), random_rotation(tape)).ok()?;
             let spin = random_direction(tape) * tape.size(-10..=19);
-            let centre = tape.vector(-20..=4);
-            let motion = Motion::about(start, tape.vector(-20..=10), spin, centre).ok()?;
+            let center = tape.vector(-20..=4);
+            let motion = Motion::about(start, tape.vector(-20..=10), spin, center).ok()?;
             let path = Path::new(&motion, DVec3::ZERO, 1.0);
             let path = path.with_acceleration(tape.vector(-20..=4).into());
             let (from, time, share_of_time) = (
@@ -128,11 +128,11 @@ fn worst_part() {
             let part = path.subpath([from, to]);
             let [begins, ends, share_of_time] = [from, to, share_of_time].map(DoubleDouble::from);
             let s = begins + share_of_time * (ends - begins);
-            let x = path.centre + arm;
+            let x = path.center + arm;
             let error = exact_position(&part, share_of_time, x) - exact_position(&path, s, x);
-            let way = path.centre_at(0.0).length() + path.speed_bound();
-            let allowed = position_rounding(x.distance(path.centre), path.angular_speed, way);
-            Some(error_share(error.length().get(), allowed))
+            let way = path.center_at(0.0).length() + path.speed_bound();
+            let allowed = position_rounding(x.distance(path.center), path.angular_speed, way);
+            Some(error_fraction(error.length().get(), allowed))
         },
     );
     found.assert_tight_bound(100.0);

@@ -29,14 +29,14 @@ fn distances_change_by_no_more_than_said() {
                 random_rotation(&mut rng),
             )
             .unwrap();
-            let centre = random_point_in_ball(&mut rng, 3.0);
-            let motion = Motion::about(start, velocities[k], spins[k], centre).unwrap();
+            let center = random_point_in_ball(&mut rng, 3.0);
+            let motion = Motion::about(start, velocities[k], spins[k], center).unwrap();
             Path::new(&motion, DVec3::ZERO, 1.0).with_acceleration(pull)
         });
         if number % 3 == 0 {
             paths.swap(0, 1);
         }
-        let points = paths.map(|path| path.centre + random_point_in_ball(&mut rng, reach));
+        let points = paths.map(|path| path.center + random_point_in_ball(&mut rng, reach));
         let rounding = paths
             .iter()
             .map(|path| position_rounding(reach, path.angular_speed, 10.0))

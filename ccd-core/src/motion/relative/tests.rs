@@ -54,10 +54,10 @@ fn relative_state_of_point<L: Simd>(
         acceleration,
         spin,
     } = view.state_at::<L, AnyMotion>(level, s);
-    let point = rotation * (PackedVector::new(level, point) - view.other_rotation_centre(level));
+    let point = rotation * (PackedVector::new(level, point) - view.other_rotation_center(level));
     let acceleration = acceleration.unwrap_or(PackedVector::new(level, DVec3::ZERO));
     [
-        offset + point + view.rotation_centre(level),
+        offset + point + view.rotation_center(level),
         velocity,
         acceleration,
         spin,
@@ -83,7 +83,7 @@ fn each_body_sees_what_the_frames_of_both_say() {
                 let expected = [
                     frame.transform_from(&other.frame(s)).transform_point(x),
                     frame.inverse_transform_vector(
-                        own.centre_velocity_at(s) - other.centre_velocity_at(s),
+                        own.center_velocity_at(s) - other.center_velocity_at(s),
                     ),
                     frame.inverse_transform_vector(own.acceleration - other.acceleration),
                     frame.inverse_transform_vector(other.spin),

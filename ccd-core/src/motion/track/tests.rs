@@ -12,12 +12,12 @@ use crate::tests::double::DoubleDouble;
 use crate::tests::scene::{
     Pcg64, RngExt, random_direction, random_point_in_ball, random_power_of_ten, rng,
 };
-use crate::tests::worst::{WorstCaseSearch, error_share};
+use crate::tests::worst::{WorstCaseSearch, error_fraction};
 use glam::{DQuat, DVec3};
 use std::f64::consts::TAU;
 
 impl HeightFunction {
-    /// Creates the track along `n` of a point that starts at `height`, with the vector `arm` from the motion's centre.
+    /// Creates the track along `n` of a point that starts at `height`, with the vector `arm` from the motion's center.
     fn new(motion: &Velocities, n: DVec3, height: f64, arm: DVec3) -> Self {
         let axis = unit(motion.spin).unwrap_or(DVec3::ZERO);
         MotionAlongAxis::new(motion.linear_velocity, axis, length(motion.spin), n)
@@ -244,7 +244,7 @@ fn the_published_bound_lets_the_mace_through_the_wall() {
     let tips = [-width, width].map(|x| DVec3::new(x, -length, 0.0));
     let ball = 0.1;
     let gap = wall - ball;
-    // The bound is the fastest advance of the tips, and of the ball about the centre, which does not advance.
+    // The bound is the fastest advance of the tips, and of the ball about the center, which does not advance.
     let allowed = gap / published_bound(&motion, DVec3::Y, |c| farthest_arm_along(&tips, c));
     let reach = tips[0].length();
     let contact = (length.atan2(width) + (wall / reach).asin()) / 3.0;
@@ -341,7 +341,7 @@ fn worst_least_until() {
         };
         let allowance = RATE_ERROR_F64 * swing.get() * (1.0 + turn);
         let above = (DoubleDouble::from(least) + DoubleDouble::from(allowance) - exact).get();
-        (swing.get() > 0.0 && horizon > 0.0).then(|| error_share(above, allowance))
+        (swing.get() > 0.0 && horizon > 0.0).then(|| error_fraction(above, allowance))
     });
     found.assert_tight_bound(30.0);
 }
@@ -362,7 +362,7 @@ fn worst_bend() {
         let [p, q, omega] = [track.p, track.q, track.angular_speed].map(DoubleDouble::from);
         let exact = omega * omega * (p * p + q * q).sqrt();
         let lost = exact - DoubleDouble::from(track.second_derivative_bound());
-        (exact.get() > 0.0).then(|| error_share(lost.get(), RATE_ERROR_F64 * exact.get()))
+        (exact.get() > 0.0).then(|| error_fraction(lost.get(), RATE_ERROR_F64 * exact.get()))
     });
     found.assert_tight_bound(16.0);
 }

@@ -8,18 +8,18 @@ use crate::tests::scene::{
 use crate::tests::trajectories::SwingingTrajectory;
 use glam::DVec3;
 
-/// Returns the largest sampled deviation in a stretch of points at the distance `reach` from the centre, divided by its
+/// Returns the largest sampled deviation in a stretch of points at the distance `reach` from the center, divided by its
 /// bound.
 fn largest_deviation_share(trajectory: &dyn Trajectory, from: f64, to: f64, reach: f64) -> f64 {
     let stretch = trajectory.stretch_between(from, to).unwrap();
     let bound = stretch.deviation_bound.at_reach(reach);
-    let centre = stretch.motion.centre();
+    let center = stretch.motion.center();
     let mut rng = rng((1e6 * from) as u64);
     let mut worst = 0.0;
     for k in 0..=16 {
         let t = from + (to - from) * f64::from(k) / 16.0;
         let [true_pose, near] = [trajectory.pose(t).unwrap(), stretch.pose(t - from)];
-        let x = centre + reach * random_direction(&mut rng);
+        let x = center + reach * random_direction(&mut rng);
         let off = true_pose.transform_point(x) - near.transform_point(x);
         worst = greater(worst, off.length() / bound);
     }
@@ -50,8 +50,8 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
             crate::tests::scene::random_rotation(&mut rng),
         );
         let spin = random_power_of_ten(&mut rng, -2.0, 3.0) * random_direction(&mut rng);
-        let [velocity, centre] = [(); 2].map(|()| random_point_in_ball(&mut rng, 3.0));
-        let motion = Motion::about(start.unwrap(), velocity, spin, centre).unwrap();
+        let [velocity, center] = [(); 2].map(|()| random_point_in_ball(&mut rng, 3.0));
+        let motion = Motion::about(start.unwrap(), velocity, spin, center).unwrap();
         let whole = motion.stretch_between(0.0, 1.0).unwrap();
         assert_eq!(whole, Stretch::exact(motion));
         let from = rng.random_range(0.0..1.0);
@@ -66,7 +66,7 @@ fn motions_are_exact_from_the_start_and_off_by_rounding_later() {
 fn no_turn_is_no_stray_at_any_reach() {
     assert_eq!(DeviationBound::ZERO.at_reach(f64::INFINITY), 0.0);
     let shifted = DeviationBound {
-        centre_deviation: 2.0,
+        center_deviation: 2.0,
         max_deviation_angle: 0.0,
     };
     assert_eq!(shifted.at_reach(f64::INFINITY), 2.0);
@@ -81,7 +81,7 @@ fn no_turn_is_no_stray_at_any_reach() {
 fn what_is_no_bound_bounds_nothing() {
     for no_bound in [f64::NAN, -1e-300, -1.0] {
         let turned = DeviationBound {
-            centre_deviation: 1.0,
+            center_deviation: 1.0,
             max_deviation_angle: no_bound,
         };
         assert!(turned.at_reach(2.0).is_nan());
@@ -114,7 +114,7 @@ fn deviations_after_times_whose_square_is_zero_are_bounded() {
         angular_acceleration: acceleration,
     }
     .deviation_bound_after(time);
-    for bound in [stray.centre_deviation, stray.max_deviation_angle] {
+    for bound in [stray.center_deviation, stray.max_deviation_angle] {
         assert!((0.5e-20..0.500_001e-20).contains(&bound), "{bound:e}");
     }
 }

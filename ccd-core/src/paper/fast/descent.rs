@@ -116,7 +116,7 @@ impl<'p, O: DistanceOracle> Descent<'_, 'p, O> {
             return;
         };
         let placed = placed.with_pieces(self.hulls.hulls(node.pair));
-        let depth = placed.relative_overlap_along_centre_line();
+        let depth = placed.relative_overlap_along_center_line();
         // The search for a common point takes longer than the search for a distance, and its result is of no use
         // here.
         if depth.is_some_and(|depth| depth > MIN_OVERLAP_TO_SPLIT) {

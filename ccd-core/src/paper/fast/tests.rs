@@ -94,7 +94,7 @@ impl Scene {
                 } else {
                     random_point_in_ball(rng, 9.0)
                 },
-                centre: random_point_in_ball(rng, 1.0),
+                center: random_point_in_ball(rng, 1.0),
             };
             passage.motion()
         };

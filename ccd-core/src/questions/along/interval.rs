@@ -108,14 +108,14 @@ impl Trajectory for ReversedTrajectory<'_> {
         let [before, after] = [stretch, end].map(|stretch| length(stretch.motion.velocity()));
         let moved = DeviationBound {
             // The speed is largest at an end.
-            centre_deviation: greater(before, after) * off,
-            max_deviation_angle: length(stretch.motion.spin()) * off,
+            center_deviation: greater(before, after) * off,
+            max_deviation_angle: length(stretch.motion.angular_velocity()) * off,
         };
         let rounding = end.rounding_of_moved_start(last - first);
         let Stretch { motion, .. } = end;
-        let [velocity, spin] = [-motion.velocity(), -motion.spin()];
+        let [velocity, spin] = [-motion.velocity(), -motion.angular_velocity()];
         Ok(Stretch {
-            motion: Motion::about(motion.start(), velocity, spin, motion.centre())?,
+            motion: Motion::about(motion.start(), velocity, spin, motion.center())?,
             deviation_bound: end.deviation_bound + moved + rounding,
             ..end
         })

@@ -29,8 +29,8 @@ impl StretchMotions {
         let [a, b] = bodies.map(|body| body.movement.stretch_between(span.from, span.end));
         let stretches = [a?, b?];
         let stray = |k: usize| {
-            let centre = stretches[k].motion.centre();
-            let reach = bodies[k].body.tree().max_distance_from(centre);
+            let center = stretches[k].motion.center();
+            let reach = bodies[k].body.tree().max_distance_from(center);
             stretches[k].deviation_bound.at_reach(reach)
         };
         Ok(StretchMotions {

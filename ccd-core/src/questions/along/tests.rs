@@ -250,8 +250,12 @@ impl Trajectory for MotionAsTrajectory {
 
 impl SmoothTrajectory for MotionAsSmoothTrajectory {
     fn tangent_motion(&self, time: f64) -> Result<Motion, InputError> {
-        let (velocity, spin, centre) = (self.0.velocity(), self.0.spin(), self.0.centre());
-        Motion::about(self.0.pose(time), velocity, spin, centre)
+        let (velocity, spin, center) = (
+            self.0.velocity(),
+            self.0.angular_velocity(),
+            self.0.center(),
+        );
+        Motion::about(self.0.pose(time), velocity, spin, center)
     }
 
     fn acceleration_bounds(&self, _: f64, _: f64) -> AccelerationBounds {

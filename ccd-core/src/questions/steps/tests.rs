@@ -114,7 +114,7 @@ fn a_time_that_is_reached_is_not_before_the_one_asked_for() {
                 let motion = scene.motions[k];
                 let velocity = motion.velocity() / duration;
                 let velocity = velocity.clamp(DVec3::splat(-1e300), DVec3::splat(1e300));
-                let slow = Motion::about(motion.start(), velocity, DVec3::ZERO, motion.centre());
+                let slow = Motion::about(motion.start(), velocity, DVec3::ZERO, motion.center());
                 (&scene.bodies[k], slow.unwrap())
             };
             let problem =

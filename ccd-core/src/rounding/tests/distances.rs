@@ -11,7 +11,7 @@ use crate::settings::{Settings, VectorInstructions};
 use crate::tests::double::{DoubleDouble, DoubleDouble3, place};
 use crate::tests::far_ends::{between, ends};
 use crate::tests::scene::{RngExt, random_direction, random_power_of_ten};
-use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use crate::{Body, Motion};
 use glam::DVec3;
 
@@ -44,7 +44,7 @@ impl Scene {
     fn without_rotation(mut self) -> Self {
         self.motions = self.motions.map(|motion| {
             let spin = DVec3::ZERO;
-            Motion::about(motion.start(), motion.velocity(), spin, motion.centre()).unwrap()
+            Motion::about(motion.start(), motion.velocity(), spin, motion.center()).unwrap()
         });
         self
     }
@@ -180,7 +180,7 @@ fn worst_places_between_poses() {
                 .get()
         };
         let off = scene.bodies[k].pieces().points().iter().map(off);
-        Some(error_share(off.fold(0.0, greater), problem.rounding))
+        Some(error_fraction(off.fold(0.0, greater), problem.rounding))
     });
     found.assert_tight_bound(100.0);
 }
@@ -201,7 +201,7 @@ fn worst_places_of_accelerating_bodies() {
                 .get()
         };
         let off = scene.bodies[k].pieces().points().iter().map(off);
-        Some(error_share(off.fold(0.0, greater), problem.rounding))
+        Some(error_fraction(off.fold(0.0, greater), problem.rounding))
     });
     found.assert_tight_bound(100.0);
 }
@@ -222,17 +222,17 @@ fn worst_views() {
         let view = RelativePath::new(&from.path, &to.path);
         let level = VectorInstructions::Baseline.simd_level();
         let [x, y] = [from, to].map(|side| side.body.pieces().points()[0]);
-        let arm = y - to.path.centre;
+        let arm = y - to.path.center;
         let found = crate::vectorize!(level, level => {
             let seen = view.state_at::<_, crate::motion::kind::AnyMotion>(level, s);
             let arm = crate::math::simd::PackedVector::new(level, arm);
             (seen.rotation * arm + seen.offset).to_dvec3()
         });
         let found = DoubleDouble3::from(found)
-            - (DoubleDouble3::from(x) - DoubleDouble3::from(from.path.centre));
+            - (DoubleDouble3::from(x) - DoubleDouble3::from(from.path.center));
         let exact = scene.exact_position(1 - own, s, y) - scene.exact_position(own, s, x);
         let off = (found.length() - exact.length()).get().abs();
-        Some(error_share(off, problem.rounding))
+        Some(error_fraction(off, problem.rounding))
     });
     found.assert_tight_bound(100.0);
 }

@@ -10,7 +10,7 @@ use crate::rounding::{
 };
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::rational::{Exact3, error_of};
-use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use glam::{DMat3, DVec3};
 
 /// The range of binary exponents of random coordinates, from 1e-100 up to the accepted maximum of 1e12.
@@ -43,7 +43,7 @@ fn height_f64() {
         let (n, x) = (axis(tape)?, DVec3::from(tape.vector(COORDINATE_EXPONENTS)));
         let exact = Exact3::from_coordinates(n).dot(&Exact3::from_coordinates(x));
         let allowed = HEIGHT_ERROR_F64 * one_norm(n) * x.abs().max_element();
-        Some(error_share(error_of(n.dot(x), &exact), allowed))
+        Some(error_fraction(error_of(n.dot(x), &exact), allowed))
     });
     found.assert_tight_bound(3.0);
 }
@@ -57,7 +57,7 @@ fn sign_f64_of_a_product() {
         let exact = Exact3::from_coordinates(n)
             .dot(&Exact3::from_coordinates(corner).minus(&Exact3::from_coordinates(from)));
         let allowed = DETERMINANT_ERROR_F64 * one_norm(way) + f64::MIN_POSITIVE;
-        Some(error_share(error_of(n.dot(way), &exact), allowed))
+        Some(error_fraction(error_of(n.dot(way), &exact), allowed))
     });
     found.assert_tight_bound(12.0);
 }
@@ -71,7 +71,7 @@ fn sign_f64_of_a_ray_and_an_edge() {
         let exact = Exact3::from_coordinates(n).dot(&b.minus(&a).cross(&c.minus(&a)));
         let (p, q) = (p - from, q - from);
         let allowed = DETERMINANT_ERROR_F64 * (one_norm(p) * one_norm(q)) + f64::MIN_POSITIVE;
-        Some(error_share(error_of(n.dot(p.cross(q)), &exact), allowed))
+        Some(error_fraction(error_of(n.dot(p.cross(q)), &exact), allowed))
     });
     found.assert_tight_bound(9.0);
 }
@@ -87,7 +87,7 @@ fn sign_f64_of_three_corners() {
         let [a, b, c] = of.map(|p| p - from);
         let allowed =
             DETERMINANT_ERROR_F64 * (one_norm(a) * one_norm(b) * one_norm(c)) + f64::MIN_POSITIVE;
-        Some(error_share(error_of(a.dot(b.cross(c)), &exact), allowed))
+        Some(error_fraction(error_of(a.dot(b.cross(c)), &exact), allowed))
     });
     found.assert_tight_bound(9.0);
 }
@@ -104,7 +104,7 @@ fn height_rounding_of_points() {
         let [a, b, c, x] = [a, b, c, x].map(Exact3::from_coordinates);
         let exact = b.minus(&a).cross(&c.minus(&a)).dot(&x.minus(&a));
         let height = normal.dot(point) - normal.dot(foot);
-        Some(error_share(
+        Some(error_fraction(
             error_of(height, &exact),
             height_rounding([u, v], reach),
         ))
@@ -136,7 +136,7 @@ fn height_rounding_of_boxes() {
                 .to_f64()
                 .value()
         };
-        Some(error_share(
+        Some(error_fraction(
             greater(lacks(x), lacks(y)),
             height_rounding([u, v], reach),
         ))
@@ -150,7 +150,10 @@ fn frame_f64() {
     let found = WorstCaseSearch::new("FRAME_F64", 20_000).search(|tape| {
         let points: [DVec3; 4] = [(); 4].map(|()| tape.vector(-40..=0).into());
         let frame = principal_axes(|| points.iter().map(|&p| (p, 1.0)));
-        Some(error_share(orthonormality_error(&frame), FRAME_ERROR_F64))
+        Some(error_fraction(
+            orthonormality_error(&frame),
+            FRAME_ERROR_F64,
+        ))
     });
     found.assert_tight_bound(200.0);
 }
@@ -185,7 +188,7 @@ fn units_and_lengths() {
             let off = DoubleDouble::from(length(v) * up) - scaled.length();
             let of_unit = DoubleDouble3::from(n).length() - DoubleDouble::from(1.0);
             let error = greater(off.get().abs() / exact, of_unit.get().abs());
-            Some(error_share(error, 4.0 * UNIT_ROUNDOFF_F64))
+            Some(error_fraction(error, 4.0 * UNIT_ROUNDOFF_F64))
         });
         found.assert_tight_bound(looseness);
     }
@@ -212,7 +215,10 @@ fn least_rounding() {
             (error / &unit / &unit).to_f64().value().abs()
         });
         let worst = off.into_iter().fold(0.0, greater);
-        Some(error_share(worst, bound * 2f64.powi(500) * 2f64.powi(500)))
+        Some(error_fraction(
+            worst,
+            bound * 2f64.powi(500) * 2f64.powi(500),
+        ))
     });
     // The allowance is far above the error, as its derivation says.
     found.assert_tight_bound(f64::INFINITY);
@@ -236,7 +242,7 @@ fn turns_f64() {
         // Angles that cancel are off by the last digits of their terms.
         let most = [from, width, ahead].map(f64::abs).into_iter();
         let allowed = TURN_COUNT_WIDENING * (1.0 + most.fold(turns.abs(), greater));
-        Some(error_share(off, allowed))
+        Some(error_fraction(off, allowed))
     });
     found.assert_tight_bound(1e8);
 }

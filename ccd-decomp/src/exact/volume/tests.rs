@@ -1,6 +1,6 @@
 use super::*;
 use crate::rational::{Exact3, error_of, exact_fraction};
-use crate::worst::{WorstCaseSearch, error_share};
+use crate::worst::{WorstCaseSearch, error_fraction};
 use ccd_core::glam::dvec3;
 
 /// Returns the surface triangles of a long square rod of unit cubes. Its volume is small compared to the products in
@@ -69,7 +69,7 @@ fn worst_volume() {
         }
         // The last sum is rounded as well.
         let error = error_of(volume.sum + volume.addition_error_sum, &truth);
-        Some(error_share(
+        Some(error_fraction(
             error,
             volume_rounding_bound(volume.term_bound_sum, volume.term_count),
         ))

@@ -1,5 +1,7 @@
 use crate::test_meshes::{cubes, mesh, tetrahedron};
-use crate::{AffineMap, Detail, Format, MeshFault, TopologyDefects, TriangleMesh, body_from_mesh};
+use crate::{
+    AffineMap, Format, MeshFault, PieceChoice, TopologyDefects, TriangleMesh, body_from_mesh,
+};
 use ccd_core::glam::{DAffine3, DMat3, DQuat, DVec3, dvec3};
 use ccd_core::{Pose, Solidity};
 
@@ -53,12 +55,12 @@ fn a_flattened_mesh_is_repaired() {
     assert_eq!(flat.repairs().collapsed_faces.count(), 8);
     assert_eq!(flat.faces().len(), 4);
     assert_eq!(volume(&flat), 0.0);
-    assert!(body_from_mesh(&flat, Detail::Auto).is_ok());
+    assert!(body_from_mesh(&flat, PieceChoice::Auto).is_ok());
     // A single point is a valid mesh.
     let point = cube().transformed(scaling_map(0.0, 0.0, 0.0)).unwrap();
     assert_eq!(point.faces().len(), 1);
     assert_eq!(point.bounding_box(), [DVec3::ZERO; 2]);
-    assert!(body_from_mesh(&point, Detail::Auto).is_ok());
+    assert!(body_from_mesh(&point, PieceChoice::Auto).is_ok());
 }
 
 #[test]
@@ -115,7 +117,7 @@ fn merged_solids_are_solid() {
         .transformed(Pose::at([3.0, 0.0, 0.0]).unwrap())
         .unwrap();
     let both = TriangleMesh::merge([&cube(), &apart]).unwrap();
-    let body = body_from_mesh(&both, Detail::Auto).unwrap().body;
+    let body = body_from_mesh(&both, PieceChoice::Auto).unwrap().body;
     assert_eq!(body.solidity(), Solidity::Solid);
 }
 

@@ -24,8 +24,8 @@ pub(super) struct Plane {
 
 /// The position of a box relative to the facet planes of a hull.
 pub(super) struct BoxPosition {
-    /// Whether the box's centre is in the hull.
-    pub(super) is_centre_inside: bool,
+    /// Whether the box's center is in the hull.
+    pub(super) is_center_inside: bool,
     /// The numbers of the planes that do not have the whole box behind them.
     pub(super) planes: Vec<u32>,
 }
@@ -43,24 +43,24 @@ impl FacetPlanes {
     /// the hull.
     pub(super) fn box_position(
         &self,
-        centre: DVec3,
+        center: DVec3,
         half: DVec3,
         among: &[u32],
     ) -> Option<BoxPosition> {
         let mut meeting = BoxPosition {
-            is_centre_inside: !self.planes.is_empty(),
+            is_center_inside: !self.planes.is_empty(),
             planes: Vec::new(),
         };
         for &k in among {
             let plane = self.planes[k as usize];
-            let above = plane.signed_distance(centre);
+            let above = plane.signed_distance(center);
             let reach = plane.normal.abs().dot(half) + self.slack;
             if above > reach {
                 return None;
             }
             // Written so that NaN is no bound.
             if !(above <= 0.0) {
-                meeting.is_centre_inside = false;
+                meeting.is_center_inside = false;
             }
             if !(above < -reach) {
                 meeting.planes.push(k);

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 
 /// Returns an upper bound of the distance from the solid to any point of the hull.
 ///
-/// The distance is 1-Lipschitz, so that its value at the centre of a box bounds it in the box. For nearly flat surfaces
+/// The distance is 1-Lipschitz, so that its value at the center of a box bounds it in the box. For nearly flat surfaces
 /// [`under`] gives a better bound. Boxes around the hull are split, largest bound first, until that bound is near a
 /// distance that was found, the work is spent, or too many boxes wait.
 pub(super) fn excess_bound(target: &EnclosedMesh<'_>, hull: &Hull) -> f64 {
@@ -61,11 +61,11 @@ struct BoundedBox {
     planes: Vec<u32>,
 }
 
-/// The result of bounding a box: a distance at its centre, and the box itself if it must be searched further.
+/// The result of bounding a box: a distance at its center, and the box itself if it must be searched further.
 #[derive(Default)]
 struct BoxExamination {
-    /// The distance from the solid to the box's centre; 0 if the centre is in the solid or outside the hull.
-    centre_distance_bound: f64,
+    /// The distance from the solid to the box's center; 0 if the center is in the solid or outside the hull.
+    center_distance_bound: f64,
     /// The box with its bound; `None` if no point of the hull in the box is farther from the solid than
     /// `largest_found_distance`.
     bounded_box: Option<BoundedBox>,
@@ -113,7 +113,7 @@ impl Search<'_> {
     fn record(&mut self, examined: BoxExamination) {
         self.steps_spent += examined.steps_spent;
         self.largest_found_distance =
-            greater(self.largest_found_distance, examined.centre_distance_bound);
+            greater(self.largest_found_distance, examined.center_distance_bound);
         self.examined_box_count += 1;
         let key = |cell: &BoundedBox| (cell.bound.to_bits(), self.examined_box_count);
         self.waiting_boxes
@@ -125,25 +125,25 @@ impl Search<'_> {
         let planes = &within.planes;
         let (target, hull, work) = (self.enclosed_mesh, &self.hull, &WorkBudget::unbounded());
         let [lo, hi] = bounds;
-        let (centre, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
+        let (center, half) = ((lo + hi) / 2.0, (hi - lo) / 2.0);
         let reach = half.length() + target.distance_rounding;
         work.spend(1 + planes.len() / PLANE_TESTS_PER_STEP);
         let mut examined = BoxExamination::default();
-        if let Some(meeting) = hull.box_position(centre, half, planes) {
-            let near = match target.locate(centre, work) {
+        if let Some(meeting) = hull.box_position(center, half, planes) {
+            let near = match target.locate(center, work) {
                 Location::Inside { least_depth: depth } => reach - depth,
                 Location::Outside {
                     distance_bound: distance,
                 } => {
-                    if meeting.is_centre_inside {
-                        examined.centre_distance_bound = distance;
+                    if meeting.is_center_inside {
+                        examined.center_distance_bound = distance;
                     }
                     distance + reach
                 }
             };
             let planes = meeting.planes;
             let above = planes.iter().map(|&k| hull.planes[k as usize]);
-            let under = || under::excess_bound_above_surface(target, above, [centre, half], work);
+            let under = || under::excess_bound_above_surface(target, above, [center, half], work);
             let is_known = |bound: f64| bound <= self.largest_found_distance;
             let mut bound = lesser(near, within.bound);
             if !is_known(bound) {
@@ -160,7 +160,7 @@ impl Search<'_> {
     }
 }
 
-/// Splits a box into eight at its centre.
+/// Splits a box into eight at its center.
 fn octants([lo, hi]: [DVec3; 2]) -> [[DVec3; 2]; 8] {
     let middle = (lo + hi) / 2.0;
     std::array::from_fn(|k| {

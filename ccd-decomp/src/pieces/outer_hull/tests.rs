@@ -255,7 +255,7 @@ fn shifted_along_diagonal(mesh: &TriangleMesh, offset: f64) -> TriangleMesh {
 }
 
 /// Tests that the excess bound of a hull is within 2 % of the known excess. The hull fills the hole of a torus, whose
-/// farthest points are at the two mouths, or a cavity, whose farthest point is its centre.
+/// farthest points are at the two mouths, or a cavity, whose farthest point is its center.
 #[rstest]
 #[case::torus(torus(96, 48, 0.3), 1.09_f64.sqrt() - 0.3)]
 #[case::cavity(box_mesh(&[cube_bounds(1.0), [DVec3::splat(0.5), DVec3::splat(-0.5)]]), 0.5)]

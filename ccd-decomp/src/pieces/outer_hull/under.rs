@@ -17,14 +17,14 @@ use ccd_core::vector::unit;
 pub(super) fn excess_bound_above_surface(
     target: &EnclosedMesh<'_>,
     planes: impl Iterator<Item = Plane>,
-    [centre, half]: [DVec3; 2],
+    [center, half]: [DVec3; 2],
     work: &WorkBudget,
 ) -> Option<f64> {
-    let bounds = [centre - 3.0 * half, centre + 3.0 * half];
+    let bounds = [center - 3.0 * half, center + 3.0 * half];
     let near = target.triangles_meeting_box(bounds, MAX_NEARBY_TRIANGLES, work)?;
     let normals = near.iter().map(|[a, b, c]| (b - a).cross(c - a));
     let up = unit(target.orientation_sign * normals.sum::<DVec3>())?;
-    let height = |p: DVec3| up.dot(p - centre);
+    let height = |p: DVec3| up.dot(p - center);
     let mut part = Vec::new();
     let mut lowest = f64::INFINITY;
     for triangle in near {
@@ -32,30 +32,30 @@ pub(super) fn excess_bound_above_surface(
         lowest = part.iter().copied().map(height).fold(lowest, lesser);
     }
     lowest -= target.distance_rounding;
-    let deepest = centre - 3.0 * half * up.signum();
+    let deepest = center - 3.0 * half * up.signum();
     if !(height(deepest) < lowest) || !target.has_nonzero_winding_number(deepest, work) {
         return None;
     }
     let sinks = greater(
         0.0,
-        hull_height_bound(planes, up, [centre, half], target.distance_rounding) - lowest,
+        hull_height_bound(planes, up, [center, half], target.distance_rounding) - lowest,
     );
     let stays = (sinks * up.abs()).cmple(2.0 * half).all();
     stays.then_some(sinks + target.distance_rounding)
 }
 
-/// Returns an upper bound of the height of the hull within a box, along `up` from the box's centre. The hull is behind
+/// Returns an upper bound of the height of the hull within a box, along `up` from the box's center. The hull is behind
 /// each plane: the upward direction is split into a multiple of the plane's normal and a rest.
 fn hull_height_bound(
     planes: impl Iterator<Item = Plane>,
     up: DVec3,
-    [centre, half]: [DVec3; 2],
+    [center, half]: [DVec3; 2],
     slack: f64,
 ) -> f64 {
     let by_plane = |plane: Plane| {
         let multiple = greater(0.0, up.dot(plane.normal));
         let rest = up - multiple * plane.normal;
-        multiple * (slack - plane.signed_distance(centre)) + rest.abs().dot(half)
+        multiple * (slack - plane.signed_distance(center)) + rest.abs().dot(half)
     };
     let by_box = up.abs().dot(half);
     planes.map(by_plane).fold(by_box, lesser)

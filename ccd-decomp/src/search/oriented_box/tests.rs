@@ -4,7 +4,7 @@ use super::OrientedBox;
 use crate::rational::{Exact3, exact_fraction};
 use crate::search::element::Element;
 use crate::tolerance::box_rounding_bound;
-use crate::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -28,12 +28,12 @@ fn worst_beside() {
         let (of, point) = random_box_and_point(tape);
         let k = tape.index_below(3);
         let axis = of.axes[k];
-        let way = axis.dot(point - of.centre);
+        let way = axis.dot(point - of.center);
         let truth = Exact3::from_coordinates(axis)
-            .dot(&Exact3::from_coordinates(point).minus(&Exact3::from_coordinates(of.centre)));
+            .dot(&Exact3::from_coordinates(point).minus(&Exact3::from_coordinates(of.center)));
         let error = (exact_fraction(way) - truth).to_f64().value();
         let reach = greater(of.max_abs_coordinate, point.abs().max_element());
-        Some(error_share(error.abs(), box_rounding_bound(axis, reach)))
+        Some(error_fraction(error.abs(), box_rounding_bound(axis, reach)))
     });
     found.assert_tight_bound(120.0);
 }

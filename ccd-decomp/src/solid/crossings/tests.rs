@@ -121,7 +121,7 @@ fn fans_of_convex_caps_are_not_compared_pair_by_pair() {
 /// Returns the number of steps per face that checking a mesh takes.
 fn steps_per_face(mesh: &TriangleMesh) -> u64 {
     let manifold = Manifold::without_intersection_check(mesh, &TopologyDefects::of(mesh)).unwrap();
-    assert_eq!(crate::solid::star_shaped::star_centre(&manifold), None);
+    assert_eq!(crate::solid::star_shaped::star_center(&manifold), None);
     let too_few = WorkBudget::with_steps(100);
     assert_eq!(
         check_solid(&manifold, &too_few),

@@ -1,16 +1,16 @@
 //! Tests which shells of nested, crossing and touching cubes are found to be wrongly oriented or unclear.
 
-use super::centre_and_points_beside;
+use super::center_and_points_beside;
 use crate::rational::Exact3;
 use crate::test_meshes::CUBE_FACES;
-use crate::tolerance::FACE_CENTRE_ROUNDING;
-use crate::worst::{WorstCaseSearch, error_share};
-use crate::{Detail, TopologyDefects, TriangleMesh, body_from_mesh};
+use crate::tolerance::FACE_CENTER_ROUNDING;
+use crate::worst::{WorstCaseSearch, error_fraction};
+use crate::{PieceChoice, TopologyDefects, TriangleMesh, body_from_mesh};
 use ccd_core::Solidity;
 use ccd_core::glam::{DVec3, dvec3};
 use ccd_core::order::lesser;
 
-/// Returns cubes as one mesh, each given by its centre, half its side length, and whether it is inside out.
+/// Returns cubes as one mesh, each given by its center, half its side length, and whether it is inside out.
 fn cubes(cubes: &[(DVec3, f64, bool)]) -> TriangleMesh {
     let (mut points, mut faces) = (Vec::new(), Vec::new());
     for &(middle, half, inward) in cubes {
@@ -43,11 +43,11 @@ fn shells_side_by_side_are_each_turned_outward() {
     ] {
         let mesh = cubes(&[(DVec3::ZERO, 0.5, one), (10.0 * DVec3::X, 1.5, other)]);
         assert_eq!(wrong_and_unclear_shell_counts(&mesh), [wrong, 0]);
-        let prepared = body_from_mesh(&mesh, Detail::Triangles).unwrap();
+        let prepared = body_from_mesh(&mesh, PieceChoice::Triangles).unwrap();
         assert_eq!(prepared.body.solidity(), Solidity::Solid);
     }
     let mesh = cubes(&[(DVec3::ZERO, 0.5, true), (10.0 * DVec3::X, 1.5, false)]);
-    let report = body_from_mesh(&mesh, Detail::Auto).unwrap().report;
+    let report = body_from_mesh(&mesh, PieceChoice::Auto).unwrap().report;
     let said = report.to_string();
     assert!(said.contains("turned, by a face: 1 (0)"), "{said}");
     let volume = TopologyDefects::of(&mesh).signed_volume;
@@ -86,8 +86,11 @@ fn nested_shells_alternate() {
         let cube = |half: f64| 8.0 * half * half * half;
         let exact = cube(4.0) - cube(3.0) + cube(2.0) - cube(1.0);
         assert!((volume - exact).abs() < 1e-9, "{flips:b} {volume} {exact}");
-        for detail in [Detail::Patches(crate::PatchOrder::default()), Detail::Auto] {
-            let prepared = body_from_mesh(&mesh, detail).unwrap();
+        for choice in [
+            PieceChoice::Patches(crate::PatchOrder::default()),
+            PieceChoice::Auto,
+        ] {
+            let prepared = body_from_mesh(&mesh, choice).unwrap();
             assert_eq!(prepared.body.solidity(), Solidity::Solid);
         }
     }
@@ -108,7 +111,7 @@ fn shells_that_cross_are_one_solid_outside_and_unclear_within_another() {
     let both = [pair(true).as_slice(), &[around(false)]].concat();
     let mesh = cubes(&both);
     assert_eq!(wrong_and_unclear_shell_counts(&mesh)[1], 1);
-    let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
+    let prepared = body_from_mesh(&mesh, PieceChoice::Auto).unwrap();
     assert_eq!(prepared.body.solidity(), Solidity::Surface);
     let said = prepared.report.to_string();
     assert!(
@@ -151,14 +154,14 @@ fn shells_that_share_faces_are_distinguished() {
         assert_eq!(wrong_and_unclear_shell_counts(&mesh), [0, 0], "{seed}");
         let volume = topology.signed_volume.abs() - of_lattice.len() as f64;
         assert!(volume.abs() < 1e-9, "{seed}");
-        let prepared = body_from_mesh(&mesh, Detail::Auto).unwrap();
+        let prepared = body_from_mesh(&mesh, PieceChoice::Auto).unwrap();
         assert_eq!(prepared.body.solidity(), Solidity::Solid);
         shared += usize::from(topology.edges_shared_by_parts.count() > 4);
     }
     assert!(shared > 40, "{shared}");
 }
 
-/// Tests that the two points beside a face's centre are on opposite sides of the face in exact arithmetic. Faces are
+/// Tests that the two points beside a face's center are on opposite sides of the face in exact arithmetic. Faces are
 /// needles of an aspect of up to a million, and far from the origin.
 #[test]
 fn worst_middle() {
@@ -172,7 +175,7 @@ fn worst_middle() {
         let size = a.distance(b) + a.distance(c);
         let area = (b - a).cross(c - a).length();
         let (middle, across) =
-            centre_and_points_beside(face, size).filter(|_| area > 1e-6 * size * size)?;
+            center_and_points_beside(face, size).filter(|_| area > 1e-6 * size * size)?;
         let [a, b, c] = face.map(Exact3::from_coordinates);
         let normal = b.minus(&a).cross(&c.minus(&a));
         // The rounding here is far below the tested error.
@@ -186,8 +189,8 @@ fn worst_middle() {
                 / unit
         };
         let [behind, ahead] = across.map(height);
-        let meant = FACE_CENTRE_ROUNDING * (size + middle.abs().max_element());
-        Some(error_share(meant - lesser(ahead, -behind), meant))
+        let meant = FACE_CENTER_ROUNDING * (size + middle.abs().max_element());
+        Some(error_fraction(meant - lesser(ahead, -behind), meant))
     });
     found.assert_tight_bound(1e4);
 }

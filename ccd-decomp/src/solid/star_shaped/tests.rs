@@ -8,7 +8,7 @@ use crate::test_meshes::{
 };
 
 fn is_star_shaped(mesh: &TriangleMesh) -> bool {
-    star_centre(&Manifold::without_intersection_check(mesh, &TopologyDefects::of(mesh)).unwrap())
+    star_center(&Manifold::without_intersection_check(mesh, &TopologyDefects::of(mesh)).unwrap())
         .is_some()
 }
 

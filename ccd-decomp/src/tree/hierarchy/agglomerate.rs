@@ -12,8 +12,8 @@ const CLUSTERS_PER_TASK: usize = 512;
 /// A set of pieces: a piece, or the root of a subtree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cluster {
-    /// The mean of the centres of the pieces, in the unit cube.
-    pub(super) centre: Vec3A,
+    /// The mean of the centers of the pieces, in the unit cube.
+    pub(super) center: Vec3A,
     /// The number of pieces.
     pub(super) weight: f32,
     pub(super) node: HierarchyNode,
@@ -86,8 +86,8 @@ pub(super) fn agglomerate(mut row: Vec<Cluster>) -> Vec<HierarchyNode> {
 fn merged(one: Cluster, other: Cluster) -> Cluster {
     let weight = one.weight + other.weight;
     Cluster {
-        // Equal centres stay what they are.
-        centre: one.centre + (other.centre - one.centre) * (other.weight / weight),
+        // Equal centers stay what they are.
+        center: one.center + (other.center - one.center) * (other.weight / weight),
         weight,
         node: one.node,
     }
@@ -113,8 +113,8 @@ struct Neighbour {
 struct NeighbourSearch {
     /// The nearest neighbour of each cluster of the row.
     nearest: Vec<Neighbour>,
-    /// The centres along one of the other curves, and the nearest neighbours among them.
-    centres: Vec<Vec3A>,
+    /// The centers along one of the other curves, and the nearest neighbours among them.
+    centers: Vec<Vec3A>,
     nearest_along_curve: Vec<Neighbour>,
 }
 
@@ -124,16 +124,16 @@ impl NeighbourSearch {
     fn find_nearest(&mut self, row: &[Cluster], curves: &[Vec<u32>]) {
         row.par_iter()
             .with_min_len(CLUSTERS_PER_TASK)
-            .map(|cluster| cluster.centre)
-            .collect_into_vec(&mut self.centres);
-        find_nearest_in_row(&self.centres, &mut self.nearest);
+            .map(|cluster| cluster.center)
+            .collect_into_vec(&mut self.centers);
+        find_nearest_in_row(&self.centers, &mut self.nearest);
         for curve in curves {
             curve
                 .par_iter()
                 .with_min_len(CLUSTERS_PER_TASK)
-                .map(|&place| row[place as usize].centre)
-                .collect_into_vec(&mut self.centres);
-            find_nearest_in_row(&self.centres, &mut self.nearest_along_curve);
+                .map(|&place| row[place as usize].center)
+                .collect_into_vec(&mut self.centers);
+            find_nearest_in_row(&self.centers, &mut self.nearest_along_curve);
             for (&place, found) in curve.iter().zip(&self.nearest_along_curve) {
                 let known = &mut self.nearest[place as usize];
                 if found.distance < known.distance {
@@ -147,10 +147,10 @@ impl NeighbourSearch {
     }
 }
 
-/// Finds the nearest neighbour of each centre among those within the search radius. Of several that are as near, the nearest in
+/// Finds the nearest neighbour of each center among those within the search radius. Of several that are as near, the nearest in
 /// the row counts, and of two of these the later one for an even place, the earlier one for an odd place: clusters with one
-/// centre find their partners in one pass.
-fn find_nearest_in_row(centres: &[Vec3A], nearest: &mut Vec<Neighbour>) {
+/// center find their partners in one pass.
+fn find_nearest_in_row(centers: &[Vec3A], nearest: &mut Vec<Neighbour>) {
     let find = |index: usize| {
         let (mut distance, mut best) = (f32::INFINITY, index);
         for step in 1..=MORTON_SEARCH_RADIUS {
@@ -159,8 +159,8 @@ fn find_nearest_in_row(centres: &[Vec3A], nearest: &mut Vec<Neighbour>) {
             // The one that counts is compared first.
             let first = usize::from(index.is_multiple_of(2));
             for other in [beside[first], beside[1 - first]] {
-                if let Some(centre) = centres.get(other) {
-                    let square = centre.distance_squared(centres[index]);
+                if let Some(center) = centers.get(other) {
+                    let square = center.distance_squared(centers[index]);
                     if square < distance {
                         (distance, best) = (square, other);
                     }
@@ -169,24 +169,24 @@ fn find_nearest_in_row(centres: &[Vec3A], nearest: &mut Vec<Neighbour>) {
         }
         // Without a number, the neighbour is the other one of its pair.
         if best == index {
-            best = (index ^ 1).min(centres.len() - 1);
+            best = (index ^ 1).min(centers.len() - 1);
         }
         Neighbour {
             distance,
             place: best as u32,
         }
     };
-    let indices = (0..centres.len()).into_par_iter();
+    let indices = (0..centers.len()).into_par_iter();
     indices
         .with_min_len(CLUSTERS_PER_TASK)
         .map(find)
         .collect_into_vec(nearest);
 }
 
-/// Returns the indices of clusters, sorted by the Morton codes of their centres. The centres are moved by `shift` along each
+/// Returns the indices of clusters, sorted by the Morton codes of their centers. The centers are moved by `shift` along each
 /// coordinate, in a cube of twice the size.
 fn order_along_morton_curve(clusters: &[Cluster], shift: f64) -> Vec<u32> {
-    let code = |cluster: &Cluster| morton_code(0.5 * (cluster.centre.as_dvec3() + shift));
+    let code = |cluster: &Cluster| morton_code(0.5 * (cluster.center.as_dvec3() + shift));
     let mut order: Vec<(u64, u32)> = clusters.iter().map(code).zip(0..).collect();
     order.par_sort_unstable();
     order.into_iter().map(|(_, cluster)| cluster).collect()

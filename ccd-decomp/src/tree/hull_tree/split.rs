@@ -8,16 +8,16 @@ use ccd_core::order::greater;
 use ccd_core::vector::unit;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-/// Splits sets of pieces in two, across the direction in which their centres spread most.
+/// Splits sets of pieces in two, across the direction in which their centers spread most.
 pub(super) struct Splitter {
-    centres: Vec<DVec3>,
+    centers: Vec<DVec3>,
 }
 
 impl Splitter {
     pub(super) fn new(pieces: &Pieces) -> Self {
         let mean = |points: &[DVec3]| points.iter().sum::<DVec3>() / points.len() as f64;
         Splitter {
-            centres: pieces.iter().map(|piece| mean(piece.points)).collect(),
+            centers: pieces.iter().map(|piece| mean(piece.points)).collect(),
         }
     }
 
@@ -27,7 +27,7 @@ impl Splitter {
             return 1;
         }
         let axis = self.direction_of_largest_spread(pieces);
-        let height = |&piece: &u32| (axis.dot(self.centres[piece as usize]), piece);
+        let height = |&piece: &u32| (axis.dot(self.centers[piece as usize]), piece);
         let mut heights: Vec<(f64, u32)> = pieces.iter().map(height).collect();
         heights.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         for (piece, sorted) in pieces.iter_mut().zip(&heights) {
@@ -43,20 +43,20 @@ impl Splitter {
         }
     }
 
-    /// Returns the unit vector along which the surface of the hull of the piece centres spreads most.
+    /// Returns the unit vector along which the surface of the hull of the piece centers spreads most.
     fn direction_of_largest_spread(&self, pieces: &[u32]) -> DVec3 {
         // A sample is enough.
         let stride = pieces.len().div_ceil(MAX_SPREAD_SAMPLES);
         let some = pieces.iter().step_by(stride);
-        let centres: Vec<DVec3> = some.map(|&k| self.centres[k as usize]).collect();
-        let mean = centres.iter().sum::<DVec3>() / centres.len() as f64;
+        let centers: Vec<DVec3> = some.map(|&k| self.centers[k as usize]).collect();
+        let mean = centers.iter().sum::<DVec3>() / centers.len() as f64;
         let reach = |p: &DVec3| (*p - mean).abs().max_element();
-        let size = centres.iter().map(reach).fold(0.0, greater);
+        let size = centers.iter().map(reach).fold(0.0, greater);
         if !(size > 0.0) {
             return DVec3::X;
         }
         // Scaled to avoid underflow.
-        let unit: Vec<DVec3> = centres.iter().map(|&p| (p - mean) / size).collect();
+        let unit: Vec<DVec3> = centers.iter().map(|&p| (p - mean) / size).collect();
         let spread = match ExactHull::facets_of(&unit) {
             Some(triangles) => second_moments_of_surface(&unit, &triangles),
             None => second_moments_of_points(&unit),

@@ -261,6 +261,6 @@ fn the_same_pieces_give_the_same_tree() {
         tree.to_nodes(),
         build_hull_tree(&pieces).unwrap().to_nodes()
     );
-    // All centres at equal steps: halves at every level.
+    // All centers at equal steps: halves at every level.
     assert!(depth(&tree, 0) <= 10, "{}", depth(&tree, 0));
 }

@@ -6,12 +6,12 @@ use ccd_core::{DistanceOracle, Frame, Piece, PiecePair};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Returns random points around a centre.
-fn random_points(random: &mut Pcg64, centre: DVec3) -> Vec<DVec3> {
+/// Returns random points around a center.
+fn random_points(random: &mut Pcg64, center: DVec3) -> Vec<DVec3> {
     let count = random.random_range(1..20);
     let mut coordinate = || random.random_range(-1.0..1.0);
     let mut point = || DVec3::new(coordinate(), coordinate(), coordinate());
-    (0..count).map(|_| centre + point()).collect()
+    (0..count).map(|_| center + point()).collect()
 }
 
 /// Tests on random pairs of hulls that the bounds contain the oracle's distance, and that a search ends with a required

@@ -1,6 +1,6 @@
 use super::{TOUCHING_ULPS, VOLUME_ULPS};
 use crate::rational::{Exact3, error_of, exact_fraction};
-use crate::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -24,8 +24,8 @@ fn worst_volume() {
         let origin = error_of(a.dot(normal), &a3.dot(&exact_normal));
         let height = error_of(up.dot(normal), &apex.minus(&a3).dot(&exact_normal));
         Some(greater(
-            error_share(origin, allowed * a.length()),
-            error_share(height, allowed * up.length()),
+            error_fraction(origin, allowed * a.length()),
+            error_fraction(height, allowed * up.length()),
         ))
     });
     found.assert_tight_bound(20.0);
@@ -53,7 +53,7 @@ fn worst_combination() {
         let off = DVec3::from([0, 1, 2].map(|k| error_of(sum[k], &truth(k)))).length();
         let reach = corners.iter().map(|corner| corner.length());
         let allowed = TOUCHING_ULPS * f64::EPSILON * reach.fold(0.0, greater);
-        Some(error_share(off, allowed))
+        Some(error_fraction(off, allowed))
     });
     found.assert_tight_bound(20.0);
 }

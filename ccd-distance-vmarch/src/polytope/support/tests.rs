@@ -1,7 +1,7 @@
 //! Tests that hill climbing finds corners as high as a scan does.
 
 use super::{
-    CUBE_MAP_SQUARE_COUNT, StartVertexTable, square_centre_direction, square_index_towards,
+    CUBE_MAP_SQUARE_COUNT, StartVertexTable, square_center_direction, square_index_towards,
 };
 use crate::tests::setting::{cube, prepared_polytope};
 use crate::tests::shape::{self, Pcg64, SeedableRng, random_direction};
@@ -9,11 +9,11 @@ use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
 #[test]
-fn directions_are_in_the_square_whose_centre_is_near() {
+fn directions_are_in_the_square_whose_center_is_near() {
     for square in 0..CUBE_MAP_SQUARE_COUNT {
         for scale in [1e-150, 1.0, 1e150] {
             assert_eq!(
-                square_index_towards(square_centre_direction(square) * scale),
+                square_index_towards(square_center_direction(square) * scale),
                 square
             );
         }
@@ -21,7 +21,7 @@ fn directions_are_in_the_square_whose_centre_is_near() {
     let mut rng = Pcg64::seed_from_u64(1);
     for _ in 0..10_000 {
         let look = random_direction(&mut rng);
-        let angle = look.angle_between(square_centre_direction(square_index_towards(look)));
+        let angle = look.angle_between(square_center_direction(square_index_towards(look)));
         // The angle of half the diagonal of a square in the middle of a side.
         assert!(angle <= 0.36, "{angle}");
     }

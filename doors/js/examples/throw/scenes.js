@@ -31,7 +31,7 @@ function sphere(radius) {
   return part(Body.sphere(radius), new SphereGeometry(radius));
 }
 
-/** Makes a capsule along z. Capsules of three.js are along y. `height` is the distance between the centres of the caps. */
+/** Makes a capsule along z. Capsules of three.js are along y. `height` is the distance between the centers of the caps. */
 function capsule(radius, height) {
   return part(Body.capsule(radius, height / 2), new CapsuleGeometry(radius, height, 12, 32).rotateX(Math.PI / 2));
 }
@@ -54,7 +54,7 @@ function rectangle(width, height) {
   return [new Vector2(-x, -y), new Vector2(x, -y), new Vector2(x, y), new Vector2(-x, y)];
 }
 
-/** Reads a part from a file, and scales it to half a metre around its centre. */
+/** Reads a part from a file, and scales it to half a metre around its center. */
 export function partOfFile(name, bytes) {
   const { positions, indices } = readMesh(name, bytes, { unit: "m" });
   const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3)).setIndex(new BufferAttribute(indices, 1));

@@ -31,7 +31,7 @@ let [certifiedEnd, steppingEnd, frame] = [DURATION, DURATION, null];
 function ask(time) {
   const spin = SPIN_AXIS.clone().multiplyScalar(2 * Math.PI * number("spin"));
   motion?.free();
-  motion = new Motion({ position, velocity, spin });
+  motion = new Motion({ position, velocity, angularVelocity: spin });
   const contact = certify(parts, motion);
   const seen = firstStepInContact(parts, motion, rate());
   [certifiedEnd, steppingEnd] = [contact.time ?? contact.safeUntil, seen ?? DURATION];

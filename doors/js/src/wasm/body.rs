@@ -4,7 +4,8 @@ use super::fault::Fault;
 use super::host::tell;
 use rigid_ccd::body::{SolidOfRevolution, Solidity};
 use rigid_ccd::mesh::{
-    AffineMap, Detail, Format, MeshError, MeshFault, MeshFile, TriangleMesh, Unit, body_from_mesh,
+    AffineMap, Format, MeshError, MeshFault, MeshFile, PieceChoice, TriangleMesh, Unit,
+    body_from_mesh,
 };
 use rigid_ccd::text::Number;
 use rigid_ccd::{InputError, Pose, Remark};
@@ -99,7 +100,7 @@ impl Body {
     ) -> Result<Self, Fault> {
         let vertices = positions.as_chunks::<3>().0.to_vec();
         let mesh = TriangleMesh::new(vertices, indices.as_chunks::<3>().0)?;
-        Body::from_triangles(&mesh, detail(pieces, is_surface)?)
+        Body::from_triangles(&mesh, choice(pieces, is_surface)?)
     }
 
     /// Makes a body from a mesh that was read from a file.
@@ -107,7 +108,7 @@ impl Body {
     /// # Errors
     /// A mesh that cannot be represented by pieces of this kind.
     pub fn from_read_mesh(mesh: &Mesh, pieces: &str, is_surface: bool) -> Result<Self, Fault> {
-        Body::from_triangles(&mesh.mesh, detail(pieces, is_surface)?)
+        Body::from_triangles(&mesh.mesh, choice(pieces, is_surface)?)
     }
 
     /// Makes a box about its origin. The arguments are half extents.
@@ -180,9 +181,9 @@ impl Body {
 }
 
 impl Body {
-    fn from_triangles(mesh: &TriangleMesh, detail: Detail) -> Result<Self, Fault> {
-        let prepared = body_from_mesh(mesh, detail)?;
-        tell(Remark::remark_on_mesh(detail, mesh, &prepared.report));
+    fn from_triangles(mesh: &TriangleMesh, choice: PieceChoice) -> Result<Self, Fault> {
+        let prepared = body_from_mesh(mesh, choice)?;
+        tell(Remark::remark_on_mesh(choice, mesh, &prepared.report));
         let report = prepared.report.to_string();
         Ok(Body::new(prepared.body, report))
     }
@@ -221,17 +222,17 @@ fn round_report(name: &str, lengths: [f64; 2]) -> String {
     format!("{name} of radius {radius} and half height {half_height}")
 }
 
-fn detail(pieces: &str, is_surface: bool) -> Result<Detail, Fault> {
+fn choice(pieces: &str, is_surface: bool) -> Result<PieceChoice, Fault> {
     match pieces {
-        "auto" | "triangles" if is_surface => Ok(Detail::Surface),
+        "auto" | "triangles" if is_surface => Ok(PieceChoice::Surface),
         "patches" | "hull" | "outer-hull" if is_surface => Err(Fault::plain(format!(
             "surface: {pieces} fill a solid; a hollow surface has pieces: \"triangles\""
         ))),
-        "auto" => Ok(Detail::Auto),
-        "triangles" => Ok(Detail::Triangles),
-        "patches" => Ok(Detail::Patches(Default::default())),
-        "hull" => Ok(Detail::Hull),
-        "outer-hull" => Ok(Detail::OuterHull),
+        "auto" => Ok(PieceChoice::Auto),
+        "triangles" => Ok(PieceChoice::Triangles),
+        "patches" => Ok(PieceChoice::Patches(Default::default())),
+        "hull" => Ok(PieceChoice::Hull),
+        "outer-hull" => Ok(PieceChoice::OuterHull),
         // `doors/js/module/body.js` has refused unknown names before.
         _ => Err(Fault::plain(format!("pieces: {pieces:?}"))),
     }

@@ -86,7 +86,7 @@ impl Cell {
     ///
     /// # Errors
     /// A name that is taken, or an invalid pose.
-    pub fn add(&mut self, name: &str, body: &Body, pose: &[f64]) -> Result<(), Fault> {
+    pub fn add_obstacle(&mut self, name: &str, body: &Body, pose: &[f64]) -> Result<(), Fault> {
         let pose = pose_from_numbers(pose)?;
         self.change(|cell| {
             tell_warnings(cell.remark_on_size(name, &body.body));
@@ -98,7 +98,7 @@ impl Cell {
     ///
     /// # Errors
     /// An unknown obstacle, or an invalid pose.
-    pub fn move_to(&mut self, name: &str, pose: &[f64]) -> Result<(), Fault> {
+    pub fn move_obstacle(&mut self, name: &str, pose: &[f64]) -> Result<(), Fault> {
         let pose = pose_from_numbers(pose)?;
         self.change(|cell| cell.move_obstacle(name, pose))
     }
@@ -107,7 +107,7 @@ impl Cell {
     ///
     /// # Errors
     /// An unknown obstacle.
-    pub fn remove(&mut self, name: &str) -> Result<(), Fault> {
+    pub fn remove_obstacle(&mut self, name: &str) -> Result<(), Fault> {
         self.change(|cell| cell.remove_obstacle(name))
     }
 

@@ -1,7 +1,6 @@
 //! Messages to JavaScript besides answers: remarks on probable mistakes, and the text of a fault that ends the engine.
 
 use rigid_ccd::Remark;
-use rigid_ccd::text::Number;
 use rigid_ccd_robot::CellRemark;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -23,17 +22,6 @@ pub(crate) fn tell(remarks: impl IntoIterator<Item = Remark>) {
     for told in remarks {
         let kind = told.general_text();
         match told {
-            // Quaternions have w last here.
-            Remark::NonUnitQuaternion {
-                quaternion_components: [w, x, y, z],
-                ..
-            } => {
-                let kind = kind.replace("w, x, y, z", "x, y, z, w");
-                let told = told.to_string();
-                let length = told.rsplit(") ").next().unwrap_or_default();
-                let [x, y, z, w] = [x, y, z, w].map(Number);
-                remark(&kind, &format!("{kind}: ({x}, {y}, {z}, {w}) {length}"));
-            }
             Remark::OpenSeam { .. } => remark(
                 kind,
                 &format!(

@@ -3,13 +3,13 @@
 use super::fault::Fault;
 use super::poses::{POSE_LENGTH, pose_from_numbers, pose_to_numbers};
 use rigid_ccd::glam::DVec3;
-use rigid_ccd::trajectory::{Ballistic, LinkTrajectory, MovingBody, Poses, Trajectory};
+use rigid_ccd::trajectory::{Ballistic, LinkTrajectory, MovingBody, PosePath, Trajectory};
 use rigid_ccd::{Body, InputError, Motion};
 use rigid_ccd_robot::ChainBetween;
 use std::rc::Rc;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// The number of values of a motion: pose, velocity, angular velocity, centre.
+/// The number of values of a motion: pose, velocity, angular velocity, center.
 pub(crate) const MOTION_LENGTH: usize = POSE_LENGTH + 9;
 
 /// The movement of a body. Clones share it.
@@ -22,8 +22,8 @@ enum MovementKind {
     Motion(Motion),
     /// A motion between two poses, and the time of the second pose.
     Between(Motion, f64),
-    Throw(Ballistic),
-    Poses(Poses),
+    Ballistic(Ballistic),
+    Poses(PosePath),
     Link(LinkMotion),
 }
 
@@ -68,21 +68,21 @@ impl Movement {
     ///
     /// # Errors
     /// As for [`Movement::from_velocities`].
-    pub fn thrown(numbers: &[f64], acceleration: &[f64]) -> Result<Self, Fault> {
+    pub fn ballistic(numbers: &[f64], acceleration: &[f64]) -> Result<Self, Fault> {
         let thrown = Ballistic::new(motion_from_numbers(numbers)?, vector(acceleration))?;
-        Ok(Movement::new(MovementKind::Throw(thrown)))
+        Ok(Movement::new(MovementKind::Ballistic(thrown)))
     }
 
-    /// Makes a path through poses at times. `spins` has an angular velocity for each pair of consecutive poses, or is
+    /// Makes a path through poses at times. `angular_velocities` has an angular velocity for each pair of consecutive poses, or is
     /// `None`.
     ///
     /// # Errors
     /// An invalid pose (the error names its index), times that do not increase, or wrong angular velocities.
-    pub fn through_poses(
+    pub fn pose_path(
         times: &[f64],
         poses: &[f64],
         center: &[f64],
-        spins: Option<Vec<f64>>,
+        angular_velocities: Option<Vec<f64>>,
     ) -> Result<Self, Fault> {
         let poses = poses.as_chunks::<POSE_LENGTH>().0.iter().enumerate();
         let timed = times.iter().zip(poses).map(|(&time, (k, numbers))| {
@@ -90,10 +90,11 @@ impl Movement {
             let pose = pose.map_err(Fault::of_element(format!("poses[{k}]")))?;
             Ok((time, pose))
         });
-        let poses = Poses::new(timed.collect::<Result<_, Fault>>()?)?;
+        let poses = PosePath::new(timed.collect::<Result<_, Fault>>()?)?;
         let mut poses = poses.about(vector(center))?;
-        if let Some(spins) = spins {
-            poses = poses.with_angular_velocities(spins.as_chunks::<3>().0.to_vec())?;
+        if let Some(angular_velocities) = angular_velocities {
+            poses =
+                poses.with_angular_velocities(angular_velocities.as_chunks::<3>().0.to_vec())?;
         }
         Ok(Movement::new(MovementKind::Poses(poses)))
     }
@@ -101,7 +102,7 @@ impl Movement {
     /// Returns the time at which the movement ends, or `None` if it has no end.
     pub fn end(&self) -> Option<f64> {
         match &*self.0 {
-            MovementKind::Motion(_) | MovementKind::Throw(_) => None,
+            MovementKind::Motion(_) | MovementKind::Ballistic(_) => None,
             MovementKind::Between(_, duration) => Some(*duration),
             MovementKind::Poses(poses) => Some(poses.end_time()),
             MovementKind::Link(link) => Some(link.duration),
@@ -118,7 +119,7 @@ impl Movement {
         }
         let pose = match &*self.0 {
             MovementKind::Motion(motion) | MovementKind::Between(motion, _) => motion.pose(time),
-            MovementKind::Throw(thrown) => Trajectory::pose(thrown, time)?,
+            MovementKind::Ballistic(thrown) => Trajectory::pose(thrown, time)?,
             MovementKind::Poses(poses) => poses.pose(time)?,
             MovementKind::Link(link) => Trajectory::pose(&link.trajectory()?, time)?,
         };
@@ -148,8 +149,10 @@ impl Movement {
     /// Returns the angular velocity if this is a motion at constant velocities.
     pub(crate) fn constant_spin(&self) -> Option<DVec3> {
         match &*self.0 {
-            MovementKind::Motion(motion) | MovementKind::Between(motion, _) => Some(motion.spin()),
-            MovementKind::Throw(_) | MovementKind::Poses(_) | MovementKind::Link(_) => None,
+            MovementKind::Motion(motion) | MovementKind::Between(motion, _) => {
+                Some(motion.angular_velocity())
+            }
+            MovementKind::Ballistic(_) | MovementKind::Poses(_) | MovementKind::Link(_) => None,
         }
     }
 
@@ -163,7 +166,7 @@ impl Movement {
             MovementKind::Motion(motion) | MovementKind::Between(motion, _) => {
                 then((body, *motion).into())
             }
-            MovementKind::Throw(thrown) => then((body, thrown).into()),
+            MovementKind::Ballistic(thrown) => then((body, thrown).into()),
             MovementKind::Poses(poses) => then((body, poses).into()),
             MovementKind::Link(link) => then((body, &link.trajectory()?).into()),
         }

@@ -33,8 +33,8 @@ pub struct PathContact {
     /// The index of the segment.
     pub segment: usize,
     /// The position within the segment, from 0 to 1.
-    pub share: f64,
-    /// The sum of segment and share.
+    pub fraction: f64,
+    /// The sum of segment and fraction.
     pub time: f64,
     /// A lower bound of the distance of the pair at that time.
     pub lower: f64,
@@ -116,7 +116,7 @@ impl From<robot::PathContact<'_>> for PathContact {
         let [lower, upper] = contact.distance_bounds;
         PathContact {
             segment: contact.at.segment,
-            share: contact.at.share,
+            fraction: contact.at.fraction,
             time: contact.at.time(),
             lower,
             upper,

@@ -130,7 +130,10 @@ impl RobotBuilder {
 impl Robot {
     /// Returns the names of the joints with a position, in the order of configurations.
     pub fn joint_names(&self) -> Vec<String> {
-        self.robot.free_joint_names().map(str::to_owned).collect()
+        self.robot
+            .independent_joint_names()
+            .map(str::to_owned)
+            .collect()
     }
 
     /// Returns the names of the links.
@@ -166,7 +169,7 @@ impl Robot {
     ///
     /// # Errors
     /// An unknown link, or an invalid configuration or duration.
-    pub fn motion(
+    pub fn link_trajectory(
         &self,
         link: &str,
         seen_from: Option<String>,

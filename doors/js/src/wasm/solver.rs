@@ -157,11 +157,11 @@ impl Solver {
             .map(|numbers| motion_from_numbers(numbers));
         let solver = &mut self.solver;
         let by_numbers = [(&move_a, &motion_a), (&move_b, &motion_b)].into_iter();
-        let spins = by_numbers.filter_map(|(movement, motion)| match movement {
+        let angular_velocities = by_numbers.filter_map(|(movement, motion)| match movement {
             Some(movement) => movement.constant_spin(),
-            None => motion.as_ref().ok().map(Motion::spin),
+            None => motion.as_ref().ok().map(Motion::angular_velocity),
         });
-        tell(spins.filter_map(|spin| Remark::remark_on_spin(spin, duration)));
+        tell(angular_velocities.filter_map(|spin| Remark::remark_on_spin(spin, duration)));
         Ok(with_moving(move_a, motion_a, a, |a| {
             with_moving(move_b, motion_b, b, |b| {
                 solver.answer(question.into(), a, b, duration)

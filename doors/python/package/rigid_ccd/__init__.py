@@ -17,8 +17,8 @@ A table of motions is answered on all cores:
 >>> first_contacts(ball, wall, {"a_px": np.full(4, -3.0), "a_vx": speeds})["status"]
 array(['free', 'free', 'contact', 'contact'], dtype=object)
 
-Lengths are in any one unit, times in the motions' unit, angles in radians. Quaternions are (w, x, y, z), as in the
-tables of the command ``ccd``.
+Lengths are in any one unit, times in the motions' unit, angles in radians. Quaternions are (x, y, z, w), as in scipy
+and ROS.
 """
 
 from ._answers import Contact, Distance, PathContact, PathDistance, PathRange
@@ -29,14 +29,14 @@ from ._rigid_ccd import (
     Body,
     Cell,
     InputError,
-    Interrupted,
+    InterruptError,
     Joint,
-    LinkMotion,
+    LinkTrajectory,
     Motion,
-    Path,
+    PosePath,
     Robot,
     Table,
-    Unresolved,
+    UnresolvedError,
     check_proof,
     closest_approach,
     distance,
@@ -58,11 +58,11 @@ __all__ = [
     "Contact",
     "Distance",
     "InputError",
-    "Interrupted",
+    "InterruptError",
     "Joint",
-    "LinkMotion",
+    "LinkTrajectory",
     "Motion",
-    "Path",
+    "PosePath",
     "PathContact",
     "PathDistance",
     "PathRange",
@@ -71,7 +71,7 @@ __all__ = [
     "Table",
     "EdgesQuery",
     "TableQuery",
-    "Unresolved",
+    "UnresolvedError",
     "are_free",
     "check_folder",
     "check_proof",

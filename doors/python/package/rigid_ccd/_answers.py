@@ -68,8 +68,8 @@ class PathContact:
 
     Attributes:
         segment: the index of the segment between two configurations, from 0. An edge has only segment 0.
-        share: the position within the segment, from 0 to 1. Nothing touches before a first contact.
-        time: the sum of segment and share: 1.5 is the middle of the second segment. On a curve, the time of the curve.
+        fraction: the position within the segment, from 0 to 1. Nothing touches before a first contact.
+        time: the sum of segment and fraction: 1.5 is the middle of the second segment. On a curve, the time of the curve.
         a: the name of the first item: a link, or an attached body.
         b: the name of the second item: a link, an attached body or an obstacle.
         witness_a: the point of `a` nearest to `b`, in the frame of the robot's base.
@@ -81,7 +81,7 @@ class PathContact:
     """
 
     segment: int
-    share: float
+    fraction: float
     time: float
     a: str
     b: str

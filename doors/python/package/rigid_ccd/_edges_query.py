@@ -21,18 +21,18 @@ class EdgesQuery:
 
     A table has a column `id`, and for each joint the columns `from_JOINT` and `to_JOINT`, as for `ccd edges`. With the
     suffix `_deg` they are in degrees. The results are a table of the same kind, with the ids and the columns of
-    `Cell.edges`. For an iterator of tables, the result is an iterator of tables.
+    `Cell.answer_edges`. For an iterator of tables, the result is an iterator of tables.
 
     Args:
         cell: the cell. It is copied: later changes have no effect.
-        ask: "is-free", "first-contact" or "closest-approach".
+        question: "is-free", "first-contact" or "closest-approach".
         rest: the positions of joints without columns in the tables.
-        settings: those of `Cell.edges`. `threads` is 1 by default, because engines start a task for each core.
+        settings: those of `Cell.answer_edges`. `threads` is 1 by default, because engines start a task for each core.
 
     >>> from rigid_ccd import Body, Cell, EdgesQuery, Joint, Robot
     >>> slider = Joint.prismatic("x", "rail", "cart", axis=[1, 0, 0])
     >>> cell = Cell(Robot([slider], {"cart": Body.sphere(0.5)}))
-    >>> cell.add("wall", Body.box(0.1, 5, 5), ([3, 0, 0], [1, 0, 0, 0]))
+    >>> cell.add_obstacle("wall", Body.box(0.1, 5, 5), ([3, 0, 0], [0, 0, 0, 1]))
     >>> EdgesQuery(cell)({"id": ["near", "far"], "from_x": [0, 0], "to_x": [1, 4]})["status"]
     array(['free', 'contact'], dtype=object)
     """
@@ -42,7 +42,7 @@ class EdgesQuery:
     ) -> None:
         # A copy, so that later changes of the cell have no effect.
         self._cell: Cell = copy.copy(cell)
-        self._ask, self._rest = ask, {joint: _position(joint, at) for joint, at in (rest or {}).items()}
+        self._question, self._rest = question, {joint: _position(joint, at) for joint, at in (rest or {}).items()}
         self._settings = {"threads": 1, **settings}
         unknown = set(self._rest) - set(cell.robot.joint_names)
         if unknown:
@@ -100,11 +100,11 @@ class EdgesQuery:
         return ends
 
     def _answer(self, ends: NDArray[np.float64]) -> Table:
-        return self._cell.edges(ends[0], ends[1], ask=self._ask, **self._settings)
+        return self._cell.answer_edges(ends[0], ends[1], question=self._question, **self._settings)
 
     def __repr__(self) -> str:
         settings = "".join(f", {name}={value!r}" for name, value in self._settings.items())
-        return f"EdgesQuery({self._cell!r}, ask={self._ask!r}, rest={self._rest!r}{settings})"
+        return f"EdgesQuery({self._cell!r}, question={self._question!r}, rest={self._rest!r}{settings})"
 
 
 def _position(joint: str, at: Any) -> float:

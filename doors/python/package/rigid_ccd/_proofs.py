@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from ._progress import reporter
-from ._rigid_ccd import InputError, Interrupted, check_proof, proof_statement, read_proof
+from ._rigid_ccd import InputError, InterruptError, check_proof, proof_statement, read_proof
 from ._settings import Progress
 
 
@@ -28,7 +28,7 @@ class Proof:
 
     @property
     def until(self) -> float:
-        """The time until which nothing touches; for a segment of a path, the share from 0 to 1."""
+        """The time until which nothing touches; for a segment of a path, the fraction from 0 to 1."""
         return read_proof(self.proof)[0]
 
     @property
@@ -97,7 +97,7 @@ def check_folder(folder: str | PathLike[str], *, progress: Progress = None) -> d
 
     Raises:
         InputError: the folder has no proof, a file is not a proof, or a mesh is missing.
-        Interrupted: Ctrl-C was pressed. `results` has the results of the proofs checked so far.
+        InterruptError: Ctrl-C was pressed. `results` has the results of the proofs checked so far.
     """
     files = sorted(Path(folder).glob("*.proof"))
     if not files:
@@ -111,7 +111,7 @@ def check_folder(folder: str | PathLike[str], *, progress: Progress = None) -> d
             if report is not None:
                 report(len(known), len(files))
     except KeyboardInterrupt as cause:
-        interrupted = Interrupted(f"interrupted; {len(known)} of {len(files)} proofs are checked")
+        interrupted = InterruptError(f"interrupted; {len(known)} of {len(files)} proofs are checked")
         interrupted.results = known
         raise interrupted from cause
     finally:

@@ -27,7 +27,7 @@ class TableQuery:
 
     Args:
         a, b: bodies, or the paths of mesh files or prepared bodies (`Body.save`), which each process reads.
-        ask: "first-contact", "is-free", "contact-interval", "closest-approach" or
+        question: "first-contact", "is-free", "contact-interval", "closest-approach" or
             "distance".
         paths: "refused" refuses tables with a column t. If an engine split a path, the interval between its parts would
             not be checked. "whole" asserts that all rows of an id are in one table, as after a group-by.
@@ -46,11 +46,11 @@ class TableQuery:
         a: BodyOrFile,
         b: BodyOrFile,
         *,
-        ask: Question = "first-contact",
+        question: Question = "first-contact",
         paths: Literal["refused", "whole"] = "refused",
         **settings: Any,
     ) -> None:
-        self._a, self._b, self._ask, self._paths = a, b, ask, paths
+        self._a, self._b, self._question, self._paths = a, b, question, paths
         self._settings = {"threads": 1, "micros": False, **settings}
         # Invalid arguments raise an exception here, and not on a worker. Files need to exist on the workers only.
         for body in (a, b):
@@ -58,14 +58,14 @@ class TableQuery:
                 raise TypeError(f"a, b: a Body or the path of a file is needed, not {type(body).__name__}")
         if paths not in ("refused", "whole"):
             raise InputError(f"paths: `refused` or `whole` is needed, not `{paths}`")
-        answer(self._ask, _NOTHING, _NOTHING, {"a_px": []}, **self._settings)
+        answer(self._question, _NOTHING, _NOTHING, {"a_px": []}, **self._settings)
 
     def __call__(self, motions: Any) -> Any:
         """Answers a table, or an iterator of tables."""
         if isinstance(motions, Iterator) and not hasattr(motions, "__arrow_c_stream__"):
             return self._each(motions)
         table = self._table(motions)
-        return like(motions, answer(self._ask, _body(self._a), _body(self._b), table, **self._settings))
+        return like(motions, answer(self._question, _body(self._a), _body(self._b), table, **self._settings))
 
     def schema(self, motions: Any) -> Any:
         """Returns an empty table with the columns of the results, without loading the bodies.
@@ -75,7 +75,7 @@ class TableQuery:
         if hasattr(motions, "empty_table"):
             return self.schema(motions.empty_table()).schema
         empty = self._table(motions).take([])
-        return like(motions, answer(self._ask, _NOTHING, _NOTHING, empty, **self._settings))
+        return like(motions, answer(self._question, _NOTHING, _NOTHING, empty, **self._settings))
 
     def _each(self, tables: Iterable[Any]) -> Iterator[Any]:
         for motions in tables:
@@ -104,7 +104,7 @@ class TableQuery:
 
     def __repr__(self) -> str:
         settings = "".join(f", {name}={value!r}" for name, value in self._settings.items())
-        return f"TableQuery({self._a!r}, {self._b!r}, ask={self._ask!r}, paths={self._paths!r}{settings})"
+        return f"TableQuery({self._a!r}, {self._b!r}, question={self._question!r}, paths={self._paths!r}{settings})"
 
 
 _NOTHING = Body.sphere(0)

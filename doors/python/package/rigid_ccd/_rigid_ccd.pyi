@@ -18,14 +18,14 @@ __all__ = [
     "Body",
     "Cell",
     "InputError",
-    "Interrupted",
+    "InterruptError",
     "Joint",
-    "LinkMotion",
+    "LinkTrajectory",
     "Motion",
-    "Path",
+    "PosePath",
     "Robot",
     "Table",
-    "Unresolved",
+    "UnresolvedError",
     "answer_table",
     "check_proof",
     "closest_approach",
@@ -66,7 +66,7 @@ _Pose: TypeAlias = ArrayLike | tuple[ArrayLike, _Rotation]
 _Pieces: TypeAlias = Literal["auto", "triangles", "patches", "hull", "outer-hull"]
 _Unit: TypeAlias = Literal["um", "mm", "cm", "m", "in", "ft"]
 _Curve: TypeAlias = _Polynomials | _Spline
-_Movement: TypeAlias = Motion | Path | LinkMotion
+_Movement: TypeAlias = Motion | PosePath | LinkTrajectory
 
 class InputError(ValueError):
     results: Any
@@ -77,7 +77,7 @@ class Unresolved(RuntimeError):
     lower: float | None
     upper: float | None
 
-class Interrupted(KeyboardInterrupt):
+class InterruptError(KeyboardInterrupt):
     results: Any
     safe_until: float | None
     lower: float | None
@@ -121,7 +121,7 @@ class Body:
     @property
     def is_solid(self) -> bool: ...
     @property
-    def pieces(self) -> int: ...
+    def piece_count(self) -> int: ...
     @property
     def report(self) -> str: ...
     @property
@@ -134,7 +134,7 @@ class Motion:
         position: ArrayLike | None = None,
         rotation: _Rotation | None = None,
         velocity: ArrayLike | None = None,
-        spin: ArrayLike | None = None,
+        angular_velocity: ArrayLike | None = None,
         center: ArrayLike | None = None,
     ) -> Motion: ...
     @classmethod
@@ -148,14 +148,14 @@ class Motion:
     def pose(self, time: float) -> NDArray[float64]: ...
 
 @final
-class Path:
+class PosePath:
     def __new__(
         cls,
         times: ArrayLike,
         poses: ArrayLike | Iterable[_Pose],
         center: ArrayLike | None = None,
-        spins: ArrayLike | None = None,
-    ) -> Path: ...
+        angular_velocities: ArrayLike | None = None,
+    ) -> PosePath: ...
     @property
     def end(self) -> float: ...
     def pose(self, time: float) -> NDArray[float64]: ...
@@ -192,7 +192,7 @@ class Joint:
     def limits(self) -> tuple[float, float]: ...
 
 @final
-class LinkMotion:
+class LinkTrajectory:
     @property
     def duration(self) -> float: ...
     def pose(self, time: float) -> NDArray[float64]: ...
@@ -260,15 +260,15 @@ class Robot:
     def remarks(self) -> list[str]: ...
     def _joint_column(self, names: list[str], prefix: str, joint: str) -> tuple[str, bool] | None: ...
     def pose(self, link: str, configuration: ArrayLike) -> NDArray[float64]: ...
-    def motion(
+    def link_trajectory(
         self,
         link: str,
         start: ArrayLike,
         end: ArrayLike,
         duration: float = 1.0,
         seen_from: str | None = None,
-    ) -> LinkMotion: ...
-    def acm(
+    ) -> LinkTrajectory: ...
+    def classify_link_contacts(
         self,
         max_boxes: int = 100_000,
         *,
@@ -281,10 +281,10 @@ class Cell:
     def __new__(cls, robot: Robot) -> Cell: ...
     @property
     def robot(self) -> Robot: ...
-    def add(self, name: str, body: Body, pose: _Pose | None = None) -> None: ...
+    def add_obstacle(self, name: str, body: Body, pose: _Pose | None = None) -> None: ...
     def add_plane(self, name: str, pose: _Pose | None = None) -> None: ...
-    def move_to(self, name: str, pose: _Pose) -> None: ...
-    def remove(self, name: str) -> None: ...
+    def move_obstacle(self, name: str, pose: _Pose) -> None: ...
+    def remove_obstacle(self, name: str) -> None: ...
     def attach(
         self,
         name: str,
@@ -326,21 +326,21 @@ class Cell:
         max_pose_error: float = 0.0,
         **settings: Unpack[_OfContacts],
     ) -> list[PathRange]: ...
-    def edges(
+    def answer_edges(
         self,
         start: ArrayLike,
         end: ArrayLike,
         /,
-        ask: Literal["is-free", "first-contact", "closest-approach"] = "is-free",
+        question: Literal["is-free", "first-contact", "closest-approach"] = "is-free",
         *,
         threads: int | None = None,
         progress: _Progress = None,
         **settings: Unpack[_OfPaths],
     ) -> Table: ...
-    def paths(
+    def answer_paths(
         self,
         paths: ArrayLike | Sequence[_Curve],
-        ask: Literal["is-free", "first-contact", "closest-approach"] = "is-free",
+        question: Literal["is-free", "first-contact", "closest-approach"] = "is-free",
         *,
         threads: int | None = None,
         progress: _Progress = None,

@@ -41,7 +41,7 @@ class OfApproaches(OfDistances, total=False):
 
 
 class OfPaths(OfPathContacts, total=False):
-    """Settings of `Cell.edges` and `Cell.paths`. `clearance` is for closest approaches, the others for contacts."""
+    """Settings of `Cell.answer_edges` and `Cell.answer_paths`. `clearance` is for closest approaches, the others for contacts."""
 
     clearance: float | None
 

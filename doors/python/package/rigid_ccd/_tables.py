@@ -59,7 +59,7 @@ def first_contacts(a: Body, b: Body, motions: Motions, **settings: Unpack[Contac
     Raises:
         InputError: a column is unknown, missing, or not numeric, or a stream failed. After a failed stream it has
             `results` too.
-        Interrupted: Ctrl-C was pressed. `results` has the rows answered so far, from the first on. If a stream is
+        InterruptError: Ctrl-C was pressed. `results` has the rows answered so far, from the first on. If a stream is
             waiting for its next batch, the call first waits for that batch.
 
     Warns:
@@ -116,6 +116,6 @@ def distances(a: Body, b: Body, motions: Motions, **settings: Unpack[DistancesOf
     return answer("distance", a, b, motions, **settings)
 
 
-def answer(ask: Question, a: Body, b: Body, motions: Motions, *, progress: Progress = None, **settings: Any) -> Table:
+def answer(question: Question, a: Body, b: Body, motions: Motions, *, progress: Progress = None, **settings: Any) -> Table:
     """Answers a question about each row."""
-    return _rigid_ccd.answer_table(ask, a, b, motions, progress=progress, **settings)
+    return _rigid_ccd.answer_table(question, a, b, motions, progress=progress, **settings)

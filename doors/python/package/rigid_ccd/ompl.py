@@ -112,9 +112,9 @@ class MotionValidator(base.MotionValidator):  # type: ignore[misc, unused-ignore
         return self._states.is_free(start, end)
 
     def last_valid(self, start: Any, end: Any) -> float:
-        """Returns the share of the motion that is free, from its start; 1 if all of it is free.
+        """Returns the fraction of the motion that is free, from its start; 1 if all of it is free.
 
         It replaces the third argument of `checkMotion` in C++, which OMPL's interface to Python does not have.
         """
         contact = self._states.first_contact(start, end)
-        return 1.0 if contact is None else contact.share
+        return 1.0 if contact is None else contact.fraction

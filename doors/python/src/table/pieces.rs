@@ -73,8 +73,8 @@ impl ChunkSize {
 
     /// Returns the number of rows of the next chunk, if `left` rows remain.
     fn next_row_count(&self, left: usize) -> usize {
-        let share = left.div_ceil(2 * self.thread_count);
-        self.row_count.load(Ordering::Relaxed).min(share)
+        let fraction = left.div_ceil(2 * self.thread_count);
+        self.row_count.load(Ordering::Relaxed).min(fraction)
     }
 
     /// Adapts the size of later chunks to the time `taken` by a chunk of `rows` rows.

@@ -48,13 +48,13 @@ def main(folder, file, samples="1000"):
         return min(result.min_distance for result in geometry_data.distanceResults)
 
     paths = read_paths(file)
-    shares = np.linspace(0.0, 1.0, int(samples))
+    fractions = np.linspace(0.0, 1.0, int(samples))
     least, edges, touching = np.inf, 0, 0
     for path in paths:
         on_path = np.inf
         for start, end in zip(path, path[1:]):
             edges += 1
-            on_path = min(on_path, *(distance(start + share * (end - start)) for share in shares))
+            on_path = min(on_path, *(distance(start + fraction * (end - start)) for fraction in fractions))
         least = min(least, on_path)
         touching += on_path <= 0.0
     print(

@@ -63,7 +63,7 @@ fn null_and_wrong_sizes_are_refused_with_their_names() {
         );
         refused(
             rccd_body_from_triangles(null(), 0, null(), 0, 9, &mut out),
-            "detail 9",
+            "pieces 9",
         );
         let many = usize::MAX / 8;
         let somewhere = dangling();
@@ -105,7 +105,7 @@ fn numbers_out_of_range_are_refused() {
     let (solver, ball) = (crate::support::solver(None), sphere(0.5));
     let motion = rccd_motion_at_rest();
     let mut no_rotation = motion;
-    no_rotation.start.orientation = [0.0; 4];
+    no_rotation.start.rotation = [0.0; 4];
     let mut answer = empty_answer();
     // SAFETY: pointers are null or to values of their types.
     unsafe {
@@ -185,7 +185,7 @@ fn prepared_bodies_answer_as_those_that_were_stored() {
         [1.0, 1.0, 0.5],
     ];
     let triangles = [[0_u32, 1, 2], [1, 3, 2]];
-    let detail = RccdDetail::Triangles as u32;
+    let pieces = RccdPieces::Triangles as u32;
     // SAFETY: the counts are those of the arrays.
     unsafe {
         let (points, corners) = (vertices.as_ptr().cast(), triangles.as_ptr().cast());
@@ -194,12 +194,12 @@ fn prepared_bodies_answer_as_those_that_were_stored() {
             4,
             corners,
             2,
-            detail,
+            pieces,
             path.as_ptr(),
         ));
         let loaded = Handle::new(rccd_body_free, |out| rccd_body_load(path.as_ptr(), out));
         let made = Handle::new(rccd_body_free, |out| {
-            rccd_body_from_triangles(points, 4, corners, 2, detail, out)
+            rccd_body_from_triangles(points, 4, corners, 2, pieces, out)
         });
         let (solver, ball) = (crate::support::solver(None), sphere(0.25));
         let mut falls = rccd_motion_at_rest();
@@ -221,7 +221,7 @@ fn prepared_bodies_answer_as_those_that_were_stored() {
         assert_eq!(a.outcome, RccdOutcome::Contact);
         assert_eq!(a.time.to_bits(), b.time.to_bits());
         refused(
-            rccd_body_prepare(points, 4, corners, 2, detail, null()),
+            rccd_body_prepare(points, 4, corners, 2, pieces, null()),
             "path is null",
         );
     }
@@ -241,7 +241,7 @@ fn bodies_say_whether_they_are_solid_and_by_how_much_they_exceed_their_shape() {
         // SAFETY: the counts are those of the arrays, or less.
         Handle::new(rccd_body_free, |out| unsafe {
             let (points, corners) = (vertices.as_ptr().cast(), triangles.as_ptr().cast());
-            rccd_body_from_triangles(points, 4, corners, count, RccdDetail::Auto as u32, out)
+            rccd_body_from_triangles(points, 4, corners, count, RccdPieces::Auto as u32, out)
         })
     };
     let (closed, open) = (tetrahedron(4), tetrahedron(3));

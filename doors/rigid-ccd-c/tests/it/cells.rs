@@ -13,7 +13,7 @@ fn a_solver_of_a_cell_that_was_changed_does_not_answer() {
     let ball = crate::support::sphere(0.1);
     let pose = RccdPose {
         position: [9.0, 0.0, 0.0],
-        orientation: [0.0, 0.0, 0.0, 1.0],
+        rotation: [0.0, 0.0, 0.0, 1.0],
     };
     let pointer = cell.pointer();
     let (cup, lower) = (c"cup".as_ptr(), c"lower".as_ptr());
@@ -200,7 +200,7 @@ fn held_bodies_move_with_their_link() {
     let tool = crate::support::sphere(0.4);
     let pose = RccdPose {
         position: [0.0, 0.0, 0.6],
-        orientation: [0.0, 0.0, 0.0, 1.0],
+        rotation: [0.0, 0.0, 0.0, 1.0],
     };
     let edge = [[-0.1, 0.0], [-0.4, 0.0]];
     let touches = || first_contact(&cell_solver(&cell, &default_settings()), &edge);
@@ -347,7 +347,7 @@ fn a_cell_of_which_no_pair_is_checked_has_no_solver() {
     }
 }
 
-/// Tests that a held body can be lifted from its support, by the start policy and by an allowed contact.
+/// Tests that an attached body can be lifted from its support, by the start policy and by an allowed contact.
 #[test]
 fn held_bodies_are_lifted_from_what_they_stand_on() {
     let lift = r#"<robot name="lift"><link name="rail"/><link name="fork"/>
@@ -364,7 +364,7 @@ fn held_bodies_are_lifted_from_what_they_stand_on() {
         let (pointer, can, table) = (cell.pointer(), c"can".as_ptr(), c"table".as_ptr());
         let at = |z: f64| RccdPose {
             position: [0.0, 0.0, z],
-            orientation: [0.0, 0.0, 0.0, 1.0],
+            rotation: [0.0, 0.0, 0.0, 1.0],
         };
         let ball = crate::support::sphere(0.1);
         let (above, below) = (at(0.3), at(0.1));
@@ -453,7 +453,7 @@ fn all_remarks_are_in_the_summary() {
     let [weld, turned, srdf] = texts.map(|text| std::ffi::CString::new(text).unwrap());
     let place = RccdPose {
         position: [9000.0, 0.0, 0.0],
-        orientation: [0.0, 0.0, 0.0, 1.0],
+        rotation: [0.0, 0.0, 0.0, 1.0],
     };
     // SAFETY: texts end with a zero, and pointers are to values that live here.
     let summary = |robot: &std::ffi::CString, radius: f64| unsafe {

@@ -2,7 +2,7 @@
 
 use crate::support::{Handle, Random, default_settings, moving, ok};
 use rigid_ccd::answer::ClearanceVerdict;
-use rigid_ccd::trajectory::{Ballistic, Curve, OrientationCurve, Poses, Spline};
+use rigid_ccd::trajectory::{Ballistic, Curve, OrientationCurve, PosePath, Spline};
 use rigid_ccd::{
     Answer, Body, ContactNormals, Motion, Outcome, Pose, Settings, Solver, StartPolicy,
 };
@@ -175,11 +175,11 @@ fn answers_about_trajectories_have_the_bits_of_rust() {
     for number in 0..60 {
         let [thrown, first, second] = [(); 3].map(|()| random.motion());
         let poses = [first.start, second.start];
-        let pose = |pose: &RccdPose| Pose::new(pose.position, pose.orientation).unwrap();
+        let pose = |pose: &RccdPose| Pose::new(pose.position, pose.rotation).unwrap();
         let falls = Ballistic::new(crate::support::to_rust(&thrown), [0.0, 0.0, -3.0]).unwrap();
-        let path = Poses::new(vec![(0.0, pose(&poses[0])), (1.0, pose(&poses[1]))]).unwrap();
+        let path = PosePath::new(vec![(0.0, pose(&poses[0])), (1.0, pose(&poses[1]))]).unwrap();
         let c_falls = crate::support::thrown(&thrown, [0.0, 0.0, -3.0]);
-        let c_path = crate::support::through_poses(&[0.0, 1.0], &poses);
+        let c_path = crate::support::pose_path(&[0.0, 1.0], &poses);
         let along = |trajectory: &Handle<RccdTrajectory>| RccdMovingBody {
             body: soup.pointer(),
             motion: null(),
@@ -205,15 +205,15 @@ fn motions_between_poses_have_the_bits_of_rust() {
     let mut random = Random::new(3);
     for _ in 0..100 {
         let [from, to] = [(); 2].map(|()| random.motion().start);
-        let centre = [0.1, -0.2, 0.3];
-        let pose = |pose: &RccdPose| Pose::new(pose.position, pose.orientation).unwrap();
-        let motion = Motion::between(pose(&from), pose(&to), centre, 2.0).unwrap();
+        let center = [0.1, -0.2, 0.3];
+        let pose = |pose: &RccdPose| Pose::new(pose.position, pose.rotation).unwrap();
+        let motion = Motion::between(pose(&from), pose(&to), center, 2.0).unwrap();
         let mut found = rccd_motion_at_rest();
         // SAFETY: all pointers are to values that live here.
-        ok(unsafe { rccd_motion_between(&from, &to, centre.as_ptr(), 2.0, &mut found) });
+        ok(unsafe { rccd_motion_between(&from, &to, center.as_ptr(), 2.0, &mut found) });
         assert_eq!(found.velocity, motion.velocity().to_array());
-        assert_eq!(found.spin, motion.spin().to_array());
-        assert_eq!(found.centre, centre);
+        assert_eq!(found.angular_velocity, motion.angular_velocity().to_array());
+        assert_eq!(found.center, center);
     }
 }
 
@@ -227,10 +227,10 @@ fn answers_about_splines_have_the_bits_of_rust() {
     for number in 0..60 {
         let points = [(); 5].map(|()| random.vector(1.5));
         let keys = [0.0, 0.4, 1.0].map(|time| (time, [(); 4].map(|()| random.number())));
-        let (times, orientations) = (keys.map(|(time, _)| time), keys.map(|(_, turn)| turn));
-        let turns = RccdTurns {
+        let (times, rotations) = (keys.map(|(time, _)| time), keys.map(|(_, turn)| turn));
+        let turns = RccdRotations {
             times: times.as_ptr(),
-            orientations: orientations.as_ptr().cast(),
+            rotations: rotations.as_ptr().cast(),
             count: 3,
         };
         let is_bezier = number % 2 == 0;
@@ -263,9 +263,9 @@ fn answers_about_splines_have_the_bits_of_rust() {
         hits += i32::from(found.outcome == RccdOutcome::Contact);
     }
     assert!(hits > 10, "{hits}");
-    let no_turns = RccdTurns {
+    let no_turns = RccdRotations {
         times: null(),
-        orientations: null(),
+        rotations: null(),
         count: 0,
     };
     let (point, mut out) = ([0.0; 3], std::ptr::null_mut());

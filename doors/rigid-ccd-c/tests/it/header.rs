@@ -91,7 +91,7 @@ fn the_robot_of_the_documentation_prints_what_is_shown() {
 }
 
 #[test]
-fn threads_in_cpp_share() {
+fn threads_in_cpp_fraction() {
     let arm = folder().join("../../rigid-ccd-robot/examples/edges/arm.urdf");
     let arguments = [arm.to_str().unwrap()];
     let program = "tests/programs/threads.cpp";

@@ -27,7 +27,7 @@ fn paths_have_the_bits_of_rust() {
                 free += 1;
                 assert_eq!(found.outcome, RccdOutcome::Free, "{number}");
                 assert_eq!(
-                    (found.segment, found.share),
+                    (found.segment, found.fraction),
                     (path.len().saturating_sub(2), 1.0)
                 );
             }
@@ -35,7 +35,7 @@ fn paths_have_the_bits_of_rust() {
                 hits += 1;
                 assert_eq!(found.outcome, RccdOutcome::Contact, "{number}");
                 assert_eq!(found.segment, contact.at.segment);
-                assert_eq!(found.share.to_bits(), contact.at.share.to_bits());
+                assert_eq!(found.fraction.to_bits(), contact.at.fraction.to_bits());
                 let names = [found.item_a, found.item_b].map(text);
                 assert_eq!(names, contact.items.map(|item| item.name().to_owned()));
                 assert_eq!([found.lower, found.upper], contact.distance_bounds);
@@ -47,7 +47,7 @@ fn paths_have_the_bits_of_rust() {
         let rust_any = rust_solver.any_contact(&path).unwrap().contact().unwrap();
         assert_eq!(any.outcome == RccdOutcome::Contact, rust_any.is_some());
         if let Some(contact) = rust_any {
-            assert_eq!(any.share.to_bits(), contact.at.share.to_bits());
+            assert_eq!(any.fraction.to_bits(), contact.at.fraction.to_bits());
         }
         let near = ask(rccd_cell_closest_approach, &solver, &through(&path));
         let approach = rust_solver.closest_approach(&path).unwrap().outcome;
@@ -128,10 +128,10 @@ fn a_limit_leaves_a_certified_prefix() {
         unresolved += 1;
         let mut prefix = path[..=found.segment].to_vec();
         let [from, to] = [path[found.segment], path[found.segment + 1]];
-        prefix.push([0, 1].map(|k| from[k] + (to[k] - from[k]) * found.share * (1.0 - 1e-9)));
-        prefixes += usize::from(found.segment > 0 || found.share > 0.0);
+        prefix.push([0, 1].map(|k| from[k] + (to[k] - from[k]) * found.fraction * (1.0 - 1e-9)));
+        prefixes += usize::from(found.segment > 0 || found.fraction > 0.0);
         let outcome = rust_solver.first_contact(&prefix).unwrap().outcome;
-        let begins_in_contact = found.segment == 0 && found.share == 0.0;
+        let begins_in_contact = found.segment == 0 && found.fraction == 0.0;
         assert!(
             outcome == PathOutcome::Free || begins_in_contact,
             "{number}: {found:?}"
@@ -183,7 +183,7 @@ fn curves_have_the_bits_of_rust() {
             PathOutcome::Contact(contact) => {
                 hits += 1;
                 assert_eq!(found.segment, contact.at.segment, "{number}");
-                assert_eq!(found.share.to_bits(), contact.at.share.to_bits());
+                assert_eq!(found.fraction.to_bits(), contact.at.fraction.to_bits());
             }
             _ => panic!("{number}"),
         }
@@ -211,7 +211,7 @@ fn polynomials_of_degree_one_are_an_edge() {
     let edge = first_contact(&solver, &[[0.0, 0.0], [1.2, 0.0]]);
     assert_eq!(found.outcome, RccdOutcome::Contact);
     assert!(
-        (found.share - edge.share).abs() < 1e-3,
+        (found.fraction - edge.fraction).abs() < 1e-3,
         "{found:?} {edge:?}"
     );
     let both = RccdPath {
@@ -283,7 +283,7 @@ fn records_of_answers_are_replayed_in_rust() {
     // Imitates a deadline that passed at half of the free prefix.
     answer.outcome = RccdOutcome::Unresolved;
     answer.limit = RccdLimit::Deadline;
-    answer.share *= 0.5;
+    answer.fraction *= 0.5;
     // An answer with bounds would be one about a distance.
     assert_eq!(write(&through(&edge), &answer), RccdStatus::InvalidArgument);
     [answer.lower, answer.upper] = [f64::NAN; 2];
@@ -291,7 +291,7 @@ fn records_of_answers_are_replayed_in_rust() {
     let expected = RecordedAnswer::Unresolved {
         limit: "deadline".to_owned(),
         segment: 0,
-        share: answer.share,
+        fraction: answer.fraction,
     };
     assert_eq!(read().answer, expected);
     assert_eq!(read().replay(&rust).unwrap().verdict, Verdict::Holds);

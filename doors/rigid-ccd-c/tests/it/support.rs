@@ -1,6 +1,6 @@
 //! Shared helpers of the tests: handles that free themselves, and random scenes.
 
-use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
+use rigid_ccd::mesh::{PieceChoice, TriangleMesh, body_from_mesh};
 use rigid_ccd::{Body, Motion, Pose};
 use rigid_ccd_c::*;
 use std::ffi::CStr;
@@ -61,25 +61,25 @@ pub(crate) fn sphere(radius: f64) -> Handle<RccdBody> {
     })
 }
 
-pub(crate) fn cylinder(radius: f64, half_length: f64) -> Handle<RccdBody> {
+pub(crate) fn cylinder(radius: f64, half_height: f64) -> Handle<RccdBody> {
     // SAFETY: the place is a local variable.
     Handle::new(rccd_body_free, |out| unsafe {
-        rccd_body_cylinder(radius, half_length, out)
+        rccd_body_cylinder(radius, half_height, out)
     })
 }
 
 pub(crate) fn thrown(motion: &RccdMotion, acceleration: [f64; 3]) -> Handle<RccdTrajectory> {
     // SAFETY: the arguments are references.
     Handle::new(rccd_trajectory_free, |out| unsafe {
-        rccd_trajectory_thrown(motion, acceleration.as_ptr(), out)
+        rccd_trajectory_ballistic(motion, acceleration.as_ptr(), out)
     })
 }
 
-pub(crate) fn through_poses(times: &[f64], poses: &[RccdPose]) -> Handle<RccdTrajectory> {
+pub(crate) fn pose_path(times: &[f64], poses: &[RccdPose]) -> Handle<RccdTrajectory> {
     assert_eq!(times.len(), poses.len());
     // SAFETY: both arrays have that length.
     Handle::new(rccd_trajectory_free, |out| unsafe {
-        rccd_trajectory_through_poses(times.as_ptr(), poses.as_ptr(), times.len(), out)
+        rccd_trajectory_pose_path(times.as_ptr(), poses.as_ptr(), times.len(), out)
     })
 }
 
@@ -92,8 +92,14 @@ pub(crate) fn moving(body: &Handle<RccdBody>, motion: &RccdMotion) -> RccdMoving
 }
 
 pub(crate) fn to_rust(motion: &RccdMotion) -> Motion {
-    let pose = Pose::new(motion.start.position, motion.start.orientation).unwrap();
-    Motion::about(pose, motion.velocity, motion.spin, motion.centre).unwrap()
+    let pose = Pose::new(motion.start.position, motion.start.rotation).unwrap();
+    Motion::about(
+        pose,
+        motion.velocity,
+        motion.angular_velocity,
+        motion.center,
+    )
+    .unwrap()
 }
 
 /// Returns the default settings.
@@ -152,14 +158,14 @@ pub(crate) fn random_mesh(random: &mut Random, count: usize) -> (Handle<RccdBody
             vertices.len(),
             triangles.as_ptr().cast(),
             triangles.len(),
-            RccdDetail::Triangles as u32,
+            RccdPieces::Triangles as u32,
             out,
         )
     });
     let mesh = TriangleMesh::new(vertices, &triangles).unwrap();
     (
         handle,
-        body_from_mesh(&mesh, Detail::Triangles).unwrap().body,
+        body_from_mesh(&mesh, PieceChoice::Triangles).unwrap().body,
     )
 }
 
@@ -196,11 +202,11 @@ impl Random {
         RccdMotion {
             start: RccdPose {
                 position: self.vector(1.5),
-                orientation: [(); 4].map(|()| self.number()),
+                rotation: [(); 4].map(|()| self.number()),
             },
             velocity: self.vector(2.0),
-            spin: self.vector(3.0),
-            centre: self.vector(0.3),
+            angular_velocity: self.vector(3.0),
+            center: self.vector(0.3),
         }
     }
 }

@@ -41,7 +41,7 @@ pub(crate) fn cells() -> (Handle<RccdCell>, Cell) {
     let ball = crate::support::sphere(0.3);
     let pose = RccdPose {
         position: at,
-        orientation: [0.0, 0.0, 0.0, 1.0],
+        rotation: [0.0, 0.0, 0.0, 1.0],
     };
     // SAFETY: all pointers are to values that live here.
     ok(unsafe { rccd_cell_add_obstacle(cell.pointer(), c"ball".as_ptr(), ball.pointer(), &pose) });
@@ -81,7 +81,7 @@ pub(crate) fn ask(
     path: &RccdPath,
 ) -> RccdPathAnswer {
     let mut answer = empty_answer();
-    // SAFETY: the path is of the robot, which has two free joints, and lives here.
+    // SAFETY: the path is of the robot, which has two independent joints, and lives here.
     ok(unsafe { question(solver.pointer(), path, &mut answer) });
     answer
 }

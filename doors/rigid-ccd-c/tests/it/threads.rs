@@ -120,7 +120,7 @@ fn answers(scene: &Scene, stop: *const RccdStop) -> Vec<(RccdLimit, u64)> {
                 let found = support_cells::ask(question, &cell_solver, &path);
                 // A stopped question about any contact may have found a different contact before.
                 let answer = if is_first {
-                    found.share.to_bits()
+                    found.fraction.to_bits()
                 } else {
                     found.outcome as u64
                 };

@@ -25,7 +25,7 @@ int main() {
     const Eigen::AngleAxisd turn(1.0, Eigen::Vector3d(1, 2, 3).normalized());
     const rigid_ccd::Pose pose = rigid_ccd::to_pose(Eigen::Translation3d(1, 2, 3) * turn);
     const Eigen::Quaterniond expected(turn);
-    bool holds = std::fabs(pose.orientation[3] - expected.w()) < 1e-15 && pose.position[2] == 3;
+    bool holds = std::fabs(pose.rotation[3] - expected.w()) < 1e-15 && pose.position[2] == 3;
     const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
     holds = holds && !is_refused(one) && is_refused(0.001 * one) && is_refused(-one) && is_refused(0 * one);
     holds = holds && is_refused(NAN * one);

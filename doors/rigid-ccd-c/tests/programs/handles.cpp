@@ -28,7 +28,7 @@ int main() {
     const Motion stands = at_rest(pose_at({1, 0, 0}));
     Solver solver;
 
-    auto path = Trajectory::through_poses({0, 1}, {pose_at({3, 0, 0}), pose_at({-3, 0, 0})});
+    auto path = Trajectory::pose_path({0, 1}, {pose_at({3, 0, 0}), pose_at({-3, 0, 0})});
     const Trajectory kept = std::move(path), &same_path = path;
     for (const Trajectory *along : {&same_path, &kept})
         if (!solver.first_contact({ball, *along}, {wall, stands}, 1).hit()) return 1;

@@ -41,7 +41,7 @@ int contacts(const rigid_ccd::Body &ball, const rigid_ccd::Body &box, const rigi
 
 void share_bodies() {
     const auto ball = rigid_ccd::Body::sphere(0.5), box = rigid_ccd::Body::box({1, 1, 0.5});
-    const auto flies = rigid_ccd::Trajectory::thrown(rigid_ccd::at_rest(rigid_ccd::pose_at({0, 0, 3})), {0, 0, -9});
+    const auto flies = rigid_ccd::Trajectory::ballistic(rigid_ccd::at_rest(rigid_ccd::pose_at({0, 0, 3})), {0, 0, -9});
     const auto stop = rigid_ccd::Stop::make();
     const int alone = contacts(ball, box, flies, stop);
     std::atomic<int> wrong{0};

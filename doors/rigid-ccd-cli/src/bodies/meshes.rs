@@ -1,7 +1,7 @@
 //! The options for reading mesh files and for their pieces, shared by the subcommands.
 
 use crate::options::named::{AXES, UNITS, named_value_parser};
-use ccd_decomp::{Adjustments, Axis, Detail, PatchOrder, Unit};
+use ccd_decomp::{Adjustments, Axis, PatchOrder, PieceChoice, Unit};
 use clap::{Args, ValueEnum};
 
 /// The options for reading mesh files, and for their convex pieces.
@@ -64,13 +64,13 @@ impl MeshArgs {
     }
 
     /// Returns the value of `--pieces` as the library's type for the choice of pieces.
-    pub(crate) fn detail(&self) -> Detail {
+    pub(crate) fn choice(&self) -> PieceChoice {
         match self.pieces {
-            PiecesArg::Auto => Detail::Auto,
-            PiecesArg::Triangles => Detail::Triangles,
-            PiecesArg::Patches => Detail::Patches(PatchOrder::default()),
-            PiecesArg::Hull => Detail::Hull,
-            PiecesArg::OuterHull => Detail::OuterHull,
+            PiecesArg::Auto => PieceChoice::Auto,
+            PiecesArg::Triangles => PieceChoice::Triangles,
+            PiecesArg::Patches => PieceChoice::Patches(PatchOrder::default()),
+            PiecesArg::Hull => PieceChoice::Hull,
+            PiecesArg::OuterHull => PieceChoice::OuterHull,
         }
     }
 

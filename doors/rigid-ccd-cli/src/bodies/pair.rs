@@ -84,9 +84,9 @@ impl BodiesArgs {
         method: SolverKind,
         quiet: bool,
     ) -> Result<(Body, Option<Unit>)> {
-        let detail = self.meshes.detail();
+        let choice = self.meshes.choice();
         let progress = Progress::start_single_step(&format!("preparing {text}"), quiet);
-        let loaded = source.load_adjusted(&self.meshes.adjustments(), detail);
+        let loaded = source.load_adjusted(&self.meshes.adjustments(), choice);
         let PreparedBody {
             mut body,
             report,

@@ -145,8 +145,8 @@ impl SceneTable {
             return Ok(());
         }
         let source: BodySource = text.parse()?;
-        let detail = how.meshes.detail();
-        let prepared = source.load_adjusted(&how.meshes.adjustments(), detail)?;
+        let choice = how.meshes.choice();
+        let prepared = source.load_adjusted(&how.meshes.adjustments(), choice)?;
         self.load_messages
             .push(format!("{text}: {}", prepared.report));
         self.bodies.insert(text.to_owned(), prepared.body);

@@ -51,9 +51,9 @@ Table of pairs (--report):
   link1, link2       the links
   class              never, always, always-as-enclosed, sometimes or undecided; as enclosed if the bodies always touch, but
                      it is not proven of the shapes that they exceed: such a pair is not disabled
-  apart_share        share of the configurations that are proven apart
-  undecided_share, least_distance
-                     share of the configurations for which nothing is proven, and the least distance that was found; both
+  apart_fraction        fraction of the configurations that are proven apart
+  undecided_fraction, least_distance
+                     fraction of the configurations for which nothing is proven, and the least distance that was found; both
                      for undecided pairs alone
   touching_JOINT, apart_JOINT
                      a configuration that touches, and one that does not
@@ -165,13 +165,13 @@ fn write_report(
     classes: &[([usize; 2], LinkContactClass)],
     report: Output,
 ) -> Result<()> {
-    let joints: Vec<&str> = robot.free_joint_names().collect();
+    let joints: Vec<&str> = robot.independent_joint_names().collect();
     let mut header = [
         "link1",
         "link2",
         "class",
-        "apart_share",
-        "undecided_share",
+        "apart_fraction",
+        "undecided_fraction",
         "least_distance",
     ]
     .map(str::to_owned)
@@ -195,15 +195,15 @@ fn write_report(
                 [Some(touching_configuration), Some(apart_configuration)],
             ),
             LinkContactClass::Undecided {
-                proven_apart_share,
-                undecided_share,
+                proven_apart_fraction,
+                undecided_fraction,
                 least_distance,
                 touching_configuration,
                 apart_configuration,
             } => (
                 [
-                    Some(*proven_apart_share),
-                    Some(*undecided_share),
+                    Some(*proven_apart_fraction),
+                    Some(*undecided_fraction),
                     Some(*least_distance),
                 ],
                 [

@@ -46,7 +46,7 @@ pub(crate) struct ClearanceArgs {
     /// Width of the bounds of a distance, such as 0.001mm
     #[arg(long, value_name = "LENGTH", default_value = "0.000001", value_parser = tolerance_length)]
     tolerance: f64,
-    /// Length of the shortest ranges that are examined, as a share of the path from one configuration to the next
+    /// Length of the shortest ranges that are examined, as a fraction of the path from one configuration to the next
     #[arg(long, value_name = "SHARE", default_value_t = RangeSettings::DEFAULT.resolution)]
     resolution: f64,
     /// Print one JSON object, with the curve of the distance
@@ -64,7 +64,7 @@ const AFTER_HELP: &str = "\
 Prints bounds of the least distance of all pairs that are checked, with the pair and where it is. With --require also the
 ranges in which all pairs certainly keep the clearance, in which one certainly violates it, and the rest. The ends of kept
 ranges are limits of the joints that would keep it. Paddings and clearances of the cell do not count, as in
-`ccd edges --ask closest-approach`; a clearance between two links checks them. Times are those of column `t` of --path; without it, each segment takes 1.
+`ccd edges --question closest-approach`; a clearance between two links checks them. Times are those of column `t` of --path; without it, each segment takes 1.
 The curve of --json has at most 512 ranges, each with bounds of the least distance in it. Without --joint and --path the only
 joint moves over all its limits.
 

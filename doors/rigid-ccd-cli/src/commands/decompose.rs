@@ -11,7 +11,7 @@ use crate::options::named::{PATCH_ORDERS, named_value_parser};
 use anyhow::{Context, Result, bail};
 use ccd_core::Body;
 use ccd_decomp::{
-    Detail, MeshSource, PatchOrder, PrepareError, STORED_BODY_EXTENSION, StoreFault,
+    MeshSource, PatchOrder, PieceChoice, PrepareError, STORED_BODY_EXTENSION, StoreFault,
     StoredBodyContent, TriangleMesh, build_hull_tree, prepare, write_obj_pieces,
 };
 use clap::{Args, ValueEnum};
@@ -112,14 +112,14 @@ pub(crate) fn run(args: &DecomposeArgs) -> Result<RunOutcome> {
         .adjustments
         .combined_with(&args.meshes.adjustments())?;
     refuse_prepared_input(&source.file)?;
-    let detail = source.detail(args.detail()?);
+    let choice = source.choice(args.choice()?);
     let out = args.out.as_deref().map(|out| claim(out, &source.file));
     let out = out.transpose()?;
     let (mesh, unit) = source.read()?;
     let spinner = Progress::start_single_step("preparing", args.quiet);
     let name = source.to_string();
     let start = Instant::now();
-    let (model, body) = args.build(&mesh, detail).with_context(|| name.clone())?;
+    let (model, body) = args.build(&mesh, choice).with_context(|| name.clone())?;
     let build_ms = start.elapsed().as_secs_f64() * 1e3;
     drop(spinner);
     if let Some((form, out)) = out {
@@ -152,20 +152,20 @@ fn refuse_prepared_input(mesh: &Path) -> Result<()> {
 }
 
 impl DecomposeArgs {
-    fn detail(&self) -> Result<Detail> {
-        match (self.meshes.detail(), self.order) {
-            (Detail::Patches(_), Some(order)) => Ok(Detail::Patches(order)),
+    fn choice(&self) -> Result<PieceChoice> {
+        match (self.meshes.choice(), self.order) {
+            (PieceChoice::Patches(_), Some(order)) => Ok(PieceChoice::Patches(order)),
             (_, Some(_)) => bail!("--order needs --pieces patches"),
-            (detail, None) => Ok(detail),
+            (choice, None) => Ok(choice),
         }
     }
 
     fn build(
         &self,
         mesh: &TriangleMesh,
-        detail: Detail,
+        choice: PieceChoice,
     ) -> Result<(StoredBodyContent, Body), PrepareError> {
-        let mut model = prepare(mesh, detail)?;
+        let mut model = prepare(mesh, choice)?;
         if !self.hull_tree {
             let body = model.body()?;
             return Ok((model, body));

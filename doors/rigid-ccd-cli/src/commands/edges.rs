@@ -37,13 +37,13 @@ use std::time::Instant;
 pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     args.cell.refuse_overwriting(&[("--out", &args.out)])?;
     crate::files::refuse_overwriting_input(("--edges", &args.edges), ("--out", &args.out))?;
-    if args.check && args.ask == Question::ClosestApproach && args.clearance == 0.0 {
+    if args.check && args.question == Question::ClosestApproach && args.clearance == 0.0 {
         bail!(
-            "--check needs --clearance with --ask closest-approach: a distance alone is neither good nor bad"
+            "--check needs --clearance with --question closest-approach: a distance alone is neither good nor bad"
         );
     }
-    if args.ask == Question::ClosestApproach && args.start == StartPolicy::Leave {
-        bail!("--start leave is for --ask is-free and first-contact");
+    if args.question == Question::ClosestApproach && args.start == StartPolicy::Leave {
+        bail!("--start leave is for --question is-free and first-contact");
     }
     let columns = args.columns();
     let files = RunFiles {
@@ -251,7 +251,7 @@ const PROVEN_BATCH_ROWS: usize = 64;
 fn answer(args: &EdgesArgs, solver: &mut CellSolver<'_>, path: &TablePath) -> PathRow {
     let start = Instant::now();
     let question = PathQuestion {
-        question: args.ask,
+        question: args.question,
         clearance: Some(args.clearance).filter(|&clearance| clearance > 0.0),
     };
     let answer = question.answer(solver, &path.configurations);
@@ -322,12 +322,12 @@ fn print_summary(end: Checkpoint, times: &TimeHistogram, raised_tolerances: &Rai
 
 impl EdgesArgs {
     fn columns(&self) -> Vec<Column> {
-        path_rows::columns(self.ask)
+        path_rows::columns(self.question)
     }
 
     /// Returns the settings of a question. A closest approach measures distances without a margin.
     fn settings(&self) -> Settings {
-        let margin = match self.ask {
+        let margin = match self.question {
             Question::ClosestApproach => 0.0,
             _ => self.clearance,
         };

@@ -43,7 +43,8 @@ use summary::Summary;
 pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     refuse_shared_files(args)?;
     refuse_options_unfit_for_each_other(args)?;
-    let (mut rows, length) = open_movement_rows(&args.motions, Grouping::of_question(args.ask))?;
+    let (mut rows, length) =
+        open_movement_rows(&args.motions, Grouping::of_question(args.question))?;
     refuse_options_unfit_for_paths(args, &rows)?;
     let files = run_files(args);
     let places = ClaimedFiles::claim(&files)?;
@@ -153,7 +154,7 @@ fn write_page(
 
 /// Returns what a page needs to describe the answers: the meaning of times, the margin and the clearance.
 fn page_context(args: &QueryArgs) -> QueryContext {
-    let claim = match (args.bound, args.ask) {
+    let claim = match (args.bound, args.question) {
         (Some(BoundKind::Published), _) => TimeMeaning::UncertifiedFirstContact,
         (_, Question::AnyContact) => TimeMeaning::SomeContact,
         (_, Question::Distance) => TimeMeaning::MeasurementTime,
@@ -192,30 +193,30 @@ fn refuse_shared_files(args: &QueryArgs) -> Result<()> {
 }
 
 /// Refuses `--bound` for a schedule that uses no bound on the motion, options that do not apply to the question of
-/// `--ask`, and `--check` with options under which no answer is a proof.
+/// `--question`, and `--check` with options under which no answer is a proof.
 fn refuse_options_unfit_for_each_other(args: &QueryArgs) -> Result<()> {
-    let ask = args.ask;
+    let question = args.question;
     if let Some(bound) = args.bound
         && !args.schedule.uses_velocity_bound()
     {
         bail!("--bound {bound} needs --schedule fast or naive");
     }
-    if args.clearance.is_some() && !ask.is_for_a_distance() {
+    if args.clearance.is_some() && !question.is_for_a_distance() {
         bail!(
-            "--clearance needs --ask closest-approach or distance; --margin keeps a distance otherwise"
+            "--clearance needs --question closest-approach or distance; --margin keeps a distance otherwise"
         );
     }
-    if args.margin > 0.0 && ask.is_for_a_distance() {
+    if args.margin > 0.0 && question.is_for_a_distance() {
         bail!(
-            "--ask {ask} measures distances without a margin; use --clearance instead of --margin"
+            "--question {question} measures distances without a margin; use --clearance instead of --margin"
         );
     }
-    if args.contacts.is_some() && !ask.has_single_contact_time() {
-        bail!("--contacts needs --ask first-contact or is-free");
+    if args.contacts.is_some() && !question.has_single_contact_time() {
+        bail!("--contacts needs --question first-contact or is-free");
     }
     if args.certificates.is_some() {
-        if !ask.has_single_contact_time() {
-            bail!("--certificates needs --ask first-contact or is-free");
+        if !question.has_single_contact_time() {
+            bail!("--certificates needs --question first-contact or is-free");
         }
         if ignores_start_contacts(args) {
             bail!(
@@ -223,18 +224,18 @@ fn refuse_options_unfit_for_each_other(args: &QueryArgs) -> Result<()> {
             );
         }
     }
-    if ask != Question::FirstContact && args.schedule != ScheduleKind::BestFirst {
-        bail!("--ask {ask} needs --schedule best-first");
+    if question != Question::FirstContact && args.schedule != ScheduleKind::BestFirst {
+        bail!("--question {question} needs --schedule best-first");
     }
-    if ignores_start_contacts(args) && !ask.has_single_contact_time() {
-        bail!("--start leave needs --ask first-contact or is-free");
+    if ignores_start_contacts(args) && !question.has_single_contact_time() {
+        bail!("--start leave needs --question first-contact or is-free");
     }
     if args.check && args.bound == Some(BoundKind::Published) {
         bail!("--check needs certified answers, which --bound published does not give");
     }
-    if args.check && ask.is_for_a_distance() && args.clearance.is_none() {
+    if args.check && question.is_for_a_distance() && args.clearance.is_none() {
         bail!(
-            "--check needs --clearance with --ask {ask}: a distance alone is neither good nor bad"
+            "--check needs --clearance with --question {question}: a distance alone is neither good nor bad"
         );
     }
     Ok(())
@@ -282,7 +283,7 @@ fn method(args: &QueryArgs) -> SolverKind {
 
 fn timed_question_from_args(args: &QueryArgs) -> TimedQuestion {
     TimedQuestion {
-        question: args.ask,
+        question: args.question,
         method: method(args),
         settings: Settings {
             tolerance: args.tolerance,

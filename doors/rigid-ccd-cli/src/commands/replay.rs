@@ -78,7 +78,10 @@ fn describe(record: &Evidence, replay: &Replay) -> String {
         Verdict::SameAnswer => "same answer".to_owned(),
         Verdict::Holds => format!("holds; without the limit: {}", answer_text(&replay.answer)),
         Verdict::Refuted { at } => {
-            format!("refuted: touches in segment {} at {}", at.segment, at.share)
+            format!(
+                "refuted: touches in segment {} at {}",
+                at.segment, at.fraction
+            )
         }
         Verdict::Undecided => format!("undecided: {}", answer_text(&replay.answer)),
     };
@@ -94,13 +97,13 @@ fn answer_text(answer: &RecordedAnswer) -> String {
         RecordedAnswer::Free => "free".to_owned(),
         RecordedAnswer::Contact {
             segment,
-            share,
+            fraction,
             items: [a, b],
-        } => format!("contact of {a} and {b} in segment {segment} at {share}"),
+        } => format!("contact of {a} and {b} in segment {segment} at {fraction}"),
         RecordedAnswer::Unresolved {
             limit,
             segment,
-            share,
-        } => format!("unresolved ({limit}), free until segment {segment} at {share}"),
+            fraction,
+        } => format!("unresolved ({limit}), free until segment {segment} at {fraction}"),
     }
 }

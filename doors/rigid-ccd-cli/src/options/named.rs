@@ -61,7 +61,7 @@ pub(crate) const PATCH_ORDERS: &Named<PatchOrder> = &[
     ),
 ];
 
-/// The questions of `--ask`.
+/// The questions of `--question`.
 pub(crate) const QUESTIONS: &Named<Question> = &[
     named_question(0),
     named_question(1),

@@ -16,17 +16,17 @@ pub fn shown_motions(movements: &Movements) -> Result<[ShownMotion; 2], InputErr
         Movements::Path(path) => path,
     };
     let [a, b] = [&path.a, &path.b].map(|poses| {
-        let centre = poses.centre();
+        let center = poses.center();
         let keys = poses
             .times()
             .zip(poses.rotation_vectors())
             .map(|(time, turn)| {
                 let (pose, turn) = (poses.pose(time)?, turn?);
-                let place = pose.transform_point(centre);
+                let place = pose.transform_point(center);
                 Ok(Keyframe::new(time, &pose, place, turn))
             });
         Ok(ShownMotion::Keyframes {
-            centre: centre.to_array(),
+            center: center.to_array(),
             keys: keys.collect::<Result<_, InputError>>()?,
         })
     });

@@ -66,8 +66,8 @@ pub(super) fn feature_corners(
 
 fn distance_to_segment(point: DVec3, [from, to]: [DVec3; 2]) -> f64 {
     let along = to - from;
-    let share = (point - from).dot(along) / greater(along.length_squared(), f64::MIN_POSITIVE);
-    point.distance(from + share.clamp(0.0, 1.0) * along)
+    let fraction = (point - from).dot(along) / greater(along.length_squared(), f64::MIN_POSITIVE);
+    point.distance(from + fraction.clamp(0.0, 1.0) * along)
 }
 
 /// A mesh under construction, with duplicate vertices and faces merged.

@@ -188,9 +188,10 @@ impl GapSampler<'_> {
         let [a, b] = self.movements.trajectories();
         let (a, b) = (a.stretch_between(from, to)?, b.stretch_between(from, to)?);
         let [reach_a, reach_b] =
-            [(&a, self.bodies.a), (&b, self.bodies.b)].map(max_distance_from_rotation_centre);
+            [(&a, self.bodies.a), (&b, self.bodies.b)].map(max_distance_from_rotation_center);
         let shift = (a.motion.velocity() - b.motion.velocity()).length();
-        let turns = a.motion.spin().length() * reach_a + b.motion.spin().length() * reach_b;
+        let turns = a.motion.angular_velocity().length() * reach_a
+            + b.motion.angular_velocity().length() * reach_b;
         let gains = (a.acceleration.length() + b.acceleration.length()) * (to - from);
         Ok(ApproachBounds {
             speed: (shift + turns + gains) * ROUNDING_FACTOR,
@@ -231,7 +232,7 @@ impl GapSampler<'_> {
     }
 }
 
-/// Bounds the distance of a body's points from the centre of rotation of a stretch's motion.
-fn max_distance_from_rotation_centre((stretch, body): (&Stretch, &Body)) -> f64 {
-    body.bounding_radius() + stretch.motion.centre().length()
+/// Bounds the distance of a body's points from the center of rotation of a stretch's motion.
+fn max_distance_from_rotation_center((stretch, body): (&Stretch, &Body)) -> f64 {
+    body.bounding_radius() + stretch.motion.center().length()
 }

@@ -37,7 +37,8 @@ pub(crate) fn scene_view(
         let mesh = *known
             .entry(address)
             .or_insert_with(|| meshes.add(&drawn_mesh(shown.body)));
-        let moves = shown.motion.velocity().length() + shown.motion.spin().length() > 0.0;
+        let moves =
+            shown.motion.velocity().length() + shown.motion.angular_velocity().length() > 0.0;
         let color = if moves {
             format!(
                 "hsl({:.0}, 55%, 52%)",

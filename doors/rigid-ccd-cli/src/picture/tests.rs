@@ -6,7 +6,7 @@ use ccd_tables::motions::Motions;
 use ccd_tables::paths::PathPair;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use rigid_ccd::trajectory::Poses;
+use rigid_ccd::trajectory::PosePath;
 
 fn random_vector(random: &mut impl Rng, size: f64) -> DVec3 {
     DVec3::from_array([(); 3].map(|()| random.random_range(-size..size)))
@@ -51,7 +51,7 @@ fn random_movements(random: &mut impl Rng, spin: f64) -> Movements {
 fn path(random: &mut impl Rng) -> Movements {
     let mut poses = || {
         let timed = [0.0, 0.2, 0.9, 1.5].map(|time| (time, pose(random, 3.0)));
-        Poses::new(timed.to_vec()).unwrap()
+        PosePath::new(timed.to_vec()).unwrap()
     };
     Movements::Path(PathPair {
         id: "visit".to_owned(),
@@ -232,7 +232,7 @@ fn keys_lead_where_the_engine_goes() {
             let sign = if k % 4 == 0 { 1.0 } else { -1.0 };
             let half = DQuat::from_xyzw(0.0, 0.0, sign, 0.0);
             let turned = Pose::new(DVec3::X, half).unwrap();
-            way.a = Poses::new(vec![(0.0, Pose::IDENTITY), (1.5, turned)]).unwrap();
+            way.a = PosePath::new(vec![(0.0, Pose::IDENTITY), (1.5, turned)]).unwrap();
         }
         let shown = serde_json::to_value(&shown_motions(&way).unwrap()[0]).unwrap();
         let keys = shown["keys"].as_array().unwrap();
@@ -242,9 +242,9 @@ fn keys_lead_where_the_engine_goes() {
         for two in keys.windows(2) {
             let [from, to] = [0, 1].map(|n| two[n]["time"].as_f64().unwrap());
             let start = way.poses_at(from).unwrap()[0].rotation();
-            for share in [0.2, 0.5, 0.9] {
-                let pose = way.poses_at(from + share * (to - from)).unwrap()[0];
-                let turned = DQuat::from_scaled_axis(share * vector(&two[0]["turn"])) * start;
+            for fraction in [0.2, 0.5, 0.9] {
+                let pose = way.poses_at(from + fraction * (to - from)).unwrap()[0];
+                let turned = DQuat::from_scaled_axis(fraction * vector(&two[0]["turn"])) * start;
                 let arm = DVec3::new(1.0, -2.0, 0.5);
                 let off = (turned * arm).distance(pose.rotation() * arm);
                 assert!(off < 1e-7, "{k}: {off}");

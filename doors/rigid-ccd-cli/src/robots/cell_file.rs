@@ -5,7 +5,7 @@ mod pairs;
 mod values;
 
 use anyhow::{Context, Result, anyhow, bail};
-use ccd_decomp::{BodySource, Detail, Unit};
+use ccd_decomp::{BodySource, PieceChoice, Unit};
 use pairs::{AllowedContact, Clearance, PairsWithClearance};
 use rigid_ccd::{Body, Pose, Remark, load_parts};
 use rigid_ccd_robot::{
@@ -50,7 +50,7 @@ struct Obstacle {
     body: String,
     position: Option<Vec<f64>>,
     rpy: Option<Vec<f64>>,
-    quaternion: Option<Vec<f64>>,
+    quaternion_xyzw: Option<Vec<f64>>,
     /// How it moves; `None` if it rests.
     moves: Option<BaseMotion>,
 }
@@ -62,7 +62,7 @@ struct Plane {
     name: String,
     position: Option<Vec<f64>>,
     rpy: Option<Vec<f64>>,
-    quaternion: Option<Vec<f64>>,
+    quaternion_xyzw: Option<Vec<f64>>,
 }
 
 /// A robot beside that of the command.
@@ -76,7 +76,7 @@ struct OtherRobot {
     on: Option<String>,
     position: Option<Vec<f64>>,
     rpy: Option<Vec<f64>>,
-    quaternion: Option<Vec<f64>>,
+    quaternion_xyzw: Option<Vec<f64>>,
     /// How its base moves; `None` if it rests.
     base: Option<BaseMotion>,
 }
@@ -108,7 +108,7 @@ struct AttachedBody {
     link: String,
     position: Option<Vec<f64>>,
     rpy: Option<Vec<f64>>,
-    quaternion: Option<Vec<f64>>,
+    quaternion_xyzw: Option<Vec<f64>>,
     #[serde(default)]
     may_touch: Vec<String>,
 }
@@ -215,7 +215,7 @@ impl<'p> CellSource<'p> {
             let mut add = || {
                 anyhow::Ok(cell.add_plane(
                     &plane.name,
-                    pose(&plane.position, &plane.rpy, &plane.quaternion)?,
+                    pose(&plane.position, &plane.rpy, &plane.quaternion_xyzw)?,
                 )?)
             };
             add().with_context(|| format!("plane {}", plane.name))?;
@@ -274,14 +274,15 @@ impl CellFile {
             Some(CellRemark::on(format!("{kind} {name}"), remark))
         };
         let obstacles = self.obstacle.iter();
-        let obstacles = obstacles.map(|own| of("obstacle", &own.name, &own.rpy, &own.quaternion));
+        let obstacles =
+            obstacles.map(|own| of("obstacle", &own.name, &own.rpy, &own.quaternion_xyzw));
         let planes = self.plane.iter();
-        let planes = planes.map(|own| of("plane", &own.name, &own.rpy, &own.quaternion));
+        let planes = planes.map(|own| of("plane", &own.name, &own.rpy, &own.quaternion_xyzw));
         let robots = self.robot.iter();
-        let robots = robots.map(|own| of("robot", &own.name, &own.rpy, &own.quaternion));
+        let robots = robots.map(|own| of("robot", &own.name, &own.rpy, &own.quaternion_xyzw));
         let attached = self.attached.iter();
         let attached =
-            attached.map(|own| of("attached body", &own.name, &own.rpy, &own.quaternion));
+            attached.map(|own| of("attached body", &own.name, &own.rpy, &own.quaternion_xyzw));
         let all = obstacles.chain(planes).chain(robots).chain(attached);
         all.flatten().collect()
     }
@@ -320,7 +321,7 @@ impl OtherRobot {
             name: self.name.clone(),
             robot,
             carrier: self.on.clone(),
-            pose: pose(&self.position, &self.rpy, &self.quaternion)?,
+            pose: pose(&self.position, &self.rpy, &self.quaternion_xyzw)?,
             base_motion: self.base.map(CompoundKind::from),
         })
     }
@@ -337,7 +338,7 @@ impl Obstacle {
             pairs: LinkPairs::from_robot(&robot),
             robot,
             carrier: None,
-            pose: pose(&self.position, &self.rpy, &self.quaternion)?,
+            pose: pose(&self.position, &self.rpy, &self.quaternion_xyzw)?,
             base_motion: Some(moves.into()),
         })
     }
@@ -345,13 +346,13 @@ impl Obstacle {
 
 fn add_obstacle(cell: &mut Cell, folder: &Path, given: &Obstacle) -> Result<()> {
     let body = body_beside(folder, &given.body)?;
-    let pose = pose(&given.position, &given.rpy, &given.quaternion)?;
+    let pose = pose(&given.position, &given.rpy, &given.quaternion_xyzw)?;
     Ok(cell.add_obstacle(&given.name, body, pose)?)
 }
 
 fn attach(cell: &mut Cell, folder: &Path, given: &AttachedBody) -> Result<()> {
     let body = body_beside(folder, &given.body)?;
-    let pose = pose(&given.position, &given.rpy, &given.quaternion)?;
+    let pose = pose(&given.position, &given.rpy, &given.quaternion_xyzw)?;
     let may_touch: Vec<&str> = given.may_touch.iter().map(String::as_str).collect();
     Ok(cell.attach(&given.name, body, (&given.link, pose), &may_touch)?)
 }
@@ -364,7 +365,7 @@ fn body_beside(folder: &Path, text: &str) -> Result<Body> {
         BodySource::StoredBody(file) => *file = folder.join(&*file),
         _ => {}
     }
-    Ok(source.load_in_unit(Unit::Metre, Detail::Auto)?.body)
+    Ok(source.load_in_unit(Unit::Metre, PieceChoice::Auto)?.body)
 }
 
 #[cfg(test)]

@@ -114,7 +114,7 @@ impl FromStr for JointRange {
 
 /// Refuses names that no joint with a position of its own has, names that occur twice, and units that do not fit a joint.
 pub(crate) fn check_joints(robot: &Robot, given: &[JointRange]) -> Result<()> {
-    let names: Vec<&str> = robot.free_joint_names().collect();
+    let names: Vec<&str> = robot.independent_joint_names().collect();
     for (k, range) in given.iter().enumerate() {
         let name = &range.joint;
         if given[..k].iter().any(|other| other.joint == *name) {

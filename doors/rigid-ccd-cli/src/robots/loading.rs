@@ -108,7 +108,7 @@ impl RobotArgs {
         let robot = self.file().read().map_err(|error| self.explain(error))?;
         drop(progress);
         if !quiet {
-            let joints: Vec<&str> = robot.free_joint_names().collect();
+            let joints: Vec<&str> = robot.independent_joint_names().collect();
             print_escaped_to_stderr(&format!(
                 "{}: {} links, {} joints: {}",
                 name(),
@@ -183,14 +183,14 @@ impl CellArgs {
     /// Makes the cell of a robot, and of what a file says is around it.
     fn load_cell_file(&self, file: &Path, own: (Robot, LinkPairs), quiet: bool) -> Result<Cell> {
         let source = CellSource::read(file)?;
-        let own_joint_count = own.0.free_joint_names().len();
+        let own_joint_count = own.0.independent_joint_names().len();
         let (robot, pairs) = source.combine(own, |file| self.robot.with_options(file))?;
         let mut cell = Cell::new(robot, pairs);
         source.add_to(&mut cell)?;
         print_remarks(source.remarks());
         if !quiet {
             let obstacles: Vec<&str> = cell.obstacle_names().collect();
-            let others: Vec<&str> = cell.robot().free_joint_names().collect();
+            let others: Vec<&str> = cell.robot().independent_joint_names().collect();
             let others = &others[own_joint_count..];
             let mut text = format!(
                 "{}: {} obstacles: {}",

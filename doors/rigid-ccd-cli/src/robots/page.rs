@@ -196,12 +196,12 @@ fn samples(configurations: &[Vec<f64>], halvings: u32) -> Vec<(f64, Vec<f64>)> {
     let mut samples = Vec::new();
     for (segment, two) in configurations.windows(2).enumerate() {
         for step in 0..steps {
-            let share = step as f64 / steps as f64;
+            let fraction = step as f64 / steps as f64;
             let between = two[0]
                 .iter()
                 .zip(&two[1])
-                .map(|(from, to)| from + share * (to - from));
-            samples.push((segment as f64 + share, between.collect()));
+                .map(|(from, to)| from + fraction * (to - from));
+            samples.push((segment as f64 + fraction, between.collect()));
         }
     }
     let last = configurations.len() - 1;
@@ -227,7 +227,7 @@ fn shown_motion(keys: &[(f64, Pose)]) -> ShownMotion {
         .zip(turns)
         .map(|((time, pose), turn)| Keyframe::new(*time, pose, pose.translation(), turn));
     ShownMotion::Keyframes {
-        centre: [0.0; 3],
+        center: [0.0; 3],
         keys: keys.collect(),
     }
 }
@@ -260,7 +260,7 @@ fn verdict(
         let [a, b] = contact.items.map(Item::name);
         format!(
             "{a} and {b} at {:.4} of segment {}",
-            rounded_down(contact.at.share),
+            rounded_down(contact.at.fraction),
             contact.at.segment
         )
     };
@@ -280,8 +280,8 @@ fn verdict(
         }
         (PathOutcome::Free, None) => format!("Free{kept}, proven."),
         (outcome, _) => {
-            let PathPoint { segment, share } = first.free_until;
-            let until = format!("{:.4} of segment {segment}", rounded_down(share));
+            let PathPoint { segment, fraction } = first.free_until;
+            let until = format!("{:.4} of segment {segment}", rounded_down(fraction));
             let limit = outcome
                 .limit()
                 .map_or_else(String::new, |limit| limit.to_string());
@@ -291,6 +291,6 @@ fn verdict(
 }
 
 /// Rounds to four digits after the point, downward.
-fn rounded_down(share: f64) -> f64 {
-    (1e4 * share).floor() * 1e-4
+fn rounded_down(fraction: f64) -> f64 {
+    (1e4 * fraction).floor() * 1e-4
 }

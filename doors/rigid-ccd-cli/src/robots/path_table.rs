@@ -200,7 +200,7 @@ impl PathColumns {
             }
         }
         let find = |name: &str| header.iter().position(|column| column == name);
-        let joints: Vec<&str> = robot.free_joint_names().collect();
+        let joints: Vec<&str> = robot.independent_joint_names().collect();
         let is_of_edges = header
             .iter()
             .any(|column| names_joint(column, robot, "from_"));
@@ -395,14 +395,17 @@ impl TablePath {
         };
         let last = times.len() - 1;
         let segment = (time as usize).min(last);
-        let share = time - segment as f64;
-        if segment == last || share == 0.0 {
+        let fraction = time - segment as f64;
+        if segment == last || fraction == 0.0 {
             return times[segment];
         }
         let (from, to) = (times[segment], times[segment + 1]);
-        // Beside the rounding here, the number of the segment leaves its share fewer bits.
+        // Beside the rounding here, the number of the segment leaves its fraction fewer bits.
         let off = 4.0 * f64::EPSILON * (from.abs() + to.abs() + time * (to - from));
-        lesser(to, greater(from, from + share * (to - from) + sign * off))
+        lesser(
+            to,
+            greater(from, from + fraction * (to - from) + sign * off),
+        )
     }
 }
 

@@ -85,7 +85,7 @@ impl RobotPaths<'_> {
 fn configurations(robot: &Robot, joints: GivenJoints<'_>) -> Result<[Vec<f64>; 2]> {
     let given = joints.named;
     check_joints(robot, given)?;
-    let names: Vec<&str> = robot.free_joint_names().collect();
+    let names: Vec<&str> = robot.independent_joint_names().collect();
     let is_named = |name: &&str| given.iter().any(|range| range.joint == *name);
     let missing: Vec<&str> = names
         .iter()
@@ -119,7 +119,7 @@ fn whole_range(robot: &Robot) -> Result<[Vec<f64>; 2]> {
     match limits[..] {
         [[low, high]] if low.is_finite() && high.is_finite() => Ok([vec![low], vec![high]]),
         _ => {
-            let names: Vec<&str> = robot.free_joint_names().collect();
+            let names: Vec<&str> = robot.independent_joint_names().collect();
             bail!(
                 "give --joint NAME=FROM:TO for a joint that moves; there are {}",
                 names.join(", ")

@@ -56,7 +56,7 @@ fn statements_and_steps_are_shown() {
     let scene = proofs();
     let text = check(&scene, &["proofs/1-aside.proof", "--show", "--steps"], 0);
     for line in [
-        "link 1 on 0 position [0.0, 0.0, 4.0] quaternion [0.0, 0.0, 0.0, 1.0] centre [0.0, 0.0, 0.0] axes of the parent",
+        "link 1 on 0 position [0.0, 0.0, 4.0] quaternion [0.0, 0.0, 0.0, 1.0] center [0.0, 0.0, 0.0] axes of the parent",
         "velocity [0.0, 0.0, -1.0] axis [3.0, 0.0,",
         "start 0.0 rate 1.0",
         "body 0 ",
@@ -102,7 +102,7 @@ fn forged_proofs_and_those_of_other_bodies_are_refused() {
 fn questions_without_a_first_contact_have_no_proofs() {
     let options = ["query", "--motions", "-", "--certificates", "proofs"];
     for (args, words) in [
-        (["--ask", "distance"], "--ask first-contact"),
+        (["--question", "distance"], "--question first-contact"),
         (["--start", "leave"], "--start report"),
     ] {
         let call = CommandCall::with_args(&options).args(&args);
@@ -131,7 +131,7 @@ fn proofs_of_edges_and_paths_of_a_robot_hold() {
         "proofs",
     ];
     for table in ["moves.csv", "path.csv"] {
-        let args = ["--edges", table, "--ask", "first-contact", "-q"];
+        let args = ["--edges", table, "--question", "first-contact", "-q"];
         let call = CommandCall::with_args(&options).args(&args);
         call.folder(&scene.directory).run_expecting_code(0);
     }

@@ -226,10 +226,10 @@ fn an_edited_byte_is_not_resumed_from() {
     let mut tried = 0;
     for (name, bytes) in &kept {
         let lines = kept[2].1.iter().filter(|&&b| b == b'\n').count();
-        for share in 0..8 {
+        for fraction in 0..8 {
             // Everything after the last checkpoint is dropped; the last checkpoint of the tables is near the
             // end.
-            let at = share * bytes.len() / 16 + 3;
+            let at = fraction * bytes.len() / 16 + 3;
             let mut edited = bytes.clone();
             edited[at] = if edited[at] == b'7' { b'8' } else { b'7' };
             fs::write(path(&scene, name), edited).unwrap();

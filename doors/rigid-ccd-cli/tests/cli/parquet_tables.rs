@@ -109,7 +109,7 @@ fn query_gives_the_results_of_the_same_csv() {
     for more in [
         &[][..],
         &["--rows", "5..23"],
-        &["--ask", "closest-approach"],
+        &["--question", "closest-approach"],
     ] {
         let [text, binary] = messages_of_both(&scene, &query(more), &table, 2);
         assert_contains(&text, "row 14 (line 16): column a_vz: no value");
@@ -132,14 +132,14 @@ fn edges_gives_the_results_of_the_same_csv() {
     let command = ["edges", "arm.urdf", "--cell", "cell.toml"];
     let call = |more: &[&'static str]| [&command[..], more, &["--edges"]].concat();
     let edges = fs::read_to_string(examples.join("moves.csv")).unwrap();
-    messages_of_both(&scene, &call(&["--ask", "first-contact"]), &edges, 0);
+    messages_of_both(&scene, &call(&["--question", "first-contact"]), &edges, 0);
     messages_of_both(&scene, &call(&["--rows", "1..3"]), &edges, 0);
     let with_bad = edges + "bad,0,,0,2.8\n";
     let [text, binary] = messages_of_both(&scene, &call(&[]), &with_bad, 2);
     assert_contains(&text, "row 4 (line 6): column from_elbow: no value");
     assert_contains(&binary, "table.parquet, row 4: column from_elbow: no value");
     let path = fs::read_to_string(examples.join("path.csv")).unwrap();
-    messages_of_both(&scene, &call(&["--ask", "closest-approach"]), &path, 0);
+    messages_of_both(&scene, &call(&["--question", "closest-approach"]), &path, 0);
 }
 
 #[test]

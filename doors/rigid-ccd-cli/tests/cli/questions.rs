@@ -1,4 +1,4 @@
-//! Tests `ccd query --ask` for motions and for paths.
+//! Tests `ccd query --question` for motions and for paths.
 
 use crate::command::{CommandCall, Row, Scene, assert_contains, parse, stderr};
 use crate::{CUBE_AND_SLAB_OPTIONS, DROP_CONTACT_TIME, FALLING_CUBE_MOTION};
@@ -25,7 +25,7 @@ const TOUCH_END_TIME: f64 = 15.0;
 
 fn question_call(question: &str, bodies: &[&str], table: &str) -> CommandCall {
     CommandCall::query(bodies)
-        .args(&["--ask", question])
+        .args(&["--question", question])
         .stdin(table)
 }
 
@@ -321,23 +321,23 @@ fn options_without_a_use_are_refused() {
     for (options, refusal) in [
         (
             &["--clearance", "1"][..],
-            "--clearance needs --ask closest-approach or distance",
+            "--clearance needs --question closest-approach or distance",
         ),
         (
-            &["--ask", "distance", "--margin", "1"],
+            &["--question", "distance", "--margin", "1"],
             "use --clearance instead of --margin",
         ),
         (
-            &["--ask", "closest-approach", "--contacts", "c.csv"],
-            "--contacts needs --ask first-contact or is-free",
+            &["--question", "closest-approach", "--contacts", "c.csv"],
+            "--contacts needs --question first-contact or is-free",
         ),
         (
-            &["--ask", "is-free", "--schedule", "fast"],
-            "--ask is-free needs --schedule best-first",
+            &["--question", "is-free", "--schedule", "fast"],
+            "--question is-free needs --schedule best-first",
         ),
         (
-            &["--ask", "distance", "--start", "leave"],
-            "--start leave needs --ask first-contact",
+            &["--question", "distance", "--start", "leave"],
+            "--start leave needs --question first-contact",
         ),
         (
             &["--schedule", "naive"],
@@ -348,7 +348,7 @@ fn options_without_a_use_are_refused() {
             "--start leave needs a table of motions, not of paths",
         ),
         (
-            &["--ask", "nothing"],
+            &["--question", "nothing"],
             "first-contact, is-free, contact-interval, closest-approach, distance",
         ),
     ] {
@@ -360,7 +360,7 @@ fn options_without_a_use_are_refused() {
     }
 }
 
-/// Tests that bodies that overlap at the start have the status `overlapping` at time 0, although their centres are
+/// Tests that bodies that overlap at the start have the status `overlapping` at time 0, although their centers are
 /// nearest later.
 #[test]
 fn bodies_that_overlap_at_the_start_are_overlapping() {
@@ -408,7 +408,7 @@ fn a_check_fails_unless_every_row_is_proven() {
         .stdin(&two)
         .run_expecting_code(2);
     for (options, refusal) in [
-        (&["--ask", "distance"][..], "--check needs --clearance"),
+        (&["--question", "distance"][..], "--check needs --clearance"),
         (
             &["--schedule", "fast", "--bound", "published"],
             "--check needs certified answers",
@@ -572,7 +572,10 @@ fn the_documentation_has_the_statuses_of_the_table() {
         assert_eq!(cell, expected, "{name}");
         for column in names(answers.more_columns) {
             assert_contains(row, &format!("`{column}`"));
-            assert_contains(&page, &format!("| `{column}` | with `--ask {name}` only"));
+            assert_contains(
+                &page,
+                &format!("| `{column}` | with `--question {name}` only"),
+            );
         }
         let at = help.find(&format!("  {name}  ")).unwrap();
         let in_help = expected

@@ -97,7 +97,7 @@ fn a_false_record_is_refuted() {
     let answer = RecordedAnswer::Unresolved {
         limit: "deadline".to_owned(),
         segment: 0,
-        share: 0.5,
+        fraction: 0.5,
     };
     let scene = folder(&Evidence { answer, ..record() });
     let text = printed(&replay(&scene, "record.json"), 3);
@@ -110,7 +110,7 @@ fn what_a_limit_left_free_holds() {
     let answer = RecordedAnswer::Unresolved {
         limit: "deadline".to_owned(),
         segment: 0,
-        share: 0.125,
+        fraction: 0.125,
     };
     let scene = folder(&Evidence { answer, ..record() });
     let text = printed(&replay(&scene, "record.json"), 0);

@@ -132,7 +132,7 @@ fn a_required_clearance_is_that_of_the_least_distance() {
             ],
         )
         .args(&[
-            "--ask",
+            "--question",
             "closest-approach",
             "--check",
             "--clearance",

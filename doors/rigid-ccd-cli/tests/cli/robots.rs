@@ -32,7 +32,7 @@ pub(crate) const EDGES: [&str; 6] = [
 fn the_hand_meets_the_table_where_it_should() {
     let scene = folder();
     let rows = call(&scene, &EDGES)
-        .args(&["--ask", "first-contact"])
+        .args(&["--question", "first-contact"])
         .run_for_rows();
     let [up, _, down, _] = &rows[..] else {
         panic!("{} rows", rows.len());
@@ -65,7 +65,7 @@ fn the_hand_meets_the_table_where_it_should() {
     let message = call(&scene, &EDGES).args(&["--check"]).run_for_messages(3);
     assert_contains(&message, "3 of 4 rows are not proven free or kept");
     let kept = call(&scene, &EDGES)
-        .args(&["--ask", "closest-approach", "--clearance", "140mm"])
+        .args(&["--question", "closest-approach", "--clearance", "140mm"])
         .run_for_rows();
     assert_eq!(statuses(&kept)[0], "kept");
     assert!(kept[0].number("distance_lower") >= 0.14);
@@ -679,7 +679,7 @@ fn a_can_is_lifted_carried_and_placed() {
         "other/finger=0.02",
     ];
     let run = |more: &[&str]| call(&scene, &args).args(more).run_for_rows();
-    let found = run(&["--start", "leave", "--ask", "first-contact"]);
+    let found = run(&["--start", "leave", "--question", "first-contact"]);
     let row = |name: &str| found.iter().find(|row| row.text("id") == name).unwrap();
     let over = row("over the shelf");
     assert_eq!((over.text("status"), over.number("time")), ("free", 3.0));
@@ -724,7 +724,7 @@ fn a_can_is_lifted_carried_and_placed() {
         );
     }
     let message = call(&scene, &args)
-        .args(&["--start", "leave", "--ask", "closest-approach"])
+        .args(&["--start", "leave", "--question", "closest-approach"])
         .run_for_messages(2);
     assert_contains(&message, "--start leave is for");
     scene.file(

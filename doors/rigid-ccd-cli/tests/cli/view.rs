@@ -251,7 +251,7 @@ fn a_verdict_matches_the_question_and_the_proof() {
             "Proven: nothing touches before.",
         ),
         (
-            &["--ask", "is-free"],
+            &["--question", "is-free"],
             "Contact at ",
             "There may be an earlier one.",
         ),
@@ -271,16 +271,16 @@ fn a_verdict_matches_the_question_and_the_proof() {
             "Proven: not within it before.",
         ),
         (
-            &["--ask", "contact-interval"],
+            &["--question", "contact-interval"],
             "First contact at 0.62",
             "Proven: nothing touches before, nor after 1.",
         ),
         (
-            &["--ask", "closest-approach", "--clearance", "0.3"],
+            &["--question", "closest-approach", "--clearance", "0.3"],
             "The clearance of 0.3 is violated: at 0.",
             " apart.",
         ),
-        (&["--ask", "distance"], "At 0: between 2.49", "apart."),
+        (&["--question", "distance"], "At 0: between 2.49", "apart."),
     ];
     for (more, begins, ends) in cases {
         let verdict = verdict(&scene, more);

@@ -87,8 +87,8 @@ fn points_that_are_placed_are_off_by_no_more_than_the_slack() {
     form.push_at_pose(&pose, &inner, 0).expect("a part");
     let (body, _) = form.body().expect("a body");
     // Points on the axis are fixed, and others are reflected: `2 a (a·x)/(a·a) − x`.
-    let share = 2.0 * 5.0 * axis.x / axis.length_squared();
-    let exact = [far + axis, far + (share * axis - 5.0 * DVec3::X)];
+    let fraction = 2.0 * 5.0 * axis.x / axis.length_squared();
+    let exact = [far + axis, far + (fraction * axis - 5.0 * DVec3::X)];
     for (point, exact) in body.pieces().points().iter().zip(exact) {
         let off = length(*point - exact);
         assert!(off <= form.slack, "{off:e} of {:e}", form.slack);
@@ -115,7 +115,7 @@ fn a_ball_is_about_all_points() {
 fn only_a_ball_is_a_point() {
     let mut ball = ShapeGeometry::EMPTY;
     ball.push_hull_of_points([DVec3::X], 2.0, 0);
-    assert_eq!(ball.centre_if_ball(), Some(DVec3::X));
+    assert_eq!(ball.center_if_ball(), Some(DVec3::X));
     ball.push_hull_of_points([DVec3::X; 2], 0.0, 0);
-    assert_eq!(ball.centre_if_ball(), None);
+    assert_eq!(ball.center_if_ball(), None);
 }

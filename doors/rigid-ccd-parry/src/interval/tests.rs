@@ -14,16 +14,16 @@ fn times_are_rounded_down_and_stay_within() {
             // The computed length is not less than the exact one.
             let exact = |after: f64| start + after;
             assert!(whole.length() >= length || exact(whole.length()) >= start + length);
-            for share in [0.0, 0.3, 0.7, 1.0] {
-                let after = share * length;
+            for fraction in [0.0, 0.3, 0.7, 1.0] {
+                let after = fraction * length;
                 let time = whole.cast_time_at_offset(after);
                 assert!(
                     time >= start && time <= start + length,
-                    "{start} {length} {share}"
+                    "{start} {length} {fraction}"
                 );
                 assert!(
                     time <= exact(after) || time == start,
-                    "{start} {length} {share}"
+                    "{start} {length} {fraction}"
                 );
             }
         }

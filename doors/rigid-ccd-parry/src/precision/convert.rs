@@ -8,7 +8,7 @@ use ccd_core::{InputError, Motion, Pose};
 /// Converts parry's motion of a body to double precision. The path stays exactly the same.
 ///
 /// parry's motion turns about `local_center`, a point in the shape's frame, which moves by `linvel`; `angvel` is along
-/// the world's axes. A [`Motion`] about that centre is the same. Its orientation is that of the quaternion made a unit
+/// the world's axes. A [`Motion`] about that center is the same. Its orientation is that of the quaternion made a unit
 /// in double precision, where parry's own arithmetic scales a shape by the square of the quaternion's length.
 ///
 /// # Errors

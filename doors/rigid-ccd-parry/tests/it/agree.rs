@@ -45,7 +45,7 @@ fn motion(moves: &MotionSpec) -> Motion {
         start,
         to_f64(moves.velocity),
         to_f64(moves.spin),
-        to_f64(moves.centre),
+        to_f64(moves.center),
     );
     about.expect("a motion")
 }

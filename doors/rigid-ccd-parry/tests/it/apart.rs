@@ -267,7 +267,7 @@ fn straight_casts_keep_the_target_distance() {
     for seed in 0..all {
         let mut scene = Scene::new(seed);
         let mut rng = seeded_rng(seed);
-        // A body that does not rotate has no centre.
+        // A body that does not rotate has no center.
         for motion in &mut scene.motions {
             motion.angvel = Default::default();
         }

@@ -20,7 +20,7 @@ pub(crate) fn pose(place: [f32; 3], turned: [f32; 4]) -> Pose {
 pub(crate) fn motion(moves: &MotionSpec) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(
         pose(moves.place, moves.turned),
-        vector(moves.centre),
+        vector(moves.center),
         vector(moves.velocity),
         vector(moves.spin),
     )

@@ -9,78 +9,78 @@ use crate::scenes::{number, seeded_rng};
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
-/// Returns a number of `SPECIAL_NUMBERS` with probability `share`, and otherwise a number from −2 to 2.
-fn maybe_special_number(rng: &mut Pcg64Mcg, share: f32) -> Real {
-    if rng.random::<f32>() < share {
+/// Returns a number of `SPECIAL_NUMBERS` with probability `fraction`, and otherwise a number from −2 to 2.
+fn maybe_special_number(rng: &mut Pcg64Mcg, fraction: f32) -> Real {
+    if rng.random::<f32>() < fraction {
         SPECIAL_NUMBERS[rng.random_range(0..SPECIAL_NUMBERS.len())]
     } else {
         Real::from(number(rng, -2.0, 2.0))
     }
 }
 
-fn maybe_special_vector(rng: &mut Pcg64Mcg, share: f32) -> Vector {
+fn maybe_special_vector(rng: &mut Pcg64Mcg, fraction: f32) -> Vector {
     Vector::new(
-        maybe_special_number(rng, share),
-        maybe_special_number(rng, share),
-        maybe_special_number(rng, share),
+        maybe_special_number(rng, fraction),
+        maybe_special_number(rng, fraction),
+        maybe_special_number(rng, fraction),
     )
 }
 
-fn maybe_special_pose(rng: &mut Pcg64Mcg, share: f32) -> Pose {
-    let [x, y, z, w] = std::array::from_fn(|_| maybe_special_number(rng, share));
+fn maybe_special_pose(rng: &mut Pcg64Mcg, fraction: f32) -> Pose {
+    let [x, y, z, w] = std::array::from_fn(|_| maybe_special_number(rng, fraction));
     Pose::from_parts(
-        maybe_special_vector(rng, share),
+        maybe_special_vector(rng, fraction),
         Rotation::from_xyzw(x, y, z, w),
     )
 }
 
-fn maybe_special_motion(rng: &mut Pcg64Mcg, share: f32) -> NonlinearRigidMotion {
+fn maybe_special_motion(rng: &mut Pcg64Mcg, fraction: f32) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(
-        maybe_special_pose(rng, share),
-        maybe_special_vector(rng, share),
-        maybe_special_vector(rng, share),
-        maybe_special_vector(rng, share),
+        maybe_special_pose(rng, fraction),
+        maybe_special_vector(rng, fraction),
+        maybe_special_vector(rng, fraction),
+        maybe_special_vector(rng, fraction),
     )
 }
 
 /// Returns a random shape whose sizes may be invalid, because parry does not check them.
-fn maybe_invalid_shape(rng: &mut Pcg64Mcg, share: f32) -> SharedShape {
-    let radius = maybe_special_number(rng, share).abs();
+fn maybe_invalid_shape(rng: &mut Pcg64Mcg, fraction: f32) -> SharedShape {
+    let radius = maybe_special_number(rng, fraction).abs();
     match rng.random_range(0..9) {
-        0 => SharedShape::ball(maybe_special_number(rng, share)),
+        0 => SharedShape::ball(maybe_special_number(rng, fraction)),
         1 => SharedShape::new(Cuboid {
-            half_extents: maybe_special_vector(rng, share).abs(),
+            half_extents: maybe_special_vector(rng, fraction).abs(),
         }),
         2 => SharedShape::capsule(
-            maybe_special_vector(rng, share),
-            maybe_special_vector(rng, share),
+            maybe_special_vector(rng, fraction),
+            maybe_special_vector(rng, fraction),
             radius,
         ),
         3 => SharedShape::new(Segment::new(
-            maybe_special_vector(rng, share),
-            maybe_special_vector(rng, share),
+            maybe_special_vector(rng, fraction),
+            maybe_special_vector(rng, fraction),
         )),
         4 => SharedShape::new(Triangle::new(
-            maybe_special_vector(rng, share),
-            maybe_special_vector(rng, share),
-            maybe_special_vector(rng, share),
+            maybe_special_vector(rng, fraction),
+            maybe_special_vector(rng, fraction),
+            maybe_special_vector(rng, fraction),
         )),
         5 => SharedShape::new(Cylinder {
-            half_height: maybe_special_number(rng, share),
-            radius: maybe_special_number(rng, share),
+            half_height: maybe_special_number(rng, fraction),
+            radius: maybe_special_number(rng, fraction),
         }),
         6 => SharedShape::new(Cone {
-            half_height: maybe_special_number(rng, share).abs(),
+            half_height: maybe_special_number(rng, fraction).abs(),
             radius,
         }),
         7 => {
             let vertices = (0..4)
-                .map(|_| maybe_special_vector(rng, 0.3 * share))
+                .map(|_| maybe_special_vector(rng, 0.3 * fraction))
                 .collect();
             let mesh = TriMesh::new(vertices, vec![[0, 1, 2], [0, 2, 3], [1, 1, 3]]);
             SharedShape::new(mesh.expect("triangles"))
         }
-        _ => SharedShape::halfspace(maybe_special_vector(rng, share)),
+        _ => SharedShape::halfspace(maybe_special_vector(rng, fraction)),
     }
 }
 
@@ -102,11 +102,11 @@ fn odd_numbers_are_answered_or_refused() {
     let (mut hits, mut misses, mut refused) = (0, 0, 0);
     for seed in 0..8_000 {
         let mut rng = seeded_rng(seed);
-        let share = [0.01, 0.05, 0.3][seed as usize % 3];
-        let [a, b] = [0, 1].map(|_| maybe_invalid_shape(&mut rng, share));
+        let fraction = [0.01, 0.05, 0.3][seed as usize % 3];
+        let [a, b] = [0, 1].map(|_| maybe_invalid_shape(&mut rng, fraction));
         let found = match seed % 2 {
             0 => {
-                let [m, n] = [0, 1].map(|_| maybe_special_motion(&mut rng, share));
+                let [m, n] = [0, 1].map(|_| maybe_special_motion(&mut rng, fraction));
                 // Millions of turns take long; another test covers the limits.
                 let slow = |motion: NonlinearRigidMotion| NonlinearRigidMotion {
                     angvel: motion
@@ -115,8 +115,8 @@ fn odd_numbers_are_answered_or_refused() {
                     ..motion
                 };
                 let times = [
-                    maybe_special_number(&mut rng, share),
-                    maybe_special_number(&mut rng, share),
+                    maybe_special_number(&mut rng, fraction),
+                    maybe_special_number(&mut rng, fraction),
                 ];
                 let times = times.map(|time| if time.abs() > 1e3 { 2.0 } else { time });
                 let found =
@@ -126,11 +126,11 @@ fn odd_numbers_are_answered_or_refused() {
                 })
             }
             _ => {
-                let poses = [0, 1].map(|_| maybe_special_pose(&mut rng, share));
-                let [v, w] = [0, 1].map(|_| maybe_special_vector(&mut rng, share));
+                let poses = [0, 1].map(|_| maybe_special_pose(&mut rng, fraction));
+                let [v, w] = [0, 1].map(|_| maybe_special_vector(&mut rng, fraction));
                 let options = ShapeCastOptions {
-                    max_time_of_impact: maybe_special_number(&mut rng, share),
-                    target_distance: maybe_special_number(&mut rng, share).abs(),
+                    max_time_of_impact: maybe_special_number(&mut rng, fraction),
+                    target_distance: maybe_special_number(&mut rng, fraction).abs(),
                     stop_at_penetration: seed % 4 == 1,
                     compute_impact_geometry_on_penetration: true,
                 };

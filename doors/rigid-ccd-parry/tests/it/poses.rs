@@ -55,8 +55,8 @@ fn poses_are_those_of_single_precision_up_to_its_rounding() {
 }
 
 #[test]
-fn velocities_are_those_of_the_centre() {
-    // A half turn about a moving centre beside the body: the body's origin ends beyond it.
+fn velocities_are_those_of_the_center() {
+    // A half turn about a moving center beside the body: the body's origin ends beyond it.
     use parry3d::math::{Pose, Vector};
     let start = Pose::translation(1.0, 0.0, 0.0);
     let spin = std::f32::consts::PI * Vector::Z;
@@ -64,5 +64,5 @@ fn velocities_are_those_of_the_centre() {
     let motion = rigid_ccd_parry::f32::motion(&theirs).expect("finite");
     let end = motion.pose(1.0).translation();
     assert!(end.distance(DVec3::new(3.0, 3.0, 0.0)) < 1e-6, "{end}");
-    assert_eq!(motion.centre(), DVec3::X);
+    assert_eq!(motion.center(), DVec3::X);
 }

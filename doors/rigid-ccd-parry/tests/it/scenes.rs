@@ -34,7 +34,7 @@ pub(crate) struct MotionSpec {
     pub(crate) place: [f32; 3],
     /// The orientation, a unit quaternion up to rounding.
     pub(crate) turned: [f32; 4],
-    pub(crate) centre: [f32; 3],
+    pub(crate) center: [f32; 3],
     pub(crate) velocity: [f32; 3],
     pub(crate) spin: [f32; 3],
 }
@@ -88,7 +88,7 @@ impl MotionSpec {
         let v = |v: [f32; 3]| v.map(|x| x * by);
         MotionSpec {
             place: v(self.place),
-            centre: v(self.centre),
+            center: v(self.center),
             velocity: v(self.velocity),
             ..self
         }
@@ -190,7 +190,7 @@ pub(crate) fn random_motions(rng: &mut impl Rng) -> [MotionSpec; 2] {
         MotionSpec {
             place,
             turned: turn(rng),
-            centre: random_vector(rng, 0.3),
+            center: random_vector(rng, 0.3),
             velocity,
             spin: random_vector(rng, fast),
         }

@@ -81,13 +81,13 @@ pub(crate) struct TimedBodyPoses {
     pub(crate) b: BodyPose,
 }
 
-/// The pose of a body in one row of a table of paths, with its angular velocity and its centre of rotation.
+/// The pose of a body in one row of a table of paths, with its angular velocity and its center of rotation.
 #[derive(Clone, Copy)]
 pub(crate) struct BodyPose {
     pub(crate) pose: Pose,
     /// The angular velocity to the next row; zero for the shortest rotation.
     pub(crate) spin: DVec3,
-    pub(crate) centre: DVec3,
+    pub(crate) center: DVec3,
 }
 
 /// Parses a row of a table of paths as the poses of both bodies at a time.
@@ -144,18 +144,18 @@ impl<'a, R: Record> Row<'a, R> {
         Ok(BodyPose {
             pose: self.start_pose(side)?,
             spin: self.vector_or_zero(side, Quantity::AngularVelocity)?,
-            centre: self.vector_or_zero(side, Quantity::Centre)?,
+            center: self.vector_or_zero(side, Quantity::Center)?,
         })
     }
 
     fn motion(&self, side: Side, duration: f64) -> Result<Motion, RowProblem> {
         let start = self.start_pose(side)?;
-        let centre = self.vector_or_zero(side, Quantity::Centre)?;
+        let center = self.vector_or_zero(side, Quantity::Center)?;
         match self.motion_kind(side)? {
             MotionEncoding::Velocities => {
                 let velocity = self.vector_or_zero(side, Quantity::Velocity)?;
                 let spin = self.vector_or_zero(side, Quantity::AngularVelocity)?;
-                Ok(Motion::about(start, velocity, spin, centre)?)
+                Ok(Motion::about(start, velocity, spin, center)?)
             }
             MotionEncoding::EndPose => {
                 let position = self.vector(side, Quantity::EndPosition)?;
@@ -164,7 +164,7 @@ impl<'a, R: Record> Row<'a, R> {
                     position.unwrap_or(start.translation()),
                     orientation.unwrap_or(start.rotation()),
                 )?;
-                Ok(Motion::between(start, end, centre, duration)?)
+                Ok(Motion::between(start, end, center, duration)?)
             }
         }
     }
@@ -226,7 +226,7 @@ impl<'a, R: Record> Row<'a, R> {
             Ok(_) => {
                 self.columns
                     .remark_collector()
-                    .note_quaternion([w, x, y, z]);
+                    .note_quaternion([x, y, z, w]);
                 Ok(Some(quaternion))
             }
             Err(InputError::ZeroQuaternion) => Err(RowProblem::ZeroQuaternion {

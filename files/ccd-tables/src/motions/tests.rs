@@ -57,8 +57,8 @@ fn every_column_reaches_its_quantity() {
         DVec3::new(1.0, 2.0, 3.0)
     );
     assert_eq!(velocities.a.velocity(), DVec3::new(4.0, 5.0, 6.0));
-    assert_eq!(velocities.a.spin(), DVec3::new(7.0, 8.0, 9.0));
-    assert_eq!(velocities.a.centre(), DVec3::new(10.0, 11.0, 12.0));
+    assert_eq!(velocities.a.angular_velocity(), DVec3::new(7.0, 8.0, 9.0));
+    assert_eq!(velocities.a.center(), DVec3::new(10.0, 11.0, 12.0));
     assert_eq!(velocities.duration, 13.0);
 
     let poses = only_query(
@@ -91,7 +91,7 @@ fn quaternions_are_normalised() {
 #[test]
 fn an_end_position_alone_does_not_turn() {
     let query = only_query("a_qw,a_qx,a_qy,a_qz,a_end_px,a_end_py,a_end_pz\n0,1,0,0,4,0,0\n");
-    assert_eq!(query.a.spin(), DVec3::ZERO);
+    assert_eq!(query.a.angular_velocity(), DVec3::ZERO);
     assert_eq!(query.a.velocity(), 4.0 * DVec3::X);
 }
 
@@ -99,7 +99,7 @@ fn an_end_position_alone_does_not_turn() {
 fn an_end_orientation_alone_stays_in_place() {
     let query = only_query("a_px,a_end_qw,a_end_qx,a_end_qy,a_end_qz\n7,0,1,0,0\n");
     assert_eq!(query.a.velocity(), DVec3::ZERO);
-    assert!((query.a.spin().length() - std::f64::consts::PI).abs() < 1e-14);
+    assert!((query.a.angular_velocity().length() - std::f64::consts::PI).abs() < 1e-14);
 }
 
 #[test]
@@ -188,7 +188,7 @@ fn end_pose_and_velocity_exclude_each_other() {
         };
         assert_eq!(problem, expected);
     }
-    // The two bodies may use different columns, and both kinds accept a centre.
+    // The two bodies may use different columns, and both kinds accept a center.
     only_query("a_end_px,a_end_py,a_end_pz,a_cx,b_vx,b_cx\n1,0,0,1,1,1\n");
 }
 
@@ -224,7 +224,7 @@ fn large_numbers_have_few_digits_in_messages() {
 fn half_a_turn_is_about_the_axis_as_given() {
     let spin = |end: &str| {
         let text = format!("a_end_qw,a_end_qx,a_end_qy,a_end_qz\n{end}\n");
-        only_query(&text).a.spin()
+        only_query(&text).a.angular_velocity()
     };
     let half = std::f64::consts::PI;
     assert_eq!(spin("0,0,0,1"), half * DVec3::Z);

@@ -61,8 +61,11 @@ fn cells(query: &Motions) -> Vec<String> {
         let wxyz = [rotation.w, rotation.x, rotation.y, rotation.z];
         put(Quantity::Orientation, &wxyz);
         put(Quantity::Velocity, &motion.velocity().to_array());
-        put(Quantity::AngularVelocity, &motion.spin().to_array());
-        put(Quantity::Centre, &motion.centre().to_array());
+        put(
+            Quantity::AngularVelocity,
+            &motion.angular_velocity().to_array(),
+        );
+        put(Quantity::Center, &motion.center().to_array());
     }
     cells
 }

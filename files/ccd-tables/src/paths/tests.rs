@@ -147,10 +147,10 @@ fn a_path_that_cannot_be_followed_is_an_error() {
     }
 }
 
-/// Tests that in a half turn the centre of rotation, (1, 0, 0), moves in a straight line, and the body's origin turns
+/// Tests that in a half turn the center of rotation, (1, 0, 0), moves in a straight line, and the body's origin turns
 /// about it.
 #[test]
-fn a_path_has_a_centre_of_rotation() {
+fn a_path_has_a_center_of_rotation() {
     let read = paths("t,a_px,a_qw,a_qx,a_qy,a_qz,a_cx,b_cy\n0,0,1,0,0,0,1,7\n2,2,0,0,0,1,1,7\n");
     let expected = [[0.0; 3], [1.0, -1.0, 0.0], [2.0, 0.0, 0.0]];
     for (place, expected) in positions_of_a(&read[0], &[0.0, 1.0, 2.0])

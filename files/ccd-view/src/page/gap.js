@@ -9,8 +9,8 @@ class GapPlot {
       if (!this.view) return;
       const box = this.svg.getBoundingClientRect();
       const x = event.clientX - box.left;
-      const share = Math.min(Math.max((x - GapPlot.LEFT) / (this.right - GapPlot.LEFT), 0), 1);
-      this.go(share * this.view.duration);
+      const fraction = Math.min(Math.max((x - GapPlot.LEFT) / (this.right - GapPlot.LEFT), 0), 1);
+      this.go(fraction * this.view.duration);
     });
     new ResizeObserver(() => {
       if (this.view && holder.clientWidth !== this.width) { this.open(this.view); this.move(this.t); }
@@ -68,8 +68,8 @@ class GapPlot {
 
   x(t) {
     const { duration } = this.view;
-    const share = duration > 0 ? t / duration : 0;
-    return +(GapPlot.LEFT + share * (this.right - GapPlot.LEFT)).toFixed(2);
+    const fraction = duration > 0 ? t / duration : 0;
+    return +(GapPlot.LEFT + fraction * (this.right - GapPlot.LEFT)).toFixed(2);
   }
 
   y(gap) {

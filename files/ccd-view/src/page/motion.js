@@ -23,22 +23,22 @@ const Motion = (() => {
   }
 
   // x(t) = exp(t[ω]) R₀ (x − c) + C₀ + v t.
-  function steady({ centre, from, velocity, spin, rotation }, t) {
+  function steady({ center, from, velocity, spin, rotation }, t) {
     const turned = product(turn(spin.map((w) => w * t)), rotation);
-    const back = apply(turned, centre);
+    const back = apply(turned, center);
     return { rotation: turned, place: from.map((p, k) => p + velocity[k] * t - back[k]) };
   }
 
-  // Between two keys: a straight line of the centre, and the first one's rotation.
-  function keyed({ centre, keys }, t) {
+  // Between two keys: a straight line of the center, and the first one's rotation.
+  function keyed({ center, keys }, t) {
     let next = keys.findIndex((key) => key.time > t);
     if (next < 0) next = keys.length - 1;
     const [one, two] = [keys[Math.max(next - 1, 0)], keys[next]];
-    const share = two.time > one.time ? Math.min(Math.max((t - one.time) / (two.time - one.time), 0), 1) : 0;
+    const fraction = two.time > one.time ? Math.min(Math.max((t - one.time) / (two.time - one.time), 0), 1) : 0;
     const way = one.turn;
-    const rotation = product(turn(way.map((w) => w * share)), one.rotation);
-    const back = apply(rotation, centre);
-    return { rotation, place: one.place.map((p, k) => p + share * (two.place[k] - p) - back[k]) };
+    const rotation = product(turn(way.map((w) => w * fraction)), one.rotation);
+    const back = apply(rotation, center);
+    return { rotation, place: one.place.map((p, k) => p + fraction * (two.place[k] - p) - back[k]) };
   }
 
   const moves = ({ keys, velocity, spin }) => (keys

@@ -26,29 +26,29 @@ const near = (a, b, size = 1) => a.forEach((x, k) => assert.ok(Math.abs(x - b[k]
 
 test("constant velocities", () => {
   for (let n = 0; n < 500; n += 1) {
-    const [centre, from, velocity, spin, turn, point, t] = [vector(2), vector(5), vector(3), vector(n % 7), vector(3), vector(1), 2 * random()];
+    const [center, from, velocity, spin, turn, point, t] = [vector(2), vector(5), vector(3), vector(n % 7), vector(3), vector(1), 2 * random()];
     const start = quaternion(turn);
-    const { rotation, place } = Motion.pose({ centre, from, velocity, spin, rotation: rows(start) }, t);
-    const moved = rotated(times(quaternion(spin.map((w) => w * t)), start), point.map((p, k) => p - centre[k])).map((p, k) => p + from[k] + velocity[k] * t);
+    const { rotation, place } = Motion.pose({ center, from, velocity, spin, rotation: rows(start) }, t);
+    const moved = rotated(times(quaternion(spin.map((w) => w * t)), start), point.map((p, k) => p - center[k])).map((p, k) => p + from[k] + velocity[k] * t);
     near(Motion.apply(rotation, point).map((p, k) => p + place[k]), moved, 10);
   }
 });
 
 test("between keys, by their turns", () => {
   for (let n = 0; n < 500; n += 1) {
-    const [centre, start, way, from, to] = [vector(2), quaternion(vector(3)), vector(1.8), vector(4), vector(4)];
+    const [center, start, way, from, to] = [vector(2), quaternion(vector(3)), vector(1.8), vector(4), vector(4)];
     if (n === 0) way.splice(0, 3, Math.PI, 0, 0);
     if (n === 1) way.fill(0);
     const keys = [[1, start, from], [3, times(quaternion(way), start), to]].map(([time, q, place]) => ({ time, rotation: rows(q), place, turn: way }));
-    const share = Math.abs(random());
-    const { rotation, place } = Motion.pose({ centre, keys }, 1 + 2 * share);
-    // The centre moves straight.
-    near(Motion.apply(rotation, centre).map((p, k) => p + place[k]), from.map((p, k) => p + share * (to[k] - p)), 10);
-    const expected = rows(times(quaternion(way.map((w) => w * share)), start));
+    const fraction = Math.abs(random());
+    const { rotation, place } = Motion.pose({ center, keys }, 1 + 2 * fraction);
+    // The center moves straight.
+    near(Motion.apply(rotation, center).map((p, k) => p + place[k]), from.map((p, k) => p + fraction * (to[k] - p)), 10);
+    const expected = rows(times(quaternion(way.map((w) => w * fraction)), start));
     near(rotation, expected);
   }
   const keys = [0, 1, 2].map((time) => ({ time, rotation: rows([1, 0, 0, 0]), place: [time, 0, 0], turn: [0, 0, 0] }));
-  for (const [t, x] of [[-1, 0], [0, 0], [1, 1], [1.5, 1.5], [2, 2], [9, 2]]) near(Motion.pose({ centre: [0, 0, 0], keys }, t).place, [x, 0, 0]);
+  for (const [t, x] of [[-1, 0], [0, 0], [1, 1], [1.5, 1.5], [2, 2], [9, 2]]) near(Motion.pose({ center: [0, 0, 0], keys }, t).place, [x, 0, 0]);
 });
 
 test("what moves", () => {

@@ -127,9 +127,9 @@ class Stage {
     }
   }
 
-  addBall(centre, radius, color) {
+  addBall(center, radius, color) {
     const ball = new THREE.Mesh(new THREE.SphereGeometry(radius, 16, 12), new THREE.MeshBasicMaterial({ color, depthTest: false }));
-    ball.position.set(...centre);
+    ball.position.set(...center);
     ball.renderOrder = 3;
     this.own(ball);
   }

@@ -5,7 +5,7 @@ fn link(axes: u32, [velocity, axis]: [[f64; 3]; 2], [start, rate]: [f64; 2]) -> 
         parent: 0,
         position: [0.0; 3],
         quaternion: [0.0, 0.0, 0.0, 1.0],
-        centre: [0.0; 3],
+        center: [0.0; 3],
         axes,
         velocity,
         axis,

@@ -194,7 +194,7 @@ fn is_true(meshes: &Meshes, bytes: &[u8]) -> bool {
         let start = Pose::new(link.position, link.quaternion).unwrap();
         // With other axes or another start the link is not a freely moving body.
         let is_free = link.axes == 0 && link.start == 0.0;
-        is_free.then(|| Motion::about(start, velocity, spin, link.centre).unwrap())
+        is_free.then(|| Motion::about(start, velocity, spin, link.center).unwrap())
     };
     let [Some(a), Some(b)] = [&statement.links[0], &statement.links[1]].map(motion) else {
         return true;

@@ -9,7 +9,7 @@ use ccd_prove::{
     AxisKind, Body, Joint, Link, NotProven, Pair, Proof, Scene, SceneBody, Statement, Witness,
     prove,
 };
-use rigid_ccd::mesh::{Detail, TriangleMesh, body_from_mesh};
+use rigid_ccd::mesh::{PieceChoice, TriangleMesh, body_from_mesh};
 use rigid_ccd::{Outcome, Settings, Solver};
 use std::f64::consts::TAU;
 
@@ -82,7 +82,7 @@ impl Meshes {
         let meshes = [torus(12, 0.3), torus(9, 0.25)];
         let engine = |(vertices, faces): &(Vec<[f64; 3]>, Vec<[u32; 3]>)| {
             let mesh = TriangleMesh::new(vertices.clone(), faces).unwrap();
-            body_from_mesh(&mesh, Detail::Surface).unwrap().body
+            body_from_mesh(&mesh, PieceChoice::Surface).unwrap().body
         };
         Meshes {
             engine: [engine(&meshes[0]), engine(&meshes[1])],

@@ -49,18 +49,18 @@ fn solid_balls(count: usize) -> Body {
     let (rings, sides) = (6, 8);
     for number in 0..count {
         let first = vertices.len() as u32;
-        let centre = DVec3::new(3.0 * number as f64, 0.0, 0.0);
-        vertices.push(centre - DVec3::Z);
+        let center = DVec3::new(3.0 * number as f64, 0.0, 0.0);
+        vertices.push(center - DVec3::Z);
         for ring in 1..rings {
             let height = -1.0 + 2.0 * f64::from(ring) / f64::from(rings);
             let radius = (1.0 - height * height).sqrt();
             vertices.extend((0..sides).map(|side| {
                 let (sine, cosine) =
                     (f64::from(side) / f64::from(sides) * std::f64::consts::TAU).sin_cos();
-                centre + DVec3::new(radius * cosine, radius * sine, height)
+                center + DVec3::new(radius * cosine, radius * sine, height)
             }));
         }
-        vertices.push(centre + DVec3::Z);
+        vertices.push(center + DVec3::Z);
         let at = |ring: u32, side: u32| first + 1 + (ring - 1) * sides + side % sides;
         let top = first + 1 + (rings - 1) * sides;
         for side in 0..sides {

@@ -45,10 +45,10 @@ impl Plane {
     }
 
     /// Returns a lower bound of the height of a part above the plane, from its bounding box. The part's frame is at
-    /// `frame`, and its centre at `centre` in the base.
+    /// `frame`, and its center at `center` in the base.
     #[inline(always)]
-    pub(crate) fn height_of(&self, part: &HullPart, frame: &Frame, centre: DVec3) -> f64 {
+    pub(crate) fn height_of(&self, part: &HullPart, frame: &Frame, center: DVec3) -> f64 {
         let across = frame.inverse_transform_vector(self.normal).abs();
-        self.normal.dot(centre) - self.height - across.dot(part.half_extents)
+        self.normal.dot(center) - self.height - across.dot(part.half_extents)
     }
 }

@@ -134,12 +134,12 @@ fn answers_agree_with_the_heights_of_all_corners() {
             let to = random_configuration(&mut random, &robot);
             let to = configuration_between(&from, &to, [0.05, 0.4, 1.0][random.random_range(0..3)]);
             let path = [&from, &to];
-            let height = |share: f64| {
+            let height = |fraction: f64| {
                 least_height(
                     &robot,
                     attached,
                     &planes,
-                    &configuration_between(&from, &to, share),
+                    &configuration_between(&from, &to, fraction),
                 )
             };
             let until = match solver.first_contact(&path).unwrap().outcome {
@@ -151,23 +151,23 @@ fn answers_agree_with_the_heights_of_all_corners() {
                 PathOutcome::Contact(contact) => {
                     contacts += 1;
                     assert!(!solver.is_free(&path).unwrap());
-                    let there = height(contact.at.share);
+                    let there = height(contact.at.fraction);
                     assert!(there <= margin + TOLERANCE + 1e-9, "{there} in {contact:?}");
                     if there > 0.0 {
                         let [a, b] = contact.witnesses.unwrap();
                         assert!((a.distance(b) - there).abs() < 1e-6, "{there} {contact:?}");
                     }
-                    contact.at.share
+                    contact.at.fraction
                 }
                 _ => panic!("no limit is set"),
             };
             let mut least = f64::INFINITY;
             for k in 0..=50 {
-                let share = f64::from(k) / 50.0;
-                let own = height(share);
+                let fraction = f64::from(k) / 50.0;
+                let own = height(fraction);
                 assert!(
-                    share >= until || own > margin,
-                    "{own} at {share} before {until}"
+                    fraction >= until || own > margin,
+                    "{own} at {fraction} before {until}"
                 );
                 least = lesser(least, own);
             }
@@ -189,10 +189,10 @@ fn answers_agree_with_the_heights_of_all_corners() {
                 .clearance_ranges(&path, RangeSettings::DEFAULT)
                 .unwrap();
             for range in ranges {
-                let share = 0.5 * (range.from.time() + range.to.time());
+                let fraction = 0.5 * (range.from.time() + range.to.time());
                 match range.verdict {
-                    ClearanceVerdict::Kept => assert!(height(share) > margin - 1e-9),
-                    ClearanceVerdict::Violated => assert!(height(share) < margin + 1e-9),
+                    ClearanceVerdict::Kept => assert!(height(fraction) > margin - 1e-9),
+                    ClearanceVerdict::Violated => assert!(height(fraction) < margin + 1e-9),
                     ClearanceVerdict::Unverified => {}
                 }
             }

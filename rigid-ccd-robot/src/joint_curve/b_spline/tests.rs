@@ -26,11 +26,11 @@ fn basis_value(knots: &[Relaxed], degree: usize, number: usize, at: &Relaxed) ->
 }
 
 /// Returns the exact value of a polynomial whose coefficients are double-double numbers.
-fn exact_value(curve: &JointCurve, segment: usize, share: &Relaxed) -> Relaxed {
+fn exact_value(curve: &JointCurve, segment: usize, fraction: &Relaxed) -> Relaxed {
     let powers = (0..=curve.degree()).rev();
     powers.fold(Relaxed::ZERO, |value, power| {
         let [high, low] = curve.coefficient(segment, power, 0).parts();
-        value * share + exact_fraction(high) + exact_fraction(low)
+        value * fraction + exact_fraction(high) + exact_fraction(low)
     })
 }
 
@@ -61,14 +61,14 @@ fn splines_are_the_sums_of_their_basis_functions() {
         let exact: Vec<Relaxed> = knots.iter().map(|&knot| exact_fraction(knot)).collect();
         for segment in 0..curve.segment_count() {
             let [from, to] = [segment, segment + 1].map(|k| exact_fraction(curve.times()[k]));
-            for share in [0.0, 0.123, 0.5, 0.875] {
-                let share = exact_fraction(share);
-                let at = &from + (&to - &from) * &share;
+            for fraction in [0.0, 0.123, 0.5, 0.875] {
+                let fraction = exact_fraction(fraction);
+                let at = &from + (&to - &from) * &fraction;
                 let terms = coefficients.iter().enumerate();
                 let expected: Relaxed = terms
                     .map(|(k, &own)| exact_fraction(own) * basis_value(&exact, degree, k, &at))
                     .fold(Relaxed::ZERO, |sum, term| sum + term);
-                let error = exact_value(&curve, segment, &share) - expected;
+                let error = exact_value(&curve, segment, &fraction) - expected;
                 let error = error.to_f64().value().abs();
                 assert!(error <= 1e-25 * (1.0 + offset), "degree {degree}: {error}");
             }

@@ -58,12 +58,12 @@ fn no_position_in_a_box_is_nearer_than_its_bounds() {
 }
 
 impl Measurer<'_> {
-    /// Returns, for the first pair of parts, the gap at the centre of a box, the displacement bound and the
-    /// first-order bound; `None` if the hulls overlap at the centre.
+    /// Returns, for the first pair of parts, the gap at the center of a box, the displacement bound and the
+    /// first-order bound; `None` if the hulls overlap at the center.
     fn bounds(&mut self, pair: &LinkPair, joint_box: &JointBox) -> Option<[f64; 3]> {
         self.place_box(&pair.joints, joint_box);
         let placed = self.placed_parts(&pair.part_pairs[0]);
-        let displacement = self.motion.displacement(placed.parts, placed.centres);
+        let displacement = self.motion.displacement(placed.parts, placed.centers);
         let ([gap, _], axis) = placed.hull_distance([f64::INFINITY, 0.0]);
         let frames = [&placed.frames[0], &placed.frames[1]];
         let direction = axis / axis.length();

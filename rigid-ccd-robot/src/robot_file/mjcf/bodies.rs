@@ -36,7 +36,7 @@ pub(super) struct MjcfJoint {
     pub(super) limits: Option<[f64; 2]>,
     /// The position at which the body has its pose.
     pub(super) reference: f64,
-    /// Whether MuJoCo moves the body's frame to its centre of mass.
+    /// Whether MuJoCo moves the body's frame to its center of mass.
     is_aligned: bool,
 }
 

@@ -12,7 +12,7 @@ pub(super) struct Settings {
     pub(super) euler_axes: [char; 3],
     /// Whether a joint with a range is limited by default.
     pub(super) limits_follow_ranges: bool,
-    /// Whether the frame of a free body without children is moved to its centre of mass.
+    /// Whether the frame of a free body without children is moved to its center of mass.
     pub(super) aligns_free_bodies: bool,
     /// Whether a body is not checked against its parent.
     pub(super) skips_parents: bool,

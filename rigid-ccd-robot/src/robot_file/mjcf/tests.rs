@@ -74,7 +74,7 @@ fn largest_difference(pose: Pose, expected: DAffine3) -> f64 {
 #[test]
 fn joints_move_bodies_about_their_anchors() {
     let robot = file_of(LEG).read().unwrap();
-    let names: Vec<&str> = robot.free_joint_names().collect();
+    let names: Vec<&str> = robot.independent_joint_names().collect();
     let stone = ["x", "y", "z", "yaw", "pitch", "roll"].map(|own| format!("stone/joint0/{own}"));
     let mut known = vec!["turn", "tilt", "slide"];
     known.extend(stone.iter().map(String::as_str));
@@ -99,7 +99,7 @@ fn joints_move_bodies_about_their_anchors() {
 #[test]
 fn a_joint_follows_another_one() {
     let robot = file_of(LEG).read().unwrap();
-    let mut at = vec![0.0; robot.free_joint_names().len()];
+    let mut at = vec![0.0; robot.independent_joint_names().len()];
     at[0] = 0.7;
     let [shank, toe] = ["shank", "toe"].map(|link| robot.pose(link, &at).unwrap());
     let turned = (shank.rotation().inverse() * toe.rotation()).to_scaled_axis();
@@ -116,7 +116,7 @@ fn constraints_in_a_circle_are_broken_up() {
         <body name="b"><joint name="q"/><geom size="1"/></body></body></worldbody>
         <equality><joint joint1="p" joint2="q"/><joint joint1="q" joint2="p"/></equality></mujoco>"#;
     let robot = file_of(text).read().unwrap();
-    assert_eq!(robot.free_joint_names().collect::<Vec<_>>(), ["q"]);
+    assert_eq!(robot.independent_joint_names().collect::<Vec<_>>(), ["q"]);
 }
 
 fn checked_names(text: &str, elements: BodyElements) -> Vec<String> {
@@ -431,7 +431,7 @@ fn parents_are_checked_if_the_model_says_so_and_mocap_bodies_move() {
         ["a b", "a target", "b target"]
     );
     let robot = file_of(text).read().unwrap();
-    assert_eq!(robot.free_joint_names().len(), 8);
+    assert_eq!(robot.independent_joint_names().len(), 8);
     let with_parents = text.replace("disable", "enable");
     assert_eq!(
         checked_names(&with_parents, BodyElements::Collision).len(),
@@ -454,7 +454,10 @@ fn settings_are_those_that_mujoco_takes() {
     let robot = RobotFile::from_text(text, folder.path().join("model.xml"))
         .read()
         .unwrap();
-    assert_eq!(robot.free_joint_names().collect::<Vec<_>>(), ["p", "q"]);
+    assert_eq!(
+        robot.independent_joint_names().collect::<Vec<_>>(),
+        ["p", "q"]
+    );
     assert!(
         robot
             .limits()

@@ -35,7 +35,7 @@ fn sampled_distances_are_on_the_proven_side() {
         let ranges = solver
             .clearance_ranges(&path, RangeSettings::DEFAULT)
             .unwrap();
-        let at = |point: PathPoint| point.segment as f64 + point.share;
+        let at = |point: PathPoint| point.segment as f64 + point.fraction;
         assert_eq!(at(ranges[0].from), 0.0);
         assert_eq!(at(ranges[ranges.len() - 1].to), (path.len() - 1) as f64);
         length += (path.len() - 1) as f64;
@@ -52,8 +52,10 @@ fn sampled_distances_are_on_the_proven_side() {
                     at(range.from) + f64::from(sample) / 8.0 * (at(range.to) - at(range.from));
                 let there = PathPoint::from_path_position(there, path.len() - 1);
                 let ends = [&path[there.segment], &path[there.segment + 1]];
-                let distance =
-                    least_distance(&cell, &configuration_between(ends[0], ends[1], there.share));
+                let distance = least_distance(
+                    &cell,
+                    &configuration_between(ends[0], ends[1], there.fraction),
+                );
                 match range.verdict {
                     ClearanceVerdict::Kept => {
                         assert!(distance > margin, "{distance} of {margin} in {range:?}");
@@ -100,7 +102,7 @@ fn without_time_nothing_is_verified() {
     else {
         panic!("{ranges:?}");
     };
-    assert_eq!(to.share, 1.0);
+    assert_eq!(to.fraction, 1.0);
 }
 
 /// Tests that a budget limits the whole question at any resolution, and that its verdicts hold.
@@ -121,19 +123,19 @@ fn a_budget_ends_the_question() {
         let path: Vec<[f64; 1]> = (0..4).map(|k| [0.5 * f64::from(k)]).collect();
         let ranges = solver.clearance_ranges(&path, finest).unwrap();
         let last = ranges[ranges.len() - 1];
-        assert_eq!((last.to.segment, last.to.share), (2, 1.0));
+        assert_eq!((last.to.segment, last.to.fraction), (2, 1.0));
         let known = ranges
             .iter()
             .filter(|range| range.verdict != ClearanceVerdict::Unverified);
         let length = |range: &ClearanceRange| {
-            let at = |point: PathPoint| point.segment as f64 + point.share;
+            let at = |point: PathPoint| point.segment as f64 + point.fraction;
             at(range.to) - at(range.from)
         };
         verified.push(known.map(length).sum::<f64>());
         // The balls of radius 0.1 are nearer than 0.1 if the angle between them is below this.
         let near = angle_of_gap(0.1);
         for range in ranges.iter() {
-            let angle = |point: PathPoint| 0.5 * (point.segment as f64 + point.share);
+            let angle = |point: PathPoint| 0.5 * (point.segment as f64 + point.fraction);
             let [from, to] = [range.from, range.to].map(|point| angle(point) - 1.0);
             match range.verdict {
                 ClearanceVerdict::Kept => assert!(to < -near || from > near, "{range:?}"),
@@ -205,7 +207,7 @@ fn a_stop_of_a_hinge_limits_it() {
         assert_eq!(verdicts, [Kept, Unverified, Violated, Unverified, Kept]);
         let borders = [2.0 - angle_of_gap(gap), 2.0 + angle_of_gap(gap)];
         for (border, range) in borders.iter().zip([ranges[1], ranges[3]]) {
-            let [from, to] = [range.from, range.to].map(|at| PI * at.share);
+            let [from, to] = [range.from, range.to].map(|at| PI * at.fraction);
             assert!(from <= *border && *border <= to, "{border} in {range:?}");
             assert!(to - from <= 2.001 * PI / 4096.0, "{range:?}");
         }
@@ -272,7 +274,7 @@ fn an_error_of_poses_is_kept_on_both_sides() {
         [ClearanceVerdict::Kept, ClearanceVerdict::Violated]
     );
     // Both balls may deviate.
-    let [from, to] = [unverified.from, unverified.to].map(|at| 2.0 * at.share);
+    let [from, to] = [unverified.from, unverified.to].map(|at| 2.0 * at.fraction);
     assert!(
         (from - (2.0 - angle_of_gap(0.12))).abs() < 1e-3,
         "{unverified:?}"

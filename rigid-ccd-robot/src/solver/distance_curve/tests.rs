@@ -30,9 +30,10 @@ fn no_sample_is_below_the_curve() {
                 let at = range.from.time()
                     + random.random_range(0.0..=1.0) * (range.to.time() - range.from.time());
                 let segment = (at as usize).min(1);
-                let share = at - segment as f64;
-                let between =
-                    |k: usize| path[segment][k] + share * (path[segment + 1][k] - path[segment][k]);
+                let fraction = at - segment as f64;
+                let between = |k: usize| {
+                    path[segment][k] + fraction * (path[segment + 1][k] - path[segment][k])
+                };
                 let configuration: Vec<f64> = (0..path[0].len()).map(between).collect();
                 let measured = least_distance(&cell, &configuration);
                 assert!(measured >= closest.lower() - 1e-9, "{measured} {closest:?}");

@@ -126,7 +126,7 @@ fn rates_without_a_period_are_searched() {
     let PathOutcome::Contact(PathContact { at, .. }) = outcome else {
         panic!("{outcome:?}");
     };
-    let before = [[0.3], [0.3 + TAU * 30.0 * (at.share - 1e-3)]];
+    let before = [[0.3], [0.3 + TAU * 30.0 * (at.fraction - 1e-3)]];
     assert_eq!(
         solver.first_contact(&before).unwrap().outcome,
         PathOutcome::Free
@@ -159,7 +159,7 @@ fn each_pair_has_its_own_period() {
     let PathOutcome::Contact(contact) = solver.first_contact(&path).unwrap().outcome else {
         panic!("the slide reaches the ball above it");
     };
-    assert!((contact.at.share - 0.8).abs() < 1e-4, "{contact:?}");
+    assert!((contact.at.fraction - 0.8).abs() < 1e-4, "{contact:?}");
     solver.set_settings(Settings {
         margin: 0.31,
         ..settings()
@@ -172,5 +172,5 @@ fn each_pair_has_its_own_period() {
         contact.items.map(|item| item.name().to_owned()),
         ["arm", "beside"]
     );
-    assert!(contact.at.share < 1.0 / 40.0, "{contact:?}");
+    assert!(contact.at.fraction < 1.0 / 40.0, "{contact:?}");
 }

@@ -12,7 +12,7 @@ use rigid_ccd::oracle::Frame;
 #[test]
 fn frames_are_within_the_bound_on_rounding() {
     let mut random = Pcg64::seed_from_u64(5);
-    let mut largest_share = 0.0;
+    let mut largest_fraction = 0.0;
     for _ in 0..300 {
         let cell = random_cell(&mut random);
         let (robot, kinematics) = (cell.robot(), cell.kinematics());
@@ -39,14 +39,14 @@ fn frames_are_within_the_bound_on_rounding() {
             for &point in body.pieces().points() {
                 let in_frame = cell.bodies()[part.owner].pose.transform_point(point);
                 let found = frames[part.frame].transform_point(in_frame);
-                let share = found.distance(pose.transform_point(point)) / bound;
-                largest_share = greater(largest_share, share);
+                let fraction = found.distance(pose.transform_point(point)) / bound;
+                largest_fraction = greater(largest_fraction, fraction);
             }
         }
     }
     assert!(
-        largest_share < 1.0 && largest_share > 1e-4,
-        "{largest_share}"
+        largest_fraction < 1.0 && largest_fraction > 1e-4,
+        "{largest_fraction}"
     );
 }
 
@@ -54,20 +54,20 @@ fn frames_are_within_the_bound_on_rounding() {
 #[test]
 fn displacements_are_within_their_bounds() {
     let mut random = Pcg64::seed_from_u64(6);
-    let mut largest_share = 0.0;
+    let mut largest_fraction = 0.0;
     for _ in 0..200 {
         let cell = random_cell(&mut random);
         let kinematics = cell.kinematics();
         let parts = &cell.parts()[..cell.robot_part_count()];
         let ends = [(); 2].map(|()| random_configuration(&mut random, cell.robot()));
         let half = random.random_range(0.01..0.5);
-        let share = FramesAndRates::new(kinematics, &ends, 0.5);
+        let fraction = FramesAndRates::new(kinematics, &ends, 0.5);
         let mut displacements = DisplacementBounds::new(kinematics, parts);
         displacements.update(
             kinematics,
             parts,
-            &share.frames,
-            &share
+            &fraction.frames,
+            &fraction
                 .rates
                 .iter()
                 .map(|rate| half * rate)
@@ -90,17 +90,17 @@ fn displacements_are_within_their_bounds() {
                             frames[seen_from]
                                 .inverse_transform_point(frames[part.frame].transform_point(point))
                         };
-                        let moved = place(&share.frames).distance(place(&later.frames));
+                        let moved = place(&fraction.frames).distance(place(&later.frames));
                         assert!(moved <= bound + 1e-12, "{moved} beyond {bound}");
                         if bound > 1e-6 {
-                            largest_share = greater(largest_share, moved / bound);
+                            largest_fraction = greater(largest_fraction, moved / bound);
                         }
                     }
                 }
             }
         }
     }
-    assert!(largest_share > 0.7, "{largest_share}");
+    assert!(largest_fraction > 0.7, "{largest_fraction}");
 }
 
 /// The frames at a point of an edge, and the rates of its joints.
@@ -110,14 +110,14 @@ struct FramesAndRates {
 }
 
 impl FramesAndRates {
-    fn new(kinematics: &Kinematics, [from, to]: &[Vec<f64>; 2], share: f64) -> Self {
+    fn new(kinematics: &Kinematics, [from, to]: &[Vec<f64>; 2], fraction: f64) -> Self {
         let sources = kinematics.joints().iter().map(|joint| joint.source);
         let ends: Vec<[f64; 2]> = sources
             .map(|source| [source.position(from), source.position(to)])
             .collect();
         let mut frames = Vec::new();
         kinematics.place(
-            ends.iter().map(|[from, to]| from + share * (to - from)),
+            ends.iter().map(|[from, to]| from + fraction * (to - from)),
             &mut frames,
         );
         let rates = ends.iter().map(|[from, to]| (to - from).abs()).collect();

@@ -51,13 +51,13 @@ fn a_budget_is_for_a_whole_question() {
             work as f64 / most as f64
         };
         let samples = |until: f64| {
-            let shares = (0..=20).map(move |k| until * f64::from(k) / 20.0);
+            let fractions = (0..=20).map(move |k| until * f64::from(k) / 20.0);
             let at = |time: f64| {
                 let segment = (time as usize).min(path.len() - 2);
-                let share = time - segment as f64;
-                configuration_between(&path[segment], &path[segment + 1], share)
+                let fraction = time - segment as f64;
+                configuration_between(&path[segment], &path[segment + 1], fraction)
             };
-            let distances = shares.map(|time| least_distance(&cell, &at(time)));
+            let distances = fractions.map(|time| least_distance(&cell, &at(time)));
             distances.fold(f64::INFINITY, lesser)
         };
         let answer = solver.first_contact(&path).unwrap();

@@ -46,7 +46,7 @@ impl TestPath {
     fn at(&self, at: PathPoint) -> Vec<f64> {
         match self {
             TestPath::Configurations(path) => match path.get(at.segment + 1) {
-                Some(next) => configuration_between(&path[at.segment], next, at.share),
+                Some(next) => configuration_between(&path[at.segment], next, at.fraction),
                 None => path[at.segment].clone(),
             },
             TestPath::Curve(curve) => curve.positions(curve.time(at)),
@@ -56,10 +56,10 @@ impl TestPath {
     /// Returns points of the path, some in each segment.
     fn sampled_points(&self) -> Vec<PathPoint> {
         let segments = 0..self.segment_count().max(1);
-        let shares = |segment| (0..=8).map(move |k| (segment, f64::from(k) / 8.0));
-        let points = segments.flat_map(shares);
+        let fractions = |segment| (0..=8).map(move |k| (segment, f64::from(k) / 8.0));
+        let points = segments.flat_map(fractions);
         points
-            .map(|(segment, share)| PathPoint { segment, share })
+            .map(|(segment, fraction)| PathPoint { segment, fraction })
             .collect()
     }
 }

@@ -101,7 +101,7 @@ fn a_can_that_is_lifted_from_a_table_meets_the_shelf_above() {
     );
     let path = [[0.0], [1.0]];
     let reported = cell.solver().first_contact(&path).unwrap().outcome;
-    assert!(matches!(reported, PathOutcome::Contact(at) if at.at.share == 0.0));
+    assert!(matches!(reported, PathOutcome::Contact(at) if at.at.fraction == 0.0));
     let settings = Settings {
         tolerance: 1e-4,
         ..leave()
@@ -110,7 +110,10 @@ fn a_can_that_is_lifted_from_a_table_meets_the_shelf_above() {
     let PathOutcome::Contact(contact) = solver.first_contact(&path).unwrap().outcome else {
         panic!("there is a shelf");
     };
-    assert!((0.7928..=0.793).contains(&contact.at.share), "{contact:?}");
+    assert!(
+        (0.7928..=0.793).contains(&contact.at.fraction),
+        "{contact:?}"
+    );
     assert_eq!(contact.items.map(Item::name), ["can", "shelf"]);
     assert!(!solver.is_free(&path).unwrap());
     assert!(solver.is_free(&[[0.0], [0.79]]).unwrap());
@@ -125,7 +128,7 @@ fn a_can_that_is_lifted_from_a_table_meets_the_shelf_above() {
     };
     assert_eq!(contact.items.map(Item::name), ["can", "table"]);
     assert!(
-        contact.at.segment == 1 && contact.at.share > 0.999,
+        contact.at.segment == 1 && contact.at.fraction > 0.999,
         "{contact:?}"
     );
     // Moving down into the table is a contact.
@@ -139,7 +142,7 @@ fn a_can_that_is_lifted_from_a_table_meets_the_shelf_above() {
         .first_contact(&path)
         .unwrap()
         .outcome;
-    assert!(matches!(found, PathOutcome::Contact(found) if found.at.share == 0.0));
+    assert!(matches!(found, PathOutcome::Contact(found) if found.at.fraction == 0.0));
     // An allowed contact is not checked.
     let pair = [Item::Attached("can"), Item::Obstacle("table")];
     cell.allow_contact(pair).unwrap();
@@ -164,9 +167,9 @@ struct Case {
     end: f64,
 }
 
-/// Draws a joint by which a box with the given centre rises, slides or sinks. Also returns the initial direction: 1, 0
+/// Draws a joint by which a box with the given center rises, slides or sinks. Also returns the initial direction: 1, 0
 /// or -1.
-fn random_case(random: &mut Pcg64, centre: DVec3) -> (Case, i32) {
+fn random_case(random: &mut Pcg64, center: DVec3) -> (Case, i32) {
     let kind = random.random_range(-1..=1);
     if random.random_range(0..2) == 0 {
         let side = random.random_range(0.0..TAU);
@@ -176,7 +179,7 @@ fn random_case(random: &mut Pcg64, centre: DVec3) -> (Case, i32) {
         let axis = axis.to_array();
         let joint = slide(axis);
         let motion = Motion::new(
-            Pose::at(centre).unwrap(),
+            Pose::at(center).unwrap(),
             DVec3::from(axis) * length,
             [0.0; 3],
         );
@@ -205,11 +208,11 @@ fn random_case(random: &mut Pcg64, centre: DVec3) -> (Case, i32) {
         // About a horizontal axis beside the box, it rises or sinks.
         let away = [-1.0f64, 1.0][random.random_range(0..2)] * random.random_range(0.4..1.0);
         let axis = DVec3::Y * away.signum() * f64::from(kind);
-        ([centre.x + away, 0.0, random.random_range(-0.1..0.3)], axis)
+        ([center.x + away, 0.0, random.random_range(-0.1..0.3)], axis)
     };
     let joint = trajectory::Joint::revolute(at(origin), axis.to_array()).unwrap();
-    let start = Pose::at(centre).unwrap();
-    let motion = Motion::about(start, [0.0; 3], axis * turn, DVec3::from(origin) - centre);
+    let start = Pose::at(center).unwrap();
+    let motion = Motion::about(start, [0.0; 3], axis * turn, DVec3::from(origin) - center);
     (
         Case {
             joint,
@@ -223,12 +226,12 @@ fn random_case(random: &mut Pcg64, centre: DVec3) -> (Case, i32) {
 
 /// Returns the height of a moving box's lowest corner at a time, computed independently.
 fn least_height(motion: &Motion, half: DVec3, time: f64) -> f64 {
-    let turned = DQuat::from_scaled_axis(motion.spin() * time);
+    let turned = DQuat::from_scaled_axis(motion.angular_velocity() * time);
     let start = motion.start().translation();
-    let pivot = start + motion.centre() + motion.velocity() * time;
+    let pivot = start + motion.center() + motion.velocity() * time;
     let corners = (0..8).map(|k| {
         let side = |bit: u32| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
-        half * DVec3::new(side(0), side(1), side(2)) - motion.centre()
+        half * DVec3::new(side(0), side(1), side(2)) - motion.center()
     });
     corners
         .map(|corner| (pivot + turned * corner).z)
@@ -244,14 +247,14 @@ fn a_pair_in_contact_at_the_start_answers_as_two_bodies_do() {
     for round in 0..600 {
         let half = DVec3::from_array([(); 3].map(|()| random.random_range(0.05..0.2)));
         let gap = [0.0, 0.0, 3e-5, 4e-4][random.random_range(0..4)];
-        let centre = DVec3::new(0.0, random.random_range(-0.3..0.3), half.z + gap);
-        let (case, kind) = random_case(&mut random, centre);
+        let center = DVec3::new(0.0, random.random_range(-0.3..0.3), half.z + gap);
+        let (case, kind) = random_case(&mut random, center);
         let (ground, body) = (slab(round % 3 == 0), Body::cuboid(half).unwrap());
         let robot = robot_of(vec![case.joint]);
         let obstacles = [("slab", ground.clone(), Pose::IDENTITY)];
         let cell = cell_with_can(
             robot,
-            (body.clone(), Pose::at(centre - case.origin).unwrap()),
+            (body.clone(), Pose::at(center - case.origin).unwrap()),
             &obstacles,
         );
         let mut solver = cell.solver().with_settings(leave());
@@ -273,10 +276,10 @@ fn a_pair_in_contact_at_the_start_answers_as_two_bodies_do() {
             (PathOutcome::Free, Outcome::Free { .. }) => 1.0,
             (PathOutcome::Contact(contact), Outcome::Contact { time, .. }) => {
                 let height = |time: f64| least_height(&case.motion, half, time);
-                let [own, other] = [contact.at.share, time].map(height);
+                let [own, other] = [contact.at.fraction, time].map(height);
                 assert!((own - other).abs() <= 1e-3, "{round}: {contact:?} {time}");
                 assert!(own <= gap + 1e-9, "{round}: {own} {contact:?}");
-                contact.at.share
+                contact.at.fraction
             }
             other => panic!("{round}: {kind} {gap} {other:?}"),
         };
@@ -326,8 +329,8 @@ fn arms_lift_and_press_what_stands_on_a_slab() {
             random.random_range(-0.4..0.4),
         ];
         let link = robot.pose("link3", &start).unwrap();
-        let centre = DVec3::new(1.2, 0.1, half.z);
-        let held = link.inverse().compose(&Pose::at(centre).unwrap());
+        let center = DVec3::new(1.2, 0.1, half.z);
+        let held = link.inverse().compose(&Pose::at(center).unwrap());
         let obstacles = [("slab", slab(round % 2 == 0), Pose::IDENTITY)];
         let cell = cell_with_can(robot, (Body::cuboid(half).unwrap(), held), &obstacles);
         let lifts = random.random_range(0..2) == 1;
@@ -355,15 +358,15 @@ fn arms_lift_and_press_what_stands_on_a_slab() {
         };
         let until = match outcome {
             PathOutcome::Free => 1.0,
-            PathOutcome::Contact(contact) => contact.at.share,
+            PathOutcome::Contact(contact) => contact.at.fraction,
             _ => panic!("{round}: {outcome:?}"),
         };
         for k in 0..=300 {
-            let share = f64::from(k) / 300.0;
+            let fraction = f64::from(k) / 300.0;
             let eased = match round % 3 {
-                0 => share * share * (3.0 - 2.0 * share),
-                1 => share.powi(3) * (10.0 - share * (15.0 - 6.0 * share)),
-                _ => share,
+                0 => fraction * fraction * (3.0 - 2.0 * fraction),
+                1 => fraction.powi(3) * (10.0 - fraction * (15.0 - 6.0 * fraction)),
+                _ => fraction,
             };
             let placed = cell
                 .placed_bodies(&configuration_between(&start, &end, eased))
@@ -380,8 +383,8 @@ fn arms_lift_and_press_what_stands_on_a_slab() {
             });
             let height = corners.fold(f64::INFINITY, lesser);
             assert!(
-                share >= until || height >= -2e-9,
-                "{round}: {height} at {share} of {until}"
+                fraction >= until || height >= -2e-9,
+                "{round}: {height} at {fraction} of {until}"
             );
         }
         counts[usize::from(lifts)][usize::from(outcome == PathOutcome::Free)] += 1;

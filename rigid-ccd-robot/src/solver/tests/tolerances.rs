@@ -60,7 +60,7 @@ impl BallArm {
         }
     }
 
-    /// Returns the centre of the ball at given joint positions.
+    /// Returns the center of the ball at given joint positions.
     pub(super) fn ball(&self, positions: &[f64]) -> DVec3 {
         let steps = self.joints.iter().zip(positions).rev();
         steps.fold(DVec3::ZERO, |at, (joint, &position)| {
@@ -194,7 +194,7 @@ fn edges_state_the_tolerance_that_they_meet() {
             panic!("the ball passes the post");
         };
         let met = solver.met_tolerance();
-        let at = configuration_between(&path[0], &path[1], contact.at.share);
+        let at = configuration_between(&path[0], &path[1], contact.at.fraction);
         let distance = arm.distance(&at);
         assert!(distance <= 0.25 + met, "{distance} {met}");
         let closest = solver.closest_approach(&path).unwrap().outcome;
@@ -247,11 +247,11 @@ fn random_values(random: &mut Pcg64) -> Vec<f64> {
 }
 
 /// Returns the positions of all joints on a curve of one segment, computed in double-double precision.
-fn referee_positions(curve: &JointCurve, joint_count: usize, share: f64) -> Vec<f64> {
+fn referee_positions(curve: &JointCurve, joint_count: usize, fraction: f64) -> Vec<f64> {
     let joints = (0..joint_count).map(|joint| {
         let powers = (0..=curve.degree()).rev();
         let value = powers.fold(DoubleDouble::default(), |value, power| {
-            curve.coefficient(0, power, joint) + value * DoubleDouble::from(share)
+            curve.coefficient(0, power, joint) + value * DoubleDouble::from(fraction)
         });
         value.value()
     });
@@ -280,9 +280,9 @@ fn random_curves_keep_the_tolerance_that_they_state() {
         let polynomials: Vec<Vec<f64>> = joints
             .iter()
             .map(|joint| {
-                let shares = random_values(&mut random).into_iter().enumerate();
+                let fractions = random_values(&mut random).into_iter().enumerate();
                 let scaled =
-                    shares.map(|(power, own)| size(joint) * own / duration.powi(power as i32));
+                    fractions.map(|(power, own)| size(joint) * own / duration.powi(power as i32));
                 scaled.collect()
             })
             .collect();
@@ -307,27 +307,27 @@ fn random_curves_keep_the_tolerance_that_they_state() {
             PathOutcome::Free => 1.0,
             PathOutcome::Contact(contact) => {
                 contacts += 1;
-                let there = referee_positions(&curve, count, contact.at.share);
+                let there = referee_positions(&curve, count, contact.at.fraction);
                 let distance = arm.distance(&there);
                 assert!(
                     distance <= margin + 1.001 * met + rounding,
                     "{number}: {distance} of {met} {tolerance}"
                 );
                 assert!(met <= 1.001 * greater(tolerance, 1e4 * rounding), "{met}");
-                contact.at.share
+                contact.at.fraction
             }
             _ => panic!("{number}: {outcome:?}"),
         };
         free += usize::from(outcome == PathOutcome::Free);
         for k in 0..1000 {
-            let share = until * f64::from(k) / 1000.0;
-            if share == until {
+            let fraction = until * f64::from(k) / 1000.0;
+            if fraction == until {
                 break;
             }
-            let distance = arm.distance(&referee_positions(&curve, count, share));
+            let distance = arm.distance(&referee_positions(&curve, count, fraction));
             assert!(
                 distance > margin - rounding,
-                "{number}: {distance} at {share} before {until}"
+                "{number}: {distance} at {fraction} before {until}"
             );
         }
         assert_eq!(curve.segment_count(), 1);

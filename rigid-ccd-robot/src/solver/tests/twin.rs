@@ -272,7 +272,7 @@ fn compare(both: &Both, [from, to]: [&[f64]; 2], settings: &Settings, counts: &m
     );
     let until = match &found {
         PathOutcome::Free => f64::INFINITY,
-        PathOutcome::Contact(contact) => contact.at.share,
+        PathOutcome::Contact(contact) => contact.at.fraction,
         _ => panic!("{found:?}"),
     };
     let mut is_confirmed = false;

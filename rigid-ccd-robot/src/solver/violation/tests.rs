@@ -25,9 +25,9 @@ fn a_ball_is_found_only_in_the_hull() {
     let mut random = Pcg64::seed_from_u64(31);
     let (mut found, mut missed) = (0, 0);
     for _ in 0..2000 {
-        let centre = random_vector(&mut random, 0.6);
+        let center = random_vector(&mut random, 0.6);
         let points: Vec<DVec3> = (0..random.random_range(4..30))
-            .map(|_| centre + random_vector(&mut random, 1.0))
+            .map(|_| center + random_vector(&mut random, 1.0))
             .collect();
         let radius = random.random_range(0.0..0.5);
         let is_found = contains_ball(|direction| lowest_point(&points, direction), radius);

@@ -143,12 +143,12 @@ fn check_stop_contact(scene: &Scene<'_>, index: usize, stop: &Stop, reach: f64) 
     } else {
         hit.witness_b()
     };
-    let centre = scene.members[index]
+    let center = scene.members[index]
         .movement
         .pose(hit.time)
         .unwrap()
         .translation();
-    assert!(mine.distance(centre) <= span * (1.0 + 1e-12) + rounding);
+    assert!(mine.distance(center) <= span * (1.0 + 1e-12) + rounding);
 }
 
 #[test]
@@ -397,7 +397,7 @@ struct UncertainMotion {
 impl Trajectory for UncertainMotion {
     fn stretch_between(&self, from: f64, to: f64) -> Result<Stretch, InputError> {
         let mut stretch = self.motion.stretch_between(from, to)?;
-        stretch.deviation_bound.centre_deviation += self.shift;
+        stretch.deviation_bound.center_deviation += self.shift;
         Ok(stretch)
     }
 }

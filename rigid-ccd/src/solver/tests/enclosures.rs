@@ -187,7 +187,7 @@ fn overlapping_enclosures_violate_no_clearance_within_the_excess() {
 #[cfg(feature = "meshes")]
 #[test]
 fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {
-    use ccd_decomp::{Detail, Format, StoredBodyContent, TriangleMesh, body_from_mesh};
+    use ccd_decomp::{Format, PieceChoice, StoredBodyContent, TriangleMesh, body_from_mesh};
     let mut block = String::new();
     let outline = [
         [-2, -2],
@@ -210,7 +210,7 @@ fn approximate_hulls_violate_no_clearance_that_the_mesh_keeps() {
         block += &format!("f {k} {} {} {next}\n", k + 8, next + 8);
     }
     let mesh = TriangleMesh::from_reader(Format::Obj, block.as_bytes()).unwrap();
-    let prepared = body_from_mesh(&mesh, Detail::OuterHull).unwrap();
+    let prepared = body_from_mesh(&mesh, PieceChoice::OuterHull).unwrap();
     let body = &prepared.body;
     assert!(body.excess() == prepared.report.excess && body.excess() >= 1.0);
     let again = StoredBodyContent::from_body(body).unwrap().body().unwrap();

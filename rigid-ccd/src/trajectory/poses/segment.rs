@@ -26,19 +26,19 @@ impl Segment {
     /// shortest rotation.
     pub(super) fn new(
         [from, to]: [Pose; 2],
-        centre: DVec3,
+        center: DVec3,
         duration: f64,
         spin: DVec3,
     ) -> Result<Self, InputError> {
         if spin == DVec3::ZERO {
             return Ok(Segment {
-                motion: Motion::between(from, to, centre, duration)?,
+                motion: Motion::between(from, to, center, duration)?,
                 leftover_spin: DVec3::ZERO,
             });
         }
-        let way = to.transform_point(centre) - from.transform_point(centre);
+        let way = to.transform_point(center) - from.transform_point(center);
         Ok(Segment {
-            motion: Motion::about(from, way / duration, spin, centre)?,
+            motion: Motion::about(from, way / duration, spin, center)?,
             leftover_spin: residual_rotation([&from, &to], spin, duration) / duration,
         })
     }
@@ -50,24 +50,24 @@ impl Segment {
         if time == 0.0 && leftover_spin == DVec3::ZERO {
             return Ok(*motion);
         }
-        let (near, centre) = (motion.pose(time), motion.centre());
+        let (near, center) = (motion.pose(time), motion.center());
         let (pose, spin) = if leftover_spin == DVec3::ZERO {
-            (near, motion.spin())
+            (near, motion.angular_velocity())
         } else {
             let turn = DQuat::from_scaled_axis(leftover_spin * time);
             let rotation = turn * near.rotation();
-            let place = near.transform_point(centre) - rotation * centre;
+            let place = near.transform_point(center) - rotation * center;
             (
                 Pose::new(place, rotation)?,
-                leftover_spin + turn * motion.spin(),
+                leftover_spin + turn * motion.angular_velocity(),
             )
         };
-        Motion::about(pose, motion.velocity(), spin, centre)
+        Motion::about(pose, motion.velocity(), spin, center)
     }
 
     /// Returns a bound on the angular acceleration. The angular velocity is `e + exp(s e) w`, per unit of time.
     pub(super) fn angular_acceleration(&self) -> f64 {
-        length(self.leftover_spin) * length(self.motion.spin())
+        length(self.leftover_spin) * length(self.motion.angular_velocity())
     }
 }
 

@@ -15,7 +15,7 @@ fn check_deviation_between(
         let (a, b) = if a < b { (a, b) } else { (b, a) };
         let stretch = trajectory.stretch_between(a, b).unwrap();
         assert!(
-            stretch.deviation_bound.centre_deviation >= 0.0
+            stretch.deviation_bound.center_deviation >= 0.0
                 && stretch.deviation_bound.max_deviation_angle >= 0.0,
             "{name}"
         );
@@ -24,14 +24,14 @@ fn check_deviation_between(
         let allowed = stretch.deviation_bound + exact.deviation_bound;
         let near = stretch.pose(time - a);
         let there = exact.motion.start();
-        let centre = stretch.motion.centre();
+        let center = stretch.motion.center();
         let shift = near
-            .transform_point(centre)
-            .distance(there.transform_point(centre));
+            .transform_point(center)
+            .distance(there.transform_point(center));
         let turned = near.rotation().conjugate() * there.rotation();
         let turn = 2.0 * turned.xyz().length().atan2(turned.w.abs());
         assert!(
-            shift <= allowed.centre_deviation,
+            shift <= allowed.center_deviation,
             "{name}: {shift:e} {allowed:?}"
         );
         assert!(
@@ -71,7 +71,7 @@ fn places_may_come_from_afar() {
         (0.0, Pose::at([1e9, 0.1, 0.2]).unwrap()),
         (1.0, Pose::IDENTITY),
     ];
-    let poses = Poses::new(stops).unwrap();
+    let poses = PosePath::new(stops).unwrap();
     check_deviation_between("poses", &poses, 0.9, 1.0, &mut rng);
 }
 
@@ -85,7 +85,7 @@ fn trajectories_rest_after_their_end() {
         OrientationCurve::piecewise_slerp(&keys(&mut rng, 3)).unwrap(),
     );
     let stops = [0.0, 1.0].map(|time| (time, random_motion(&mut rng).unwrap().start()));
-    let poses = Poses::new(stops.to_vec()).unwrap();
+    let poses = PosePath::new(stops.to_vec()).unwrap();
     for time in [0.0, 0.5, 1.0, 1.5, 3.0] {
         let strays = [
             spline.stretch_between(time, time),
@@ -95,7 +95,7 @@ fn trajectories_rest_after_their_end() {
         ];
         for stretch in strays {
             let DeviationBound {
-                centre_deviation: shift,
+                center_deviation: shift,
                 max_deviation_angle: turn,
             } = stretch.unwrap().deviation_bound;
             assert!(shift < 1e-10 && turn < 1e-10, "{time}: {shift:e} {turn:e}");
@@ -108,10 +108,13 @@ fn axes_have_any_length_but_0() {
     for length in [1e-300, 1e-161, 1e155, 1e300] {
         let axis = [0.0, 0.0, length];
         let joint = Joint::revolute(Pose::IDENTITY, axis).unwrap();
-        assert_eq!(joint.motion(0.0, 1.0, 1.0).unwrap().spin(), DVec3::Z);
+        assert_eq!(
+            joint.motion(0.0, 1.0, 1.0).unwrap().angular_velocity(),
+            DVec3::Z
+        );
         let screw = screw(Pose::IDENTITY, [0.0; 3], axis, 2.0, 3.0).unwrap();
         assert_eq!(
-            (screw.spin(), screw.velocity()),
+            (screw.angular_velocity(), screw.velocity()),
             (2.0 * DVec3::Z, 3.0 * DVec3::Z)
         );
         let keys = [(0.0, [0.0, 0.0, 0.0, length])];
@@ -136,7 +139,7 @@ fn differences_that_overflow_are_unbounded() {
         let curve = Curve::bezier(&points, duration).unwrap();
         let spline = Spline::new(curve, OrientationCurve::piecewise_slerp(&keys).unwrap());
         if let Ok(stretch) = spline.stretch_between(0.0, duration) {
-            let deviation = stretch.deviation_bound.centre_deviation;
+            let deviation = stretch.deviation_bound.center_deviation;
             assert!(deviation >= 0.5, "{duration:e}: {deviation:e}");
         }
     }

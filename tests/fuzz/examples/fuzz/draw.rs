@@ -28,8 +28,8 @@ impl RandomSource {
         self.0.random_range(range)
     }
 
-    pub fn bool_with_probability(&mut self, share: f64) -> bool {
-        self.0.random::<f64>() < share
+    pub fn bool_with_probability(&mut self, fraction: f64) -> bool {
+        self.0.random::<f64>() < fraction
     }
 
     pub fn pick<T: Copy>(&mut self, of: &[T]) -> T {

@@ -21,7 +21,7 @@ use clap::ValueEnum;
 pub enum Family {
     /// Needles and slivers, denormal components, faces without area.
     Needles,
-    /// End poses and centres of rotation far from the origin, and tight tolerances.
+    /// End poses and centers of rotation far from the origin, and tight tolerances.
     Far,
     /// Closed parts next to each other and nested, oriented outward or inward.
     Shells,
@@ -58,7 +58,7 @@ impl Family {
     }
 }
 
-/// Returns a case of two moving shapes that pass each other, or meet, at about half the duration. Their centres come
+/// Returns a case of two moving shapes that pass each other, or meet, at about half the duration. Their centers come
 /// within about the sum of their radii. Both rotate by up to `turn` over a duration of 1.
 fn passing_case(draw: &mut RandomSource, shapes: [Shape; 2], turn: f64, config: Settings) -> Case {
     let reach = shapes[0].radius() + shapes[1].radius() + config.margin;

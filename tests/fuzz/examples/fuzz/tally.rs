@@ -73,7 +73,7 @@ impl Tally {
         !self.fault_counts.is_empty()
     }
 
-    fn share(&self, statuses: &[&str]) -> f64 {
+    fn fraction(&self, statuses: &[&str]) -> f64 {
         let count = statuses
             .iter()
             .filter_map(|&s| self.status_counts.get(s))
@@ -86,7 +86,7 @@ impl Tally {
     /// # Panics
     /// If almost no query has a contact, or almost all have one: then little is tested.
     pub fn assert_representative(&self) {
-        let (hits, misses) = (self.share(&["contact"]), self.share(&["free"]));
+        let (hits, misses) = (self.fraction(&["contact"]), self.fraction(&["free"]));
         assert!(
             hits >= 0.05 && misses >= 0.05,
             "hits {hits}, misses {misses}"

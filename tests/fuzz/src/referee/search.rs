@@ -52,7 +52,7 @@ impl<'a> Search<'a> {
 
     pub(super) fn run(mut self) -> (Option<MarginViolation>, bool) {
         let [a, b] = &self.scene.sides;
-        let begin = self.centre_balls_apart_until(a.reach + b.reach);
+        let begin = self.center_balls_apart_until(a.reach + b.reach);
         let begin = self.bodies_apart_until(begin);
         if !(begin < self.search_end) {
             return (None, true);
@@ -69,8 +69,8 @@ impl<'a> Search<'a> {
         (self.violation, self.is_complete)
     }
 
-    /// Returns a time until which the balls around the bodies' centres of rotation are certainly apart.
-    fn centre_balls_apart_until(&self, reaches: f64) -> f64 {
+    /// Returns a time until which the balls around the bodies' centers of rotation are certainly apart.
+    fn center_balls_apart_until(&self, reaches: f64) -> f64 {
         let [a, b] = &self.scene.sides;
         let way = (b.track.start - a.track.start).to_f64();
         let v = (b.track.velocity - a.track.velocity).to_f64();
@@ -183,7 +183,7 @@ impl<'a> Search<'a> {
     /// rate.
     fn ball_gap_bounds(&self, [p, q]: [&Ball; 2], snapshots: &[Snapshot; 2]) -> GapBounds {
         let [a, b] = &self.scene.sides;
-        let between = snapshots[1].centre - snapshots[0].centre;
+        let between = snapshots[1].center - snapshots[0].center;
         let middles = [
             snapshots[0].world_arm(p.middle),
             snapshots[1].world_arm(q.middle),
@@ -224,7 +224,7 @@ impl<'a> Search<'a> {
         snapshots: &[Snapshot; 2],
     ) -> [Triangle<DoubleDouble>; 2] {
         let [a, b] = &self.scene.sides;
-        let origin = snapshots[0].centre;
+        let origin = snapshots[0].center;
         [
             a.triangle(i, &snapshots[0], origin),
             b.triangle(j, &snapshots[1], origin),

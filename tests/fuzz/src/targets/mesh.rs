@@ -2,7 +2,7 @@
 
 use super::bodies;
 use crate::memory;
-use ccd_decomp::{Detail, Format, MeshFile, TriangleMesh, Unit, prepare, write_obj};
+use ccd_decomp::{Format, MeshFile, PieceChoice, TriangleMesh, Unit, prepare, write_obj};
 
 /// The maximum size of a file, in bytes. Faults of readers need few bytes, and short files are read fast.
 const MAX_FILE_BYTES: usize = 1 << 14;
@@ -48,11 +48,11 @@ fn read(format: Format, bytes: &[u8], memory: usize) {
             if bytes.len().is_multiple_of(FILES_PER_OUTER_HULL)
                 && mesh.faces().len() <= MAX_COSTLY_DETAIL_TRIANGLES
             {
-                details.push(Detail::OuterHull);
+                details.push(PieceChoice::OuterHull);
             }
             details
                 .into_iter()
-                .for_each(|detail| check_prepared_body(&mesh, detail));
+                .for_each(|choice| check_prepared_body(&mesh, choice));
         }),
         Err(error) => assert!(!error.to_string().is_empty()),
     }
@@ -80,8 +80,8 @@ fn check_parts(format: Format, bytes: &[u8]) {
     }
 }
 
-fn check_prepared_body(mesh: &TriangleMesh, detail: Detail) {
-    match prepare(mesh, detail) {
+fn check_prepared_body(mesh: &TriangleMesh, choice: PieceChoice) {
+    match prepare(mesh, choice) {
         Ok(model) => bodies::check_storing(&model),
         Err(error) => assert!(!error.to_string().is_empty()),
     }
@@ -110,10 +110,10 @@ fn check_round_trip(mesh: &TriangleMesh) {
     assert_eq!(again.faces(), mesh.faces());
 }
 
-fn affordable_details(triangles: usize) -> Vec<Detail> {
-    let mut details = vec![Detail::Auto, Detail::Triangles];
+fn affordable_details(triangles: usize) -> Vec<PieceChoice> {
+    let mut details = vec![PieceChoice::Auto, PieceChoice::Triangles];
     if triangles <= MAX_COSTLY_DETAIL_TRIANGLES {
-        details.extend([Detail::Patches(Default::default()), Detail::Hull]);
+        details.extend([PieceChoice::Patches(Default::default()), PieceChoice::Hull]);
     }
     details
 }

@@ -111,8 +111,8 @@ fn losslessly_written_values(query: &Motions) -> (&str, f64, [[[f64; 3]; 4]; 2])
         [
             motion.start().translation(),
             motion.velocity(),
-            motion.spin(),
-            motion.centre(),
+            motion.angular_velocity(),
+            motion.center(),
         ]
         .map(|v| v.to_array())
     });

@@ -3,7 +3,7 @@
 
 use super::bodies;
 use crate::memory;
-use ccd_decomp::{Detail, Format, StoredBodyContent, TriangleMesh, prepare};
+use ccd_decomp::{Format, PieceChoice, StoredBodyContent, TriangleMesh, prepare};
 use std::sync::LazyLock;
 
 /// The maximum size of the input, in bytes.
@@ -23,7 +23,7 @@ const CHECKSUM_BYTES: usize = 4;
 static HEADER: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let mesh = TriangleMesh::from_reader(Format::Obj, triangle.as_bytes()).expect("a triangle");
-    let model = prepare(&mesh, Detail::Triangles).expect("a body");
+    let model = prepare(&mesh, PieceChoice::Triangles).expect("a body");
     bodies::stored_bytes(&model)[..HEADER_BYTES].to_vec()
 });
 

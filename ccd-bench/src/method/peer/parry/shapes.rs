@@ -18,13 +18,13 @@ pub fn to_tri_mesh(mesh: &TriangleMesh) -> Result<TriMesh> {
     TriMesh::new(vertices, mesh.faces().to_vec()).context("the peer refuses the mesh")
 }
 
-/// Converts a motion exactly: the body rotates about a centre that moves straight, both at constant rates.
+/// Converts a motion exactly: the body rotates about a center that moves straight, both at constant rates.
 pub fn to_rigid_motion(motion: &Motion) -> NonlinearRigidMotion {
     NonlinearRigidMotion::new(
         pose_at(motion, 0.0),
-        to_parry_vector(motion.centre()),
+        to_parry_vector(motion.center()),
         to_parry_vector(motion.velocity()),
-        to_parry_vector(motion.spin()),
+        to_parry_vector(motion.angular_velocity()),
     )
 }
 

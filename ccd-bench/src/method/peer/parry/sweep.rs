@@ -69,8 +69,8 @@ impl SweptMeshPair {
     fn segment_count(&self, query: &Motions, tolerance: f64) -> Option<u64> {
         let bodies = [(&self.a, &query.a), (&self.b, &query.b)];
         let turns = bodies.map(|(body, motion)| {
-            let turn = motion.spin().length() * query.duration;
-            turn / max_segment_rotation(body.radius_bound_about_centre(motion), tolerance)
+            let turn = motion.angular_velocity().length() * query.duration;
+            turn / max_segment_rotation(body.radius_bound_about_center(motion), tolerance)
         });
         let speed = (query.a.velocity() - query.b.velocity()).length();
         let travel = speed * query.duration
@@ -131,8 +131,8 @@ impl Solver for SweptMeshPair {
         let time = |k: u64| query.duration * (k as f64 / count as f64);
         for k in 0..count {
             let (from, to) = (time(k), time(k + 1));
-            if let Some(share) = self.first_hit_fraction(query, tolerance, [from, to]) {
-                let time = from + f64::from(share) * (to - from);
+            if let Some(fraction) = self.first_hit_fraction(query, tolerance, [from, to]) {
+                let time = from + f64::from(fraction) * (to - from);
                 let claim = contact_claim_at(time, query.duration);
                 return Reply::new(claim, k + 1);
             }
@@ -168,21 +168,21 @@ impl MeshWithAabb {
         })
     }
 
-    /// Returns an upper bound of the distance of the mesh's points from the motion's centre of rotation.
-    fn radius_bound_about_centre(&self, motion: &Motion) -> f64 {
-        let [low, high] = self.aabb_corners.map(|c| (c - motion.centre()).abs());
+    /// Returns an upper bound of the distance of the mesh's points from the motion's center of rotation.
+    fn radius_bound_about_center(&self, motion: &Motion) -> f64 {
+        let [low, high] = self.aabb_corners.map(|c| (c - motion.center()).abs());
         low.max(high).length()
     }
 
     fn segment_motion(&self, motion: &Motion, from: f64, to: f64) -> SegmentMotion {
         let poses = [pose_at(motion, from), pose_at(motion, to)];
-        let turn = motion.spin().length() * (to - from);
+        let turn = motion.angular_velocity().length() * (to - from);
         SegmentMotion {
-            sweep: Sweep::from_poses(&poses[0], &poses[1], to_parry_vector(motion.centre())),
+            sweep: Sweep::from_poses(&poses[0], &poses[1], to_parry_vector(motion.center())),
             poses,
             // Half of the bound on the second derivative, ρ θ²/8, is for a constant rate. The interpolation
             // adds less than that.
-            path_deviation_bound: (0.25 * self.radius_bound_about_centre(motion) * turn * turn)
+            path_deviation_bound: (0.25 * self.radius_bound_about_center(motion) * turn * turn)
                 as Real,
         }
     }
@@ -193,7 +193,7 @@ impl MeshWithAabb {
     }
 }
 
-/// Returns the largest rotation per segment, in radians, at which the interpolation error stays within its share of the
+/// Returns the largest rotation per segment, in radians, at which the interpolation error stays within its fraction of the
 /// tolerance.
 fn max_segment_rotation(reach: f64, tolerance: f64) -> f64 {
     // The mix misses a turn θ by 2 (atan(s tan(θ/4)) − s θ/4) for s of −1 to 1, which is at most

@@ -9,9 +9,9 @@ use ccd_core::glam::{DMat3, DVec3};
 pub(super) struct ClosingSpeedBounder {
     a: BodyRotation,
     b: BodyRotation,
-    /// The velocity of A's centre relative to B's, in the world frame.
+    /// The velocity of A's center relative to B's, in the world frame.
     relative_velocity_world: DVec3,
-    /// The velocity of A's centre relative to B's, in A's frame.
+    /// The velocity of A's center relative to B's, in A's frame.
     relative_velocity_in_a: DVec3,
     /// B's axis of rotation in the world frame.
     axis_b_world: DVec3,
@@ -22,7 +22,7 @@ pub(super) struct ClosingSpeedBounder {
 /// The rotation of a body, and the distances of its nodes from the axis.
 #[derive(Clone, Debug)]
 struct BodyRotation {
-    rotation_centre: DVec3,
+    rotation_center: DVec3,
     /// The unit axis of rotation in the body's frame, where it is fixed.
     axis: DVec3,
     angular_speed: f64,
@@ -64,7 +64,7 @@ impl ClosingSpeedBounder {
     ///
     /// `v·n + |n × ω_A| l_A + |n × ω_B| l_B`
     ///
-    /// of the centres and of points at the ends of both levers \[C2A09 §4\]. It holds for turns of
+    /// of the centers and of points at the ends of both levers \[C2A09 §4\]. It holds for turns of
     /// any size, since the distance of a point from the axis does not change.
     #[inline]
     pub(super) fn safe_step(
@@ -95,7 +95,7 @@ impl ClosingSpeedBounder {
 impl BodyRotation {
     fn new(tree: &RssTree) -> Self {
         BodyRotation {
-            rotation_centre: DVec3::ZERO,
+            rotation_center: DVec3::ZERO,
             axis: DVec3::Z,
             angular_speed: 0.0,
             axis_distance_cache: vec![(0, 0.0); tree.node_count()],
@@ -106,9 +106,9 @@ impl BodyRotation {
     fn set_motion(&mut self, course: &RivalMotion) {
         let axis = course.start_orientation.transpose() * course.axis;
         self.angular_speed = course.angular_speed;
-        if self.axis_version == 0 || axis != self.axis || course.centre != self.rotation_centre {
+        if self.axis_version == 0 || axis != self.axis || course.center != self.rotation_center {
             self.axis = axis;
-            self.rotation_centre = course.centre;
+            self.rotation_center = course.center;
             self.axis_version += 1;
         }
     }
@@ -124,7 +124,7 @@ impl BodyRotation {
         if lever.0 != self.axis_version {
             *lever = (
                 self.axis_version,
-                tree.axis_distance_bound(node, self.rotation_centre, self.axis),
+                tree.axis_distance_bound(node, self.rotation_center, self.axis),
             );
         }
         self.angular_speed * across.length() * lever.1

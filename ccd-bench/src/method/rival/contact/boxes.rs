@@ -18,15 +18,15 @@ pub(super) fn motion_spread_unless_separated(
     enclosure: &MotionEnclosure,
 ) -> Option<f64> {
     let into = b.axes.transpose();
-    let centre = enclosure.rotation * a.centre + enclosure.offset;
-    let t = into * (centre.middle - b.centre);
-    let t_radius = into.abs() * centre.radius;
+    let center = enclosure.rotation * a.center + enclosure.offset;
+    let t = into * (center.middle - b.center);
+    let t_radius = into.abs() * center.radius;
     let t_high = t.abs() + t_radius;
     let cos = into * (enclosure.rotation.middle * a.axes);
     let cos_radius = into.abs() * (enclosure.rotation.radius * a.axes.abs());
     let high = cosine_upper_bounds(cos, cos_radius);
     let (ha, hb) = (a.half_extents, b.half_extents);
-    // The axes of B: the distance of the centres along them against both half widths.
+    // The axes of B: the distance of the centers along them against both half widths.
     if (t.abs() - t_radius - hb - high * ha).max_element() > 0.0 {
         return None;
     }

@@ -238,11 +238,11 @@ impl TrianglePair {
             return false;
         }
         let square = c.dot(c);
-        let share = |x: IntervalVec| {
+        let fraction = |x: IntervalVec| {
             let s = x.dot(c);
             !(s.high() < 0.0 || (square - s).high() < 0.0)
         };
-        share(at_s) && share(at_u)
+        fraction(at_s) && fraction(at_u)
     }
 }
 

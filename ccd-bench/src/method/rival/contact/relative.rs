@@ -23,9 +23,9 @@ struct MotionCoefficients {
     cosine_coefficient: DMat3,
     sine_coefficient: DMat3,
     angular_speed: f64,
-    start_centre: DVec3,
+    start_center: DVec3,
     velocity: DVec3,
-    /// The offset of the reference point from the centre, in the body's frame.
+    /// The offset of the reference point from the center, in the body's frame.
     reference_offset: DVec3,
 }
 
@@ -65,9 +65,9 @@ impl RelativeMotion {
             second_motion: MotionCoefficients::new(second.0, second.1, axes),
         };
         // Only the difference of the linear parts matters; separate parts would be enclosed separately.
-        relative.first_motion.start_centre -= relative.second_motion.start_centre;
+        relative.first_motion.start_center -= relative.second_motion.start_center;
         relative.first_motion.velocity -= relative.second_motion.velocity;
-        relative.second_motion.start_centre = DVec3::ZERO;
+        relative.second_motion.start_center = DVec3::ZERO;
         relative.second_motion.velocity = DVec3::ZERO;
         relative
     }
@@ -143,22 +143,22 @@ impl MotionCoefficients {
             cosine_coefficient: cos,
             sine_coefficient: map_columns(cos, |column| axis.cross(column)),
             angular_speed: course.angular_speed,
-            start_centre: axes * course.start_position,
+            start_center: axes * course.start_position,
             velocity: axes * course.velocity,
-            reference_offset: reference - course.centre,
+            reference_offset: reference - course.center,
         }
     }
 
     /// Returns the start position of the reference point of a body that does not rotate.
     fn non_rotating_reference_position(&self) -> DVec3 {
-        self.start_centre + self.constant_term * self.reference_offset
+        self.start_center + self.constant_term * self.reference_offset
     }
 
     fn pose_at(&self, time: f64) -> (DMat3, DVec3) {
         let (sin, cos) = (self.angular_speed * time).sin_cos();
         let rotation =
             self.constant_term + self.cosine_coefficient * cos + self.sine_coefficient * sin;
-        let position = self.start_centre + self.velocity * time + rotation * self.reference_offset;
+        let position = self.start_center + self.velocity * time + rotation * self.reference_offset;
         (rotation, position)
     }
 
@@ -171,7 +171,7 @@ impl MotionCoefficients {
             middle: self.constant_term + turning.middle,
             radius: turning.radius,
         };
-        let straight = self.start_centre
+        let straight = self.start_center
             + self.velocity * span.middle()
             + self.constant_term * self.reference_offset;
         let position = IntervalVec {

@@ -58,7 +58,7 @@ impl Obb {
     /// §5\].
     fn is_separated_from(&self, other: &Obb, placement: &Placement) -> bool {
         let into = other.axes.transpose();
-        let t = into * (placement.apply(self.centre) - other.centre);
+        let t = into * (placement.apply(self.center) - other.center);
         let cos = into * (placement.rotation * self.axes);
         let mut abs = cos.abs();
         abs.x_axis += COSINE_ROUNDING_BOUND;

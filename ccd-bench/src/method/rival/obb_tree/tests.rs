@@ -26,7 +26,7 @@ fn boxes_hold_their_triangles_and_leaves_all_of_them_once() {
             let along = node
                 .bounds
                 .axes
-                .transpose_mul_vec3(*corner - node.bounds.centre);
+                .transpose_mul_vec3(*corner - node.bounds.center);
             assert!((along.abs() - node.bounds.half_extents).max_element() < 1e-12);
             assert!(corner.length() <= tree.radius_about_origin);
         }

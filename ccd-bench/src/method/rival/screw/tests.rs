@@ -18,11 +18,14 @@ fn screws_start_and_end_where_the_motion_does() {
         assert_eq!((screw.duration, &screw.id), (query.duration, &query.id));
         for (screw, motion) in [(screw.a, query.a), (screw.b, query.b)] {
             let point = samples.vector(1.0);
-            let sine = (0.5 * motion.spin().length()).sin().abs();
+            let sine = (0.5 * motion.angular_velocity().length()).sin().abs();
             let slack = 1e-12 / lesser(1.0, 10.0 * sine);
             assert!(position_difference(screw.pose(0.0), motion.pose(0.0), point) <= slack);
             assert!(position_difference(screw.pose(1.0), motion.pose(1.0), point) <= slack);
-            assert!(screw.velocity().cross(screw.spin()).length() <= 1e-12 * screw.spin().length());
+            assert!(
+                screw.velocity().cross(screw.angular_velocity()).length()
+                    <= 1e-12 * screw.angular_velocity().length()
+            );
             between +=
                 usize::from(position_difference(screw.pose(0.5), motion.pose(0.5), point) > 0.1);
         }
@@ -35,14 +38,14 @@ fn points_of_the_axis_slide_along_it() {
     let mut samples = RandomSource::new(2);
     for _ in 0..200 {
         let screw = to_screw_motions(&samples.query(3.0, 3.0)).unwrap().a;
-        let centre = |t: f64| screw.pose(t).transform_point(screw.centre());
-        let path = centre(1.0) - centre(0.0);
+        let center = |t: f64| screw.pose(t).transform_point(screw.center());
+        let path = center(1.0) - center(0.0);
         assert!((path - screw.velocity()).length() < 1e-11);
     }
 }
 
 #[test]
-fn translations_and_turns_about_the_centre_stay_as_they_are() {
+fn translations_and_turns_about_the_center_stay_as_they_are() {
     let mut samples = RandomSource::new(3);
     for _ in 0..100 {
         let translation = samples.motion(3.0, 1e-300);
@@ -71,7 +74,7 @@ fn whole_turns_have_no_axis_and_are_unchanged() {
     // With a slightly larger rotation there is an axis, far away.
     let motion = Motion::new(Pose::IDENTITY, DVec3::X, 1e-3 * DVec3::Z).unwrap();
     let screw = to_screw_motions(&query(motion, resting_motion(DVec3::ZERO))).unwrap();
-    assert!((screw.a.centre().length() - 1e3).abs() < 1.0);
+    assert!((screw.a.center().length() - 1e3).abs() < 1.0);
     assert!(position_difference(screw.a.pose(1.0), motion.pose(1.0), DVec3::Y) < 1e-12);
 }
 

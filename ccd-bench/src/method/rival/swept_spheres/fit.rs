@@ -35,10 +35,10 @@ pub(super) fn build_tree(mut triangles: Vec<Triangle>) -> RssTree {
     }
 }
 
-/// Splits triangles by their centres along an axis, and returns the number of triangles in the first part. The split is
+/// Splits triangles by their centers along an axis, and returns the number of triangles in the first part. The split is
 /// at the mean, or in the middle of the order if that would be lopsided.
 fn partition_triangles(part: &mut [Triangle], axis: DVec3) -> usize {
-    /// The smallest share of the triangles that either part of a split may get.
+    /// The smallest fraction of the triangles that either part of a split may get.
     const MIN_SPLIT_FRACTION: f64 = 1.0 / 16.0;
 
     let along = |t: &Triangle| (t[0] + t[1] + t[2]).dot(axis);

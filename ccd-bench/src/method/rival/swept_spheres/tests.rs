@@ -144,7 +144,7 @@ fn no_node_is_farther_than_its_triangles_or_nearer_than_its_size() {
 #[test]
 fn levers_reach_all_points() {
     let tree = RssTree::new(&knot());
-    let (centre, axis) = (
+    let (center, axis) = (
         DVec3::new(0.3, -0.2, 0.5),
         DVec3::new(1.0, 2.0, 3.0).normalize(),
     );
@@ -152,9 +152,9 @@ fn levers_reach_all_points() {
         let farthest = triangle_indices_below(&tree, node)
             .iter()
             .flat_map(|&t| tree.triangles[t as usize])
-            .map(|p| (p - centre).cross(axis).length())
+            .map(|p| (p - center).cross(axis).length())
             .fold(0.0, greater);
-        let lever = tree.axis_distance_bound(node, centre, axis);
+        let lever = tree.axis_distance_bound(node, center, axis);
         let size = tree.nodes[node as usize].diameter_bound();
         assert!(
             farthest <= lever && lever <= farthest + size,

@@ -34,7 +34,7 @@ impl RandomSource {
         [(); 3].map(|()| self.vector(1.0))
     }
 
-    /// Returns a random motion about a random centre, whose velocity and angular velocity have coordinates up to
+    /// Returns a random motion about a random center, whose velocity and angular velocity have coordinates up to
     /// `speed` and `spin`.
     pub(in crate::method::rival) fn motion(&mut self, speed: f64, spin: f64) -> Motion {
         let start = Pose::new(self.vector(2.0), self.rotation()).unwrap();

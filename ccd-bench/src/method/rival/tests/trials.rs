@@ -226,10 +226,10 @@ impl BruteForceDistance {
         let corner = |v: u32| mesh.vertices()[v as usize];
         let triangles: Vec<Triangle> = mesh.faces().iter().map(|face| face.map(corner)).collect();
         let ball = |t: &Triangle| {
-            let centre = (t[0] + t[1] + t[2]) / 3.0;
+            let center = (t[0] + t[1] + t[2]) / 3.0;
             (
-                centre,
-                t.map(|p| p.distance(centre)).into_iter().fold(0.0, greater),
+                center,
+                t.map(|p| p.distance(center)).into_iter().fold(0.0, greater),
             )
         };
         BruteForceDistance {

@@ -19,8 +19,12 @@ fn count_fills(svg: &str, colour: &str) -> usize {
 
 #[test]
 fn a_map_has_all_names_and_the_colour_of_each_worst_answer() {
-    let cell = |worst, share, limit: &str| {
-        Some(HeatCell::solved_range_cell(worst, share, limit.to_owned()))
+    let cell = |worst, fraction, limit: &str| {
+        Some(HeatCell::solved_range_cell(
+            worst,
+            fraction,
+            limit.to_owned(),
+        ))
     };
     let right = cell(Verdict::Right, 1.0, "");
     let svg = draw_map(

@@ -6,7 +6,7 @@ use crate::math::order::greater;
 use crate::rounding::{DISC_HEIGHT_ERROR_F32, DISC_TILT_ERROR_F32, HEIGHT_ERROR_F64};
 use crate::tests::rational::Exact3;
 use crate::tests::scene::random_direction;
-use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use glam::{DVec3, Vec3};
 
 /// Draws points in a ball of radius 1, and a direction along which a point at or near the rim of their disc is
@@ -36,7 +36,10 @@ fn worst_disc() {
         let bound = f64::from(discs.height_upper_bounds(d)[0]) - f64::from(DISC_HEIGHT_ERROR_F32);
         let highest = points.iter().map(|p| p.dot(exact));
         let highest = highest.fold(f64::NEG_INFINITY, greater);
-        Some(error_share(highest - bound, DISC_HEIGHT_ERROR_F32.into()))
+        Some(error_fraction(
+            highest - bound,
+            DISC_HEIGHT_ERROR_F32.into(),
+        ))
     });
     found.assert_tight_bound(100.0);
 }
@@ -59,7 +62,7 @@ fn worst_tilt() {
         let truth = m.as_dvec3();
         let truth = (exact - truth * exact.dot(truth)).length_squared();
         let allowed = f64::from(DISC_TILT_ERROR_F32) * exact.length_squared();
-        Some(error_share(truth - across, allowed))
+        Some(error_fraction(truth - across, allowed))
     });
     found.assert_tight_bound(20.0);
 }
@@ -87,7 +90,7 @@ fn worst_farthest() {
             let reach = points.iter().map(|p| p.abs().max_element());
             let reach = reach.fold(0.0, greater);
             let allowed = 2.0 * HEIGHT_ERROR_F64 * along.abs().element_sum() * reach;
-            Some(error_share(missed, allowed))
+            Some(error_fraction(missed, allowed))
         });
     found.assert_tight_bound(20.0);
 }

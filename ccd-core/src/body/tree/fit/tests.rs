@@ -165,7 +165,7 @@ fn degenerate_points_have_a_box() {
             };
             let node = fit_node(&node_points, NodeChildren::Piece(0), &mut sample);
             for (point, k) in points.iter().zip([0, 1, 2, 0]) {
-                let way = (*point - node.centre).dot(node.axes[k].as_dvec3());
+                let way = (*point - node.center).dot(node.axes[k].as_dvec3());
                 assert!(way.abs() <= f64::from(node.half_extents[k]));
             }
         }
@@ -191,7 +191,7 @@ fn only_orthonormal_frames_are_frames() {
     }
 }
 
-/// Tests that a refilled sample is centred at the origin, has unit size, and contains no points of its earlier filling.
+/// Tests that a refilled sample is centered at the origin, has unit size, and contains no points of its earlier filling.
 #[test]
 fn samples_fill_a_unit_and_forget_earlier_ones() {
     let mut rng = rng(9);

@@ -3,7 +3,7 @@
 use super::*;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{RngExt, random_direction, random_power_of_ten, random_rotation, rng};
-use crate::tests::worst::{WorstCaseSearch, error_share};
+use crate::tests::worst::{WorstCaseSearch, error_fraction};
 
 /// Measures how much of a box's slack is needed for the exact heights of all points, without a rounding radius.
 #[test]
@@ -41,11 +41,11 @@ fn worst_slack() {
             .map(|k| along(whole.axes.col(k)) * DoubleDouble::from(half[k]))
             .fold(DoubleDouble::ZERO, |sum, part| sum + part);
         let over = |&point: &DVec3| {
-            let way = DoubleDouble3::from(point) - DoubleDouble3::from(whole.centre);
+            let way = DoubleDouble3::from(point) - DoubleDouble3::from(whole.center);
             (n.dot(way) - reach).get()
         };
         let over = points.iter().map(over).fold(f64::NEG_INFINITY, greater);
-        (length > 0.0 && whole.radius > 0.0).then(|| error_share(over, whole.slack * length))
+        (length > 0.0 && whole.radius > 0.0).then(|| error_fraction(over, whole.slack * length))
     });
     found.assert_tight_bound(30.0);
 }
@@ -83,7 +83,7 @@ fn no_point_reaches_out_of_the_box_and_flat_faces_are_known_to_rounding() {
             let along = (whole.axes.transpose() * n).abs();
             let reach = along.dot(whole.half_extents) + whole.slack;
             for &point in &points {
-                let height = n.dot(point - whole.centre);
+                let height = n.dot(point - whole.center);
                 assert!(height <= reach, "{height} {reach}");
             }
         }

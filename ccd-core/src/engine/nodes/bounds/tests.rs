@@ -19,11 +19,11 @@ use fearless_simd::Level;
 use glam::{DQuat, DVec3, Vec3};
 use setting::{PairConfiguration, Shape};
 
-/// A rigid set of points that turns about a centre.
+/// A rigid set of points that turns about a center.
 struct Solid {
     points: Vec<DVec3>,
-    /// The position of the centre of rotation.
-    centre: DVec3,
+    /// The position of the center of rotation.
+    center: DVec3,
     spin: DVec3,
 }
 
@@ -31,26 +31,26 @@ impl Solid {
     /// Returns the largest height of a point along `n` after `tau`.
     fn max_height(&self, n: DVec3, tau: f64) -> f64 {
         let turn = DQuat::from_scaled_axis(self.spin * tau);
-        let heights = self.points.iter().map(|&x| n.dot(turn * (x - self.centre)));
-        heights.fold(f64::NEG_INFINITY, greater) + n.dot(self.centre)
+        let heights = self.points.iter().map(|&x| n.dot(turn * (x - self.center)));
+        heights.fold(f64::NEG_INFINITY, greater) + n.dot(self.center)
     }
 
     /// Returns the greatest present rate at which a point rises along `n` by rotation.
     fn max_rotational_rate(&self, n: DVec3) -> f64 {
         let m = n.cross(self.spin);
-        let rates = self.points.iter().map(|&x| m.dot(x - self.centre));
+        let rates = self.points.iter().map(|&x| m.dot(x - self.center));
         rates.fold(f64::NEG_INFINITY, greater)
     }
 
     /// Returns an upper bound of the second derivative of the points' heights along `n`, at any time.
     fn second_derivative_bound(&self, n: DVec3) -> f64 {
-        let arm = |x: &DVec3| (self.spin.cross(*x - self.centre)).length();
+        let arm = |x: &DVec3| (self.spin.cross(*x - self.center)).length();
         n.cross(self.spin).length() * self.points.iter().map(arm).fold(0.0, greater)
     }
 
     fn coordinate_scale(&self) -> f64 {
         let reach = self.points.iter().map(|x| x.length()).fold(0.0, greater);
-        (reach + 2.0 * self.centre.length()) * (1.0 + self.spin.length())
+        (reach + 2.0 * self.center.length()) * (1.0 + self.spin.length())
     }
 }
 
@@ -66,7 +66,7 @@ struct EightPairSample<C, P> {
     allowed_gap_error: f32,
     children: Vec<Solid>,
     other_node_solid: Solid,
-    /// The velocity of the children's centre of rotation relative to the other node's.
+    /// The velocity of the children's center of rotation relative to the other node's.
     velocity: DVec3,
     acceleration: DVec3,
 }
@@ -292,7 +292,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
         let some = random_direction(rng).as_vec3() * 2f32.powi(rng.random_range(-40..40));
         let found = self.cross_checked_axis_values(some);
         let reach = vectorize!(VectorInstructions::Best.simd_level(), level => {
-            *(self.group.centre(level).length() + self.group.radius(level))
+            *(self.group.center(level).length() + self.group.radius(level))
         });
         let reach = reach.into_iter().fold(0.0, greater);
         for found in &found {

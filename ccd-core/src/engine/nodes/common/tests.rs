@@ -15,7 +15,7 @@ fn no_point_of_a_node_is_beyond_the_reach() {
                 let NodeOrTriangle::Node(node) = tree.get(id) else {
                     continue;
                 };
-                let farthest = node.centre.distance(side.path.centre) + f64::from(node.radius);
+                let farthest = node.center.distance(side.path.center) + f64::from(node.radius);
                 assert!(farthest <= reach(side), "{farthest} {}", reach(side));
                 nodes += 1;
             }

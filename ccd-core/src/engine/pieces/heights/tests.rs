@@ -80,8 +80,8 @@ fn many_points_are_bounded_like_all_of_them() {
             heights.speed_bound(),
             twin.speed_bound()
         );
-        // The rounding is that of heights about the centre, and of the positions from which they are computed.
-        let span = problem.a.body.tree().max_distance_from_origin() + side.path.centre.length();
+        // The rounding is that of heights about the center, and of the positions from which they are computed.
+        let span = problem.a.body.tree().max_distance_from_origin() + side.path.center.length();
         let slack = 128.0
             * crate::rounding::UNIT_ROUNDOFF_F64
             * (span + velocity.length() + linear_acceleration.length());
@@ -140,11 +140,11 @@ fn points_rise_and_sink_as_their_body_turns() {
             random_rotation(&mut rng),
         )
         .unwrap();
-        let (velocity, centre) = (
+        let (velocity, center) = (
             random_point_in_ball(&mut rng, 1.0),
             random_point_in_ball(&mut rng, 1.0),
         );
-        let motion = Motion::about(start, velocity, spin, centre).unwrap();
+        let motion = Motion::about(start, velocity, spin, center).unwrap();
         let moving = (&body, motion);
         let acceleration = random_point_in_ball(&mut rng, [0.0, 1.0][number / 10 % 2]);
         let (bodies, pulls) = (
@@ -162,7 +162,7 @@ fn points_rise_and_sink_as_their_body_turns() {
             arms: piece
                 .points
                 .iter()
-                .map(|&x| frame.rotation * (x - side.path.centre))
+                .map(|&x| frame.rotation * (x - side.path.center))
                 .collect(),
             normal,
             velocity: velocity + clock * acceleration,
@@ -175,7 +175,7 @@ fn points_rise_and_sink_as_their_body_turns() {
     assert!(many > 50, "{many}");
 }
 
-/// A reference for [`Heights`], which rotates every point about the centre of rotation.
+/// A reference for [`Heights`], which rotates every point about the center of rotation.
 struct ReferenceHeights {
     arms: Vec<DVec3>,
     normal: DVec3,

@@ -48,7 +48,7 @@ fn assert_bodies_proven_apart_keep_gap(tells: fn(&Problem<'_>) -> bool) {
                 middle: random_point_in_ball(&mut rng, size),
                 velocity: random_point_in_ball(&mut rng, 3.0),
                 spin: random_direction(&mut rng) * if rng.random_bool(0.3) { 0.0 } else { turn },
-                centre: random_point_in_ball(&mut rng, 2.0 * size),
+                center: random_point_in_ball(&mut rng, 2.0 * size),
             };
             passage.motion()
         });

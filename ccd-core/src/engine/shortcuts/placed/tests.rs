@@ -10,7 +10,7 @@ use crate::rounding::BOX_EXTENT_ERROR_F32;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{random_box_corners, random_direction};
-use crate::tests::worst::{WorstCaseSearch, error_share};
+use crate::tests::worst::{WorstCaseSearch, error_fraction};
 use glam::DVec3;
 
 /// Searches for the point of a body that lies farthest outside its placed box, as a share of the allowance for
@@ -34,13 +34,13 @@ fn worst_reach_of_a_box() {
         let n =
             (along.normalize_or_zero() + random_direction(tape) * tape.size(-30..=4)).normalize();
         let height = |&p: &DVec3| {
-            let way = DoubleDouble3::from(p) - DoubleDouble3::from(node.centre);
+            let way = DoubleDouble3::from(p) - DoubleDouble3::from(node.center);
             DoubleDouble3::from(n).dot(way)
         };
         let highest = points.iter().map(height).reduce(DoubleDouble::max)?;
         let allowed = BOX_EXTENT_ERROR_F32 * node.bounding_radius;
         let reach = DoubleDouble::from(node.extent_along(n)) - DoubleDouble::from(allowed);
-        Some(error_share((highest - reach).get(), allowed))
+        Some(error_fraction((highest - reach).get(), allowed))
     });
     found.assert_tight_bound(20.0);
 }

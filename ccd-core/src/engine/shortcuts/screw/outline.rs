@@ -22,9 +22,9 @@ pub(crate) struct HelicalProjection {
     inner_bound_corners: [DVec2; 3],
     /// A bound of the deviation of `ζ` from a linear function over the triangle.
     zeta_nonlinearity_bound: f64,
-    /// The distance of the node's centre from the origin of the axis, and the node's radius; rounding is proportional
+    /// The distance of the node's center from the origin of the axis, and the node's radius; rounding is proportional
     /// to them.
-    centre_distance_and_radius: [f64; 2],
+    center_distance_and_radius: [f64; 2],
     helix_slope: f64,
 }
 
@@ -32,9 +32,9 @@ pub(crate) struct HelicalProjection {
 pub(crate) struct ZetaApproximation {
     /// A point on the axis, and the direction of the axis.
     pub(crate) axis_point_and_direction: [DVec3; 2],
-    /// The value of `ζ` at the node's centre.
-    pub(crate) centre_zeta: f64,
-    /// The gradient of `ζ` at the node's centre.
+    /// The value of `ζ` at the node's center.
+    pub(crate) center_zeta: f64,
+    /// The gradient of `ζ` at the node's center.
     pub(crate) zeta_gradient: DVec3,
     pub(crate) zeta_nonlinearity_bound: f64,
     pub(crate) rounding_lengths: [f64; 2],
@@ -44,13 +44,13 @@ pub(crate) struct ZetaApproximation {
 impl HelicalProjection {
     /// Projects a triangle along the screw; `None` if the node is not a single triangle.
     pub(crate) fn new(node: &PlacedNode, linear: &ZetaApproximation) -> Option<Self> {
-        let corners = node.triangle_corners_from_centre()?;
+        let corners = node.triangle_corners_from_center()?;
         let [origin, along] = linear.axis_point_and_direction;
         let across = |x: DVec3| {
             let x = x - x.dot(along) * along;
             x - x.dot(along) * along
         };
-        let middle = across(node.centre - origin);
+        let middle = across(node.center - origin);
         let across = corners.map(|w| middle + across(w));
         // The outward direction in the middle of the corners' azimuths.
         let [a, b, c] = across.map(|x| x / length(x));
@@ -59,13 +59,13 @@ impl HelicalProjection {
             .into_iter()
             .min_by(|[a, b], [c, d]| a.dot(*b).total_cmp(&c.dot(*d)))?;
         let facing = unit(x + y)?;
-        let zeta = |w: DVec3| linear.centre_zeta + w.dot(linear.zeta_gradient);
+        let zeta = |w: DVec3| linear.center_zeta + w.dot(linear.zeta_gradient);
         Some(HelicalProjection {
             outer_bound_corners: [0, 1, 2].map(|k| DVec2::new(length(across[k]), zeta(corners[k]))),
             inner_bound_corners: [0, 1, 2]
                 .map(|k| DVec2::new(across[k].dot(facing), zeta(corners[k]))),
             zeta_nonlinearity_bound: linear.zeta_nonlinearity_bound,
-            centre_distance_and_radius: linear.rounding_lengths,
+            center_distance_and_radius: linear.rounding_lengths,
             helix_slope: linear.helix_slope,
         })
     }
@@ -80,7 +80,7 @@ impl HelicalProjection {
         let slack = n.y.abs() * self.zeta_nonlinearity_bound
             + profile_rounding(
                 n.abs().to_array(),
-                self.centre_distance_and_radius,
+                self.center_distance_and_radius,
                 self.helix_slope,
             );
         let low = least.iter().map(|c| n.dot(*c)).fold(f64::INFINITY, lesser);

@@ -4,7 +4,7 @@
 //! Along a path past points at least `ρ` from the axis, `f = a r + b ζ` changes by at most `√(a² + b² (1 + p²/ρ²))`
 //! per length. Consider a convex set beyond a plane that faces the axis, at `ρ` from it. There `f` differs from its
 //! linearisation by two terms. That of `r` is at least 0 and at most `y²/(2ρ)` at `y` along the turn. That of `ζ` is
-//! at most `R²/2` times its second derivative, `p/ρ²`, at `R` from the centre.
+//! at most `R²/2` times its second derivative, `p/ρ²`, at `R` from the center.
 
 use super::super::placed::PlacedNode;
 use super::outline::{HelicalProjection, ZetaApproximation};
@@ -41,7 +41,7 @@ pub(crate) struct ScrewAxis {
 pub(crate) struct NodeScrewBounds {
     low: [f64; SURFACE_FAMILY_COUNT],
     high: [f64; SURFACE_FAMILY_COUNT],
-    /// The azimuth of the node's centre.
+    /// The azimuth of the node's center.
     azimuth: f64,
     azimuth_half_width: f64,
     /// Half of a lower bound of the node's distance from the axis: a path from the node of at most this length stays at
@@ -103,7 +103,7 @@ impl NodeScrewBounds {
     /// Computes the profile of a node, with the azimuth within half a turn of `near` if that is given; `None` if the
     /// node surrounds the axis, or nearly does.
     fn with_azimuth_near(node: &PlacedNode, axis: &ScrewAxis, near: Option<f64>) -> Option<Self> {
-        let way = node.centre - axis.origin;
+        let way = node.center - axis.origin;
         let height = way.dot(axis.direction);
         let across = way - height * axis.direction;
         // The rest of the height, left by rounding, would tilt the gradients of tall nodes.
@@ -151,7 +151,7 @@ impl NodeScrewBounds {
         }
         let linear = ZetaApproximation {
             axis_point_and_direction: [axis.origin, axis.direction],
-            centre_zeta: zeta,
+            center_zeta: zeta,
             zeta_gradient: ahead,
             zeta_nonlinearity_bound: twist,
             rounding_lengths: [arm, node.bounding_radius],

@@ -88,9 +88,9 @@ fn scene_of_random_polytopes(rng: &mut Pcg64, kind: SceneKind) -> Scene {
         })
         .unwrap();
         if rng.random_bool(0.2) {
-            let faster = motion.spin() * random_power_of_ten(rng, 0.0, 2.0);
-            let (start, centre) = (motion.start(), motion.centre());
-            *motion = Motion::about(start, motion.velocity(), faster, centre).unwrap();
+            let faster = motion.angular_velocity() * random_power_of_ten(rng, 0.0, 2.0);
+            let (start, center) = (motion.start(), motion.center());
+            *motion = Motion::about(start, motion.velocity(), faster, center).unwrap();
         }
     }
     scene
@@ -198,7 +198,7 @@ fn rounding_along_an_axis_that_turns_is_allowed_for() {
 }
 
 /// Returns the exact height of a point of the second body along an axis that turns with the first body, and the rate of
-/// this height. The height is measured from the first body's centre.
+/// this height. The height is measured from the first body's center.
 fn exact_height_and_rate(
     motions: [&Motion; 2],
     normal: DVec3,
@@ -208,14 +208,14 @@ fn exact_height_and_rate(
 ) -> (DoubleDouble, DoubleDouble) {
     let s = clock + tau;
     let [own, other] = motions;
-    let spin = DoubleDouble3::from(own.spin());
+    let spin = DoubleDouble3::from(own.angular_velocity());
     let normal =
         DoubleDouble3::from(normal).turned(spin.unit(), spin.length() * DoubleDouble::from(tau));
     let at = place(other, 1.0, s, point);
-    let way = at - place(own, 1.0, s, own.centre());
-    let arm = at - place(other, 1.0, s, other.centre());
+    let way = at - place(own, 1.0, s, own.center());
+    let arm = at - place(other, 1.0, s, other.center());
     let velocity = DoubleDouble3::from(other.velocity()) - DoubleDouble3::from(own.velocity());
-    let passing = velocity + DoubleDouble3::from(other.spin()).cross(arm);
+    let passing = velocity + DoubleDouble3::from(other.angular_velocity()).cross(arm);
     let rate = spin.cross(normal).dot(way) + normal.dot(passing);
     (normal.dot(way), rate)
 }

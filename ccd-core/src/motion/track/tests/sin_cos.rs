@@ -3,7 +3,7 @@ use crate::math::order::greater;
 use crate::motion::track::sin_cos;
 use crate::rounding::UNIT_ROUNDOFF_F64;
 use crate::tests::double::DoubleDouble;
-use crate::tests::worst::{WorstCaseSearch, error_share};
+use crate::tests::worst::{WorstCaseSearch, error_fraction};
 
 #[test]
 fn agrees_with_the_standard_library() {
@@ -40,7 +40,7 @@ fn worst_sine_and_cosine() {
         let exact = DoubleDouble::from(angle.abs()).sin_cos();
         let off =
             |rounded: f64, exact: DoubleDouble| (DoubleDouble::from(rounded) - exact).get().abs();
-        Some(error_share(
+        Some(error_fraction(
             greater(off(sin, exact.0), off(cos, exact.1)),
             2.0 * UNIT_ROUNDOFF_F64,
         ))

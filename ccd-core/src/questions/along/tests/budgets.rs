@@ -75,7 +75,7 @@ impl Trajectory for ShuttleTrajectory {
         let motion = Motion::new(crate::Pose::at(start)?, velocity, DVec3::ZERO)?;
         Ok(Stretch {
             deviation_bound: DeviationBound {
-                centre_deviation: shift,
+                center_deviation: shift,
                 max_deviation_angle: 0.0,
             },
             ..Stretch::exact(motion)
@@ -213,7 +213,7 @@ fn budgets_end_cuts_where_there_is_no_bound() {
     let ask = |shift: f64, turn: f64, step: f64| {
         let hostile = HostileTrajectory {
             deviation_bound: DeviationBound {
-                centre_deviation: shift,
+                center_deviation: shift,
                 max_deviation_angle: turn,
             },
             step,

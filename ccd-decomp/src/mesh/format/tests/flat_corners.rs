@@ -2,7 +2,7 @@
 
 use super::Format;
 use crate::exact::predicates::has_zero_area;
-use crate::{Detail, TriangleMesh, body_from_mesh};
+use crate::{PieceChoice, TriangleMesh, body_from_mesh};
 use ccd_core::Solidity;
 use ccd_core::glam::DVec3;
 
@@ -163,7 +163,7 @@ fn a_corner_without_length_bounds_no_area() {
                 "{format:?}: {what}: {}",
                 mesh.repairs()
             );
-            let body = body_from_mesh(&mesh, Detail::Auto).unwrap().body;
+            let body = body_from_mesh(&mesh, PieceChoice::Auto).unwrap().body;
             assert_eq!(body.solidity(), Solidity::Solid, "{format:?}: {what}");
         }
     }
@@ -184,6 +184,6 @@ fn a_needle_beyond_the_outline_is_kept() {
     let held: Vec<u32> = (0..mesh.faces().len() as u32).filter(holds).collect();
     assert!(!held.is_empty(), "the tip is gone");
     assert!(held.iter().all(|&face| has_zero_area(mesh.triangle(face))));
-    let body = body_from_mesh(&mesh, Detail::Auto).unwrap().body;
+    let body = body_from_mesh(&mesh, PieceChoice::Auto).unwrap().body;
     assert_eq!(body.solidity(), Solidity::Solid);
 }

@@ -5,7 +5,7 @@ use crate::mesh::TriangleMesh;
 use crate::rational::{Exact3, exact_fraction};
 use crate::solid::topology::TopologyDefects;
 use crate::work::WorkBudget;
-use crate::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use dashu_ratio::Relaxed;
@@ -70,7 +70,7 @@ fn worst_distance() {
         let error = greater(lesser(found, reached) - truth, truth - reached);
         // Query points are in hulls of the mesh's points. A mesh of one point has no hull.
         let near = truth <= 2.0 * target.half_diagonal && target.half_diagonal > 0.0;
-        near.then(|| error_share(error, target.distance_rounding))
+        near.then(|| error_fraction(error, target.distance_rounding))
     });
     // The search must find triangles that are barely not needles.
     found.assert_tight_bound(1e8);

@@ -1,6 +1,6 @@
 use crate::rational::Exact3;
 use crate::tolerance::{DISTANCE_ERROR_BOUND_PER_HALF_DIAGONAL, MIN_CORNER_SINE};
-use crate::worst::{WorstCaseSearch, error_share};
+use crate::worst::{WorstCaseSearch, error_fraction};
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 
@@ -23,7 +23,7 @@ fn worst_normal() {
         // The rounding here is far below the tested error.
         let exact = exact.0.map(|x| x.to_f64().value());
         let exact = unit(DVec3::from_array(exact))?;
-        Some(error_share(
+        Some(error_fraction(
             exact.distance(found),
             DISTANCE_ERROR_BOUND_PER_HALF_DIAGONAL,
         ))

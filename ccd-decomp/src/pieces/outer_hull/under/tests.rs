@@ -3,7 +3,7 @@
 use super::clip_to_half_space;
 use crate::rational::{Exact3, exact_fraction};
 use crate::tolerance::excess_rounding_bound;
-use crate::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
 
@@ -63,7 +63,7 @@ fn worst_cuts() {
         }
         let off = polygon.iter().map(|&x| distance_from_line(x, edge));
         let bound = excess_rounding_bound(0.0, largest_absolute_coordinate(edge));
-        Some(error_share(off.fold(0.0, greater), bound))
+        Some(error_fraction(off.fold(0.0, greater), bound))
     });
     found.assert_tight_bound(4_000.0);
 }

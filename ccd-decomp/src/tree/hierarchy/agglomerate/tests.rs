@@ -6,16 +6,16 @@ use ccd_core::HierarchyNode;
 use ccd_core::glam::Vec3A;
 use proptest::prelude::*;
 
-/// Generates centres on a coarse grid, so that many distances are equal.
-fn centres_on_grid() -> impl Strategy<Value = Vec<Vec3A>> {
+/// Generates centers on a coarse grid, so that many distances are equal.
+fn centers_on_grid() -> impl Strategy<Value = Vec<Vec3A>> {
     let number = || (0u8..8).prop_map(f32::from);
-    let centre = [number(), number(), number()].prop_map(Vec3A::from);
-    prop::collection::vec(centre, 2..300)
+    let center = [number(), number(), number()].prop_map(Vec3A::from);
+    prop::collection::vec(center, 2..300)
 }
 
 proptest! {
     #[test]
-    fn the_nearest_neighbour_is_the_first_of_the_nearest(row in centres_on_grid()) {
+    fn the_nearest_neighbour_is_the_first_of_the_nearest(row in centers_on_grid()) {
         let mut nearest = Vec::new();
         find_nearest_in_row(&row, &mut nearest);
         for (index, own) in row.iter().enumerate() {
@@ -38,7 +38,7 @@ proptest! {
 }
 
 #[test]
-fn clusters_with_one_centre_are_all_partners() {
+fn clusters_with_one_center_are_all_partners() {
     for count in [2, 7, 1000] {
         let mut partners = Vec::new();
         find_nearest_in_row(&vec![Vec3A::ONE; count], &mut partners);
@@ -57,7 +57,7 @@ fn hardly_any_nearest_neighbour_is_missed() {
     };
     let row: Vec<Cluster> = (0..3600)
         .map(|k| Cluster {
-            centre: point(k),
+            center: point(k),
             weight: 1.0,
             node: HierarchyNode::Leaf(0),
         })
@@ -70,7 +70,7 @@ fn hardly_any_nearest_neighbour_is_missed() {
         search.find_nearest(&row, curves);
         let is_missed = |(index, own): (usize, &Cluster)| {
             let others = row.iter().enumerate().filter(|&(k, _)| k != index);
-            let squares = others.map(|(_, other)| other.centre.distance_squared(own.centre));
+            let squares = others.map(|(_, other)| other.center.distance_squared(own.center));
             squares.min_by(f32::total_cmp) < Some(search.nearest[index].distance)
         };
         row.iter().enumerate().filter(|&at| is_missed(at)).count()

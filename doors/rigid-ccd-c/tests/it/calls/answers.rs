@@ -81,9 +81,9 @@ impl Answer for RccdAnswer {
 
 impl Answer for RccdPathAnswer {
     fn check(&self, world: &mut World<'_>, context: &Context) -> Result<(), String> {
-        let is_point = (0.0..=1.0).contains(&self.share);
+        let is_point = (0.0..=1.0).contains(&self.fraction);
         let segments = context.segments.saturating_sub(1).max(1);
-        require(is_point || self.share.is_nan(), "share is outside")?;
+        require(is_point || self.fraction.is_nan(), "fraction is outside")?;
         require(
             context.segments == 0 || self.segment < segments,
             "segment is outside",
@@ -101,7 +101,7 @@ impl Answer for RccdPathAnswer {
                 )?;
             }
             RccdOutcome::Free => require(
-                self.share == 1.0 && self.item_a.data.is_null(),
+                self.fraction == 1.0 && self.item_a.data.is_null(),
                 "a free path ends",
             )?,
             RccdOutcome::LeastDistance | RccdOutcome::Unresolved => {}

@@ -174,20 +174,20 @@ impl<'w, 'f> Call<'w, 'f> {
         self.duration
     }
 
-    pub(super) fn detail(&mut self) -> u32 {
+    pub(super) fn pieces(&mut self) -> u32 {
         // Queries of two such bodies take long.
         let usual = if self.once_in(1000) {
             3 * self.random.index(2)
         } else {
             1 + self.random.index(2)
         } as u32;
-        let detail = if self.is_odd() {
+        let pieces = if self.is_odd() {
             self.random.bits()
         } else {
             usual
         };
-        self.note("detail", detail);
-        detail
+        self.note("pieces", pieces);
+        pieces
     }
 
     pub(super) fn joint_number(&mut self) -> usize {
@@ -267,8 +267,8 @@ impl<'w, 'f> Call<'w, 'f> {
     }
 
     /// Draws a name of attached bodies. Such a body need not exist.
-    pub(super) fn held(&mut self) -> *const c_char {
-        self.text_of("held", &["cup", "tool"].map(c_text))
+    pub(super) fn attached(&mut self) -> *const c_char {
+        self.text_of("attached", &["cup", "tool"].map(c_text))
     }
 
     pub(super) fn link(&mut self) -> *const c_char {
@@ -280,7 +280,7 @@ impl<'w, 'f> Call<'w, 'f> {
         self.text_of("link", &["upper", "lower"].map(c_text))
     }
 
-    /// Draws a link, a held body or an obstacle.
+    /// Draws a link, an attached body or an obstacle.
     pub(super) fn item(&mut self) -> *const c_char {
         self.text_of(
             "item",

@@ -15,7 +15,7 @@ const GUARD: usize = 32;
 /// The arguments of a call that the checks of its results need.
 pub(super) struct Context {
     pub(super) owner: usize,
-    /// The number of free joints of the cell.
+    /// The number of independent joints of the cell.
     pub(super) joint_count: Option<usize>,
     /// The clearance of the question, which replaces the margin.
     pub(super) clearance: Option<f64>,
@@ -242,10 +242,10 @@ impl Call<'_, '_> {
     pub(super) fn new_motion(&mut self) -> *mut RccdMotion {
         self.value_place(|motion: RccdMotion, _, _| {
             let mut numbers = (motion.start.position.iter())
-                .chain(&motion.start.orientation)
+                .chain(&motion.start.rotation)
                 .chain(&motion.velocity)
-                .chain(&motion.spin)
-                .chain(&motion.centre);
+                .chain(&motion.angular_velocity)
+                .chain(&motion.center);
             require(
                 numbers.all(|number| number.is_finite()),
                 "a motion is not finite",

@@ -56,8 +56,8 @@ pub(super) const FUNCTIONS: &[Function] = functions! {
     rccd_body_box 12 status (length, length, length, new_handle);
     rccd_body_cylinder 1 status (length, length, new_handle);
     rccd_body_cone 1 status (length, length, new_handle);
-    rccd_body_from_triangles 4 status (vertices, count, triangles, count, detail, new_handle);
-    rccd_body_prepare 1 status (vertices, count, triangles, count, detail, stored_file);
+    rccd_body_from_triangles 4 status (vertices, count, triangles, count, pieces, new_handle);
+    rccd_body_prepare 1 status (vertices, count, triangles, count, pieces, stored_file);
     rccd_body_load 8 status (body_file, new_handle);
     rccd_body_free 12 status (freed);
     rccd_body_piece_count 8 status (handle, new_piece_count);
@@ -71,8 +71,8 @@ pub(super) const FUNCTIONS: &[Function] = functions! {
     rccd_cell_add_obstacle 12 status (handle, obstacle, handle, pose);
     rccd_cell_move_obstacle 12 status (handle, obstacle, pose);
     rccd_cell_remove_obstacle 10 status (handle, obstacle);
-    rccd_cell_attach 16 status (handle, held, handle, link, pose, links, count);
-    rccd_cell_detach 12 status (handle, held);
+    rccd_cell_attach 16 status (handle, attached, handle, link, pose, links, count);
+    rccd_cell_detach 12 status (handle, attached);
     rccd_cell_allow_contact 8 status (handle, item, item);
     rccd_cell_forbid_contact 8 status (handle, moving_link, obstacle);
     rccd_cell_check_summary 4 status (handle, new_summary);
@@ -105,8 +105,8 @@ pub(super) const FUNCTIONS: &[Function] = functions! {
     rccd_stop_set 4 status (handle);
     rccd_stop_clear 16 status (handle);
     rccd_stop_free 4 status (freed);
-    rccd_trajectory_through_poses 16 status (times_of_poses, next, count, new_handle);
-    rccd_trajectory_thrown 12 status (motion, vector, new_handle);
+    rccd_trajectory_pose_path 16 status (times_of_poses, next, count, new_handle);
+    rccd_trajectory_ballistic 12 status (motion, vector, new_handle);
     rccd_trajectory_bezier 12 status (points, count, duration, turns, new_handle);
     rccd_trajectory_b_spline 12 status (points, count, duration, turns, new_handle);
     rccd_trajectory_free 8 status (freed);
@@ -119,7 +119,7 @@ trait Constant {
 
 impl Constant for RccdMotion {
     fn check(self) {
-        assert_eq!((self.velocity, self.start.orientation[3]), ([0.0; 3], 1.0));
+        assert_eq!((self.velocity, self.start.rotation[3]), ([0.0; 3], 1.0));
     }
 }
 

@@ -25,7 +25,7 @@ impl Call<'_, '_> {
         values
     }
 
-    fn orientation(&mut self) -> [f64; 4] {
+    fn rotation(&mut self) -> [f64; 4] {
         let scale = if self.once_in(50) { 1e-200 } else { 1.0 };
         let usual = [(); 4].map(|()| scale * self.random.number());
         let values = match self.random.index(3) {
@@ -35,14 +35,14 @@ impl Call<'_, '_> {
             }
             _ => usual,
         };
-        self.note("orientation", values);
+        self.note("rotation", values);
         values
     }
 
     fn pose_value(&mut self) -> RccdPose {
         RccdPose {
             position: self.three("position", 1.5),
-            orientation: self.orientation(),
+            rotation: self.rotation(),
         }
     }
 
@@ -50,8 +50,8 @@ impl Call<'_, '_> {
         RccdMotion {
             start: self.pose_value(),
             velocity: self.three("velocity", 2.0),
-            spin: self.three("spin", 3.0),
-            centre: self.three("centre", 0.3),
+            angular_velocity: self.three("angular_velocity", 3.0),
+            center: self.three("center", 0.3),
         }
     }
 
@@ -82,7 +82,7 @@ impl Call<'_, '_> {
         self.array("points", points, 3)
     }
 
-    pub(super) fn turns(&mut self) -> *const RccdTurns {
+    pub(super) fn turns(&mut self) -> *const RccdRotations {
         if self.once_in(2) {
             return null();
         }
@@ -92,11 +92,11 @@ impl Call<'_, '_> {
             1 + self.random.index(3)
         };
         let times = self.times(count);
-        let orientations = (0..count).flat_map(|_| self.orientation()).collect();
-        let (arrays, [count]) = self.arrays(vec![times, orientations], [count]);
-        self.lend(RccdTurns {
+        let rotations = (0..count).flat_map(|_| self.rotation()).collect();
+        let (arrays, [count]) = self.arrays(vec![times, rotations], [count]);
+        self.lend(RccdRotations {
             times: arrays[0],
-            orientations: arrays[1],
+            rotations: arrays[1],
             count,
         })
     }
@@ -104,7 +104,7 @@ impl Call<'_, '_> {
     pub(super) fn pose_numbers(&mut self) -> [f64; 7] {
         let RccdPose {
             position: [x, y, z],
-            orientation: [i, j, k, w],
+            rotation: [i, j, k, w],
         } = self.pose_value();
         [x, y, z, i, j, k, w]
     }
@@ -190,21 +190,21 @@ impl Call<'_, '_> {
     pub(super) fn given_answer(&mut self) -> *const RccdPathAnswer {
         let mut answer = MaybeUninit::<RccdPathAnswer>::zeroed();
         let outcome = [1, 1, 2, 0, 0, 6, 77][self.random.index(7)];
-        let (segment, share) = (self.random.index(3), self.number("share", 0.5));
+        let (segment, fraction) = (self.random.index(3), self.number("fraction", 0.5));
         let sizes = [0, 8, size_of::<RccdPathAnswer>() - 1, usize::MAX];
         let size = if self.is_odd() {
             sizes[self.random.index(4)]
         } else {
             size_of::<RccdPathAnswer>()
         };
-        self.note("answer", (outcome, segment, share, size));
+        self.note("answer", (outcome, segment, fraction, size));
         let place = answer.as_mut_ptr();
         // SAFETY: the fields are in the place; an outcome need not be one of the enum, and is written as a number.
         unsafe {
             (&raw mut (*place).size).write(size);
             (&raw mut (*place).outcome).cast::<i32>().write(outcome);
             (&raw mut (*place).segment).write(segment);
-            (&raw mut (*place).share).write(share);
+            (&raw mut (*place).fraction).write(fraction);
         }
         self.lend(answer).cast()
     }

@@ -20,7 +20,7 @@ pub(super) struct World<'f> {
     curves: Vec<*mut RccdJointCurve>,
     /// The settings of each solver, by its address.
     pub(super) settings: HashMap<usize, RccdSettings>,
-    /// The number of free joints of each cell and each cell solver, by address.
+    /// The number of independent joints of each cell and each cell solver, by address.
     pub(super) joint_counts: HashMap<usize, usize>,
     pub(super) lent: Vec<LentText>,
     pub(super) files: &'f Files,
@@ -40,7 +40,7 @@ pub(super) trait Pooled: Sized {
     fn pool<'w>(world: &'w mut World<'_>) -> &'w mut Vec<*mut Self>;
 }
 
-/// Returns the number of free joints of a cell; `None` for null.
+/// Returns the number of independent joints of a cell; `None` for null.
 pub(super) fn joint_count(cell: *const RccdCell) -> Option<usize> {
     let mut count = 0;
     // SAFETY: null or a handle.

@@ -99,7 +99,7 @@ fn load(
     };
     let source: BodySource = text.parse().context(option)?;
     let prepared = source
-        .load_adjusted(&meshes.adjustments(), meshes.detail())
+        .load_adjusted(&meshes.adjustments(), meshes.choice())
         .with_context(|| format!("{option} {text}"))?;
     Ok(Some(prepared.body))
 }

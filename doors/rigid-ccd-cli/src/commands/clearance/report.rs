@@ -42,7 +42,7 @@ impl Report<'_> {
         let configurations = &self.path.configurations;
         let from = &configurations[at.segment];
         let to = &configurations[(at.segment + 1).min(configurations.len() - 1)];
-        let names = self.cell.robot().free_joint_names().enumerate();
+        let names = self.cell.robot().independent_joint_names().enumerate();
         let moving = names.filter(|(k, _)| {
             let first = configurations[0][*k];
             configurations
@@ -50,7 +50,7 @@ impl Report<'_> {
                 .any(|configuration| configuration[*k] != first)
         });
         moving
-            .map(|(k, name)| (name, from[k] + at.share * (to[k] - from[k])))
+            .map(|(k, name)| (name, from[k] + at.fraction * (to[k] - from[k])))
             .collect()
     }
 

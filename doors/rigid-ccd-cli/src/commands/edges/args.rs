@@ -28,7 +28,7 @@ pub(crate) struct EdgesArgs {
     pub(super) joints: JointsArgs,
     /// Question that every row answers
     #[arg(long, value_parser = named_value_parser(QUESTIONS), default_value = "is-free")]
-    pub(super) ask: Question,
+    pub(super) question: Question,
     /// Report a contact at a distance of at most clearance + tolerance, in metres
     #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_PATH_TOLERANCE, value_parser = tolerance_length, allow_hyphen_values = true)]
     pub(super) tolerance: f64,
@@ -62,7 +62,7 @@ pub(crate) struct EdgesArgs {
     /// Continue an interrupted run of the same command after its last complete row; a finished run is left unchanged
     #[arg(long)]
     pub(super) resume: bool,
-    /// End with exit code 3 unless every row is `free` or, with --ask closest-approach, `kept`
+    /// End with exit code 3 unless every row is `free` or, with --question closest-approach, `kept`
     #[arg(long)]
     pub(super) check: bool,
     /// Print only warnings and errors on standard error
@@ -70,7 +70,7 @@ pub(crate) struct EdgesArgs {
     pub(super) quiet: bool,
 }
 
-/// The questions of `--ask`.
+/// The questions of `--question`.
 const QUESTIONS: &Named<Question> = &[
     (
         Question::AnyContact.name(),
@@ -97,8 +97,8 @@ pub(super) const UNRECORDED_OPTIONS: [&str; 7] = [
 const AFTER_HELP: &str = "\
 Examples:
   ccd edges arm.urdf --cell cell.toml --edges moves.csv --out results.csv
-  ccd edges arm.urdf --srdf arm.srdf --cell cell.toml --edges moves.csv --clearance 5mm --ask first-contact
-  ccd edges arm.urdf --cell cell.toml --edges path.csv --ask closest-approach
+  ccd edges arm.urdf --srdf arm.srdf --cell cell.toml --edges moves.csv --clearance 5mm --question first-contact
+  ccd edges arm.urdf --cell cell.toml --edges path.csv --question closest-approach
   printf 'from_shoulder,to_shoulder\\n0,1.5\\n' | ccd edges arm.urdf --joint elbow=30deg --edges -
 
 An SRDF of `ccd acm` leaves out pairs that never touch, also if they come nearer than --clearance.
@@ -121,11 +121,11 @@ Cell (--cell), TOML. Bodies are those of `ccd query --a`; files are looked for n
   name = \"table\"
   body = \"box:0.8,0.8,0.02\"       # half extents
   position = [0, 0, -0.05]        # in the frame of the robot's base [default: 0]
-  rpy = [0, 0, 1.57]              # or quaternion = [w, x, y, z] [default: none]
+  rpy = [0, 0, 1.57]              # or quaternion_xyzw [default: none]
   moves = \"floating\"              # or planar: it has joints of its own, table/base/x and so on [default: it rests]
   [[plane]]                       # a half-space without an end, below z = 0 of its frame
   name = \"floor\"
-  position = [0, 0, -0.1]         # and rpy or quaternion, as an obstacle
+  position = [0, 0, -0.1]         # and rpy or quaternion_xyzw, as an obstacle
   [[robot]]                       # another one, placed as an obstacle; its joints are right/shoulder and so on
   name = \"right\"
   urdf = \"arm.urdf\"               # and srdf
@@ -153,7 +153,7 @@ Table of results:
                             the same, compared with --clearance; paddings and clearances of the cell do not count
             unresolved      a limit was reached; of first-contact: free until `time`
             error           the row is no valid question; see `reason`
-  time                      where the pair is: of an edge from 0 to 1, of a path the number of the segment and the share
+  time                      where the pair is: of an edge from 0 to 1, of a path the number of the segment and the fraction
                             of it, or the time of column `t`. Of a first contact: proven, nothing touches before
   a, b                      links, held objects or obstacles; a is of the robot
   distance_lower, distance_upper
@@ -174,6 +174,6 @@ Exit codes:
 
 Examples:
   ccd edges arm.urdf --cell cell.toml --edges moves.csv --out results.csv
-  ccd edges arm.urdf --srdf arm.srdf --cell cell.toml --edges moves.csv --clearance 5mm --ask first-contact
-  ccd edges arm.urdf --cell cell.toml --edges path.csv --ask closest-approach
+  ccd edges arm.urdf --srdf arm.srdf --cell cell.toml --edges moves.csv --clearance 5mm --question first-contact
+  ccd edges arm.urdf --cell cell.toml --edges path.csv --question closest-approach
   printf 'from_shoulder,to_shoulder\\n0,1.5\\n' | ccd edges arm.urdf --joint elbow=30deg --edges -";

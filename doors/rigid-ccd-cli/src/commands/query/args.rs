@@ -25,8 +25,8 @@ pub(crate) struct QueryArgs {
     pub(super) motions: PathBuf,
     /// Question that every row answers; all except first-contact need --schedule best-first
     #[arg(long, value_parser = named_value_parser(QUESTIONS), default_value_t)]
-    pub(super) ask: Question,
-    /// Distance that the bodies must keep, for --ask closest-approach or distance: rows are then `kept`, `violated` or
+    pub(super) question: Question,
+    /// Distance that the bodies must keep, for --question closest-approach or distance: rows are then `kept`, `violated` or
     /// `unverified`; in the scene's unit of length
     #[arg(long, value_name = "LENGTH", value_parser = parse_nonnegative, allow_hyphen_values = true)]
     pub(super) clearance: Option<f64>,
@@ -110,7 +110,7 @@ pub(crate) struct QueryArgs {
 impl QueryArgs {
     /// Returns the columns of the table of results that these options ask for.
     pub(super) fn columns(&self) -> Vec<Column> {
-        let mut columns = results::columns(self.ask);
+        let mut columns = results::columns(self.question);
         if self.counters {
             columns.extend(results::COUNTER_COLUMNS);
         }

@@ -7,7 +7,7 @@ pub(super) const AFTER_HELP: &str = "\
 Examples:
   ccd query --a knot.obj --b knot.obj --motions motions.csv --out results.csv
   ccd query --a 'robot.glb#gripper' --b part.stl --unit mm --motions motions.csv
-  ccd query --a gripper.stl --b shelf.stl --motions paths.csv --ask closest-approach --clearance .01 --check
+  ccd query --a gripper.stl --b shelf.stl --motions paths.csv --question closest-approach --clearance .01 --check
   ccd query --a gripper.stl --b shelf.stl --motions called-free.csv --check --tolerance 1e-6 --html missed.html
   printf 'a_pz,a_vz\\n3,-4\\n' | ccd query --a box:.5,.5,.5 --b box:9,9,1 --motions -
 
@@ -59,12 +59,12 @@ Table of motions:
   id                        name of the row in the results [default: its number]
   a_px a_py a_pz            position of A at the start [default: 0]
   a_qw a_qx a_qy a_qz       orientation of A at the start, a quaternion [default: identity]
-  a_vx a_vy a_vz            velocity of A's centre, world frame, per unit of time [default: 0]
+  a_vx a_vy a_vz            velocity of A's center, world frame, per unit of time [default: 0]
   a_wx a_wy a_wz            angular velocity of A, world frame, radians per unit of time [default: 0]
   a_end_px a_end_py a_end_pz a_end_qw a_end_qx a_end_qy a_end_qz
                             instead of velocities: pose of A at the end, reached by the shortest
                             rotation; without a position or an orientation, that of the start is kept
-  a_cx a_cy a_cz            centre of rotation of A, in A's frame; it moves in a straight line
+  a_cx a_cy a_cz            center of rotation of A, in A's frame; it moves in a straight line
                             [default: A's origin]
   b_px, ...                 the same columns for B
   duration                  end of the motion, at least 0 [default: 1]
@@ -73,8 +73,8 @@ Table of motions:
   counterclockwise about the vector part (x, y, z) of end * start^-1, so the signs of the quaternions
   decide. Within 1e-15 of half a turn, rounding decides. Give velocities where the direction matters.
 
-  Coordinates of meshes, positions and centres are from -1e12 to 1e12. --tolerance, --margin and the
-  distance from B's position at the start to either centre, at all times, are at most 1e12. Rotations
+  Coordinates of meshes, positions and centers are from -1e12 to 1e12. --tolerance, --margin and the
+  distance from B's position at the start to either center, at all times, are at most 1e12. Rotations
   are at most 1e6 radians. A row outside these ranges has status `error`.
 
 Table of paths:
@@ -83,13 +83,13 @@ Table of paths:
   id                        name of the path in the results [default: all rows are one path]
   t                         time of the row, later than that of the row before
   a_px ... a_qz, b_px, ...  poses of A and B at that time, as above
-  a_cx a_cy a_cz, b_cx, ... centre of rotation, as above, the same in all rows of a path
+  a_cx a_cy a_cz, b_cx, ... center of rotation, as above, the same in all rows of a path
   a_wx a_wy a_wz, b_wx, ... angular velocity to the next row, for turns of more than half a turn; it may be
                             off by a quarter turn in all, and 0 is the shortest rotation; it needs a_qw ... [default: 0]
-  The results have a row for each path, and --rows counts paths; with --ask distance, a row for each
+  The results have a row for each path, and --rows counts paths; with --question distance, a row for each
   row. Times are those of column `t`.
 
-Questions (--ask):
+Questions (--question):
 {questions}
   Any of them may also be unresolved. An interval has the status of its first contact, and the last time of any.
 
@@ -122,8 +122,8 @@ Table of results:
   micros                    time of this query in microseconds; for accurate times use --threads 1
   reason                    of `error`: what is wrong; of `unresolved`: the limit, one of budget,
                             deadline, stalled, oracle gave up, undecided. Where the budget is spent, a
-                            larger --tolerance or --ask is-free with a --margin often decides at once
-  With --ask contact-interval also:
+                            larger --tolerance or --question is-free with a --margin often decides at once
+  With --question contact-interval also:
   last_time                 certified: no contact after it, also where they touch or overlap at the start
   With --counters also:
   advancements              steps that advanced all pairs together; 0 for best-first

@@ -6,12 +6,12 @@ use ccd_core::Limit;
 pub(super) const LIMIT_ADVICE: [(Limit, &str); 5] = [
     (
         Limit::Budget,
-        "the budget was spent; a larger --tolerance, or --ask is-free with a --margin, often decides at once; a larger \
+        "the budget was spent; a larger --tolerance, or --question is-free with a --margin, often decides at once; a larger \
          --budget takes longer",
     ),
     (
         Limit::Deadline,
-        "the deadline has passed; a larger --tolerance, or --ask is-free with a --margin, often decides at once; a \
+        "the deadline has passed; a larger --tolerance, or --question is-free with a --margin, often decides at once; a \
          later --deadline takes longer",
     ),
     (

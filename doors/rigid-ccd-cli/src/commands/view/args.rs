@@ -120,7 +120,7 @@ const AFTER_HELP: &str = "\
 The page is one file that needs no network. It has a view for each row shown: both bodies, a slider for the
 time, ghosts of the steps, the measured gap over time with a proven lower bound, and what touches.
 Of a robot the gap is that of the nearest pair, and the proven line is under it at every time.
-A motion is shown for its first contact. `ccd query --ask ... --html` shows the other questions.
+A motion is shown for its first contact. `ccd query --question ... --html` shows the other questions.
 
 Examples:
   ccd view --a knot.obj --b knot.obj --motions motions.csv --ids 3,17

@@ -1,7 +1,7 @@
 use super::*;
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, Motion, Outcome, Pose, Settings};
-use ccd_decomp::{Detail, PatchOrder, TriangleMesh, build_hull_tree, prepare};
+use ccd_decomp::{PatchOrder, PieceChoice, TriangleMesh, build_hull_tree, prepare};
 
 /// Returns a trefoil knot split into patches, with its hull tree.
 fn knot() -> Body {
@@ -10,7 +10,7 @@ fn knot() -> Body {
         "/../../rigid-ccd/tests/data/knot216.obj"
     );
     let mesh = TriangleMesh::read(file).expect("a mesh");
-    let model = prepare(&mesh, Detail::Patches(PatchOrder::default())).expect("a solid");
+    let model = prepare(&mesh, PieceChoice::Patches(PatchOrder::default())).expect("a solid");
     let tree = build_hull_tree(&model.pieces).expect("a tree");
     let body = model.body().expect("a body");
     body.with_hull_tree(tree).expect("its own tree")

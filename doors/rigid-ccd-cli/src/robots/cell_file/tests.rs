@@ -48,7 +48,7 @@ fn a_cell_has_what_its_file_says() {
         name = 'corner'
         body = 'corner.obj@scale=0.1'
         position = [0.15, 0, 0]
-        quaternion = [0, 0, 0, 1]
+        quaternion_xyzw = [0, 0, 1, 0]
 
         [[attached]]
         name = 'tool'
@@ -133,7 +133,7 @@ fn errors_name_what_is_wrong() {
         ("[[obstacle]]\nname = 'a'\nbody = 'none.obj'", "none.obj"),
         ("[[obstacle]]\nname = 'arm'\nbody = 'sphere:1'", "arm"),
         (
-            "[[obstacle]]\nname = 'a'\nbody = 'sphere:1'\nrpy = [0, 0, 0]\nquaternion = [1, 0, 0, 0]",
+            "[[obstacle]]\nname = 'a'\nbody = 'sphere:1'\nrpy = [0, 0, 0]\nquaternion_xyzw = [1, 0, 0, 0]",
             "rpy",
         ),
         ("[[obstacles]]\nname = 'a'\nbody = 'sphere:1'", "obstacles"),
@@ -228,8 +228,8 @@ fn surplus_and_missing_values_are_refused() {
             "obstacle wall: rpy has 4 values, not 3",
         ),
         (
-            "quaternion = [1, 0, 0, 0, 0]",
-            "obstacle wall: quaternion has 5 values, not 4",
+            "quaternion_xyzw = [1, 0, 0, 0, 0]",
+            "obstacle wall: quaternion_xyzw has 5 values, not 4",
         ),
         (
             "moves = 'planar'\nrpy = [0]",
@@ -253,8 +253,8 @@ fn surplus_and_missing_values_are_refused() {
             "attached body tool: position",
         ),
         (
-            "[[robot]]\nname = 'r'\nurdf = 'cart.urdf'\nquaternion = [1]",
-            "robot r: quaternion",
+            "[[robot]]\nname = 'r'\nurdf = 'cart.urdf'\nquaternion_xyzw = [1]",
+            "robot r: quaternion_xyzw",
         ),
         ("[padding]\narm = [0.1, 0.2]", "of [padding]: invalid type"),
     ] {
@@ -284,7 +284,7 @@ fn other_robots_and_moving_obstacles_have_positions_of_their_own() {
         between = ['arm', 'ball/body']
         distance = 0.5";
     let cell = read(text).unwrap();
-    let names: Vec<&str> = cell.robot().free_joint_names().collect();
+    let names: Vec<&str> = cell.robot().independent_joint_names().collect();
     let expected = [
         "hinge",
         "cart/base/x",

@@ -4,7 +4,7 @@ use anyhow::{Result, anyhow, bail};
 use rigid_ccd::Pose;
 use rigid_ccd::glam::{DQuat, EulerRot};
 
-/// Returns a pose whose rotation is roll, pitch and yaw as in a URDF, a quaternion (w, x, y, z), or none.
+/// Returns a pose whose rotation is roll, pitch and yaw as in a URDF, a quaternion (x, y, z, w), or none.
 pub(super) fn pose(
     position: &Option<Vec<f64>>,
     rpy: &Option<Vec<f64>>,
@@ -15,15 +15,12 @@ pub(super) fn pose(
         None => [0.0; 3],
     };
     let rotation = match (rpy, quaternion) {
-        (Some(_), Some(_)) => bail!("give either rpy or quaternion"),
+        (Some(_), Some(_)) => bail!("give either rpy or quaternion_xyzw"),
         (Some(rpy), None) => {
             let &[roll, pitch, yaw] = values("rpy", rpy)?;
             DQuat::from_euler(EulerRot::ZYX, yaw, pitch, roll)
         }
-        (None, Some(quaternion)) => {
-            let &[w, x, y, z] = values("quaternion", quaternion)?;
-            DQuat::from_xyzw(x, y, z, w)
-        }
+        (None, Some(quaternion)) => DQuat::from_array(*values("quaternion_xyzw", quaternion)?),
         (None, None) => DQuat::IDENTITY,
     };
     Ok(Pose::new(position, rotation)?)

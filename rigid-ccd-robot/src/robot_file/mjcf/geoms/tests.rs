@@ -263,7 +263,7 @@ fn elements_are_replicated() {
     let arms = r#"<mujoco><worldbody><replicate count="3" euler="0 0 120"><body name="arm" pos="1 0 0">
         <joint name="turn" range="-10 10"/><geom size="0.1"/></body></replicate></worldbody></mujoco>"#;
     let robot = robot_of(arms);
-    let names: Vec<&str> = robot.free_joint_names().collect();
+    let names: Vec<&str> = robot.independent_joint_names().collect();
     assert_eq!(names, ["turn0", "turn1", "turn2"]);
     for k in 0..3u32 {
         let pose = robot.pose(&format!("arm{k}"), &[0.0; 3]).unwrap();

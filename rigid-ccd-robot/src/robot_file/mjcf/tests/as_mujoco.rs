@@ -162,7 +162,7 @@ fn words_are_taken_as_they_are() {
     assert_eq!(link_body.pose.translation(), DVec3::ZERO);
 }
 
-/// Tests that joints of frames that MuJoCo would move to the centre of mass are refused.
+/// Tests that joints of frames that MuJoCo would move to the center of mass are refused.
 #[test]
 fn frames_that_are_aligned_with_the_inertia_are_refused() {
     let free = |compiler: &str, joint: &str, child: &str| {
@@ -303,7 +303,7 @@ fn flags_switch_equalities_and_limits_off() {
     ] {
         let text = text(flag).replace(r#"range="0 1""#, r#"range="0 57.29577951308232""#);
         let robot = read(&text);
-        assert_eq!(robot.free_joint_names().count(), joints, "{flag}");
+        assert_eq!(robot.independent_joint_names().count(), joints, "{flag}");
         let limited = robot.limits().all(|[_, high]| high < f64::INFINITY);
         assert_eq!(limited, is_limited, "{flag}");
         assert_eq!(

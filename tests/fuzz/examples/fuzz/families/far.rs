@@ -1,4 +1,4 @@
-//! Draws queries with end poses and centres of rotation far from the origin, and with tight tolerances.
+//! Draws queries with end poses and centers of rotation far from the origin, and with tight tolerances.
 
 use super::passing_case;
 use crate::case::Case;
@@ -35,7 +35,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
 }
 
 /// Returns a motion with the displacement of `course` and a start moved by `far`, in most cases between end poses and
-/// about a random centre.
+/// about a random center.
 fn far_motion(
     draw: &mut RandomSource,
     course: &RawMotion,
@@ -49,7 +49,7 @@ fn far_motion(
         position: add_arrays(course.start.position, far),
         ..course.start
     };
-    let centre = match draw.count(0..3) {
+    let center = match draw.count(0..3) {
         0 => [0.0; 3],
         1 => draw.point(),
         _ => scale_array(draw.direction(), draw.log_uniform(1.0..1e9)),
@@ -63,7 +63,7 @@ fn far_motion(
         return RawMotion {
             start,
             spec: goal,
-            centre,
+            center,
         };
     }
     let quaternion = match draw.count(0..3) {
@@ -82,6 +82,6 @@ fn far_motion(
     RawMotion {
         start,
         spec: MotionSpec::EndPose(end),
-        centre,
+        center,
     }
 }

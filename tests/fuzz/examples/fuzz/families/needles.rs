@@ -66,13 +66,13 @@ fn thin_triangles(draw: &mut RandomSource) -> Shape {
         let at = about.unwrap_or_else(|| scale_array(draw.point(), 0.5));
         let along = common.unwrap_or_else(|| lattice_or_unit_direction(draw));
         let aside = scale_array(lattice_or_unit_direction(draw), width);
-        let share = draw.pick(&[0.0, 0.5, 1.0, 0.3, -0.7]);
+        let fraction = draw.pick(&[0.0, 0.5, 1.0, 0.3, -0.7]);
         let third = match draw.count(0..5) {
             // The area is zero.
-            0 => add_arrays(at, scale_array(along, share)),
+            0 => add_arrays(at, scale_array(along, fraction)),
             1 => at,
             2 => add_arrays(at, add_arrays(along, aside)),
-            _ => add_arrays(add_arrays(at, scale_array(along, share)), aside),
+            _ => add_arrays(add_arrays(at, scale_array(along, fraction)), aside),
         };
         let first = if draw.bool_with_probability(0.3) {
             add_arrays(at, scale_array(aside, -0.5))

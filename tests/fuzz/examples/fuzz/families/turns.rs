@@ -15,7 +15,7 @@ pub(super) fn draw(draw: &mut RandomSource) -> Case {
     let mut case = passing_case(draw, bodies, turn, config);
     for course in &mut case.motions {
         if draw.bool_with_probability(0.3) {
-            course.centre = scale_array(draw.direction(), draw.log_uniform(0.1..10.0));
+            course.center = scale_array(draw.direction(), draw.log_uniform(0.1..10.0));
         }
     }
     case

@@ -21,7 +21,7 @@ pub(super) const SCALED_BIT: u8 = 128;
 pub(super) const ROTATED_BIT: u8 = 1;
 pub(super) const VELOCITY_BIT: u8 = 2;
 pub(super) const SPIN_BIT: u8 = 4;
-pub(super) const CENTRE_BIT: u8 = 8;
+pub(super) const CENTER_BIT: u8 = 8;
 pub(super) const END_POSE_BIT: u8 = 16;
 /// The bit that marks a margin, in the byte before the settings.
 pub(super) const MARGIN_BIT: u8 = 1;
@@ -218,7 +218,7 @@ fn decode_motion(source: &mut NumberReader<'_>) -> RawMotion {
         position: source.read_numbers(),
         quaternion: source.read_numbers_if(has(ROTATED_BIT), RawPose::at(none).quaternion),
     };
-    let centre = source.read_numbers_if(has(CENTRE_BIT), none);
+    let center = source.read_numbers_if(has(CENTER_BIT), none);
     let goal = if has(END_POSE_BIT) {
         MotionSpec::EndPose(RawPose {
             position: source.read_numbers(),
@@ -233,7 +233,7 @@ fn decode_motion(source: &mut NumberReader<'_>) -> RawMotion {
     RawMotion {
         start,
         spec: goal,
-        centre,
+        center,
     }
 }
 
@@ -249,15 +249,15 @@ fn limit_rotation(course: &mut RawMotion, duration: f64) {
 /// Moves A so that a corner of A meets a corner of B at some time, up to an offset. Bodies at random places rarely
 /// meet.
 fn aim_at_corner(source: &mut NumberReader<'_>, case: &mut Case) {
-    let share = f64::from(source.read_byte()) / 255.0;
-    let time = share * case.duration;
+    let fraction = f64::from(source.read_byte()) / 255.0;
+    let time = fraction * case.duration;
     let mut corner = |k: usize| {
         let vertices = &case.shapes[k].vertices;
         let corner = vertices[usize::from(source.read_byte()) % vertices.len()];
         let track = case.motions[k].exact_motion(case.duration);
         let placed = track.snapshot_at(time);
-        let arm = placed.world_arm(Vector::from_array(corner) - track.centre);
-        arm + placed.centre
+        let arm = placed.world_arm(Vector::from_array(corner) - track.center);
+        arm + placed.center
     };
     let [from, to] = [corner(0), corner(1)];
     let way = (to - from).to_f64() + Vector(source.read_numbers());

@@ -1,7 +1,7 @@
 //! Encodes a query as bytes, to turn cases into seeds.
 
 use super::decode::{
-    BUDGET_BIT, CENTRE_BIT, DURATION_BIT, END_POSE_BIT, LEAVE_BIT, MARGIN_BIT, MESH_SHAPE_KIND,
+    BUDGET_BIT, CENTER_BIT, DURATION_BIT, END_POSE_BIT, LEAVE_BIT, MARGIN_BIT, MESH_SHAPE_KIND,
     ROTATED_BIT, SPIN_BIT, TOLERANCE_BIT, VELOCITY_BIT,
 };
 use super::source::{FIXED_POINT_TAG_COUNT, RAW_NUMBER_TAG};
@@ -78,10 +78,10 @@ impl CaseWriter {
             MotionSpec::Velocities { .. } => VELOCITY_BIT | SPIN_BIT,
             MotionSpec::EndPose(_) => END_POSE_BIT | SPIN_BIT,
         };
-        self.0.push(ROTATED_BIT | CENTRE_BIT | goal);
+        self.0.push(ROTATED_BIT | CENTER_BIT | goal);
         self.write_numbers(&course.start.position);
         self.write_numbers(&course.start.quaternion);
-        self.write_numbers(&course.centre);
+        self.write_numbers(&course.center);
         match course.spec {
             MotionSpec::Velocities { linear, spin } => {
                 self.write_numbers(&linear);

@@ -114,7 +114,7 @@ fn enclosures_shrink_with_the_interval() {
 fn random_box(samples: &mut RandomSource) -> Obb {
     Obb {
         axes: DMat3::from_quat(samples.rotation()),
-        centre: samples.vector(1.0),
+        center: samples.vector(1.0),
         half_extents: samples.vector(0.5).abs(),
     }
 }
@@ -128,10 +128,10 @@ fn boxes_share_grid_point(a: &Obb, b: &Obb, at: &Placement) -> bool {
             let lines = GRID_COORDINATES.iter().map(move |&y| (x, y));
             lines.flat_map(|(x, y)| GRID_COORDINATES.iter().map(move |&z| DVec3::new(x, y, z)))
         });
-        points.map(move |p| o.centre + o.axes * (p * o.half_extents))
+        points.map(move |p| o.center + o.axes * (p * o.half_extents))
     };
     let holds = |o: &Obb, p: DVec3| {
-        let along = o.axes.transpose_mul_vec3(p - o.centre).abs();
+        let along = o.axes.transpose_mul_vec3(p - o.center).abs();
         (along - o.half_extents).max_element() <= 0.0
     };
     let back = at.rotation.transpose();
@@ -190,7 +190,7 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
     };
     let cube = Obb {
         axes: DMat3::IDENTITY,
-        centre: DVec3::ZERO,
+        center: DVec3::ZERO,
         half_extents: DVec3::splat(0.5),
     };
     for axis in DVec3::AXES {
@@ -202,7 +202,7 @@ fn boxes_at_rest_are_separated_exactly_where_a_face_separates_them() {
     }
 }
 
-/// An upper bound of the relative speed of the triangles' points in this test. Centres move by √3 (2 + 4), points up to
+/// An upper bound of the relative speed of the triangles' points in this test. Centers move by √3 (2 + 4), points up to
 /// 3 √3 from them by √3 times as much, twice.
 const RELATIVE_SPEED_BOUND: f64 = 30.0;
 

@@ -117,10 +117,10 @@ fn a_rod_turns_past_a_wall() {
         cuboid(ROD_HALF_WIDTH, 0.3, ROD_HALF_LENGTH),
         cuboid(0.5, 3.0, 3.0),
     );
-    for (share, hits) in [(1.0 - 1e-3, true), (1.0 - 1e-6, true), (1.0 + 1e-3, false)] {
+    for (fraction, hits) in [(1.0 - 1e-3, true), (1.0 - 1e-6, true), (1.0 + 1e-3, false)] {
         let a = constant_velocity_motion(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, PI * DVec3::Y);
-        let query = query(a, resting_motion((radius * share + 0.5) * DVec3::X));
-        let exact = (lesser(1.0, share).asin() - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH)) / PI;
+        let query = query(a, resting_motion((radius * fraction + 0.5) * DVec3::X));
+        let exact = (lesser(1.0, fraction).asin() - ROD_HALF_WIDTH.atan2(ROD_HALF_LENGTH)) / PI;
         match claim_for_query(&rod, &wall, 1e-7, &query) {
             ContactClaim::Contact { time } => {
                 assert!(

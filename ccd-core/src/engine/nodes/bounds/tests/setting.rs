@@ -28,8 +28,8 @@ fn spin(rng: &mut impl RngExt) -> DVec3 {
     }
 }
 
-/// Draws the centre of rotation of a body with a node of this size and position.
-fn centre(rng: &mut impl RngExt, at: DVec3, size: f64) -> DVec3 {
+/// Draws the center of rotation of a body with a node of this size and position.
+fn center(rng: &mut impl RngExt, at: DVec3, size: f64) -> DVec3 {
     let reach = size * random_power_of_ten(rng, -1.0, 4.0);
     if rng.random_bool(0.3) {
         at
@@ -51,7 +51,7 @@ impl Shape {
         Shape::random_box(rng, size, DVec3::ZERO)
     }
 
-    fn random_box(rng: &mut impl RngExt, size: f64, centre: DVec3) -> Self {
+    fn random_box(rng: &mut impl RngExt, size: f64, center: DVec3) -> Self {
         let frame = DMat3::from_quat(random_rotation(rng));
         let mut ratio = || match rng.random_range(0..3) {
             0 => 1e-7,
@@ -60,7 +60,7 @@ impl Shape {
         let half = size * DVec3::new(1.0, ratio(), ratio());
         let corner = |k: usize| {
             let sign = |bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
-            centre + frame * (half * DVec3::new(sign(0), sign(1), sign(2)))
+            center + frame * (half * DVec3::new(sign(0), sign(1), sign(2)))
         };
         let points: Vec<DVec3> = (0..8).map(corner).collect();
         let axes = [frame.x_axis, frame.y_axis, frame.z_axis].map(DVec3::as_vec3);
@@ -68,13 +68,13 @@ impl Shape {
             round_up_to_f32(
                 points
                     .iter()
-                    .map(|&p| measure(p - centre))
+                    .map(|&p| measure(p - center))
                     .fold(0.0, greater),
             )
             .next_up()
         };
         let node = Node {
-            centre,
+            center,
             axes,
             half_extents: axes.map(|u| farthest(&|offset| offset.dot(u.as_dvec3()).abs())),
             rounding_radius: 0.0,
@@ -106,7 +106,7 @@ pub(super) struct PairConfiguration {
     velocity: DVec3,
     acceleration: Option<DVec3>,
     angular_velocities: [DVec3; 2],
-    rotation_centres: [DVec3; 2],
+    rotation_centers: [DVec3; 2],
 }
 
 impl PairConfiguration {
@@ -136,7 +136,7 @@ impl PairConfiguration {
                 .random_bool(0.4)
                 .then(|| random_direction(rng) * far * random_power_of_ten(rng, -3.0, 2.0)),
             angular_velocities: [spin(rng), spin(rng)],
-            rotation_centres: [centre(rng, DVec3::ZERO, size), centre(rng, place, radius)],
+            rotation_centers: [center(rng, DVec3::ZERO, size), center(rng, place, radius)],
         }
     }
 
@@ -159,7 +159,7 @@ impl PairConfiguration {
         PairConfiguration {
             velocity: DVec3::ZERO,
             angular_velocities: [DVec3::ZERO, spin],
-            rotation_centres: [DVec3::ZERO, self.other_position + arm],
+            rotation_centers: [DVec3::ZERO, self.other_position + arm],
             ..self
         }
     }
@@ -167,7 +167,7 @@ impl PairConfiguration {
     fn child(&self, points: &[DVec3]) -> Solid {
         Solid {
             points: points.iter().map(|&p| p - self.origin).collect(),
-            centre: self.rotation_centres[0],
+            center: self.rotation_centers[0],
             spin: self.angular_velocities[0],
         }
     }
@@ -179,15 +179,15 @@ impl PairConfiguration {
                 .iter()
                 .map(|&p| self.rotation * p + self.other_position)
                 .collect(),
-            centre: self.rotation_centres[1],
+            center: self.rotation_centers[1],
             spin: self.angular_velocities[1],
         }
     }
 
     fn random_child_shape(&self, rng: &mut impl RngExt) -> Shape {
         let size = self.children_scale * random_power_of_ten(rng, -2.0, 0.0);
-        let centre = self.origin + random_point_in_ball(rng, self.children_scale);
-        Shape::random_box(rng, size, centre)
+        let center = self.origin + random_point_in_ball(rng, self.children_scale);
+        Shape::random_box(rng, size, center)
     }
 
     pub(super) fn box_sample(
@@ -207,7 +207,7 @@ impl PairConfiguration {
         .map(DVec3::as_vec3);
         let node = &other.node;
         let boxed = OtherBox {
-            centre: (self.rotation * node.centre + self.other_position).as_vec3(),
+            center: (self.rotation * node.center + self.other_position).as_vec3(),
             axes: node.axes.map(|u| x * u.x + y * u.y + z * u.z),
             half_extents: node.half_extents,
             rounding_radius: node.rounding_radius,
@@ -234,10 +234,10 @@ impl PairConfiguration {
         let children = corners.iter().map(|t| self.child(t)).collect();
         let far = self.other_solid(other);
         let [a, b, c] = [far.points[0], far.points[1], far.points[2]];
-        let centre = (a + b + c) / 3.0;
-        let arms = [a - centre, b - centre, c - centre];
+        let center = (a + b + c) / 3.0;
+        let arms = [a - center, b - center, c - center];
         let triangle = OtherTriangle {
-            centre: centre.as_vec3(),
+            center: center.as_vec3(),
             corners: arms.map(DVec3::as_vec3),
             normal: unit_normal([a, b, c]),
             is_thin: is_thin_triangle([a, b, c]),
@@ -261,20 +261,20 @@ impl PairConfiguration {
             is_turning: true,
             spin: self.angular_velocities[k].as_vec3(),
             angular_speed: round_up_to_f32(self.angular_velocities[k].length()),
-            rotation_centre: self.rotation_centres[k].as_vec3(),
+            rotation_center: self.rotation_centers[k].as_vec3(),
         };
         let (split, turning_far) = (turning(0), turning(1));
         let velocity = self.velocity.as_vec3();
-        let [x, y, z] = other.centre().abs().to_array();
+        let [x, y, z] = other.center().abs().to_array();
         let allowed = GAP_ERROR_PER_DISTANCE_F32 * (x + y + z)
             + GAP_ERROR_PER_RADIUS_F32 * (other.radius() + reach);
-        let places = other.centre().length() + turning_far.distance_from_centre(Vec3::ZERO);
-        let far_arm = turning_far.distance_from_centre(other.centre())
+        let places = other.center().length() + turning_far.distance_from_center(Vec3::ZERO);
+        let far_arm = turning_far.distance_from_center(other.center())
             + ARM_INCREASE_PER_DISTANCE as f32 * places;
         let change = self.acceleration.unwrap_or(DVec3::ZERO).as_vec3();
         let speed = velocity.length()
             + change.length()
-            + split.angular_speed * (reach + split.distance_from_centre(Vec3::ZERO))
+            + split.angular_speed * (reach + split.distance_from_center(Vec3::ZERO))
             + turning_far.angular_speed * (other.radius() + far_arm);
         let kept = 1e-3 * other.radius();
         EightPairSample {

@@ -9,7 +9,7 @@ use crate::rounding::{
     SECOND_DERIVATIVE_FACTOR_F32,
 };
 use crate::settings::VectorInstructions;
-use crate::tests::worst::error_share;
+use crate::tests::worst::error_fraction;
 
 /// The gaps, second derivatives and free times of eight pairs along an axis.
 pub(super) struct AxisFreeTimes {
@@ -37,7 +37,7 @@ pub(super) fn free_time_error_share(numbers: [f32; 4]) -> f64 {
         (root - rate) / second_derivative
     };
     let factor = f64::from(FREE_TIME_FACTOR_F32);
-    error_share(free / factor / exact - 1.0, 1.0 - factor)
+    error_fraction(free / factor / exact - 1.0, 1.0 - factor)
 }
 
 impl<C: Children, P: OtherNode> EightPairSample<C, P> {
@@ -75,8 +75,8 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
         let gap = -self.other_node_solid.max_height(-n, 0.0) - child.max_height(n, 0.0);
         let above = f64::from(found.gap[lane]) - gap;
         let mut shares = ErrorShares {
-            gap: error_share(above, self.allowed_gap_error.into()),
-            rate: error_share(below, motion.rate_allowance.into()),
+            gap: error_fraction(above, self.allowed_gap_error.into()),
+            rate: error_fraction(below, motion.rate_allowance.into()),
             ..ErrorShares::default()
         };
         let turning = [
@@ -86,7 +86,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
         for ((turning, body), length) in turning.iter().zip(found.cross_product_lengths) {
             let across = n.cross(body.spin).length();
             let found = length[lane] * SECOND_DERIVATIVE_FACTOR_F32;
-            let of = error_share(
+            let of = error_fraction(
                 across - f64::from(found),
                 (CROSS_PRODUCT_ERROR_F32 * turning.angular_speed).into(),
             );

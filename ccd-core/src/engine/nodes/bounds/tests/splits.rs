@@ -20,7 +20,7 @@ use glam::Vec3;
 /// The values of eight pairs from which the bounds choose.
 struct SplitChoiceInputs {
     radius: [f32; LANES],
-    /// The distances of the small nodes from the other body's centre of rotation.
+    /// The distances of the small nodes from the other body's center of rotation.
     arm_lengths: [f32; LANES],
     child_extent: [f32; LANES],
     other_extent: [f32; LANES],
@@ -54,7 +54,7 @@ impl<C: Children, P: OtherNode> EightPairSample<C, P> {
             let across = slowest_closing_axis(&self.pairs(level)).across;
             SplitChoiceInputs {
                 radius: *self.group.radius(level),
-                arm_lengths: *self.motion.other_rotation.distances_from_centre(self.group.centre(level)),
+                arm_lengths: *self.motion.other_rotation.distances_from_center(self.group.center(level)),
                 child_extent: *across.child_extent,
                 other_extent: *across.other_extent,
                 gap: *across.gap,
@@ -154,7 +154,7 @@ impl SplitChoiceInputs {
             Some(LargerBody::BodyToSplit) => {
                 let arm = motion
                     .split_body_rotation
-                    .distance_from_centre(sample.other_node.centre());
+                    .distance_from_center(sample.other_node.center());
                 let other_is_piece = self.piece_mask >> lane & 1 == 1;
                 (
                     swept(

@@ -15,7 +15,7 @@ use crate::rounding::{
 };
 use crate::settings::VectorInstructions;
 use crate::tests::scene::{RngExt, random_direction, random_power_of_ten};
-use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use crate::vectorize;
 use glam::{DVec3, Vec3};
 
@@ -169,7 +169,7 @@ fn across_f32() {
         let lengths = cross_product_lengths(axes.map(DVec3::as_vec3), spin.as_vec3());
         let allowed = f64::from(CROSS_PRODUCT_ERROR_F32) * spin.length();
         let error = |k: usize| axes[k].cross(spin).length() - f64::from(lengths[k]);
-        let errors = (0..LANES).map(|k| error_share(error(k), allowed));
+        let errors = (0..LANES).map(|k| error_fraction(error(k), allowed));
         Some(errors.fold(f64::NEG_INFINITY, greater))
     });
     found.assert_tight_bound(8.0);
@@ -188,7 +188,7 @@ fn bend_f32() {
             let long = exact.iter().all(|&length| length > 0.5 * spin.length());
             let lost = exact[0] * exact[1] - f64::from(one[k] * other[k]);
             let allowed = f64::from(SECOND_DERIVATIVE_FACTOR_F32) - 1.0;
-            long.then(|| error_share(lost / (exact[0] * exact[1]), allowed))
+            long.then(|| error_fraction(lost / (exact[0] * exact[1]), allowed))
         };
         let all = (0..LANES).filter_map(share);
         Some(all.fold(f64::NEG_INFINITY, greater)).filter(|share| share.is_finite() || *share > 0.0)
@@ -239,7 +239,7 @@ fn least_gap_f32() {
                 [until, apart[k], rate[k], second_derivative[k]].map(f64::from);
             let used = (rate * until + 0.5 * second_derivative * until * until) / apart;
             // The time at which no gap is left is later by the factor; a curved gap by twice the factor.
-            error_share(
+            error_fraction(
                 used - 1.0 + 2.0 * f64::from(1.0 - FREE_TIME_FACTOR_F32),
                 2.0 * f64::from(1.0 - FREE_TIME_FACTOR_F32),
             )
@@ -261,7 +261,7 @@ fn least_axis_f32() {
         let share = |k: usize| {
             // Only vectors that are used count.
             let off = |inverse: f64| (v[k].as_dvec3().length() * inverse - 1.0).abs();
-            error_share(off(inverse[k].into()), 4.0 * f64::from(UNIT_ROUNDOFF_F32))
+            error_fraction(off(inverse[k].into()), 4.0 * f64::from(UNIT_ROUNDOFF_F32))
         };
         let used = (0..LANES).filter(|&k| inverse[k] > 0.0);
         assert!(used.clone().all(|k| v[k].length() > LEAST_AXIS_LENGTH_F32));

@@ -16,20 +16,20 @@ use crate::rounding::{RATE_ERROR_F64, TURNED_SUPPORT_ERROR};
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{body, random_rotation};
-use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use glam::DVec3;
 
-/// The rotation of a body about a centre from a given frame, in double-double arithmetic.
+/// The rotation of a body about a center from a given frame, in double-double arithmetic.
 struct ExactRotation {
     frame: Frame,
     spin: DoubleDouble3,
-    centre: DoubleDouble3,
+    center: DoubleDouble3,
 }
 
 impl ExactRotation {
-    /// Returns the vector from the centre to a point after a rotation by an angle.
+    /// Returns the vector from the center to a point after a rotation by an angle.
     fn rotated_arm(&self, point: DVec3, angle: f64) -> DoubleDouble3 {
-        let local = DoubleDouble3::from(point) - self.centre;
+        let local = DoubleDouble3::from(point) - self.center;
         let rotation = self.frame.rotation;
         let columns = [rotation.x_axis, rotation.y_axis, rotation.z_axis].map(DoubleDouble3::from);
         let [x, y, z] = [0, 1, 2].map(|k| columns[k].scale(local.0[k]));
@@ -37,13 +37,13 @@ impl ExactRotation {
     }
 }
 
-/// Draws a motion about the body's origin or a centre, over a time of 1, by up to 1e5 radians.
+/// Draws a motion about the body's origin or a center, over a time of 1, by up to 1e5 radians.
 fn motion(tape: &mut RandomCase) -> Option<Motion> {
-    let [velocity, spin, centre] = [-20..=6, -20..=15, -20..=8].map(|range| tape.vector(range));
+    let [velocity, spin, center] = [-20..=6, -20..=15, -20..=8].map(|range| tape.vector(range));
     let start = Pose::new(DVec3::ZERO, random_rotation(tape)).ok()?;
-    Motion::about(start, velocity, spin, centre)
+    Motion::about(start, velocity, spin, center)
         .ok()
-        .filter(|motion| motion.spin() != DVec3::ZERO)
+        .filter(|motion| motion.angular_velocity() != DVec3::ZERO)
 }
 
 /// Returns the largest error of the rates of a triangle's corners, as a share of its allowance.
@@ -57,8 +57,8 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
     let [clock, tau] = [0; 2].map(|_| tape.next_fraction());
     let turning = ExactRotation {
         frame: side.path.frame(clock),
-        spin: DoubleDouble3::from(motion.spin()),
-        centre: DoubleDouble3::from(motion.centre()),
+        spin: DoubleDouble3::from(motion.angular_velocity()),
+        center: DoubleDouble3::from(motion.center()),
     };
     let piece = body.piece(0);
     let heights = Heights::new(side, &piece, &turning.frame, normal, clock);
@@ -67,7 +67,7 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
         let velocity = DoubleDouble3::from(motion.velocity()) + turning.spin.cross(arm);
         let exact = DoubleDouble3::from(normal).dot(velocity);
         let off = (DoubleDouble::from(found.rate) - exact).get().abs();
-        error_share(off, RATE_ERROR_F64 * heights.speed_bound())
+        error_fraction(off, RATE_ERROR_F64 * heights.speed_bound())
     };
     let shares = piece
         .points
@@ -92,7 +92,7 @@ fn worst_farthest() {
         let exact = (DoubleDouble3::from(middle) - DoubleDouble3::from(from)).length()
             + DoubleDouble::from(radius);
         let found = DoubleDouble::from(distance(middle, from) + radius);
-        Some(error_share(
+        Some(error_fraction(
             (exact / found - DoubleDouble::from(1.0)).get(),
             RATE_ERROR_F64,
         ))
@@ -146,12 +146,12 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     let (piece, side) = (body.piece(0), &problem.a);
     let turning = ExactRotation {
         frame,
-        spin: DoubleDouble3::from(motion.spin()),
-        centre: DoubleDouble3::from(motion.centre()),
+        spin: DoubleDouble3::from(motion.angular_velocity()),
+        center: DoubleDouble3::from(motion.center()),
     };
     let heights = Heights::new(side, &piece, &frame, normal, clock);
     let (middle, radius) = piece.bounding_ball()?;
-    let farthest = length(frame.rotation * (middle - path.centre)) + radius;
+    let farthest = length(frame.rotation * (middle - path.center)) + radius;
     let allowed = TURNED_SUPPORT_ERROR * (farthest + length(middle) + radius);
     let n = DoubleDouble3::from(normal);
     let arms: Vec<DoubleDouble3> = piece
@@ -170,8 +170,8 @@ fn support_error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     })?;
     assert!(heights.support_error_bound >= allowed);
     Some([
-        error_share(height, allowed),
-        error_share(rate, path.angular_speed * allowed),
+        error_fraction(height, allowed),
+        error_fraction(rate, path.angular_speed * allowed),
     ])
 }
 

@@ -15,7 +15,7 @@ fn rate(placed: &PlacedPair<'_>, normal: DVec3, bound: VelocityBound, reaches: [
         let arms = piece
             .points
             .iter()
-            .map(|&x| placed.frames[k].rotation * (x - side.path.centre));
+            .map(|&x| placed.frames[k].rotation * (x - side.path.center));
         let farthest = |along: DVec3| {
             let all = arms.clone();
             all.max_by(|p, q| along.dot(*p).total_cmp(&along.dot(*q)))

@@ -403,7 +403,7 @@ fn depth_is_measured_between_the_middles_of_many_points() {
             .map(|&p| heights(in_a(p)))
             .fold(f64::INFINITY, lesser);
         let expected = (top - foot + 0.075) / lesser(large, small);
-        let depth = placed.relative_overlap_along_centre_line().unwrap();
+        let depth = placed.relative_overlap_along_center_line().unwrap();
         assert!((depth - expected).abs() < 1e-9, "{depth} {expected}");
         inside += usize::from(depth > 0.0);
     }

@@ -9,7 +9,7 @@ use crate::rounding::RATE_ERROR_F64;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{body, random_direction, random_rotation};
-use crate::tests::worst::{WorstCaseSearch, error_share};
+use crate::tests::worst::{WorstCaseSearch, error_fraction};
 use glam::DVec3;
 
 #[test]
@@ -32,7 +32,7 @@ fn worst_reach() {
             + DoubleDouble::from(radius) * exact.cross(normal).length();
         let allowed = RATE_ERROR_F64 * radius;
         let lost = truth - (DoubleDouble::from(node.extent_along(n)) - DoubleDouble::from(allowed));
-        Some(error_share(lost.get(), allowed))
+        Some(error_fraction(lost.get(), allowed))
     });
     found.assert_tight_bound(20.0);
 }

@@ -9,14 +9,14 @@ use crate::rounding::RATE_ERROR_F64;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{body, random_rotation};
-use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use glam::DVec3;
 
-/// Draws a motion of any speed and rotation, about a centre near the body or far from it.
+/// Draws a motion of any speed and rotation, about a center near the body or far from it.
 fn motion(tape: &mut RandomCase) -> Option<Motion> {
     let start = Pose::new(tape.vector(-20..=4), random_rotation(tape)).ok()?;
-    let [velocity, spin, centre] = [-20..=6, -20..=6, -20..=10].map(|range| tape.vector(range));
-    Motion::about(start, velocity, spin, centre).ok()
+    let [velocity, spin, center] = [-20..=6, -20..=6, -20..=10].map(|range| tape.vector(range));
+    Motion::about(start, velocity, spin, center).ok()
 }
 
 /// The exact rate of approach and its derivative, and the terms of the engine's bounds on both, summed over both
@@ -51,13 +51,13 @@ impl ApproachRateTerms {
     ) {
         let path = &side.path;
         let frame = path.frame(s);
-        let centre = DoubleDouble3::from(path.centre_at(s));
-        let spin = DoubleDouble3::from(motion.spin());
+        let center = DoubleDouble3::from(path.center_at(s));
+        let spin = DoubleDouble3::from(motion.angular_velocity());
         let axis = DoubleDouble3::from(n);
         let arms = side.body.pieces().triangle(0);
-        // The corners are in their rounded positions, relative to the node's centre.
-        let placed = arms.map(|x| DoubleDouble3::from(frame.transform_point(x) - node.centre));
-        let arms = placed.map(|x| x + DoubleDouble3::from(node.centre) - centre);
+        // The corners are in their rounded positions, relative to the node's center.
+        let placed = arms.map(|x| DoubleDouble3::from(frame.transform_point(x) - node.center));
+        let arms = placed.map(|x| x + DoubleDouble3::from(node.center) - center);
         let speeds = arms.map(|arm| axis.dot(spin.cross(arm)));
         let fastest = speeds
             .into_iter()
@@ -75,7 +75,7 @@ impl ApproachRateTerms {
         self.second_derivative = self.second_derivative + axis.cross(spin).length() * farthest;
         self.second_derivative =
             self.second_derivative + axis.dot(DoubleDouble3::from(path.acceleration));
-        let arm = node.centre - path.centre_at(s);
+        let arm = node.center - path.center_at(s);
         self.speed +=
             path.speed_bound() + path.angular_speed * (length(arm) + node.bounding_radius);
         self.size += path.angular_speed * node.bounding_radius;
@@ -111,9 +111,9 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 2]> {
     }
     let allowed = RATE_ERROR_F64 * (2.0 * sums.speed + sums.size);
     let rate = DoubleDouble::from(found.rate_bound) - DoubleDouble::from(allowed);
-    let rate = error_share((sums.rate - rate).get(), allowed);
+    let rate = error_fraction((sums.rate - rate).get(), allowed);
     let allowed = found.second_derivative - sums.second_derivative_without_allowance;
-    let second_derivative = error_share(
+    let second_derivative = error_fraction(
         (sums.second_derivative - DoubleDouble::from(sums.second_derivative_without_allowance))
             .get(),
         allowed,

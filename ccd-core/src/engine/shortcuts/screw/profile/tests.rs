@@ -11,7 +11,7 @@ use crate::rounding::profile_rounding;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::body;
-use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use glam::DVec3;
 
 /// Returns the cylindrical coordinates of a point, with the azimuth within half a turn of `near`.
@@ -46,17 +46,17 @@ fn worst_error_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
     let node = PlacedNode::new(&problem.a, body.tree().node_count() as u32, 0.0);
     let profile = NodeScrewBounds::new(&node, axis)?;
     let (arm, distance) = {
-        let way = node.centre - axis.origin;
+        let way = node.center - axis.origin;
         let height = way.dot(axis.direction);
         (length(way), length(way - height * axis.direction))
     };
     let frame = problem.a.path.frame(0.0);
     let places = corners.map(|x| {
-        // The position is relative to the node's centre, as in the node.
-        let from_centre = DoubleDouble3::from(frame.transform_point(x) - node.centre);
+        // The position is relative to the node's center, as in the node.
+        let from_center = DoubleDouble3::from(frame.transform_point(x) - node.center);
         cylindrical_coordinates(
             axis,
-            from_centre + DoubleDouble3::from(node.centre),
+            from_center + DoubleDouble3::from(node.center),
             profile.azimuth,
         )
     });
@@ -70,7 +70,7 @@ fn worst_error_share(axis: &ScrewAxis, corners: [DVec3; 3]) -> Option<f64> {
             let high = DoubleDouble::from(profile.high[k]) - DoubleDouble::from(allowed);
             let low = DoubleDouble::from(profile.low[k]) + DoubleDouble::from(allowed);
             let lost = greater((f - high).get(), (low - f).get());
-            worst = greater(worst, error_share(lost, allowed));
+            worst = greater(worst, error_fraction(lost, allowed));
         }
     }
     Some(worst)

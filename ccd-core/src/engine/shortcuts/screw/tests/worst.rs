@@ -6,7 +6,7 @@ use crate::motion::path::Path;
 use crate::motion::pose::Pose;
 use crate::rounding::SCREW_VELOCITY_ERROR_F64;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
-use crate::tests::worst::{WorstCaseSearch, error_share};
+use crate::tests::worst::{WorstCaseSearch, error_fraction};
 use glam::DVec3;
 
 #[test]
@@ -27,7 +27,7 @@ fn worst_advance() {
         let [v, w] = [velocity, spin].map(DoubleDouble3::from);
         let exact = v - w.scale(DoubleDouble::from(per_radian));
         let lost = exact.length() - DoubleDouble::from(drift);
-        Some(error_share(
+        Some(error_fraction(
             lost.get(),
             SCREW_VELOCITY_ERROR_F64 * length(velocity),
         ))

@@ -13,19 +13,19 @@ use crate::rounding::turning_axis_rounding;
 use crate::settings::Settings;
 use crate::tests::double::{DoubleDouble, DoubleDouble3};
 use crate::tests::scene::{body, random_rotation};
-use crate::tests::worst::{RandomCase, WorstCaseSearch, error_share};
+use crate::tests::worst::{RandomCase, WorstCaseSearch, error_fraction};
 use crate::tuning::MAX_TURNING_PLANE_TIME;
 use glam::DVec3;
 
-/// Draws a motion over a time of 1 that turns by up to 1e5 radians, about the body's origin or another centre.
+/// Draws a motion over a time of 1 that turns by up to 1e5 radians, about the body's origin or another center.
 fn motion(tape: &mut RandomCase) -> Option<Motion> {
     let ranges = [-20..=6, -20..=15, -20..=8, -20..=6];
-    let [velocity, spin, centre, at] = ranges.map(|range| tape.vector(range));
+    let [velocity, spin, center, at] = ranges.map(|range| tape.vector(range));
     Motion::about(
         Pose::new(at, random_rotation(tape)).ok()?,
         velocity,
         spin,
-        centre,
+        center,
     )
     .ok()
 }
@@ -54,7 +54,7 @@ impl PointAndTurningPlane<'_> {
     fn exact_height_and_rate(&self, tau: f64) -> [DoubleDouble; 2] {
         let [spin, own] = self
             .motions
-            .map(|motion| DoubleDouble3::from(motion.spin()));
+            .map(|motion| DoubleDouble3::from(motion.angular_velocity()));
         let [away, velocity] = self
             .motions
             .map(|motion| DoubleDouble3::from(motion.velocity()));
@@ -85,7 +85,7 @@ impl PointAndTurningPlane<'_> {
     fn second_derivative_bounds(&self, tau: f64) -> [DoubleDouble; 2] {
         let [spin, own] = self
             .motions
-            .map(|motion| DoubleDouble3::from(motion.spin()));
+            .map(|motion| DoubleDouble3::from(motion.angular_velocity()));
         let [away, velocity] = self
             .motions
             .map(|motion| DoubleDouble3::from(motion.velocity()));
@@ -150,9 +150,9 @@ fn error_shares(tape: &mut RandomCase) -> Option<[f64; 3]> {
     let [exact, plain] = setting.second_derivative_bounds(tau);
     let allowed = (DoubleDouble::from(sweep.second_derivative(tau)) - plain).get();
     Some([
-        error_share(height, rounding * sweep.reach),
-        error_share(rate, rounding * fastest),
-        error_share((exact - plain).get(), allowed),
+        error_fraction(height, rounding * sweep.reach),
+        error_fraction(rate, rounding * fastest),
+        error_fraction((exact - plain).get(), allowed),
     ])
 }
 
