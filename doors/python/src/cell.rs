@@ -86,7 +86,8 @@ impl PyCell {
 
     /// Moves an obstacle to a pose in the frame of the robot's base.
     fn move_obstacle(&self, name: &str, pose: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.state.move_obstacle(name, read_given_pose(pose, "pose")?)
+        self.state
+            .move_obstacle(name, read_given_pose(pose, "pose")?)
     }
 
     /// Removes an obstacle.

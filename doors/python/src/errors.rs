@@ -136,14 +136,16 @@ pub(crate) fn file_error(error: &std::io::Error, path: &std::path::Path) -> PyEr
 /// Makes an `UnresolvedError` for a question about contacts, with the time `safe_until` before which no contact happens.
 pub(crate) fn unresolved_error(py: Python<'_>, known: &answer::Unresolved) -> PyErr {
     let (advice, safe_until) = (known.limit.advice(), known.safe_until);
-    let error = UnresolvedError::new_err(format!("{advice}; no contact happens before {safe_until}"));
+    let error =
+        UnresolvedError::new_err(format!("{advice}; no contact happens before {safe_until}"));
     with_attribute(py, error, "safe_until", safe_until)
 }
 
 /// Makes an `UnresolvedError` for a question about a distance, with the bounds `lower` and `upper`.
 pub(crate) fn unresolved_distance_error(py: Python<'_>, known: &answer::Unresolved) -> PyErr {
     let (advice, lower, upper) = (known.limit.advice(), known.lower, known.upper);
-    let error = UnresolvedError::new_err(format!("{advice}; the distance is from {lower} to {upper}"));
+    let error =
+        UnresolvedError::new_err(format!("{advice}; the distance is from {lower} to {upper}"));
     let error = with_attribute(py, error, "lower", lower);
     with_attribute(py, error, "upper", upper)
 }

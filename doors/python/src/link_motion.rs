@@ -42,7 +42,7 @@ impl PyLinkTrajectory {
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
-        let make = slf.get().robot.bind(slf.py()).getattr("motion")?;
+        let make = slf.get().robot.bind(slf.py()).getattr("link_trajectory")?;
         Ok((
             make,
             slf.get().motion_arguments.clone().into_pyobject(slf.py())?,

@@ -53,7 +53,10 @@ impl PyMotion {
         let turned = rotation.map_or(Ok(DQuat::IDENTITY), read_rotation)?;
         let start = GivenPose(given(position, "position")?, turned);
         let velocity = given(velocity, "velocity")?;
-        let (angular_velocity, center) = (given(angular_velocity, "angular_velocity")?, given(center, "center")?);
+        let (angular_velocity, center) = (
+            given(angular_velocity, "angular_velocity")?,
+            given(center, "center")?,
+        );
         PyMotion::from_velocities(py, start, velocity, angular_velocity, center)
     }
 

@@ -87,7 +87,10 @@ const STACK_FRAMES_TO_CALLER: i32 = 3;
 fn question_named(name: &str) -> PyResult<Question> {
     Question::from_name(name).ok_or_else(|| {
         let names = Question::ALL.map(|question| format!("{:?}", question.name()));
-        refuse(format!("question: {name:?} is none of {}", names.join(", ")))
+        refuse(format!(
+            "question: {name:?} is none of {}",
+            names.join(", ")
+        ))
     })
 }
 

@@ -100,7 +100,7 @@ READS: dict[str, tuple[Any, Callable[[Any], Any]]] = {
     "center": ([1, 2, -3], lambda a: Motion(angular_velocity=[1, 2, 3], center=a).pose(1).tolist()),
     "pose": (pose(TURN), lambda a: repr(Motion.still(a))),
     "pair": ([1, 2, -3], lambda a: repr(Motion.still((a, [0, 0, 0, 1])))),
-    "times": ([0, 1, 2.5], lambda a: PosePath(a, [pose(TURN)] * 3).pose(0.5).tolist() + [Path(a, [pose(TURN)] * 3).end]),
+    "times": ([0, 1, 2.5], lambda a: PosePath(a, [pose(TURN)] * 3).pose(0.5).tolist() + [PosePath(a, [pose(TURN)] * 3).end]),
     "poses": ([pose(np.eye(3)), pose(TURN)], lambda a: PosePath([0, 1], a).pose(0.25).tolist()),
     "angular_velocities": ([[0.25, 0.5, 0], [-0.25, 0, 0.5]], lambda a: PosePath([0, 1, 2], [np.eye(4)] * 3, angular_velocities=a).pose(1.5).tolist()),
     "axis": ([1, 2, -2], axis_of),

@@ -33,7 +33,7 @@ def test_a_cube_is_a_solid_of_one_piece() -> None:
     cube = Body(CORNERS, FACES)
     assert cube.is_solid and cube.piece_count == 1
     assert "solid" in repr(cube)
-    assert Body(CORNERS, FACES, pieces="triangles").pieces == 12
+    assert Body(CORNERS, FACES, pieces="triangles").piece_count == 12
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.int16])
@@ -105,7 +105,7 @@ def test_files_are_read(tmp_path: Path) -> None:
     lines = ["v " + " ".join(map(str, v)) for v in CORNERS] + ["f " + " ".join(map(str, f + 1)) for f in FACES]
     path.write_text("\n".join(lines))
     assert Body.from_file(path).is_solid
-    assert Body.from_file(str(path)).pieces == 1
+    assert Body.from_file(str(path)).piece_count == 1
     with pytest.raises(FileNotFoundError) as missing:
         Body.from_file(tmp_path / "nothing.obj")
     assert missing.value.filename == str(tmp_path / "nothing.obj")

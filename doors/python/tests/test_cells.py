@@ -204,7 +204,7 @@ def test_a_cell_is_pickled_as_it_is(robot: Robot) -> None:
     assert repr(again) == repr(cell)
     start, end = rng.uniform(-3, 3, (2, 300, 2))
     for ask in ("is-free", "first-contact", "closest-approach"):
-        one, other = (each.edges(start, end, question=ask) for each in (cell, again))
+        one, other = (each.answer_edges(start, end, question=ask) for each in (cell, again))
         for column in one:
             assert [*one[column]] == [*other[column]] or np.array_equal(one[column], other[column], equal_nan=True)
     assert 0 < np.sum(cell.answer_edges(start, end)["status"] == "free") < 300
