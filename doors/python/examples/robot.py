@@ -33,7 +33,8 @@ boxes = {  # size, position and rotation
 random = np.random.default_rng(5)
 for k in range(12):
     angle, radius, height = random.uniform([-np.pi, 0.3, 0], [np.pi, 1.0, 1.1])
-    turned = random.normal(size=4)
+    w, *xyz = random.normal(size=4)
+    turned = np.array([*xyz, w])
     at = [radius * np.cos(angle), radius * np.sin(angle), height]
     boxes[f"cable {k}"] = (0.006, 0.006, 0.3), at, list(turned / np.linalg.norm(turned))
 cell = Cell(robot)
