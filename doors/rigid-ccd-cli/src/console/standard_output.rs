@@ -19,11 +19,13 @@ mod start {
 
     static WAS_CLOSED: AtomicBool = AtomicBool::new(false);
 
-    /// Runs before Rust's runtime opens anything.
-    #[ctor::ctor(unsafe)]
-    fn look() {
-        let is_closed = rustix::io::fcntl_getfd(rustix::stdio::stdout()).is_err();
-        WAS_CLOSED.store(is_closed, Ordering::Relaxed);
+    ctor::declarative::ctor! {
+        /// Runs before Rust's runtime opens anything.
+        #[ctor(unsafe)]
+        fn record_whether_closed() {
+            let is_closed = rustix::io::fcntl_getfd(rustix::stdio::stdout()).is_err();
+            WAS_CLOSED.store(is_closed, Ordering::Relaxed);
+        }
     }
 
     pub(crate) fn was_closed() -> bool {
