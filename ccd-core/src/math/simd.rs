@@ -281,8 +281,8 @@ impl VectorInstructions {
 /// another copy of the code.
 ///
 /// WebAssembly without `simd128` has no vector instructions: each operation on eight lanes is eight, and a kernel of a hundred
-/// thousand instructions takes LLVM longer than anyone waits. There, the larger parts of kernels are not `#[inline(always)]`. The
-/// compiler makes functions of them, which takes it less than a minute.
+/// thousand instructions takes LLVM longer than anyone waits. There, the larger parts of kernels are not `#[inline(always)]`,
+/// and the build script does not set `inline_kernels`. The compiler makes functions of them, which takes it less than a minute.
 ///
 /// This is for the distance backends of this project, and no stable interface.
 #[doc(hidden)]
