@@ -158,7 +158,7 @@ pub enum InputError {
 }
 
 /// Returns an error for a quantity unless `is_allowed` is true. The condition has to be false for NaN.
-pub(crate) fn check(
+pub fn check(
     quantity: &'static str,
     value: f64,
     is_allowed: bool,
@@ -172,7 +172,7 @@ pub(crate) fn check(
 }
 
 /// Returns an error for a quantity unless it is finite.
-pub(crate) fn check_finite(quantity: &'static str, is_finite: bool) -> Result<(), InputError> {
+pub fn check_finite(quantity: &'static str, is_finite: bool) -> Result<(), InputError> {
     let finite = is_finite.then_some(());
     finite.ok_or(InputError::NotFinite { quantity })
 }

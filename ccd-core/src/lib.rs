@@ -126,6 +126,8 @@ pub use contacts::ContactsError;
 pub use distance::oracle::{Claim, DistanceOracle, GiveUpReason, OrElse, PiecePair};
 pub use error::InputError;
 #[doc(hidden)]
+pub use error::{check, check_finite};
+#[doc(hidden)]
 pub use fearless_simd;
 pub use glam;
 #[cfg(feature = "exact")]

@@ -1,12 +1,12 @@
 //! Orientations over time: slerp through given orientations.
 
 use super::U;
-use super::checks::{check_time_is_later, out_of_range_error};
+use super::checks::check_time_is_later;
 use super::rotation::rotation_vector;
 use super::segments::{Segment, Segments};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
-use ccd_core::{InputError, Pose};
+use ccd_core::{InputError, Pose, check};
 
 /// The orientation of a body over time, which passes through given orientations at given times. The body does not
 /// rotate before the first time and after the last.
@@ -105,13 +105,12 @@ impl Segment<Turn> {
 
 /// Returns the orientations as unit quaternions, each with the sign that makes it nearer to the quaternion before it.
 fn aligned_quaternions(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
-    if keys.is_empty() {
-        return Err(out_of_range_error(
-            "number of orientations",
-            0.0,
-            "at least 1",
-        ));
-    }
+    check(
+        "number of orientations",
+        0.0,
+        !keys.is_empty(),
+        "at least 1",
+    )?;
     let mut units: Vec<(f64, DQuat)> = Vec::new();
     for &(time, key) in keys {
         let unit = Pose::new(DVec3::ZERO, DQuat::from_array(key))?.rotation();
