@@ -234,18 +234,10 @@ impl OtherNode for OtherBox {
     #[inline(always)]
     fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>, _: f32) -> Vec3x8<L> {
         let [u, v, w] = splat_vectors(offset.simd_level(), self.axes);
-        let x = offset
-            .dot(u)
-            .min(self.half_extents[0])
-            .max(-self.half_extents[0]);
-        let y = offset
-            .dot(v)
-            .min(self.half_extents[1])
-            .max(-self.half_extents[1]);
-        let z = offset
-            .dot(w)
-            .min(self.half_extents[2])
-            .max(-self.half_extents[2]);
+        let [half_x, half_y, half_z] = self.half_extents;
+        let x = offset.dot(u).min(half_x).max(-half_x);
+        let y = offset.dot(v).min(half_y).max(-half_y);
+        let z = offset.dot(w).min(half_z).max(-half_z);
         offset - (u * x + v * y + w * z)
     }
     #[inline(always)]
