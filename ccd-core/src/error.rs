@@ -195,8 +195,9 @@ impl fmt::Display for JointName {
     }
 }
 
-/// A number that is printed in as few digits as identify it. Very large and very small numbers have a power of ten.
-struct ShortNumber(f64);
+/// Displays a number with as few digits as identify it, and with a power of ten if it is very large or very small.
+#[derive(Clone, Copy)]
+pub struct ShortNumber(pub f64);
 
 impl fmt::Display for ShortNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

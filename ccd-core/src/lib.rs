@@ -126,7 +126,7 @@ pub use contacts::ContactsError;
 pub use distance::oracle::{Claim, DistanceOracle, GiveUpReason, OrElse, PiecePair};
 pub use error::InputError;
 #[doc(hidden)]
-pub use error::{check, check_finite};
+pub use error::{ShortNumber, check, check_finite};
 #[doc(hidden)]
 pub use fearless_simd;
 pub use glam;
@@ -136,6 +136,8 @@ pub use math::{double_double, order, point_tree, vector};
 pub use motion::Motion;
 pub use motion::bound::VelocityBound;
 pub use motion::pose::{Frame, Pose};
+#[doc(hidden)]
+pub use motion::shortest_rotation_vector;
 pub use motion::trajectory::{
     Acceleration, AccelerationBounds, DeviationBound, SmoothTrajectory, Stretch, Trajectory,
 };

@@ -2,11 +2,10 @@
 
 use super::U;
 use super::checks::check_time_is_later;
-use super::rotation::rotation_vector;
 use super::segments::{Segment, Segments};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
-use ccd_core::{InputError, Pose, check};
+use ccd_core::{InputError, Pose, check, shortest_rotation_vector};
 
 /// The orientation of a body over time, which passes through given orientations at given times. The body does not
 /// rotate before the first time and after the last.
@@ -50,7 +49,7 @@ impl OrientationCurve {
         let keys = aligned_quaternions(keys)?;
         let segment = |two: &[(f64, DQuat)]| {
             let [(from, start), (to, end)] = [two[0], two[1]];
-            let spin = rotation_vector(end * start.conjugate()) / (to - from);
+            let spin = shortest_rotation_vector(end * start.conjugate()) / (to - from);
             let course = Turn {
                 start_orientation: start,
                 spin,
