@@ -2,6 +2,7 @@
 
 mod adjacency;
 mod cache_table;
+pub(crate) mod disjoint_sets;
 pub(crate) mod excess;
 pub(crate) mod facets;
 pub(crate) mod facing;

@@ -105,6 +105,8 @@ pub use answer::{
     Answer, ClearanceVerdict, Contact, Effort, Hit, HitKind, Limit, Outcome, Overlap, Separation,
     Stats, Unresolved,
 };
+#[doc(hidden)]
+pub use body::disjoint_sets::DisjointSets;
 pub use body::facets::{Facets, fan_triangles};
 pub use body::feature::Feature;
 pub use body::hierarchy::{Hierarchy, HierarchyNode};
