@@ -1,4 +1,5 @@
-//! Detects compilers whose LLVM miscompiles AVX-512, and sets the cfg `faulty_avx512` for them.
+//! Sets `faulty_avx512` for compilers whose LLVM miscompiles AVX-512, and `inline_kernels` unless the target is
+//! WebAssembly without vector instructions.
 
 use std::process::Command;
 
@@ -12,6 +13,16 @@ fn main() {
     if llvm_major_version().is_none_or(|major| major < FIRST_CORRECT_LLVM_VERSION) {
         println!("cargo::rustc-cfg=faulty_avx512");
     }
+    println!("cargo::rustc-check-cfg=cfg(inline_kernels)");
+    if !target_has("FAMILY", "wasm") || target_has("FEATURE", "simd128") {
+        println!("cargo::rustc-cfg=inline_kernels");
+    }
+}
+
+/// Returns whether a list that cargo gives of the target, its families or features, has an entry.
+fn target_has(list: &str, entry: &str) -> bool {
+    let entries = std::env::var(format!("CARGO_CFG_TARGET_{list}")).unwrap_or_default();
+    entries.split(',').any(|each| each == entry)
 }
 
 /// Returns the major version of the LLVM in rustc; `None` if it is unknown.

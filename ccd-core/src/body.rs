@@ -2,6 +2,7 @@
 
 mod adjacency;
 mod cache_table;
+pub(crate) mod disjoint_sets;
 pub(crate) mod excess;
 pub(crate) mod facets;
 pub(crate) mod facing;
@@ -227,7 +228,7 @@ impl Body {
     /// # Ok::<(), ccd_core::InputError>(())
     /// ```
     pub fn bounding_radius(&self) -> f64 {
-        self.tree.max_distance_from_origin()
+        self.tree.max_distance_from_origin
     }
 
     /// Returns whether the body is a solid or a surface, so whether a body inside it counts as touching.

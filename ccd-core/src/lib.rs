@@ -105,6 +105,8 @@ pub use answer::{
     Answer, ClearanceVerdict, Contact, Effort, Hit, HitKind, Limit, Outcome, Overlap, Separation,
     Stats, Unresolved,
 };
+#[doc(hidden)]
+pub use body::disjoint_sets::DisjointSets;
 pub use body::facets::{Facets, fan_triangles};
 pub use body::feature::Feature;
 pub use body::hierarchy::{Hierarchy, HierarchyNode};
@@ -126,6 +128,8 @@ pub use contacts::ContactsError;
 pub use distance::oracle::{Claim, DistanceOracle, GiveUpReason, OrElse, PiecePair};
 pub use error::InputError;
 #[doc(hidden)]
+pub use error::{ShortNumber, check, check_finite};
+#[doc(hidden)]
 pub use fearless_simd;
 pub use glam;
 #[cfg(feature = "exact")]
@@ -134,6 +138,8 @@ pub use math::{double_double, order, point_tree, vector};
 pub use motion::Motion;
 pub use motion::bound::VelocityBound;
 pub use motion::pose::{Frame, Pose};
+#[doc(hidden)]
+pub use motion::shortest_rotation_vector;
 pub use motion::trajectory::{
     Acceleration, AccelerationBounds, DeviationBound, SmoothTrajectory, Stretch, Trajectory,
 };

@@ -1,5 +1,6 @@
 //! Arithmetic on numbers and vectors: rounding, underflow and exact signs.
 
+pub(crate) mod componentwise;
 pub mod double_double;
 #[cfg(feature = "exact")]
 pub mod exact;

@@ -163,7 +163,7 @@ impl Motion {
 }
 
 /// Returns the rotation vector of a unit quaternion, with a length of at most π.
-fn shortest_rotation_vector(rotation: DQuat) -> DVec3 {
+pub fn shortest_rotation_vector(rotation: DQuat) -> DVec3 {
     let rotation = if rotation.w < 0.0 {
         -rotation
     } else {

@@ -344,7 +344,7 @@ impl BodyWithPath<'_> {
 
     /// Returns the span of the body plus twice the distance of its center of rotation from its origin.
     pub(crate) fn extent_with_center(&self) -> f64 {
-        self.body.tree().max_distance_from_origin() + 2.0 * length(self.path.center)
+        self.body.tree().max_distance_from_origin + 2.0 * length(self.path.center)
     }
 
     pub(crate) fn check(&self) -> Result<(), InputError> {

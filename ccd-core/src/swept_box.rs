@@ -158,7 +158,7 @@ fn swept_box_of_motion(
 /// center of rotation held at the start.
 fn box_of_all_orientations(side: &BodyWithPath<'_>) -> (DVec3, DVec3) {
     let path = &side.path;
-    let whole = side.body.tree().body_box();
+    let whole = &side.body.tree().body_box;
     let frame = path.frame(0.0);
     let center = frame.transform_point(whole.center);
     let reach = DVec3::AXES.map(|axis| {

@@ -2,6 +2,7 @@
 
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
+use ccd_core::vector::bounding_box;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
@@ -16,14 +17,8 @@ pub(crate) struct BoundingBox {
 impl BoundingBox {
     /// Returns the bounding box of some points.
     pub(crate) fn enclosing(points: impl IntoIterator<Item = DVec3>) -> Self {
-        let empty = BoundingBox {
-            lo: DVec3::INFINITY,
-            hi: DVec3::NEG_INFINITY,
-        };
-        points.into_iter().fold(empty, |b, p| BoundingBox {
-            lo: b.lo.min(p),
-            hi: b.hi.max(p),
-        })
+        let (lo, hi) = bounding_box(points.into_iter());
+        BoundingBox { lo, hi }
     }
 
     /// Returns the smallest box that contains two boxes.

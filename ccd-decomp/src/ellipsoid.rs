@@ -4,7 +4,7 @@ use crate::hull::hull;
 use crate::tolerance::ELLIPSOID_ENLARGEMENT;
 use ccd_core::glam::DVec3;
 use ccd_core::order::lesser;
-use ccd_core::{Body, Facet, FacetOrigin, Hull, InputError, Polytope};
+use ccd_core::{Body, Facet, FacetOrigin, Hull, InputError, Polytope, check};
 use std::f64::consts::TAU;
 
 /// The number of corners of the polytope.
@@ -31,13 +31,8 @@ const HALF_AXES: std::ops::RangeInclusive<f64> = 1e-20..=1e11;
 /// ```
 pub fn ellipsoid(half_axes: [f64; 3]) -> Result<Body, InputError> {
     for value in half_axes {
-        if !HALF_AXES.contains(&value) {
-            return Err(InputError::OutOfRange {
-                quantity: "half axis",
-                value,
-                allowed: "from 1e-20 to 1e11",
-            });
-        }
+        let is_allowed = HALF_AXES.contains(&value);
+        check("half axis", value, is_allowed, "from 1e-20 to 1e11")?;
     }
     let half_axes = DVec3::from_array(half_axes);
     let longest = half_axes.max_element();

@@ -19,6 +19,7 @@ pub(crate) mod unit;
 
 use crate::exact::predicates::has_zero_area;
 use ccd_core::glam::DVec3;
+use ccd_core::vector::position_bits;
 use error::{MeshError, MeshFault};
 use format::Format;
 use mesh_file::MeshFile;
@@ -200,9 +201,7 @@ impl TriangleMesh {
 
 /// Returns, for each vertex, the index of the first vertex at exactly the same point; 0 and −0 are equal.
 fn weld_index_by_vertex(vertices: &[DVec3]) -> Vec<u32> {
-    let with_position = |(vertex, point): (usize, &DVec3)| {
-        (point.to_array().map(|x| (x + 0.0).to_bits()), vertex as u32)
-    };
+    let with_position = |(vertex, &point): (usize, &DVec3)| (position_bits(point), vertex as u32);
     let vertices = vertices.par_iter().enumerate();
     let mut by_position: Vec<([u64; 3], u32)> = vertices.map(with_position).collect();
     by_position.par_sort_unstable();

@@ -66,17 +66,7 @@
 //! The README of this crate lists the time that each feature takes to build.
 //!
 // In documentation without a feature, the names that need it link to the list of features.
-#![cfg_attr(
-    feature = "meshes",
-    doc = "[`load`]: load()
-[`load_in_unit`]: load_in_unit()
-[`load_adjusted`]: load_adjusted()
-[`load_parts`]: load_parts()
-[`mesh`]: mesh
-[`mesh::MeshFile`]: mesh::MeshFile
-[`mesh::TriangleMesh::new`]: mesh::TriangleMesh::new
-[`mesh::body_from_mesh`]: mesh::body_from_mesh()"
-)]
+#![cfg_attr(feature = "meshes", doc = "[`load`]: load()")]
 #![cfg_attr(
     not(feature = "meshes"),
     doc = "[`load`]: #features
@@ -88,9 +78,7 @@
 [`mesh::TriangleMesh::new`]: #features
 [`mesh::body_from_mesh`]: #features"
 )]
-#![cfg_attr(feature = "scenes", doc = "[`Scene`]: Scene")]
 #![cfg_attr(not(feature = "scenes"), doc = "[`Scene`]: #features")]
-#![cfg_attr(feature = "vmarch", doc = "[`oracle::Vmarch`]: oracle::Vmarch")]
 #![cfg_attr(not(feature = "vmarch"), doc = "[`oracle::Vmarch`]: #features")]
 
 pub mod answer;

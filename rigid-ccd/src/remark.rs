@@ -3,11 +3,11 @@
 #[cfg(feature = "meshes")]
 mod mesh;
 
-use crate::text::Number;
+use crate::text::{Number, RoundedToFourDigits};
 use ccd_core::Body;
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
-use ccd_core::vector::length;
+use ccd_core::vector::{bounding_box, length};
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -123,7 +123,8 @@ impl Remark {
     /// # Complexity
     /// Linear in the body's points.
     pub fn sides(body: &Body) -> [f64; 3] {
-        bounding_box_sides(corners_of_boxes_around_points(body)).to_array()
+        let (low, high) = bounding_box(corners_of_boxes_around_points(body));
+        (high - low).to_array()
     }
 
     /// Returns a remark if the tolerance is large relative to the smaller of two bodies, given their
@@ -227,18 +228,6 @@ fn corners_of_boxes_around_points(body: &Body) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// Returns the side lengths of the axis-aligned bounding box of points.
-fn bounding_box_sides(points: impl IntoIterator<Item = DVec3>) -> DVec3 {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for point in points {
-        for (axis, x) in point.to_array().into_iter().enumerate() {
-            low[axis] = lesser(low[axis], x);
-            high[axis] = greater(high[axis], x);
-        }
-    }
-    DVec3::from(high) - DVec3::from(low)
-}
-
 fn may_be_degrees(angle: f64) -> bool {
     angle > MIN_SUSPICIOUS_ROTATION && angle <= MAX_MISTAKEN_DEGREES * (1.0 + ROUNDING)
 }
@@ -281,7 +270,7 @@ impl fmt::Display for Remark {
                 write!(
                     f,
                     "({x}, {y}, {z}, {w}) has the length {}",
-                    Number(rounded(quaternion_norm))
+                    RoundedToFourDigits(quaternion_norm)
                 )
             }
             Remark::SurfaceOnly { open_edges } => write!(f, "{open_edges} edges have one face"),
@@ -296,11 +285,6 @@ impl fmt::Display for Remark {
             Remark::UnitOfFile { unit } => write!(f, "{unit}"),
         }
     }
-}
-
-/// Rounds a number to four digits, if it is large enough.
-fn rounded(number: f64) -> f64 {
-    format!("{number:.3e}").parse().unwrap_or(number)
 }
 
 #[cfg(test)]

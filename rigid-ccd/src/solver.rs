@@ -271,7 +271,8 @@ impl<O: DistanceOracle> Solver<O> {
         b: impl Into<MovingBody<'b>>,
         duration: f64,
     ) -> Result<Answer, InputError> {
-        let query = build_query(a, b, duration, &self.settings)?;
+        let (a, b): (MovingBody<'b>, MovingBody<'b>) = (a.into(), b.into());
+        let query = Query::new(a, b, duration, &self.settings)?;
         self.engine.answer(question, &query)
     }
 
@@ -286,17 +287,6 @@ impl<O: DistanceOracle> Solver<O> {
     ) -> Result<Answer, InputError> {
         self.engine.answer(question, query)
     }
-}
-
-/// Builds the query of two moving bodies, which borrows the solver's settings.
-fn build_query<'s, 'b: 's>(
-    a: impl Into<MovingBody<'b>>,
-    b: impl Into<MovingBody<'b>>,
-    duration: f64,
-    settings: &'s Settings,
-) -> Result<Query<'s>, InputError> {
-    let (a, b): (MovingBody<'b>, MovingBody<'b>) = (a.into(), b.into());
-    Query::new(a, b, duration, settings)
 }
 
 #[cfg(test)]

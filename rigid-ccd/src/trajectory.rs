@@ -23,7 +23,6 @@ mod curve;
 mod joint;
 mod link;
 pub(crate) mod poses;
-mod rotation;
 mod screw;
 mod segments;
 mod spline;

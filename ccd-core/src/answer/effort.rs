@@ -1,5 +1,7 @@
 //! The work of an oracle.
 
+use crate::math::componentwise::impl_componentwise;
+
 /// Counters for the work of an oracle, over many calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Effort {
@@ -11,27 +13,6 @@ pub struct Effort {
     pub fallbacks: u64,
 }
 
-impl std::ops::Add for Effort {
-    type Output = Effort;
-
-    fn add(self, other: Effort) -> Effort {
-        Effort {
-            steps: self.steps + other.steps,
-            cycle_count: self.cycle_count + other.cycle_count,
-            fallbacks: self.fallbacks + other.fallbacks,
-        }
-    }
-}
-
-impl std::ops::Sub for Effort {
-    type Output = Effort;
-
-    /// Returns the counts since an earlier state of the counters.
-    fn sub(self, earlier: Effort) -> Effort {
-        Effort {
-            steps: self.steps - earlier.steps,
-            cycle_count: self.cycle_count - earlier.cycle_count,
-            fallbacks: self.fallbacks - earlier.fallbacks,
-        }
-    }
-}
+impl_componentwise!(Add::add for Effort { steps, cycle_count, fallbacks });
+// A difference has the counts since an earlier state of the counters.
+impl_componentwise!(Sub::sub for Effort { steps, cycle_count, fallbacks });

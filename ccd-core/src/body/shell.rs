@@ -1,5 +1,6 @@
 //! Finds the connected parts of a body, and their extreme points.
 
+use super::disjoint_sets::DisjointSets;
 use super::pieces::Pieces;
 use crate::math::vector::position_bits;
 use glam::DVec3;
@@ -17,7 +18,7 @@ pub fn connected_part_numbers(pieces: &Pieces) -> Vec<u32> {
     let (mut parts, _) = connected_points(pieces);
     let mut number_of_root = HashMap::new();
     let numbers = (0..pieces.len()).map(|piece| {
-        let root = parts.root(pieces.point_range(piece).start);
+        let root = parts.root(pieces.point_range(piece).start as u32);
         let next = number_of_root.len() as u32;
         *number_of_root.entry(root).or_insert(next)
     });
@@ -35,7 +36,7 @@ pub(crate) fn part_extreme_points(pieces: &Pieces) -> Vec<ExtremePoints> {
     let mut shells: Vec<ExtremePoints> = Vec::new();
     for k in distinct {
         let point = points[k as usize];
-        let shell = &mut shell_of[parts.root(k as usize)];
+        let shell = &mut shell_of[parts.root(k) as usize];
         if *shell == u32::MAX {
             *shell = shells.len() as u32;
             shells.push([point; 6]);
@@ -77,7 +78,7 @@ fn join_equal_points_of_equal_number(pieces: &Pieces) -> (DisjointSets, Vec<u32>
             distinct.push(k);
         }
     }
-    (DisjointSets(parts), distinct)
+    (DisjointSets::from_roots(parts), distinct)
 }
 
 /// Joins the sets of points at the same position, whatever their vertex numbers.
@@ -85,7 +86,7 @@ fn join_coincident_points(points: &[DVec3], distinct: &[u32], parts: &mut Disjoi
     let mut known = HashMap::with_capacity(distinct.len());
     for &k in distinct {
         let first = *known.entry(position_bits(points[k as usize])).or_insert(k);
-        parts.join(first as usize, k as usize);
+        parts.join(first, k);
     }
 }
 
@@ -96,7 +97,7 @@ fn connected_points(pieces: &Pieces) -> (DisjointSets, Vec<u32>) {
     let mut count = distinct.len();
     for piece in 0..pieces.len() {
         let range = pieces.point_range(piece);
-        for k in range.start + 1..range.end {
+        for k in range.start as u32 + 1..range.end as u32 {
             count -= usize::from(parts.join(k - 1, k));
         }
     }
@@ -105,27 +106,6 @@ fn connected_points(pieces: &Pieces) -> (DisjointSets, Vec<u32>) {
         join_coincident_points(points, &distinct, &mut parts);
     }
     (parts, distinct)
-}
-
-/// A union-find forest: every element stores the index of another element of its set, and a root stores its own.
-struct DisjointSets(Vec<u32>);
-
-impl DisjointSets {
-    fn root(&mut self, mut k: usize) -> usize {
-        while self.0[k] as usize != k {
-            // Path halving shortens later searches.
-            self.0[k] = self.0[self.0[k] as usize];
-            k = self.0[k] as usize;
-        }
-        k
-    }
-
-    /// Joins the sets of two elements, and returns whether the sets were different before.
-    fn join(&mut self, a: usize, b: usize) -> bool {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b)] = a.min(b) as u32;
-        a != b
-    }
 }
 
 #[cfg(test)]

@@ -84,8 +84,8 @@ impl SupportMap {
     pub(crate) fn bounding_ball(&self) -> Option<(DVec3, f64)> {
         match self {
             SupportMap::Scan(_) => None,
-            SupportMap::Climb(table) => Some(table.bounding_ball()),
-            SupportMap::Tree(tree) => Some(tree.bounding_ball()),
+            SupportMap::Climb(table) => Some(table.bounding_ball),
+            SupportMap::Tree(tree) => Some(tree.bounding_ball),
         }
     }
 }

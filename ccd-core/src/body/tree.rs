@@ -35,9 +35,10 @@ pub(crate) struct Tree {
     triangle_groups: Vec<StoredTriangleGroup>,
     /// The slabs around flat nodes, sorted by node.
     slabs: Vec<(NodeId, Slab)>,
-    body_box: BodyBox,
+    /// The bounding box of the whole body, which is tighter than the root's box in f32.
+    pub(crate) body_box: BodyBox,
     /// The largest distance of a piece's points from the body's origin, plus the rounding radius.
-    max_distance_from_origin: f64,
+    pub(crate) max_distance_from_origin: f64,
 }
 
 /// The id of a node or a triangle: ids below the number of nodes are nodes, higher ids are triangles.
@@ -106,11 +107,6 @@ impl Tree {
         &self.triangle_groups[index as usize].header
     }
 
-    /// Returns the largest distance of any point of the body from its origin, rounding radii included.
-    pub(crate) fn max_distance_from_origin(&self) -> f64 {
-        self.max_distance_from_origin
-    }
-
     /// Returns the center and radius of a ball around all pieces, in the body's frame.
     pub(crate) fn bounding_ball(&self) -> (DVec3, f64) {
         (self.nodes[0].center, f64::from(self.nodes[0].radius))
@@ -125,11 +121,6 @@ impl Tree {
     /// Returns the radius of the ball around all pieces.
     pub(crate) fn radius(&self) -> f32 {
         self.nodes[0].radius
-    }
-
-    /// Returns the bounding box of the whole body, which is tighter than the root's box in f32.
-    pub(crate) fn body_box(&self) -> &BodyBox {
-        &self.body_box
     }
 
     /// Returns the half extents of the root's box.

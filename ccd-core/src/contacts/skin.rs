@@ -76,13 +76,6 @@ impl<'a> NearSurface<'a> {
         }
     }
 
-    /// Adds the triangles of a piece, and returns their indices. It is to be called once for each piece.
-    pub(super) fn add_piece(&mut self, piece: u32) -> Range<u32> {
-        let first = self.faces.len() as u32;
-        self.add_triangles(piece);
-        first..self.faces.len() as u32
-    }
-
     /// Finds the edges and corners that exist only because flat parts are cut into triangles. It is to be called after
     /// all needed pieces are added. Heights up to `rounding` count as flat.
     pub(super) fn find_internal_features(&mut self, rounding: f64) {

@@ -21,9 +21,4 @@ impl SearchBuffers {
         clear_and_shrink(&mut self.unseparated_pairs);
         clear_and_shrink(&mut self.containment_scratch);
     }
-
-    /// Returns all measured pairs of pieces that are not proven apart, and the list of pieces as scratch memory.
-    pub(crate) fn unseparated_pairs_and_scratch(&mut self) -> (&[[u32; 2]], &mut Vec<u32>) {
-        (&self.unseparated_pairs, &mut self.containment_scratch)
-    }
 }

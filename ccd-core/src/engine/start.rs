@@ -55,14 +55,14 @@ fn outcome_at_start<O: DistanceOracle>(
     let mut nearest = NearestSearch::new(problem, 0.0, &mut lists).with_cutoff(beyond);
     let outcome = match nearest.search(oracle, meter) {
         Some(EarlyEndReason::Overlap(_, contact)) => Some(overlap_outcome(contact)),
-        Some(EarlyEndReason::Limit(limit)) => Some(unresolved_outcome(limit)),
+        Some(EarlyEndReason::Limit(limit)) => Some(Outcome::unresolved(0.0, limit)),
         None if nearest.is_intersection_undecided => {
-            Some(unresolved_outcome(Limit::OverlapUndecided))
+            Some(Outcome::unresolved(0.0, Limit::OverlapUndecided))
         }
         None => {
             let touching = contact(&nearest).map(|contact| Outcome::Touching { contact });
-            let (pairs, pieces) = lists.unseparated_pairs_and_scratch();
-            containment_at_start(problem, pairs, pieces).or(touching)
+            let (pairs, scratch) = (&lists.unseparated_pairs, &mut lists.containment_scratch);
+            containment_at_start(problem, pairs, scratch).or(touching)
         }
     };
     lists.clear();
@@ -73,10 +73,6 @@ fn outcome_at_start<O: DistanceOracle>(
 /// Returns the outcome for two pieces that overlap.
 pub(crate) fn overlap_outcome(contact: Contact) -> Outcome {
     Outcome::from_overlap(Overlap::Pieces(contact))
-}
-
-fn unresolved_outcome(reason: Limit) -> Outcome {
-    Outcome::unresolved(0.0, reason)
 }
 
 #[cfg(test)]

@@ -52,6 +52,30 @@ pub fn is_degenerate([a, b, c]: [DVec3; 3]) -> bool {
     (0..3).all(|axis| side_of_line_along(axis, [a, b], c).is_eq())
 }
 
+/// Returns whether the ray from `origin` through `target` meets exactly one triangle, and no edge. The origin has to be
+/// [behind](side_of_plane) all triangles.
+///
+/// # Guarantee
+/// Like [`side_of_plane`].
+pub fn ray_meets_one_triangle(
+    triangles: impl IntoIterator<Item = [DVec3; 3]>,
+    origin: DVec3,
+    target: DVec3,
+) -> bool {
+    let mut met = 0;
+    for [a, b, c] in triangles {
+        let sides = [[a, b], [b, c], [c, a]];
+        let within = sides.map(|[from, to]| side_of_plane([origin, from, to], target));
+        if within.into_iter().all(Ordering::is_gt) {
+            met += 1;
+        } else if !within.into_iter().any(Ordering::is_lt) {
+            // The ray meets an edge, and the number of triangles is unknown.
+            return false;
+        }
+    }
+    met == 1
+}
+
 /// Returns the index of the first point with a coordinate that is [too near to 0](LEAST_NONZERO_COORDINATE) for exact
 /// predicates.
 pub fn first_underflow_prone_point_index(points: &[DVec3]) -> Option<usize> {

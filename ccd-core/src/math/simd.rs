@@ -1,6 +1,7 @@
 //! Vectors in registers: eight in f32, one for every child of a group, or one in f64; and the choice of the
 //! instructions for them at run time.
 
+use crate::math::componentwise::impl_componentwise;
 use crate::rounding::LEAST_AXIS_LENGTH_F32;
 use crate::settings::VectorInstructions;
 use fearless_simd::{
@@ -8,7 +9,7 @@ use fearless_simd::{
     prelude::*,
 };
 use glam::{DMat3, DVec3, Vec3};
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Mul, Neg};
 
 /// The least positive normal number, which replaces zero in divisors.
 pub(crate) const LEAST_DIVISOR: f32 = f32::MIN_POSITIVE;
@@ -83,29 +84,8 @@ impl<L: Simd> Vec3x8<L> {
     }
 }
 
-impl<L: Simd> Add for Vec3x8<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Vec3x8 {
-            x: self.x + other.x,
-            y: self.y + other.y,
-            z: self.z + other.z,
-        }
-    }
-}
-
-impl<L: Simd> Sub for Vec3x8<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Vec3x8 {
-            x: self.x - other.x,
-            y: self.y - other.y,
-            z: self.z - other.z,
-        }
-    }
-}
+impl_componentwise!(Add::add for Vec3x8<L> { x, y, z });
+impl_componentwise!(Sub::sub for Vec3x8<L> { x, y, z });
 
 impl<L: Simd> Mul<f32x8<L>> for Vec3x8<L> {
     type Output = Self;
@@ -212,21 +192,8 @@ impl<L: Simd> PackedMatrix<L> {
     }
 }
 
-impl<L: Simd> Add for PackedVector<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        PackedVector(self.0 + other.0)
-    }
-}
-
-impl<L: Simd> Sub for PackedVector<L> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        PackedVector(self.0 - other.0)
-    }
-}
+impl_componentwise!(Add::add for PackedVector<L> { 0 });
+impl_componentwise!(Sub::sub for PackedVector<L> { 0 });
 
 impl<L: Simd> Neg for PackedVector<L> {
     type Output = Self;
@@ -280,9 +247,10 @@ impl VectorInstructions {
 /// AVX-512 is left out: eight lanes of f32 gain nothing by it, and rustc 1.95 miscompiles it. Every further level is
 /// another copy of the code.
 ///
-/// WebAssembly without `simd128` has no vector instructions: each operation on eight lanes is eight, and a kernel of a hundred
-/// thousand instructions takes LLVM longer than anyone waits. There, the larger parts of kernels are not `#[inline(always)]`. The
-/// compiler makes functions of them, which takes it less than a minute.
+/// WebAssembly without `simd128` has no vector instructions: each operation on eight lanes is eight, and a kernel of a
+/// hundred thousand instructions takes LLVM longer than anyone waits. There, the build script does not set
+/// `inline_kernels`, and the larger parts of kernels are not `#[inline(always)]`. The compiler makes functions of them,
+/// which takes it less than a minute.
 ///
 /// This is for the distance backends of this project, and no stable interface.
 #[doc(hidden)]

@@ -106,12 +106,13 @@ pub(crate) fn scale_and_inverse(square: f64) -> (f64, f64) {
 }
 
 /// Returns the bits of a point's coordinates, which are the same for equal points: the numbers 0 and −0 are equal.
-pub(crate) fn position_bits(point: DVec3) -> [u64; 3] {
+#[inline]
+pub fn position_bits(point: DVec3) -> [u64; 3] {
     point.to_array().map(|x| (x + 0.0).to_bits())
 }
 
-/// Returns the lowest and the highest corner of the bounding box of some points.
-pub(crate) fn bounding_box(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+/// Returns the lowest and the highest corner of the bounding box of some points; infinite without points.
+pub fn bounding_box(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
     points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| {
         (lo.min(p), hi.max(p))
     })

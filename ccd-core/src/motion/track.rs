@@ -68,8 +68,10 @@ impl HeightFunction {
 /// The motion along one axis that all points of a body have in common.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MotionAlongAxis {
-    linear_rate: f64,
-    linear_acceleration: f64,
+    /// The present velocity along the axis, without rotation.
+    pub(crate) linear_rate: f64,
+    /// The acceleration along the axis, without rotation.
+    pub(crate) linear_acceleration: f64,
     /// The component of `n` perpendicular to the axis of rotation.
     normal_part_across_axis: DVec3,
     /// The cross product `n × u`, with the direction `u` of the axis of rotation.
@@ -96,18 +98,6 @@ impl MotionAlongAxis {
             linear_acceleration,
             ..self
         }
-    }
-
-    /// Returns the present velocity along the axis, without rotation.
-    #[inline]
-    pub(crate) fn linear_rate(&self) -> f64 {
-        self.linear_rate
-    }
-
-    /// Returns the acceleration along the axis, without rotation.
-    #[inline]
-    pub(crate) fn linear_acceleration(&self) -> f64 {
-        self.linear_acceleration
     }
 
     /// Returns the displacement along the axis after `tau`, without rotation.

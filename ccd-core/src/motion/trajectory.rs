@@ -3,6 +3,7 @@
 use super::Motion;
 use super::pose::Pose;
 use crate::error::InputError;
+use crate::math::componentwise::impl_componentwise;
 use crate::math::order::greater;
 use crate::math::vector::length;
 use crate::rounding::RETIMED_POSE_ERROR_F64;
@@ -175,16 +176,7 @@ impl DeviationBound {
     }
 }
 
-impl std::ops::Add for DeviationBound {
-    type Output = DeviationBound;
-
-    fn add(self, other: DeviationBound) -> DeviationBound {
-        DeviationBound {
-            center_deviation: self.center_deviation + other.center_deviation,
-            max_deviation_angle: self.max_deviation_angle + other.max_deviation_angle,
-        }
-    }
-}
+impl_componentwise!(Add::add for DeviationBound { center_deviation, max_deviation_angle });
 
 /// A trajectory without jumps of its velocities, given by bounds of its accelerations.
 ///

@@ -51,7 +51,7 @@ fn rounding_of_places_gaps_and_distances_is_allowed_for() {
         let duration = random_power_of_ten(&mut rng, -3.0, 3.0);
         let motions = [(); 2].map(|()| random_motion(&mut rng, world, size, duration));
         worst.far_problem_count +=
-            usize::from(far > 1e5 || bodies[0].tree().max_distance_from_origin() > 1e5);
+            usize::from(far > 1e5 || bodies[0].tree().max_distance_from_origin > 1e5);
         worst.turning_problem_count +=
             usize::from(motions[0].angular_velocity().length() * duration > 100.0);
         let moving = |k: usize| MovingBody::from((&bodies[k], motions[k]));

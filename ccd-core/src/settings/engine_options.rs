@@ -112,12 +112,6 @@ impl Shortcuts {
         Shortcuts(self.0 & !(1 << shortcut as u8))
     }
 
-    /// Returns the set of one shortcut.
-    #[cfg(test)]
-    pub(crate) fn only(shortcut: Shortcut) -> Self {
-        Shortcuts(1 << shortcut as u8)
-    }
-
     /// Returns whether the set contains a shortcut.
     #[inline]
     pub const fn contains(self, shortcut: Shortcut) -> bool {

@@ -55,7 +55,7 @@ fn points_stay_in_their_box() {
             let excess = (swept.max - swept.min - size).max_element() / size.max_element();
             tightest = lesser(tightest, excess);
             // In the worst case the box is about a ball.
-            let whole = scene.bodies[k].tree().body_box();
+            let whole = &scene.bodies[k].tree().body_box;
             let ball = distance(whole.center, path.center) + whole.radius;
             let worst = path.velocity.abs() + 2.0 * (ball + box_growth_of(&scene, k));
             // Coordinates are rounded at their position.

@@ -223,8 +223,8 @@ impl Scene {
     /// The accelerations are of the order of the scene's size or of the bodies' displacements.
     pub(crate) fn with_accelerations(mut self, rng: &mut Pcg64) -> Self {
         let clock = self.clock;
-        let size = self.bodies[0].tree().max_distance_from_origin()
-            + self.bodies[1].tree().max_distance_from_origin();
+        let size = self.bodies[0].tree().max_distance_from_origin
+            + self.bodies[1].tree().max_distance_from_origin;
         for (motion, acceleration) in self.motions.iter_mut().zip(&mut self.accelerations) {
             let speed = if rng.random_bool(0.5) {
                 size

@@ -2,7 +2,8 @@
 //! extend [`ccd_core::exact`].
 
 pub(crate) use ccd_core::exact::{
-    first_underflow_prone_point_index, is_degenerate, side_of_line_along, side_of_plane,
+    first_underflow_prone_point_index, is_degenerate, ray_meets_one_triangle, side_of_line_along,
+    side_of_plane,
 };
 
 use ccd_core::glam::DVec3;

@@ -2,8 +2,8 @@
 
 use super::affine::AffineMap;
 use super::unit::Unit;
-use ccd_core::InputError;
 use ccd_core::glam::{DAffine3, DVec3};
+use ccd_core::{InputError, check};
 use std::fmt;
 
 /// The adjustments of a mesh that is read from a file: unit, scale, mirroring, and whether it is hollow.
@@ -53,63 +53,45 @@ impl Adjustments {
 
     /// Sets the unit of the numbers in the file. It takes precedence over a unit that the file states.
     #[must_use]
-    pub fn with_stated_unit(self, unit: Unit) -> Self {
-        Adjustments {
-            stated_unit: Some(unit),
-            ..self
-        }
+    pub fn with_stated_unit(mut self, unit: Unit) -> Self {
+        self.stated_unit = Some(unit);
+        self
     }
 
     /// [Converts](crate::MeshFile::converted_to_unit) the coordinates to a unit. The coordinates of a file without a known unit
     /// stay as they are.
     #[must_use]
-    pub fn with_target_unit(self, unit: Unit) -> Self {
-        Adjustments {
-            target_unit: Some(unit),
-            ..self
-        }
+    pub fn with_target_unit(mut self, unit: Unit) -> Self {
+        self.target_unit = Some(unit);
+        self
     }
 
     /// Multiplies all coordinates by a factor. Each is rounded once.
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] unless the factor is positive and finite.
-    pub fn scaled(self, factor: f64) -> Result<Self, InputError> {
-        let factors = self.scale_by_axis * factor;
+    pub fn scaled(mut self, factor: f64) -> Result<Self, InputError> {
+        self.scale_by_axis *= factor;
+        let factors = self.scale_by_axis;
         // Written so that NaN is refused; several factors may leave the range together.
-        if factor > 0.0 && factors.abs().min_element() > 0.0 && factors.is_finite() {
-            Ok(Adjustments {
-                scale_by_axis: factors,
-                ..self
-            })
-        } else {
-            Err(InputError::OutOfRange {
-                quantity: "scale",
-                value: factor,
-                allowed: "positive and finite",
-            })
-        }
+        let is_allowed = factor > 0.0 && factors.abs().min_element() > 0.0 && factors.is_finite();
+        check("scale", factor, is_allowed, "positive and finite")?;
+        Ok(self)
     }
 
     /// Mirrors the mesh along a coordinate axis, across the plane through the origin. The triangles are reversed, so
     /// that a solid stays one. Exact.
     #[must_use]
-    pub fn mirrored(self, axis: Axis) -> Self {
-        let mut factors = self.scale_by_axis;
-        factors[axis as usize] *= -1.0;
-        Adjustments {
-            scale_by_axis: factors,
-            ..self
-        }
+    pub fn mirrored(mut self, axis: Axis) -> Self {
+        self.scale_by_axis[axis as usize] *= -1.0;
+        self
     }
 
     /// Treats a closed mesh as a hollow [surface](crate::PieceChoice::Surface), whatever the kind of pieces.
     #[must_use]
-    pub fn treated_as_hollow(self) -> Self {
-        Adjustments {
-            is_hollow: true,
-            ..self
-        }
+    pub fn treated_as_hollow(mut self) -> Self {
+        self.is_hollow = true;
+        self
     }
 
     /// Returns the adjustments that apply both `self` and `other`. The units of `other` take precedence.

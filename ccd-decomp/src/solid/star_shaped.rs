@@ -1,10 +1,9 @@
 //! Recognises star-shaped solids, whose whole surface is visible from one point.
 
 use super::manifold::Manifold;
-use crate::exact::predicates::side_of_plane;
+use crate::exact::predicates::{ray_meets_one_triangle, side_of_plane};
 use ccd_core::glam::DVec3;
 use ccd_core::limits::LEAST_NONZERO_COORDINATE;
-use std::cmp::Ordering;
 
 /// Returns a point from which the whole surface is visible; `None` if no candidate point is such a point. A point sees
 /// the surface if it is behind every face, and no face hides another.
@@ -16,10 +15,12 @@ use std::cmp::Ordering;
 /// # Complexity
 /// O(n).
 pub(crate) fn star_center(manifold: &Manifold<'_>) -> Option<DVec3> {
+    let triangles = || (0..manifold.faces().len() as u32).map(|face| manifold.triangle(face));
+    let [a, b, c] = triangles().next()?;
+    let target = with_tiny_coordinates_zeroed((a + b + c) / 3.0);
     candidate_centers(manifold).into_iter().find(|&middle| {
-        let triangles = || (0..manifold.faces().len() as u32).map(|face| manifold.triangle(face));
-        let has_behind = |triangle| side_of_plane(triangle, middle) == Ordering::Less;
-        triangles().all(has_behind) && ray_meets_one_triangle(triangles(), middle)
+        let has_behind = |triangle| side_of_plane(triangle, middle).is_lt();
+        triangles().all(has_behind) && ray_meets_one_triangle(triangles(), middle, target)
     })
 }
 
@@ -47,26 +48,6 @@ fn with_tiny_coordinates_zeroed(p: DVec3) -> DVec3 {
         DVec3::ZERO,
         p,
     )
-}
-
-/// Returns whether the ray from `middle` to the center of the first triangle meets exactly one triangle, and no edge.
-fn ray_meets_one_triangle(triangles: impl Iterator<Item = [DVec3; 3]>, middle: DVec3) -> bool {
-    let mut triangles = triangles.peekable();
-    let Some(&[a, b, c]) = triangles.peek() else {
-        return false;
-    };
-    let target = with_tiny_coordinates_zeroed((a + b + c) / 3.0);
-    let mut met = 0;
-    for [a, b, c] in triangles {
-        let within = [(a, b), (b, c), (c, a)].map(|(v, w)| side_of_plane([middle, v, w], target));
-        if within == [Ordering::Greater; 3] {
-            met += 1;
-        } else if !within.contains(&Ordering::Less) {
-            // The direction meets an edge, so that the number of triangles is unclear.
-            return false;
-        }
-    }
-    met == 1
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use crate::double_double::DoubleDoubleVector;
 use ccd_core::glam::DVec3;
 use ccd_core::order::greater;
-use ccd_core::vector;
+use ccd_core::vector::{self, position_bits};
 
 /// The polygons of a closed surface: every side occurs in reverse in another polygon.
 #[derive(Debug)]
@@ -127,12 +127,7 @@ pub(crate) fn distance_from_line(p: DVec3, [start, end]: [DVec3; 2]) -> f64 {
 
 /// Returns for every point the index of the first point at the same position.
 fn first_equal_point_indices(points: &[DVec3]) -> Vec<u32> {
-    // Zero is added so that -0 is 0.
-    let key = |v: u32| {
-        (points[v as usize] + DVec3::ZERO)
-            .to_array()
-            .map(f64::to_bits)
-    };
+    let key = |v: u32| position_bits(points[v as usize]);
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     order.sort_unstable_by_key(|&v| (key(v), v));
     let mut welded: Vec<u32> = (0..points.len() as u32).collect();

@@ -1,6 +1,6 @@
 //! Remarks on meshes that bodies are made of.
 
-use super::{Remark, bounding_box_sides};
+use super::Remark;
 use ccd_core::Solidity;
 use ccd_decomp::{PieceChoice, PiecesKind, Report, TriangleMesh, Unit};
 
@@ -24,9 +24,8 @@ impl Remark {
         report: &Report,
     ) -> Option<Self> {
         let topology = report.topology.as_ref()?;
-        let corners = mesh.faces().iter().flatten();
-        let points = corners.map(|&corner| mesh.vertices()[corner as usize]);
-        let sides = bounding_box_sides(points).to_array();
+        let [low, high] = mesh.bounding_box();
+        let sides = (high - low).to_array();
         if sides == [0.0; 3] {
             return Some(Remark::PointMesh);
         }

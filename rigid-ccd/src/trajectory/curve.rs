@@ -1,12 +1,12 @@
 //! Curves in space: Bézier curves and B-splines.
 
 use super::U;
-use super::checks::{check_duration, check_finite_vector, out_of_range_error};
+use super::checks::{check_duration, check_finite_vector};
 use super::segments::{self, Segments, greater_bound};
 use ccd_core::glam::DVec3;
 use ccd_core::order::{greater, lesser};
 use ccd_core::vector::length;
-use ccd_core::{Acceleration, InputError};
+use ccd_core::{Acceleration, InputError, check};
 
 /// A curve of Bézier segments, from time 0 to its [duration](Curve::duration). It rests before and after.
 ///
@@ -41,14 +41,12 @@ impl Curve {
     /// [`InputError::NotFinite`], and [`InputError::OutOfRange`] for no points, too many, or a duration that is not
     /// positive.
     pub fn bezier(points: &[[f64; 3]], duration: f64) -> Result<Self, InputError> {
-        if points.len() > MAX_BEZIER_POINTS {
-            let count = points.len() as f64;
-            return Err(out_of_range_error(
-                "number of points",
-                count,
-                "at most 128, of a Bézier curve",
-            ));
-        }
+        check(
+            "number of points",
+            points.len() as f64,
+            points.len() <= MAX_BEZIER_POINTS,
+            "at most 128, of a Bézier curve",
+        )?;
         let points = checked_control_points(points, 1, duration)?;
         Ok(Curve {
             segments: Segments(vec![Segment {
@@ -198,17 +196,12 @@ fn checked_control_points(
     least: usize,
     duration: f64,
 ) -> Result<Vec<DVec3>, InputError> {
-    if points.len() < least {
-        let allowed = match least {
-            1 => "at least 1",
-            _ => "at least 4, of a B-spline",
-        };
-        return Err(out_of_range_error(
-            "number of points",
-            points.len() as f64,
-            allowed,
-        ));
-    }
+    let allowed = match least {
+        1 => "at least 1",
+        _ => "at least 4, of a B-spline",
+    };
+    let count = points.len();
+    check("number of points", count as f64, count >= least, allowed)?;
     check_duration(duration)?;
     points
         .iter()

@@ -1,10 +1,9 @@
 //! A joint of a serial chain, and the motion of the link after it.
 
-use super::checks::out_of_range_error;
 use super::screw::unit_axis;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
-use ccd_core::{InputError, Motion, Pose};
+use ccd_core::{InputError, Motion, Pose, check};
 use std::ops::RangeInclusive;
 
 /// A joint between two links of a serial chain, as in URDF. Its origin is a pose in the frame of the link before the
@@ -198,13 +197,8 @@ impl Joint {
         let start = self.pose(from)?;
         // A joint at rest may take no time.
         let least = if from == to { 0.0 } else { f64::from_bits(1) };
-        if !(least..=f64::MAX).contains(&duration) {
-            return Err(out_of_range_error(
-                "duration",
-                duration,
-                "positive and finite",
-            ));
-        }
+        let is_allowed = (least..=f64::MAX).contains(&duration);
+        check("duration", duration, is_allowed, "positive and finite")?;
         let rate = if from == to {
             0.0
         } else {

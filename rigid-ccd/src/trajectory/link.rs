@@ -4,7 +4,7 @@ mod bounds;
 
 use super::U;
 use super::chain::Chain;
-use super::checks::{check_duration, out_of_range_error};
+use super::checks::check_duration;
 use super::joint::{Direction, Joint, JointKind};
 use bounds::{JointPositionBounds, LinkBounds};
 use ccd_core::glam::{DQuat, DVec3};
@@ -12,7 +12,7 @@ use ccd_core::order::greater;
 use ccd_core::vector::length;
 use ccd_core::{
     Acceleration, AccelerationBounds, DeviationBound, InputError, Motion, Pose, SmoothTrajectory,
-    Trajectory,
+    Trajectory, check,
 };
 
 /// The trajectory of a link of a [`Chain`], in the world or in the frame of another link.
@@ -141,13 +141,14 @@ impl<'c> LinkTrajectory<'c> {
             });
         }
         // Written so that NaN is refused.
-        let is_no_bound = |deviation: &&f64| !(**deviation >= 0.0 && **deviation < f64::INFINITY);
-        if let Some(&wrong) = deviations.iter().find(is_no_bound) {
-            return Err(out_of_range_error(
+        for &deviation in deviations {
+            let is_bound = (0.0..f64::INFINITY).contains(&deviation);
+            check(
                 "deviation of a joint",
-                wrong,
+                deviation,
+                is_bound,
                 "finite and at least 0",
-            ));
+            )?;
         }
         Ok(LinkTrajectory {
             joint_deviations: deviations,

@@ -5,11 +5,11 @@ mod segment;
 pub(crate) use segment::{MAX_RESIDUAL_ROTATION, residual_rotation};
 
 use super::U;
-use super::checks::{check_finite_vector, check_time_is_later, out_of_range_error};
+use super::checks::{check_finite_vector, check_time_is_later};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::greater;
 use ccd_core::vector::length;
-use ccd_core::{DeviationBound, InputError, Motion, Pose, Stretch, Trajectory};
+use ccd_core::{DeviationBound, InputError, Motion, Pose, Stretch, Trajectory, check};
 use segment::Segment;
 
 /// A path through poses at given times, for example from a planner or a simulator's log.
@@ -47,9 +47,7 @@ impl PosePath {
     /// # Errors
     /// [`InputError::OutOfRange`] for no pose, and for times that do not increase.
     pub fn new(poses: Vec<(f64, Pose)>) -> Result<Self, InputError> {
-        if poses.is_empty() {
-            return Err(out_of_range_error("number of poses", 0.0, "at least 1"));
-        }
+        check("number of poses", 0.0, !poses.is_empty(), "at least 1")?;
         let mut before = None;
         for &(time, _) in &poses {
             check_time_is_later("time of a pose", time, before.replace(time))?;
@@ -94,28 +92,24 @@ impl PosePath {
     /// # Ok::<(), rigid_ccd::InputError>(())
     /// ```
     pub fn with_angular_velocities(self, spins: Vec<[f64; 3]>) -> Result<Self, InputError> {
-        if spins.len() + 1 != self.poses.len() {
-            let allowed = "one for each pose but the last";
-            let given = spins.len() as f64;
-            return Err(out_of_range_error(
-                "number of angular velocities",
-                given,
-                allowed,
-            ));
-        }
+        check(
+            "number of angular velocities",
+            spins.len() as f64,
+            spins.len() + 1 == self.poses.len(),
+            "one for each pose but the last",
+        )?;
         let spins: Vec<DVec3> = spins.into_iter().map(DVec3::from).collect();
         for (two, &spin) in self.poses.windows(2).zip(&spins) {
             let [(begin, from), (end, to)] = [two[0], two[1]];
             check_finite_vector(spin, "angular velocity")?;
             let left = length(residual_rotation([&from, &to], spin, end - begin));
             // Written so that NaN is refused.
-            if spin != DVec3::ZERO && !(left <= MAX_RESIDUAL_ROTATION) {
-                return Err(out_of_range_error(
-                    "angle from where an angular velocity leads to the next pose",
-                    left,
-                    "at most a quarter turn",
-                ));
-            }
+            check(
+                "angle from where an angular velocity leads to the next pose",
+                left,
+                spin == DVec3::ZERO || left <= MAX_RESIDUAL_ROTATION,
+                "at most a quarter turn",
+            )?;
         }
         Ok(PosePath { spins, ..self })
     }

@@ -1,6 +1,6 @@
 //! Motions that rotate about an axis and advance along it.
 
-use super::checks::{check_finite_vector, out_of_range_error};
+use super::checks::check_finite_vector;
 use ccd_core::glam::DVec3;
 use ccd_core::vector::unit;
 use ccd_core::{InputError, Motion, Pose};
@@ -40,5 +40,9 @@ pub fn screw(
 /// Returns the unit vector along an axis, or an error for an axis without a direction.
 pub(super) fn unit_axis(axis: impl Into<[f64; 3]>) -> Result<DVec3, InputError> {
     let axis = check_finite_vector(axis, "axis")?;
-    unit(axis).ok_or_else(|| out_of_range_error("the length of an axis", 0.0, "positive"))
+    unit(axis).ok_or(InputError::OutOfRange {
+        quantity: "the length of an axis",
+        value: 0.0,
+        allowed: "positive",
+    })
 }

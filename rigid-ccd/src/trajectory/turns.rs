@@ -1,12 +1,11 @@
 //! Orientations over time: slerp through given orientations.
 
 use super::U;
-use super::checks::{check_time_is_later, out_of_range_error};
-use super::rotation::rotation_vector;
+use super::checks::check_time_is_later;
 use super::segments::{Segment, Segments};
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::order::{greater, lesser};
-use ccd_core::{InputError, Pose};
+use ccd_core::{InputError, Pose, check, shortest_rotation_vector};
 
 /// The orientation of a body over time, which passes through given orientations at given times. The body does not
 /// rotate before the first time and after the last.
@@ -50,7 +49,7 @@ impl OrientationCurve {
         let keys = aligned_quaternions(keys)?;
         let segment = |two: &[(f64, DQuat)]| {
             let [(from, start), (to, end)] = [two[0], two[1]];
-            let spin = rotation_vector(end * start.conjugate()) / (to - from);
+            let spin = shortest_rotation_vector(end * start.conjugate()) / (to - from);
             let course = Turn {
                 start_orientation: start,
                 spin,
@@ -105,13 +104,12 @@ impl Segment<Turn> {
 
 /// Returns the orientations as unit quaternions, each with the sign that makes it nearer to the quaternion before it.
 fn aligned_quaternions(keys: &[(f64, [f64; 4])]) -> Result<Vec<(f64, DQuat)>, InputError> {
-    if keys.is_empty() {
-        return Err(out_of_range_error(
-            "number of orientations",
-            0.0,
-            "at least 1",
-        ));
-    }
+    check(
+        "number of orientations",
+        0.0,
+        !keys.is_empty(),
+        "at least 1",
+    )?;
     let mut units: Vec<(f64, DQuat)> = Vec::new();
     for &(time, key) in keys {
         let unit = Pose::new(DVec3::ZERO, DQuat::from_array(key))?.rotation();

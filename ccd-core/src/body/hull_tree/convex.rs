@@ -3,9 +3,10 @@
 use crate::body::facets::{edges_of, fan_triangles};
 use crate::body::piece::Piece;
 use crate::body::support::SupportMap;
-use crate::math::exact::{first_underflow_prone_point_index, side_of_plane};
+use crate::math::exact::{
+    first_underflow_prone_point_index, ray_meets_one_triangle, side_of_plane,
+};
 use glam::DVec3;
-use std::cmp::Ordering;
 
 /// Builds the search structure for extremal points of a hull with many points. Edges are climbed if they are proven to
 /// be those of the hull. Otherwise a tree is searched, which uses no facets.
@@ -92,23 +93,10 @@ fn middle_ray_hits_once(
     position: impl Fn(&[u32; 3]) -> [DVec3; 3],
     middle: DVec3,
 ) -> bool {
-    let Some(first) = triangles.first() else {
-        return false;
-    };
-    let target = position(first).into_iter().sum::<DVec3>() / 3.0;
-    let mut met = 0;
-    for triangle in triangles {
-        let [a, b, c] = position(triangle);
-        let sides = [[a, b], [b, c], [c, a]];
-        let past = sides.map(|[from, to]| side_of_plane([middle, to, from], target));
-        if past.into_iter().all(Ordering::is_lt) {
-            met += 1;
-        } else if !past.into_iter().any(Ordering::is_gt) {
-            // The ray passes through an edge, and the count is unknown.
-            return false;
-        }
-    }
-    met == 1
+    triangles.first().is_some_and(|first| {
+        let target = position(first).into_iter().sum::<DVec3>() / 3.0;
+        ray_meets_one_triangle(triangles.iter().map(position), middle, target)
+    })
 }
 
 #[cfg(test)]

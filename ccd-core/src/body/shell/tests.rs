@@ -54,19 +54,20 @@ fn a_chain_of_many_is_one_part_in_any_order() {
 /// Finds the connected parts by comparing all pairs of points, as a reference.
 fn part_extreme_points_by_brute_force(pieces: &Pieces) -> Vec<ExtremePoints> {
     let points = pieces.points();
-    let mut parts = DisjointSets((0..points.len() as u32).collect());
+    let mut parts = DisjointSets::new(points.len());
     for piece in 0..pieces.len() {
         let range = pieces.point_range(piece);
-        (range.start..range.end).for_each(|k| _ = parts.join(range.start, k));
+        let first = range.start as u32;
+        (first..range.end as u32).for_each(|k| _ = parts.join(first, k));
     }
     for (k, point) in points.iter().enumerate() {
         (0..k)
             .filter(|&j| points[j] == *point)
-            .for_each(|j| _ = parts.join(j, k));
+            .for_each(|j| _ = parts.join(j as u32, k as u32));
     }
-    let mut found: Vec<(usize, ExtremePoints)> = Vec::new();
+    let mut found: Vec<(u32, ExtremePoints)> = Vec::new();
     for (k, &point) in points.iter().enumerate() {
-        let root = parts.root(k);
+        let root = parts.root(k as u32);
         let known = found.iter().position(|shell| shell.0 == root);
         let at = known.unwrap_or_else(|| {
             found.push((root, [point; 6]));

@@ -19,7 +19,8 @@ pub struct SupportTable {
     points: Vec<DVec3>,
     /// The largest absolute value of the corners' coordinates.
     max_abs_coordinate: f64,
-    ball: (DVec3, f64),
+    /// The center and radius of a ball around the points.
+    pub(super) bounding_ball: (DVec3, f64),
     neighbours: AdjacencyLists<u32>,
     start_corners: [u32; TABLE_DIRECTION_COUNT],
 }
@@ -38,7 +39,7 @@ impl SupportTable {
         let mut table = SupportTable {
             points: points.to_vec(),
             max_abs_coordinate: points.iter().map(reach).fold(0.0, greater),
-            ball: bounding_ball(points),
+            bounding_ball: bounding_ball(points),
             neighbours: AdjacencyLists::new(points.len(), edges.into_iter()),
             start_corners: [first; TABLE_DIRECTION_COUNT],
         };
@@ -77,12 +78,6 @@ impl SupportTable {
     #[inline]
     pub fn neighbours(&self, corner: u32) -> &[u32] {
         self.neighbours.list(corner as usize)
-    }
-
-    /// Returns the center and radius of a ball around the points.
-    #[inline]
-    pub(crate) fn bounding_ball(&self) -> (DVec3, f64) {
-        self.ball
     }
 
     /// Moves to the highest neighbour until no neighbour is higher.

@@ -22,7 +22,8 @@ pub struct SupportTree {
     /// The index in `groups` of each level's first group; the lowest level is that above the blocks. The last level is
     /// one group.
     level_starts: Vec<usize>,
-    ball: (DVec3, f64),
+    /// The center and radius of a ball around the points.
+    pub(super) bounding_ball: (DVec3, f64),
 }
 
 /// Eight points, relative to the middle of the piece and scaled to its size; the last point is repeated to fill the
@@ -68,7 +69,7 @@ impl SupportTree {
                 .collect(),
             groups: Vec::new(),
             level_starts: Vec::new(),
-            ball: (middle, reach),
+            bounding_ball: (middle, reach),
         };
         let mut width = LANES;
         while width < sorted.len() {
@@ -92,12 +93,6 @@ impl SupportTree {
         let mut search = Search::new(direction);
         self.descend(self.level_starts.len(), 0, &mut search);
         search.highest_point
-    }
-
-    /// Returns the center and radius of a ball around the points.
-    #[inline]
-    pub(crate) fn bounding_ball(&self) -> (DVec3, f64) {
-        self.ball
     }
 
     /// Returns the number of nodes that a search along a direction visits.

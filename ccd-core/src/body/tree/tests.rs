@@ -26,8 +26,7 @@ fn assert_tree_bounds_pieces(body: &Body) -> usize {
     assert!(seen.iter().all(|&n| n == 1), "each piece once: {seen:?}");
     assert_eq!(below_root.len(), pieces.len());
     assert!(
-        tree.max_distance_from_origin()
-            >= max_distance_from_origin(pieces) * (1.0 - CHECK_TOLERANCE)
+        tree.max_distance_from_origin >= max_distance_from_origin(pieces) * (1.0 - CHECK_TOLERANCE)
     );
     assert!(tree.memory_usage() >= size_of::<Node>() * tree.nodes.len());
     tree.box_groups.len() + tree.triangle_groups.len()

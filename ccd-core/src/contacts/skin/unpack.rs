@@ -8,15 +8,17 @@ use crate::body::tree::point_query::polytopes_with_box_at;
 use crate::math::vector::position_bits;
 use glam::DVec3;
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// A triangle: its feature in the mesh, and its corners with their mesh numbers. Corners have a number if the mesh has
 /// one.
 type NumberedTriangle = (Feature, [(DVec3, Option<u32>); 3]);
 
 impl NearSurface<'_> {
-    /// Adds the triangles of a piece to the surface.
-    pub(super) fn add_triangles(&mut self, index: u32) {
+    /// Adds the triangles of a piece, and returns their indices. It is to be called once for each piece.
+    pub(in crate::contacts) fn add_piece(&mut self, index: u32) -> Range<u32> {
         let piece = self.body.pieces().get(index as usize);
+        let first = self.faces.len() as u32;
         for (name, corners) in self.triangles(index, &piece) {
             let corners = corners.map(|(point, id)| self.find_or_add_corner(point, id));
             self.faces.push(Face {
@@ -26,6 +28,7 @@ impl NearSurface<'_> {
                 name,
             });
         }
+        first..self.faces.len() as u32
     }
 
     /// Returns the triangles of a piece: the mesh's triangles on it, or else those of its facets. A piece without

@@ -58,10 +58,7 @@ impl<L: Simd> AxesX8<L> {
 /// centers or nearest edges.
 ///
 /// Each is homogeneous: a zero vector gives no gap, and any other length than 1 gives a sound one.
-#[cfg_attr(
-    any(not(target_family = "wasm"), target_feature = "simd128"),
-    inline(always)
-)]
+#[cfg_attr(inline_kernels, inline(always))]
 pub(crate) fn slowest_closing_axis<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
@@ -101,10 +98,7 @@ fn closing_time<L: Simd>(axis: &AxesX8<L>, velocity: Vec3x8<L>, required_gap: f3
 }
 
 /// Returns the axis between the centers at their time of nearest approach within `remaining_time`, for straight paths.
-#[cfg_attr(
-    any(not(target_family = "wasm"), target_feature = "simd128"),
-    inline(always)
-)]
+#[cfg_attr(inline_kernels, inline(always))]
 pub(crate) fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,
@@ -121,10 +115,7 @@ pub(crate) fn closest_approach_axis<L: Simd, C: Children, P: OtherNode>(
 ///
 /// The gaps are measured before the vectors are made unit vectors: a root and a quotient take as long as the
 /// measurement.
-#[cfg_attr(
-    any(not(target_family = "wasm"), target_feature = "simd128"),
-    inline(always)
-)]
+#[cfg_attr(inline_kernels, inline(always))]
 pub(crate) fn unit_axes_and_gaps<L: Simd, C: Children, P: OtherNode>(
     children: &C,
     other: &P,

@@ -30,10 +30,7 @@ pub(crate) struct EightPairFreeTimes {
 /// Fixed planes are perpendicular to two axes: the one of three along which the gap takes longest to close, and the one
 /// between the centers at the time when they are nearest. The first suits approaching pairs, the second passing ones.
 /// Beside nodes that are much larger, planes that turn with the body of these nodes are tried, too.
-#[cfg_attr(
-    any(not(target_family = "wasm"), target_feature = "simd128"),
-    inline(always)
-)]
+#[cfg_attr(inline_kernels, inline(always))]
 pub(crate) fn bound_eight_pairs<L: Simd, C: Children, P: OtherNode>(
     level: L,
     children: &C,

@@ -6,10 +6,7 @@ use fearless_simd::{ExtractToken, Simd, f32x8, prelude::*};
 
 /// Returns the largest τ with `apart ≥ rate τ + second_derivative τ²/2`. It is 0 for NaN, and for a pair that is apart
 /// by at most `closed`, even if it recedes.
-#[cfg_attr(
-    any(not(target_family = "wasm"), target_feature = "simd128"),
-    inline(always)
-)]
+#[cfg_attr(inline_kernels, inline(always))]
 pub(crate) fn free_time<L: Simd>(
     apart: f32x8<L>,
     closed: f32,
@@ -29,10 +26,7 @@ pub(crate) fn free_time<L: Simd>(
 
 /// Like `free_time`, for a `second_derivative` that may be negative: a gap that closes ever slower may never
 /// close.
-#[cfg_attr(
-    any(not(target_family = "wasm"), target_feature = "simd128"),
-    inline(always)
-)]
+#[cfg_attr(inline_kernels, inline(always))]
 pub(crate) fn free_time_decelerating<L: Simd>(
     apart: f32x8<L>,
     closed: f32,

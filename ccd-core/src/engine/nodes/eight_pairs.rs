@@ -90,10 +90,7 @@ impl<'a, L: Simd, C: Children, P: OtherNode> EightPairs<'a, L, C, P> {
     }
 
     /// Returns the times for which fixed planes perpendicular to the axes keep the pairs apart.
-    #[cfg_attr(
-        any(not(target_family = "wasm"), target_feature = "simd128"),
-        inline(always)
-    )]
+    #[cfg_attr(inline_kernels, inline(always))]
     pub(crate) fn fixed_plane_free_times(&self, axis: AxesX8<L>) -> f32x8<L> {
         let motion = self.motion;
         // n·(v + ω×arm) of the centers, plus the contribution of the points around them.

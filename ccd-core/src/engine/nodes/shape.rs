@@ -72,29 +72,20 @@ struct GrownBox<L: Simd> {
 
 impl<L: Simd> GrownBox<L> {
     /// Returns the lesser of the extents of the box and of the ball along n: `min(Σ hₖ |n·uₖ| + r |n|, R |n|)`.
-    #[cfg_attr(
-        any(not(target_family = "wasm"), target_feature = "simd128"),
-        inline(always)
-    )]
+    #[cfg_attr(inline_kernels, inline(always))]
     fn extent_along(&self, n: Vec3x8<L>) -> f32x8<L> {
         let length = n.length();
         (self.rounding_radius * length + self.ungrown_extent_along(n)).min(self.radius * length)
     }
 
     /// Like `extent_along`, for unit vectors, or zero.
-    #[cfg_attr(
-        any(not(target_family = "wasm"), target_feature = "simd128"),
-        inline(always)
-    )]
+    #[cfg_attr(inline_kernels, inline(always))]
     fn extent_along_unit(&self, n: Vec3x8<L>) -> f32x8<L> {
         (self.rounding_radius + self.ungrown_extent_along(n)).min(self.radius)
     }
 
     /// Returns the extent of the box before it is grown.
-    #[cfg_attr(
-        any(not(target_family = "wasm"), target_feature = "simd128"),
-        inline(always)
-    )]
+    #[cfg_attr(inline_kernels, inline(always))]
     fn ungrown_extent_along(&self, n: Vec3x8<L>) -> f32x8<L> {
         let ([u, v, w], [x, y, z]) = (self.axes, self.half_extents);
         let xy = y * n.dot(v).abs() + x * n.dot(u).abs();
@@ -190,10 +181,7 @@ impl Children for TriangleGroup {
     fn max_distance_from_origin(&self) -> f32 {
         self.header.max_distance_from_origin
     }
-    #[cfg_attr(
-        any(not(target_family = "wasm"), target_feature = "simd128"),
-        inline(always)
-    )]
+    #[cfg_attr(inline_kernels, inline(always))]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         let level = n.simd_level();
         let [a, b, c] = self.triangle_corners(level);
@@ -246,18 +234,10 @@ impl OtherNode for OtherBox {
     #[inline(always)]
     fn offset_to_nearest_point<L: Simd>(&self, offset: Vec3x8<L>, _: f32) -> Vec3x8<L> {
         let [u, v, w] = splat_vectors(offset.simd_level(), self.axes);
-        let x = offset
-            .dot(u)
-            .min(self.half_extents[0])
-            .max(-self.half_extents[0]);
-        let y = offset
-            .dot(v)
-            .min(self.half_extents[1])
-            .max(-self.half_extents[1]);
-        let z = offset
-            .dot(w)
-            .min(self.half_extents[2])
-            .max(-self.half_extents[2]);
+        let [half_x, half_y, half_z] = self.half_extents;
+        let x = offset.dot(u).min(half_x).max(-half_x);
+        let y = offset.dot(v).min(half_y).max(-half_y);
+        let z = offset.dot(w).min(half_z).max(-half_z);
         offset - (u * x + v * y + w * z)
     }
     #[inline(always)]
@@ -324,10 +304,7 @@ impl OtherNode for OtherTriangle {
         let zero = Vec3x8::splat(level, Vec3::ZERO);
         zero - offset_from_edges(splat_vectors(level, self.corners), zero - offset)
     }
-    #[cfg_attr(
-        any(not(target_family = "wasm"), target_feature = "simd128"),
-        inline(always)
-    )]
+    #[cfg_attr(inline_kernels, inline(always))]
     fn extent_along<L: Simd>(&self, n: Vec3x8<L>) -> f32x8<L> {
         let [a, b, c] = splat_vectors(n.simd_level(), self.corners);
         -n.dot(a).min(n.dot(b)).min(n.dot(c))
@@ -349,10 +326,7 @@ fn splat_vectors<L: Simd>(level: L, [a, b, c]: [Vec3; 3]) -> [Vec3x8<L>; 3] {
 
 /// Returns the vectors to `to` from the nearest points of triangles' edges. If an interior point is nearer, the
 /// triangle's normal is the better axis anyway.
-#[cfg_attr(
-    any(not(target_family = "wasm"), target_feature = "simd128"),
-    inline(always)
-)]
+#[cfg_attr(inline_kernels, inline(always))]
 fn offset_from_edges<L: Simd>([a, b, c]: [Vec3x8<L>; 3], to: Vec3x8<L>) -> Vec3x8<L> {
     let (a, b, c) = (to - a, to - b, to - c);
     let first = shorter_vectors(offset_from_edge(a, b), offset_from_edge(b, c));

@@ -22,12 +22,14 @@ pub(crate) struct Heights<'a> {
     normal: DVec3,
     /// The unit axis about which the body turns.
     rotation_axis: DVec3,
-    motion_along_axis: MotionAlongAxis,
+    pub(crate) motion_along_axis: MotionAlongAxis,
     angular_speed: f64,
-    speed_bound: f64,
+    /// An upper bound of the speed of any point at any time.
+    pub(crate) speed_bound: f64,
     /// The magnitude of the center's acceleration.
     acceleration: f64,
-    least_height: f64,
+    /// The least height now.
+    pub(crate) least_height: f64,
     point_tracks: PointTracks,
     /// A bound of the second derivatives of all points' heights, if there are many points.
     second_derivative: f64,
@@ -136,16 +138,6 @@ impl<'a> Heights<'a> {
         self.support_error_bound = TURNED_SUPPORT_ERROR * (farthest + length(middle) + radius);
     }
 
-    /// Returns an upper bound of the speed of any point at any time.
-    pub(crate) fn speed_bound(&self) -> f64 {
-        self.speed_bound
-    }
-
-    /// Returns the least height now.
-    pub(crate) fn least_height(&self) -> f64 {
-        self.least_height
-    }
-
     pub(crate) fn is_nonrotating(&self) -> bool {
         !(self.angular_speed > 0.0)
     }
@@ -195,19 +187,9 @@ impl<'a> Heights<'a> {
         Some(self.least_height - least_height)
     }
 
-    /// Returns the present rate of the points' heights without rotation, which is the same for all points.
-    pub(crate) fn linear_rate(&self) -> f64 {
-        self.motion_along_axis.linear_rate()
-    }
-
-    /// Returns the second derivative of the points' heights without rotation.
-    pub(crate) fn linear_acceleration(&self) -> f64 {
-        self.motion_along_axis.linear_acceleration()
-    }
-
     /// Returns a lower bound of the second derivative of the points' heights without rotation.
     pub(crate) fn linear_acceleration_lower_bound(&self) -> f64 {
-        self.motion_along_axis.linear_acceleration() - RATE_ERROR_F64 * self.acceleration
+        self.motion_along_axis.linear_acceleration - RATE_ERROR_F64 * self.acceleration
     }
 
     /// Returns a lower bound of the least value of a function over all points after `tau`. The function is evaluated
@@ -239,8 +221,8 @@ impl<'a> Heights<'a> {
         if self.is_nonrotating() {
             return PointHeight {
                 height: self.least_height + self.motion_along_axis.linear_displacement(tau),
-                rate: self.motion_along_axis.linear_rate()
-                    + self.motion_along_axis.linear_acceleration() * tau,
+                rate: self.motion_along_axis.linear_rate
+                    + self.motion_along_axis.linear_acceleration * tau,
                 second_derivative: 0.0,
             };
         }

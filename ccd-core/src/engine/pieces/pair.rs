@@ -72,7 +72,7 @@ impl<C: Default + Clone> Pair<C> {
             return found;
         }
         let step = self.contact_rule.step(examined, free_time);
-        meter.stats.point_evaluations += placed.evaluations();
+        meter.stats.point_evaluations += placed.height_evaluation_count.get();
         step
     }
 }

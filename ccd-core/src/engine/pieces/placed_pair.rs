@@ -23,7 +23,7 @@ pub(crate) struct PlacedPair<'p> {
     pub(crate) pieces: PiecePair<'p>,
     pub(crate) clock: f64,
     /// The number of heights of points that were evaluated for this pair.
-    height_evaluation_count: Cell<u64>,
+    pub(crate) height_evaluation_count: Cell<u64>,
 }
 
 impl<'p> PlacedPair<'p> {
@@ -138,11 +138,6 @@ impl<'p> PlacedPair<'p> {
             MovingPiece::new(a, frame_a, self.pieces.a, self.clock),
             MovingPiece::new(b, frame_b, self.pieces.b, self.clock),
         ]
-    }
-
-    /// Returns the number of heights of points that were evaluated for this pair.
-    pub(crate) fn evaluations(&self) -> u64 {
-        self.height_evaluation_count.get()
     }
 
     pub(super) fn record_evaluations(&self, points: u64) {

@@ -153,7 +153,7 @@ impl PlacedPair<'_> {
         let clock = self.clock;
         let a = Heights::new(&problem.a, &self.pieces.a, frame_a, -normal, clock);
         let b = Heights::new(&problem.b, &self.pieces.b, frame_b, normal, clock);
-        let rounding = RATE_ERROR_F64 * (a.speed_bound() + b.speed_bound());
+        let rounding = RATE_ERROR_F64 * (a.speed_bound + b.speed_bound);
         let linear_acceleration =
             a.linear_acceleration_lower_bound() + b.linear_acceleration_lower_bound();
         let rounds = if a.is_nonrotating() && b.is_nonrotating() {
@@ -164,7 +164,7 @@ impl PlacedPair<'_> {
         // The offset of the heights makes the nearest two points `slack` apart.
         let free = |above: &PointHeight, below: &PointHeight| {
             let gap = Gap {
-                gap: slack + (above.height - b.least_height()) + (below.height - a.least_height()),
+                gap: slack + (above.height - b.least_height) + (below.height - a.least_height),
                 rate: -below.rate - above.rate + rounding,
                 second_derivative: (above.second_derivative + below.second_derivative)
                     * (1.0 + RATE_ERROR_F64)
@@ -202,13 +202,14 @@ impl PlacedPair<'_> {
     /// become ever shorter.
     fn stays_apart_despite_rotation(&self, a: &Heights<'_>, b: &Heights<'_>, slack: f64) -> bool {
         let horizon = self.time_left();
+        let (of_a, of_b) = (&a.motion_along_axis, &b.motion_along_axis);
         let displacement = least_linear_displacement(
-            a.linear_rate() + b.linear_rate(),
-            a.linear_acceleration() + b.linear_acceleration(),
+            of_a.linear_rate + of_b.linear_rate,
+            of_a.linear_acceleration + of_b.linear_acceleration,
             horizon,
         );
         let left =
-            slack + displacement - RATE_ERROR_F64 * (a.speed_bound() + b.speed_bound()) * horizon;
+            slack + displacement - RATE_ERROR_F64 * (a.speed_bound + b.speed_bound) * horizon;
         // Written so that NaN is not past.
         if (a.is_nonrotating() && b.is_nonrotating()) || !(left > 0.0) {
             return false;

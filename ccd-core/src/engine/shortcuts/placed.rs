@@ -39,7 +39,7 @@ impl PlacedNode {
     #[inline]
     pub(crate) fn body_box(side: &BodyWithPath<'_>, s: f64) -> Self {
         let frame = side.path.frame(s);
-        let whole = side.body.tree().body_box();
+        let whole = &side.body.tree().body_box;
         PlacedNode {
             frame,
             shape: Shape::Box {

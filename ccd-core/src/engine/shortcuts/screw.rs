@@ -14,7 +14,7 @@ mod profile;
 
 use super::placed::PlacedNode;
 use super::screw::profile::{NodeScrewBounds, ScrewAxis, ScrewPath, profiles_keep_apart};
-use crate::body::tree::{GroupHeader, NodeChildren, NodeId, NodeOrTriangle};
+use crate::body::tree::{NodeChildren, NodeId, NodeOrTriangle};
 use crate::engine::capacity::clear_and_shrink;
 use crate::math::order::lesser;
 use crate::math::vector::length;
@@ -206,14 +206,7 @@ fn triangle_ids(side: &BodyWithPath<'_>, id: NodeId) -> Option<Range<NodeId>> {
     match tree.get(id) {
         NodeOrTriangle::Triangle(_) => Some(id..id + 1),
         NodeOrTriangle::Node(node) => match node.children {
-            NodeChildren::Triangles(group) => {
-                let &GroupHeader {
-                    first_child: first,
-                    count,
-                    ..
-                } = tree.triangle_group_header(group);
-                Some(first..first + count)
-            }
+            NodeChildren::Triangles(group) => Some(tree.triangle_group_header(group).children()),
             _ => None,
         },
     }

@@ -32,10 +32,7 @@ struct NodeMotionToTurningPlane<L: Simd> {
 
 impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
     /// Returns times for which planes that turn with the body of the split node certainly keep the eight pairs apart.
-    #[cfg_attr(
-        any(not(target_family = "wasm"), target_feature = "simd128"),
-        inline(always)
-    )]
+    #[cfg_attr(inline_kernels, inline(always))]
     pub(crate) fn free_times_turning_with_split_body(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, other) = (self.motion, self.other_node);
         let level = axis.n.simd_level();
@@ -64,10 +61,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
     }
 
     /// Returns times for which planes that turn with the body of the unsplit node certainly keep the eight pairs apart.
-    #[cfg_attr(
-        any(not(target_family = "wasm"), target_feature = "simd128"),
-        inline(always)
-    )]
+    #[cfg_attr(inline_kernels, inline(always))]
     pub(crate) fn free_times_of_planes_turning_with_other(&self, axis: AxesX8<L>) -> f32x8<L> {
         let (motion, children) = (self.motion, self.children);
         let level = axis.n.simd_level();
@@ -95,10 +89,7 @@ impl<L: Simd, C: Children, P: OtherNode> EightPairs<'_, L, C, P> {
         )
     }
 
-    #[cfg_attr(
-        any(not(target_family = "wasm"), target_feature = "simd128"),
-        inline(always)
-    )]
+    #[cfg_attr(inline_kernels, inline(always))]
     fn turning_plane_free_time(
         &self,
         axis: AxesX8<L>,

@@ -98,7 +98,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
         ) else {
             return Ok(());
         };
-        let mut query = stretches.query().contact_query(rung);
+        let mut query = stretches.query.contact_query(rung);
         query.settings.deadline = left.deadline;
         let answer = self.depth_first_search.any_contact_along(&query, oracle)?;
         stretches.add_uncharged_work(&answer.stats);
@@ -160,7 +160,7 @@ impl<O: DistanceOracle> Question<O> for ClosestApproachSearch<'_, O> {
             },
         };
         let lower = greater(0.0, motions.lower_bound_for_bodies(seen.lower));
-        let tolerance = stretches.query().settings.tolerance;
+        let tolerance = stretches.query.settings.tolerance;
         let is_near_enough =
             lower >= found.upper() - tolerance || seen.is_limited_by_rounding(tolerance);
         if is_near_enough || stretches.accepts_contact(motions)? {
@@ -214,7 +214,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
         let Ok((pose, terms)) = stretches.motions_and_settings_at(0.0)? else {
             return Ok(nearest);
         };
-        let problem = pose.problem(stretches.query(), &terms)?;
+        let problem = pose.problem(stretches.query, &terms)?;
         let start = self
             .depth_first_search
             .search_least_distance_of_bodies(&problem, oracle);
@@ -238,7 +238,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
         seen: &StretchDistanceBounds,
     ) -> Result<bool, InputError> {
         let time = motions.query_time(seen.time);
-        let query = stretches.query();
+        let query = stretches.query;
         // Halves mostly suffice, and cost less than measuring the distance.
         if motions.span.length() > MIN_UNMEASURED_HALVING_LENGTH_SHARE * query.duration {
             return Ok(stretches.cut_out_around(motions.span, time, f64::INFINITY));
@@ -274,7 +274,7 @@ impl<O: DistanceOracle> ClosestApproachSearch<'_, O> {
         let Ok((pose, terms)) = stretches.motions_and_settings_at(time)? else {
             return Ok(None);
         };
-        let problem = pose.problem(stretches.query(), &terms)?;
+        let problem = pose.problem(stretches.query, &terms)?;
         let answer = self
             .depth_first_search
             .search_least_distance_of_bodies(&problem, oracle);

@@ -104,7 +104,7 @@ fn search_waiting_stretches<O: DistanceOracle, Q: Question<O>>(
         {
             continue;
         }
-        let problem = motions.problem(stretches.query(), &terms)?;
+        let problem = motions.problem(stretches.query, &terms)?;
         if let ControlFlow::Break(answer) =
             question.search_stretch(stretches, &motions, &problem, oracle)?
         {

@@ -29,7 +29,7 @@ pub(super) fn suitable_length_by_measurement<O: DistanceOracle>(
         } else {
             approach
         };
-        stretch_length_from_distance(stretches.query(), motions, (contact, approach))
+        stretch_length_from_distance(stretches.query, motions, (contact, approach))
     }))
 }
 
@@ -41,7 +41,7 @@ pub(super) fn choose_next_stretch_length<O: DistanceOracle>(
     oracle: &mut O,
     scratch: &mut Scratch,
 ) -> Result<f64, InputError> {
-    let query = stretches.query();
+    let query = stretches.query;
     let seen = if time > 0.0 {
         seen.map(|contact| (contact, motions.approach_rate(time, &contact)))
     } else if motions.span.length() > MIN_UNMEASURED_HALVING_LENGTH_SHARE * query.duration {

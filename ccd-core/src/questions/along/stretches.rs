@@ -20,8 +20,9 @@ use std::time::{Duration, Instant};
 
 /// A stack of the stretches of time that wait to be searched, with the work done so far.
 pub(super) struct WaitingStretches<'j, 'a> {
-    query: &'j Query<'a>,
-    waiting_spans: Vec<Span>,
+    pub(super) query: &'j Query<'a>,
+    /// The waiting stretches, in reverse order of their searches.
+    pub(super) waiting_spans: Vec<Span>,
     pub(super) stats: Stats,
     spent_work_by_part: WorkByPart,
     was_start_examined: bool,
@@ -69,17 +70,8 @@ impl<'j, 'a> WaitingStretches<'j, 'a> {
         }
     }
 
-    pub(super) fn query(&self) -> &'j Query<'a> {
-        self.query
-    }
-
     pub(super) fn next(&mut self) -> Option<Span> {
         self.waiting_spans.pop()
-    }
-
-    /// Returns the waiting stretches, in reverse order of their searches.
-    pub(super) fn waiting_spans(&self) -> &[Span] {
-        &self.waiting_spans
     }
 
     /// Returns the earliest time of all waiting stretches; infinite if there are none.

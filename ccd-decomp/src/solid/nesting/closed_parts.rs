@@ -16,7 +16,9 @@ pub(super) fn closed_part_numbers(mesh: &TriangleMesh, edges: &SortedHalfEdges) 
     let mut is_manifold = true;
     for (_, uses) in edges.iter() {
         match *uses {
-            [one, other] => parts.join(one.face(), other.face()),
+            [one, other] => {
+                parts.join(one.face(), other.face());
+            }
             _ => is_manifold = false,
         }
     }

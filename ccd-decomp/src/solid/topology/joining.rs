@@ -1,6 +1,5 @@
 //! Finds meshes whose open edges would close if vertices that nearly meet were joined, as at the seam of a round surface.
 
-use crate::bounds::BoundingBox;
 use crate::disjoint_sets::DisjointSets;
 use crate::half_edges::{EdgeUse, SortedHalfEdges};
 use crate::mesh::TriangleMesh;
@@ -24,9 +23,8 @@ pub(super) fn joining_distance(mesh: &TriangleMesh, edges: &SortedHalfEdges) -> 
     open.sort_unstable();
     open.dedup();
     let point = |v: u32| mesh.vertices()[v as usize];
-    let corners = mesh.faces().iter().flatten();
-    let bounds = BoundingBox::enclosing(corners.map(|&v| point(v)));
-    let limit = JOINING_DISTANCE_PER_SIZE * (bounds.hi - bounds.lo).max_element();
+    let [low, high] = mesh.bounding_box();
+    let limit = JOINING_DISTANCE_PER_SIZE * (high - low).max_element();
     let height = |v: u32| point(v).dot(DIRECTION);
     open.sort_unstable_by(|&v, &w| height(v).total_cmp(&height(w)));
     let mut joined = DisjointSets::new(mesh.vertices().len());

@@ -9,7 +9,8 @@ use ccd_core::vector::length;
 /// Bounds on the derivatives of a link's pose, accumulated joint by joint.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LinkBounds {
-    speed_bounds: SpeedBounds,
+    /// An upper bound of the angular speed, in radians per unit of time.
+    max_angular_speed: f64,
     pub(super) acceleration_bounds: AccelerationBounds,
     /// The bounds on the derivatives of the accelerations.
     pub(super) jerk_bounds: AccelerationBounds,
@@ -21,13 +22,6 @@ pub(super) struct LinkBounds {
     pub(super) arm_length_sum: f64,
     /// The sum of the joints' largest angles, in radians.
     pub(super) max_angle_sum: f64,
-}
-
-/// Upper bounds on the linear and the angular speed of a link, per unit of time; angles are in radians.
-#[derive(Clone, Copy, Debug, Default)]
-struct SpeedBounds {
-    max_linear_speed: f64,
-    max_angular_speed: f64,
 }
 
 /// Bounds on a joint's position and rate over an interval of time, in radians or as a length.
@@ -90,12 +84,11 @@ impl LinkBounds {
             JointKind::Prismatic(_) => {
                 self.add_arm_motion(positions.max_abs_position);
                 let (turn, turning) = (
-                    self.speed_bounds.max_angular_speed,
+                    self.max_angular_speed,
                     self.acceleration_bounds.angular_acceleration,
                 );
                 self.jerk_bounds.linear_acceleration += 3.0 * rate * (turning + turn * turn);
                 self.acceleration_bounds.linear_acceleration += 2.0 * turn * rate;
-                self.speed_bounds.max_linear_speed += rate;
             }
             JointKind::Revolute(axis) => {
                 self.max_angle_sum += positions.max_abs_with_start;
@@ -116,24 +109,17 @@ impl LinkBounds {
 
     /// Adds the bounds due to the rotation of an arm of a given length that is fixed to the link.
     fn add_arm_motion(&mut self, length: f64) {
-        let SpeedBounds {
-            max_angular_speed: angular,
-            ..
-        } = self.speed_bounds;
+        let angular = self.max_angular_speed;
         let turning = self.acceleration_bounds.angular_acceleration;
         self.jerk_bounds.linear_acceleration += (self.jerk_bounds.angular_acceleration
             + (3.0 * turning + angular * angular) * angular)
             * length;
         self.acceleration_bounds.linear_acceleration += (turning + angular * angular) * length;
-        self.speed_bounds.max_linear_speed += angular * length;
     }
 
     /// Adds the bounds due to a rotation at a nonzero rate about an axis, which is given in the joint's frame.
     fn add_rotation(&mut self, axis: DVec3, rate: f64) {
-        let (across, common) = match (
-            self.speed_bounds.max_angular_speed > 0.0,
-            self.common_rotation_axis,
-        ) {
+        let (across, common) = match (self.max_angular_speed > 0.0, self.common_rotation_axis) {
             (false, _) => (0.0, Some(axis)),
             (true, Some(common)) => {
                 let across = length(common.cross(axis));
@@ -143,12 +129,11 @@ impl LinkBounds {
             }
             (true, None) => (1.0, None),
         };
-        let swept = self.speed_bounds.max_angular_speed * lesser(across, 1.0);
-        self.jerk_bounds.angular_acceleration += rate
-            * (self.acceleration_bounds.angular_acceleration
-                + self.speed_bounds.max_angular_speed * swept);
+        let swept = self.max_angular_speed * lesser(across, 1.0);
+        self.jerk_bounds.angular_acceleration +=
+            rate * (self.acceleration_bounds.angular_acceleration + self.max_angular_speed * swept);
         self.acceleration_bounds.angular_acceleration += rate * swept;
-        self.speed_bounds.max_angular_speed += rate;
+        self.max_angular_speed += rate;
         self.common_rotation_axis = common;
     }
 }

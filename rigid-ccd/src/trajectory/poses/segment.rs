@@ -1,9 +1,8 @@
 //! The segment of a path from one pose to the next.
 
-use crate::trajectory::rotation::rotation_vector;
 use ccd_core::glam::{DQuat, DVec3};
 use ccd_core::vector::length;
-use ccd_core::{InputError, Motion, Pose};
+use ccd_core::{InputError, Motion, Pose, shortest_rotation_vector};
 use std::f64::consts::FRAC_PI_2;
 
 /// The segment from one pose to the next: a motion at constant rates, and a correction that makes the rotation end at
@@ -75,5 +74,5 @@ impl Segment {
 /// to the orientation of `to`.
 pub(crate) fn residual_rotation([from, to]: [&Pose; 2], spin: DVec3, duration: f64) -> DVec3 {
     let led = DQuat::from_scaled_axis(spin * duration) * from.rotation();
-    rotation_vector(to.rotation() * led.conjugate())
+    shortest_rotation_vector(to.rotation() * led.conjugate())
 }

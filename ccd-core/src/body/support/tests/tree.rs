@@ -42,7 +42,7 @@ fn searching_agrees_with_a_scan() {
         let tree = SupportTree::new(&points);
         let reach = points.iter().map(|p| p.abs().max_element());
         let reach = reach.fold(0.0, crate::math::order::greater);
-        let (middle, radius) = tree.bounding_ball();
+        let (middle, radius) = tree.bounding_ball;
         for p in &points {
             assert!(
                 p.distance(middle) <= radius * (1.0 + 16.0 * crate::rounding::UNIT_ROUNDOFF_F64)

@@ -72,20 +72,20 @@ fn many_points_are_bounded_like_all_of_them() {
         let heights = Heights::new(side, &piece, &frame, normal, clock);
         let twin = Heights::new(side, &bare, &frame, normal, clock);
         many += usize::from(piece.bounding_ball().is_some());
-        assert!(heights.speed_bound() >= twin.speed_bound() * (1.0 - 1e-15));
+        assert!(heights.speed_bound >= twin.speed_bound * (1.0 - 1e-15));
         // A ball about the points extends no farther than that, except by its own slack.
         assert!(
-            heights.speed_bound() <= 1.5 * twin.speed_bound(),
+            heights.speed_bound <= 1.5 * twin.speed_bound,
             "{} {}",
-            heights.speed_bound(),
-            twin.speed_bound()
+            heights.speed_bound,
+            twin.speed_bound
         );
         // The rounding is that of heights about the center, and of the positions from which they are computed.
-        let span = problem.a.body.tree().max_distance_from_origin() + side.path.center.length();
+        let span = problem.a.body.tree().max_distance_from_origin + side.path.center.length();
         let slack = 128.0
             * crate::rounding::UNIT_ROUNDOFF_F64
             * (span + velocity.length() + linear_acceleration.length());
-        assert!((heights.least_height() - twin.least_height()).abs() <= slack);
+        assert!((heights.least_height - twin.least_height).abs() <= slack);
         for tau in [0.0, 1e-9, 0.01, 0.3, 1.0] {
             let (bound, all) = (heights.bound_all_points(tau), twin.bound_all_points(tau));
             if piece.points.len() <= MAX_TRACKED_POINTS {
@@ -96,7 +96,7 @@ fn many_points_are_bounded_like_all_of_them() {
                 "{bound:?} {all:?}"
             );
             assert!(
-                bound.rate <= all.rate + 1e-15 * twin.speed_bound(),
+                bound.rate <= all.rate + 1e-15 * twin.speed_bound,
                 "{bound:?} {all:?}"
             );
             assert!(
@@ -213,24 +213,30 @@ impl ReferenceHeights {
         let rate = self.spin.length();
         let is = |one: f64, other: f64| (one - other).abs() < 1e-11 * (1.0 + rate * rate);
         assert_eq!(heights.is_nonrotating(), rate == 0.0);
-        assert!(is(heights.linear_rate(), self.normal.dot(self.velocity)));
+        assert!(is(
+            heights.motion_along_axis.linear_rate,
+            self.normal.dot(self.velocity)
+        ));
         let linear_acceleration = self.normal.dot(self.acceleration);
         assert!(
-            is(heights.linear_acceleration(), linear_acceleration)
-                && is(
-                    heights.linear_acceleration_lower_bound(),
-                    linear_acceleration
-                )
+            is(
+                heights.motion_along_axis.linear_acceleration,
+                linear_acceleration
+            ) && is(
+                heights.linear_acceleration_lower_bound(),
+                linear_acceleration
+            )
         );
-        assert!(heights.linear_acceleration_lower_bound() <= heights.linear_acceleration());
+        assert!(
+            heights.linear_acceleration_lower_bound()
+                <= heights.motion_along_axis.linear_acceleration
+        );
         assert!(is(
-            heights.least_height(),
+            heights.least_height,
             self.least_point_value(0.0, |p| p.height)
         ));
         let farthest = self.arms.iter().map(|arm| arm.length()).fold(0.0, greater);
-        assert!(
-            heights.speed_bound() >= (self.velocity.length() + rate * farthest) * (1.0 - 1e-14)
-        );
+        assert!(heights.speed_bound >= (self.velocity.length() + rate * farthest) * (1.0 - 1e-14));
         assert_eq!(
             heights.tracks_if_few_points().is_some(),
             self.arms.len() <= MAX_TRACKED_POINTS

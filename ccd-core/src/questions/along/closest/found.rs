@@ -185,13 +185,13 @@ impl LeastDistanceBounds {
         span: Span,
         reason: Limit,
     ) -> Answer {
-        let query = stretches.query();
+        let query = stretches.query;
         let apart = |&span: &Span| {
             let motions = StretchMotions::new(query, span)?;
             let problem = motions.problem(query, &query.settings)?;
             Ok(motions.lower_bound_for_bodies(least_distance(&problem)))
         };
-        let spans = stretches.waiting_spans().iter().chain([&span]);
+        let spans = stretches.waiting_spans.iter().chain([&span]);
         // Written so that NaN is no bound.
         let known = |apart: Result<f64, InputError>| apart.ok().filter(|&apart| apart > 0.0);
         let apart = spans.map(|span| known(apart(span)).unwrap_or(0.0));
@@ -214,7 +214,7 @@ impl LeastDistanceBounds {
     pub(super) fn answer(&self, stretches: &WaitingStretches<'_, '_>, outcome: Outcome) -> Answer {
         Answer {
             tolerance: greater(
-                stretches.query().settings.tolerance,
+                stretches.query.settings.tolerance,
                 outcome.least_distance_bracket_width(),
             ),
             outcome,

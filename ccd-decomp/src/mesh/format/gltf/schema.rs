@@ -1,5 +1,5 @@
 //! The fields that are read from the JSON of a glTF: they define shapes and the places of shapes. Others that glTF has are
-//! listed, because one that it does not have may be misspelt.
+//! listed, because one that it does not have may be misspelt. `camelCase` drops the underscore before the names of those.
 
 use super::whole;
 use crate::mesh::error::MeshFault;
@@ -28,25 +28,15 @@ pub(super) struct Root {
     pub(super) buffer_views: Vec<BufferView>,
     #[serde(default)]
     pub(super) buffers: Vec<Buffer>,
-    #[serde(rename = "extensions")]
     _extensions: Option<IgnoredAny>,
-    #[serde(rename = "extensionsUsed")]
     _extensions_used: Option<IgnoredAny>,
-    #[serde(rename = "extras")]
     _extras: Option<IgnoredAny>,
-    #[serde(rename = "animations")]
     _animations: Option<IgnoredAny>,
-    #[serde(rename = "cameras")]
     _cameras: Option<IgnoredAny>,
-    #[serde(rename = "images")]
     _images: Option<IgnoredAny>,
-    #[serde(rename = "materials")]
     _materials: Option<IgnoredAny>,
-    #[serde(rename = "samplers")]
     _samplers: Option<IgnoredAny>,
-    #[serde(rename = "skins")]
     _skins: Option<IgnoredAny>,
-    #[serde(rename = "textures")]
     _textures: Option<IgnoredAny>,
 }
 
@@ -56,20 +46,17 @@ struct Asset {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(super) struct SceneNodes {
     #[serde(default, deserialize_with = "whole::whole_number_list")]
     pub(super) nodes: Vec<usize>,
-    #[serde(rename = "name")]
     _name: Option<IgnoredAny>,
-    #[serde(rename = "extensions")]
     _extensions: Option<IgnoredAny>,
-    #[serde(rename = "extras")]
     _extras: Option<IgnoredAny>,
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(super) struct Node {
     pub(super) name: Option<String>,
     #[serde(default, deserialize_with = "whole::whole_number_list")]
@@ -83,30 +70,24 @@ pub(super) struct Node {
     pub(super) scale: Option<[f64; 3]>,
     #[serde(default)]
     pub(super) extensions: Extensions,
-    #[serde(rename = "camera")]
     _camera: Option<IgnoredAny>,
-    #[serde(rename = "weights")]
     _weights: Option<IgnoredAny>,
-    #[serde(rename = "extras")]
     _extras: Option<IgnoredAny>,
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(super) struct Mesh {
     pub(super) name: Option<String>,
     #[serde(default)]
     pub(super) primitives: Vec<Primitive>,
-    #[serde(rename = "weights")]
     _weights: Option<IgnoredAny>,
-    #[serde(rename = "extensions")]
     _extensions: Option<IgnoredAny>,
-    #[serde(rename = "extras")]
     _extras: Option<IgnoredAny>,
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(super) struct Primitive {
     pub(super) attributes: Attributes,
     #[serde(default, deserialize_with = "whole::optional_whole_number")]
@@ -117,9 +98,7 @@ pub(super) struct Primitive {
     pub(super) targets: Vec<IgnoredAny>,
     #[serde(default)]
     pub(super) extensions: Extensions,
-    #[serde(rename = "material")]
     _material: Option<IgnoredAny>,
-    #[serde(rename = "extras")]
     _extras: Option<IgnoredAny>,
 }
 
@@ -171,28 +150,21 @@ pub(super) struct Accessor {
     #[serde(rename = "type")]
     pub(super) kind: String,
     pub(super) sparse: Option<Sparse>,
-    #[serde(rename = "name")]
     _name: Option<IgnoredAny>,
-    #[serde(rename = "min")]
     _min: Option<IgnoredAny>,
-    #[serde(rename = "max")]
     _max: Option<IgnoredAny>,
-    #[serde(rename = "extensions")]
     _extensions: Option<IgnoredAny>,
-    #[serde(rename = "extras")]
     _extras: Option<IgnoredAny>,
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub(super) struct Sparse {
     #[serde(deserialize_with = "whole::required_whole_number")]
     pub(super) count: u64,
     pub(super) indices: SparseIndices,
     pub(super) values: SparseValues,
-    #[serde(rename = "extensions")]
     _extensions: Option<IgnoredAny>,
-    #[serde(rename = "extras")]
     _extras: Option<IgnoredAny>,
 }
 
@@ -205,9 +177,7 @@ pub(super) struct SparseIndices {
     pub(super) byte_offset: u64,
     #[serde(deserialize_with = "whole::required_whole_number")]
     pub(super) component_type: u32,
-    #[serde(rename = "extensions")]
     _extensions: Option<IgnoredAny>,
-    #[serde(rename = "extras")]
     _extras: Option<IgnoredAny>,
 }
 
@@ -218,9 +188,7 @@ pub(super) struct SparseValues {
     pub(super) buffer_view: usize,
     #[serde(default, deserialize_with = "whole::required_whole_number")]
     pub(super) byte_offset: u64,
-    #[serde(rename = "extensions")]
     _extensions: Option<IgnoredAny>,
-    #[serde(rename = "extras")]
     _extras: Option<IgnoredAny>,
 }
 
@@ -237,11 +205,8 @@ pub(super) struct BufferView {
     pub(super) byte_stride: Option<u64>,
     #[serde(default)]
     pub(super) extensions: Extensions,
-    #[serde(rename = "target")]
     _target: Option<IgnoredAny>,
-    #[serde(rename = "name")]
     _name: Option<IgnoredAny>,
-    #[serde(rename = "extras")]
     _extras: Option<IgnoredAny>,
 }
 
@@ -262,11 +227,8 @@ pub(super) struct Buffer {
     pub(super) uri: Option<String>,
     #[serde(deserialize_with = "whole::required_whole_number")]
     pub(super) byte_length: u64,
-    #[serde(rename = "name")]
     _name: Option<IgnoredAny>,
-    #[serde(rename = "extras")]
     _extras: Option<IgnoredAny>,
-    #[serde(rename = "extensions")]
     _extensions: Option<IgnoredAny>,
 }
 

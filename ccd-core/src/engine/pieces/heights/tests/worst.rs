@@ -67,7 +67,7 @@ fn rate_error_share(tape: &mut RandomCase) -> Option<f64> {
         let velocity = DoubleDouble3::from(motion.velocity()) + turning.spin.cross(arm);
         let exact = DoubleDouble3::from(normal).dot(velocity);
         let off = (DoubleDouble::from(found.rate) - exact).get().abs();
-        error_fraction(off, RATE_ERROR_F64 * heights.speed_bound())
+        error_fraction(off, RATE_ERROR_F64 * heights.speed_bound)
     };
     let shares = piece
         .points

@@ -199,7 +199,7 @@ fn a_fixed_plane_allows_for_the_rounding_of_rates() {
         let allowed = (slack / free - rate) / (RATE_ERROR_F64 * speed);
         assert!((0.4..3.0).contains(&allowed), "{allowed} {rate} {speed}");
         let points = placed.pieces.points_per_support_search();
-        assert_eq!(placed.evaluations(), 2 * points);
+        assert_eq!(placed.height_evaluation_count.get(), 2 * points);
     }
 }
 
@@ -242,9 +242,10 @@ fn points_that_turn_pass_with_all_the_slack_they_need() {
             counts[0] += 1;
             continue;
         };
-        let displacement = (a.linear_rate() + b.linear_rate()) * horizon;
+        let displacement =
+            (a.motion_along_axis.linear_rate + b.motion_along_axis.linear_rate) * horizon;
         let needed = descents.0 + descents.1 - lesser(0.0, displacement);
-        let allowance = RATE_ERROR_F64 * (a.speed_bound() + b.speed_bound()) * horizon;
+        let allowance = RATE_ERROR_F64 * (a.speed_bound + b.speed_bound) * horizon;
         let (mut low, mut high) = (0.0, 2.0 * (needed + allowance));
         assert!(!passes(low) && passes(high));
         for _ in 0..200 {
