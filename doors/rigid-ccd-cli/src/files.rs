@@ -6,7 +6,7 @@ pub(crate) mod table;
 
 use crate::files::output::{JOURNAL_EXTENSION, is_dash, is_standard_output};
 use anyhow::{Context, Result, anyhow, bail};
-use ccd_file::{PARTIAL_EXTENSION, resolve_links};
+use ccd_file::{PARTIAL_EXTENSION, folder_to_open, resolve_links};
 use ccd_tables::courses::MovementRows;
 use ccd_tables::motions::MotionRows;
 use ccd_tables::paths::Grouping;
@@ -36,6 +36,32 @@ pub fn refuse_overwriting_input(
             bail!(
                 "{written} would overwrite {pending}, the file of {read}; give {written} another file"
             );
+        }
+    }
+    Ok(())
+}
+
+/// Returns an error if an output would overwrite an input or another output, or if two outputs are standard output. Each
+/// file comes with the option that names it.
+pub(crate) fn refuse_shared_files<'p>(
+    inputs: impl IntoIterator<Item = (&'static str, &'p Path)>,
+    outputs: &[(&str, &Path)],
+) -> Result<()> {
+    for input in inputs {
+        for &output in outputs {
+            refuse_overwriting_input(input, output)?;
+        }
+    }
+    for (k, &output) in outputs.iter().enumerate() {
+        for &other in &outputs[..k] {
+            if is_standard_output(output.1) && is_standard_output(other.1) {
+                let (option, other_option) = (output.0, other.0);
+                bail!(
+                    "{option} - and {other_option} - are both standard output; give one of them a file"
+                );
+            }
+            refuse_overwriting_input(other, output)?;
+            refuse_overwriting_input(output, other)?;
         }
     }
     Ok(())
@@ -102,11 +128,8 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
 fn real_path(path: &Path) -> Option<PathBuf> {
     let missing = || {
         let path = resolve_links(path).ok()?;
-        let folder = match path.parent()? {
-            here if here.as_os_str().is_empty() => Path::new("."),
-            folder => folder,
-        };
-        Some(fs::canonicalize(folder).ok()?.join(path.file_name()?))
+        let folder = fs::canonicalize(folder_to_open(path.parent()?)).ok()?;
+        Some(folder.join(path.file_name()?))
     };
     fs::canonicalize(path).ok().or_else(missing)
 }

@@ -10,15 +10,15 @@ mod scene;
 mod tests;
 mod verdict;
 
-pub use ccd_view::{AnimationGroup, Page, PageError};
 pub use course::shown_motions;
 pub use drawn::drawn_mesh;
 pub use gap::{GapOverTime, measure_gap_over_time};
-pub(crate) use scene::{DrawnBody, scene_verdict, scene_view};
+pub(crate) use scene::{DrawnBody, FIXED_COLOR, numbered_body_color, scene_verdict, scene_view};
 pub use verdict::{QueryContext, TimeMeaning};
 
+use anyhow::{Result, bail};
 use ccd_core::glam::DVec3;
-use ccd_core::{Body, InputError, Pose};
+use ccd_core::{Body, Pose};
 use ccd_tables::batch::BodyPair;
 use ccd_tables::courses::Movements;
 use ccd_tables::results::{ResultRow, Status};
@@ -38,27 +38,6 @@ pub struct Painter<'a> {
     solver: Solver,
 }
 
-/// The error of a row that cannot be drawn.
-#[derive(Debug, thiserror::Error)]
-pub enum ViewError {
-    /// The motions of the row are out of range.
-    #[error(transparent)]
-    Input(#[from] InputError),
-    /// The bodies are farther apart than the row says, so the row is about other bodies or other motions.
-    #[error(
-        "at {time} the bodies are at least {distance_lower_bound} apart, but the row says at most {reported_distance_upper}: it is the answer about \
-         other bodies, or other motions"
-    )]
-    BodiesMismatch {
-        /// The time at which the distances are compared.
-        time: f64,
-        /// A lower bound of the distance of the given bodies at that time.
-        distance_lower_bound: f64,
-        /// The upper bound of the distance according to the row.
-        reported_distance_upper: f64,
-    },
-}
-
 impl<'a> Painter<'a> {
     /// Creates a painter for answers about two bodies; `asked` describes the query of the answers.
     pub fn new(bodies: BodyPair<'a>, asked: QueryContext) -> Self {
@@ -73,25 +52,16 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Makes a page of the given views, with the meshes of both bodies.
-    pub fn page<'t>(&self, title: &'t str, views: Vec<Animation>) -> Page<'t> {
-        let name = String::new();
-        Page {
-            title,
-            groups: vec![AnimationGroup { name, views }],
-            meshes: self.meshes.clone(),
-        }
+    /// Returns the meshes of both bodies, which all views of this painter draw.
+    pub(crate) fn meshes(&self) -> &Meshes {
+        &self.meshes
     }
 
     /// Makes the view of a row: its motions, its contact, and the distance over time.
     ///
     /// # Errors
-    /// [`ViewError`].
-    pub fn animate_row(
-        &mut self,
-        query: &Movements,
-        row: &ResultRow,
-    ) -> Result<Animation, ViewError> {
+    /// The motions of the row are out of range, or the row is from a table about other bodies or motions.
+    pub fn animate_row(&mut self, query: &Movements, row: &ResultRow) -> Result<Animation> {
         let start = query.start_time();
         let duration = query.duration();
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
@@ -145,19 +115,18 @@ impl<'a> Painter<'a> {
     }
 
     /// Returns an error if the bodies are farther apart than the row of a table of results says.
-    fn check_distance(&mut self, row: &ResultRow, [a, b]: [Pose; 2]) -> Result<(), ViewError> {
-        let (Some(time), Some(told)) = (row.time, row.distance_upper) else {
+    fn check_distance(&mut self, row: &ResultRow, [a, b]: [Pose; 2]) -> Result<()> {
+        let (Some(time), Some(reported_upper)) = (row.time, row.distance_upper) else {
             return Ok(());
         };
-        let found = (self.solver).distance((self.bodies.a, a), (self.bodies.b, b))?;
-        let measured = found.outcome.lower();
+        let answer = (self.solver).distance((self.bodies.a, a), (self.bodies.b, b))?;
+        let lower = answer.outcome.lower();
         // The table rounds the poses.
-        if measured > told + found.tolerance {
-            return Err(ViewError::BodiesMismatch {
-                time,
-                distance_lower_bound: measured,
-                reported_distance_upper: told,
-            });
+        if lower > reported_upper + answer.tolerance {
+            bail!(
+                "at {time} the bodies are at least {lower} apart, but the row says at most {reported_upper}: the row is \
+                 about other bodies, or about other motions"
+            );
         }
         Ok(())
     }

@@ -7,7 +7,7 @@ pub(crate) mod page;
 pub(crate) mod path_table;
 pub(crate) mod robot_paths;
 
-pub(crate) use joint_values::{GivenJoints, JointsArgs, length};
+pub(crate) use joint_values::{JointsArgs, length};
 pub(crate) use loading::CellArgs;
 pub(crate) use page::RobotPainter;
 pub(crate) use path_table::PathTable;

@@ -70,6 +70,15 @@ pub fn check_parent_folder(path: &Path) -> io::Result<()> {
     ))
 }
 
+/// Returns a folder as a path to open: the parent of a bare file name is empty, and means the current folder `.`.
+pub fn folder_to_open(folder: &Path) -> &Path {
+    if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    }
+}
+
 /// Opens a path such as `/dev/stdout` for appending, so that a file behind it keeps its content.
 pub(crate) fn open_stream(path: &Path) -> io::Result<File> {
     File::options().append(true).open(path)

@@ -19,7 +19,7 @@ mod read;
 mod temp_file;
 
 pub use claim::{Claim, PARTIAL_EXTENSION};
-pub use destination::{Destination, check_parent_folder, resolve_links};
+pub use destination::{Destination, check_parent_folder, folder_to_open, resolve_links};
 pub use read::{MAX_FILE_BYTES, MAX_PIPE_BYTES, open, read, read_to_string};
 
 use std::io::{self, Write};

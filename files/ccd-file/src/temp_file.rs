@@ -1,5 +1,6 @@
 //! Temporary files that are renamed to their final names.
 
+use crate::destination::folder_to_open;
 use same_file::Handle;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -93,13 +94,8 @@ fn remove_abandoned_files_once(folder: &Path) {
     let is_first = DONE
         .lock()
         .is_ok_and(|mut done| done.insert(folder.to_owned()));
-    let here = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    };
-    let entries = is_first.then(|| fs::read_dir(here).ok()).flatten();
-    for entry in entries.into_iter().flatten().flatten() {
+    let entries = is_first.then(|| fs::read_dir(folder_to_open(folder)).ok());
+    for entry in entries.flatten().into_iter().flatten().flatten() {
         let name = entry.file_name();
         if name.to_str().is_some_and(is_temp_name)
             && entry.file_type().is_ok_and(|kind| kind.is_file())

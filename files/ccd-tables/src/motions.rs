@@ -7,8 +7,7 @@ mod write;
 
 pub use super::error::{RowError, RowProblem, TableError};
 pub use super::position::RowPosition;
-pub use row::parse_row;
-pub use row::{BodyRow, body_row};
+pub use row::{BodyRow, body_row, parse_row};
 pub use write::write;
 
 use crate::columns::{Columns, TableKind};

@@ -205,15 +205,6 @@ impl<R: ChunkReader + 'static> Records for ParquetRecords<R> {
     }
 }
 
-impl<R: ChunkReader + 'static> fmt::Debug for ParquetRecords<R> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ParquetRecords")
-            .field("header", &self.header)
-            .field("row_count", &self.row_count)
-            .finish_non_exhaustive()
-    }
-}
-
 /// Returns the names of the columns, without the spaces around them, as the CSV reader does.
 fn column_names(schema: &SchemaDescriptor) -> Vec<String> {
     let fields = schema.root_schema().get_fields().iter();

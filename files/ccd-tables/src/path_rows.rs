@@ -29,15 +29,6 @@ pub struct PathRow {
     pub tolerance: f64,
 }
 
-impl From<Question> for PathQuestion {
-    fn from(question: Question) -> Self {
-        PathQuestion {
-            question,
-            clearance: None,
-        }
-    }
-}
-
 impl From<ResultRow> for PathRow {
     /// Makes an answer of a row that no search has answered.
     fn from(row: ResultRow) -> Self {

@@ -53,6 +53,22 @@ pub trait Record {
     /// The content of a cell that is no finite number.
     fn number(&self, cell: usize) -> Result<Option<f64>, String>;
 
+    /// Returns the finite number in a cell, which is in the column of the given name.
+    ///
+    /// # Errors
+    /// [`RowProblem::EmptyCell`], [`RowProblem::NotANumber`].
+    fn required_number(&self, cell: usize, column: &str) -> Result<f64, RowProblem> {
+        let column = || column.to_owned();
+        match self.number(cell) {
+            Ok(Some(number)) => Ok(number),
+            Ok(None) => Err(RowProblem::EmptyCell { column: column() }),
+            Err(value) => Err(RowProblem::NotANumber {
+                column: column(),
+                value,
+            }),
+        }
+    }
+
     /// Returns the text of a cell, even if others are unreadable; `None` if it is empty.
     fn text(&self, cell: usize) -> Option<String>;
 }

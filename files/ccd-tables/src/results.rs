@@ -8,8 +8,9 @@ mod columns;
 mod status;
 
 pub use answers::{ANSWERS, QuestionAnswers};
-pub use columns::reordered_columns;
-pub use columns::{COLUMNS, COUNTER_COLUMNS, CellGetter, Column, ITEM_COLUMNS, Line, names};
+pub use columns::{
+    COLUMNS, COUNTER_COLUMNS, CellGetter, Column, ITEM_COLUMNS, Line, names, reordered_columns,
+};
 pub use status::Status;
 
 use crate::courses::Movements;

@@ -2,10 +2,8 @@
 
 use crate::bodies::meshes::MeshArgs;
 use crate::bodies::size::{sides_text, warn_of_different_units};
-use crate::console::print_error;
-use crate::console::print_escaped_to_stderr;
-use crate::console::print_remarks;
 use crate::console::progress::Progress;
+use crate::console::{print_error, print_escaped_to_stderr, print_remarks};
 use crate::files::{Rows, is_same_file};
 use crate::options::solver_kind::SolverKind;
 use anyhow::{Context, Error, Result};

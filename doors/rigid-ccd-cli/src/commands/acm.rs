@@ -1,16 +1,13 @@
 //! `ccd acm`: decides which pairs of a robot's links can touch.
 
-use crate::console::RunOutcome;
-use crate::console::interruption;
-use crate::console::print_error;
-use crate::console::print_escaped_to_stderr;
 use crate::console::progress::Progress;
-use crate::files::output::{Output, is_standard_output};
-use crate::files::refuse_overwriting_input;
+use crate::console::{RunOutcome, interruption, print_error, print_escaped_to_stderr};
+use crate::files::output::Output;
+use crate::files::refuse_shared_files;
 use crate::files::table::TableWriter;
 use crate::options::numbers::parse_seconds;
-use crate::robots::loading::{RobotArgs, refuse_overwriting_any};
-use anyhow::{Result, bail};
+use crate::robots::loading::RobotArgs;
+use anyhow::Result;
 use clap::Args;
 use rigid_ccd_robot::{LinkContactClass, LinkContactSettings, Robot};
 use std::path::PathBuf;
@@ -71,14 +68,7 @@ Examples:
 pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
     let mut outputs = vec![("--out", args.out.as_path())];
     outputs.extend(args.report.iter().map(|path| ("--report", path.as_path())));
-    refuse_overwriting_any(args.robot.files(), &outputs)?;
-    if let Some(report) = &args.report {
-        if is_standard_output(&args.out) && is_standard_output(report) {
-            bail!("--out - and --report - are both standard output; give one of them a file");
-        }
-        refuse_overwriting_input(("--out", &args.out), ("--report", report))?;
-        refuse_overwriting_input(("--report", report), ("--out", &args.out))?;
-    }
+    refuse_shared_files(args.robot.files(), &outputs)?;
     let out = Output::claim(&args.out)?;
     let report = args
         .report

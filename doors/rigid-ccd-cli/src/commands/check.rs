@@ -5,8 +5,7 @@ mod rows;
 mod subject;
 
 use crate::bodies::meshes::MeshArgs;
-use crate::console::RunOutcome;
-use crate::console::print_error;
+use crate::console::{RunOutcome, print_error};
 use crate::files::input_name;
 use crate::files::output::print_line;
 use crate::options::numbers::parse_nonnegative;
@@ -223,6 +222,6 @@ impl CheckArgs {
     fn table(&self) -> Option<AskedTable<'_>> {
         let motions = self.motions.as_deref().map(AskedTable::Motions);
         let edges = self.edges.as_deref();
-        motions.or_else(|| edges.map(|path| AskedTable::Edges(path, self.joints.given())))
+        motions.or_else(|| edges.map(|path| AskedTable::Edges(path, &self.joints)))
     }
 }

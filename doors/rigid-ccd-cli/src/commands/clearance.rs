@@ -3,18 +3,17 @@
 mod page;
 mod report;
 
-use crate::console::RunOutcome;
-use crate::console::print_error;
-use crate::console::print_remarks;
+use crate::console::{RunOutcome, print_error, print_remarks};
 use crate::files::html::write_page;
 use crate::files::output::{self, Output, is_standard_output};
-use crate::files::{input_name, refuse_overwriting_input};
+use crate::files::{input_name, refuse_shared_files};
 use crate::robots::joint_values::{JointsArgs, length, tolerance_length};
 use crate::robots::loading::CellArgs;
 use crate::robots::page::{RobotPainter, halvings};
 use crate::robots::path_table::TablePath;
 use crate::robots::robot_paths::{FoundPaths, RobotPaths};
 use anyhow::{Result, bail};
+use ccd_view::page_html;
 use clap::Args;
 use report::Report;
 use rigid_ccd::Settings;
@@ -86,10 +85,8 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
         if is_standard_output(html) {
             bail!("--html - and the report are both standard output; give --html a file");
         }
-        args.cell.refuse_overwriting(&[("--html", html)])?;
-        if let Some(path) = &args.path {
-            refuse_overwriting_input(("--path", path), ("--html", html))?;
-        }
+        let path = args.path.iter().map(|path| ("--path", path.as_path()));
+        refuse_shared_files(args.cell.files().chain(path), &[("--html", html)])?;
     }
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let mut cell = args.cell.load(args.quiet)?;
@@ -142,7 +139,8 @@ pub(crate) fn run(args: &ClearanceArgs) -> Result<RunOutcome> {
         let title = input_name(args.cell.robot.path());
         let mut view = painter.animation(&mut solver, &path, 0.0)?;
         page::show_report(&report, &mut view);
-        write_page(&painter.page(&title, vec![view]), html, args.quiet)?;
+        let page = page_html(&title, painter.meshes(), vec![view])?;
+        write_page(&page, html, args.quiet)?;
     }
     Ok(outcome(&report))
 }
@@ -173,7 +171,7 @@ impl ClearanceArgs {
     fn read_path(&self, cell: &Cell) -> Result<TablePath> {
         let asked = RobotPaths {
             table: self.path.as_deref(),
-            joints: self.joints.given(),
+            joints: &self.joints,
             ids: &[],
         };
         let FoundPaths {

@@ -4,14 +4,13 @@ mod args;
 
 pub(crate) use args::EdgesArgs;
 
-use crate::console::RunOutcome;
-use crate::console::print_remarks;
 use crate::console::progress::Progress;
-use crate::files::input_name;
+use crate::console::{RunOutcome, print_remarks};
 use crate::files::output::OutputError;
+use crate::files::{input_name, refuse_shared_files};
 use crate::robots::path_table::{PathTable, TablePath};
 use crate::rows::bad_rows::BadRowCounter;
-use crate::rows::certificates::{CellCertificates, begin_or_resume};
+use crate::rows::certificates::CellCertificates;
 use crate::rows::counts::StatusCounts;
 use crate::rows::raised_tolerances::RaisedTolerances;
 use crate::rows::resumable::{
@@ -35,8 +34,8 @@ use std::time::Instant;
 
 /// Runs `ccd edges`: answers all valid rows; an invalid row gets the status `error` and a reason.
 pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
-    args.cell.refuse_overwriting(&[("--out", &args.out)])?;
-    crate::files::refuse_overwriting_input(("--edges", &args.edges), ("--out", &args.out))?;
+    let inputs = args.cell.files().chain([("--edges", args.edges.as_path())]);
+    refuse_shared_files(inputs, &[("--out", &args.out)])?;
     if args.check && args.question == Question::ClosestApproach && args.clearance == 0.0 {
         bail!(
             "--check needs --clearance with --question closest-approach: a distance alone is neither good nor bad"
@@ -59,9 +58,8 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
     let claimed = ClaimedFiles::claim(&files)?;
     let cell = args.cell.load(args.quiet)?;
     print_remarks(cell.remark_on_tolerance(args.tolerance));
-    let (mut table, length) =
-        PathTable::open("--edges", &args.edges, cell.robot(), args.joints.given())
-            .with_context(|| input_name(&args.edges))?;
+    let (mut table, length) = PathTable::open("--edges", &args.edges, cell.robot(), &args.joints)
+        .with_context(|| input_name(&args.edges))?;
     let certificates = args
         .certificates
         .as_deref()
@@ -72,11 +70,15 @@ pub(crate) fn run(args: &EdgesArgs, given: &ArgMatches) -> Result<RunOutcome> {
         OpenedTables::Unfinished(outputs, earlier) => (*outputs, earlier),
         OpenedTables::Finished(end) => {
             resumable::check_finished(&files, &mut table, end)?;
-            begin_or_resume(&certificates, Some(end))?;
+            if let Some(certificates) = &certificates {
+                certificates.begin_or_resume(Some(end))?;
+            }
             return Ok(resumable::report_outcome(&files, end));
         }
     };
-    begin_or_resume(&certificates, earlier)?;
+    if let Some(certificates) = &certificates {
+        certificates.begin_or_resume(earlier)?;
+    }
     if args.resume {
         resumable::report(&files, earlier);
     }

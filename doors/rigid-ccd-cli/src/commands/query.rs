@@ -2,7 +2,6 @@
 
 mod args;
 mod help;
-mod limits;
 mod run;
 mod summary;
 
@@ -12,15 +11,14 @@ use args::UNRECORDED_OPTIONS;
 
 use crate::bodies::pair::Pair;
 use crate::commands::view::{ChosenRows, title, write_rows_page};
-use crate::console::RunOutcome;
-use crate::console::print_error;
 use crate::console::progress::Progress;
-use crate::files::output::{Output, is_standard_output};
-use crate::files::{Rows, input_name, open_movement_rows, refuse_overwriting_input};
+use crate::console::{RunOutcome, print_error};
+use crate::files::output::Output;
+use crate::files::{Rows, input_name, open_movement_rows, refuse_shared_files};
 use crate::options::solver_kind::{BoundKind, ScheduleKind, SolverKind};
 use crate::picture::{Painter, QueryContext, TimeMeaning};
 use crate::rows::bad_rows::BadRowCounter;
-use crate::rows::certificates::{PairCertificates, begin_or_resume};
+use crate::rows::certificates::PairCertificates;
 use crate::rows::resumable::{
     self, ClaimedFiles, FILE_CHECKSUM_PREFIX, OpenedTables, RunFiles, answer_in_batches,
     option_values, options_text,
@@ -41,7 +39,7 @@ use summary::Summary;
 
 /// Runs `ccd query`: answers all valid rows; an invalid row gets the status `error` and a reason.
 pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
-    refuse_shared_files(args)?;
+    refuse_shared_files_of(args)?;
     refuse_options_unfit_for_each_other(args)?;
     let (mut rows, length) =
         open_movement_rows(&args.motions, Grouping::of_question(args.question))?;
@@ -63,7 +61,9 @@ pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
             OpenedTables::Finished(end) => {
                 warn_of_partial_page(args);
                 resumable::check_finished(&files, &mut rows, end)?;
-                begin_or_resume(&certificates, Some(end))?;
+                if let Some(certificates) = &certificates {
+                    certificates.begin_or_resume(Some(end))?;
+                }
                 if !args.quiet {
                     let summary = Summary::new(args.tolerance).with_earlier_counts(end.counts);
                     print_summary(args, &summary);
@@ -71,7 +71,9 @@ pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
                 return Ok(resumable::report_outcome(&files, end));
             }
         };
-    begin_or_resume(&certificates, earlier)?;
+    if let Some(certificates) = &certificates {
+        certificates.begin_or_resume(earlier)?;
+    }
     if args.resume {
         if earlier.is_some() {
             warn_of_partial_page(args);
@@ -171,25 +173,18 @@ fn page_context(args: &QueryArgs) -> QueryContext {
 }
 
 /// Refuses an output that is also an input or another output.
-fn refuse_shared_files(args: &QueryArgs) -> Result<()> {
+fn refuse_shared_files_of(args: &QueryArgs) -> Result<()> {
     let mut read = vec![("--motions", args.motions.clone())];
     read.extend(args.bodies.files_with_options()?);
-    let mut written = vec![("--out", &args.out)];
-    written.extend(args.html.iter().map(|path| ("--html", path)));
-    written.extend(args.contacts.iter().map(|path| ("--contacts", path)));
-    for (k, &(option, target)) in written.iter().enumerate() {
-        for (read, source) in &read {
-            refuse_overwriting_input((read, source), (option, target))?;
-        }
-        for &(other, path) in &written[..k] {
-            if is_standard_output(path) && is_standard_output(target) {
-                bail!("{option} - and {other} - are both standard output; give one of them a file");
-            }
-            refuse_overwriting_input((other, path), (option, target))?;
-            refuse_overwriting_input((option, target), (other, path))?;
-        }
-    }
-    Ok(())
+    let mut written = vec![("--out", args.out.as_path())];
+    written.extend(args.html.iter().map(|path| ("--html", path.as_path())));
+    written.extend(
+        args.contacts
+            .iter()
+            .map(|path| ("--contacts", path.as_path())),
+    );
+    let read = read.iter().map(|(option, path)| (*option, path.as_path()));
+    refuse_shared_files(read, &written)
 }
 
 /// Refuses `--bound` for a schedule that uses no bound on the motion, options that do not apply to the question of

@@ -1,8 +1,7 @@
 //! `ccd replay`: asks recorded questions again, and says whether the recorded answers hold.
 
-use crate::console::RunOutcome;
 use crate::console::causes::message_with_causes;
-use crate::console::print_error;
+use crate::console::{RunOutcome, print_error};
 use crate::files::input_name;
 use crate::files::output::print_line;
 use crate::robots::loading::CellArgs;

@@ -8,12 +8,10 @@ pub(crate) use chosen::ChosenRows;
 
 use crate::bodies::pair::BodiesArgs;
 use crate::bodies::scene_table;
-use crate::console::RunOutcome;
-use crate::console::print_error;
-use crate::console::print_remarks;
+use crate::console::{RunOutcome, print_error, print_remarks};
 use crate::files::html::write_page;
 use crate::files::output::Output;
-use crate::files::{input_name, open_movement_rows, refuse_overwriting_input};
+use crate::files::{input_name, open_movement_rows, refuse_shared_files};
 use crate::options::solver_kind::SolverKind;
 use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
 use crate::robots::{CellArgs, FoundPaths, RobotPainter, RobotPaths};
@@ -22,7 +20,7 @@ use anyhow::{Context, Result, bail};
 use ccd_core::Settings;
 use ccd_tables::paths::Grouping;
 use ccd_tables::results::{self, ResultRow};
-use ccd_view::{AnimationGroup, Page};
+use ccd_view::page_html;
 use rigid_ccd::Question;
 use std::collections::{HashMap, VecDeque};
 use std::ffi::OsStr;
@@ -52,9 +50,8 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
     let mut read = bodies.files_with_options()?;
     read.push(("--motions", motions.to_owned()));
     read.extend(args.results.iter().map(|path| ("--results", path.clone())));
-    for (option, path) in &read {
-        refuse_overwriting_input((option, path), ("--out", &args.out))?;
-    }
+    let read = read.iter().map(|(option, path)| (*option, path.as_path()));
+    refuse_shared_files(read, &[("--out", &args.out)])?;
     let (mut rows, _) = open_movement_rows(motions, Grouping::of_question(Question::FirstContact))?;
     let out = Output::claim(&args.out)?;
     let pair = bodies.load(SolverKind::default(), args.quiet)?;
@@ -150,7 +147,8 @@ pub(crate) fn write_rows_page(
         print_error("there is no row to show, and no page");
         return Ok(RunOutcome::SomeRowsBad);
     }
-    write_page(&painter.page(title, views), out, quiet)?;
+    let html = page_html(title, painter.meshes(), views)?;
+    write_page(&html, out, quiet)?;
     Ok(if all_found && chosen.are_all_rows_drawable() {
         RunOutcome::AllAnswered
     } else {
@@ -179,20 +177,18 @@ fn settings(args: &ViewArgs) -> Settings {
 }
 
 fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
-    if !args.meshes_are_default() {
+    if !args.meshes.are_default() {
         bail!(
             "the options of mesh files are for --a, --b and --scene; --geometry and --meshes say what a robot's links are"
         );
     }
-    robot.refuse_overwriting(&[("--out", &args.out)])?;
     let asked = RobotPaths {
         table: args.path.as_deref(),
-        joints: args.joints.given(),
+        joints: &args.joints,
         ids: &args.ids,
     };
-    if let Some(path) = asked.table {
-        refuse_overwriting_input(("--path", path), ("--out", &args.out))?;
-    }
+    let table = asked.table.map(|path| ("--path", path));
+    refuse_shared_files(robot.files().chain(table), &[("--out", &args.out)])?;
     let out = Output::claim(&args.out)?;
     let cell = robot.load(args.quiet)?;
     if !args.quiet {
@@ -228,7 +224,8 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
         print_error(&view.verdict);
     }
     let title = input_name(robot.robot.path());
-    write_page(&painter.page(&title, views), out, args.quiet)?;
+    let html = page_html(&title, painter.meshes(), views)?;
+    write_page(&html, out, args.quiet)?;
     Ok(if problems.is_empty() {
         RunOutcome::AllAnswered
     } else {
@@ -237,7 +234,7 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
 }
 
 fn view_scene(args: &ViewArgs, path: &Path) -> Result<RunOutcome> {
-    let table = scene_table::read(("--scene", path), args.scene_args(), &args.out)?;
+    let table = scene_table::read(("--scene", path), (&args.meshes, args.duration), &args.out)?;
     if !args.quiet {
         table.print_load_report(args.tolerance());
     }
@@ -249,14 +246,7 @@ fn view_scene(args: &ViewArgs, path: &Path) -> Result<RunOutcome> {
     if !args.quiet {
         print_error(&view.verdict);
     }
-    let page = Page {
-        title: &title,
-        meshes,
-        groups: vec![AnimationGroup {
-            name: String::new(),
-            views: vec![view],
-        }],
-    };
-    write_page(&page, out, args.quiet)?;
+    let html = page_html(&title, &meshes, vec![view])?;
+    write_page(&html, out, args.quiet)?;
     Ok(RunOutcome::AllAnswered)
 }

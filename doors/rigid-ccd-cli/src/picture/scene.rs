@@ -2,17 +2,21 @@
 
 use super::drawn::{drawn_mesh, feature_corners};
 use super::verdict::format_rounded_down;
-use ccd_core::HitKind;
 use ccd_core::glam::DVec3;
-use ccd_core::{Body, Feature, Motion};
+use ccd_core::{Body, Feature, HitKind, Motion};
 use ccd_view::{Animation, Meshes, ShownBody, ShownContact};
 use rigid_ccd::scene::{Impact, PairError};
 use std::collections::HashMap;
 
 /// The colour of bodies that do not move, in CSS.
-const FIXED_COLOR: &str = "#b8b8b8";
-/// The step in hue from one body to the next, in degrees: the golden angle.
-const HUE_STEP: f64 = 137.508;
+pub(crate) const FIXED_COLOR: &str = "#b8b8b8";
+
+/// Returns the colour of the body of a number, in CSS. From one number to the next the hue turns by the golden angle.
+pub(crate) fn numbered_body_color(number: usize) -> String {
+    const HUE_STEP_DEGREES: f64 = 137.508;
+    let hue = (150.0 + HUE_STEP_DEGREES * number as f64) % 360.0;
+    format!("hsl({hue:.0}, 55%, 52%)")
+}
 
 /// A body of a scene to draw, with its name in the legend.
 #[derive(Clone, Debug)]
@@ -40,10 +44,7 @@ pub(crate) fn scene_view(
         let moves =
             shown.motion.velocity().length() + shown.motion.angular_velocity().length() > 0.0;
         let color = if moves {
-            format!(
-                "hsl({:.0}, 55%, 52%)",
-                (150.0 + HUE_STEP * k as f64) % 360.0
-            )
+            numbered_body_color(k)
         } else {
             FIXED_COLOR.to_owned()
         };

@@ -15,51 +15,23 @@ pub(crate) struct JointsArgs {
     /// Position at which a joint rests, such as finger=0.04 or hip=30deg, or without a table a range over which it moves, such as
     /// knee=-90deg:40deg; several joints move together
     #[arg(long, value_name = "NAME=FROM:TO", allow_hyphen_values = true)]
-    joint: Vec<JointRange>,
+    pub(crate) joint: Vec<JointRange>,
     /// Let all joints rest that have neither columns nor --joint: at 0, or at their limit nearest to 0; without this option they are
     /// an error
     #[arg(long)]
-    rest: bool,
+    pub(crate) rest: bool,
     /// Take the positions of joints that turn in the table as degrees; without this option only those of columns that end in _deg
     #[arg(long)]
-    degrees: bool,
-}
-
-/// Where joints are that a table has no columns for.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct GivenJoints<'a> {
-    /// The positions and ranges of the joints that are named.
-    pub(crate) named: &'a [JointRange],
-    pub(crate) others: OtherJoints,
-    /// The unit of the positions of joints that turn, in columns that say none.
-    pub(crate) unit: AngleUnit,
-}
-
-/// What joints do that have neither columns nor a position.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum OtherJoints {
-    /// They are an error.
-    Refused,
-    /// They rest at 0, or at their limit nearest to 0.
-    Rest,
+    pub(crate) degrees: bool,
 }
 
 impl JointsArgs {
-    pub(crate) fn given(&self) -> GivenJoints<'_> {
-        let others = if self.rest {
-            OtherJoints::Rest
-        } else {
-            OtherJoints::Refused
-        };
-        let unit = if self.degrees {
+    /// Returns the unit of angles in columns whose names end in no unit.
+    pub(crate) fn unit(&self) -> AngleUnit {
+        if self.degrees {
             AngleUnit::Degree
         } else {
             AngleUnit::Radian
-        };
-        GivenJoints {
-            named: &self.joint,
-            others,
-            unit,
         }
     }
 }

@@ -1,12 +1,11 @@
 //! Loads a robot from URDF or MJCF and from SRDF, and the cell around it.
 
 use super::cell_file::CellSource;
-use crate::console::print_escaped_to_stderr;
-use crate::console::print_remarks;
 use crate::console::progress::Progress;
-use crate::files::refuse_overwriting_input;
+use crate::console::{print_escaped_to_stderr, print_remarks};
+use crate::options::named::{Named, named_value_parser};
 use anyhow::{Context, Result, bail};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use rigid_ccd_robot::{
     BodyElements, Cell, CellRemark, CheckSummary, LeftOutPairs, LinkPairs, MeshConversion, Robot,
     RobotFile, SkipReason,
@@ -23,11 +22,11 @@ pub(crate) struct RobotArgs {
     #[arg(long, value_name = "FOLDER")]
     packages: Vec<PathBuf>,
     /// Shapes of the robot that become bodies
-    #[arg(long, value_enum, default_value_t)]
-    geometry: GeometryArg,
+    #[arg(long, value_parser = named_value_parser(GEOMETRIES), default_value = "collision")]
+    geometry: BodyElements,
     /// What a mesh of a link becomes
-    #[arg(long, value_enum, default_value_t)]
-    meshes: MeshesArg,
+    #[arg(long, value_parser = named_value_parser(MESH_CONVERSIONS), default_value = "exact")]
+    meshes: MeshConversion,
 }
 
 /// The options that name a robot with what is around it.
@@ -44,24 +43,32 @@ pub(crate) struct CellArgs {
 }
 
 /// The values of `--geometry`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum GeometryArg {
-    /// Those for collision checks: elements `collision`, or geoms that can collide
-    #[default]
-    Collision,
-    /// Those for drawing: elements `visual`, or geoms of the groups 0 to 2
-    Visual,
-}
+const GEOMETRIES: Named<BodyElements, 2> = [
+    (
+        "collision",
+        BodyElements::Collision,
+        "Shapes for collision checks: elements `collision`, or geoms that can collide",
+    ),
+    (
+        "visual",
+        BodyElements::Visual,
+        "Shapes for drawing: elements `visual`, or geoms of the groups 0 to 2",
+    ),
+];
 
 /// The values of `--meshes`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum MeshesArg {
-    /// Convex pieces that are exact
-    #[default]
-    Exact,
-    /// The convex hull of the mesh: contacts may be early, by an excess that is printed
-    Hull,
-}
+const MESH_CONVERSIONS: Named<MeshConversion, 2> = [
+    (
+        "exact",
+        MeshConversion::Exact,
+        "Convex pieces that are exact",
+    ),
+    (
+        "hull",
+        MeshConversion::OuterHull,
+        "The convex hull of the mesh: contacts may be early, by an excess that is printed",
+    ),
+];
 
 impl RobotArgs {
     /// Returns whether a robot is given.
@@ -80,17 +87,9 @@ impl RobotArgs {
 
     /// Sets the options for the reading of a robot's file.
     fn with_options(&self, file: RobotFile) -> RobotFile {
-        let elements = match self.geometry {
-            GeometryArg::Collision => BodyElements::Collision,
-            GeometryArg::Visual => BodyElements::Visual,
-        };
-        let meshes = match self.meshes {
-            MeshesArg::Exact => MeshConversion::Exact,
-            MeshesArg::Hull => MeshConversion::OuterHull,
-        };
         let file = file
-            .with_body_element_kind(elements)
-            .with_mesh_conversion(meshes);
+            .with_body_element_kind(self.geometry)
+            .with_mesh_conversion(self.meshes);
         // The last folder that is added is searched first.
         let folders = self.packages.iter().rev();
         folders.fold(file, |file, folder| file.with_package_folder(folder))
@@ -212,24 +211,6 @@ impl CellArgs {
         let cell = self.cell.iter().map(|path| ("--cell", path.as_path()));
         self.robot.files().chain(srdf).chain(cell)
     }
-
-    /// Refuses an output that would overwrite a file that is read.
-    pub(crate) fn refuse_overwriting(&self, outputs: &[(&'static str, &Path)]) -> Result<()> {
-        refuse_overwriting_any(self.files(), outputs)
-    }
-}
-
-/// Refuses outputs that would overwrite a file that is read.
-pub(crate) fn refuse_overwriting_any<'a>(
-    files: impl Iterator<Item = (&'static str, &'a Path)>,
-    outputs: &[(&'static str, &Path)],
-) -> Result<()> {
-    for (option, file) in files {
-        for &(output, path) in outputs {
-            refuse_overwriting_input((option, file), (output, path))?;
-        }
-    }
-    Ok(())
 }
 
 /// Prints what is compared, and the remarks; if `quiet`, only the warnings.

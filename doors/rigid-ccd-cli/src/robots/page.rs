@@ -1,7 +1,7 @@
 //! Draws a robot that follows a path, with the distance of the nearest pair over it.
 
 use super::path_table::TablePath;
-use crate::picture::{AnimationGroup, Page, drawn_mesh};
+use crate::picture::{FIXED_COLOR, drawn_mesh, numbered_body_color};
 use anyhow::{Result, bail};
 use ccd_core::order::greater;
 use ccd_view::{
@@ -16,10 +16,6 @@ use std::collections::HashMap;
 pub(crate) const MAX_RANGES: usize = 512;
 /// The greatest number of halvings of a segment.
 const MAX_HALVINGS: u32 = 6;
-/// The step in hue from one body to the next, in degrees: the golden angle.
-const HUE_STEP: f64 = 137.508;
-/// The colour of obstacles, in CSS.
-const OBSTACLE_COLOR: &str = "#b8b8b8";
 
 /// Makes the animations of one page, on which all have the same bodies.
 pub(crate) struct RobotPainter<'c> {
@@ -67,15 +63,9 @@ impl<'c> RobotPainter<'c> {
         })
     }
 
-    pub(crate) fn page<'t>(&self, title: &'t str, views: Vec<Animation>) -> Page<'t> {
-        Page {
-            title,
-            groups: vec![AnimationGroup {
-                name: String::new(),
-                views,
-            }],
-            meshes: self.meshes.clone(),
-        }
+    /// Returns the meshes that all animations of this painter draw.
+    pub(crate) fn meshes(&self) -> &Meshes {
+        &self.meshes
     }
 
     /// Makes the animation of a path. The clearance is the solver's margin.
@@ -160,11 +150,8 @@ impl<'c> RobotPainter<'c> {
                 known.len() - 1
             });
             let color = match item {
-                Item::Obstacle(_) => OBSTACLE_COLOR.to_owned(),
-                _ => format!(
-                    "hsl({:.0}, 55%, 52%)",
-                    (150.0 + HUE_STEP * number as f64) % 360.0
-                ),
+                Item::Obstacle(_) => FIXED_COLOR.to_owned(),
+                _ => numbered_body_color(number),
             };
             ShownBody::new(item.name(), drawn.mesh, &color, shown_motion(&keys))
         });

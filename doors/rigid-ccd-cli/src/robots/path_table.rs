@@ -1,6 +1,6 @@
 //! Reads a table of edges or paths of a robot, with columns named like its joints.
 
-use super::joint_values::{GivenJoints, OtherJoints, check_joints};
+use super::joint_values::{JointsArgs, check_joints};
 use crate::files::open_table;
 use crate::rows::resumable::RowSource;
 use anyhow::{Result, anyhow, bail};
@@ -62,7 +62,7 @@ enum PositionCell {
 }
 
 impl PathTable {
-    /// Opens a table. Joints that it has no columns for rest as given, or as all others do.
+    /// Opens a table. A joint without columns rests where `joints` says.
     ///
     /// # Errors
     /// If the table cannot be read, or a joint has no position.
@@ -70,10 +70,10 @@ impl PathTable {
         option: &str,
         path: &Path,
         robot: &Robot,
-        at_rest: GivenJoints<'_>,
+        joints: &JointsArgs,
     ) -> Result<(Self, Option<u64>)> {
         let (mut records, length) = open_table(option, path)?;
-        let columns = PathColumns::new(records.header()?, robot, at_rest)?;
+        let columns = PathColumns::new(records.header()?, robot, joints)?;
         let (checksum, consumed_bytes) = (records.checksum(), records.consumed_bytes());
         let table = PathTable {
             next: records.advance()?,
@@ -181,8 +181,8 @@ impl RowSource for PathTable {
 }
 
 impl PathColumns {
-    fn new(header: Vec<String>, robot: &Robot, at_rest: GivenJoints<'_>) -> Result<Self> {
-        check_joints(robot, at_rest.named)?;
+    fn new(header: Vec<String>, robot: &Robot, joint_args: &JointsArgs) -> Result<Self> {
+        check_joints(robot, &joint_args.joint)?;
         let nearest_zero = robot.configuration_nearest_zero();
         if header.iter().all(String::is_empty) {
             return Err(TableError::Empty.into());
@@ -212,10 +212,10 @@ impl PathColumns {
         let mut missing = Vec::new();
         let mut positions = |prefix: &str| {
             let cell = |(number, joint): (usize, &&str)| {
-                let column = joint_column(&header, robot, (prefix, joint), at_rest.unit)
+                let column = joint_column(&header, robot, (prefix, joint), joint_args.unit())
                     .map_err(|error| anyhow!("header: {error}"))?;
-                let rests = at_rest.named.iter().find(|range| range.joint == **joint);
-                match (column, rests) {
+                let range = joint_args.joint.iter().find(|range| range.joint == **joint);
+                match (column, range) {
                     (Some(_), Some(_)) => {
                         bail!("--joint {joint}: the table has columns for this joint")
                     }
@@ -226,7 +226,7 @@ impl PathColumns {
                     (None, Some(_)) => {
                         bail!("--joint {joint}: give one position, at which the joint rests")
                     }
-                    (None, None) if at_rest.others == OtherJoints::Rest => {
+                    (None, None) if joint_args.rest => {
                         Ok(PositionCell::AtRest(nearest_zero[number]))
                     }
                     (None, None) => {
@@ -343,15 +343,7 @@ impl PathColumns {
     }
 
     fn number(&self, record: &impl Record, column: usize) -> Result<f64, RowProblem> {
-        let name = || self.header[column].clone();
-        match record.number(column) {
-            Ok(Some(number)) => Ok(number),
-            Ok(None) => Err(RowProblem::EmptyCell { column: name() }),
-            Err(value) => Err(RowProblem::NotANumber {
-                column: name(),
-                value,
-            }),
-        }
+        record.required_number(column, &self.header[column])
     }
 }
 

@@ -1,6 +1,6 @@
 //! The paths that `ccd view` and `ccd clearance` show: those of a table, or joints that move over ranges.
 
-use super::joint_values::{GivenJoints, OtherJoints, check_joints};
+use super::joint_values::{JointsArgs, check_joints};
 use super::path_table::{PathTable, TablePath};
 use crate::console::print_remarks;
 use crate::files::input_name;
@@ -13,7 +13,7 @@ use std::path::Path;
 pub(crate) struct RobotPaths<'a> {
     /// The table of edges or paths; without it, the joints move over their ranges.
     pub(crate) table: Option<&'a Path>,
-    pub(crate) joints: GivenJoints<'a>,
+    pub(crate) joints: &'a JointsArgs,
     /// The ids of the paths to show; the first few if there are none.
     pub(crate) ids: &'a [String],
 }
@@ -37,7 +37,7 @@ impl RobotPaths<'_> {
     pub(crate) fn read(self, cell: &Cell) -> Result<FoundPaths> {
         let mut found = FoundPaths::default();
         let Some(file) = self.table else {
-            let ends = if self.joints.named.is_empty() {
+            let ends = if self.joints.joint.is_empty() {
                 whole_range(cell.robot())?
             } else {
                 configurations(cell.robot(), self.joints)?
@@ -82,17 +82,17 @@ impl RobotPaths<'_> {
 ///
 /// # Errors
 /// A name that no joint with a position of its own has, or that is given twice, and joints without a position.
-fn configurations(robot: &Robot, joints: GivenJoints<'_>) -> Result<[Vec<f64>; 2]> {
-    let given = joints.named;
-    check_joints(robot, given)?;
+fn configurations(robot: &Robot, joints: &JointsArgs) -> Result<[Vec<f64>; 2]> {
+    let ranges = &joints.joint;
+    check_joints(robot, ranges)?;
     let names: Vec<&str> = robot.independent_joint_names().collect();
-    let is_named = |name: &&str| given.iter().any(|range| range.joint == *name);
+    let is_named = |name: &&str| ranges.iter().any(|range| range.joint == *name);
     let missing: Vec<&str> = names
         .iter()
         .copied()
         .filter(|name| !is_named(name))
         .collect();
-    if joints.others == OtherJoints::Refused && !missing.is_empty() {
+    if !joints.rest && !missing.is_empty() {
         bail!(
             "no --joint for {}: give their positions, or --rest, which lets them rest at 0, or at their limit nearest to 0",
             missing.join(", ")
@@ -100,7 +100,7 @@ fn configurations(robot: &Robot, joints: GivenJoints<'_>) -> Result<[Vec<f64>; 2
     }
     let from = robot.configuration_nearest_zero();
     let mut path = [from.clone(), from];
-    for range in given {
+    for range in ranges {
         let number = names.iter().position(|name| *name == range.joint);
         if let Some(number) = number {
             path[0][number] = range.from;

@@ -8,12 +8,10 @@ use ccd_file::Claim;
 use ccd_prove::{Body, NotProven, Proof, ProvenCell, ProvenPair};
 use ccd_tables::batch::BodyPair;
 use ccd_tables::motions::Motions;
-use rigid_ccd::Question;
-use rigid_ccd::Settings;
+use rigid_ccd::{Question, Settings};
 use rigid_ccd_robot::{Cell, CellSolver};
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 /// A folder of certificates, to which one run at a time writes.
 pub(crate) struct CertificateFolder {
@@ -32,6 +30,18 @@ impl CertificateFolder {
             path: path.to_owned(),
             _claim: claim.map_err(|source| OutputError::error_for_path(path, source))?,
         })
+    }
+
+    /// Writes the meshes that the proofs of a run are about. A run that continues an earlier one requires them instead.
+    fn begin_or_resume<'b>(
+        &self,
+        bodies: impl Iterator<Item = (String, &'b Body)>,
+        earlier: Option<Checkpoint>,
+    ) -> Result<()> {
+        match earlier {
+            Some(earlier) if earlier.counts.row_count() > 0 => self.require_bodies(bodies),
+            _ => self.write_bodies(bodies),
+        }
     }
 
     /// Writes meshes as `NAME.mesh`, and the certificates of their trees as `NAME.body`.
@@ -119,56 +129,6 @@ fn proof_file_name((row, segment): ProvenRow, id: &str) -> String {
     format!("{number}{segment}-{id}.proof")
 }
 
-/// The certificates of a run over the rows of a table.
-pub(crate) trait RunCertificates {
-    /// Writes the meshes that the proofs are about.
-    fn begin(&self) -> Result<()>;
-
-    /// Requires that an earlier run has written the meshes, which this run continues.
-    fn resume(&self) -> Result<()>;
-}
-
-impl RunCertificates for PairCertificates {
-    fn begin(&self) -> Result<()> {
-        self.folder.write_bodies(self.named_bodies())
-    }
-
-    fn resume(&self) -> Result<()> {
-        self.folder.require_bodies(self.named_bodies())
-    }
-}
-
-impl RunCertificates for CellCertificates<'_> {
-    fn begin(&self) -> Result<()> {
-        self.folder.write_bodies(self.named_bodies())
-    }
-
-    fn resume(&self) -> Result<()> {
-        self.folder.require_bodies(self.named_bodies())
-    }
-}
-
-impl<C: RunCertificates> RunCertificates for Option<C> {
-    fn begin(&self) -> Result<()> {
-        self.as_ref().map_or(Ok(()), C::begin)
-    }
-
-    fn resume(&self) -> Result<()> {
-        self.as_ref().map_or(Ok(()), C::resume)
-    }
-}
-
-/// Begins or resumes certificates, as a run has begun or continues.
-pub(crate) fn begin_or_resume(
-    certificates: &impl RunCertificates,
-    earlier: Option<Checkpoint>,
-) -> Result<()> {
-    match earlier {
-        Some(earlier) if earlier.counts.row_count() > 0 => certificates.resume(),
-        _ => certificates.begin(),
-    }
-}
-
 /// Two bodies as proofs take them, and the folder for these.
 pub(crate) struct PairCertificates {
     pub(crate) folder: CertificateFolder,
@@ -187,9 +147,10 @@ impl PairCertificates {
         })
     }
 
-    fn named_bodies(&self) -> impl Iterator<Item = (String, &Body)> {
+    /// Writes both meshes, or requires those of the earlier run that this one continues.
+    pub(crate) fn begin_or_resume(&self, earlier: Option<Checkpoint>) -> Result<()> {
         let names = ["a", "b"].map(str::to_owned).into_iter();
-        names.zip(self.bodies.meshes())
+        (self.folder).begin_or_resume(names.zip(self.bodies.meshes()), earlier)
     }
 
     /// Proves an answer to a question about the first contact, or about any; `None` if there is nothing to prove.
@@ -227,9 +188,11 @@ impl<'c> CellCertificates<'c> {
         })
     }
 
-    fn named_bodies(&self) -> impl Iterator<Item = (String, &Body)> {
+    /// Writes all meshes, or requires those of the earlier run that this one continues.
+    pub(crate) fn begin_or_resume(&self, earlier: Option<Checkpoint>) -> Result<()> {
         let bodies = self.cell.meshes().enumerate();
-        bodies.map(|(number, body)| (format!("body{number}"), body))
+        let named = bodies.map(|(number, body)| (format!("body{number}"), body));
+        self.folder.begin_or_resume(named, earlier)
     }
 
     /// Proves that each segment of a path is free until the first contact, and that contact. Returns each proof with the number
@@ -259,34 +222,4 @@ impl<'c> CellCertificates<'c> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::proof_file_name;
-    use std::collections::BTreeSet;
-
-    /// Ids that are alike once they are cleaned or cut, equal ids, and those of segments of another row.
-    #[test]
-    fn no_two_proofs_have_one_name() {
-        let long = "é".repeat(400);
-        let ids = [
-            "a/b", "a_b", "a_b", "", "p", "p-1", "1", "0-p", ".", "..", "a\nb", &long,
-        ];
-        let mut names = BTreeSet::new();
-        for row in 0..30 {
-            for id in ids {
-                for segment in [None, Some(0), Some(1), Some(11)] {
-                    let name = proof_file_name((row, segment), id);
-                    assert!(name.len() < 200 && !name.contains(['/', '\n']), "{name}");
-                    let own = (row, segment);
-                    let other = names
-                        .iter()
-                        .find(|(of, known)| *known == name && *of != own);
-                    assert_eq!(other, None);
-                    names.insert((own, name));
-                }
-            }
-        }
-        assert_eq!(proof_file_name((3, None), "a/b"), "3-a_b.proof");
-        assert_eq!(proof_file_name((3, Some(2)), "p"), "3.2-p.proof");
-        assert_eq!(proof_file_name((3, None), "3"), "3.proof");
-    }
-}
+mod tests;

@@ -100,9 +100,10 @@ pub(crate) fn poses<R: Record>(
         return Err(RowProblem::NoId);
     }
     Ok(TimedBodyPoses {
-        time: row
-            .number(TIME_COLUMN_INDEX)?
-            .ok_or_else(|| row.empty_cell_problem(TIME_COLUMN_INDEX))?,
+        time: row.number(TIME_COLUMN_INDEX)?.ok_or_else(|| {
+            let column = columns.name(TIME_COLUMN_INDEX).to_owned();
+            RowProblem::EmptyCell { column }
+        })?,
         a: row.body_pose(Side::A)?,
         b: row.body_pose(Side::B)?,
     })
@@ -254,18 +255,7 @@ impl<'a, R: Record> Row<'a, R> {
         let Some(cell) = self.columns.index(slot) else {
             return Ok(None);
         };
-        match self.record.number(cell) {
-            Ok(Some(number)) => Ok(Some(number)),
-            Ok(None) => Err(self.empty_cell_problem(slot)),
-            Err(value) => Err(RowProblem::NotANumber {
-                column: self.columns.name(slot).to_owned(),
-                value,
-            }),
-        }
-    }
-
-    fn empty_cell_problem(&self, slot: usize) -> RowProblem {
-        let column = self.columns.name(slot).to_owned();
-        RowProblem::EmptyCell { column }
+        let column = self.columns.name(slot);
+        self.record.required_number(cell, column).map(Some)
     }
 }

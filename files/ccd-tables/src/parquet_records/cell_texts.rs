@@ -2,7 +2,7 @@
 
 use super::cell_kind::CellKind;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
-use parquet::data_type::{ByteArray, DataType};
+use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use std::io::Write;
 
@@ -71,12 +71,12 @@ impl ColumnTexts {
             }
             ColumnReader::ByteArrayColumnReader(reader) => {
                 texts.fill(reader, (count, level), |value, out| {
-                    write_bytes(out, value, kind)
+                    write_bytes(out, value.data(), kind)
                 })
             }
             ColumnReader::FixedLenByteArrayColumnReader(reader) => {
                 texts.fill(reader, (count, level), |value, out| {
-                    write_bytes(out, value, kind)
+                    write_bytes(out, value.data(), kind)
                 })
             }
             ColumnReader::Int96ColumnReader(_) => {
@@ -134,8 +134,7 @@ fn missing_values() -> ParquetError {
 const MAX_TEXT_BYTES: usize = 1 << 16;
 
 /// Writes text, or the decimal number that big-endian bytes hold.
-fn write_bytes(out: &mut Vec<u8>, value: &impl AsBytes, kind: CellKind) -> std::io::Result<()> {
-    let bytes = value.bytes();
+fn write_bytes(out: &mut Vec<u8>, bytes: &[u8], kind: CellKind) -> std::io::Result<()> {
     let CellKind::Decimal { scale } = kind else {
         if bytes.len() > MAX_TEXT_BYTES {
             let problem = format!(
@@ -167,22 +166,5 @@ fn write_decimal(out: &mut Vec<u8>, units: i128, scale: u32) -> std::io::Result<
     match decimals {
         "" => write!(out, "{sign}{whole}"),
         _ => write!(out, "{sign}{whole}.{decimals}"),
-    }
-}
-
-/// Bytes of variable or of fixed length.
-trait AsBytes {
-    fn bytes(&self) -> &[u8];
-}
-
-impl AsBytes for ByteArray {
-    fn bytes(&self) -> &[u8] {
-        self.data()
-    }
-}
-
-impl AsBytes for parquet::data_type::FixedLenByteArray {
-    fn bytes(&self) -> &[u8] {
-        self.data()
     }
 }

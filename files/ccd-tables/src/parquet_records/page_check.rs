@@ -12,17 +12,10 @@ use parquet::schema::types::ColumnDescriptor;
 pub(super) struct CheckedPages {
     pages: Box<dyn PageReader>,
     /// Whether values may be absent, so that levels are stored before the values.
-    levels: Levels,
+    has_levels: bool,
     /// The number of rows of the row group.
     row_count: u64,
     has_dictionary: bool,
-}
-
-/// The levels before the values of a page.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Levels {
-    Absent,
-    Stored,
 }
 
 impl CheckedPages {
@@ -32,13 +25,9 @@ impl CheckedPages {
         column: &ColumnDescriptor,
         row_count: u64,
     ) -> Self {
-        let levels = match column.max_def_level() {
-            0 => Levels::Absent,
-            _ => Levels::Stored,
-        };
         CheckedPages {
             pages,
-            levels,
+            has_levels: column.max_def_level() > 0,
             row_count,
             has_dictionary: false,
         }
@@ -78,7 +67,7 @@ impl CheckedPages {
                 rep_levels_byte_len,
                 ..
             } => u64::from(*def_levels_byte_len) + u64::from(*rep_levels_byte_len),
-            _ if self.levels == Levels::Absent => 0,
+            _ if !self.has_levels => 0,
             _ => {
                 let length = page.buffer().first_chunk::<4>()?;
                 4 + u64::from(u32::from_le_bytes(*length))

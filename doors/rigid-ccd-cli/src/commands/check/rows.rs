@@ -5,7 +5,7 @@ use crate::console::RunOutcome;
 use crate::console::progress::Progress;
 use crate::files::output::print_line;
 use crate::files::{input_name, open_movement_rows};
-use crate::robots::{GivenJoints, PathTable};
+use crate::robots::{JointsArgs, PathTable};
 use crate::rows::bad_rows::BadRowCounter;
 use crate::rows::resumable::RowRange;
 use anyhow::{Context, Result, bail};
@@ -24,7 +24,7 @@ pub(super) enum AskedTable<'a> {
     /// A table of motions of two bodies.
     Motions(&'a Path),
     /// A table of edges or paths, with the positions of joints that it has no columns for.
-    Edges(&'a Path, GivenJoints<'a>),
+    Edges(&'a Path, &'a JointsArgs),
 }
 
 /// The proofs that hold, by what they state.

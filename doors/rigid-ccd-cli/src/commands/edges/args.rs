@@ -1,6 +1,6 @@
 //! The options of `ccd edges`.
 
-use crate::options::named::{Named, START_POLICIES, named_value_parser};
+use crate::options::named::{named_value_parser, start_policy_parser};
 use crate::options::numbers::parse_seconds;
 use crate::robots::DEFAULT_PATH_TOLERANCE;
 use crate::robots::joint_values::{JointsArgs, length, tolerance_length};
@@ -27,13 +27,13 @@ pub(crate) struct EdgesArgs {
     #[command(flatten)]
     pub(super) joints: JointsArgs,
     /// Question that every row answers
-    #[arg(long, value_parser = named_value_parser(QUESTIONS), default_value = "is-free")]
+    #[arg(long, value_parser = named_value_parser(QUESTIONS.map(|(question, help)| (question.name(), question, help))), default_value = "is-free")]
     pub(super) question: Question,
     /// Report a contact at a distance of at most clearance + tolerance, in metres
     #[arg(long, value_name = "LENGTH", default_value_t = DEFAULT_PATH_TOLERANCE, value_parser = tolerance_length, allow_hyphen_values = true)]
     pub(super) tolerance: f64,
     /// How to treat pairs in contact at the start of a row, such as an object that is lifted; not for closest-approach
-    #[arg(long, value_parser = named_value_parser(START_POLICIES), default_value = "report")]
+    #[arg(long, value_parser = start_policy_parser(), default_value = "report")]
     pub(super) start: StartPolicy,
     /// Leave a row unresolved after this time, in seconds [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_hyphen_values = true)]
@@ -70,23 +70,11 @@ pub(crate) struct EdgesArgs {
     pub(super) quiet: bool,
 }
 
-/// The questions of `--question`.
-const QUESTIONS: &Named<Question> = &[
-    (
-        Question::AnyContact.name(),
-        Question::AnyContact,
-        "Does nothing touch?",
-    ),
-    (
-        Question::FirstContact.name(),
-        Question::FirstContact,
-        "What touches first, and where?",
-    ),
-    (
-        Question::ClosestApproach.name(),
-        Question::ClosestApproach,
-        "How near does any pair come?",
-    ),
+/// The questions of `--question`, each with its help.
+const QUESTIONS: [(Question, &str); 3] = [
+    (Question::AnyContact, "Does nothing touch?"),
+    (Question::FirstContact, "What touches first, and where?"),
+    (Question::ClosestApproach, "How near does any pair come?"),
 ];
 
 /// The ids of the options that the journal does not record, because they change no byte of the table, or are recorded otherwise.

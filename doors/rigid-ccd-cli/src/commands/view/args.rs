@@ -2,7 +2,6 @@
 
 use crate::bodies::meshes::MeshArgs;
 use crate::bodies::pair::BodiesArgs;
-use crate::bodies::scene_table::SceneArgs;
 use crate::options::numbers::{parse_nonnegative, tolerance};
 use crate::robots::{CellArgs, DEFAULT_PATH_TOLERANCE, JointsArgs, length};
 use ccd_core::limits::DEFAULT_TOLERANCE;
@@ -36,7 +35,7 @@ pub(crate) struct ViewArgs {
     #[arg(long, value_name = "BODY", requires_all = ["a", "motions"])]
     b: Option<String>,
     #[command(flatten)]
-    meshes: MeshArgs,
+    pub(super) meshes: MeshArgs,
     /// Table of motions or paths to show, CSV or Parquet, as of `ccd query`; - reads CSV from standard input
     #[arg(
         long,
@@ -66,7 +65,7 @@ pub(crate) struct ViewArgs {
     pub(super) scene: Option<PathBuf>,
     /// Time at which the motions of --scene end [default: 1]
     #[arg(long, value_name = "TIME", value_parser = parse_nonnegative, allow_hyphen_values = true, conflicts_with = "urdf")]
-    duration: Option<f64>,
+    pub(super) duration: Option<f64>,
     /// Report a contact at a distance of at most margin + tolerance [default: 0.001; of a robot 0.0001]
     #[arg(long, value_name = "LENGTH", value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
@@ -82,11 +81,6 @@ pub(crate) struct ViewArgs {
 }
 
 impl ViewArgs {
-    /// Returns whether no option for reading mesh files is given.
-    pub(super) fn meshes_are_default(&self) -> bool {
-        self.meshes.are_default()
-    }
-
     /// Returns the tolerance, which is by default that of `ccd query` or of `ccd edges`.
     pub(super) fn tolerance(&self) -> f64 {
         let default = if self.cell.robot.is_given() {
@@ -105,14 +99,6 @@ impl ViewArgs {
             meshes: self.meshes.clone(),
         };
         Some((bodies, self.motions.as_deref()?))
-    }
-
-    /// Returns how the bodies of `--scene` are read.
-    pub(super) fn scene_args(&self) -> SceneArgs<'_> {
-        SceneArgs {
-            meshes: &self.meshes,
-            duration: self.duration,
-        }
     }
 }
 

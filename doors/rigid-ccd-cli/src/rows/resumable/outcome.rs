@@ -2,8 +2,7 @@
 
 use super::journal::Checkpoint;
 use super::run_files::RunFiles;
-use crate::console::RunOutcome;
-use crate::console::print_error;
+use crate::console::{RunOutcome, print_error};
 use crate::files::input_name;
 
 /// Returns how a run ended, and prints how many rows fail `--check`, if it is given. No row is no proof: with `--check` it is bad
