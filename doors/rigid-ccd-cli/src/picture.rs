@@ -1,26 +1,26 @@
 //! Converts answers to the views of an HTML page, which `ccd-view` writes.
 //!
-//! Public only because the pages of `ccd-bench` share it; no stable interface.
+//! The module is public only because the pages of `ccd-bench` share it. Its interface is not stable.
 
-mod course;
 mod drawn;
 mod gap;
 mod scene;
+mod shown_motions;
 #[cfg(test)]
 mod tests;
 mod verdict;
 
-pub use course::shown_motions;
 pub use drawn::drawn_mesh;
 pub use gap::{GapOverTime, measure_gap_over_time};
 pub(crate) use scene::{DrawnBody, FIXED_COLOR, numbered_body_color, scene_verdict, scene_view};
+pub use shown_motions::shown_motions;
 pub use verdict::{QueryContext, TimeMeaning};
 
 use anyhow::{Result, bail};
 use ccd_core::glam::DVec3;
 use ccd_core::{Body, Pose};
 use ccd_tables::batch::BodyPair;
-use ccd_tables::courses::Movements;
+use ccd_tables::movements::Movements;
 use ccd_tables::results::{ResultRow, Status};
 use ccd_view::{Animation, Meshes, ShownBody, ShownContact};
 use drawn::feature_corners;
@@ -39,13 +39,13 @@ pub struct Painter<'a> {
 }
 
 impl<'a> Painter<'a> {
-    /// Creates a painter for answers about two bodies; `asked` describes the query of the answers.
-    pub fn new(bodies: BodyPair<'a>, asked: QueryContext) -> Self {
+    /// Creates a painter for answers about two bodies to the queries that `query_context` describes.
+    pub fn new(bodies: BodyPair<'a>, query_context: QueryContext) -> Self {
         let mut meshes = Meshes::default();
         let numbers = [bodies.a, bodies.b].map(|body| meshes.add(&drawn_mesh(body)));
         Painter {
             bodies,
-            query_context: asked,
+            query_context,
             meshes,
             mesh_index_by_body: numbers,
             solver: Solver::new(),
@@ -61,11 +61,11 @@ impl<'a> Painter<'a> {
     ///
     /// # Errors
     /// The motions of the row are out of range, or the row is from a table about other bodies or motions.
-    pub fn animate_row(&mut self, query: &Movements, row: &ResultRow) -> Result<Animation> {
-        let start = query.start_time();
-        let duration = query.duration();
+    pub fn animate_row(&mut self, movements: &Movements, row: &ResultRow) -> Result<Animation> {
+        let start = movements.start_time();
+        let duration = movements.duration();
         let time = row.time.map(|time| (time - start).clamp(0.0, duration));
-        let [a, b] = query.poses_at(time.unwrap_or(0.0))?;
+        let [a, b] = movements.poses_at(time.unwrap_or(0.0))?;
         if self.query_context.time_meaning == TimeMeaning::TableTime {
             self.check_distance(row, [a, b])?;
         }
@@ -87,16 +87,20 @@ impl<'a> Painter<'a> {
                 }
                 _ => 0.0,
             };
-            let found = measure_gap_over_time(&mut self.solver, self.bodies, query, floor)?;
-            view.ghost_times = found.ghost_times(duration);
-            proven = found.least_proven_gap();
-            nearest = found.least_distance_time();
-            view.gap = Some(found.gap);
+            let gap_over_time =
+                measure_gap_over_time(&mut self.solver, self.bodies, movements, floor)?;
+            view.ghost_times = gap_over_time.ghost_times(duration);
+            proven = gap_over_time.least_proven_gap();
+            nearest = gap_over_time.least_distance_time();
+            view.gap = Some(gap_over_time.gap);
         }
         view.verdict = verdict::verdict(row, self.query_context, start + duration, proven);
-        let looks = self.mesh_index_by_body.into_iter().zip(BODY_COLORS);
-        let shown = ["A", "B"].iter().zip(looks).zip(shown_motions(query)?);
-        view.bodies = shown
+        let meshes_and_colors = self.mesh_index_by_body.into_iter().zip(BODY_COLORS);
+        let bodies = ["A", "B"]
+            .iter()
+            .zip(meshes_and_colors)
+            .zip(shown_motions(movements)?);
+        view.bodies = bodies
             .map(|((name, (mesh, color)), motion)| ShownBody::new(name, mesh, color, motion))
             .collect();
         Ok(Animation {
@@ -106,7 +110,7 @@ impl<'a> Painter<'a> {
                 Status::Free => nearest,
                 _ => time.unwrap_or(nearest),
             },
-            origin: (query.poses_at(0.0)?[1]
+            origin: (movements.poses_at(0.0)?[1]
                 .transform_point(self.meshes.middle(self.mesh_index_by_body[1])))
             .to_array(),
             contacts: contact.into_iter().collect(),
@@ -138,9 +142,9 @@ impl<'a> Painter<'a> {
             Some(DVec3::new(x?, y?, z?))
         };
         let witnesses = [point(row.witness_a)?, point(row.witness_b)?];
-        let feature_corners = |k: usize, body: &Body, feature: &Option<String>| {
+        let feature_corners = |side: usize, body: &Body, feature: &Option<String>| {
             let feature = feature.as_deref().unwrap_or_default();
-            feature_corners(body, &poses[k], feature, witnesses[k])
+            feature_corners(body, &poses[side], feature, witnesses[side])
         };
         Some(ShownContact {
             time,

@@ -23,13 +23,13 @@ pub enum TableError {
         "is Parquet, which this build does not read; build it with `--features parquet`, or export the table as CSV, in UTF-8"
     )]
     ParquetNotBuilt,
-    /// A Parquet file is damaged, or stored in a way that is not read.
+    /// A Parquet file is damaged, or stored in a way that cannot be read.
     #[error("{0}")]
     Parquet(ParquetProblem),
     /// Parquet comes from a stream.
     #[error("is Parquet, which is read from a file, not from a stream; give the file's path")]
     ParquetStream,
-    /// A column of a Parquet file has values of a type that is not read.
+    /// A column of a Parquet file has values of a type that cannot be read.
     #[error("header: column `{column}` holds {found}; convert them to numbers or to text")]
     ColumnType {
         /// The name of the column.
@@ -93,7 +93,7 @@ pub enum TableError {
     /// A column is named like an angle, but orientations are quaternions.
     #[error(
         "header: column `{column}` is named like an angle, and orientations are quaternions: columns {prefix}qw {prefix}qx \
-         {prefix}qy {prefix}qz, w first; of scipy, Rotation.from_euler(…).as_quat(scalar_first=True) makes them of angles"
+         {prefix}qy {prefix}qz, w first; in scipy, Rotation.from_euler(…).as_quat(scalar_first=True) computes them from angles"
     )]
     AngleColumn {
         /// The name that looks like that of an angle.
@@ -103,7 +103,7 @@ pub enum TableError {
     },
     /// A column has no name, like the index of a pandas frame.
     #[error(
-        "header: column `{column}` has no name; an index of pandas is written so: write the table with index=False, \
+        "header: column `{column}` has no name; pandas writes its index like this: write the table with index=False, \
          or drop the column"
     )]
     PandasIndex {

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | read rows of motions | [`motions::MotionTable`] |
 //! | read rows of poses at times | [`paths`] |
-//! | take either | [`courses::Movements`] |
+//! | read rows of motions or of poses | [`movements::Movements`] |
 //! | answer rows on all cores | [`batch`] |
 //! | write the answers | [`results::ResultRow`], a row for each; [`results::COLUMNS`] |
 //! | read any other table | [`table_records::TableRecords`], [`columns`] |
@@ -19,7 +19,6 @@
 
 pub mod batch;
 pub mod columns;
-pub mod courses;
 pub mod csv_records;
 mod error;
 mod excerpt;
@@ -28,6 +27,7 @@ mod foreign;
 pub mod joint_columns;
 mod lines;
 pub mod motions;
+pub mod movements;
 #[cfg(feature = "parquet")]
 mod parquet_records;
 #[cfg(feature = "robots")]

@@ -1,7 +1,6 @@
 //! Reads a table from a Parquet file, row by row.
 //!
-//! Each cell becomes the text that the same value has in CSV, so that both formats are parsed by the same code. The
-//! shortest text of a float that is read back as the same float keeps all its bits.
+//! Each cell becomes the text that the same value has in CSV, so that both formats are parsed by the same code. A float becomes the shortest text that reads back to the same bits.
 
 mod cell_kind;
 mod cell_texts;
@@ -44,7 +43,7 @@ pub(super) struct ParquetRecords<R: ChunkReader + 'static> {
     checksum: crc32fast::Hasher,
 }
 
-/// The rest of a row group, of which some rows at a time are decoded.
+/// The rows of a row group that are not read yet; some of them are decoded.
 struct RowGroup {
     index: usize,
     columns: Vec<ColumnTexts>,
@@ -155,8 +154,8 @@ impl<R: ChunkReader + 'static> ParquetRecords<R> {
 impl RowGroup {
     /// Decodes the next rows. Returns whether there are any.
     fn decode_more(&mut self, header: &[String]) -> Result<bool, TableError> {
-        let left = usize::try_from(self.undecoded_row_count).unwrap_or(usize::MAX);
-        let count = left.min(DECODED_ROW_COUNT);
+        let remaining = usize::try_from(self.undecoded_row_count).unwrap_or(usize::MAX);
+        let count = remaining.min(DECODED_ROW_COUNT);
         for (column, name) in self.columns.iter_mut().zip(header) {
             guarded(|| column.decode(count))
                 .map_err(|error| parquet_error(Some(self.index), Some(name), &error))?;
@@ -223,7 +222,7 @@ fn cell_kinds(schema: &SchemaDescriptor) -> Result<Vec<CellKind>, TableError> {
     kinds.collect()
 }
 
-/// Returns the number of rows of a row group. Refuses one that has not all columns, or is compressed in a way that
+/// Returns the number of rows of a row group. Refuses a row group that lacks columns, or is compressed in a way that
 /// cannot be read.
 fn check_group(
     index: usize,

@@ -11,7 +11,7 @@ pub trait Records {
     /// Returns the names of the columns; called before the first row is read.
     ///
     /// # Errors
-    /// There are no names to be read.
+    /// The names cannot be read.
     fn header(&self) -> Result<Vec<String>, TableError>;
 
     /// Returns the row that was read last.
@@ -36,7 +36,7 @@ pub trait Records {
 
 /// A row of a table before parsing.
 pub trait Record {
-    /// Returns an error if the row has not as many cells as the header, or a cell is not text in UTF-8.
+    /// Returns an error if the row and the header have different numbers of cells, or a cell is not text in UTF-8.
     ///
     /// # Errors
     /// What is wrong with the row.

@@ -16,8 +16,8 @@ pub struct TableRecords(Box<dyn Records<Record = csv::ByteRecord>>);
 impl TableRecords {
     /// Opens a table from a file. Parquet needs a regular file, not a pipe.
     ///
-    /// The first Parquet file replaces the hook that the process calls for panics, by one that calls it for all but those of the
-    /// Parquet library, which become errors.
+    /// The first Parquet file replaces the panic hook of the process. The new hook ignores panics of the Parquet library, which
+    /// become errors, and passes all others to the old hook.
     ///
     /// # Errors
     /// Those of [`TableRecords::from_stream`], [`TableError::Parquet`], [`TableError::ColumnType`].
@@ -31,7 +31,7 @@ impl TableRecords {
         TableRecords::from_text(start, file)
     }
 
-    /// Opens a table from a stream, which cannot be Parquet: there, the last bytes say where the others are.
+    /// Opens a table from a stream. It cannot be Parquet, because the last bytes of a Parquet file locate all others.
     ///
     /// # Errors
     /// Those of [`CsvRecords::new`], [`TableError::ParquetStream`].
@@ -55,9 +55,9 @@ impl TableRecords {
 /// Reads as many bytes as tell Parquet from text; fewer if the table is shorter.
 fn first_bytes(input: &mut impl Read) -> Result<Vec<u8>, TableError> {
     let mut start = Vec::new();
-    let most = PARQUET_SIGNATURE.len() as u64;
-    let read = input.by_ref().take(most).read_to_end(&mut start);
-    read.map_err(unreadable)?;
+    let length = PARQUET_SIGNATURE.len() as u64;
+    let result = input.by_ref().take(length).read_to_end(&mut start);
+    result.map_err(unreadable)?;
     Ok(start)
 }
 

@@ -40,5 +40,5 @@ pub use page::{
 };
 pub use shown_motion::{Keyframe, ShownMotion};
 pub use view::{
-    Animation, AnimationGroup, GapCurve, GapSample, ShownBody, ShownContact, UnkeptRange,
+    Animation, AnimationGroup, FailingRange, GapCurve, GapSample, ShownBody, ShownContact,
 };

@@ -63,12 +63,12 @@ pub struct GapCurve {
     /// The distance that is required, if any.
     pub required: Option<f64>,
     /// The ranges of time in which the required distance is not proven to be kept, in order of time.
-    pub unkept: Vec<UnkeptRange>,
+    pub failing_ranges: Vec<FailingRange>,
 }
 
 /// A range of time in which a required distance is not proven to be kept.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct UnkeptRange {
+pub struct FailingRange {
     /// The start of the range.
     pub from: f64,
     /// The end of the range.

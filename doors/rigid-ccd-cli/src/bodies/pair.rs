@@ -51,10 +51,11 @@ impl BodiesArgs {
 
     /// Loads both bodies, and prepares them for a solver of the given kind. If `quiet`, messages about them are
     /// suppressed.
-    pub(crate) fn load(&self, method: SolverKind, quiet: bool) -> Result<Pair> {
+    pub(crate) fn load(&self, solver_kind: SolverKind, quiet: bool) -> Result<Pair> {
         let sources = self.sources()?;
         let [(_, source_a), (_, source_b)] = &sources;
-        let load = |option, text, source| self.load_body((option, text), source, method, quiet);
+        let load =
+            |option, text, source| self.load_body((option, text), source, solver_kind, quiet);
         let (a, unit_a) = load("--a", &self.a, source_a)?;
         let b = if is_same_source(source_a, source_b) {
             None
@@ -79,7 +80,7 @@ impl BodiesArgs {
         &self,
         (option, text): (&str, &str),
         source: &BodySource,
-        method: SolverKind,
+        solver_kind: SolverKind,
         quiet: bool,
     ) -> Result<(Body, Option<Unit>)> {
         let choice = self.meshes.choice();
@@ -90,10 +91,10 @@ impl BodiesArgs {
             report,
             unit,
         } = loaded.with_context(|| option.to_owned())?;
-        if method.schedule.uses_hull_trees() && body.hull_tree().is_none() {
+        if solver_kind.schedule.uses_hull_trees() && body.hull_tree().is_none() {
             body = attach_hull_tree(body).with_context(|| format!("{option} {text}"))?;
         }
-        method.prepare_body(&body);
+        solver_kind.prepare_body(&body);
         drop(progress);
         let remarks = &report.repairs.remarks;
         if !quiet {
@@ -137,7 +138,7 @@ impl Pair {
 fn mixed_units_warning(
     [(source_a, a), (source_b, b)]: [(&BodySource, Option<Unit>); 2],
 ) -> Option<String> {
-    let (known, unit, other) = match (a, b) {
+    let (file_with_unit, unit, other_file) = match (a, b) {
         (Some(a), Some(b)) if a != b => {
             return Some(format!(
                 "--a is in {a}, --b in {b}, and the numbers of both are kept: give --unit {a} or --unit {b} to convert them"
@@ -148,7 +149,7 @@ fn mixed_units_warning(
         _ => return None,
     };
     Some(format!(
-        "{known} is in {unit}, {other} does not say its unit, and its numbers are taken to be in {unit}, too: give --unit \
+        "{file_with_unit} is in {unit}, {other_file} does not say its unit, and its numbers are taken to be in {unit}, too: give --unit \
          {unit} if they are, or else say in which unit they are, such as part.stl@in"
     ))
 }

@@ -109,20 +109,20 @@ const LIKELY_TIME_COLUMNS: [&str; 3] = ["duration", "t", "time"];
 
 /// Returns the message for a bad row of a scene's table, which names the option `--duration` in place of a column.
 fn row_problem_message(problem: &RowProblem) -> String {
-    let words = problem.to_string().replace("column duration", "--duration");
+    let message = problem.to_string().replace("column duration", "--duration");
     match problem {
         RowProblem::WrongCellCount { .. } => {
-            format!("{words}; a body with commas in it is quoted: \"box:1,1,0.1\"")
+            format!("{message}; a body with commas in it is quoted: \"box:1,1,0.1\"")
         }
-        _ => words,
+        _ => message,
     }
 }
 
 /// Returns an error if two rows have the same id, because the table of contacts names bodies by their ids.
 fn refuse_equal_ids(rows: &[RowWithPosition]) -> Result<()> {
-    let mut known = HashMap::new();
+    let mut first_positions = HashMap::new();
     for (position, BodyRow { id, .. }) in rows {
-        if let Some(first) = known.insert(id, position) {
+        if let Some(first) = first_positions.insert(id, position) {
             bail!("{first} and {position} have the same id {id:?}; give each body its own");
         }
     }
@@ -160,7 +160,7 @@ impl SceneTable {
 
     /// Returns the bodies to draw, in the order of their rows.
     pub(crate) fn bodies_to_draw(&self) -> Vec<DrawnBody<'_>> {
-        let shown = self.rows.iter().filter_map(|row| {
+        let bodies = self.rows.iter().filter_map(|row| {
             let BodyRow {
                 id,
                 body_text: text,
@@ -176,7 +176,7 @@ impl SceneTable {
                 motion: *motion,
             })
         });
-        shown.collect()
+        bodies.collect()
     }
 
     /// Returns the ids of the bodies, in the order of their rows.

@@ -21,8 +21,8 @@ use std::time::Duration;
 pub(crate) struct AcmArgs {
     #[command(flatten)]
     robot: RobotArgs,
-    /// Examine at most N boxes of configurations for a pair in the mean; a larger number decides more pairs, but none that touch
-    /// without depth, as parts that slide on each other
+    /// Examine at most N boxes of configurations for each pair on average; a larger number decides more pairs, but none that
+    /// touch without overlap, such as parts that slide on each other
     #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(1..))]
     boxes: u32,
     /// Leave the pairs undecided that are not decided after this time, in seconds [default: none]
@@ -40,25 +40,25 @@ pub(crate) struct AcmArgs {
 }
 
 const AFTER_HELP: &str = "\
-The SRDF disables neighbours, unless the robot's file has them checked as MJCF does beside the world, and pairs that are
-proven to touch never or always, over all configurations within the limits of the joints. Pairs that never touch may come
-near each other: with a clearance they are to be checked. MoveIt's own file samples configurations.
+The SRDF disables pairs that are proven to touch never or always, over all configurations within the limits of the joints.
+It also disables neighbours, unless the robot's file has them checked, as MJCF does for links next to the world. Pairs that
+never touch may still come near each other: check them if they must keep a clearance.
 
 Table of pairs (--report):
   link1, link2       the links
-  class              never, always, always-as-enclosed, sometimes or undecided; as enclosed if the bodies always touch, but
-                     it is not proven of the shapes that they exceed: such a pair is not disabled
-  apart_fraction        fraction of the configurations that are proven apart
+  class              never, always, always-as-enclosed, sometimes or undecided; always-as-enclosed: the bodies always touch,
+                     but this is not proven of the shapes inside them; such a pair is not disabled
+  apart_fraction     fraction of the configurations that are proven apart
   undecided_fraction, least_distance
                      fraction of the configurations for which nothing is proven, and the least distance that was found; both
                      for undecided pairs alone
   touching_JOINT, apart_JOINT
-                     a configuration that touches, and one that does not
+                     a configuration in which the links touch, and one in which they are apart
 
-Ctrl-C ends the search as --deadline does: what is decided by then is written. A second one ends the command.
+Ctrl-C ends the search as --deadline does: what is decided by then is written. A second Ctrl-C ends the command.
 
-Exit code: 0 if the pairs are examined, also if some stay undecided; 3 if Ctrl-C ended that; 2 for bad input, 1 if nothing
-can be written.
+Exit code: 0 if all pairs were examined, even if some stay undecided; 3 if Ctrl-C ended the search; 2 for bad input; 1 if
+nothing can be written.
 
 Examples:
   ccd acm arm.urdf --out arm.srdf
@@ -87,8 +87,8 @@ pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
     if !args.quiet {
         print_escaped_to_stderr(&summary(&classes));
     }
-    let is_whole = classes.iter().all(|(_, class)| class.is_decided());
-    Ok(if stop.load(Ordering::Relaxed) && !is_whole {
+    let all_decided = classes.iter().all(|(_, class)| class.is_decided());
+    Ok(if stop.load(Ordering::Relaxed) && !all_decided {
         print_error("interrupted: what was decided by then is written");
         RunOutcome::SomeRowsUnproven
     } else {
@@ -96,7 +96,7 @@ pub(crate) fn run(args: &AcmArgs) -> Result<RunOutcome> {
     })
 }
 
-/// Decides about all pairs, and shows how many are examined.
+/// Classifies all pairs, and shows how many are decided.
 fn classify(
     robot: &Robot,
     args: &AcmArgs,
@@ -127,18 +127,18 @@ fn class_name(class: &LinkContactClass) -> &'static str {
 }
 
 fn summary(classes: &[([usize; 2], LinkContactClass)]) -> String {
-    let kinds = [
+    let class_names = [
         "never",
         "sometimes",
         "always",
         "always-as-enclosed",
         "undecided",
     ];
-    let counts = kinds.map(|name| {
-        let found = classes
+    let counts = class_names.map(|name| {
+        let of_class = classes
             .iter()
             .filter(|(_, class)| class_name(class) == name);
-        match (name, found.count()) {
+        match (name, of_class.count()) {
             ("undecided", count) => format!("{count} are undecided"),
             ("always-as-enclosed", count) => {
                 format!("{count} always touch as enclosures, their shapes perhaps not")

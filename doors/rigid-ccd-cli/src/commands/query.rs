@@ -38,14 +38,14 @@ use std::num::NonZeroUsize;
 use summary::Summary;
 
 /// Runs `ccd query`: answers all valid rows; an invalid row gets the status `error` and a reason.
-pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
+pub(crate) fn run(args: &QueryArgs, matches: &ArgMatches) -> Result<RunOutcome> {
     refuse_shared_files_of(args)?;
     refuse_options_unfit_for_each_other(args)?;
     let (mut rows, length) =
         open_movement_rows(&args.motions, Grouping::of_question(args.question))?;
     refuse_options_unfit_for_paths(args, &rows)?;
     let files = run_files(args);
-    let places = ClaimedFiles::claim(&files)?;
+    let claimed = ClaimedFiles::claim(&files)?;
     let html = args.html.as_deref().map(Output::claim).transpose()?;
     let pair = args.bodies.load(method(args), args.quiet)?;
     let certificates = args.certificates.as_deref();
@@ -56,7 +56,7 @@ pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
         })
         .transpose()?;
     let (mut outputs, earlier) =
-        match OpenedTables::new(&files, places, &recorded_options(args, given, &pair))? {
+        match OpenedTables::new(&files, claimed, &recorded_options(args, matches, &pair))? {
             OpenedTables::Unfinished(outputs, earlier) => (*outputs, earlier),
             OpenedTables::Finished(end) => {
                 warn_of_partial_page(args);
@@ -107,7 +107,7 @@ pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
     run.outputs.finish(end)?;
     drop(run.progress);
     run.bad_rows.print_total();
-    let shown = write_page(args, &pair, run.html_rows.zip(html))?;
+    let page_outcome = write_page(args, &pair, run.html_rows.zip(html))?;
     if run.summary.counts.row_count() == 0 && earlier.is_none() {
         resumable::warn_of_no_rows(&files, start);
     }
@@ -115,7 +115,7 @@ pub(crate) fn run(args: &QueryArgs, given: &ArgMatches) -> Result<RunOutcome> {
         print_summary(args, &run.summary);
         pair.print_remarks(args.tolerance, &rows);
     }
-    Ok(resumable::report_outcome(&files, end).max(shown))
+    Ok(resumable::report_outcome(&files, end).max(page_outcome))
 }
 
 /// Returns the files of the run.
@@ -147,16 +147,21 @@ fn write_page(
     pair: &Pair,
     page: Option<(ChosenRows, Output)>,
 ) -> Result<RunOutcome> {
-    let Some((chosen, html)) = page else {
+    let Some((chosen_rows, html)) = page else {
         return Ok(RunOutcome::AllAnswered);
     };
     let painter = Painter::new(pair.bodies(), page_context(args));
-    write_rows_page((&title(&args.bodies), painter), chosen, html, args.quiet)
+    write_rows_page(
+        (&title(&args.bodies), painter),
+        chosen_rows,
+        html,
+        args.quiet,
+    )
 }
 
 /// Returns what a page needs to describe the answers: the meaning of times, the margin and the clearance.
 fn page_context(args: &QueryArgs) -> QueryContext {
-    let claim = match (args.bound, args.question) {
+    let time_meaning = match (args.bound, args.question) {
         (Some(BoundKind::Published), _) => TimeMeaning::UncertifiedFirstContact,
         (_, Question::AnyContact) => TimeMeaning::SomeContact,
         (_, Question::Distance) => TimeMeaning::MeasurementTime,
@@ -166,7 +171,7 @@ fn page_context(args: &QueryArgs) -> QueryContext {
         }
     };
     QueryContext {
-        time_meaning: claim,
+        time_meaning,
         query_margin: args.margin,
         clearance: args.clearance,
     }
@@ -259,11 +264,11 @@ fn ignores_start_contacts(args: &QueryArgs) -> bool {
 
 /// Returns the version, the options and the bodies' checksums that determine the tables of the run. The checksum of the
 /// motions is in each checkpoint.
-fn recorded_options(args: &QueryArgs, given: &ArgMatches, pair: &Pair) -> String {
+fn recorded_options(args: &QueryArgs, matches: &ArgMatches, pair: &Pair) -> String {
     let version = ("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
     let checksums = (pair.checksums.iter())
         .map(|(option, checksum)| (format!("{FILE_CHECKSUM_PREFIX}{option}"), checksum.clone()));
-    let options = option_values::<QueryArgs>(given, &UNRECORDED_OPTIONS).into_iter();
+    let options = option_values::<QueryArgs>(matches, &UNRECORDED_OPTIONS).into_iter();
     let rows = ("--rows".to_owned(), args.rows.to_string());
     options_text(once(version).chain(options).chain([rows]).chain(checksums))
 }

@@ -14,7 +14,7 @@ use crate::files::output::Output;
 use crate::files::{input_name, open_movement_rows, refuse_shared_files};
 use crate::options::solver_kind::SolverKind;
 use crate::picture::{Painter, QueryContext, TimeMeaning, scene_view};
-use crate::robots::{CellArgs, FoundPaths, RobotPainter, RobotPaths};
+use crate::robots::{CellArgs, RobotPainter, RobotPaths, SelectedPaths};
 use crate::rows::timed::{TimedQuestion, answer_timed};
 use anyhow::{Context, Result, bail};
 use ccd_core::Settings;
@@ -27,7 +27,7 @@ use std::ffi::OsStr;
 use std::num::NonZeroUsize;
 use std::path::Path;
 
-/// The maximum number of paths of a robot that cannot be shown and are printed one by one.
+/// The maximum number of printed messages about paths of a robot that cannot be shown.
 const MAX_PRINTED_PROBLEMS: usize = 5;
 
 /// The maximum number of rows that are read to choose a few of them for the page.
@@ -55,8 +55,8 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
     let (mut rows, _) = open_movement_rows(motions, Grouping::of_question(Question::FirstContact))?;
     let out = Output::claim(&args.out)?;
     let pair = bodies.load(SolverKind::default(), args.quiet)?;
-    let mut known = args.results.as_deref().map(read_results).transpose()?;
-    let mut chosen = ChosenRows::new(args.ids.clone());
+    let mut results_by_id = args.results.as_deref().map(read_results).transpose()?;
+    let mut chosen_rows = ChosenRows::new(args.ids.clone());
     let timing = TimedQuestion {
         question: Question::FirstContact,
         method: SolverKind::default(),
@@ -64,7 +64,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
         repetitions: NonZeroUsize::MIN,
     };
     let asked = QueryContext {
-        time_meaning: known
+        time_meaning: results_by_id
             .as_ref()
             .map_or(TimeMeaning::FirstContact, |_| TimeMeaning::TableTime),
         query_margin: args.margin,
@@ -72,43 +72,45 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
     };
     let mut solver = timing.method.solver();
     for row in rows.by_ref().take(MAX_ROWS_READ) {
-        let course = match row.with_context(|| input_name(motions))? {
-            Ok((_, course)) => course,
-            Err(fault) => {
-                chosen.note_undrawable_row(fault.to_string());
+        let movements = match row.with_context(|| input_name(motions))? {
+            Ok((_, movements)) => movements,
+            Err(error) => {
+                chosen_rows.note_undrawable_row(error.to_string());
                 continue;
             }
         };
-        if chosen.is_requested(course.id()) == Some(false) {
+        if chosen_rows.is_requested(movements.id()) == Some(false) {
             continue;
         }
-        let row = match &mut known {
-            Some(known) => known.get_mut(course.id()).and_then(VecDeque::pop_front),
+        let row = match &mut results_by_id {
+            Some(results_by_id) => results_by_id
+                .get_mut(movements.id())
+                .and_then(VecDeque::pop_front),
             None => {
-                let answer = answer_timed(pair.bodies(), &course, &timing, solver.as_mut());
+                let answer = answer_timed(pair.bodies(), &movements, &timing, solver.as_mut());
                 let (question, settings) = (timing.question, &timing.settings);
                 Some(
                     pair.bodies()
-                        .result_row(question, settings, &course, &answer),
+                        .result_row(question, settings, &movements, &answer),
                 )
             }
         };
         if let Some(row) = row {
-            chosen.add_if_wanted(&course, &row);
+            chosen_rows.add_if_wanted(&movements, &row);
         }
-        if chosen.needs_no_more_rows() {
+        if chosen_rows.needs_no_more_rows() {
             break;
         }
     }
     if args.results.is_none() && !args.quiet {
         pair.print_remarks(args.tolerance(), &rows);
     }
-    if let (Some(results), true) = (&args.results, chosen.is_empty()) {
+    if let (Some(results), true) = (&args.results, chosen_rows.is_empty()) {
         let (motions, results) = (input_name(motions), results.display());
         bail!("no row of {motions} is in {results}");
     }
     let painter = Painter::new(pair.bodies(), asked);
-    write_rows_page((&title(bodies), painter), chosen, out, args.quiet)
+    write_rows_page((&title(bodies), painter), chosen_rows, out, args.quiet)
 }
 
 /// Returns the title of a page about two bodies: their names without folders, and the unit.
@@ -125,23 +127,23 @@ pub(crate) fn title(bodies: &BodiesArgs) -> String {
 /// Writes the page of the chosen rows under a title. If no row can be shown, writes no page and prints a message.
 pub(crate) fn write_rows_page(
     (title, mut painter): (&str, Painter<'_>),
-    mut chosen: ChosenRows,
+    mut chosen_rows: ChosenRows,
     out: Output,
     quiet: bool,
 ) -> Result<RunOutcome> {
-    let all_found = chosen.ids_without_row().next().is_none();
-    for id in chosen.ids_without_row() {
+    let has_all_ids = chosen_rows.ids_without_row().next().is_none();
+    for id in chosen_rows.ids_without_row() {
         print_error(&format!("no row has the id {id:?}"));
     }
     let mut views = Vec::new();
-    for (course, row) in chosen.take_rows() {
-        match painter.animate_row(&course, &row) {
+    for (movements, row) in chosen_rows.take_rows() {
+        match painter.animate_row(&movements, &row) {
             Ok(view) => views.push(view),
-            Err(error) => chosen.note_undrawable_row(format!("row {}: {error}", row.id)),
+            Err(error) => chosen_rows.note_undrawable_row(format!("row {}: {error}", row.id)),
         }
     }
-    if let Some(faults) = chosen.describe_faults() {
-        print_error(&faults);
+    if let Some(message) = chosen_rows.describe_faults() {
+        print_error(&message);
     }
     if views.is_empty() {
         print_error("there is no row to show, and no page");
@@ -149,7 +151,7 @@ pub(crate) fn write_rows_page(
     }
     let html = page_html(title, painter.meshes(), views)?;
     write_page(&html, out, quiet)?;
-    Ok(if all_found && chosen.are_all_rows_drawable() {
+    Ok(if has_all_ids && chosen_rows.are_all_rows_drawable() {
         RunOutcome::AllAnswered
     } else {
         RunOutcome::SomeRowsBad
@@ -161,11 +163,14 @@ fn read_results(path: &Path) -> Result<HashMap<String, VecDeque<ResultRow>>> {
     let name = || path.display().to_string();
     let file = ccd_file::open(path).with_context(name)?;
     let rows = results::read(file).with_context(name)?;
-    let mut known: HashMap<String, VecDeque<ResultRow>> = HashMap::new();
+    let mut results_by_id: HashMap<String, VecDeque<ResultRow>> = HashMap::new();
     for row in rows {
-        known.entry(row.id.clone()).or_default().push_back(row);
+        results_by_id
+            .entry(row.id.clone())
+            .or_default()
+            .push_back(row);
     }
-    Ok(known)
+    Ok(results_by_id)
 }
 
 fn settings(args: &ViewArgs) -> Settings {
@@ -199,7 +204,7 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
         ..settings(args)
     });
     let painter = RobotPainter::new(&cell)?;
-    let FoundPaths {
+    let SelectedPaths {
         paths,
         mut problems,
     } = asked.read(&cell)?;
@@ -239,10 +244,10 @@ fn view_scene(args: &ViewArgs, path: &Path) -> Result<RunOutcome> {
         table.print_load_report(args.tolerance());
     }
     let out = Output::claim(&args.out)?;
-    let shown = table.bodies_to_draw();
+    let bodies = table.bodies_to_draw();
     let contacts = table.contacts(settings(args));
     let title = input_name(path);
-    let (meshes, view) = scene_view(&title, &shown, &contacts, table.duration);
+    let (meshes, view) = scene_view(&title, &bodies, &contacts, table.duration);
     if !args.quiet {
         print_error(&view.verdict);
     }

@@ -138,7 +138,7 @@ where
     }
 }
 
-/// A schedule with its oracle answers only when the first contact is.
+/// A schedule with its oracle answers only the question about the first contact.
 impl<S, O> Solve for CachePadded<(S, O)>
 where
     S: Schedule<O> + Send,

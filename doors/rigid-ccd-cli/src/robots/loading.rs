@@ -24,17 +24,17 @@ pub(crate) struct RobotArgs {
     /// Shapes of the robot that become bodies
     #[arg(long, value_parser = named_value_parser(GEOMETRIES), default_value = "collision")]
     geometry: BodyElements,
-    /// What a mesh of a link becomes
+    /// Bodies that the meshes of links become
     #[arg(long, value_parser = named_value_parser(MESH_CONVERSIONS), default_value = "exact")]
     meshes: MeshConversion,
 }
 
-/// The options that name a robot with what is around it.
+/// The options that name a robot and its cell.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct CellArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
-    /// Pairs of links that are not checked, or nevertheless, SRDF
+    /// Pairs of links to leave out (disable_collisions) or to check anyway (enable_collisions), SRDF
     #[arg(long, value_name = "SRDF")]
     srdf: Option<PathBuf>,
     /// Obstacles, other robots, held objects, paddings and clearances, TOML; or obstacles alone, the parts of a glTF
@@ -76,7 +76,7 @@ impl RobotArgs {
         self.urdf.is_some()
     }
 
-    /// Returns the path of the robot's file; empty if no robot is given, which commands about robots alone refuse.
+    /// Returns the path of the robot's file; empty if no robot is given. Commands that need a robot refuse that.
     pub(crate) fn path(&self) -> &Path {
         self.urdf.as_deref().unwrap_or(Path::new(""))
     }
@@ -95,12 +95,12 @@ impl RobotArgs {
         folders.fold(file, |file, folder| file.with_package_folder(folder))
     }
 
-    /// Returns the file of the robot with the name that messages give it; meshes are left out.
+    /// Returns the robot's file with its name in messages, without the files of meshes.
     pub(crate) fn files(&self) -> impl Iterator<Item = (&'static str, &Path)> {
         std::iter::once(("ROBOT", self.path()))
     }
 
-    /// Reads the robot, and prints what its links are, unless `quiet`.
+    /// Reads the robot, and prints its links and joints unless `quiet`.
     pub(crate) fn load(&self, quiet: bool) -> Result<Robot> {
         let progress = Progress::start_single_step("reading the robot's meshes", quiet);
         let name = || self.path().display().to_string();
@@ -129,9 +129,12 @@ impl RobotArgs {
         Ok(robot)
     }
 
-    /// Adds to an error what a robot's file is, if its name is that of another.
+    /// Adds a hint to an error if the robot's file has the extension of another kind of file.
     fn explain(&self, error: impl Into<anyhow::Error>) -> anyhow::Error {
-        let extension = self.path().extension().and_then(|own| own.to_str());
+        let extension = self
+            .path()
+            .extension()
+            .and_then(|extension| extension.to_str());
         let error = error.into();
         match extension {
             Some("toml" | "csv" | "parquet" | "srdf" | "glb" | "gltf" | "obj" | "stl") => {
@@ -141,7 +144,8 @@ impl RobotArgs {
         }
     }
 
-    /// Returns which pairs of links are checked without any other file. Prints what is checked, and the remarks on the robot.
+    /// Returns the pairs of links that are checked according to the robot's file alone. Prints a summary of these pairs, and the
+    /// remarks on the robot.
     ///
     /// # Errors
     /// If the file cannot be read again.
@@ -179,18 +183,24 @@ impl CellArgs {
         Ok(cell)
     }
 
-    /// Makes the cell of a robot, and of what a file says is around it.
-    fn load_cell_file(&self, file: &Path, own: (Robot, LinkPairs), quiet: bool) -> Result<Cell> {
+    /// Makes the cell of a robot and of the objects in a cell file.
+    fn load_cell_file(
+        &self,
+        file: &Path,
+        robot_and_pairs: (Robot, LinkPairs),
+        quiet: bool,
+    ) -> Result<Cell> {
         let source = CellSource::read(file)?;
-        let own_joint_count = own.0.independent_joint_names().len();
-        let (robot, pairs) = source.combine(own, |file| self.robot.with_options(file))?;
+        let robot_joint_count = robot_and_pairs.0.independent_joint_names().len();
+        let (robot, pairs) =
+            source.combine(robot_and_pairs, |file| self.robot.with_options(file))?;
         let mut cell = Cell::new(robot, pairs);
         source.add_to(&mut cell)?;
         print_remarks(source.remarks());
         if !quiet {
             let obstacles: Vec<&str> = cell.obstacle_names().collect();
             let others: Vec<&str> = cell.robot().independent_joint_names().collect();
-            let others = &others[own_joint_count..];
+            let others = &others[robot_joint_count..];
             let mut text = format!(
                 "{}: {} obstacles: {}",
                 file.display(),
@@ -213,7 +223,7 @@ impl CellArgs {
     }
 }
 
-/// Prints what is compared, and the remarks; if `quiet`, only the warnings.
+/// Prints a summary of the pairs that are checked, and the remarks on them; if `quiet`, only the warnings.
 fn print_checked(summary: &CheckSummary, remarks: &[CellRemark], quiet: bool) {
     if !quiet {
         print_escaped_to_stderr(&summary.to_string());
@@ -234,7 +244,7 @@ fn print_checked(summary: &CheckSummary, remarks: &[CellRemark], quiet: bool) {
     let moves = |group: &LeftOutPairs| group.reason != SkipReason::NoMotion;
     if !quiet && summary.left_out_pairs.iter().any(moves) {
         print_escaped_to_stderr(
-            "a [[clearance]] between two links in the --cell, or enable_collisions in the --srdf, checks a pair",
+            "to check a pair anyway, give it a [[clearance]] in the --cell, or enable_collisions in the --srdf",
         );
     }
 }

@@ -21,11 +21,11 @@ const MAX_HALVINGS: u32 = 6;
 pub(crate) struct RobotPainter<'c> {
     cell: &'c Cell,
     meshes: Meshes,
-    drawn: Vec<Drawn>,
+    drawn: Vec<DrawnBody>,
 }
 
-/// What is drawn of a body.
-struct Drawn {
+/// The mesh that draws a body, and its pose.
+struct DrawnBody {
     /// The number of the mesh.
     mesh: usize,
     /// The pose of the mesh in the body's frame.
@@ -35,7 +35,7 @@ struct Drawn {
 impl<'c> RobotPainter<'c> {
     pub(crate) fn new(cell: &'c Cell) -> Result<Self> {
         let mut meshes = Meshes::default();
-        let mut known: HashMap<*const Body, usize> = HashMap::new();
+        let mut mesh_by_body: HashMap<*const Body, usize> = HashMap::new();
         let at_rest = cell.robot().configuration_nearest_zero();
         let bodies = cell.placed_bodies(&at_rest)?;
         let size = size_without_planes(cell, &bodies);
@@ -43,13 +43,13 @@ impl<'c> RobotPainter<'c> {
         for (number, (_, body, pose)) in bodies.into_iter().enumerate() {
             drawn.push(if cell.is_plane(number) {
                 let base = pose.inverse().transform_point(DVec3::ZERO);
-                Drawn {
+                DrawnBody {
                     mesh: meshes.add(&drawn_mesh(&Body::cuboid([size, size, 0.0])?)),
                     pose: Pose::at(base.with_z(0.0))?,
                 }
             } else {
-                Drawn {
-                    mesh: *known
+                DrawnBody {
+                    mesh: *mesh_by_body
                         .entry(body)
                         .or_insert_with(|| meshes.add(&drawn_mesh(body))),
                     pose: Pose::IDENTITY,
@@ -140,14 +140,14 @@ impl<'c> RobotPainter<'c> {
             }
         }
         let items = self.cell.placed_bodies(&path.configurations[0])?;
-        let mut known: Vec<Item<'_>> = Vec::new();
+        let mut known_items: Vec<Item<'_>> = Vec::new();
         let shown = items.iter().zip(&self.drawn).zip(poses);
         let shown = shown.map(|(((item, ..), drawn), keys)| {
             // All bodies of a link have its colour.
-            let number = known.iter().position(|other| other == item);
+            let number = known_items.iter().position(|other| other == item);
             let number = number.unwrap_or_else(|| {
-                known.push(*item);
-                known.len() - 1
+                known_items.push(*item);
+                known_items.len() - 1
             });
             let color = match item {
                 Item::Obstacle(_) => FIXED_COLOR.to_owned(),
@@ -159,7 +159,8 @@ impl<'c> RobotPainter<'c> {
     }
 }
 
-/// Returns how far the bodies of a cell, except planes, are from the base at most: a plane is drawn as a square of that size.
+/// Returns an upper bound on the distance of the cell's bodies, except planes, from the base. A plane is drawn as a square
+/// of this size.
 fn size_without_planes(cell: &Cell, bodies: &[(Item<'_>, &Body, Pose)]) -> f64 {
     let others = bodies.iter().enumerate();
     let others = others.filter(|&(number, _)| !cell.is_plane(number));
@@ -202,17 +203,21 @@ fn shown_motion(keys: &[(f64, Pose)]) -> ShownMotion {
     if keys.iter().all(|(_, pose)| *pose == first) {
         return ShownMotion::from(&Motion::still(first));
     }
-    let turns = keys.windows(2).map(|two| {
-        let turn = two[1].1.rotation() * two[0].1.rotation().conjugate();
+    let rotation_vectors = keys.windows(2).map(|two| {
+        let rotation = two[1].1.rotation() * two[0].1.rotation().conjugate();
         // The same rotation, by less than half a turn.
-        let turn = if turn.w < 0.0 { -turn } else { turn };
-        turn.to_scaled_axis()
+        let rotation = if rotation.w < 0.0 {
+            -rotation
+        } else {
+            rotation
+        };
+        rotation.to_scaled_axis()
     });
-    let turns = turns.chain([DVec3::ZERO]);
+    let rotation_vectors = rotation_vectors.chain([DVec3::ZERO]);
     let keys = keys
         .iter()
-        .zip(turns)
-        .map(|((time, pose), turn)| Keyframe::new(*time, pose, pose.translation(), turn));
+        .zip(rotation_vectors)
+        .map(|((time, pose), rotation)| Keyframe::new(*time, pose, pose.translation(), rotation));
     ShownMotion::Keyframes {
         center: [0.0; 3],
         keys: keys.collect(),
@@ -232,18 +237,18 @@ fn shown_contact(contact: &PathContact<'_>, seconds: &impl Fn(f64) -> f64) -> Sh
     }
 }
 
-/// Says in words what touches, or how near anything comes.
+/// Describes in words which pair touches first, or how near the nearest pair comes.
 fn verdict(
     first: &PathAnswer<'_>,
     nearest: Option<(f64, PathContact<'_>)>,
     clearance: f64,
 ) -> String {
-    let kept = if clearance > 0.0 {
+    let clearance_text = if clearance > 0.0 {
         format!(" with a clearance of {} mm", 1e3 * clearance)
     } else {
         String::new()
     };
-    let place = |contact: &PathContact<'_>| {
+    let contact_text = |contact: &PathContact<'_>| {
         let [a, b] = contact.items.map(Item::name);
         format!(
             "{a} and {b} at {:.4} of segment {}",
@@ -254,25 +259,25 @@ fn verdict(
     match (&first.outcome, nearest) {
         (PathOutcome::Contact(contact), _) => {
             format!(
-                "First contact{kept}: {}. Proven: free before.",
-                place(contact)
+                "First contact{clearance_text}: {}. Proven: free before.",
+                contact_text(contact)
             )
         }
         (PathOutcome::Free, Some((distance, contact))) => {
             format!(
-                "Free{kept}, proven. Nearest: {}, {:.3} mm apart.",
-                place(&contact),
+                "Free{clearance_text}, proven. Nearest: {}, {:.3} mm apart.",
+                contact_text(&contact),
                 1e3 * distance
             )
         }
-        (PathOutcome::Free, None) => format!("Free{kept}, proven."),
+        (PathOutcome::Free, None) => format!("Free{clearance_text}, proven."),
         (outcome, _) => {
             let PathPoint { segment, fraction } = first.free_until;
             let until = format!("{:.4} of segment {segment}", rounded_down(fraction));
             let limit = outcome
                 .limit()
                 .map_or_else(String::new, |limit| limit.to_string());
-            format!("Free{kept} until {until}; then a limit was reached: {limit}.")
+            format!("Free{clearance_text} until {until}; then a limit was reached: {limit}.")
         }
     }
 }

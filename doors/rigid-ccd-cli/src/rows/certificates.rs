@@ -20,7 +20,7 @@ pub(crate) struct CertificateFolder {
     _claim: Claim,
 }
 
-/// What a proof is about: a row of a table, and a segment if the row begins a path of several.
+/// The row of a table that a proof is about, and the number of the segment if the row begins a path of several segments.
 pub(crate) type ProvenRow = (usize, Option<usize>);
 
 impl CertificateFolder {
@@ -47,11 +47,11 @@ impl CertificateFolder {
     /// Writes meshes as `NAME.mesh`, and the certificates of their trees as `NAME.body`.
     ///
     /// # Errors
-    /// If the folder has another mesh of a name: its proofs would be lost with it.
+    /// If the folder has another mesh of the same name: without it, its proofs could not be checked.
     fn write_bodies<'b>(&self, bodies: impl Iterator<Item = (String, &'b Body)>) -> Result<()> {
         for (path, bytes) in bodies.flat_map(|named| self.files_of(named)) {
             match ccd_file::read(&path) {
-                Ok(there) if there == bytes => {}
+                Ok(content) if content == bytes => {}
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {
                     self.write(&path, bytes)?;
                 }
@@ -71,7 +71,7 @@ impl CertificateFolder {
     /// Refuses a folder that does not have the meshes of a run that is continued.
     fn require_bodies<'b>(&self, bodies: impl Iterator<Item = (String, &'b Body)>) -> Result<()> {
         for (path, bytes) in bodies.flat_map(|named| self.files_of(named)) {
-            if !ccd_file::read(&path).is_ok_and(|there| there == bytes) {
+            if !ccd_file::read(&path).is_ok_and(|content| content == bytes) {
                 bail!(
                     "--resume: {} does not have the proofs of the earlier run; give the same folder, or omit --resume to \
                      start over",
@@ -90,7 +90,7 @@ impl CertificateFolder {
         ]
     }
 
-    /// Writes the proof of a row as [`proof_file_name`] says.
+    /// Writes the proof of a row to the file that [`proof_file_name`] names.
     pub(crate) fn write_proof(
         &self,
         row: ProvenRow,
@@ -109,10 +109,10 @@ impl CertificateFolder {
 /// The greatest number of bytes of an id in the name of a file.
 const MAX_ID_BYTES: usize = 100;
 
-/// Returns the name of the file with the proof of a row: `ROW-ID.proof`, or `ROW.SEGMENT-ID.proof`. The numbers alone tell all
-/// proofs of a table apart. The id is for people: characters that a file name may not have are `_`, and a long id is cut.
+/// Returns the name of the file with the proof of a row: `ROW-ID.proof`, or `ROW.SEGMENT-ID.proof`. The numbers alone make the name unique in a
+/// table. The id is for readers: characters that a file name cannot have become `_`, and a long id is cut.
 fn proof_file_name((row, segment): ProvenRow, id: &str) -> String {
-    let keep = |c: char| {
+    let allowed_or_underscore = |c: char| {
         if c.is_alphanumeric() || "._-+".contains(c) {
             c
         } else {
@@ -124,12 +124,12 @@ fn proof_file_name((row, segment): ProvenRow, id: &str) -> String {
     if id == number {
         return format!("{number}{segment}.proof");
     }
-    let mut id: String = id.chars().map(keep).collect();
+    let mut id: String = id.chars().map(allowed_or_underscore).collect();
     id.truncate(id.floor_char_boundary(MAX_ID_BYTES));
     format!("{number}{segment}-{id}.proof")
 }
 
-/// Two bodies as proofs take them, and the folder for these.
+/// Two bodies in the form for proofs, and the folder of their proofs.
 pub(crate) struct PairCertificates {
     pub(crate) folder: CertificateFolder,
     bodies: ProvenPair,
@@ -153,7 +153,7 @@ impl PairCertificates {
         (self.folder).begin_or_resume(names.zip(self.bodies.meshes()), earlier)
     }
 
-    /// Proves an answer to a question about the first contact, or about any; `None` if there is nothing to prove.
+    /// Proves an answer to a question about the first contact or about any contact; `None` if there is nothing to prove.
     pub(crate) fn prove(
         &self,
         motions: &Motions,
@@ -170,7 +170,7 @@ impl PairCertificates {
     }
 }
 
-/// The bodies of a cell as proofs take them, and the folder for these.
+/// The bodies of a cell in the form for proofs, and the folder of their proofs.
 pub(crate) struct CellCertificates<'c> {
     pub(crate) folder: CertificateFolder,
     cell: ProvenCell<'c>,
@@ -199,18 +199,18 @@ impl<'c> CellCertificates<'c> {
     /// of its segment if there are several. A path of one configuration is a segment at rest.
     ///
     /// # Errors
-    /// Why a segment cannot be proven.
+    /// The reason why a segment cannot be proven.
     pub(crate) fn prove(
         &self,
         solver: &mut CellSolver<'_>,
         path: &[Vec<f64>],
     ) -> Result<Vec<(Option<usize>, Proof)>> {
         let answer = solver.first_contact(path)?;
-        let at_rest;
+        let resting_segment;
         let segments = match path {
             [only] => {
-                at_rest = [only.clone(), only.clone()];
-                &at_rest
+                resting_segment = [only.clone(), only.clone()];
+                &resting_segment
             }
             _ => path,
         };

@@ -6,7 +6,7 @@ mod tests;
 use anyhow::{Result, anyhow};
 use ccd_core::{Answer, Contact, Outcome, Settings};
 use ccd_tables::batch::BodyPair;
-use ccd_tables::courses::Movements;
+use ccd_tables::movements::Movements;
 use ccd_tables::results::{Column, ResultRow, reordered_columns};
 use rigid_ccd::Question;
 
@@ -24,19 +24,23 @@ pub(crate) fn columns() -> Vec<Column> {
 /// The query is not valid, or the contacts cannot be listed.
 pub(crate) fn contact_rows(
     bodies: BodyPair<'_>,
-    course: &Movements,
+    movements: &Movements,
     settings: &Settings,
     (question, answer): (Question, &Answer),
 ) -> Result<Vec<ResultRow>> {
     let Some(time) = time_of_contact(question, &answer.outcome) else {
         return Ok(Vec::new());
     };
-    let query = bodies.build_query(question, course, settings)?;
+    let query = bodies.build_query(question, movements, settings)?;
     let pairs = query
         .contacts_at(time)
         .map_err(|error| anyhow!("{error}; raise --budget, or reduce --tolerance"))?;
     let row = |pair: &Contact| {
-        ResultRow::from_feature_pair(course.id(), course.table_time_rounded_down(time), pair)
+        ResultRow::from_feature_pair(
+            movements.id(),
+            movements.table_time_rounded_down(time),
+            pair,
+        )
     };
     Ok(pairs.iter().map(row).collect())
 }

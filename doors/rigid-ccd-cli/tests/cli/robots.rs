@@ -337,7 +337,7 @@ fn a_page_shows_the_robot() {
         .run_expecting_code(0);
     let page = fs::read_to_string(scene.directory.join("clearance.html")).unwrap();
     assert_contains(&page, "5 mm required: kept");
-    assert_contains(&page, "\"required\":5.0,\"unkept\":[]");
+    assert_contains(&page, "\"required\":5.0,\"failing_ranges\":[]");
     let message = call(&scene, &["view", "arm.urdf", "--joint", "knee=1"]).run_for_messages(2);
     assert_contains(&message, "--joint knee");
 }

@@ -197,18 +197,18 @@ impl<'a, R: Record> Row<'a, R> {
         &self,
         side: Side,
         quantities: [Quantity; 2],
-        wanted: impl Fn(usize) -> bool,
+        condition: impl Fn(usize) -> bool,
     ) -> Option<usize> {
         let slots = quantities.into_iter();
         let mut slots = slots.flat_map(|quantity| self.columns.known_column_range(side, quantity));
-        slots.find(|&slot| self.columns.index(slot).is_some_and(&wanted))
+        slots.find(|&slot| self.columns.index(slot).is_some_and(&condition))
     }
 
     /// Returns a vector of a body, with 0 for missing columns; `None` if all of its columns are missing.
     fn vector(&self, side: Side, quantity: Quantity) -> Result<Option<DVec3>, RowProblem> {
-        let parts = self.numbers::<3>(self.columns.known_column_range(side, quantity))?;
-        let given = parts.iter().any(Option::is_some);
-        Ok(given.then(|| DVec3::from(parts.map(Option::unwrap_or_default))))
+        let components = self.numbers::<3>(self.columns.known_column_range(side, quantity))?;
+        let is_given = components.iter().any(Option::is_some);
+        Ok(is_given.then(|| DVec3::from(components.map(Option::unwrap_or_default))))
     }
 
     fn vector_or_zero(&self, side: Side, quantity: Quantity) -> Result<DVec3, RowProblem> {

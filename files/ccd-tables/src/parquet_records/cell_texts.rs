@@ -10,7 +10,7 @@ use std::io::Write;
 pub(super) struct ColumnTexts {
     reader: ColumnReader,
     kind: CellKind,
-    /// The level of a value that is present: 0 in a column where all are.
+    /// The level of a value that is present; 0 in a column without absent values.
     present_level: i16,
     texts: Texts,
 }
@@ -58,7 +58,7 @@ impl ColumnTexts {
                     CellKind::Decimal { scale } => write_decimal(out, value.into(), scale),
                 })
             }
-            // A number of 32 bits is itself, not the shorter decimal number that rounds to it.
+            // A 32-bit number keeps its exact value; the shortest decimal number that rounds to it may differ.
             ColumnReader::FloatColumnReader(reader) => {
                 texts.fill(reader, (count, level), |&value, out| {
                     write!(out, "{:?}", f64::from(value))
@@ -104,10 +104,10 @@ impl Texts {
         self.bytes.clear();
         self.ends.clear();
         let (mut levels, mut values) = (Vec::new(), Vec::new());
-        let (read, ..) = reader.read_records(count, Some(&mut levels), None, &mut values)?;
+        let (read_count, ..) = reader.read_records(count, Some(&mut levels), None, &mut values)?;
         // Columns without absent values have no levels.
         if present_level == 0 {
-            levels = vec![0; read];
+            levels = vec![0; read_count];
         }
         let mut values = values.iter();
         for &level in &levels {
@@ -129,8 +129,8 @@ fn missing_values() -> ParquetError {
     ParquetError::EOF("the number of values is not the number of rows".to_owned())
 }
 
-/// The length of the longest text of a cell. A dictionary holds a text once for many rows, each of which gets its own: a small file
-/// could take all memory.
+/// The greatest length in bytes of a cell's text. A dictionary stores a text once for many rows, and each row gets a copy:
+/// without a limit, a small file could fill the memory.
 const MAX_TEXT_BYTES: usize = 1 << 16;
 
 /// Writes text, or the decimal number that big-endian bytes hold.
@@ -145,12 +145,12 @@ fn write_bytes(out: &mut Vec<u8>, bytes: &[u8], kind: CellKind) -> std::io::Resu
         }
         return out.write_all(bytes);
     };
-    let mut wide = [if is_negative(bytes) { 0xff } else { 0 }; 16];
-    let Some(free) = wide.len().checked_sub(bytes.len()) else {
+    let mut padded_bytes = [if is_negative(bytes) { 0xff } else { 0 }; 16];
+    let Some(padding_length) = padded_bytes.len().checked_sub(bytes.len()) else {
         return Err(std::io::Error::other("a decimal of more than 128 bits"));
     };
-    wide[free..].copy_from_slice(bytes);
-    write_decimal(out, i128::from_be_bytes(wide), scale)
+    padded_bytes[padding_length..].copy_from_slice(bytes);
+    write_decimal(out, i128::from_be_bytes(padded_bytes), scale)
 }
 
 fn is_negative(big_endian: &[u8]) -> bool {

@@ -1,8 +1,8 @@
 use super::*;
-use crate::courses::{CourseRow, MovementRows, Movements};
+use crate::movements::{MovementRow, MovementRows, Movements};
 use ccd_core::glam::DVec3;
 
-fn rows(text: &str, grouping: Grouping) -> Vec<CourseRow> {
+fn rows(text: &str, grouping: Grouping) -> Vec<MovementRow> {
     let rows = MovementRows::new(text.as_bytes(), grouping).expect("a header that can be used");
     assert!(rows.is_path_table());
     rows.map(|row| row.expect("a table that can be read"))

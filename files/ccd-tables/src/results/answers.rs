@@ -4,7 +4,7 @@ use super::columns::{Column, LAST_TIME_COLUMN};
 use super::status::Status;
 use ccd_core::Question;
 
-/// The answers that a question may have. The help of the command and the test of its documentation are made of it.
+/// The answers that a question may have. The help of the command is generated from it.
 #[derive(Clone, Copy, Debug)]
 pub struct QuestionAnswers {
     /// The question.

@@ -14,17 +14,21 @@ impl Meshes {
     pub(super) fn read(folder: &Path) -> Result<Self> {
         let paths = files_ending_in("mesh", folder)?;
         let read = |path: &Path| ccd_file::read(path).with_context(|| path.display().to_string());
-        let read_both = |mesh: PathBuf| Ok((read(&mesh)?, read(&mesh.with_extension("body"))?));
-        let meshes: Vec<_> = paths.into_iter().map(read_both).collect::<Result<_>>()?;
+        let read_with_tree =
+            |mesh: PathBuf| Ok((read(&mesh)?, read(&mesh.with_extension("body"))?));
+        let meshes: Vec<_> = paths
+            .into_iter()
+            .map(read_with_tree)
+            .collect::<Result<_>>()?;
         if meshes.is_empty() {
-            let shown = folder_to_open(folder).display();
-            bail!("{shown}: has no file NAME.mesh; give --bodies FOLDER");
+            let folder = folder_to_open(folder).display();
+            bail!("{folder}: has no file NAME.mesh; give --bodies FOLDER");
         }
         Ok(Meshes(meshes))
     }
 
-    /// Reads the meshes in the unit of a proof. A proof may be about some of them: what is wrong with another one does not matter,
-    /// and is the second value.
+    /// Reads the meshes in the unit of length of a proof. Returns the valid meshes, and the problem of an invalid one, which the
+    /// proof may not need.
     pub(super) fn bodies(&self, proof: &[u8]) -> (Vec<Body>, Option<Stop>) {
         let (mut bodies, mut left_out) = (Vec::new(), None);
         for (mesh, tree) in &self.0 {

@@ -77,7 +77,7 @@ const QUESTIONS: [(Question, &str); 3] = [
     (Question::ClosestApproach, "How near does any pair come?"),
 ];
 
-/// The ids of the options that the journal does not record, because they change no byte of the table, or are recorded otherwise.
+/// The ids of the options that the journal does not record, because they change no byte of the table, or are recorded in another form.
 pub(super) const UNRECORDED_OPTIONS: [&str; 7] = [
     "edges", "threads", "out", "resume", "check", "quiet", "rows",
 ];
@@ -89,7 +89,7 @@ Examples:
   ccd edges arm.urdf --cell cell.toml --edges path.csv --question closest-approach
   printf 'from_shoulder,to_shoulder\\n0,1.5\\n' | ccd edges arm.urdf --joint elbow=30deg --edges -
 
-An SRDF of `ccd acm` leaves out pairs that never touch, also if they come nearer than --clearance.
+An SRDF of `ccd acm` leaves out pairs that never touch, even if they come nearer than --clearance.
 
 See `ccd edges --help` for the columns, the file of a cell and the exit codes.";
 
@@ -99,9 +99,9 @@ Table of edges: a row for each edge, on which all joints move at constant rates.
   from_JOINT, to_JOINT      position of the joint at the start and at the end: radians or metres
 Table of paths: a row for each configuration; rows of one id follow each other.
   id                        name of the path [default: all rows are one path]
-  t                         time of the row, later than that of the row before [default: 0, 1, 2, ...]
+  t                         time of the row, later than in the row before [default: 0, 1, 2, ...]
   JOINT                     position of the joint, which is not named id or t
-Each joint with a position of its own needs its columns, or --joint. Mimic joints have none.
+Each independent joint needs its columns, or --joint. Mimic joints have no columns.
 In Parquet, columns hold numbers, text or booleans, and an absent value is an empty cell.
 
 Cell (--cell), TOML. Bodies are those of `ccd query --a`; files are looked for next to the cell.
@@ -113,15 +113,15 @@ Cell (--cell), TOML. Bodies are those of `ccd query --a`; files are looked for n
   moves = \"floating\"              # or planar: it has joints of its own, table/base/x and so on [default: it rests]
   [[plane]]                       # a half-space without an end, below z = 0 of its frame
   name = \"floor\"
-  position = [0, 0, -0.1]         # and rpy or quaternion_xyzw, as an obstacle
-  [[robot]]                       # another one, placed as an obstacle; its joints are right/shoulder and so on
+  position = [0, 0, -0.1]         # and rpy or quaternion_xyzw, like an obstacle
+  [[robot]]                       # another robot, placed like an obstacle; its joints are right/shoulder and so on
   name = \"right\"
   urdf = \"arm.urdf\"               # and srdf
   base = \"planar\"                 # or floating [default: it rests]
-  [[attached]]                    # an object that a link holds: as an obstacle, in the link's frame, with
+  [[attached]]                    # an object that a link holds: like an obstacle, in the link's frame, with
   link = \"hand\"
   may_touch = [\"finger\"]          # links, other objects and obstacles
-  [padding]                       # distance that obstacles keep from a link, beside --clearance
+  [padding]                       # distance that obstacles keep from a link, added to --clearance
   hand = 0.01
   [[clearance]]                   # distance that a pair keeps, instead of --clearance and padding
   between = [\"hand\", \"table\"]
@@ -138,15 +138,15 @@ Table of results:
             overlapping     a pair overlaps at the start (first-contact)
             measured        the least distance is between distance_lower and distance_upper
             kept, violated, unverified
-                            the same, compared with --clearance; paddings and clearances of the cell do not count
+                            the least distance, compared with --clearance alone, not with paddings and [[clearance]]
             unresolved      a limit was reached; of first-contact: free until `time`
             error           the row is no valid question; see `reason`
-  time                      where the pair is: of an edge from 0 to 1, of a path the number of the segment and the fraction
-                            of it, or the time of column `t`. Of a first contact: proven, nothing touches before
-  a, b                      links, held objects or obstacles; a is of the robot
+  time                      time of the pair: on an edge from 0 to 1; on a path the number of the segment plus the fraction
+                            of it, or the time of column `t`. Nothing touches before a first contact: this is proven
+  a, b                      links, held objects or obstacles; a belongs to the robot
   distance_lower, distance_upper
                             bounds of the distance of a and b at `time`; of closest-approach: of the least distance of
-                            all pairs on the path. What bodies exceed their shapes by is in distance_upper
+                            all pairs on the path. distance_upper includes by how much bodies exceed their shapes
   witness_a_x ... witness_b_z
                             nearest points of both at `time`, in the frame of the base
   feature_a, feature_b      the vertex, edge or face of the mesh that each point is on (v7, e3-4, f5); empty for a convex

@@ -23,7 +23,8 @@ pub(crate) struct ViewArgs {
     /// Distance that all pairs of the robot have to keep, such as 0.005 or 5mm
     #[arg(long, value_name = "LENGTH", default_value = "0", value_parser = length, requires = "urdf")]
     pub(super) clearance: f64,
-    /// Table of edges or paths of the robot, CSV or Parquet, as of `ccd edges`; - reads CSV from standard input
+    /// Table of edges or paths of the robot, CSV or Parquet, in the format of `ccd edges`; - reads CSV from standard
+    /// input
     #[arg(long, visible_alias = "edges", value_name = "TABLE", requires = "urdf", conflicts_with_all = ["motions", "a", "b", "scene"])]
     pub(super) path: Option<PathBuf>,
     #[command(flatten)]
@@ -36,7 +37,7 @@ pub(crate) struct ViewArgs {
     b: Option<String>,
     #[command(flatten)]
     pub(super) meshes: MeshArgs,
-    /// Table of motions or paths to show, CSV or Parquet, as of `ccd query`; - reads CSV from standard input
+    /// Table of motions or paths to show, CSV or Parquet, in the format of `ccd query`; - reads CSV from standard input
     #[arg(
         long,
         value_name = "TABLE",
@@ -81,7 +82,7 @@ pub(crate) struct ViewArgs {
 }
 
 impl ViewArgs {
-    /// Returns the tolerance, which is by default that of `ccd query` or of `ccd edges`.
+    /// Returns the tolerance. The default is the one of `ccd query`, or of `ccd edges` for a robot.
     pub(super) fn tolerance(&self) -> f64 {
         let default = if self.cell.robot.is_given() {
             DEFAULT_PATH_TOLERANCE
@@ -105,7 +106,7 @@ impl ViewArgs {
 const AFTER_HELP: &str = "\
 The page is one file that needs no network. It has a view for each row shown: both bodies, a slider for the
 time, ghosts of the steps, the measured gap over time with a proven lower bound, and what touches.
-Of a robot the gap is that of the nearest pair, and the proven line is under it at every time.
+For a robot, the gap is the distance of the nearest pair; it is above the proven line at every time.
 A motion is shown for its first contact. `ccd query --question ... --html` shows the other questions.
 
 Examples:
