@@ -66,9 +66,9 @@ enum Command {
     Scene(SceneCommandArgs),
     /// Certify edges or paths of a robot: free, first contact, or least distance
     Edges(Box<EdgesArgs>),
-    /// Prove where a mechanism keeps a clearance, over a joint or along a path
+    /// Prove where a mechanism keeps a clearance, over the range of a joint or along a path
     Clearance(Box<ClearanceArgs>),
-    /// Decide which pairs of a robot's links can touch, and write those that need no check as SRDF
+    /// Decide which pairs of a robot's links can touch, and write an SRDF that disables the pairs without need of a check
     Acm(Box<AcmArgs>),
     /// Ask recorded questions about a robot again, and say whether the recorded answers hold
     Replay(Box<ReplayArgs>),

@@ -1,4 +1,4 @@
-//! What a run tells its user: messages, progress, and how it ended.
+//! Messages, progress, and the outcome of a run.
 
 pub(crate) mod causes;
 pub(crate) mod interruption;

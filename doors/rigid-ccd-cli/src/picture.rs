@@ -34,7 +34,7 @@ pub struct Painter<'a> {
     bodies: BodyPair<'a>,
     query_context: QueryContext,
     meshes: Meshes,
-    mesh_index_by_body: [usize; 2],
+    mesh_indices: [usize; 2],
     solver: Solver,
 }
 
@@ -47,7 +47,7 @@ impl<'a> Painter<'a> {
             bodies,
             query_context,
             meshes,
-            mesh_index_by_body: numbers,
+            mesh_indices: numbers,
             solver: Solver::new(),
         }
     }
@@ -95,7 +95,7 @@ impl<'a> Painter<'a> {
             view.gap = Some(gap_over_time.gap);
         }
         view.verdict = verdict::verdict(row, self.query_context, start + duration, proven);
-        let meshes_and_colors = self.mesh_index_by_body.into_iter().zip(BODY_COLORS);
+        let meshes_and_colors = self.mesh_indices.into_iter().zip(BODY_COLORS);
         let bodies = ["A", "B"]
             .iter()
             .zip(meshes_and_colors)
@@ -111,7 +111,7 @@ impl<'a> Painter<'a> {
                 _ => time.unwrap_or(nearest),
             },
             origin: (movements.poses_at(0.0)?[1]
-                .transform_point(self.meshes.middle(self.mesh_index_by_body[1])))
+                .transform_point(self.meshes.middle(self.mesh_indices[1])))
             .to_array(),
             contacts: contact.into_iter().collect(),
             ..view

@@ -11,7 +11,7 @@ pub const PARTIAL_EXTENSION: &str = ".partial";
 /// A file that only this process writes, under a temporary name in the folder of its target.
 ///
 /// # Guarantee
-/// Of several claims of one file, under any path, only one succeeds. The operating system releases a claim
+/// If several processes claim a file, under any path, only one claim succeeds. The operating system releases a claim
 /// when its process ends in any way. On a file system without locks all claims succeed.
 ///
 /// A dropped claim removes its file, unless the file was not empty when claimed, or is [kept](Claim::keep_on_drop).

@@ -100,7 +100,7 @@ fn remove_abandoned_files_once(folder: &Path) {
         if name.to_str().is_some_and(is_temp_name)
             && entry.file_type().is_ok_and(|kind| kind.is_file())
         {
-            // What cannot be removed stays, and does no harm.
+            // A file that cannot be removed does no harm.
             let _ = remove_if_abandoned(&entry.path());
         }
     }

@@ -91,7 +91,7 @@ impl TableKind {
             (_, Quantity::AngularVelocity) => 17..20,
             (_, Quantity::Center) => 20..23,
         };
-        // The columns before those of the bodies: `id`, and in a table of paths `t`.
+        // The columns of the bodies follow `id` and, in a table of paths, `t`.
         let before = 1 + usize::from(self == TableKind::Paths);
         let first = before + side as usize * self.body_columns().len();
         first + range.start..first + range.end
@@ -141,7 +141,7 @@ impl Columns {
     /// Parses a header: a table with a column `t` is a table of paths.
     ///
     /// # Errors
-    /// A column is unknown, appears twice or is missing, or there is none.
+    /// A column is unknown, appears twice or is missing, or the header is empty.
     pub fn of(header: &[String]) -> Result<Self, TableError> {
         let table_kind = if header.iter().any(|name| name == TIME_COLUMN_NAME) {
             TableKind::Paths
@@ -154,17 +154,17 @@ impl Columns {
     /// Parses the header of a table of the given kind.
     ///
     /// # Errors
-    /// A column is unknown, appears twice or is missing, or there is none.
+    /// A column is unknown, appears twice or is missing, or the header is empty.
     pub fn from_header(header: &[String], table_kind: TableKind) -> Result<Self, TableError> {
         if header.iter().all(String::is_empty) {
             return Err(TableError::Empty);
         }
         let names = table_kind.names();
         if let Some(number) = number_in_header(header, &names) {
-            let known = table_kind.known_columns_text();
+            let known_columns = table_kind.known_columns_text();
             return Err(TableError::NoHeader {
                 first_number_in_header: number,
-                known_columns: known,
+                known_columns,
             });
         }
         let mut cells = vec![None; names.len()];
@@ -201,7 +201,7 @@ impl Columns {
         let needed_by_angular_velocity =
             angular_velocity.map(|quantity| (quantity, Quantity::Orientation));
         let needs = indivisible_quantities
-            .map(|whole| (whole, whole))
+            .map(|quantity| (quantity, quantity))
             .into_iter()
             .chain(needed_by_angular_velocity);
         let is_in_table = |&slot: &usize| self.cell_indices[slot].is_some();
@@ -326,12 +326,12 @@ const ANGLE_COLUMN_NAMES: [&str; 27] = [
 
 /// The index of the column `id` among the known columns.
 pub(crate) const ID_COLUMN_INDEX: usize = 0;
-/// The index of the column `duration` among those of a table of motions.
+/// The index of the column `duration` among the known columns of a table of motions.
 pub(crate) const DURATION_COLUMN_INDEX: usize = 2 * BODY_COLUMNS.len() + 1;
-/// The index of the column `t` among those of a table of paths.
+/// The index of the column `t` among the known columns of a table of paths.
 pub(crate) const TIME_COLUMN_INDEX: usize = 1;
 const TIME_COLUMN_NAME: &str = "t";
-/// The index of the column `body` among those of a scene's table.
+/// The index of the column `body` among the known columns of a scene's table.
 pub const BODY_COLUMN_INDEX: usize = BODY_COLUMNS.len() + 1;
 /// The name of the column that describes a body in a scene's table.
 pub const BODY_COLUMN_NAME: &str = "body";

@@ -1,6 +1,6 @@
 //! Recognises files that are not CSV by their first bytes.
 
-/// The first bytes of Parquet, which has a reader of its own if this build includes it.
+/// The first bytes of a Parquet file. Its reader is a part of this build only with the feature `parquet`.
 pub(super) const PARQUET_SIGNATURE: &[u8] = b"PAR1";
 
 /// The first bytes of other file formats, each with the name of the format.

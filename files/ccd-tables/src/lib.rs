@@ -1,7 +1,6 @@
 //! Tables of motions, paths and joints, read from CSV or Parquet and answered row by row.
 //!
-//! The command `ccd` and the Python package share it. A program that asks about bodies of its own uses `rigid-ccd`
-//! alone.
+//! The command `ccd` and the Python package share it. Other programs use `rigid-ccd` directly.
 //!
 //! | to … | use |
 //! |---|---|

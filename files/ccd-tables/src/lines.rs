@@ -10,7 +10,7 @@ pub(super) struct LineEndConverter<R> {
     is_after_carriage_return: bool,
     /// The number of bytes read from the input.
     read_byte_count: u64,
-    /// The number of these bytes that were dropped: those of byte order marks, and one for each `\r\n`.
+    /// The number of dropped bytes: the bytes of byte order marks, and one byte for each `\r\n`.
     dropped_byte_count: u64,
     /// The greatest number of bytes that this reader gives in total.
     allowed_byte_count: u64,

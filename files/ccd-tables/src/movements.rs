@@ -36,7 +36,7 @@ impl Movements {
         }
     }
 
-    /// Returns the paths of both bodies; `None` for motions, whose times are those of the table.
+    /// Returns the paths of both bodies; `None` for motions, whose times need no conversion to the table's.
     fn path(&self) -> Option<&PathPair> {
         match self {
             Movements::Motions(_) => None,

@@ -26,7 +26,7 @@ use std::fmt;
 
 /// A table that is read row by row from a Parquet file.
 ///
-/// Columns hold numbers, text or booleans. An absent value is an empty cell. The checksum is that of the cells' texts.
+/// Columns hold numbers, text or booleans. An absent value is an empty cell. The checksum is computed from the texts of the cells.
 pub(super) struct ParquetRecords<R: ChunkReader + 'static> {
     file: SerializedFileReader<R>,
     file_byte_count: u64,
@@ -49,7 +49,7 @@ struct RowGroup {
     columns: Vec<ColumnTexts>,
     /// The number of rows that are not decoded yet.
     undecoded_row_count: u64,
-    /// The number of decoded rows, and the index of the next one of them.
+    /// The number of decoded rows, and the index of the next decoded row.
     decoded_row_count: usize,
     next_decoded: usize,
 }
@@ -125,7 +125,7 @@ impl<R: ChunkReader + 'static> ParquetRecords<R> {
         Ok(ColumnTexts::new(reader, kind, descriptor.max_def_level()))
     }
 
-    /// Moves to the next row, and decodes more rows if necessary. Returns whether there is one.
+    /// Moves to the next row, and decodes more rows if necessary. Returns whether there is a next row.
     fn move_to_next_row(&mut self) -> Result<bool, TableError> {
         loop {
             let group = match &mut self.group {
@@ -152,7 +152,7 @@ impl<R: ChunkReader + 'static> ParquetRecords<R> {
 }
 
 impl RowGroup {
-    /// Decodes the next rows. Returns whether there are any.
+    /// Decodes the next rows. Returns whether there are more rows.
     fn decode_more(&mut self, header: &[String]) -> Result<bool, TableError> {
         let remaining = usize::try_from(self.undecoded_row_count).unwrap_or(usize::MAX);
         let count = remaining.min(DECODED_ROW_COUNT);
@@ -182,7 +182,7 @@ impl<R: ChunkReader + 'static> Records for ParquetRecords<R> {
             Ok(true) => {}
             Ok(false) => return Ok(None),
             Err(error) => {
-                // What follows damage is not read: columns would no longer be in step.
+                // Rows after damage are not read: their cells could come from different rows.
                 (self.group, self.next_group) = (None, self.group_row_counts.len());
                 return Err(error);
             }

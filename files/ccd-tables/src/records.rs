@@ -39,7 +39,7 @@ pub trait Record {
     /// Returns an error if the row and the header have different numbers of cells, or a cell is not text in UTF-8.
     ///
     /// # Errors
-    /// What is wrong with the row.
+    /// The problem of the row.
     fn check(&self, _header: &[String]) -> Result<(), RowProblem> {
         Ok(())
     }

@@ -40,7 +40,7 @@ pub struct ClearanceAndExcess {
 }
 
 impl ClearanceAndExcess {
-    /// Returns the reason for a clearance that is neither proven kept nor proven violated.
+    /// Returns the reason why a clearance is proven neither kept nor violated.
     fn reason_clearance_undecided(&self) -> String {
         let bounds = "--clearance is within the bounds of the distance";
         match self.clearance {
@@ -65,8 +65,8 @@ pub struct ResultRow {
     /// The time before which there is no contact; for a distance, the time at which the bodies are nearest. A free row
     /// has the end of the motions. The time is certified unless the bound is the published one.
     pub time: Option<f64>,
-    /// A lower bound of the distance at `time`; for a closest approach, at all times. Empty when free: those bodies are
-    /// proven to keep the margin, and no distance is known.
+    /// A lower bound of the distance at `time`; for a closest approach, at all times. Empty when free: the bodies are proven to keep the margin, but
+    /// their distance is not known.
     pub distance_lower: Option<f64>,
     /// An upper bound of the distance at `time`. For a question about a distance, it bounds the distance of the
     /// shapes; for a contact, the distance of the bodies, which may [exceed](ccd_core::Body::with_excess) the shapes.
@@ -265,7 +265,10 @@ pub fn read(input: impl io::Read) -> Result<Vec<ResultRow>, csv::Error> {
     let header = reader.headers()?;
     let names = names(&COLUMNS);
     if !header.iter().take(names.len()).eq(names.iter().copied()) {
-        let message = format!("its columns are not those of results, {}", names.join(","));
+        let message = format!(
+            "its columns are not the columns of results, {}",
+            names.join(",")
+        );
         return Err(io::Error::new(io::ErrorKind::InvalidData, message).into());
     }
     let rows = reader.records().map(|record| record?.deserialize(None));

@@ -2,9 +2,9 @@
 //!
 //! | to … | use |
 //! |---|---|
-//! | make a page of its own | [`page_html`] |
+//! | make a whole page | [`page_html`] |
 //! | put the views on another page | [`VIEW_HTML`], [`VIEW_CSS`], [`view_scripts`] and [`views_json`] |
-//! | say what is shown | [`AnimationGroup`] of [`Animation`]s: [`ShownBody`], [`ShownContact`], [`GapCurve`] |
+//! | describe the views | [`AnimationGroup`] of [`Animation`]s: [`ShownBody`], [`ShownContact`], [`GapCurve`] |
 //!
 //! A page is one file: it needs no network and no server, and draws with [three.js](https://threejs.org) by WebGL.
 //! Meshes are drawn in single precision, relative to their centers. Texts and numbers are shown as given.

@@ -33,7 +33,7 @@ impl Meshes {
     /// Adds a mesh, or finds an equal one, and returns its number.
     pub fn add(&mut self, mesh: &DrawnMesh) -> usize {
         let stored = StoredMesh::new(mesh);
-        let equal_mesh = self.0.iter().position(|equal_mesh| *equal_mesh == stored);
+        let equal_mesh = self.0.iter().position(|mesh| *mesh == stored);
         equal_mesh.unwrap_or_else(|| {
             self.0.push(stored);
             self.0.len() - 1

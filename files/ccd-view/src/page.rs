@@ -133,7 +133,7 @@ pub fn fill_template(template: &str, parts: &[(&str, String)]) -> String {
     let mut text = pieces.next().unwrap_or_default().to_owned();
     for piece in pieces {
         let (name, rest) = piece.split_once("}}").unwrap_or(("", piece));
-        if let Some((_, part)) = parts.iter().find(|(known, _)| *known == name) {
+        if let Some((_, part)) = parts.iter().find(|(part_name, _)| *part_name == name) {
             text.push_str(part);
         }
         text.push_str(rest);

@@ -134,7 +134,7 @@ impl Pair {
 }
 
 /// Returns a warning if two files have different units, or if the unit of only one file is known; `None` otherwise.
-/// Primitives such as boxes have no unit: their numbers are the user's own.
+/// Primitives such as boxes have no unit.
 fn mixed_units_warning(
     [(source_a, a), (source_b, b)]: [(&BodySource, Option<Unit>); 2],
 ) -> Option<String> {

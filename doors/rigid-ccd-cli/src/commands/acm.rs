@@ -15,7 +15,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Decide which pairs of a robot's links can touch, and write those that need no check as SRDF
+/// Decide which pairs of a robot's links can touch, and write an SRDF that disables the pairs without need of a check
 #[derive(Clone, Debug, Args)]
 #[command(mut_arg("urdf", |urdf| urdf.required(true)), after_help = AFTER_HELP)]
 pub(crate) struct AcmArgs {
@@ -108,9 +108,9 @@ fn classify(
         stop: Some(Arc::clone(stop)),
     };
     let progress = Progress::start_single_step("examining pairs of links", args.quiet);
-    let show = |decided: usize, all: usize| {
+    let show = |decided: usize, pair_count: usize| {
         progress.set_message(&format!(
-            "{decided} of {all} pairs of links are decided; Ctrl-C, --deadline or fewer --boxes leave the others undecided"
+            "{decided} of {pair_count} pairs of links are decided; Ctrl-C, --deadline or fewer --boxes leave the others undecided"
         ));
     };
     Ok(robot.classify_link_contacts(&settings, show)?)

@@ -91,7 +91,7 @@ Verdicts:
   unverifiable    numbers are beyond the range of the checker, or the check would take too long
   other bodies    the proof is about bodies other than --a and --b
   smaller margin  the proof is about a smaller distance than --margin
-  other cell      the proof is about bodies, links, pairs or distances other than those of --robot, --cell and --clearance
+  other cell      the proof is about bodies, links, pairs or distances other than the ones of --robot, --cell and --clearance
   impossible      a joint is beyond its limits, or not where its mimic rule moves it
 
 Exit codes:
@@ -126,7 +126,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<RunOutcome> {
             Subject::Pair(Box::new(expected_pair), args.margin)
         }
     };
-    // The checker reads the meshes in the unit of length of each proof; there are few different units.
+    // The checker reads the meshes in the unit of length of a proof. Most proofs have the same unit.
     let mut bodies = BTreeMap::new();
     let mut outcome = RunOutcome::AllAnswered;
     let mut held_proofs = Proofs::default();

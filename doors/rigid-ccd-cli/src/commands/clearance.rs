@@ -21,7 +21,7 @@ use rigid_ccd::answer::ClearanceVerdict;
 use rigid_ccd_robot::{Cell, RangeSettings};
 use std::path::PathBuf;
 
-/// Prove where a mechanism keeps a clearance, over a joint or along a path
+/// Prove where a mechanism keeps a clearance, over the range of a joint or along a path
 #[derive(Clone, Debug, Args)]
 #[command(
     mut_arg("urdf", |urdf| urdf.required(true)),
@@ -62,8 +62,8 @@ pub(crate) struct ClearanceArgs {
 
 const AFTER_HELP: &str = "\
 Prints bounds of the least distance of all pairs that are checked, with the nearest pair and its place on the path. With
---require it also prints the ranges in which all pairs certainly keep the clearance, those in which a pair certainly violates
-it, and the undecided ones. Joint limits at the ends of kept ranges would keep the clearance.
+--require it also prints the ranges in which all pairs certainly keep the clearance, in which a pair certainly violates
+it, and the undecided ranges. Joint limits at the ends of kept ranges would keep the clearance.
 Paddings and clearances of the cell do not count, as in `ccd edges --question closest-approach`; but a clearance between two
 neighbouring links has the pair checked. Times are those of column `t` of --path; without it, each segment takes 1. The curve
 of --json has at most 512 ranges, each with bounds of the least distance in it. Without --joint and --path, a robot of one

@@ -39,7 +39,7 @@ use summary::Summary;
 
 /// Runs `ccd query`: answers all valid rows; an invalid row gets the status `error` and a reason.
 pub(crate) fn run(args: &QueryArgs, matches: &ArgMatches) -> Result<RunOutcome> {
-    refuse_shared_files_of(args)?;
+    refuse_shared_query_files(args)?;
     refuse_options_unfit_for_each_other(args)?;
     let (mut rows, length) =
         open_movement_rows(&args.motions, Grouping::of_question(args.question))?;
@@ -136,7 +136,7 @@ fn run_files(args: &QueryArgs) -> RunFiles<'_> {
 fn warn_of_partial_page(args: &QueryArgs) {
     if args.html.is_some() {
         print_error(
-            "--html: shows the rows that this run answers; `ccd view --results` shows those of earlier ones",
+            "--html: shows the rows that this run answers; `ccd view --results` shows the rows of earlier runs",
         );
     }
 }
@@ -178,7 +178,7 @@ fn page_context(args: &QueryArgs) -> QueryContext {
 }
 
 /// Refuses an output that is also an input or another output.
-fn refuse_shared_files_of(args: &QueryArgs) -> Result<()> {
+fn refuse_shared_query_files(args: &QueryArgs) -> Result<()> {
     let mut read = vec![("--motions", args.motions.clone())];
     read.extend(args.bodies.files_with_options()?);
     let mut written = vec![("--out", args.out.as_path())];

@@ -63,7 +63,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
         settings: settings(args),
         repetitions: NonZeroUsize::MIN,
     };
-    let asked = QueryContext {
+    let query_context = QueryContext {
         time_meaning: results_by_id
             .as_ref()
             .map_or(TimeMeaning::FirstContact, |_| TimeMeaning::TableTime),
@@ -109,7 +109,7 @@ fn view_rows(args: &ViewArgs, bodies: &BodiesArgs, motions: &Path) -> Result<Run
         let (motions, results) = (input_name(motions), results.display());
         bail!("no row of {motions} is in {results}");
     }
-    let painter = Painter::new(pair.bodies(), asked);
+    let painter = Painter::new(pair.bodies(), query_context);
     write_rows_page((&title(bodies), painter), chosen_rows, out, args.quiet)
 }
 
@@ -146,7 +146,7 @@ pub(crate) fn write_rows_page(
         print_error(&message);
     }
     if views.is_empty() {
-        print_error("there is no row to show, and no page");
+        print_error("there is no row to show, so no page is written");
         return Ok(RunOutcome::SomeRowsBad);
     }
     let html = page_html(title, painter.meshes(), views)?;
@@ -187,12 +187,12 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
             "the options of mesh files are for --a, --b and --scene; --geometry and --meshes say what a robot's links are"
         );
     }
-    let asked = RobotPaths {
+    let robot_paths = RobotPaths {
         table: args.path.as_deref(),
         joints: &args.joints,
         ids: &args.ids,
     };
-    let table = asked.table.map(|path| ("--path", path));
+    let table = robot_paths.table.map(|path| ("--path", path));
     refuse_shared_files(robot.files().chain(table), &[("--out", &args.out)])?;
     let out = Output::claim(&args.out)?;
     let cell = robot.load(args.quiet)?;
@@ -207,7 +207,7 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
     let SelectedPaths {
         paths,
         mut problems,
-    } = asked.read(&cell)?;
+    } = robot_paths.read(&cell)?;
     let mut views = Vec::new();
     for path in &paths {
         match painter.animation(&mut solver, path, args.clearance) {
@@ -222,7 +222,7 @@ fn view_robot(args: &ViewArgs, robot: &CellArgs) -> Result<RunOutcome> {
         print_error(&format!("{} paths are not shown in all", problems.len()));
     }
     if views.is_empty() {
-        print_error("there is no row to show, and no page");
+        print_error("there is no row to show, so no page is written");
         return Ok(RunOutcome::SomeRowsBad);
     }
     if let ([view], false) = (&views[..], args.quiet) {

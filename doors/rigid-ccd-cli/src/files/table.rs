@@ -8,8 +8,8 @@ use std::path::Path;
 
 /// A CSV table that is written row by row.
 ///
-/// A file gets its final name once it is complete. Until then its rows are in a file next to it, whose
-/// name ends in `.partial`, and which stays if the run is interrupted. A stream is written directly.
+/// A file gets its final name once it is complete. Until then its rows are in a file next to it, whose name
+/// ends in `.partial`. This file stays if the run is interrupted. A stream is written directly.
 pub struct TableWriter {
     output: Output,
     writer: csv::Writer<MeasuringWriter>,
@@ -48,7 +48,7 @@ impl TableWriter {
         Ok(table)
     }
 
-    /// Continues a table after the part that was `written`, and truncates what follows. Returns `None` if that part has
+    /// Continues a table after its first part, which has the length and checksum `written`, and removes the rest. Returns `None` if that part has
     /// changed since, or the output is a stream.
     pub(crate) fn resume(
         mut output: Output,

@@ -204,7 +204,7 @@ impl GapSampler<'_> {
     }
 
     /// Returns the proven lower bound of the distance as a polyline over time. It falls on both sides of each
-    /// measurement, but not below what is proven for all times.
+    /// measurement, but not below the bound that is proven for all times.
     fn lower_bound_curve(&self, points: &[GapSample]) -> Result<Vec<[f64; 2]>, InputError> {
         let floor = self.distance_lower_bound;
         let mut line = Vec::new();
@@ -215,7 +215,7 @@ impl GapSampler<'_> {
             let bound_at = |point: GapSample| greater(point.lower - deviation, floor);
             let (left, right) = (bound_at(previous), bound_at(next));
             line.push([previous.time, left]);
-            // Add the point at which both lines meet, or those at which they meet the floor.
+            // Add the point where both lines meet, or the points where they meet the floor.
             let time = next.time - previous.time;
             let lowest = 0.5 * (left + right - speed * time);
             if speed > 0.0 && lowest > floor {

@@ -69,7 +69,7 @@ pub(crate) fn scene_view(
     (meshes, view)
 }
 
-/// Describes in words which bodies touch.
+/// Describes which bodies touch.
 pub(crate) fn scene_verdict(
     bodies: &[DrawnBody<'_>],
     contacts: &[Result<Impact, PairError>],

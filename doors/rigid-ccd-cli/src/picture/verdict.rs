@@ -30,8 +30,8 @@ pub enum TimeMeaning {
     TableTime,
 }
 
-/// Describes the answer of a row in words. The motions end at `end`, and `proven` is a lower bound of the distance at
-/// all times.
+/// Describes the answer of a row in words. The motions end at `end`, and `least_proven_gap` is a lower bound of the distance at all
+/// times.
 pub(super) fn verdict(
     row: &ResultRow,
     context: QueryContext,
@@ -88,8 +88,8 @@ pub(super) fn verdict(
                 format!("Not resolved ({reason}) after {time}, as the table says.")
             }
             TimeMeaning::FirstContactAfterParting => format!(
-                "Not resolved ({reason}). Proven: nothing touches before {time}, but for a contact at the start that \
-                 was let go."
+                "Not resolved ({reason}). Proven: nothing touches before {time}, except for a contact at the start, \
+                 which was ignored until the bodies parted."
             ),
             _ => format!(
                 "Not resolved ({reason}). Proven: nothing touches before {time}. After it nothing is known."
@@ -107,7 +107,7 @@ fn describe_end_of_start_contact(row: &ResultRow) -> String {
     })
 }
 
-/// Describes in words a contact that begins after the start.
+/// Describes a contact that begins after the start.
 fn describe_contact_after_start(row: &ResultRow, context: QueryContext, time: &str) -> String {
     let margin = format_rounded_down(context.query_margin);
     let (first, at, before) = if context.query_margin > 0.0 {
@@ -133,7 +133,7 @@ fn describe_contact_after_start(row: &ResultRow, context: QueryContext, time: &s
             number_rounded_up(last)
         ),
         (TimeMeaning::FirstContactAfterParting, _) => format!(
-            "{at} at {time}: {contact}. Proven: {before}, but for a contact at the start that was let go."
+            "{at} at {time}: {contact}. Proven: {before}, except for a contact at the start, which was ignored until the bodies parted."
         ),
         (TimeMeaning::SomeContact | TimeMeaning::MeasurementTime, _) => {
             format!("{at} at {time}: {contact}. There may be an earlier one.")
@@ -163,14 +163,14 @@ fn describe_free_bodies(context: QueryContext, end: f64, least_proven_gap: Optio
         }
         (TimeMeaning::FirstContactAfterParting, None) => {
             format!(
-                "No contact, to the end at {end}. Proven, but for one at the start that was let go."
+                "No contact, to the end at {end}. Proven, except for a contact at the start, which was ignored until the bodies parted."
             )
         }
         (_, None) => format!("No contact, to the end at {end}. Proven."),
     }
 }
 
-/// Describes in words which features touch or are nearest.
+/// Describes which features touch or are nearest.
 pub(super) fn describe_contact(row: &ResultRow) -> String {
     let features = match (&row.feature_a, &row.feature_b) {
         (Some(a), Some(b)) => format!(

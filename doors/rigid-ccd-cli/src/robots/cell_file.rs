@@ -1,5 +1,5 @@
-//! Reads what is around a robot: a TOML file of obstacles, other robots, held objects, paddings and clearances; or the parts of
-//! a glTF.
+//! Reads the cell of a robot: a TOML file of obstacles, other robots, held objects, paddings and clearances; or a glTF whose
+//! parts are obstacles.
 
 mod pairs;
 mod values;

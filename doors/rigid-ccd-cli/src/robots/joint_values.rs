@@ -46,7 +46,7 @@ pub(crate) struct JointRange {
     quantity: Option<Quantity>,
 }
 
-/// What a unit measures.
+/// The quantity that a unit measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Quantity {
     Angle,

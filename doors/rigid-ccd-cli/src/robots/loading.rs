@@ -116,7 +116,7 @@ impl RobotArgs {
                 joints.join(", ")
             ));
             for link in robot.links() {
-                let excess = link.bodies.iter().map(|held| held.body.excess());
+                let excess = link.bodies.iter().map(|attached| attached.body.excess());
                 let excess = excess.fold(0.0, ccd_core::order::greater);
                 if excess > 0.0 {
                     print_escaped_to_stderr(&format!(
@@ -138,7 +138,7 @@ impl RobotArgs {
         let error = error.into();
         match extension {
             Some("toml" | "csv" | "parquet" | "srdf" | "glb" | "gltf" | "obj" | "stl") => {
-                error.context("ROBOT is a URDF or MJCF file; --cell takes what is around it")
+                error.context("ROBOT is a URDF or MJCF file; --cell takes its surroundings")
             }
             _ => error,
         }
@@ -151,7 +151,7 @@ impl RobotArgs {
     /// If the file cannot be read again.
     pub(crate) fn link_pairs_printed(&self, robot: &Robot, quiet: bool) -> Result<LinkPairs> {
         let pairs = self.file().link_pairs(robot, None)?;
-        print_checked(&pairs.check_summary(robot), &pairs.remarks(robot), quiet);
+        print_check_summary(&pairs.check_summary(robot), &pairs.remarks(robot), quiet);
         Ok(pairs)
     }
 }
@@ -176,7 +176,7 @@ impl CellArgs {
                 remarks.collect::<String>()
             );
         }
-        print_checked(&cell.check_summary(), &remarks, quiet);
+        print_check_summary(&cell.check_summary(), &remarks, quiet);
         if !quiet {
             print_escaped_to_stderr(&format!("sizes in metres: {}", cell.sizes_text()));
         }
@@ -224,7 +224,7 @@ impl CellArgs {
 }
 
 /// Prints a summary of the pairs that are checked, and the remarks on them; if `quiet`, only the warnings.
-fn print_checked(summary: &CheckSummary, remarks: &[CellRemark], quiet: bool) {
+fn print_check_summary(summary: &CheckSummary, remarks: &[CellRemark], quiet: bool) {
     if !quiet {
         print_escaped_to_stderr(&summary.to_string());
     }

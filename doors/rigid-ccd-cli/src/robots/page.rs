@@ -106,18 +106,18 @@ impl<'c> RobotPainter<'c> {
             .iter()
             .filter_map(|range| Some((range.closest.upper(), range.closest.nearest()?)));
         let nearest = least.reduce(|one, other| if other.0 < one.0 { other } else { one });
-        let shown = first
+        let contact = first
             .outcome
             .nearest()
             .or(nearest.map(|(_, nearest)| nearest));
         Ok(Animation {
             start: path.table_time_rounded_down(0.0),
-            time: shown.map_or(0.0, |shown| seconds(shown.at.time())),
+            time: contact.map_or(0.0, |contact| seconds(contact.at.time())),
             bodies: self.shown_bodies(path, halvings)?,
             gap: Some(gap).filter(|gap| !gap.points.is_empty()),
-            contacts: shown
+            contacts: contact
                 .iter()
-                .map(|shown| shown_contact(shown, &seconds))
+                .map(|contact| shown_contact(contact, &seconds))
                 .collect(),
             ..Animation::new(
                 &path.id,
@@ -141,8 +141,8 @@ impl<'c> RobotPainter<'c> {
         }
         let items = self.cell.placed_bodies(&path.configurations[0])?;
         let mut known_items: Vec<Item<'_>> = Vec::new();
-        let shown = items.iter().zip(&self.drawn).zip(poses);
-        let shown = shown.map(|(((item, ..), drawn), keys)| {
+        let bodies = items.iter().zip(&self.drawn).zip(poses);
+        let bodies = bodies.map(|(((item, ..), drawn), keys)| {
             // All bodies of a link have its colour.
             let number = known_items.iter().position(|other| other == item);
             let number = number.unwrap_or_else(|| {
@@ -155,7 +155,7 @@ impl<'c> RobotPainter<'c> {
             };
             ShownBody::new(item.name(), drawn.mesh, &color, shown_motion(&keys))
         });
-        Ok(shown.collect())
+        Ok(bodies.collect())
     }
 }
 
@@ -203,8 +203,8 @@ fn shown_motion(keys: &[(f64, Pose)]) -> ShownMotion {
     if keys.iter().all(|(_, pose)| *pose == first) {
         return ShownMotion::from(&Motion::still(first));
     }
-    let rotation_vectors = keys.windows(2).map(|two| {
-        let rotation = two[1].1.rotation() * two[0].1.rotation().conjugate();
+    let rotation_vectors = keys.windows(2).map(|pair| {
+        let rotation = pair[1].1.rotation() * pair[0].1.rotation().conjugate();
         // The same rotation, by less than half a turn.
         let rotation = if rotation.w < 0.0 {
             -rotation

@@ -36,7 +36,7 @@ pub(crate) struct PathTable {
     next: Option<RowPosition>,
     path_count: usize,
     known_ids: HashSet<String>,
-    /// The largest angle so far that is given in degrees.
+    /// The largest angle in degrees of the rows so far.
     largest_degrees: f64,
     /// The checksum and the length of the input up to the end of the last path.
     checksum: u32,

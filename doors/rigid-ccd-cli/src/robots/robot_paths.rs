@@ -1,4 +1,4 @@
-//! The paths that `ccd view` and `ccd clearance` show: those of a table, or joints that move over ranges.
+//! The paths of `ccd view` and `ccd clearance`: from a table, or from joints that move over ranges.
 
 use super::joint_values::{JointsArgs, check_joints};
 use super::path_table::{PathTable, TablePath};
@@ -121,7 +121,7 @@ fn whole_range(robot: &Robot) -> Result<[Vec<f64>; 2]> {
         _ => {
             let names: Vec<&str> = robot.independent_joint_names().collect();
             bail!(
-                "give --joint NAME=FROM:TO for a joint that moves; there are {}",
+                "give --joint NAME=FROM:TO for a joint that moves; the joints are {}",
                 names.join(", ")
             )
         }

@@ -147,7 +147,7 @@ impl PairCertificates {
         })
     }
 
-    /// Writes both meshes, or requires those of the earlier run that this one continues.
+    /// Writes both meshes, or requires the meshes of the earlier run that this run continues.
     pub(crate) fn begin_or_resume(&self, earlier: Option<Checkpoint>) -> Result<()> {
         let names = ["a", "b"].map(str::to_owned).into_iter();
         (self.folder).begin_or_resume(names.zip(self.bodies.meshes()), earlier)
@@ -188,7 +188,7 @@ impl<'c> CellCertificates<'c> {
         })
     }
 
-    /// Writes all meshes, or requires those of the earlier run that this one continues.
+    /// Writes all meshes, or requires the meshes of the earlier run that this run continues.
     pub(crate) fn begin_or_resume(&self, earlier: Option<Checkpoint>) -> Result<()> {
         let bodies = self.cell.meshes().enumerate();
         let named = bodies.map(|(number, body)| (format!("body{number}"), body));

@@ -557,7 +557,7 @@ fn a_page_of_a_robot_leaves_out_bad_rows() {
         .args(&["--ids", "bad,none"])
         .run_for_messages(2);
     assert_contains(&message, "no path to show has the id \"none\"");
-    assert_contains(&message, "there is no row to show, and no page");
+    assert_contains(&message, "there is no row to show, so no page is written");
     assert!(!scene.directory.join("view.html").exists());
 }
 

@@ -263,7 +263,7 @@ fn a_verdict_matches_the_question_and_the_proof() {
         (
             &["--start", "leave"],
             "Contact at ",
-            "but for a contact at the start that was let go.",
+            "except for a contact at the start, which was ignored until the bodies parted.",
         ),
         (
             &["--margin", "0.3"],

@@ -14,7 +14,7 @@ use std::ops::Range;
 /// Parses a row of a table of motions; `index` is the default id.
 ///
 /// # Errors
-/// What is wrong with the row.
+/// The problem of the row.
 pub fn parse_row<R: Record>(
     columns: &Columns,
     record: &R,
@@ -48,7 +48,7 @@ pub fn parse_row<R: Record>(
 pub struct BodyRow {
     /// The id of the row; its index by default.
     pub id: String,
-    /// The description of the body in the column `body_row`.
+    /// The description of the body in the column `body`.
     pub body_text: String,
     /// The motion of the body, from time 0.
     pub motion: Motion,
@@ -192,7 +192,7 @@ impl<'a, R: Record> Row<'a, R> {
         }
     }
 
-    /// Returns the first column, among those of two quantities, whose cell satisfies `wanted`; `None` without one.
+    /// Returns the first column of two quantities whose cell satisfies a condition; `None` without one.
     fn column_where(
         &self,
         side: Side,

@@ -34,7 +34,7 @@ impl ColumnTexts {
         }
     }
 
-    /// Decodes the next `count` cells in place of those before.
+    /// Decodes the next `count` cells, in place of the cells decoded before.
     ///
     /// # Errors
     /// The column has fewer cells, or cannot be decoded.

@@ -87,7 +87,7 @@ class Stage {
     this.render();
   }
 
-  // Adds a mesh; solid ones hide what is behind them.
+  // Adds a mesh; an opaque mesh hides the objects behind it.
   addMesh(geometry, color, opacity = 1) {
     const solid = opacity === 1;
     const material = new THREE.MeshLambertMaterial({ color, flatShading: true, side: THREE.DoubleSide, transparent: !solid, opacity, depthWrite: solid });

@@ -1,4 +1,4 @@
-// Shows views: bodies in motion, ghosts of their steps, the gap, what touches.
+// Shows views: bodies in motion, ghosts of their steps, the gap, the contacts.
 "use strict";
 (() => {
   const data = JSON.parse(document.getElementById("views").textContent);

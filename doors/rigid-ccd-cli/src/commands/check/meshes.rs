@@ -10,7 +10,7 @@ use std::{fs, io};
 pub(super) struct Meshes(Vec<(Vec<u8>, Vec<u8>)>);
 
 impl Meshes {
-    /// Reads all files NAME.mesh of a folder, with NAME.body beside them.
+    /// Reads all files NAME.mesh of a folder, each with its file NAME.body.
     pub(super) fn read(folder: &Path) -> Result<Self> {
         let paths = files_ending_in("mesh", folder)?;
         let read = |path: &Path| ccd_file::read(path).with_context(|| path.display().to_string());

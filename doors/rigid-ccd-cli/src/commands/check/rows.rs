@@ -261,7 +261,7 @@ impl TableToProve<'_> {
                                 [only] => vec![statement([only, only])?],
                                 several => several
                                     .windows(2)
-                                    .map(|two| statement([&two[0], &two[1]]))
+                                    .map(|ends| statement([&ends[0], &ends[1]]))
                                     .collect::<Result<_, _>>()?,
                             };
                             Ok(RowToProve {

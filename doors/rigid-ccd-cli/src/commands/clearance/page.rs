@@ -5,7 +5,7 @@ use ccd_core::order::greater;
 use ccd_view::{Animation, FailingRange};
 use rigid_ccd::answer::ClearanceVerdict;
 
-/// Adds the report to the animation of its path: in words, and in the plot of the distance.
+/// Adds the report to the animation of its path: as text, and in the plot of the distance.
 pub(super) fn show_report(report: &Report<'_>, view: &mut Animation) {
     view.verdict = report.to_string();
     let Some(gap) = &mut view.gap else {

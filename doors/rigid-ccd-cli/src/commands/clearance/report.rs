@@ -59,7 +59,7 @@ impl Report<'_> {
         self.point_text_rounded_towards(point, point)
     }
 
-    /// Describes a point of the path; its positions are rounded towards those of another point.
+    /// Describes a point of the path; its positions are rounded towards the positions of another point.
     fn point_text_rounded_towards(&self, point: PathPoint, other: PathPoint) -> String {
         let other_positions = self.moving_positions(other);
         if other_positions.len() > MAX_NAMED_JOINTS {
@@ -97,8 +97,8 @@ impl Report<'_> {
         } else {
             (1e3, " mm")
         };
-        let shown = [position, other_position].map(|position| 1e4 * factor * position);
-        format!("{:.4}{unit}", 1e-4 * rounded_towards(shown[0], shown[1]))
+        let scaled = [position, other_position].map(|position| 1e4 * factor * position);
+        format!("{:.4}{unit}", 1e-4 * rounded_towards(scaled[0], scaled[1]))
     }
 
     fn positions_json(&self, point: PathPoint) -> Value {
@@ -160,8 +160,8 @@ impl Report<'_> {
                 with_entries(range(found.from, found.to), json!({ "clearance": verdict_name(found.verdict) }))
             }).collect::<Vec<_>>(),
             "curve": curve.chunks(curve.len().div_ceil(MAX_RANGES).max(1)).filter_map(|neighbours| {
-                let found = merged(neighbours)?;
-                Some(with_entries(range(found.from, found.to), self.closest_json(&found.closest)))
+                let merged = merged(neighbours)?;
+                Some(with_entries(range(merged.from, merged.to), self.closest_json(&merged.closest)))
             }).collect::<Vec<_>>(),
             "not_checked": self.pairs_not_checked().map(|([a, b], reason)| {
                 json!({ "a": a, "b": b, "reason": reason })

@@ -104,13 +104,13 @@ Table of paths: a row for each configuration; rows of one id follow each other.
 Each independent joint needs its columns, or --joint. Mimic joints have no columns.
 In Parquet, columns hold numbers, text or booleans, and an absent value is an empty cell.
 
-Cell (--cell), TOML. Bodies are those of `ccd query --a`; files are looked for next to the cell.
+Cell (--cell), TOML. Bodies have the forms of `ccd query --a`; files are searched next to the cell.
   [[obstacle]]
   name = \"table\"
   body = \"box:0.8,0.8,0.02\"       # half extents
   position = [0, 0, -0.05]        # in the frame of the robot's base [default: 0]
   rpy = [0, 0, 1.57]              # or quaternion_xyzw [default: none]
-  moves = \"floating\"              # or planar: it has joints of its own, table/base/x and so on [default: it rests]
+  moves = \"floating\"              # or planar: it gets joints, table/base/x and so on [default: it rests]
   [[plane]]                       # a half-space without an end, below z = 0 of its frame
   name = \"floor\"
   position = [0, 0, -0.1]         # and rpy or quaternion_xyzw, like an obstacle

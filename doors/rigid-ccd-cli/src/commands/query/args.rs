@@ -79,7 +79,7 @@ pub(crate) struct QueryArgs {
     /// output, and needs --out FILE
     #[arg(long, value_name = "CSV")]
     pub(super) contacts: Option<PathBuf>,
-    /// Write an HTML page to this file with pictures of some rows: up to 4 of each status, or those of --html-ids
+    /// Write an HTML page to this file with pictures of some rows: up to 4 of each status, or the rows of --html-ids
     #[arg(long, value_name = "HTML")]
     pub(super) html: Option<PathBuf>,
     /// Write machine-checkable proofs of the answers to this folder: ROW-ID.proof for each row that is free, or free until it

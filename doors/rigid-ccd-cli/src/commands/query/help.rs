@@ -52,8 +52,9 @@ const QUESTIONS_PLACE: &str = "{questions}\n";
 
 const LONG_HELP: &str = "\
 Table of motions:
-  Columns go by name, in any order. Every column is optional. An empty cell is an error of its row. But a
-  row with an end pose leaves the velocities of that body empty, and a row with velocities the end pose.
+  Columns are identified by their names, in any order. Every column is optional.
+  An empty cell is an error of its row. But a row with an end pose of a body leaves the velocities of
+  that body empty, and a row with velocities leaves the end pose empty.
   Rows count from 0: in ids, in --rows and in messages. Lines of a file count from 1.
   In Parquet, columns hold numbers, text or booleans, and an absent value is an empty cell.
   id                        name of the row in the results [default: its number]
@@ -87,7 +88,7 @@ Table of paths:
   a_wx a_wy a_wz, b_wx, ... angular velocity to the next row, for turns of more than half a turn; it may be
                             off by a quarter turn in all, and 0 is the shortest rotation; it needs a_qw ... [default: 0]
   The results have a row for each path, and --rows counts paths; with --question distance, a row for each
-  row. Times are those of column `t`.
+  row. Times are in the scale of column `t`.
 
 Questions (--question):
 {questions}
@@ -112,7 +113,7 @@ Table of results:
                             bounds of the distance at `time`; of closest-approach: distance_lower
                             holds at all times; empty when `free`, which proves the margin alone. The
                             distance_upper of a distance includes by how much bodies exceed their
-                            shapes; that of a contact does not
+                            shapes; the one of a contact does not
   normal_x ... normal_z     unit vector from A to B, world frame, at `time`
   witness_a_x ... witness_b_z
                             a pair of nearest points, world frame, at `time`

@@ -52,7 +52,7 @@ impl Summary {
         }
     }
 
-    /// Returns the summary with the counts of an earlier run's rows in place of its own.
+    /// Returns the summary with the counts of an earlier run's rows.
     pub(super) fn with_earlier_counts(self, counts: StatusCounts) -> Self {
         Summary {
             counts,
@@ -91,6 +91,24 @@ impl Summary {
     }
 }
 
+/// Returns the advice about a limit, with the names of options in place of settings.
+fn advice_with_options(limit: Limit) -> String {
+    let names = [
+        ("larger tolerance", "larger --tolerance"),
+        (
+            "is_free with a margin",
+            "--question is-free with a --margin",
+        ),
+        ("larger budget", "larger --budget"),
+        ("later deadline", "later --deadline"),
+        ("another one", "another --oracle"),
+    ];
+    let advice = limit.advice().to_owned();
+    (names.iter()).fold(advice, |advice, (setting, option)| {
+        advice.replace(setting, option)
+    })
+}
+
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rows = self.counts.row_count();
@@ -116,7 +134,7 @@ impl fmt::Display for Summary {
         )?;
         for (count, limit) in self.limit_counts.iter().zip(LIMITS) {
             if *count > 0 {
-                let advice = limit.advice().replace("is_free", "--question is-free");
+                let advice = advice_with_options(limit);
                 write!(f, "\n{count} unresolved: {advice}")?;
             }
         }

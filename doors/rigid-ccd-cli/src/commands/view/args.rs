@@ -105,7 +105,7 @@ impl ViewArgs {
 
 const AFTER_HELP: &str = "\
 The page is one file that needs no network. It has a view for each row shown: both bodies, a slider for the
-time, ghosts of the steps, the measured gap over time with a proven lower bound, and what touches.
+time, ghosts of the steps, the measured gap over time with a proven lower bound, and the contact.
 For a robot, the gap is the distance of the nearest pair; it is above the proven line at every time.
 A motion is shown for its first contact. `ccd query --question ... --html` shows the other questions.
 

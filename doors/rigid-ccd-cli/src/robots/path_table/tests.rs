@@ -123,7 +123,7 @@ fn tables_that_do_not_fit_the_robot_are_refused() {
         (
             "hip,rail\n0,0\n",
             vec!["leg=1"],
-            "--joint leg: no joint has this name",
+            "--joint leg: no independent joint has this name",
         ),
         (
             "from_hip,rail\n0,0\n",

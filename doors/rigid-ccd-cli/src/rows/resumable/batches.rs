@@ -57,7 +57,7 @@ pub(crate) trait Batches<R> {
     /// The answers cannot be written.
     fn answer_and_write(&mut self, rows: &[R]) -> Result<(), OutputError>;
 
-    /// Returns the number of rows so far that could not be answered, and of those of each status.
+    /// Returns the number of rows so far that could not be answered, and the number of rows of each status.
     fn counts(&self) -> (usize, StatusCounts);
 
     /// Saves the answers, with the state of the run.

@@ -1,6 +1,6 @@
 //! The journal of a run: its options, and a checkpoint after each batch of rows.
 //!
-//! The file is next to the tables. Each checkpoint ends with the checksum of all before it. The file stays when the run
+//! The file is next to the tables. Each checkpoint ends with the checksum of the journal up to there. The file stays when the run
 //! has finished, so that the same command with `--resume` finds nothing left to do.
 
 use crate::files::output::OutputError;
@@ -55,8 +55,7 @@ pub(crate) fn options_text(options: impl IntoIterator<Item = (String, String)>) 
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Returns the options of a command that determine its tables, with their given or default values. Options without a long
-/// name, such as a file that comes first, go by their ids.
+/// Returns the options of a command that determine its tables, with their given or default values. Options without a long name, such as positional files, are named by their ids.
 pub(crate) fn option_values<A: Args>(
     matches: &ArgMatches,
     unrecorded_ids: &[&str],
@@ -156,7 +155,7 @@ impl EarlierRun {
         }))
     }
 
-    /// Describes the options that differ from those of the earlier run; `None` if all are the same.
+    /// Describes the options that differ from the options of the earlier run; `None` if all are the same.
     pub(crate) fn describe_changes(&self, current_options: &str) -> Option<String> {
         if self.options == current_options {
             return None;

@@ -22,9 +22,9 @@ pub(crate) struct Outputs {
 
 /// The opened tables of a run; the variant says which rows are left to answer.
 pub(crate) enum OpenedTables {
-    /// New tables, or those of an interrupted run with the same options: the rows after its checkpoint are left.
+    /// New tables, or the tables of an interrupted run with the same options. The rows after its checkpoint are left to answer.
     Unfinished(Box<Outputs>, Option<Checkpoint>),
-    /// The tables of a finished run with the same options: no row is left.
+    /// The tables of a finished run with the same options. No row is left to answer.
     Finished(Checkpoint),
 }
 
@@ -50,7 +50,7 @@ impl ClaimedFiles {
 }
 
 impl OpenedTables {
-    /// Creates the tables, or opens those of an earlier run with the same options.
+    /// Creates the tables, or opens the tables of an earlier run with the same options.
     pub(crate) fn new(files: &RunFiles<'_>, claimed: ClaimedFiles, options: &str) -> Result<Self> {
         let Some(results) = &claimed.results.reserved_file else {
             let outputs = Outputs::create(files, claimed, options, None)?;
@@ -161,7 +161,7 @@ fn rename_complete_table(table: Output, written: LengthAndChecksum) -> Result<bo
     }
 }
 
-/// Returns an error if the options differ from those of the earlier run.
+/// Returns an error if the options differ from the options of the earlier run.
 fn refuse_changed_options(
     earlier: &EarlierRun,
     options: &str,

@@ -46,7 +46,7 @@ pub(crate) fn skip_rows(
     }
 }
 
-/// Refuses an input that is not the one of a finished run, and prints that nothing is left to do.
+/// Refuses a table that differs from the table of a finished run; for the same table, prints that nothing is left to do.
 pub(crate) fn check_finished(
     files: &RunFiles<'_>,
     source: &mut impl RowSource,

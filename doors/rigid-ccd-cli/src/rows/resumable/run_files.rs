@@ -14,7 +14,7 @@ pub(crate) struct RunFiles<'a> {
     pub(crate) out: &'a Path,
     /// The names of the columns of the results.
     pub(crate) header: Vec<&'static str>,
-    /// The table of contacts, if one is asked for.
+    /// The table of contacts; `None` without `--contacts`.
     pub(crate) contacts: Option<&'a Path>,
     /// Whether an earlier run is continued.
     pub(crate) resume: bool,
