@@ -9,8 +9,9 @@
 //!
 //! # Guarantee
 //! A file has its final name only when it is complete and on the disk. Until then an older file of that name is
-//! unchanged: an error, a full disk or a killed process loses nothing. Later calls of [`write()`] remove what a killed process left beside it. A new file has the permissions of the file that
-//! it replaces. Links are followed: their targets are replaced.
+//! unchanged: an error, a full disk or a killed process loses nothing. Later calls of [`write()`] remove what a killed
+//! process left beside it. A new file has the permissions of the file that it replaces. Links are followed: their
+//! targets are replaced.
 
 mod claim;
 mod destination;

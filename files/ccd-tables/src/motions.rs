@@ -62,10 +62,10 @@ impl MotionTable {
 
 /// An iterator over the rows of a table of motions.
 ///
-/// Columns are identified by their names, in any order. Missing columns have defaults: bodies at rest in the identity pose, for a duration
-/// of 1. An empty cell has no default: it is an error of its row. But a row that gives the end pose of a body leaves the
-/// velocities empty, and a row that gives velocities leaves the end pose empty. Lines may end in `\n`, `\r\n` or `\r`. Empty lines are skipped,
-/// but counted. A quoted cell may hold line ends, and must be closed.
+/// Columns are identified by their names, in any order. Missing columns have defaults: bodies at rest in the identity
+/// pose, for a duration of 1. An empty cell has no default: it is an error of its row. But a row that gives the end
+/// pose of a body leaves the velocities empty, and a row that gives velocities leaves the end pose empty. Lines may end
+/// in `\n`, `\r\n` or `\r`. Empty lines are skipped, but counted. A quoted cell may hold line ends, and must be closed.
 #[derive(Debug)]
 pub struct MotionRows<S> {
     pub(crate) records: S,

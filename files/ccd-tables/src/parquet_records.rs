@@ -1,6 +1,7 @@
 //! Reads a table from a Parquet file, row by row.
 //!
-//! Each cell becomes the text that the same value has in CSV, so that both formats are parsed by the same code. A float becomes the shortest text that reads back to the same bits.
+//! Each cell becomes the text that the same value has in CSV, so that both formats are parsed by the same code. A float
+//! becomes the shortest text that reads back to the same bits.
 
 mod cell_kind;
 mod cell_texts;
@@ -26,7 +27,8 @@ use std::fmt;
 
 /// A table that is read row by row from a Parquet file.
 ///
-/// Columns hold numbers, text or booleans. An absent value is an empty cell. The checksum is computed from the texts of the cells.
+/// Columns hold numbers, text or booleans. An absent value is an empty cell. The checksum is computed from the texts of
+/// the cells.
 pub(super) struct ParquetRecords<R: ChunkReader + 'static> {
     file: SerializedFileReader<R>,
     file_byte_count: u64,

@@ -53,8 +53,8 @@ impl Grouping {
 
 /// The state of a reader of a table of paths, between two paths.
 ///
-/// Columns are identified by their names, in any order: `id`, `t`, poses and centers as in a table of motions, and angular velocities until
-/// the next row. Rows of one path follow each other, in the order of their times.
+/// Columns are identified by their names, in any order: `id`, `t`, poses and centers as in a table of motions, and
+/// angular velocities until the next row. Rows of one path follow each other, in the order of their times.
 #[derive(Debug)]
 pub(super) struct PathReader {
     grouping: Grouping,

@@ -65,8 +65,8 @@ pub struct ResultRow {
     /// The time before which there is no contact; for a distance, the time at which the bodies are nearest. A free row
     /// has the end of the motions. The time is certified unless the bound is the published one.
     pub time: Option<f64>,
-    /// A lower bound of the distance at `time`; for a closest approach, at all times. Empty when free: the bodies are proven to keep the margin, but
-    /// their distance is not known.
+    /// A lower bound of the distance at `time`; for a closest approach, at all times. Empty when free: the bodies are
+    /// proven to keep the margin, but their distance is not known.
     pub distance_lower: Option<f64>,
     /// An upper bound of the distance at `time`. For a question about a distance, it bounds the distance of the
     /// shapes; for a contact, the distance of the bodies, which may [exceed](ccd_core::Body::with_excess) the shapes.

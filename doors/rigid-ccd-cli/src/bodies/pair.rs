@@ -18,8 +18,9 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, Args)]
 pub(crate) struct BodiesArgs {
     /// Body A: a mesh file (.gltf, .glb, .dae, .obj, .stl, .ply, .off), a part of one by its name or number
-    /// (scene.glb#lid), either with adjustments (part.stl@mm, @scale=0.001, @mirror=x, @surface), a prepared body (.ccd, see `ccd decompose`), box:HX,HY,HZ (half extents), sphere:R,
-    /// capsule:R,HALF_HEIGHT, cylinder:R,HALF_HEIGHT or cone:R,HALF_HEIGHT
+    /// (scene.glb#lid), either with adjustments (part.stl@mm, @scale=0.001, @mirror=x, @surface), a prepared body
+    /// (.ccd, see `ccd decompose`), box:HX,HY,HZ (half extents), sphere:R, capsule:R,HALF_HEIGHT,
+    /// cylinder:R,HALF_HEIGHT or cone:R,HALF_HEIGHT
     #[arg(long, value_name = "BODY")]
     pub(crate) a: String,
     /// Body B, in the same forms as body A; a file given for both is loaded once

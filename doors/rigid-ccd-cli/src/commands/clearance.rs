@@ -33,8 +33,8 @@ pub(crate) struct ClearanceArgs {
     cell: CellArgs,
     #[command(flatten)]
     joints: JointsArgs,
-    /// Table with one path, CSV or Parquet, in the format of `ccd edges`; it replaces ranges of --joint, for instance for closed
-    /// loops of joints
+    /// Table with one path, CSV or Parquet, in the format of `ccd edges`; it replaces ranges of --joint, for instance
+    /// for closed loops of joints
     #[arg(long, value_name = "TABLE")]
     path: Option<PathBuf>,
     /// Greatest distance of points of links from where the path places them, such as 0.1mm

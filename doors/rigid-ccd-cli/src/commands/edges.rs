@@ -270,8 +270,8 @@ fn answer(args: &EdgesArgs, solver: &mut CellSolver<'_>, path: &TablePath) -> Pa
     }
 }
 
-/// Returns the version, the options and the checksums of the files that determine the table. The checksum of the edges is in each
-/// checkpoint.
+/// Returns the version, the options and the checksums of the files that determine the table. The checksum of the edges
+/// is in each checkpoint.
 fn recorded_options(args: &EdgesArgs, matches: &ArgMatches, cell: &Cell) -> Result<String> {
     let version = ("ccd".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
     let options = option_values::<EdgesArgs>(matches, &UNRECORDED_OPTIONS);

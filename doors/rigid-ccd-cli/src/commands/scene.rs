@@ -20,7 +20,8 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(crate) struct SceneCommandArgs {
-    /// Table of the bodies, CSV or Parquet, - reads CSV from standard input: column `body` as in `ccd query --a`, columns px, vx, ... as in a table of motions
+    /// Table of the bodies, CSV or Parquet; - reads CSV from standard input. Column `body` is as in `ccd query --a`,
+    /// columns px, vx, ... as in a table of motions
     #[arg(value_name = "TABLE")]
     scene: PathBuf,
     #[command(flatten)]

@@ -48,8 +48,8 @@ impl TableWriter {
         Ok(table)
     }
 
-    /// Continues a table after its first part, which has the length and checksum `written`, and removes the rest. Returns `None` if that part has
-    /// changed since, or the output is a stream.
+    /// Continues a table after its first part, which has the length and checksum `written`, and removes the rest.
+    /// Returns `None` if that part has changed since, or the output is a stream.
     pub(crate) fn resume(
         mut output: Output,
         written: LengthAndChecksum,

@@ -61,7 +61,8 @@ impl GapOverTime {
 }
 
 /// Samples the distance of two bodies over time, most densely where its proven lower bound is loose. Between two
-/// samples the lower bound follows from a bound on the bodies' closing speed. The lower bound is nowhere less than `floor`, which the answer proves for all times.
+/// samples the lower bound follows from a bound on the bodies' closing speed. The lower bound is nowhere less than
+/// `floor`, which the answer proves for all times.
 ///
 /// # Errors
 /// If the motions are out of range.

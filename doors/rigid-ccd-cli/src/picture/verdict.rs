@@ -18,7 +18,8 @@ pub struct QueryContext {
 pub enum TimeMeaning {
     /// The certified time of the first contact or, for a closest approach, of the least distance.
     FirstContact,
-    /// The time of the [first](TimeMeaning::FirstContact) contact, where a contact at the start is ignored until the bodies part.
+    /// The time of the [first](TimeMeaning::FirstContact) contact, where a contact at the start is ignored until the
+    /// bodies part.
     FirstContactAfterParting,
     /// The time of some contact, perhaps not the first one.
     SomeContact,
@@ -30,8 +31,8 @@ pub enum TimeMeaning {
     TableTime,
 }
 
-/// Describes the answer of a row in words. The motions end at `end`, and `least_proven_gap` is a lower bound of the distance at all
-/// times.
+/// Describes the answer of a row in words. The motions end at `end`, and `least_proven_gap` is a lower bound of the
+/// distance at all times.
 pub(super) fn verdict(
     row: &ResultRow,
     context: QueryContext,

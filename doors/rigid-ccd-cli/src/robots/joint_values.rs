@@ -12,15 +12,16 @@ use std::str::FromStr;
 /// The options for joints without columns in a table, and for the unit of angles.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct JointsArgs {
-    /// Position at which a joint rests, such as finger=0.04 or hip=30deg. Without a table it may be a range over which the joint
-    /// moves, such as knee=-90deg:40deg; several joints move together
+    /// Position at which a joint rests, such as finger=0.04 or hip=30deg. Without a table it may be a range over which
+    /// the joint moves, such as knee=-90deg:40deg; several joints move together
     #[arg(long, value_name = "NAME=FROM:TO", allow_hyphen_values = true)]
     pub(crate) joint: Vec<JointRange>,
-    /// Let all joints without columns and without --joint rest at 0, or at their limit nearest to 0; without this option they are
-    /// an error
+    /// Let all joints without columns and without --joint rest at 0, or at their limit nearest to 0; without this
+    /// option they are an error
     #[arg(long)]
     pub(crate) rest: bool,
-    /// Read the positions of revolute joints in the table as degrees; without this option only columns that end in _deg have degrees
+    /// Read the positions of revolute joints in the table as degrees; without this option only columns that end in _deg
+    /// have degrees
     #[arg(long)]
     pub(crate) degrees: bool,
 }

@@ -144,8 +144,8 @@ impl RobotArgs {
         }
     }
 
-    /// Returns the pairs of links that are checked according to the robot's file alone. Prints a summary of these pairs, and the
-    /// remarks on the robot.
+    /// Returns the pairs of links that are checked according to the robot's file alone. Prints a summary of these
+    /// pairs, and the remarks on the robot.
     ///
     /// # Errors
     /// If the file cannot be read again.

@@ -109,8 +109,9 @@ impl CertificateFolder {
 /// The greatest number of bytes of an id in the name of a file.
 const MAX_ID_BYTES: usize = 100;
 
-/// Returns the name of the file with the proof of a row: `ROW-ID.proof`, or `ROW.SEGMENT-ID.proof`. The numbers alone make the name unique in a
-/// table. The id is for readers: characters that a file name cannot have become `_`, and a long id is cut.
+/// Returns the name of the file with the proof of a row: `ROW-ID.proof`, or `ROW.SEGMENT-ID.proof`. The numbers alone
+/// make the name unique in a table. The id is for readers: characters that a file name cannot have become `_`, and a
+/// long id is cut.
 fn proof_file_name((row, segment): ProvenRow, id: &str) -> String {
     let allowed_or_underscore = |c: char| {
         if c.is_alphanumeric() || "._-+".contains(c) {

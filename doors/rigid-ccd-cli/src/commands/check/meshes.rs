@@ -27,8 +27,8 @@ impl Meshes {
         Ok(Meshes(meshes))
     }
 
-    /// Reads the meshes in the unit of length of a proof. Returns the valid meshes, and the problem of an invalid one, which the
-    /// proof may not need.
+    /// Reads the meshes in the unit of length of a proof. Returns the valid meshes, and the problem of an invalid one,
+    /// which the proof may not need.
     pub(super) fn bodies(&self, proof: &[u8]) -> (Vec<Body>, Option<Stop>) {
         let (mut bodies, mut left_out) = (Vec::new(), None);
         for (mesh, tree) in &self.0 {

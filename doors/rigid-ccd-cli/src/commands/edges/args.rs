@@ -52,8 +52,8 @@ pub(crate) struct EdgesArgs {
     /// Write the table of results to this file, CSV; - writes to standard output
     #[arg(long, value_name = "CSV", default_value = "-")]
     pub(super) out: PathBuf,
-    /// Write machine-checkable proofs to this folder: ROW-ID.proof for each edge, ROW.SEGMENT-ID.proof for each segment of a path
-    /// that begins in a row, until the first contact; `ccd check` checks them
+    /// Write machine-checkable proofs to this folder: ROW-ID.proof for each edge, ROW.SEGMENT-ID.proof for each segment
+    /// of a path that begins in a row, until the first contact; `ccd check` checks them
     #[arg(long, value_name = "FOLDER")]
     pub(super) certificates: Option<PathBuf>,
     /// Leave column `micros` empty, so that equal answers give equal files
@@ -77,7 +77,8 @@ const QUESTIONS: [(Question, &str); 3] = [
     (Question::ClosestApproach, "How near does any pair come?"),
 ];
 
-/// The ids of the options that the journal does not record, because they change no byte of the table, or are recorded in another form.
+/// The ids of the options that the journal does not record, because they change no byte of the table, or are recorded
+/// in another form.
 pub(super) const UNRECORDED_OPTIONS: [&str; 7] = [
     "edges", "threads", "out", "resume", "check", "quiet", "rows",
 ];

@@ -1,7 +1,7 @@
 //! The journal of a run: its options, and a checkpoint after each batch of rows.
 //!
-//! The file is next to the tables. Each checkpoint ends with the checksum of the journal up to there. The file stays when the run
-//! has finished, so that the same command with `--resume` finds nothing left to do.
+//! The file is next to the tables. Each checkpoint ends with the checksum of the journal up to there. The file stays
+//! when the run has finished, so that the same command with `--resume` finds nothing left to do.
 
 use crate::files::output::OutputError;
 use crate::files::table::LengthAndChecksum;
@@ -55,7 +55,8 @@ pub(crate) fn options_text(options: impl IntoIterator<Item = (String, String)>) 
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Returns the options of a command that determine its tables, with their given or default values. Options without a long name, such as positional files, are named by their ids.
+/// Returns the options of a command that determine its tables, with their given or default values. Options without a
+/// long name, such as positional files, are named by their ids.
 pub(crate) fn option_values<A: Args>(
     matches: &ArgMatches,
     unrecorded_ids: &[&str],
