@@ -178,7 +178,7 @@ fn results_are_shown_as_they_are() {
         .args(&wrong)
         .folder(&scene.directory)
         .run_for_messages(2);
-    assert_contains(&message, "not those of results");
+    assert_contains(&message, "not the columns of results");
 }
 
 #[test]
